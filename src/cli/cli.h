@@ -271,8 +271,12 @@ void cli_watch_count(uint64_t done, uint64_t total);
 lrcs_progress *cli_watch_run(void);
 void cli_watch_end(void);
 
-/* Prints "notice: ..." for each notice, on `out`. */
+/* Prints "notice: ..." for each notice, on `out`; or as the items of an open array. */
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
+void cli_notices_json(const lrcs_host_notices *notices, lrcs_host_json *json);
+
+/* Writes an array of numbers in one line. */
+void cli_numbers_json(lrcs_host_json *json, const char *key, const double *value, uint32_t count);
 
 /* Prints on stdout the manual page, and the completion for bash. */
 void cli_manual_page(const cli_command *const *command, size_t count, const char *overview);

@@ -15,10 +15,6 @@
 
 #define KIT_MATERIALS_FILE "materials.csv"
 #define KIT_CASES_FILE     "cases.csv"
-#define KIT_MATERIALS_HEAD "material,A,B,s,m,two_sided"
-#define KIT_CASES_HEAD                                                                             \
-    "scene,attitude,tier,qw,qx,qy,qz,sx,sy,sz,az_deg,el_deg,sigma_m2,bound_m2,glint_m2,"           \
-    "diffuse_m2,silhouette_m2,float_m2,edge_m2,left_m,top_m,side_m,image"
 
 /* A pose of the kit: the direction is that of the truth, bit for bit; the quaternion adds the roll.
    Status: as lrcs_pose_from_quaternion. */

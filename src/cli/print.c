@@ -53,6 +53,22 @@ void cli_notices_print(FILE *out, const lrcs_host_notices *notices)
     }
 }
 
+void cli_notices_json(const lrcs_host_notices *notices, lrcs_host_json *json)
+{
+    for (uint32_t i = 0; i < notices->count; i++) {
+        lrcs_host_json_text(json, NULL, notices->text[i]);
+    }
+}
+
+void cli_numbers_json(lrcs_host_json *json, const char *key, const double *value, uint32_t count)
+{
+    lrcs_host_json_begin(json, key, LRCS_HOST_ROW_ARRAY);
+    for (uint32_t i = 0; i < count; i++) {
+        lrcs_host_json_number(json, NULL, value[i]);
+    }
+    lrcs_host_json_end(json);
+}
+
 double cli_seconds(void)
 {
     struct timespec now = {0, 0};

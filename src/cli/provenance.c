@@ -152,11 +152,7 @@ void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json)
 {
     double s_hat[3];
     cli_pose_unit(pose, s_hat);
-    lrcs_host_json_begin(json, "direction", LRCS_HOST_ROW_ARRAY);
-    for (int k = 0; k < 3; k++) {
-        lrcs_host_json_number(json, NULL, s_hat[k]);
-    }
-    lrcs_host_json_end(json);
+    cli_numbers_json(json, "direction", s_hat, 3);
 }
 
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json)
@@ -176,11 +172,7 @@ void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json)
     lrcs_host_json_number(json, "B_error", error->B);
     lrcs_host_json_number(json, "s_error", error->s);
     lrcs_host_json_number(json, "m_error", error->m);
-    lrcs_host_json_begin(json, "correlation", LRCS_HOST_ROW_ARRAY);
-    for (int i = 0; i < 6; i++) {
-        lrcs_host_json_number(json, NULL, error->correlation[i]);
-    }
-    lrcs_host_json_end(json);
+    cli_numbers_json(json, "correlation", error->correlation, 6);
 }
 
 static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
@@ -277,8 +269,11 @@ int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_hos
     if (!name) {
         return cli_out_of_memory();
     }
+    lrcs_host_error error;
     snprintf(name, room, "%s" CLI_BESIDE, path);
-    int code = cli_output_write(name, beside_write, &from);
+    int code = scene && lrcs_host_output_check(name, scene, &error) != LRCS_OK
+                   ? cli_failed(&error)
+                   : cli_output_write(name, beside_write, &from);
     free(name);
     return code;
 }

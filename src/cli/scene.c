@@ -131,17 +131,6 @@ static char *path_from(const char *model, const char *scene)
 
 /* ---- what a name suggests ---- */
 
-static int contains(const char *text, const char *word)
-{
-    size_t size = strlen(word);
-    for (; *text; text++) {
-        if (strncasecmp(text, word, size) == 0) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
 /* The library's material that a name suggests, or NULL. */
 static const char *suggestion(const char *name)
 {
@@ -154,8 +143,10 @@ static const char *suggestion(const char *name)
         {"alu", "aluminium-bare"},  {"chrom", "aluminium-bare"},
         {"metal", "aluminium-bare"}};
     for (size_t i = 0; i < sizeof word / sizeof word[0]; i++) {
-        if (contains(name, word[i][0])) {
-            return word[i][1];
+        for (const char *at = name; *at; at++) {
+            if (strncasecmp(at, word[i][0], strlen(word[i][0])) == 0) {
+                return word[i][1];
+            }
         }
     }
     return NULL;
@@ -163,7 +154,8 @@ static const char *suggestion(const char *name)
 
 /* ---- the parts of the file ---- */
 
-static int worn_count(scene_job *job)
+/* Counts the facets of each material, and their area. */
+static int facets_count(scene_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
     job->facets = calloc((size_t)scene->material_count + 1, sizeof *job->facets);
@@ -468,7 +460,7 @@ static int scene_command(const cli_args *args)
     job.args = args;
     int code = scene_read(&job);
     code = code ? code : names_check(&job);
-    code = code ? code : worn_count(&job);
+    code = code ? code : facets_count(&job);
     code = code ? code : scene_make(&job);
     code = code ? code : cli_output_write(job.path, text_write, &job);
     cli_watch_end();

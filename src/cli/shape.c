@@ -36,38 +36,25 @@ static const cli_option shape_options[] = {
     {"half-angle", 1, 0}, {"aspect", 1, 0}, {"direction", 1, 0}, {"parts", 1, 0},
     {"material", 1, 0},   {"json", 0, 0},   {"help", 0, 0},      {NULL, 0, 0}};
 
-/* The dimensions of a kind, as bits. */
-enum {
-    DIMENSION_SIZE2 = 1,
-    DIMENSION_SIZE3 = 2,
-    DIMENSION_RADIUS = 4,
-    DIMENSION_RADIUS2 = 8,
-    DIMENSION_LENGTH = 16,
-    DIMENSION_CONE = 32,  /* half-angle or length */
-    DIMENSION_CAPS = 64,  /* has caps or a base */
-    DIMENSION_TURNS = 128 /* takes a direction */
-};
+/* What each kind takes. */
+typedef struct shape_form {
+    int sizes;                   /* number of sizes of --size */
+    int radius, radius2, length; /* 1: required */
+    int cone;                    /* 1: half-angle or length */
+    int caps;                    /* 1: has caps or a base */
+    int turns;                   /* 1: takes a direction */
+} shape_form;
 
-static unsigned shape_dimensions(int kind)
-{
-    switch (kind) {
-    case LRCS_SHAPE_PLATE:
-        return DIMENSION_SIZE2 | DIMENSION_TURNS;
-    case LRCS_SHAPE_BOX:
-        return DIMENSION_SIZE3 | DIMENSION_TURNS;
-    case LRCS_SHAPE_DISC:
-    case LRCS_SHAPE_SPHERE:
-        return DIMENSION_RADIUS;
-    case LRCS_SHAPE_DOME:
-        return DIMENSION_RADIUS | DIMENSION_CAPS;
-    case LRCS_SHAPE_CONE:
-        return DIMENSION_RADIUS | DIMENSION_CONE | DIMENSION_CAPS;
-    case LRCS_SHAPE_FRUSTUM:
-        return DIMENSION_RADIUS | DIMENSION_RADIUS2 | DIMENSION_LENGTH | DIMENSION_CAPS;
-    default: /* cylinder, paraboloid */
-        return DIMENSION_RADIUS | DIMENSION_LENGTH | DIMENSION_CAPS;
-    }
-}
+static const shape_form shape_forms[LRCS_SHAPE_KINDS] = {
+    [LRCS_SHAPE_PLATE] = {.sizes = 2, .turns = 1},
+    [LRCS_SHAPE_BOX] = {.sizes = 3, .turns = 1},
+    [LRCS_SHAPE_DISC] = {.radius = 1},
+    [LRCS_SHAPE_SPHERE] = {.radius = 1},
+    [LRCS_SHAPE_DOME] = {.radius = 1, .caps = 1},
+    [LRCS_SHAPE_CYLINDER] = {.radius = 1, .length = 1, .caps = 1},
+    [LRCS_SHAPE_CONE] = {.radius = 1, .cone = 1, .caps = 1},
+    [LRCS_SHAPE_FRUSTUM] = {.radius = 1, .radius2 = 1, .length = 1, .caps = 1},
+    [LRCS_SHAPE_PARABOLOID] = {.radius = 1, .length = 1, .caps = 1}};
 
 /* Reads one number that a kind requires or does not allow. */
 static int dimension_read(const cli_args *args, const char *name, int wanted, double *value)
@@ -87,29 +74,28 @@ static int dimension_read(const cli_args *args, const char *name, int wanted, do
     return code;
 }
 
-static int size_read(const cli_args *args, unsigned dimensions, lrcs_shape *shape)
+static int size_read(const cli_args *args, const shape_form *form, lrcs_shape *shape)
 {
     const char *text = cli_value(args, "size");
-    int count = dimensions & DIMENSION_SIZE2 ? 2 : dimensions & DIMENSION_SIZE3 ? 3 : 0;
-    const char *form = count == 2 ? "a,b" : "a,b,c";
-    if (text && count == 0) {
+    const char *sizes = form->sizes == 2 ? "a,b" : "a,b,c";
+    if (text && form->sizes == 0) {
         return cli_usage(args->command, "%s takes no --size", args->operand);
     }
-    if (!text && count != 0) {
-        return cli_usage(args->command, "%s needs --size %s", args->operand, form);
+    if (!text && form->sizes != 0) {
+        return cli_usage(args->command, "%s needs --size %s", args->operand, sizes);
     }
     if (!text) {
         return 0;
     }
-    if (cli_list(text, shape->size, count) != 0 || shape->size[0] < 0.0 || shape->size[1] < 0.0 ||
-        shape->size[2] < 0.0) {
-        return cli_usage(args->command, "--size: expected %s (metres, >= 0), found '%s'", form,
+    if (cli_list(text, shape->size, form->sizes) != 0 || shape->size[0] < 0.0 ||
+        shape->size[1] < 0.0 || shape->size[2] < 0.0) {
+        return cli_usage(args->command, "--size: expected %s (metres, >= 0), found '%s'", sizes,
                          text);
     }
     return 0;
 }
 
-static int parts_read(const cli_args *args, unsigned dimensions, lrcs_shape *shape)
+static int parts_read(const cli_args *args, const shape_form *form, lrcs_shape *shape)
 {
     const char *text = cli_value(args, "parts");
     if (!text || strcmp(text, "all") == 0) {
@@ -118,7 +104,7 @@ static int parts_read(const cli_args *args, unsigned dimensions, lrcs_shape *sha
     if (strcmp(text, "wall") != 0) {
         return cli_usage(args->command, "--parts: expected wall or all, found '%s'", text);
     }
-    if (!(dimensions & DIMENSION_CAPS)) {
+    if (!form->caps) {
         return cli_usage(args->command, "--parts: a %s has no caps to leave out", args->operand);
     }
     shape->parts = LRCS_SHAPE_WALL;
@@ -126,21 +112,19 @@ static int parts_read(const cli_args *args, unsigned dimensions, lrcs_shape *sha
 }
 
 /* Reads a cone's height or its half-angle; exactly one must be given. */
-static int cone_read(const cli_args *args, unsigned dimensions, lrcs_shape *shape)
+static int cone_read(const cli_args *args, const shape_form *form, lrcs_shape *shape)
 {
-    int cone = (dimensions & DIMENSION_CONE) != 0;
     int angle = cli_value(args, "half-angle") != NULL;
     int length = cli_value(args, "length") != NULL;
-    if (cone && angle == length) {
+    if (form->cone && angle == length) {
         return cli_usage(args->command, "cone needs --half-angle or --length%s",
                          angle ? ", not both" : "");
     }
-    int code = dimension_read(args, "half-angle", cone && angle, &shape->half_angle_deg);
-    code = code
-               ? code
-               : dimension_read(args, "length", (dimensions & DIMENSION_LENGTH) || (cone && length),
-                                &shape->length);
-    if (code == 0 && cone && angle &&
+    int code = dimension_read(args, "half-angle", form->cone && angle, &shape->half_angle_deg);
+    code = code ? code
+                : dimension_read(args, "length", form->length || (form->cone && length),
+                                 &shape->length);
+    if (code == 0 && form->cone && angle &&
         !(shape->half_angle_deg > 0.0 && shape->half_angle_deg < 90.0)) {
         return cli_usage(args->command, "--half-angle: expected 0 < DEG < 90, found '%s'",
                          cli_value(args, "half-angle"));
@@ -148,13 +132,13 @@ static int cone_read(const cli_args *args, unsigned dimensions, lrcs_shape *shap
     return code;
 }
 
-static int aspect_read(const cli_args *args, unsigned dimensions, lrcs_aspect *aspect)
+static int aspect_read(const cli_args *args, const shape_form *form, lrcs_aspect *aspect)
 {
     const char *direction = cli_value(args, "direction");
     if (direction && cli_value(args, "aspect")) {
         return cli_usage(args->command, "--aspect and --direction both say where the laser is");
     }
-    if (direction && !(dimensions & DIMENSION_TURNS)) {
+    if (direction && !form->turns) {
         return cli_usage(args->command, "%s takes --aspect, not --direction", args->operand);
     }
     if (direction) {
@@ -185,17 +169,13 @@ static int shape_read(const cli_args *args, lrcs_shape *shape, lrcs_aspect *aspe
         return cli_usage(args->command, "unknown KIND '%s'; the nearest is %s", args->operand,
                          best);
     }
-    unsigned dimensions = shape_dimensions(shape->kind);
-    int code = size_read(args, dimensions, shape);
-    code =
-        code ? code
-             : dimension_read(args, "radius", (dimensions & DIMENSION_RADIUS) != 0, &shape->radius);
-    code = code ? code
-                : dimension_read(args, "radius2", (dimensions & DIMENSION_RADIUS2) != 0,
-                                 &shape->radius2);
-    code = code ? code : cone_read(args, dimensions, shape);
-    code = code ? code : parts_read(args, dimensions, shape);
-    return code ? code : aspect_read(args, dimensions, aspect);
+    const shape_form *form = &shape_forms[shape->kind];
+    int code = size_read(args, form, shape);
+    code = code ? code : dimension_read(args, "radius", form->radius, &shape->radius);
+    code = code ? code : dimension_read(args, "radius2", form->radius2, &shape->radius2);
+    code = code ? code : cone_read(args, form, shape);
+    code = code ? code : parts_read(args, form, shape);
+    return code ? code : aspect_read(args, form, aspect);
 }
 
 static void shape_print(const cli_args *args, const lrcs_closed *closed)

@@ -1,26 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* Exact visibility in convex cells of the view plane. It finds areas with bounds; what facets show
-   in pieces is found one by one (visibility/occlude.c).
+/* Exact visibility of all undecided facets together, in convex cells of the view plane: for each
+   facet a visible area with bounds. It does not find the visible pieces: visibility/cells_alone.c
+   does that, one facet at a time.
 
-   A cell is the convex hull of its corners, which are doubles. With it goes a list of the facets
-   that may be seen in it, and a list of segments: its event edges and contacts.
+   A cell is the convex hull of its corners, which are doubles. It has a list of the facets that may
+   be visible in it, and a list of segments: event edges and contacts.
 
-   1. The view plane is divided into blocks (visibility/cells_block.h). Each begins as one cell
-      (visibility/cells_open.h).
-   2. One sample is taken in a cell, at a place P. From the facet nearest to the laser there, the
-      surface around it is followed across edges that are no events, as far as the cell goes: the
-      component (visibility/cells_cover.h, and why that is right).
-   3. If an event or a contact of the component crosses the cell, the cell is cut along its line
-      (visibility/cells_cut.h). If none does, the component covers the cell: facets and events
-      behind it are dropped from the lists, for all that comes of the cell.
-   4. If no event is left, nothing else is seen in the cell: areas are added up. If one is, the cell
-      is cut along it.
-   5. What errors put undecided along events is charged to the facets near them
-      (visibility/cells_charge.h). A facet's area is told where its error is small enough.
+   Called, in this order:
+   1. lrcsi_cells_grid_make divides the view plane into blocks; lrcsi_cells_open makes the first
+   cell of a block.
+   2. lrcsi_cells_strike removes segments from a cell's list that do not meet the cell.
+   3. lrcsi_cells_look takes a sample at a point P of the cell: it finds the facet nearest to the
+      laser there. lrcsi_cells_component follows the surface around that facet across edges that are
+      no events, as far as the cell goes: the component (visibility/cells_cover.c has the proof).
+   4. If an event edge or a contact of the component crosses the cell, lrcsi_cells_divide cuts the
+      cell along its line. If none does, the component covers the cell: lrcsi_cells_drop removes the
+      facets and events behind it from the lists, for this cell and all that are cut from it.
+   5. If no event edge is left, nothing but the component is visible in the cell, and its areas are
+      added up. If one is left, the cell is cut along it.
+   6. Area that rounding leaves undecided along events is charged to the facets near them
+      (visibility/cells_charge.c). An area is reported where its error is small enough; other facets
+      are left to visibility/cells_alone.c.
 
-   The area of a facet in a cell is off by the error of its sides times their length there, and by
-   4 u b and the cell's drift times the perimeter of what it has there (visibility/cells_charge.c).
- */
+   Error of a facet's area in a cell: the error of the facet's sides times their length in the cell,
+   and 4 u b and the cell's drift times the perimeter of its part there (b: the largest coordinate
+   in the block; drift: visibility/cells_charge.c). */
 #include "visibility/cells.h"
 
 #include <math.h>
@@ -34,25 +38,26 @@
 #include "visibility/cells_cut.h"
 #include "visibility/cells_open.h"
 
-/* Steps that a block may take: so many, for each facet and segment in it, and for each cell that is
-   decided. Ordinary scenes take a tenth of this, or less. */
+/* Limit on the steps of a block: a constant, and so many for each facet and segment in it and for
+   each cell decided. Ordinary scenes take a tenth of this, or less. */
 #define STEPS_LEAST   65536u
 #define STEPS_EACH    4096u
 #define STEPS_DECIDED 4096u
-/* An area may be off by so much of itself, and of the square of the scene's extent. */
+/* Accepted error of an area, relative to the facet's projected area and to the square of the
+   scene's extent. */
 #define ACCURACY_OF_FACET 1e-12
 #define ACCURACY_OF_SCENE 1e-15
-/* So many facets to be clipped, times those that might hide them, are many: clipping each asks
-   about all of them. */
+/* If the facets left to be done alone, times all facets, exceed this, larger errors are accepted: a
+   facet alone asks about every facet that might hide it. */
 #define MANY_LEFT 65536u
-/* How much less accurate than clipping areas may be then. */
-#define AS_CLIPPING 4
-/* A facet with less of its diameter's square is a needle. */
+/* These errors, relative to those of a facet done alone. */
+#define AS_ALONE 4
+/* A facet is a needle if its projected area is less than this, relative to its diameter squared. */
 #define NEEDLE 0x1p-18
 
 /* --- one cell --------------------------------------------------------------------------------- */
 
-/* Nothing can be decided about the cell. */
+/* Leaves all facets of a cell undecided. */
 static void cells_leave(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
@@ -60,7 +65,7 @@ static void cells_leave(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
     }
 }
 
-/* Is a facet in the list whose area is wanted? */
+/* 1 if the cell lists a facet whose area is wanted and still undecided. */
 static int cells_wanted(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
@@ -72,10 +77,11 @@ static int cells_wanted(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
     return 0;
 }
 
-/* A facet is seen wherever it is in the cell. Of the cell's sides, and of its own, only what is in
-   both boxes matters: a convex curve is no longer there than the box is around. */
-static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                       const lrcsi_cells_sides *s, uint32_t facet)
+/* Adds the facet's area in a cell in which it is visible. Of the sides of the cell and of the facet
+   only the parts in both bounding boxes matter; a convex curve in a box is no longer than the box's
+   perimeter. */
+static void cells_add_area(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                           const lrcsi_cells_sides *s, uint32_t facet)
 {
     const lrcsi_cells_facet *f = &c->facet[facet];
     lrcsi_cells_found *area = &c->area[facet];
@@ -105,7 +111,7 @@ static void facet_seen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     area->seen += piece.count >= 3 ? lrcsi_most(0, lrcsi_clip_area(&piece)) : 0;
 }
 
-/* All of the cell shows the component, or nothing where that has no facets. */
+/* Decides a cell: the facets of the component are visible in it, all others hidden. */
 static void cells_decide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                          const lrcsi_cells_sides *s, double uncertainty)
 {
@@ -114,20 +120,20 @@ static void cells_decide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         if (!c->open[f]) {
             continue;
         }
-        int seen = c->components > 0 && c->joined[f] == c->look;
-        c->found[f] |= seen ? LRCSI_CELLS_SEEN : LRCSI_CELLS_HIDDEN;
+        int visible = c->components > 0 && c->joined[f] == c->look;
+        c->found[f] |= visible ? LRCSI_CELLS_SEEN : LRCSI_CELLS_HIDDEN;
         c->area[f].uncertainty += uncertainty;
-        if (seen) {
-            facet_seen(c, cell, s, f);
+        if (visible) {
+            cells_add_area(c, cell, s, f);
         }
     }
 }
 
 enum { CHOOSE_OWN, CHOOSE_EDGES, CHOOSE_ANY };
 
-/* Of the segments of a kind, the one whose line divides the cell most evenly, or NULL: the one with
-   the most of the cell's width on that side of its line where less of it is. So cells shrink fast,
-   and few are as long as narrow strips of facets are. */
+/* Of the segments of a kind, the one whose line divides the cell most evenly, or NULL: measured by
+   the cell's width on the narrower side of the line. So cells shrink fast, and few become long and
+   narrow. */
 static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
                                                const lrcsi_cells_cell *cell, int which)
 {
@@ -147,32 +153,33 @@ static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
     return best;
 }
 
-/* The nearest facet at the sample, there, and how far inside the cell that is. */
-typedef struct cells_seen {
-    uint32_t best;
+/* A sample: the facet nearest to the laser, the place, and its distance from the cell's border. */
+typedef struct cell_sample {
+    uint32_t nearest;
     double at[2];
     double clear;
-} cells_seen;
+} cell_sample;
 
-/* Drops what is behind surfaces that cover the cell. 1 if the component around the nearest facet
-   does; else the segment of the component at which to cut, if it has one. *uncertainty: what any
-   facet of a thin cell may be off by. */
+/* Removes what is behind surfaces that cover the cell. Returns 1 if the component around the
+   nearest facet covers it; else *cut is the segment of the component along which to cut, or NULL.
+   *uncertainty: how wrong the area of any facet may be because the cell is thin. */
 static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                       const cells_seen *seen, double *uncertainty, const lrcsi_cells_segment **cut)
+                       const cell_sample *sample, double *uncertainty,
+                       const lrcsi_cells_segment **cut)
 {
-    /* 1. A facet that covers the cell alone. */
-    uint32_t screen = lrcsi_cells_screen(c, cell, s, seen->at);
+    /* 1. A single facet that covers the cell. */
+    uint32_t screen = lrcsi_cells_screen(c, cell, s, sample->at);
     if (screen != LRCS_NONE) {
         lrcsi_cells_component_of(c, screen);
-        *uncertainty = lrcsi_cells_thin(cell, s, seen->clear, cell->struck + c->borders, c->off);
-        lrcsi_cells_drop(c, cell, s, screen == seen->best ? NULL : seen->at, *uncertainty);
-        if (screen == seen->best) {
+        *uncertainty = lrcsi_cells_thin(cell, s, sample->clear, cell->struck + c->borders, c->off);
+        lrcsi_cells_drop(c, cell, s, screen == sample->nearest ? NULL : sample->at, *uncertainty);
+        if (screen == sample->nearest) {
             return 1;
         }
         c->joined[screen] = 0;
     }
     /* 2. The component around the nearest facet. */
-    int covers = lrcsi_cells_component(c, cell, s, seen->best);
+    int covers = lrcsi_cells_component(c, cell, s, sample->nearest);
     *cut = cells_choose(c, cell, CHOOSE_OWN);
     if (!covers || *cut) {
         return 0;
@@ -180,12 +187,12 @@ static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_
     for (uint32_t i = 0; i < c->borders; i++) {
         lrcsi_cells_charge_border(c, cell, s, &c->border[i]);
     }
-    *uncertainty = lrcsi_cells_thin(cell, s, seen->clear, cell->struck + c->borders, c->off);
+    *uncertainty = lrcsi_cells_thin(cell, s, sample->clear, cell->struck + c->borders, c->off);
     lrcsi_cells_drop(c, cell, s, NULL, *uncertainty);
     return 1;
 }
 
-/* Does one cell: it is decided (1), cut, or left. */
+/* One cell: returns 1 if it is decided; else it is cut, or left undecided. */
 static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_sides s;
@@ -197,22 +204,23 @@ static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     c->components = 0;
 
     /* 1. A sample. */
-    cells_seen seen = {.best = LRCS_NONE};
-    int answer = lrcsi_cells_look(c, cell, &s, &seen.best, seen.at, &seen.clear);
+    cell_sample sample = {.nearest = LRCS_NONE};
+    int answer = lrcsi_cells_look(c, cell, &s, &sample.nearest, sample.at, &sample.clear);
     if (answer == LRCSI_CELLS_UNSURE && lrcsi_cells_charge_all(c, cell, &s)) {
         return 0;
     }
 
-    /* 2. What is behind covers. */
+    /* 2. What covers the cell, and what is behind that. */
     double uncertainty = 0;
     const lrcsi_cells_segment *cut = NULL;
-    int told = answer == LRCSI_CELLS_FOUND ? cells_cover(c, cell, &s, &seen, &uncertainty, &cut)
-                                           : answer == LRCSI_CELLS_NONE;
+    int covered = answer == LRCSI_CELLS_FOUND
+                      ? cells_cover(c, cell, &s, &sample, &uncertainty, &cut)
+                      : answer == LRCSI_CELLS_NONE;
 
-    /* 3. Decided, or cut. */
+    /* 3. It is decided, or cut. */
     if (!cut) {
-        cut = cells_choose(c, cell, told ? CHOOSE_EDGES : CHOOSE_ANY);
-        if (!cut && told) {
+        cut = cells_choose(c, cell, covered ? CHOOSE_EDGES : CHOOSE_ANY);
+        if (!cut && covered) {
             cells_decide(c, cell, &s, cell->uncertainty + uncertainty);
             return 1;
         }
@@ -225,7 +233,7 @@ static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 
 /* --- one block -------------------------------------------------------------------------------- */
 
-/* Facets of a block that is not done stay open. */
+/* Leaves all facets of a block undecided. */
 static void block_leave(lrcsi_cells_work *c, size_t block)
 {
     for (uint32_t i = c->grid.facets.first[block]; i < c->grid.facets.first[block + 1]; i++) {
@@ -258,7 +266,7 @@ static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
         block_leave(c, block);
         return;
     }
-    /* Where that takes long and decides little, the rest is clipped facet by facet. */
+    /* If this takes long and decides little, the facets are done one by one instead. */
     uint64_t most = STEPS_LEAST + STEPS_EACH * (uint64_t)(cell.facets + cell.segments);
     c->stack[0] = cell;
     c->top = 1;
@@ -289,19 +297,19 @@ static lrcsi_visible facet_decided(const lrcsi_cells_work *c, uint32_t facet, do
     return (lrcsi_visible){seen, lrcsi_most(0, seen - *off), lrcsi_least(whole, seen + *off), 0, 0};
 }
 
-/* That of the bulk of a scene. */
+/* The extent of the bulk of a scene. */
 static double extent_of(const lrcs_prepared *p)
 {
     return 2 * lrcsi_most(p->bulk[0], lrcsi_most(p->bulk[1], p->bulk[2]));
 }
 
-/* What a facet's area may be off by, so that it is told: what DESIGN.md promises; or, where too
-   many would be left, four times what clipping the facet alone would charge at least
-   (visibility/occlude.c): 52 u of its diameter times its perimeter, and for each cut a strip 128 u
-   of the diameter wide. Needles, and what is larger than the bulk of the scene, are found better
-   one by one. */
+/* The error at which a facet's area is accepted: 1e-12 of the area or 1e-15 of the extent squared;
+   or, `as_alone`, AS_ALONE times the least that the facet alone would be charged
+   (visibility/cells_alone.c): 52 u of its diameter times its perimeter, and for each cut a strip
+   128 u of the diameter wide. Needles, and facets larger than the bulk of the scene, are much more
+   accurate alone: for these only the first counts. */
 static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double projected,
-                             int as_clipping)
+                             int as_alone)
 {
     const uint32_t *corner = c->view->prepared->scene->facet[facet].corner;
     double diameter = 0;
@@ -313,13 +321,13 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double p
     double extent = extent_of(c->view->prepared);
     int ordinary = projected > NEEDLE * diameter * diameter && diameter < 2 * extent;
     double alone = LRCSI_U * diameter * (104 * diameter + 128 * c->area[facet].cut);
-    alone = as_clipping ? AS_CLIPPING * alone : 0;
+    alone = as_alone ? AS_ALONE * alone : 0;
     return ACCURACY_OF_FACET * projected +
            (ordinary ? lrcsi_most(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
 }
 
-/* Tells the areas that are accurate enough. Returns how many are not, though cells decided them. */
-static uint32_t areas_tell(const lrcsi_cells_work *c, int as_clipping, lrcsi_visible *visible)
+/* Reports the areas that are accurate enough. Returns how many others the cells decided. */
+static uint32_t areas_report(const lrcsi_cells_work *c, int as_alone, lrcsi_visible *visible)
 {
     uint32_t left = 0;
     for (uint32_t f = 0; f < c->view->prepared->scene->facet_count; f++) {
@@ -330,7 +338,7 @@ static uint32_t areas_tell(const lrcsi_cells_work *c, int as_clipping, lrcsi_vis
         double projected = lrcsi_view_projected(c->view, f);
         lrcsi_visible area = facet_decided(c, f, projected, &off);
         if (off <= ACCURACY_OF_FACET * projected ||
-            off <= facet_accuracy(c, f, projected, as_clipping)) {
+            off <= facet_accuracy(c, f, projected, as_alone)) {
             visible[f] = area;
             c->open[f] = 0;
         } else {
@@ -340,17 +348,12 @@ static uint32_t areas_tell(const lrcsi_cells_work *c, int as_clipping, lrcsi_vis
     return left;
 }
 
-/* Segments for which lrcsi_cells_need has room: all edges and contacts may stand in one block.
-   Where coplanar facets and rims add more than find room, facets are clipped one by one. */
-static size_t segments_need(const lrcs_prepared *p)
-{
-    return (size_t)p->topology.edge_count + p->intersections.count;
-}
-
+/* All edges and contacts may be in one block. Coplanar facets and edges along which others meet can
+   add more: where these find no room, facets are done one by one. */
 size_t lrcsi_cells_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
-    size_t segments = segments_need(prepared);
+    size_t segments = (size_t)prepared->topology.edge_count + prepared->intersections.count;
     size_t need = 2 * lrcsi_work_bytes(facets, 1);
     need = lrcsi_work_add(need, lrcsi_cells_grid_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
@@ -364,8 +367,8 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
 }
 
-/* Takes what the view needs, and files its facets and events in blocks. 0 if there is not enough
-   memory. */
+/* Allocates the arrays of a view, and lists its facets and events in blocks. 0 if the memory does
+   not suffice. */
 static int cells_make(const lrcsi_classification *classification, lrcs_work *work,
                       lrcsi_cells_work *c)
 {
@@ -406,7 +409,7 @@ void lrcsi_cells_areas(const lrcsi_classification *classification, lrcs_work *wo
 {
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;
-    size_t peak = work->peak; /* nothing is missing where this finds no memory */
+    size_t peak = work->peak; /* restored if memory does not suffice: it is no failure then */
     lrcsi_cells_work c = {.view = view, .frame = {.view = view}, .open = open};
     c.trifle = 0x1p-10 * ACCURACY_OF_SCENE * extent_of(view->prepared) * extent_of(view->prepared);
     if (!view->prepared->convex && cells_make(classification, work, &c)) {
@@ -416,11 +419,11 @@ void lrcsi_cells_areas(const lrcsi_classification *classification, lrcs_work *wo
                 block_do(&c, x, y);
             }
         }
-        /* A few facets that are less accurate than is promised are clipped; of many, those of which
-           clipping would tell much more. */
-        uint64_t left = areas_tell(&c, 0, visible);
+        /* Facets whose areas are not accurate enough are done alone; if they are many, only those
+           that are much more accurate alone. */
+        uint64_t left = areas_report(&c, 0, visible);
         if (left * view->prepared->scene->facet_count > MANY_LEFT) {
-            areas_tell(&c, 1, visible);
+            areas_report(&c, 1, visible);
         }
     } else {
         work->peak = peak;

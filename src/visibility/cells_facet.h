@@ -8,6 +8,13 @@
 #include "view/view.h"
 #include "visibility/cells_shape.h"
 
+/* What is known of a facet in all cells, bits. */
+enum {
+    LRCSI_CELLS_APART = 1, /* no facet continues it: it meets others in its plane */
+    LRCSI_CELLS_VAGUE = 2, /* one of its contacts could not be computed */
+    LRCSI_CELLS_LINKED = 4 /* the facets that continue it have been found */
+};
+
 /* A facet that casts, in view coordinates. */
 typedef struct lrcsi_cells_facet {
     double x[3], y[3];      /* corners, counter-clockwise */
@@ -20,7 +27,7 @@ typedef struct lrcsi_cells_facet {
     double off;             /* of its vertices, and of how far they are from a line */
     double line_off;        /* of its sides within the block, but for 16 u b */
     double z_err;           /* of their z */
-    uint32_t next[3];       /* who continues it across each side (visibility/cells_join.h) */
+    uint32_t next[3];       /* who continues it across each side (lrcsi_cells_next) */
     uint32_t number;        /* the scene's */
     int thin;               /* its sides are those of a band */
 } lrcsi_cells_facet;
@@ -84,5 +91,19 @@ double lrcsi_cells_facet_limit(const lrcsi_cells_facet *f, const lrcsi_cells_sid
 /* Which of two facets that surely cover a place is nearer there, exactly: 1 the second, -1 the
    first, 0 it cannot be decided. */
 int lrcsi_cells_facet_order(const lrcsi_view *view, uint32_t first, uint32_t second);
+
+/* 1 if a facet meets others in its plane: all its edges then count as events. */
+int lrcsi_cells_apart(const lrcsi_view *view, uint32_t facet);
+
+/* The facet that continues a facet across side k, sides numbered as in the scene; LRCS_NONE if the
+   edge is an event of the view (visibility/event.h). */
+uint32_t lrcsi_cells_joined(const lrcsi_view *view, uint32_t facet, int k);
+
+/* The same for cells: all edges of facets that are `apart`, and edges along which others meet one
+   of the two facets, count as events too, so that no component goes on across them. */
+uint32_t lrcsi_cells_next(const lrcsi_view *view, const unsigned char *kind, uint32_t facet, int k);
+
+/* The number in the scene of the side that runs from corner k of a facet's record. */
+int lrcsi_cells_side_number(const lrcsi_view *view, uint32_t facet, int k);
 
 #endif

@@ -1,18 +1,33 @@
 /* SPDX-License-Identifier: MIT */
-/* The cell that a block begins as: its facets, and its segments (visibility/cells.c). */
+/* The blocks of the view plane, and the cell that each begins as: its facets, and its segments
+   (visibility/cells.c). */
 #ifndef LRCSI_CELLS_OPEN_H
 #define LRCSI_CELLS_OPEN_H
 
 #include "visibility/cells_state.h"
 
-/* A new segment; of an edge, whose facets are told. NULL if there is no room. */
+/* Bytes at most. */
+size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared);
+
+/* Places the blocks, and lists in each the facets that can hide others and the events. 0 if memory
+   does not suffice, if the lists are too long, or if much of the view is outside the bulk of the
+   scene: the blocks there are so large that little would be decided. */
+int lrcsi_cells_grid_make(const lrcsi_classification *classification, lrcs_work *work,
+                          lrcsi_cells_grid *c);
+
+/* The square of a block, from its middle; returns the largest coordinate. */
+double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y,
+                               lrcsi_clip_polygon *shape, double middle[2]);
+
+/* A new segment, and one with the facets of an edge; its other fields are the caller's to set. NULL
+   if there is no room. */
 lrcsi_cells_segment *lrcsi_cells_segment_new(lrcsi_cells_work *c);
 lrcsi_cells_segment *lrcsi_cells_edge(lrcsi_cells_work *c, uint32_t edge);
 
-/* Segments that the fullest block may have at most. Given: c->view, grid, kind. */
+/* The largest number of segments of a block, at most. Given: c->view, grid, kind. */
 size_t lrcsi_cells_segments_most(const lrcsi_cells_work *c);
 
-/* Lists what a block has, and makes the records. 0 if there is no room. */
+/* Lists the facets and segments of a block and makes their records. 0 if there is no room. */
 int lrcsi_cells_open(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell);
 
 #endif

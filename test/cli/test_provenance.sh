@@ -60,6 +60,8 @@ run run ../pair.toml --facets /dev/null
 same nothing_stands_beside_standard_output_or_a_device "$(ls)" ""
 cd .. || exit 1
 
+usage_error a_table_has_no_name_that_the_other_needs "t.csv.json is the file that names what 't.csv' was made from" run pair.toml --polygons t.csv --facets t.csv.json
+
 # ---- what stands inside ----
 # inside FILE INPUT HASH: the file holds the version and both.
 inside() {

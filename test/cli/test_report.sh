@@ -47,6 +47,11 @@ run report dark.toml --azel 0,0 --material 0,0,0.2,0 $quick -o dark.html
 same a_page_of_nothing_is_written "$rc" 0
 plates_scene >plates.toml
 # shellcheck disable=SC2086
+# shellcheck disable=SC2086
+run report box.toml $quick --azel 10,50 --material 1,0.25+-0.05,0.2,0.5 -o error.html
+deviation=$("$tool" run box.toml --azel 10,50 --material 1,0.25+-0.05,0.2,0.5 --json 2>/dev/null | sed -n 's/.*"material_uncertainty": {.*"deviation_m2": \([0-9.e-]*\).*/\1/p')
+same errors_of_materials_stand_beside_sigma "$rc $(grep -c 'stated errors of materials leave it uncertain by <b>' error.html) $(grep -c "<data id=\"material_deviation_m2\" value=\"$deviation\">" error.html)" "0 1 1"
+same without_errors_nothing_is_said_of_them "$(grep -c 'stated errors of materials\|material_deviation' page.html)" 0
 run report plates.toml $quick --method zbuffer --resolution 16 -o - --azel 10,50
 same no_tolerance_is_spoken_of_where_none_is_in_force "$rc $(printf '%s\n' "$out" | grep -c 'the tolerance of')" "0 0"
 run report plates.toml $quick --method zbuffer --resolution 16 --tolerance 1e-9 -o - --azel 10,50

@@ -91,9 +91,9 @@ static double view_peak(const mistake_view *view)
 {
     double peak = 0.0;
     for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
-        mistake_point spot;
-        if (cli_mistake_seen(view, i, 0, &spot) > 0.0) {
-            peak = fmax(peak, cli_mistake_right(&spot, 0.0));
+        mistake_point point = {.peak = 0.0};
+        if (cli_mistake_area(cli_compare_mistakes, view, i, 0, &point) > 0.0) {
+            peak = fmax(peak, cli_mistake_shade(cli_compare_mistakes, &point));
         }
     }
     return peak;
@@ -112,7 +112,7 @@ static int records_own(const compare_kit *kit, const compare_case *one,
     if (mistake->skins) {
         return skins_run(kit, one, &options, own);
     }
-    if (mistake->turn && mistake->turn(one, mistake, &pose) != LRCS_OK) {
+    if (mistake->turn && cli_mistake_turn(mistake, one, &pose) != LRCS_OK) {
         pose = one->pose;
     }
     return lrcs_host_scene_run(&kit->scene[one->scene].host, &pose, &options, &result, own, NULL,
@@ -145,15 +145,13 @@ static int view_make(const compare_kit *kit, compare_case *one, const compare_mi
 /* sigma / 4 pi with the mistake. */
 static double view_sum(const mistake_view *view, const compare_mistake *mistake, double peak)
 {
-    mistake_area *area = mistake->area ? mistake->area : cli_mistake_seen;
-    mistake_shade *shade = mistake->shade ? mistake->shade : cli_mistake_right;
     int corners = mistake->corners > 0 ? mistake->corners : 1;
     double sum = 0.0;
     for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
         for (int corner = 0; corner < corners; corner++) {
-            mistake_point spot = {.peak = peak};
-            double part = area(view, i, corner, &spot);
-            sum += part > 0.0 ? part * shade(&spot, mistake->at) / corners : 0.0;
+            mistake_point point = {.peak = peak};
+            double area = cli_mistake_area(mistake, view, i, corner, &point);
+            sum += area > 0.0 ? area * cli_mistake_shade(mistake, &point) / corners : 0.0;
         }
     }
     return sum;

@@ -224,24 +224,58 @@ typedef struct mistake_view {
     double direction[3]; /* unit */
 } mistake_view;
 
-/* f_r cos with a mistake; `at` is the mistake's parameter. */
-typedef double mistake_shade(const mistake_point *spot, double at);
+/* What is wrong in the shading (f_r cos theta), in the projected area that is summed and how it is
+   shaded, in the pose. For shading, `at` is the power of the cosine; 1 for its magnitude; the power
+   in 1 / cos^6; a factor of tan^2, or 0 for tan^2 / s; the value of m; 0 without the glint, 1
+   without the diffuse term; the step in deg (twice); the brightest value of a channel of 8 bits, 0
+   for that of the case; the largest value. */
+enum mistake_shade {
+    SHADE_RIGHT,
+    SHADE_COSINE,
+    SHADE_DEGREES,
+    SHADE_POWER,
+    SHADE_SLOPE,
+    SHADE_ONE_TERM,
+    SHADE_LAMBERT,
+    SHADE_LINES,
+    SHADE_STEPS,
+    SHADE_BITS,
+    SHADE_CLAMPED,
+    SHADE_SINE,
+    SHADE_SMALL_ANGLE,
+    SHADE_TAN_DEGREES
+};
+enum mistake_area {
+    AREA_RIGHT,
+    AREA_UNSHADOWED,
+    AREA_BACKS,
+    AREA_ALL,
+    AREA_ONE_SIDED,
+    AREA_FLIPPED,
+    AREA_ONE_MATERIAL,
+    AREA_NEXT_MATERIAL,
+    AREA_SMOOTH,
+    AREA_LAST
+};
+enum mistake_turn {
+    TURN_NONE,
+    TURN_AXES,
+    TURN_TRANSPOSED,
+    TURN_ALONG,
+    TURN_SCALAR_LAST,
+    TURN_RADIANS,
+    TURN_POLAR,
+    TURN_EXCHANGED
+};
 
-/* The projected area with a mistake, for a corner (0 .. 2) of a facet: a third of the facet's area.
-   Also sets how it is shaded; 0 if the facet does not contribute. */
-typedef double mistake_area(const mistake_view *view, uint32_t facet, int corner,
-                            mistake_point *spot);
-
-/* A mistake: whatever is not NULL or 0 differs from the truth. */
+/* A mistake: whatever is not 0 differs from the truth. */
 typedef struct compare_mistake {
     const char *name, *text;
-    mistake_shade *shade;
-    double at;
-    mistake_area *area;
-    int (*turn)(const compare_case *one, const struct compare_mistake *mistake, lrcs_pose *pose);
-    int corners; /* 3 if the facet is the mean of the values at its corners */
+    int shade, area, turn; /* mistake_shade, ... */
+    double at;             /* of shade */
     int axes[3]; /* of turn: for x, y, z of s_hat, the component that is used, 1 .. 3, negative to
                     mirror it */
+    int corners; /* 3 if the facet is the mean of the values at its corners */
     uint32_t without; /* effects that are left out, lrcs_run_options.without */
     int skins;        /* 1 if of coplanar facets the wrong one is seen */
 } compare_mistake;
@@ -249,11 +283,16 @@ typedef struct compare_mistake {
 /* The catalogue, terminated by a NULL name; the first entry is no mistake. */
 extern const compare_mistake cli_compare_mistakes[];
 
-/* f_r cos without a mistake. */
-double cli_mistake_right(const mistake_point *spot, double at);
+/* f_r cos. */
+double cli_mistake_shade(const compare_mistake *mistake, const mistake_point *point);
 
-/* The area without a mistake. */
-double cli_mistake_seen(const mistake_view *view, uint32_t facet, int corner, mistake_point *spot);
+/* The projected area of a facet, for the value at a corner (0 .. 2) if that counts. Also sets how
+   it is shaded; 0 if the facet does not contribute. */
+double cli_mistake_area(const compare_mistake *mistake, const mistake_view *view, uint32_t facet,
+                        int corner, mistake_point *point);
+
+/* The pose that is used. Status: as lrcs_pose_from_quaternion. */
+int cli_mistake_turn(const compare_mistake *mistake, const compare_case *one, lrcs_pose *pose);
 
 /* sigma of a case with a mistake. 0 or CLI_FAILED with the message printed. */
 int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,

@@ -167,21 +167,6 @@ static void xml_text(FILE *out, const char *text)
     }
 }
 
-static void case_failure(FILE *out, const compare_job *job, const compare_case *one)
-{
-    char sigma[LRCS_HOST_NUMBER_SIZE];
-    char theirs[LRCS_HOST_NUMBER_SIZE];
-    lrcs_host_number_text(one->sigma_m2, sigma);
-    lrcs_host_number_text(one->theirs_m2, theirs);
-    if (one->given) {
-        fprintf(out, "<failure message=\"expected %s m2, found %s; ", sigma, theirs);
-        xml_text(out, one->explained ? job->finding[one->explained - 1].text : "unexplained");
-        fputs("\"/>", out);
-    } else {
-        fputs("<failure message=\"not handed in\"/>", out);
-    }
-}
-
 static void tier_junit(FILE *out, const compare_job *job, int tier)
 {
     unsigned long cases = 0;
@@ -195,26 +180,23 @@ static void tier_junit(FILE *out, const compare_job *job, int tier)
             failed);
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         const compare_case *one = &job->kit.list[i];
-        if (one->tier == tier) {
-            fprintf(out, "<testcase classname=\"%s\" name=\"%s\">", job->kit.scene[one->scene].name,
-                    one->attitude);
-            if (cli_compare_failed(job, one)) {
-                case_failure(out, job, one);
-            }
-            fputs("</testcase>\n", out);
+        if (one->tier != tier) {
+            continue;
         }
+        fprintf(out, "<testcase classname=\"%s\" name=\"%s\">", job->kit.scene[one->scene].name,
+                one->attitude);
+        if (cli_compare_failed(job, one) && one->given) {
+            cli_number_put(out, "<failure message=\"expected ", one->sigma_m2);
+            cli_number_put(out, " m2, found ", one->theirs_m2);
+            fputs("; ", out);
+            xml_text(out, one->explained ? job->finding[one->explained - 1].text : "unexplained");
+            fputs("\"/>", out);
+        } else if (cli_compare_failed(job, one)) {
+            fputs("<failure message=\"not handed in\"/>", out);
+        }
+        fputs("</testcase>\n", out);
     }
     fputs("</testsuite>\n", out);
-}
-
-/* A test case that stands for all cases together. */
-static void bias_junit(FILE *out, const compare_job *job)
-{
-    fputs("<testsuite name=\"all tiers\" tests=\"1\" failures=\"1\">\n"
-          "<testcase classname=\"all\" name=\"factor\"><failure message=\"",
-          out);
-    xml_text(out, job->finding[0].text);
-    fputs("\"/></testcase>\n</testsuite>\n", out);
 }
 
 int cli_compare_junit(FILE *out, const void *context, lrcs_host_error *error)
@@ -229,8 +211,12 @@ int cli_compare_junit(FILE *out, const void *context, lrcs_host_error *error)
     for (uint32_t tier = 1; tier <= job->tier; tier++) {
         tier_junit(out, job, (int)tier);
     }
-    if (job->biased) {
-        bias_junit(out, job);
+    if (job->biased) { /* a test case that stands for all cases together */
+        fputs("<testsuite name=\"all tiers\" tests=\"1\" failures=\"1\">\n"
+              "<testcase classname=\"all\" name=\"factor\"><failure message=\"",
+              out);
+        xml_text(out, job->finding[0].text);
+        fputs("\"/></testcase>\n</testsuite>\n", out);
     }
     fputs("</testsuites>\n", out);
     return LRCS_OK;

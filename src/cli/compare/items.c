@@ -44,34 +44,22 @@ static const items_way item_ways[COMPARE_IMAGE_WAYS] = {
     {"agree, but their facets count from 1", 0, 0, 0, 1},
     {"are upside down, and their facets count from 1", 0, 1, 0, 1}};
 
-static uint32_t item_turned(const items_image *image, const items_way *way, uint32_t row,
-                            uint32_t column)
-{
-    uint32_t last = image->side - 1;
-    uint32_t y = way->rows ? last - row : row;
-    uint32_t x = way->columns ? last - column : column;
-    return way->exchange ? item_at(image, x, y) : item_at(image, y, x);
-}
-
-/* The value in the submitted image for a facet of the truth; 0 for none, also if indices start at
-   1. */
-static int item_same(uint32_t truth, uint32_t theirs, uint32_t add)
-{
-    return truth == LRCS_NONE ? theirs == LRCS_NONE || (add > 0 && theirs == 0)
-                              : theirs == truth + add;
-}
-
-/* Of the pixels that are not empty in at least one of the images, the share in which both agree. */
+/* Of the pixels that are not empty in at least one of the images, the share in which both agree,
+   with rows and columns of the submitted image as in `way`. If indices start at 1, 0 is none. */
 static double images_agree(const items_image *truth, const items_image *theirs,
                            const items_way *way)
 {
+    uint32_t last = truth->side - 1;
     uint64_t shown = 0;
     uint64_t same = 0;
     for (uint32_t row = 0; row < truth->side; row++) {
         for (uint32_t column = 0; column < truth->side; column++) {
+            uint32_t y = way->rows ? last - row : row;
+            uint32_t x = way->columns ? last - column : column;
             uint32_t a = item_at(truth, row, column);
-            uint32_t b = item_turned(theirs, way, row, column);
-            int equal = item_same(a, b, way->add);
+            uint32_t b = way->exchange ? item_at(theirs, x, y) : item_at(theirs, y, x);
+            int none = b == LRCS_NONE || (way->add > 0 && b == 0);
+            int equal = a == LRCS_NONE ? none : b == a + way->add;
             shown += a != LRCS_NONE || !equal;
             same += a != LRCS_NONE && equal;
         }
@@ -183,21 +171,15 @@ static int case_judge(compare_job *job, const compare_case *one)
     return good ? 1 : -1;
 }
 
-static int folder_check(const char *path)
-{
-    DIR *folder = opendir(path);
-    if (!folder) {
-        fprintf(stderr, "lrcs: %s: cannot open folder: %s\n", path, strerror(errno));
-        return CLI_FAILED;
-    }
-    closedir(folder);
-    return 0;
-}
-
 int cli_compare_items(compare_job *job)
 {
-    if (job->items && folder_check(job->items) != 0) {
+    DIR *folder = job->items ? opendir(job->items) : NULL;
+    if (job->items && !folder) {
+        fprintf(stderr, "lrcs: %s: cannot open folder: %s\n", job->items, strerror(errno));
         return CLI_FAILED;
+    }
+    if (folder) {
+        closedir(folder);
     }
     for (uint32_t i = 0; job->items && i < job->kit.cases; i++) {
         const compare_case *one = &job->kit.list[i];

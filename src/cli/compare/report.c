@@ -7,66 +7,40 @@
 
 #define NAMES_MOST 8u /* number of unexplained cases that are named */
 
-typedef struct report_line {
-    uint32_t count[COMPARE_MISSING + 1];
-    double worst;           /* largest difference, as a share of what is allowed */
-    const compare_case *at; /* the case where it occurs */
-} report_line;
-
-static double case_off(const compare_case *one)
-{
-    double off = fabs(one->theirs_m2 - one->sigma_m2);
-    return off == 0.0 ? 0.0 : one->sigma_m2 > 0.0 && isfinite(off) ? off / one->sigma_m2 : HUGE_VAL;
-}
-
-/* The difference of a case as a share of what it is allowed. */
-static double case_share(const compare_job *job, const compare_case *one)
-{
-    double off = fabs(one->theirs_m2 - one->sigma_m2);
-    double allowed = cli_compare_allowed(one, job->grade, job->pixels);
-    return off == 0.0 ? 0.0 : allowed > 0.0 && isfinite(off) ? off / allowed : HUGE_VAL;
-}
-
-static report_line scene_line(const compare_job *job, const compare_scene *scene)
-{
-    report_line line = {.worst = -1.0};
-    for (uint32_t i = scene->first; i < scene->first + scene->count; i++) {
-        const compare_case *one = &job->kit.list[i];
-        double share = one->given ? case_share(job, one) : -1.0;
-        line.count[one->grade]++;
-        if (share > line.worst) {
-            line.worst = share;
-            line.at = one;
-        }
-    }
-    return line;
-}
-
-static void count_print(uint32_t count)
-{
-    if (count > 0) {
-        printf(" %6lu", (unsigned long)count);
-    } else {
-        printf("      .");
-    }
-}
-
+/* A line of the table: how many cases of a scene are in each class, and the case with the largest
+   difference as a share of what it is allowed, with that difference as a share of sigma. */
 static void scene_print(const compare_job *job, const compare_scene *scene)
 {
-    report_line line = scene_line(job, scene);
+    uint32_t count[COMPARE_MISSING + 1] = {0};
+    const compare_case *worst = NULL;
+    double most = -1.0;
+    for (uint32_t i = scene->first; i < scene->first + scene->count; i++) {
+        const compare_case *one = &job->kit.list[i];
+        double off = fabs(one->theirs_m2 - one->sigma_m2);
+        double allowed = cli_compare_allowed(one, job->grade, job->pixels);
+        double share = off == 0.0 ? 0.0 : allowed > 0.0 && isfinite(off) ? off / allowed : HUGE_VAL;
+        count[one->grade]++;
+        if (one->given && share > most) {
+            most = share;
+            worst = one;
+        }
+    }
     printf("%4d  ", scene->tier);
     cli_column(scene->name, 16);
     for (int k = COMPARE_EXACT; k <= COMPARE_MISSING; k++) {
-        count_print(line.count[k]);
+        if (count[k] > 0) {
+            printf(" %6lu", (unsigned long)count[k]);
+        } else {
+            printf("      .");
+        }
     }
-    double off = line.at ? case_off(line.at) : 0.0;
-    if (line.at && isfinite(off)) {
-        printf("   %8.1e  %s\n", off, line.at->attitude);
-    } else if (line.at) {
-        printf("   %8s  %s\n", "-", line.at->attitude);
-    } else {
-        putchar('\n');
+    double off = worst ? fabs(worst->theirs_m2 - worst->sigma_m2) : 0.0;
+    if (worst && (off == 0.0 || (worst->sigma_m2 > 0.0 && isfinite(off)))) {
+        printf("   %8.1e  %s", off == 0.0 ? 0.0 : off / worst->sigma_m2, worst->attitude);
+    } else if (worst) {
+        printf("   %8s  %s", "-", worst->attitude);
     }
+    putchar('\n');
 }
 
 static void tier_print(const compare_job *job, uint32_t tier)
@@ -126,10 +100,15 @@ static void findings_print(const compare_job *job)
     }
 }
 
-/* Prints the first cases with a fault: "box nose, box a, ..". */
-static void lacks_print(const compare_job *job, int lack)
+/* Prints how many cases have a fault, and the first of them: "box nose, box a, ..". */
+static void lack_print(const compare_job *job, int lack, uint32_t count, const char *title,
+                       const char *what)
 {
     uint32_t named = 0;
+    if (count == 0) {
+        return;
+    }
+    printf("%-12s %lu %s: ", title, (unsigned long)count, what);
     for (uint32_t i = 0; i < job->kit.cases && named <= NAMES_MOST; i++) {
         const compare_case *one = &job->kit.list[i];
         if (cli_compare_lack(job, one) == lack && named++ < NAMES_MOST) {
@@ -143,20 +122,11 @@ static void lacks_print(const compare_job *job, int lack)
 static void answers_print(const compare_job *job)
 {
     uint32_t missing = job->asked - job->given;
-    if (missing > 0) {
-        printf("missing      %lu case%s: ", (unsigned long)missing, plural(missing));
-        lacks_print(job, LACK_ANSWER);
-    }
-    if (job->not_numbers > 0) {
-        printf("why          %lu answer%s not numbers: ", (unsigned long)job->not_numbers,
-               job->not_numbers == 1 ? " is" : "s are");
-        lacks_print(job, LACK_NUMBER);
-    }
-    if (job->negatives > 0) {
-        printf("why          %lu answer%s negative: ", (unsigned long)job->negatives,
-               job->negatives == 1 ? " is" : "s are");
-        lacks_print(job, LACK_SIGN);
-    }
+    lack_print(job, LACK_ANSWER, missing, "missing", missing == 1 ? "case" : "cases");
+    lack_print(job, LACK_NUMBER, job->not_numbers, "why",
+               job->not_numbers == 1 ? "answer is not numbers" : "answers are not numbers");
+    lack_print(job, LACK_SIGN, job->negatives, "why",
+               job->negatives == 1 ? "answer is negative" : "answers are negative");
 }
 
 static void unexplained_print(const compare_job *job)

@@ -111,29 +111,18 @@ static int digits_all(const compare_job *job, int digits, int significant)
     return 1;
 }
 
-/* Half a unit of the last digit, in m2. */
-static double digit_room(const compare_job *job, const compare_case *one, int digits,
-                         int significant)
-{
-    double value = job->decibels ? 10.0 * log10(one->sigma_m2) : one->sigma_m2;
-    double half = 0.5 * digit_step(value, digits, significant);
-    return job->decibels ? one->sigma_m2 * (pow(10.0, half / 10.0) - 1.0) : half;
-}
-
-static int case_rounded(const compare_job *job, const compare_case *one, int digits,
-                        int significant)
-{
-    double off = fabs(one->theirs_m2 - one->sigma_m2);
-    return off <= digit_room(job, one, digits, significant) +
-                      cli_compare_allowed(one, job->grade, job->pixels);
-}
-
-/* Makes a finding if all answers have so few digits and rounding explains most failures. */
+/* Makes a finding if all answers have so few digits and rounding, by half a unit of the last digit,
+   explains most failures. */
 static int digits_say(compare_search *search, int digits, int significant)
 {
+    const compare_job *job = search->job;
     for (uint32_t i = 0; i < search->failings; i++) {
-        search->holds[i] =
-            (unsigned char)case_rounded(search->job, search->failing[i], digits, significant);
+        const compare_case *one = search->failing[i];
+        double value = job->decibels ? 10.0 * log10(one->sigma_m2) : one->sigma_m2;
+        double half = 0.5 * digit_step(value, digits, significant);
+        double room = job->decibels ? one->sigma_m2 * (pow(10.0, half / 10.0) - 1.0) : half;
+        search->holds[i] = fabs(one->theirs_m2 - one->sigma_m2) <=
+                           room + cli_compare_allowed(one, job->grade, job->pixels);
     }
     return holds_most(search) &&
            cli_search_find(search, "few-digits",
@@ -160,16 +149,16 @@ static void digits_try(compare_search *search)
 /* 1 if every answer is 0 although something is visible. */
 static int answers_blank(const compare_search *search)
 {
+    const compare_job *job = search->job;
     uint32_t given = 0;
-    for (uint32_t i = 0; i < search->job->kit.cases; i++) {
-        const compare_case *one = &search->job->kit.list[i];
-        int counts = one->given && cli_compare_asked(search->job, one);
-        if (counts && one->theirs_m2 != 0.0) {
-            return 0;
-        }
+    int blank = search->failings > 0;
+    for (uint32_t i = 0; i < job->kit.cases; i++) {
+        const compare_case *one = &job->kit.list[i];
+        int counts = one->given && cli_compare_asked(job, one);
         given += (uint32_t)counts;
+        blank &= !counts || one->theirs_m2 == 0.0;
     }
-    return given > 0 && search->failings > 0;
+    return given > 0 && blank;
 }
 
 void cli_compare_format(compare_search *search)
@@ -327,10 +316,15 @@ static int fights_say(compare_search *search)
 
 /* ---- a factor ---- */
 
-/* The ratios of the answers that are not exact; returns their number. */
-static uint32_t bias_ratios(const compare_job *job, double *ratio)
+/* Finds a factor that all answers share although each of them is within its class: the median ratio
+   of the answers that are not exact. Most ratios must lie nearer to it than to 1, more of them than
+   could be due to chance. */
+static void bias_say(compare_search *search)
 {
+    compare_job *job = search->job;
+    double *ratio = search->room;
     uint32_t count = 0;
+    uint32_t nearer = 0;
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         const compare_case *one = &job->kit.list[i];
         if (one->given && cli_compare_asked(job, one) && one->sigma_m2 > 0.0 &&
@@ -338,31 +332,12 @@ static uint32_t bias_ratios(const compare_job *job, double *ratio)
             ratio[count++] = one->theirs_m2 / one->sigma_m2;
         }
     }
-    return count;
-}
-
-/* The share of the ratios that lie nearer to the median than to 1; 0 if it could be due to
-   chance. */
-static double bias_share(const double *ratio, uint32_t count, double median)
-{
-    uint32_t nearer = 0;
+    double median = cli_search_median(ratio, count);
     for (uint32_t i = 0; i < count; i++) {
         nearer += fabs(ratio[i] - median) < fabs(ratio[i] - 1.0);
     }
     double least = fmax(BIAS_SHARE, 0.5 + 0.5 * BIAS_SPREADS / sqrt(fmax(count, 1.0)));
-    return count >= BIAS_CASES && nearer >= least * count && fabs(median - 1.0) >= BIAS_LEAST
-               ? (double)nearer / count
-               : 0.0;
-}
-
-/* Finds a factor that all answers share although each of them is within its class. */
-static void bias_say(compare_search *search)
-{
-    compare_job *job = search->job;
-    uint32_t count = bias_ratios(job, search->room);
-    double median = cli_search_median(search->room, count);
-    double share = bias_share(search->room, count, median);
-    if (!(share > 0.0)) {
+    if (count < BIAS_CASES || nearer < least * count || fabs(median - 1.0) < BIAS_LEAST) {
         return;
     }
     for (uint32_t i = 0; i < search->failings; i++) {
@@ -373,7 +348,7 @@ static void bias_say(compare_search *search)
         search, cli_factor_name(median),
         "all answers are %.6g times the truth: most are within their allowance, but %.0f %% lean "
         "the same way, which errors of a raster do not: %s",
-        median, 100.0 * share, cli_factor_text(job, median));
+        median, 100.0 * nearer / count, cli_factor_text(job, median));
     if (finding) {
         job->biased = 1;
         finding->factor = median;

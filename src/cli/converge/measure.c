@@ -242,13 +242,6 @@ static int seconds_compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void setting_median(converge_setting *setting)
-{
-    double *seconds = setting->seconds;
-    qsort(seconds, setting->runs, sizeof *seconds, seconds_compare);
-    setting->pose_s = 0.5 * (seconds[(setting->runs - 1) / 2] + seconds[setting->runs / 2]);
-}
-
 /* ---- the truth ---- */
 
 /* 1 if a shape is not rotated or scaled; it may be translated. */
@@ -322,7 +315,9 @@ static void settings_judge(converge_job *job, int closed)
         int facets = finest && !closed;
         setting.bound_m2 = shapes || facets ? setting.bound_m2 : -1.0;
         if (closed || setting.dial != CONVERGE_MESH || !finest) {
-            setting_median(&setting);
+            double *seconds = setting.seconds; /* of the kept copy */
+            qsort(seconds, setting.runs, sizeof *seconds, seconds_compare);
+            setting.pose_s = 0.5 * (seconds[(setting.runs - 1) / 2] + seconds[setting.runs / 2]);
             job->setting[kept++] = setting;
         }
     }

@@ -118,15 +118,51 @@ converge_sentence cli_converge_sentence(const converge_job *job)
     return sentence;
 }
 
-/* ---- the table ---- */
+/* ---- a setting's numbers, which every form shows ---- */
 
-static void number_cell(int width, double value)
+enum {
+    NUMBER_RESOLUTION,
+    NUMBER_MESH,
+    NUMBER_FACETS,
+    NUMBER_RUNS,
+    NUMBER_PREPARE,
+    NUMBER_POSE,
+    NUMBER_SIGMA,
+    NUMBER_ERROR,
+    NUMBER_BOUND,
+    NUMBER_ESTIMATE,
+    NUMBER_RELATIVE_ERROR,
+    NUMBER_RELATIVE_BOUND,
+    NUMBER_RELATIVE_ESTIMATE,
+    NUMBERS
+};
+
+/* Their names in CSV and JSON. */
+static const char *const number_name[NUMBERS] = {
+    "resolution",     "mesh_tolerance", "facets",           "repetitions", "prepare_ms",
+    "pose_ms",        "sigma_m2",       "error_m2",         "bound_m2",    "estimate_m2",
+    "relative_error", "relative_bound", "relative_estimate"};
+
+/* NaN where a number is not known, or none. */
+static void numbers_make(const converge_job *job, const converge_setting *one,
+                         double number[NUMBERS])
 {
-    if (value >= 0.0) {
-        printf(" %*.3g", width, value);
-    } else {
-        printf(" %*s", width, "-");
-    }
+    const converge_mesh *mesh = &job->mesh[one->mesh];
+    double bound = cli_converge_known(one->bound_m2);
+    double estimate = cli_converge_known(one->estimate_m2);
+    number[NUMBER_RESOLUTION] = one->resolution ? one->resolution : (double)NAN;
+    number[NUMBER_MESH] = mesh->digits > 0 ? pow(10.0, -mesh->digits) : (double)NAN;
+    number[NUMBER_FACETS] = mesh->scene.scene.facet_count;
+    number[NUMBER_RUNS] = one->runs;
+    number[NUMBER_PREPARE] = 1e3 * mesh->scene.seconds_prepare;
+    number[NUMBER_POSE] = 1e3 * one->pose_s;
+    number[NUMBER_SIGMA] = one->sigma_m2;
+    number[NUMBER_ERROR] = one->error_m2;
+    number[NUMBER_BOUND] = bound;
+    number[NUMBER_ESTIMATE] = estimate;
+    number[NUMBER_RELATIVE_ERROR] = cli_converge_relative(job, one->error_m2);
+    number[NUMBER_RELATIVE_BOUND] = cli_converge_relative(job, bound);
+    number[NUMBER_RELATIVE_ESTIMATE] = cli_converge_relative(job, estimate);
 }
 
 void cli_converge_table(const converge_job *job)
@@ -142,14 +178,18 @@ void cli_converge_table(const converge_job *job)
     printf("%-22s %8s %4s %10s %10s %16s %10s %10s %10s\n", "setting", "facets", "runs", "ms",
            "median ms", "m2", unit, unit, unit);
     for (uint32_t i = 0; i < job->settings; i++) {
-        const converge_setting *one = &job->setting[i];
-        printf("%-22s %8lu %4lu %10.4g %10.4g %16.12g", one->name,
-               (unsigned long)cli_converge_scene(job, one)->scene.facet_count,
-               (unsigned long)one->runs, 1e3 * cli_converge_scene(job, one)->seconds_prepare,
-               1e3 * one->pose_s, one->sigma_m2);
-        number_cell(10, cli_converge_relative(job, one->error_m2));
-        number_cell(10, cli_converge_relative(job, one->bound_m2));
-        number_cell(10, cli_converge_relative(job, one->estimate_m2));
+        double number[NUMBERS];
+        numbers_make(job, &job->setting[i], number);
+        printf("%-22s %8.0f %4.0f %10.4g %10.4g %16.12g", job->setting[i].name,
+               number[NUMBER_FACETS], number[NUMBER_RUNS], number[NUMBER_PREPARE],
+               number[NUMBER_POSE], number[NUMBER_SIGMA]);
+        for (int k = NUMBER_RELATIVE_ERROR; k <= NUMBER_RELATIVE_ESTIMATE; k++) {
+            if (isnan(number[k])) {
+                printf(" %10s", "-");
+            } else {
+                printf(" %10.3g", number[k]);
+            }
+        }
         putchar('\n');
     }
     printf("\n%s\n", sentence.text);
@@ -173,33 +213,24 @@ void cli_converge_csv(const converge_job *job, FILE *out)
 {
     fputs("# ", out);
     cli_converge_about(out, job);
-    fputs("\nsetting,method,resolution,mesh_tolerance,facets,repetitions,prepare_ms,pose_ms,"
-          "sigma_m2,error_m2,bound_m2,estimate_m2,relative_error,relative_bound,"
-          "relative_estimate,accepted_by\n",
-          out);
+    fputs("\nsetting,method", out);
+    for (int k = 0; k < NUMBERS; k++) {
+        fprintf(out, ",%s", number_name[k]);
+    }
+    fputs(",accepted_by\n", out);
     for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
-        const double value[] = {1e3 * cli_converge_scene(job, one)->seconds_prepare,
-                                1e3 * one->pose_s,
-                                one->sigma_m2,
-                                one->error_m2,
-                                one->bound_m2,
-                                one->estimate_m2,
-                                cli_converge_relative(job, one->error_m2),
-                                cli_converge_relative(job, one->bound_m2),
-                                cli_converge_relative(job, one->estimate_m2)};
-        char text[LRCS_HOST_NUMBER_SIZE] = "";
-        fprintf(out, "%s,%s,", one->name, lrcs_method_text(one->method));
-        fprintf(out, one->resolution ? "%lu," : ",", (unsigned long)one->resolution);
-        if (job->mesh[one->mesh].digits > 0) {
-            snprintf(text, sizeof text, "1e-%d", job->mesh[one->mesh].digits);
-        }
-        fprintf(out, "%s,%lu,%lu", text,
-                (unsigned long)cli_converge_scene(job, one)->scene.facet_count,
-                (unsigned long)one->runs);
-        for (size_t k = 0; k < sizeof value / sizeof value[0]; k++) {
-            lrcs_host_number_text(value[k], text);
-            fprintf(out, ",%s", value[k] >= 0.0 ? text : "");
+        double number[NUMBERS];
+        numbers_make(job, one, number);
+        fprintf(out, "%s,%s", one->name, lrcs_method_text(one->method));
+        for (int k = 0; k < NUMBERS; k++) {
+            if (isnan(number[k])) {
+                putc(',', out);
+            } else if (k == NUMBER_MESH) {
+                fprintf(out, ",1e-%d", job->mesh[one->mesh].digits);
+            } else {
+                cli_number_put(out, ",", number[k]);
+            }
         }
         fprintf(out, ",%s\n", one->accepted_by ? one->accepted_by : "");
     }
@@ -209,25 +240,14 @@ void cli_converge_csv(const converge_job *job, FILE *out)
 
 static void setting_json(const converge_job *job, const converge_setting *one, lrcs_host_json *json)
 {
-    int digits = job->mesh[one->mesh].digits;
+    double number[NUMBERS];
+    numbers_make(job, one, number);
     lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_text(json, "setting", one->name);
     lrcs_host_json_text(json, "method", lrcs_method_text(one->method));
-    lrcs_host_json_number(json, "resolution", one->resolution ? one->resolution : (double)NAN);
-    lrcs_host_json_number(json, "mesh_tolerance", digits > 0 ? pow(10.0, -digits) : (double)NAN);
-    lrcs_host_json_count(json, "facets", cli_converge_scene(job, one)->scene.facet_count);
-    lrcs_host_json_count(json, "repetitions", one->runs);
-    lrcs_host_json_number(json, "prepare_ms", 1e3 * cli_converge_scene(job, one)->seconds_prepare);
-    lrcs_host_json_number(json, "pose_ms", 1e3 * one->pose_s);
-    lrcs_host_json_number(json, "sigma_m2", one->sigma_m2);
-    lrcs_host_json_number(json, "error_m2", one->error_m2);
-    lrcs_host_json_number(json, "bound_m2", cli_converge_known(one->bound_m2));
-    lrcs_host_json_number(json, "estimate_m2", cli_converge_known(one->estimate_m2));
-    lrcs_host_json_number(json, "relative_error", cli_converge_relative(job, one->error_m2));
-    lrcs_host_json_number(json, "relative_bound",
-                          cli_converge_known(cli_converge_relative(job, one->bound_m2)));
-    lrcs_host_json_number(json, "relative_estimate",
-                          cli_converge_known(cli_converge_relative(job, one->estimate_m2)));
+    for (int k = 0; k < NUMBERS; k++) {
+        lrcs_host_json_number(json, number_name[k], number[k]);
+    }
     if (one->digits > 0) {
         lrcs_host_json_number(json, "tolerance", pow(10.0, -one->digits));
         lrcs_host_json_text(json, "accepted_by", one->accepted_by);
@@ -245,22 +265,6 @@ static void cheapest_json(const char *key, double tolerance, const converge_sett
     lrcs_host_json_text(json, "setting", one ? one->name : NULL);
     lrcs_host_json_number(json, "pose_ms", one ? 1e3 * one->pose_s : (double)NAN);
     lrcs_host_json_number(json, "bound_m2", one ? one->bound_m2 : (double)NAN);
-    lrcs_host_json_end(json);
-}
-
-static void notices_json(const converge_job *job, lrcs_host_json *json)
-{
-    lrcs_host_json_begin(json, "notices", LRCS_HOST_ARRAY);
-    const lrcs_host_notices *notices = &cli_converge_finest(job)->scene.notices;
-    for (uint32_t i = 0; i < notices->count; i++) {
-        lrcs_host_json_text(json, NULL, notices->text[i]);
-    }
-    if (job->left_out[0]) {
-        lrcs_host_json_text(json, NULL, job->left_out);
-    }
-    if (job->busy[0]) {
-        lrcs_host_json_text(json, NULL, job->busy);
-    }
     lrcs_host_json_end(json);
 }
 
@@ -293,7 +297,15 @@ void cli_converge_json(const converge_job *job)
     }
     lrcs_host_json_end(&json);
     cheapest_json("best", 0.0, setting_best(job), &json);
-    notices_json(job, &json);
+    lrcs_host_json_begin(&json, "notices", LRCS_HOST_ARRAY);
+    cli_notices_json(&scene->notices, &json);
+    if (job->left_out[0]) {
+        lrcs_host_json_text(&json, NULL, job->left_out);
+    }
+    if (job->busy[0]) {
+        lrcs_host_json_text(&json, NULL, job->busy);
+    }
+    lrcs_host_json_end(&json);
     lrcs_host_json_text(&json, "sentence", sentence.text);
     cli_provenance_json(job->args, scene, &json);
     lrcs_host_json_end(&json);

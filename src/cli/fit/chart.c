@@ -80,35 +80,31 @@ static void line_take(const fit_material *material, double y, chart_points *poin
 
 enum { CHART_KEPT, CHART_OUTLIERS, CHART_FIT, CHART_GLINT, CHART_DIFFUSE, CHART_SERIES };
 
-static const lrcs_host_series chart_looks[2][CHART_SERIES] = {
-    {{.name = "readings", .colour = LRCS_HOST_BLUE, .dash = LRCS_HOST_NO_LINE},
-     {.name = "set aside",
-      .colour = LRCS_HOST_VERMILION,
-      .dash = LRCS_HOST_NO_LINE,
-      .marker = LRCS_HOST_CROSS},
-     {.name = "fit", .colour = LRCS_HOST_BLACK, .marker = LRCS_HOST_NO_MARKER},
-     {.name = "glint",
-      .colour = LRCS_HOST_ORANGE,
-      .marker = LRCS_HOST_NO_MARKER,
-      .dash = LRCS_HOST_DASHED},
-     {.name = "diffuse",
-      .colour = LRCS_HOST_GREEN,
-      .marker = LRCS_HOST_NO_MARKER,
-      .dash = LRCS_HOST_DASHED}},
-    {{.name = "residuals", .colour = LRCS_HOST_BLUE, .dash = LRCS_HOST_NO_LINE},
-     {.name = "set aside",
-      .colour = LRCS_HOST_VERMILION,
-      .dash = LRCS_HOST_NO_LINE,
-      .marker = LRCS_HOST_CROSS},
-     {.name = "fit", .colour = LRCS_HOST_BLACK, .marker = LRCS_HOST_NO_MARKER},
-     {.name = "+2 errors",
-      .colour = LRCS_HOST_BLACK,
-      .marker = LRCS_HOST_NO_MARKER,
-      .dash = LRCS_HOST_DOTTED},
-     {.name = "-2 errors",
-      .colour = LRCS_HOST_BLACK,
-      .marker = LRCS_HOST_NO_MARKER,
-      .dash = LRCS_HOST_DOTTED}}};
+/* The third to fifth series of the two charts; the first two are readings, kept or set aside. */
+static const struct {
+    const char *name;
+    int colour, dash;
+} chart_lines[2][3] = {{{"fit", LRCS_HOST_BLACK, LRCS_HOST_SOLID},
+                        {"glint", LRCS_HOST_ORANGE, LRCS_HOST_DASHED},
+                        {"diffuse", LRCS_HOST_GREEN, LRCS_HOST_DASHED}},
+                       {{"fit", LRCS_HOST_BLACK, LRCS_HOST_SOLID},
+                        {"+2 errors", LRCS_HOST_BLACK, LRCS_HOST_DOTTED},
+                        {"-2 errors", LRCS_HOST_BLACK, LRCS_HOST_DOTTED}}};
+
+static lrcs_host_series series_look(int residuals, int i)
+{
+    if (i >= CHART_FIT) {
+        return (lrcs_host_series){.name = chart_lines[residuals][i - CHART_FIT].name,
+                                  .colour = chart_lines[residuals][i - CHART_FIT].colour,
+                                  .dash = chart_lines[residuals][i - CHART_FIT].dash,
+                                  .marker = LRCS_HOST_NO_MARKER};
+    }
+    const char *kept = residuals ? "residuals" : "readings";
+    return (lrcs_host_series){.name = i == CHART_KEPT ? kept : "set aside",
+                              .colour = i == CHART_KEPT ? LRCS_HOST_BLUE : LRCS_HOST_VERMILION,
+                              .marker = i == CHART_KEPT ? LRCS_HOST_DISC : LRCS_HOST_CROSS,
+                              .dash = LRCS_HOST_NO_LINE};
+}
 
 /* Fills all series of a chart. */
 static void series_take(const fit_job *job, int residuals, chart_points points[CHART_SERIES])
@@ -190,7 +186,7 @@ static int chart_draw(const fit_job *job, int residuals, const char *path,
         axis_choose(points, &chart);
     }
     for (int i = 0; i < CHART_SERIES; i++) { /* only series that have points */
-        lrcs_host_series one = chart_looks[residuals][i];
+        lrcs_host_series one = series_look(residuals, i);
         one.x = points[i].x;
         one.y = points[i].y;
         one.count = points[i].count;

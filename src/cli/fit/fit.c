@@ -108,34 +108,23 @@ static int fit_read(fit_job *job)
 
 /* ---- materials ---- */
 
-/* The file's name without folders and extension; the caller frees it. */
-static char *stem_make(const char *path)
-{
-    const char *name = cli_base_name(path);
-    const char *dot = strrchr(name, '.');
-    size_t size = dot && dot != name ? (size_t)(dot - name) : strlen(name);
-    char *stem = malloc(size + 1);
-    if (stem) {
-        memcpy(stem, name, size);
-        stem[size] = '\0';
-    }
-    return stem;
-}
-
-/* Gives readings without a material the name asked for, or that of the file. */
+/* Gives readings without a material the name asked for, or that of the file without its folders and
+   extension. */
 static int material_name(fit_job *job)
 {
     lrcs_host_readings *readings = &job->readings;
     const char *asked = cli_value(job->args, "name");
+    const char *name = asked ? asked : cli_base_name(job->args->operand);
+    const char *dot = asked ? NULL : strrchr(name, '.');
     if (readings->name_count != 1 || readings->name[0][0] != '\0') {
         return 0;
     }
-    char *name = asked ? strdup(asked) : stem_make(job->args->operand);
-    if (!name) {
+    char *own = strndup(name, dot && dot != name ? (size_t)(dot - name) : strlen(name));
+    if (!own) {
         return cli_out_of_memory();
     }
     free(readings->name[0]);
-    readings->name[0] = name;
+    readings->name[0] = own;
     return 0;
 }
 
@@ -159,15 +148,10 @@ static int material_take(const lrcs_host_readings *readings, uint32_t index, fit
     return 0;
 }
 
-/* The expected error of a reading for a kind of errors (lrcs_fit_noise), up to a common factor. */
-static double noise_size(const fit_material *material, int noise, uint32_t i, double most)
-{
-    return noise == LRCS_FIT_RELATIVE ? fmax(material->point[i].fitted, 1e-4 * most) : 1.0;
-}
-
 /* The logarithm of the likelihood of all residuals, up to a constant, for errors with a Cauchy
-   distribution, on which outliers have little influence. Its width is the likeliest one (by
-   expectation and maximisation). */
+   distribution, on which outliers have little influence. The expected errors of the readings are
+   the same (absolute) or in proportion to the fit (relative), up to a common width, which is the
+   likeliest one (by expectation and maximisation). */
 static double noise_likelihood(const fit_material *material, int noise)
 {
     double most = 0.0;
@@ -180,8 +164,9 @@ static double noise_likelihood(const fit_material *material, int noise)
         double next = 0.0;
         sum = 0.0;
         for (uint32_t i = 0; i < material->count; i++) {
-            double size = noise_size(material, noise, i, most);
-            double x = material->point[i].residual / size;
+            const lrcs_fit_point *point = &material->point[i];
+            double size = noise == LRCS_FIT_RELATIVE ? fmax(point->fitted, 1e-4 * most) : 1.0;
+            double x = point->residual / size;
             sum -= log(size) + 0.5 * log(square) + log1p(x * x / square);
             next += 2.0 * x * x / (1.0 + x * x / square) / material->count;
         }

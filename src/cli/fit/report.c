@@ -269,11 +269,7 @@ static void correlation_json(const lrcs_fit *fit, lrcs_host_json *json)
 {
     lrcs_host_json_begin(json, "correlation", LRCS_HOST_ARRAY);
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_ARRAY);
-        for (int q = 0; q < LRCS_FIT_PARAMETERS; q++) {
-            lrcs_host_json_number(json, NULL, fit->correlation[p][q]);
-        }
-        lrcs_host_json_end(json);
+        cli_numbers_json(json, NULL, fit->correlation[p], LRCS_FIT_PARAMETERS);
     }
     lrcs_host_json_end(json);
 }
@@ -329,9 +325,7 @@ void cli_fit_json(const fit_job *job)
     }
     lrcs_host_json_end(&json);
     lrcs_host_json_begin(&json, "notices", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; i < job->readings.notices.count; i++) {
-        lrcs_host_json_text(&json, NULL, job->readings.notices.text[i]);
-    }
+    cli_notices_json(&job->readings.notices, &json);
     lrcs_host_json_end(&json);
     cli_options_json(job->args, &json);
     lrcs_host_json_end(&json);

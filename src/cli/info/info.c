@@ -29,15 +29,6 @@ static const cli_option info_options[] = {
 
 /* ---- JSON ---- */
 
-static void json_point(lrcs_host_json *json, const char *key, const double x[3])
-{
-    lrcs_host_json_begin(json, key, LRCS_HOST_ROW_ARRAY);
-    for (int k = 0; k < 3; k++) {
-        lrcs_host_json_number(json, NULL, x[k]);
-    }
-    lrcs_host_json_end(json);
-}
-
 static void json_materials(const cli_info *info, lrcs_host_json *json)
 {
     lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
@@ -112,8 +103,8 @@ static void info_json(const cli_args *args, const cli_info *info)
     lrcs_host_json_count(&json, "facets", scene->facet_count);
     lrcs_host_json_number(&json, "area_m2", report->area);
     lrcs_host_json_number(&json, "volume_m3", report->volume);
-    json_point(&json, "box_min_m", report->box_min);
-    json_point(&json, "box_max_m", report->box_max);
+    cli_numbers_json(&json, "box_min_m", report->box_min, 3);
+    cli_numbers_json(&json, "box_max_m", report->box_max, 3);
     lrcs_host_json_bool(&json, "closed", report->closed);
     lrcs_host_json_bool(&json, "convex", report->convex);
     json_materials(info, &json);

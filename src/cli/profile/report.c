@@ -111,9 +111,7 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
     }
     lrcs_host_json_end(json);
     lrcs_host_json_begin(json, "notices", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; i < job->scene.notices.count; i++) {
-        lrcs_host_json_text(json, NULL, job->scene.notices.text[i]);
-    }
+    cli_notices_json(&job->scene.notices, json);
     lrcs_host_json_end(json);
 }
 

@@ -68,6 +68,23 @@ static void lead_sigma(FILE *out, const report_job *job)
           out);
 }
 
+static void lead_materials(FILE *out, const report_job *job)
+{
+    double deviation = job->uncertainty.deviation_m2;
+    if (!job->uncertainty.stated) {
+        return;
+    }
+    fputs(" The stated errors of materials leave it uncertain by <b>", out);
+    cli_page_number(out, NULL, deviation, 3);
+    fputs(" m\xc2\xb2", out);
+    if (job->result.sigma_m2 > 0.0) {
+        fputs(", ", out);
+        cli_page_number(out, NULL, 100.0 * deviation / job->result.sigma_m2, 3);
+        fputs(" %", out);
+    }
+    fputs("</b> (one standard deviation).", out);
+}
+
 static void lead_direction(FILE *out, const report_job *job)
 {
     const double *d = job->pose.direction;
@@ -90,6 +107,7 @@ static void page_lead(FILE *out, const report_job *job)
     cli_page_text(out, cli_report_title(job));
     fputs("</h1>\n", out);
     lead_sigma(out, job);
+    lead_materials(out, job);
     lead_direction(out, job);
     cli_report_verdict(out, job);
     fputs("</header>\n", out);

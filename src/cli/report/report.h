@@ -62,7 +62,8 @@ typedef struct report_job {
     uint32_t peaks;
     converge_job converge;
     report_bytes chart;
-    report_bytes verdict; /* as printed by lrcs run */
+    report_bytes verdict;         /* as printed by lrcs run */
+    lrcs_uncertainty uncertainty; /* of sigma, by the errors of materials */
 } report_job;
 
 /* ---- what it measures: 0 or an exit code with the message printed ---- */

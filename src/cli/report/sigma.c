@@ -30,6 +30,10 @@ static void sigma_facts(FILE *out, const report_job *job)
     cli_page_bound(out, "bound_m2", r->bound_m2, 3);
     fputs(" m\xc2\xb2", out);
     cli_page_fact_end(out);
+    if (job->uncertainty.stated) {
+        sigma_fact(out, "Materials, one standard deviation", "material_deviation_m2",
+                   job->uncertainty.deviation_m2, 3, "m\xc2\xb2");
+    }
     if (r->estimate_m2 >= 0.0) {
         sigma_fact(out, "Likely error, an estimate", "estimate_m2", r->estimate_m2, 3, "m\xc2\xb2");
     }

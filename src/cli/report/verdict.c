@@ -32,6 +32,7 @@ int cli_report_verdict_make(report_job *job)
     } else if (code == 0) {
         code = CLI_FAILED;
     }
+    job->uncertainty = run->uncertainty;
     free(run->sensitivity);
     free(run);
     return code;

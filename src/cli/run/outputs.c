@@ -40,6 +40,22 @@ static int image_check(const cli_args *args, const char *path)
     return 0;
 }
 
+/* Checks that no table has the name of what stands beside the other one. */
+static int besides_check(const run_job *job)
+{
+    const char *table[2] = {job->facets, job->polygons_path};
+    for (int i = 0; table[0] && table[1] && i < 2; i++) {
+        size_t size = strlen(table[i]);
+        if (strncmp(table[1 - i], table[i], size) == 0 &&
+            strcmp(table[1 - i] + size, CLI_BESIDE) == 0) {
+            return cli_usage(job->args->command,
+                             "%s is the file that names what '%s' was made from", table[1 - i],
+                             table[i]);
+        }
+    }
+    return 0;
+}
+
 int cli_run_outputs_read(run_job *job)
 {
     const cli_args *args = job->args;
@@ -58,6 +74,7 @@ int cli_run_outputs_read(run_job *job)
     }
     int code = image_check(args, job->image_path);
     code = code ? code : files_apart(job);
+    code = code ? code : besides_check(job);
     if (code == 0 && cli_value(args, "image-size") && !job->image_path) {
         return cli_usage(args->command, "--image-size needs --image FILE.png");
     }

@@ -140,11 +140,7 @@ static void json_box(const run_job *job, lrcs_host_json *json)
     double box[2][3];
     lrcs_host_scene_box(&job->scene.scene, box[0], box[1]);
     for (int i = 0; i < 2; i++) {
-        lrcs_host_json_begin(json, i == 0 ? "box_min_m" : "box_max_m", LRCS_HOST_ROW_ARRAY);
-        for (int k = 0; k < 3; k++) {
-            lrcs_host_json_number(json, NULL, box[i][k]);
-        }
-        lrcs_host_json_end(json);
+        cli_numbers_json(json, i == 0 ? "box_min_m" : "box_max_m", box[i], 3);
     }
 }
 

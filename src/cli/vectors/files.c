@@ -37,6 +37,17 @@ static int obj_write(FILE *out, const void *context, lrcs_host_error *error)
     return LRCS_OK;
 }
 
+int cli_vectors_write(const char *prefix, const vectors_file *file, int count, const void *context)
+{
+    int code = 0;
+    for (int i = 0; i < count && code == 0; i++) {
+        char path[KIT_PATH];
+        code = cli_kit_path(path, "%s%s", prefix, file[i].name);
+        code = code ? code : cli_output_write(path, file[i].write, context);
+    }
+    return code;
+}
+
 static int mesh_wears(const vectors_mesh *mesh, uint32_t material)
 {
     uint32_t i = 0;
@@ -100,11 +111,7 @@ static void mesh_json(lrcs_host_json *json, const vectors_mesh *mesh)
 {
     lrcs_host_json_begin(json, "vertices_m", LRCS_HOST_ARRAY);
     for (uint32_t i = 0; i < mesh->vertices; i++) {
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_ARRAY);
-        for (int k = 0; k < 3; k++) {
-            lrcs_host_json_number(json, NULL, mesh->vertex[i].x[k]);
-        }
-        lrcs_host_json_end(json);
+        cli_numbers_json(json, NULL, mesh->vertex[i].x, 3);
     }
     lrcs_host_json_end(json);
     lrcs_host_json_begin(json, "facets", LRCS_HOST_ARRAY);
@@ -141,16 +148,10 @@ static int json_write(FILE *out, const void *context, lrcs_host_error *error)
 
 int cli_vectors_files(const vectors_job *job, const vectors_scene *scene, const vectors_mesh *mesh)
 {
-    static const struct {
-        const char *ending;
-        cli_writer *write;
-    } form[] = {{"obj", obj_write}, {"mtl", mtl_write}, {"stl", stl_write}, {"json", json_write}};
-    const files_scene file = {scene, mesh};
-    int code = 0;
-    for (size_t i = 0; i < sizeof form / sizeof form[0] && code == 0; i++) {
-        char path[KIT_PATH];
-        code = cli_kit_path(path, "%s/scenes/%s.%s", job->folder, scene->name, form[i].ending);
-        code = code ? code : cli_output_write(path, form[i].write, &file);
-    }
-    return code;
+    static const vectors_file file[] = {
+        {"obj", obj_write}, {"mtl", mtl_write}, {"stl", stl_write}, {"json", json_write}};
+    const files_scene context = {scene, mesh};
+    char prefix[KIT_PATH];
+    int code = cli_kit_path(prefix, "%s/scenes/%s.", job->folder, scene->name);
+    return code ? code : cli_vectors_write(prefix, file, 4, &context);
 }

@@ -134,26 +134,22 @@ static void depth_fill(images_case *file)
 int cli_vectors_images(const vectors_job *job, const vectors_case *one, const lrcs_scene *scene,
                        const lrcs_image *image)
 {
-    static const struct {
-        const char *ending;
-        cli_writer *write;
-    } form[] = {{"item.u32", item_raw},
-                {"item.png", item_png},
-                {"depth.f64", depth_raw},
-                {"depth.png", depth_png}};
-    images_case file = {.one = one, .scene = scene, .image = image};
-    file.depth = malloc((size_t)image->size * image->size * sizeof *file.depth);
-    if (!file.depth) {
+    static const vectors_file file[] = {{"item.u32", item_raw},
+                                        {"item.png", item_png},
+                                        {"depth.f64", depth_raw},
+                                        {"depth.png", depth_png}};
+    images_case context = {.one = one, .scene = scene, .image = image};
+    char prefix[KIT_PATH];
+    if (cli_kit_path(prefix, "%s/truth/%s.%s.", job->folder, one->scene->name,
+                     one->attitude->name) != 0) {
+        return CLI_FAILED;
+    }
+    context.depth = malloc((size_t)image->size * image->size * sizeof *context.depth);
+    if (!context.depth) {
         return cli_out_of_memory();
     }
-    depth_fill(&file);
-    int code = 0;
-    for (size_t i = 0; i < sizeof form / sizeof form[0] && code == 0; i++) {
-        char path[KIT_PATH];
-        code = cli_kit_path(path, "%s/truth/%s.%s.%s", job->folder, one->scene->name,
-                            one->attitude->name, form[i].ending);
-        code = code ? code : cli_output_write(path, form[i].write, &file);
-    }
-    free(file.depth);
+    depth_fill(&context);
+    int code = cli_vectors_write(prefix, file, 4, &context);
+    free(context.depth);
     return code;
 }

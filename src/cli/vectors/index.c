@@ -4,6 +4,8 @@
    with the list of scenes. */
 #include "cli/vectors/vectors.h"
 
+#include <string.h>
+
 static const char readme_text[] = {
 #include "readme.inc"
 };
@@ -25,7 +27,7 @@ static int materials_write(FILE *out, const void *context, lrcs_host_error *erro
 {
     (void)context;
     (void)error;
-    fputs(KIT_MATERIALS_HEAD "\n", out);
+    fputs("material,A,B,s,m,two_sided\n", out);
     for (uint32_t i = 0; cli_vectors_materials[i].name; i++) {
         const vectors_material *material = &cli_vectors_materials[i];
         const double value[4] = {material->brdf.A, material->brdf.B, material->brdf.s,
@@ -37,58 +39,75 @@ static int materials_write(FILE *out, const void *context, lrcs_host_error *erro
     return LRCS_OK;
 }
 
+/* ---- cases, the same numbers as columns and as JSON ---- */
+
+enum { CASE_NUMBERS = 11 };
+
+/* The numbers of a case: their columns, and their key, with an array if they are several. */
+static const struct {
+    const char *columns, *key;
+    int count;
+} case_numbers[CASE_NUMBERS] = {
+    {"qw,qx,qy,qz", "quaternion", 4},      {"sx,sy,sz", "s_hat", 3},
+    {"az_deg,el_deg", "azel_deg", 2},      {"sigma_m2", "sigma_m2", 1},
+    {"bound_m2", "bound_m2", 1},           {"glint_m2", "glint_m2", 1},
+    {"diffuse_m2", "diffuse_m2", 1},       {"silhouette_m2", "silhouette_m2", 1},
+    {"float_m2", "float_m2", 1},           {"edge_m2", "edge_m2", 1},
+    {"left_m,top_m,side_m", "window_m", 3}};
+
+/* Where they are. */
+static void case_values(const vectors_case *one, const double *value[CASE_NUMBERS])
+{
+    const lrcs_result *r = &one->result;
+    const double *const all[CASE_NUMBERS] = {
+        one->quaternion, one->direction,     one->azel_deg,        &r->sigma_m2,
+        &r->bound_m2,    &r->sigma_glint_m2, &r->sigma_diffuse_m2, &r->projected_area_m2,
+        &one->float_m2,  &one->edge_m2,      one->window};
+    memcpy(value, all, sizeof all);
+}
+
 static int cases_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const vectors_job *job = context;
+    const double *value[CASE_NUMBERS];
     (void)error;
-    fputs(KIT_CASES_HEAD "\n", out);
+    fputs("scene,attitude,tier", out);
+    for (int k = 0; k < CASE_NUMBERS; k++) {
+        fprintf(out, ",%s", case_numbers[k].columns);
+    }
+    fputs(",image\n", out);
     for (uint32_t i = 0; i < job->cases; i++) {
         const vectors_case *one = &job->list[i];
-        const lrcs_result *r = &one->result;
-        const double sum[7] = {r->sigma_m2,         r->bound_m2,          r->sigma_glint_m2,
-                               r->sigma_diffuse_m2, r->projected_area_m2, one->float_m2,
-                               one->edge_m2};
+        case_values(one, value);
         fprintf(out, "%s,%s,%d", one->scene->name, one->attitude->name, one->scene->tier);
-        numbers_print(out, one->quaternion, 4);
-        numbers_print(out, one->direction, 3);
-        numbers_print(out, one->azel_deg, 2);
-        numbers_print(out, sum, 7);
-        numbers_print(out, one->window, 3);
+        for (int k = 0; k < CASE_NUMBERS; k++) {
+            numbers_print(out, value[k], case_numbers[k].count);
+        }
         fprintf(out, ",%lu\n", one->image ? (unsigned long)job->resolution : 0UL);
     }
     return LRCS_OK;
 }
 
-static void json_list(lrcs_host_json *json, const char *key, const double *value, int count)
-{
-    lrcs_host_json_begin(json, key, LRCS_HOST_ROW_ARRAY);
-    for (int i = 0; i < count; i++) {
-        lrcs_host_json_number(json, NULL, value[i]);
-    }
-    lrcs_host_json_end(json);
-}
-
 static void case_json(lrcs_host_json *json, const vectors_job *job, const vectors_case *one)
 {
-    const lrcs_result *r = &one->result;
+    const double *value[CASE_NUMBERS];
+    case_values(one, value);
     lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
     lrcs_host_json_text(json, "scene", one->scene->name);
     lrcs_host_json_text(json, "attitude", one->attitude->name);
     lrcs_host_json_count(json, "tier", (uint64_t)one->scene->tier);
-    json_list(json, "quaternion", one->quaternion, 4);
-    json_list(json, "s_hat", one->direction, 3);
-    json_list(json, "azel_deg", one->azel_deg, 2);
-    lrcs_host_json_number(json, "sigma_m2", r->sigma_m2);
-    lrcs_host_json_number(json, "bound_m2", r->bound_m2);
-    lrcs_host_json_number(json, "glint_m2", r->sigma_glint_m2);
-    lrcs_host_json_number(json, "diffuse_m2", r->sigma_diffuse_m2);
-    lrcs_host_json_number(json, "silhouette_m2", r->projected_area_m2);
-    lrcs_host_json_number(json, "float_m2", one->float_m2);
-    lrcs_host_json_number(json, "edge_m2", one->edge_m2);
-    json_list(json, "window_m", one->window, 3);
+    for (int k = 0; k < CASE_NUMBERS; k++) {
+        if (case_numbers[k].count == 1) {
+            lrcs_host_json_number(json, case_numbers[k].key, *value[k]);
+        } else {
+            cli_numbers_json(json, case_numbers[k].key, value[k], (uint32_t)case_numbers[k].count);
+        }
+    }
     lrcs_host_json_count(json, "image", one->image ? job->resolution : 0);
     lrcs_host_json_end(json);
 }
+
+/* ---- kit.json ---- */
 
 static void tiers_json(lrcs_host_json *json)
 {
@@ -111,7 +130,7 @@ static void materials_list(lrcs_host_json *json)
                                 material->brdf.m};
         lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
         lrcs_host_json_text(json, "name", material->name);
-        json_list(json, "A_B_s_m", brdf, 4);
+        cli_numbers_json(json, "A_B_s_m", brdf, 4);
         lrcs_host_json_bool(json, "two_sided", material->two_sided);
         lrcs_host_json_end(json);
     }
@@ -166,18 +185,11 @@ static int readme_write(FILE *out, const void *context, lrcs_host_error *error)
 
 int cli_vectors_index(const vectors_job *job)
 {
-    static const struct {
-        const char *name;
-        cli_writer *write;
-    } file[] = {{KIT_MATERIALS_FILE, materials_write},
-                {KIT_CASES_FILE, cases_write},
-                {"README.md", readme_write},
-                {"kit.json", kit_write}};
-    int code = 0;
-    for (size_t i = 0; i < sizeof file / sizeof file[0] && code == 0; i++) {
-        char path[KIT_PATH];
-        code = cli_kit_path(path, "%s/%s", job->folder, file[i].name);
-        code = code ? code : cli_output_write(path, file[i].write, job);
-    }
-    return code;
+    static const vectors_file file[] = {{KIT_MATERIALS_FILE, materials_write},
+                                        {KIT_CASES_FILE, cases_write},
+                                        {"README.md", readme_write},
+                                        {"kit.json", kit_write}};
+    char prefix[KIT_PATH];
+    int code = cli_kit_path(prefix, "%s/", job->folder);
+    return code ? code : cli_vectors_write(prefix, file, 4, job);
 }

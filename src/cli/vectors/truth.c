@@ -114,16 +114,7 @@ static int case_run(truth_run *run, vectors_case *one)
     return one->image ? cli_vectors_images(run->job, one, &run->host.scene, &run->image) : 0;
 }
 
-static int truth_write(truth_run *run, vectors_job *job, const vectors_scene *scene)
-{
-    int code = 0;
-    fputs("scene,attitude,facet,cos_theta,visible_area_m2,sigma_m2\n", run->out);
-    for (uint32_t i = 0; i < job->cases && code == 0; i++) {
-        code = job->list[i].scene == scene ? case_run(run, &job->list[i]) : 0;
-    }
-    return code;
-}
-
+/* Writes NAME.facets.csv with the facets of all cases, and runs the cases for it. */
 static int truth_file(truth_run *run, vectors_job *job, const vectors_scene *scene)
 {
     lrcs_host_error error;
@@ -135,8 +126,12 @@ static int truth_file(truth_run *run, vectors_job *job, const vectors_scene *sce
     if (lrcs_host_output_open(path, &out, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
+    int code = 0;
     run->out = out.stream;
-    int code = truth_write(run, job, scene);
+    fputs("scene,attitude,facet,cos_theta,visible_area_m2,sigma_m2\n", run->out);
+    for (uint32_t i = 0; i < job->cases && code == 0; i++) {
+        code = job->list[i].scene == scene ? case_run(run, &job->list[i]) : 0;
+    }
     if (lrcs_host_output_close(&out, code == 0, &error) != LRCS_OK) {
         return cli_failed(&error);
     }

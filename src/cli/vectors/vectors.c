@@ -39,12 +39,6 @@ static const cli_option vectors_options[] = {
 
 /* ---- the folder ---- */
 
-static int folder_fail(const char *path)
-{
-    fprintf(stderr, "lrcs: %s: cannot make this folder: %s\n", path, strerror(errno));
-    return CLI_FAILED;
-}
-
 /* 1 if the folder contains files but no kit: such a folder is not written to. */
 static int folder_foreign(const char *path)
 {
@@ -62,23 +56,23 @@ static int folder_foreign(const char *path)
     return entries > 2 && !kit; /* "." and ".." */
 }
 
-static int folder_make(const char *path)
-{
-    return mkdir(path, 0777) == 0 || errno == EEXIST ? 0 : folder_fail(path);
-}
-
 static int folders_make(const char *path)
 {
-    char inside[KIT_PATH];
+    static const char *const name[] = {"", "/scenes", "/truth"};
+    int code = 0;
     if (folder_foreign(path)) {
         fprintf(stderr, "lrcs: %s: holds other files, and no kit: give an empty folder\n", path);
         return CLI_FAILED;
     }
-    int code = folder_make(path);
-    code = code ? code : cli_kit_path(inside, "%s/scenes", path);
-    code = code ? code : folder_make(inside);
-    code = code ? code : cli_kit_path(inside, "%s/truth", path);
-    return code ? code : folder_make(inside);
+    for (int i = 0; i < 3 && code == 0; i++) {
+        char folder[KIT_PATH];
+        code = cli_kit_path(folder, "%s%s", path, name[i]);
+        if (code == 0 && mkdir(folder, 0777) != 0 && errno != EEXIST) {
+            fprintf(stderr, "lrcs: %s: cannot make this folder: %s\n", folder, strerror(errno));
+            code = CLI_FAILED;
+        }
+    }
+    return code;
 }
 
 /* ---- cases ---- */
@@ -140,20 +134,10 @@ static int scene_make(vectors_job *job, const vectors_scene *scene)
     return code ? code : cli_vectors_truth(job, scene);
 }
 
-static void bindings_make(vectors_job *job)
-{
-    for (uint32_t i = 0; cli_vectors_materials[i].name; i++) {
-        job->binding[job->bindings++] =
-            (lrcs_binding){.kind = LRCS_BIND_NAME,
-                           .name = cli_vectors_materials[i].name,
-                           .brdf = cli_vectors_materials[i].brdf,
-                           .two_sided = cli_vectors_materials[i].two_sided};
-    }
-}
-
-/* Allocates memory for the rows of all tables, including the last one. */
+/* Allocates memory for all cases, and makes the bindings of all materials. */
 static int job_room(vectors_job *job)
 {
+    const vectors_material *material = cli_vectors_materials;
     size_t scenes = 0;
     size_t attitudes = 0;
     size_t materials = 0;
@@ -163,12 +147,21 @@ static int job_room(vectors_job *job)
     while (cli_vectors_attitudes[attitudes].name) {
         attitudes++;
     }
-    while (cli_vectors_materials[materials].name) {
+    while (material[materials].name) {
         materials++;
     }
     job->list = calloc(scenes * attitudes + 1, sizeof *job->list);
     job->binding = calloc(materials + 1, sizeof *job->binding);
-    return job->list && job->binding ? 0 : cli_out_of_memory();
+    if (!job->list || !job->binding) {
+        return cli_out_of_memory();
+    }
+    for (; job->bindings < materials; job->bindings++, material++) {
+        job->binding[job->bindings] = (lrcs_binding){.kind = LRCS_BIND_NAME,
+                                                     .name = material->name,
+                                                     .brdf = material->brdf,
+                                                     .two_sided = material->two_sided};
+    }
+    return 0;
 }
 
 static int vectors_make(vectors_job *job, uint32_t tier)
@@ -176,10 +169,6 @@ static int vectors_make(vectors_job *job, uint32_t tier)
     uint32_t scenes = 0;
     int code = job_room(job);
     code = code ? code : folders_make(job->folder);
-    if (code != 0) {
-        return code;
-    }
-    bindings_make(job);
     for (const vectors_scene *scene = cli_vectors_scenes; scene->name && code == 0; scene++) {
         if ((uint32_t)scene->tier <= tier) {
             cli_watch_stage(scene->name, NULL);

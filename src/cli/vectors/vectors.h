@@ -98,6 +98,14 @@ typedef struct vectors_job {
     uint32_t cases;
 } vectors_job;
 
+/* Files whose paths begin alike, with what writes them. 0 or CLI_FAILED with the message printed.
+ */
+typedef struct vectors_file {
+    const char *name;
+    cli_writer *write;
+} vectors_file;
+int cli_vectors_write(const char *prefix, const vectors_file *file, int count, const void *context);
+
 /* scenes/NAME.obj, .mtl, .stl and .json. */
 int cli_vectors_files(const vectors_job *job, const vectors_scene *scene, const vectors_mesh *mesh);
 
