@@ -35,6 +35,8 @@ static void blocks_place(lrcsi_cells_grid *c)
     for (int k = 0; k < 2; k++) {
         c->low[k] = grid->low[k] / c->classification->view->scale;
         c->high[k] = c->low[k] + size * c->size;
+        c->least[k] = c->low[k];
+        c->most[k] = c->high[k];
     }
 }
 
@@ -80,6 +82,10 @@ static void blocks_put_facet(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t
     uint32_t x[2];
     uint32_t y[2];
     lrcsi_view_bounds(c->classification->view, corner, 3, low, high);
+    for (int k = 0; k < 2; k++) {
+        c->least[k] = lrcsi_least(c->least[k], low[k]);
+        c->most[k] = lrcsi_most(c->most[k], high[k]);
+    }
     block_range(c, low[0], high[0], 0, &x[0], &x[1]);
     block_range(c, low[1], high[1], 1, &y[0], &y[1]);
     for (uint32_t row = y[0]; row < y[1]; row++) {
@@ -162,7 +168,9 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
     return 1;
 }
 
-/* The ring reaches out of the window of all that stands in the view. */
+/* The ring reaches out of the window of all that stands in the view, and as far as facets may do
+   whose corners are not where they are computed to be: in a view no wider than that error, as along
+   a needle, a good part of a facet may stand outside of its window. */
 double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y,
                                lrcsi_clip_polygon *shape, double middle[2])
 {
@@ -174,9 +182,12 @@ double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y
         double start = c->classification->view->low[k];
         double end = c->classification->view->low[k] + c->classification->view->side;
         double wide = 0x1p-30 * (fabs(start) + fabs(end) + c->side * c->size);
-        low[k] = at[k] > 0 ? block_edge(c, at[k], k) : lrcsi_least(start, c->low[k]) - wide;
-        high[k] =
-            at[k] + 1 < c->side ? block_edge(c, at[k] + 1, k) : lrcsi_most(end, c->high[k]) + wide;
+        double near = 64 * LRCSI_U * (fabs(c->least[k]) + fabs(c->most[k]));
+        low[k] = at[k] > 0 ? block_edge(c, at[k], k)
+                           : lrcsi_least(lrcsi_least(start, c->low[k]) - wide, c->least[k] - near);
+        high[k] = at[k] + 1 < c->side
+                      ? block_edge(c, at[k] + 1, k)
+                      : lrcsi_most(lrcsi_most(end, c->high[k]) + wide, c->most[k] + near);
         middle[k] = 0.5 * (low[k] + high[k]);
         low[k] -= middle[k];
         high[k] -= middle[k];

@@ -17,9 +17,10 @@ typedef struct lrcsi_cells_lists {
 
 typedef struct lrcsi_cells_grid {
     const lrcsi_classification *classification;
-    uint32_t side;          /* blocks along a side, with a ring of blocks for what is outside */
-    double low[2], high[2]; /* of the blocks within the ring */
-    double size;            /* of a block */
+    uint32_t side;            /* blocks along a side, with a ring of blocks for what is outside */
+    double low[2], high[2];   /* of the blocks within the ring */
+    double least[2], most[2]; /* of these and of all facets, with the errors of their corners */
+    double size;              /* of a block */
     lrcsi_cells_lists facets, events;
 } lrcsi_cells_grid;
 

@@ -245,6 +245,21 @@ static void moebius_strip_wound_at_random(void **state)
 
 /* --- at random -------------------------------------------------------------------------------- */
 
+/* A needle of some ulps, seen along itself: all of the view is as wide as the errors of the
+   needle's corners in it, and some of the needle lies outside of the window that holds these. */
+static void needle_along_the_line_of_sight_has_all_of_its_area(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){-21, 18, 0},
+                   (const double[3]){-0x1.37fffffffffffp+5, 24, -0x1.7ffffffffffffp+4},
+                   (const double[3]){-12, 15, 12});
+    turned((const double[3]){-0x1.2000000000005p+2, 0x1.7ffffffffffd7p+0, -0x1.8000000000001p+2});
+    uint32_t left;
+    assert_int_equal(ask(&left), 1);
+    check_rel(share(0), 1.0, 1e-12);
+}
+
 static uint32_t dice_state;
 
 static uint32_t dice(uint32_t most)
@@ -369,6 +384,7 @@ int main(void)
         cmocka_unit_test(plates_that_pierce_each_other),
         cmocka_unit_test(ramp_that_passes_behind_itself),
         cmocka_unit_test(moebius_strip_wound_at_random),
+        cmocka_unit_test(needle_along_the_line_of_sight_has_all_of_its_area),
         cmocka_unit_test(soups_on_few_points_agree_with_clipping),
         cmocka_unit_test(hatch_takes_steps_like_the_pieces_that_are_seen),
         cmocka_unit_test(steps_that_run_out_leave_facets_open),
