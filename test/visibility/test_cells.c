@@ -243,8 +243,6 @@ static void moebius_strip_wound_at_random(void **state)
     }
 }
 
-/* --- at random -------------------------------------------------------------------------------- */
-
 /* A needle of some ulps, seen along itself: all of the view is as wide as the errors of the
    needle's corners in it, and some of the needle lies outside of the window that holds these. */
 static void needle_along_the_line_of_sight_has_all_of_its_area(void **state)
@@ -259,6 +257,8 @@ static void needle_along_the_line_of_sight_has_all_of_its_area(void **state)
     assert_int_equal(ask(&left), 1);
     check_rel(share(0), 1.0, 1e-12);
 }
+
+/* --- at random -------------------------------------------------------------------------------- */
 
 static uint32_t dice_state;
 
