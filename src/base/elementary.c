@@ -21,13 +21,13 @@
    Logarithm: x = 2^k f with f in [sqrt(1/2), sqrt(2)), s = (f - 1)/(f + 1), |s| <= 0.17158,
    z = s^2 <= 0.02944, log(f) = 2 s + s z Q(z), Q = 2/3 + 2 z/5 + ... + 2 z^9/21. f - 1 is exact.
    The series' rest, 2 s z^11/23 (1 + ...), is below 2^-59 of 2 s.
-   Double-double: the quotient of f - 1 and f + 1 = b + b' exactly, with its remainder, is good to
-   2^-100; s z Q to 10 relative units (s, z, Q and products), and it is at most 0.01 of log(f): 0.1.
-   What is added to it (k LN2_LOW, what 2 s and k LN2_HIGH lose) is below it or below 2^-31 |k|:
-   three sums of at most 0.01 each. |log x| >= 0.34 for k != 0: below 0.15 in all.
-   Lanes: s to 2 units (b' left out), 2 s + s z Q to 3.1; k LN2_LOW and that sum: 0.35 absolute; the
-   sum with k LN2_HIGH 1 relative: for k = 0, 3.1 + 1; else |log(f)| <= 0.34658 <= |log x|:
-   3.1 + 1.1 + 1. LRCSI_LOG_LANES_ERROR is 6. */
+   Double-double: the quotient of f - 1 and f + 1 = b + b' exactly, with its remainder, is accurate
+   to 2^-100; s z Q to 10 relative units (s, z, Q and products), and it is at most 0.01 of log(f):
+   0.1. What is added to it (k LN2_LOW, what 2 s and k LN2_HIGH lose) is below it or below 2^-31
+   |k|: three sums of at most 0.01 each. |log x| >= 0.34 for k != 0: below 0.15 in all. Lanes: s to
+   2 units (b' left out), 2 s + s z Q to 3.1; k LN2_LOW and that sum: 0.35 absolute; the sum with k
+   LN2_HIGH 1 relative: for k = 0, 3.1 + 1; else |log(f)| <= 0.34658 <= |log x|: 3.1 + 1.1 + 1.
+   LRCSI_LOG_LANES_ERROR is 6. */
 #include "base/elementary.h"
 
 #include <math.h>

@@ -13,7 +13,7 @@ size_t lrcsi_text_sequence(const char *bytes, size_t size);
    above U+10FFFF), else 0. Plain ASCII and no bytes at all are. */
 int lrcsi_text_is_utf8(const char *bytes, size_t size);
 
-/* Writes a name as UTF-8 with a terminator: as it stands where it is UTF-8, else each byte as
+/* Writes a name as UTF-8 with a terminator: unchanged if it is UTF-8, else each byte as
    Latin-1. Control characters (below U+0020, and U+007F) become '?'.
    Returned: bytes written with the terminator, at most 2 size + 1; `out` may be NULL to count.
    Notes: 1. U+0080..U+009F stay: Latin-1 turns bytes of other code pages into them, and names are

@@ -365,7 +365,8 @@ int lrcsi_pair_meet(const lrcsi_pair_facet *f, lrcsi_pair_facet *t, lrcsi_pair_r
     int of_f[3];
     *result = (lrcsi_pair_result){{LRCSI_INTERSECTION_NONE, LRCSI_INTERSECTION_NONE}, {0, 0}};
     of_t[0] = rounded_side(f, t->x[0]);
-    int flat = of_t[0] == UNSURE; /* in one plane, as it seems: then lines are likelier to tell */
+    int flat =
+        of_t[0] == UNSURE; /* in one plane, as it seems: then lines are more likely to decide */
     if (flat && lines_separate(f, t)) {
         return 0;
     }

@@ -50,8 +50,8 @@
 
 #include "base/constant.h"
 
-/* D is 1 minus a quotient of sums of positive products: 20 roundings or functions good to 2 units
-   reach it, and so A/A' - 1. */
+/* D is 1 minus a quotient of sums of positive products: 20 roundings or functions accurate to 2
+   units reach it, and so A/A' - 1. */
 #define SLACK (64.0 * LRCSI_U)
 /* A paraboloid's slope is clamped to these limits. It exceeds them only if the radius or the length
    is below 1e-300 of the other: a flatter one is flat, and a narrower one is indistinguishable from
@@ -65,7 +65,7 @@
    are finite, because they may be multiplied by a facet area of zero. */
 #define BLUR_MOST 0x1p-6
 #define USELESS   1e300
-/* Rounding of a reach, relative: terms are positive and good to 1e-9 even where 2^24 rings make
+/* Rounding of a reach, relative: terms are positive and accurate to 1e-9 even if 2^24 rings make
    differences of neighbours small. */
 #define REACH_MARGIN (1.0 + 1e-6)
 
@@ -176,10 +176,10 @@ static profile_strip strip_make(const lrcsi_profile *profile, uint32_t i)
 
 /* A corner displaced by e tilts its facet by at most e over
    the altitude that stands on the opposite side, and changes its area by at most that fraction.
-   Coordinates are good to a relative `e` (straight walls have exact z); all corners of a row share
-   one z. With l the slant height, two corners of a facet lie on a row of radius r, their altitudes
-   at least w l / (w + l), w >= 2 r sin h (r over that: 1/(2 sin h) + r/l), the third's is l. Rows
-   of equal radius have equal x and y, which cancels all but the error along the row. */
+   Coordinates are accurate to a relative `e` (straight walls have exact z); all corners of a row
+   share one z. With l the slant height, two corners of a facet lie on a row of radius r, their
+   altitudes at least w l / (w + l), w >= 2 r sin h (r over that: 1/(2 sin h) + r/l), the third's is
+   l. Rows of equal radius have equal x and y, which cancels all but the error along the row. */
 double lrcsi_profile_blur(const lrcsi_profile *profile, uint32_t i)
 {
     double below = lrcsi_profile_radius(profile, i);

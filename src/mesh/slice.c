@@ -84,7 +84,8 @@ double lrcsi_slice_share(const lrcsi_slice *slice, double whole, double longest)
 }
 
 /* With e = q - p and h the altitude of o, the height of x is (x - p) . h / (h . h). Coordinates are
-   below 1 and good to 2^-48, so that e, h and x - p are good to 2^-46; h . e is 0 to within 2^-46
+   below 1 and accurate to 2^-48, so that e, h and x - p are accurate to 2^-46; h . e is 0 to within
+   2^-46
    (|e| + |o - p|), and x - p has at most |e| + |o - p| along e: EXTENT_MARGIN covers all of it. */
 double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const double p[3],
                           const double q[3])

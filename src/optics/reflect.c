@@ -132,7 +132,7 @@ static double part_error(const reflect_part *part, double e)
 /* May a glint whose first-order error is not valid serve as its own bound? If tan^2 is exact, only
    underflow affects it. A
    value of at most 2^-900 has q < 2^-200 for these A, so that (A q) q loses 2^-1074 q and 2^-1074;
-   a q below 2^-1022, good to 2^-1074, makes it lose 2^-1071. `relative` is above 1 only if
+   a q below 2^-1022, accurate to 2^-1074, makes it lose 2^-1071. `relative` is above 1 only if
    both the true and the computed value are negligible. All of this is below 2^-1000. */
 static int glint_is_most(const lrcs_brdf *brdf, const reflect_part *glint, double e)
 {

@@ -118,7 +118,7 @@ static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts
 typedef struct scene_totals {
     uint64_t vertices, facets, materials;
     size_t scratch; /* the most temporary memory taken, by a shape's mesh or for normals */
-    int curved;     /* normals are asked for, and some model has them */
+    int curved;     /* normals are requested, and some model has them */
 } scene_totals;
 
 /* Does part i get normals from its file? */

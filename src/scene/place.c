@@ -235,7 +235,7 @@ typedef struct placed_bound {
     double most, error;
 } placed_bound;
 
-/* x + t rounds once: u (|x| + error + |t|), where 2 u leaves room for the sums here. */
+/* x + t rounds once: u (|x| + error + |t|), of which 2 u covers the sums here. */
 static placed_bound bound_move(placed_bound x, const double t[3])
 {
     double step = fmax(fabs(t[0]), fmax(fabs(t[1]), fabs(t[2])));

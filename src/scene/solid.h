@@ -14,10 +14,10 @@ int lrcsi_solid_pieces(const lrcs_prepared *prepared, uint32_t *piece);
 /* Proves that the winding number of the live facets is nowhere negative: their pieces are closed
    (lrcsi_solid_pieces); no facet meets the inside or a side of another of its piece
    (lrcsi_intersections.self); and the volume is positive. Then the piece meets itself at most in
-   isolated points (corners in one place, sides that cross): two sheets of surface that meet along a
-   line do so inside a facet or along overlapping sides, of which one ends inside the other. A sheet
-   without such a point is connected, so it stays on one side of the other sheet and can be moved
-   off it. The result is an embedded surface: winding number 0 outside and 1 inside
+   isolated points (corners in one place, sides that cross): two parts of the surface that meet
+   along a line do so inside a facet or along overlapping sides, of which one ends inside the other.
+   A part without such a point is connected, so it stays on one side of the other part and can be
+   moved off it. The result is an embedded surface: winding number 0 outside and 1 inside
    (Jordan-Brouwer), and winding numbers add. This is the last step, the volume. 1: proved, 0: not;
    scratch from work. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *piece, lrcs_work *work,

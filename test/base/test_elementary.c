@@ -123,9 +123,21 @@ static void the_ends_are_zero_and_infinity(void **state)
     check_same(lrcsi_log1p(0.0).hi, 0.0);
 }
 
+static void powers_beyond_the_range_are_0_or_infinite(void **state)
+{
+    (void)state;
+    lrcsi_dd log_2 = lrcsi_log(2.0);
+    assert_true(lrcsi_power(log_2, 2000.0) == HUGE_VAL);
+    assert_true(lrcsi_power(log_2, -2000.0) == 0.0);
+    assert_true(lrcsi_power(log_2, 1e300) == HUGE_VAL);
+    assert_true(fabs(lrcsi_power(log_2, 10.0) - 1024.0) < 1e-9);
+    assert_true(fabs(lrcsi_power(log_2, -10.0) * 1024.0 - 1.0) < 1e-12);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(powers_beyond_the_range_are_0_or_infinite),
         cmocka_unit_test(scalars_stay_within_the_errors_declared),
         cmocka_unit_test(lanes_stay_within_the_errors_declared),
         cmocka_unit_test(lanes_give_the_bits_of_the_scalar_exponential),

@@ -387,6 +387,27 @@ static void a_file_may_be_one_line(void **state)
     assert_string_equal(mesh.part[0], "one line");
 }
 
+static void text_is_known_by_the_words_that_start_it(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        int is_text;
+    } of[] = {{"solid a\nfacet", 1},
+              {"solid a\nendsolid", 1},
+              {"solid a\nsolid", 1},
+              {"solid a\n", 1},
+              {"solid", 1},
+              {"facet normal 0 0 1", 1},
+              {"solid a\nof something", 0},
+              {"facet of something", 0},
+              {"a solid\nfacet", 0}};
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        const unsigned char *bytes = (const unsigned char *)of[i].text;
+        assert_int_equal(lrcsi_stl_is_text(bytes, strlen(of[i].text)), of[i].is_text);
+    }
+}
+
 static void several_solids_are_one_part(void **state)
 {
     (void)state;
@@ -578,6 +599,7 @@ int main(void)
         cmocka_unit_test(lines_end_in_lf_crlf_or_cr),
         cmocka_unit_test(words_are_read_in_either_case),
         cmocka_unit_test(a_file_may_be_one_line),
+        cmocka_unit_test(text_is_known_by_the_words_that_start_it),
         cmocka_unit_test(several_solids_are_one_part),
         cmocka_unit_test(names_may_hold_anything),
         cmocka_unit_test(a_long_blank_name_takes_linear_time),

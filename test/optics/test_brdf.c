@@ -115,9 +115,39 @@ static void materials_with_a_source_are_lambert_surfaces_of_its_reflectance(void
     assert_int_equal(sourced, 3);
 }
 
+static void errors_of_a_material_are_checked(void **state)
+{
+    (void)state;
+    static const lrcs_brdf brdf = {1, 0.25, 0.2, 0.5};
+    static const lrcs_brdf matt = {0, 0.25, 0, 0.5};
+    static const struct {
+        lrcs_brdf_error error;
+        int status;
+    } of[] = {
+        {{0.1, 0.1, 0.1, 0.1, {0.5, -0.5, 0, 0, 0.5, 0}}, LRCS_OK},
+        {{0.1, 0.1, 0.1, 0.1, {1, 0, 0, 0, 0, 0}}, LRCS_OK},         /* a pivot of 0, its row too */
+        {{0.1, 0.1, 0.1, 0.1, {1, 0.5, 0, 0, 0, 0}}, LRCS_E_NUMBER}, /* but not its row */
+        {{0.1, 0.1, 0.1, 0.1, {0.9, -0.9, 0, 0.9, 0, 0}}, LRCS_E_NUMBER}, /* a negative pivot */
+        {{0.1, 0.1, 0.1, 0.1, {1.5, 0, 0, 0, 0, 0}}, LRCS_E_NUMBER},
+        {{0.1, 0.1, 0.1, 0.1, {NAN, 0, 0, 0, 0, 0}}, LRCS_E_NUMBER},
+        {{-0.1, 0, 0, 0, {0}}, LRCS_E_NUMBER},
+        {{0, 0, 0, INFINITY, {0}}, LRCS_E_NUMBER},
+    };
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        assert_int_equal(lrcs_brdf_error_check(&brdf, &of[i].error), of[i].status);
+    }
+    /* a material without a slope has no glint of which A or s could be uncertain */
+    const lrcs_brdf_error of_matt[] = {{.B = 0.1}, {.A = 0.1}, {.s = 0.1}};
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(lrcs_brdf_error_check(&matt, &of_matt[i]),
+                         i == 0 ? LRCS_OK : LRCS_E_ARGUMENT);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(errors_of_a_material_are_checked),
         cmocka_unit_test(numbers_outside_the_domain_are_refused),
         cmocka_unit_test(warnings_name_what_the_model_does_not_mean),
         cmocka_unit_test(f_r_agrees_with_its_formula),
