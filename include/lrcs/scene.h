@@ -187,9 +187,10 @@ int lrcs_normals_find(const char *name);
 typedef struct lrcs_build_options {
     double tolerance;    /* relative, > 0, for a shape alone; among other parts, small shapes may be
                             coarser. There the mean over the true surface counts for each facet of a
-                            curved wall, so that only shadows call for facets; but where a scale
-                            differs between axes the facets' normals count, and a sphere, dome or
-                            paraboloid is tessellated for ten times this, at least 1e-4 */
+                            curved wall, so that only shadows call for facets: a sphere, dome
+                            or paraboloid is tessellated for 1e-4 at the finest. Where a scale
+                            differs between axes the facets' normals count, and those are
+                            tessellated for ten times the tolerance, at least 1e-4 */
     uint32_t max_facets; /* limit for one shape */
     int normals;         /* lrcs_normals */
     int facets_only;     /* 1: the facets of a shape alone meet the tolerance too, for runs that

@@ -22,14 +22,15 @@ static int shadows_dropped(const lrcs_run_options *options)
             !effect_in(options->with, LRCS_EFFECT_SELF_SHADOWING));
 }
 
-void lrcsi_plan_backs(const lrcs_run_options *options, lrcsi_view *view)
+lrcsi_plan_sides lrcsi_plan_backs(const lrcs_prepared *p, const lrcs_run_options *options)
 {
-    const lrcs_prepared *p = view->prepared;
+    lrcsi_plan_sides backs;
     int asked = effect_in(options->with, LRCS_EFFECT_BACK_FACE_CASTERS) ||
                 (p->two_sided && effect_in(options->with, LRCS_EFFECT_TWO_SIDED));
-    view->backs_cast = (!p->solid || (asked && !shadows_dropped(options))) &&
-                       !effect_in(options->without, LRCS_EFFECT_BACK_FACE_CASTERS);
-    view->backs_reflect = view->backs_cast && !effect_in(options->without, LRCS_EFFECT_TWO_SIDED);
+    backs.cast = (!p->solid || (asked && !shadows_dropped(options))) &&
+                 !effect_in(options->without, LRCS_EFFECT_BACK_FACE_CASTERS);
+    backs.reflect = backs.cast && !effect_in(options->without, LRCS_EFFECT_TWO_SIDED);
+    return backs;
 }
 
 static int plan_term(const lrcs_run_options *options, int effect)

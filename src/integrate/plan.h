@@ -28,8 +28,14 @@ typedef struct lrcsi_plan {
     int glint, diffuse; /* lrcsi_term */
 } lrcsi_plan;
 
-/* Decides what back sides do in a view: cast, reflect, or neither. */
-void lrcsi_plan_backs(const lrcs_run_options *options, lrcsi_view *view);
+/* What back sides do in a view. */
+typedef struct lrcsi_plan_sides {
+    int cast;    /* they hide others and can be visible */
+    int reflect; /* and reflect if their material is two-sided */
+} lrcsi_plan_sides;
+
+/* Decides that from the proofs about a scene and what was asked for. */
+lrcsi_plan_sides lrcsi_plan_backs(const lrcs_prepared *prepared, const lrcs_run_options *options);
 
 /* Given: such a view, the shapes that nothing hides in it, and what was asked for. */
 lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,

@@ -703,7 +703,9 @@ static int profile_sum(profile_job *job, lrcsi_view *view, const lrcs_pose *pose
     if (status != LRCS_OK) {
         return status;
     }
-    lrcsi_plan_backs(&options, view);
+    const lrcsi_plan_sides backs = lrcsi_plan_backs(p, &options);
+    view->backs_cast = backs.cast;
+    view->backs_reflect = backs.reflect;
     job->view = view;
     job->plan = lrcsi_plan_make(view, &clear, &options);
     status = bins_number(job);

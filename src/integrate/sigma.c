@@ -40,7 +40,7 @@ typedef struct sigma_run {
     lrcsi_cubature_cell *waiting; /* NULL: the same */
     int moments;                  /* of curved normals: for derivatives */
     double tolerance;
-    lrcsi_meter meter; /* of the view, but while samples look: those need every crossing */
+    lrcsi_meter meter; /* of the view */
     lrcsi_total total;
     lrcs_work *work;
     lrcs_image *image;
@@ -276,12 +276,10 @@ static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
     int status = LRCS_E_MEMORY;
     run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
     run->answer = NULL;
-    run->view.meter = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
         status = lrcsi_visible_sampled(known, size, run->work, &raster, run->visible);
         run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
     }
-    run->view.meter = &run->meter;
     if (status == LRCS_OK) {
         run->size = raster.size;
         for (uint32_t f = 0; f < run->view.prepared->scene->facet_count; f++) {
@@ -397,18 +395,6 @@ static int raster_ends(const sigma_run *run, const lrcs_run_options *options, in
            !(run_verdict(run, options) & LRCS_FLAG_TOLERANCE_NOT_MET);
 }
 
-/* What exact queries tell of facets, which takes no steps. */
-static int run_known(sigma_run *run, lrcsi_known *known)
-{
-    int status = run_classify(run);
-    if (status == LRCS_OK) {
-        run->view.meter = NULL;
-        status = lrcsi_visible_known(&run->classification, run->work, known);
-        run->view.meter = &run->meter;
-    }
-    return status;
-}
-
 /* Rasters, from the first to one that is accepted, or to the finest. */
 static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
 {
@@ -416,7 +402,10 @@ static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
     size_t mark = run->work->used;
     int samples_only = run_samples_only(run, options);
     uint32_t size = run->plan.size;
-    int status = samples_only ? LRCS_OK : run_known(run, &known);
+    int status = samples_only ? LRCS_OK : run_classify(run);
+    if (status == LRCS_OK && !samples_only) {
+        status = lrcsi_visible_known(&run->classification, run->work, &known);
+    }
     while (status == LRCS_OK) {
         status = samples_only ? run_preview_at(run, size) : run_raster(run, &known, size);
         if (status != LRCS_OK || raster_ends(run, options, samples_only)) {
@@ -619,7 +608,9 @@ static int run_stages(sigma_run *run, const lrcs_prepared *prepared, const lrcs_
         run->view.meter = &run->meter;
         run->view.progress = options->progress;
         lrcsi_view_progress(&run->view, LRCS_PROGRESS_VIEW, 0, 0);
-        lrcsi_plan_backs(options, &run->view);
+        const lrcsi_plan_sides backs = lrcsi_plan_backs(prepared, options);
+        run->view.backs_cast = backs.cast;
+        run->view.backs_reflect = backs.reflect;
         status = options->method == LRCS_METHOD_AUTO
                      ? lrcsi_clear_make(&run->view, run->work, &run->clear)
                      : LRCS_OK;

@@ -310,7 +310,7 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
             return 0;
         }
     }
-    uint32_t crossings = lrcsi_classify_crossings(a->classification, a->facet);
+    uint32_t crossings = lrcsi_classify_crossings(a->classification, a->facet, c->view->meter);
     for (uint32_t i = 0; i < crossings; i++) {
         if (!alone_edge(a, a->classification->crossing[i])) {
             return 0;

@@ -117,8 +117,14 @@ static int edge_crosses(const lrcsi_view *view, const crossing_ask *ask, uint32_
     if (edge == own[0] || edge == own[1] || edge == own[2]) {
         return 0;
     }
-    return (vertex_nearer(view, ask, e->low) || vertex_nearer(view, ask, e->high)) &&
-           segment_crosses(view, ask, e->low, e->high, along);
+    int beside = 0; /* on the line of a side that separates them */
+    int crosses = segment_crosses(view, ask, e->low, e->high, &beside);
+    if (!(crosses || beside) ||
+        !(vertex_nearer(view, ask, e->low) || vertex_nearer(view, ask, e->high))) {
+        return 0;
+    }
+    *along |= beside;
+    return crosses;
 }
 
 static crossing_ask crossing_ask_of(const lrcsi_view *view, uint32_t facet)
@@ -138,6 +144,19 @@ static uint32_t steps_allowed(const lrcsi_meter *meter, uint32_t steps)
     return left < steps ? (uint32_t)left : steps;
 }
 
+/* Does a facet of the component have this edge? */
+static int component_has_edge(const lrcsi_classification *c, uint32_t edge, uint32_t component)
+{
+    const lrcsi_topology *t = &c->view->prepared->topology;
+    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
+    for (uint32_t k = 0; k < t->edge[edge].uses; k++) {
+        if (c->component[use[k].facet] == component) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* Finds at most `most` of them: one suffices to know that there are any. Examines at most *steps
    listed events, MOST_ASKED of them with boxes that meet the facet's, and leaves in *steps how many
    more it might have examined; LRCS_NONE: any number.
@@ -145,8 +164,9 @@ static uint32_t steps_allowed(const lrcsi_meter *meter, uint32_t steps)
    it. A cell lists events in the order of their nearest points: after the first one that lies
    behind all of the facet, no other comes nearer than the facet. Steps are counted in a register
    and charged at the end. */
-static uint32_t crossings_find(lrcsi_classification *classification, uint32_t facet, uint32_t most,
-                               uint32_t *steps)
+static uint32_t crossings_find(lrcsi_classification *classification, uint32_t facet,
+                               uint32_t component, uint32_t most, uint32_t *steps,
+                               lrcsi_meter *meter)
 {
     const lrcsi_view *view = classification->view;
     const lrcsi_grid *grid = &classification->grid;
@@ -154,7 +174,7 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
     int asking = 0;
     const lrcsi_view_box box = classification->boxes.facet[facet];
     const lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
-    const uint32_t allowed = steps_allowed(view->meter, *steps);
+    const uint32_t allowed = steps_allowed(meter, *steps);
     const uint32_t asked = ++classification->asked;
     uint32_t left = allowed;
     uint32_t near = *steps == LRCS_NONE ? LRCS_NONE : MOST_ASKED;
@@ -186,6 +206,10 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
                     continue;
                 }
                 event->asked = asked;
+                if (component != LRCS_NONE &&
+                    !component_has_edge(classification, event->edge, component)) {
+                    continue;
+                }
                 if (!asking) {
                     ask = crossing_ask_of(view, facet);
                     asking = 1;
@@ -196,33 +220,43 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
             }
         }
     }
-    lrcsi_meter_take(view->meter, allowed - left);
+    lrcsi_meter_take(meter, allowed - left);
     *steps -= *steps != LRCS_NONE ? allowed - left : 0;
     if (near == 0) {
         *steps = 0;
     } else if (more && *steps != 0) {
-        lrcsi_meter_take(view->meter, 1); /* there is none left: it is spent */
+        lrcsi_meter_take(meter, 1); /* there is none left: it is spent */
     }
     return count;
 }
 
-uint32_t lrcsi_classify_crossings(lrcsi_classification *classification, uint32_t facet)
+uint32_t lrcsi_classify_crossings(lrcsi_classification *classification, uint32_t facet,
+                                  lrcsi_meter *meter)
 {
     if (classification->crossed != facet) {
         uint32_t steps = LRCS_NONE; /* no limit */
-        classification->crossings = crossings_find(classification, facet, LRCS_NONE, &steps);
-        classification->crossed =
-            lrcsi_meter_spent(classification->view->meter) ? LRCS_NONE : facet;
+        classification->crossings =
+            crossings_find(classification, facet, LRCS_NONE, LRCS_NONE, &steps, meter);
+        classification->crossed = lrcsi_meter_spent(meter) ? LRCS_NONE : facet;
     }
     return classification->crossings;
 }
 
-void lrcsi_classify_recall(lrcsi_classification *classification, uint32_t facet,
-                           const uint32_t *crossing, uint32_t count)
+int lrcsi_classify_crossed_by(lrcsi_classification *classification, uint32_t facet,
+                              uint32_t component, lrcsi_meter *meter)
 {
-    memcpy(classification->crossing, crossing, count * sizeof *crossing);
-    classification->crossings = count;
-    classification->crossed = facet;
+    uint32_t steps = LRCS_NONE; /* no limit */
+    if (classification->crossed == facet) {
+        for (uint32_t i = 0; i < classification->crossings; i++) {
+            if (component_has_edge(classification, classification->crossing[i], component)) {
+                return 1;
+            }
+        }
+        return 0;
+    }
+    classification->crossed = LRCS_NONE;
+    return crossings_find(classification, facet, component, 1, &steps, meter) > 0 ||
+           lrcsi_meter_spent(meter);
 }
 
 /* --- contacts --------------------------------------------------------------------------------- */
@@ -346,7 +380,7 @@ static void facet_decide(lrcsi_classification *c, uint32_t f)
     c->along = 0;
     c->undecided[f] = intersection_divides(c->view, f) ||
                       (lrcsi_grid_any(&c->grid, lrcsi_grid_cells(&c->grid, &c->boxes.facet[f])) &&
-                       crossings_find(c, f, 1, &steps) > 0) ||
+                       crossings_find(c, f, LRCS_NONE, 1, &steps, c->view->meter) > 0) ||
                       steps == 0 || lrcsi_meter_spent(c->view->meter);
     c->undecided_count += c->undecided[f];
     if (c->undecided[f] || c->along || c->view->prepared->intersections.rim[f]) {

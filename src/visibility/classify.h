@@ -66,12 +66,14 @@ void lrcsi_classify_regions(const lrcsi_classification *classification);
 
 /* The event edges that cross the inside of a facet, nearer than it somewhere: their count; the
    topology edges are then in classification->crossing. The facet last asked about costs no search.
-   Where the view's meter is spent some may be missing. */
-uint32_t lrcsi_classify_crossings(lrcsi_classification *classification, uint32_t facet);
+   Where the meter is spent some may be missing; NULL: there is no limit. */
+uint32_t lrcsi_classify_crossings(lrcsi_classification *classification, uint32_t facet,
+                                  lrcsi_meter *meter);
 
-/* Puts there what it found before. */
-void lrcsi_classify_recall(lrcsi_classification *classification, uint32_t facet,
-                           const uint32_t *crossing, uint32_t count);
+/* Does an event edge of a component cross a facet, nearer than it somewhere? Where the meter is
+   spent, perhaps. Asked first, this is cheaper than all crossings. */
+int lrcsi_classify_crossed_by(lrcsi_classification *classification, uint32_t facet,
+                              uint32_t component, lrcsi_meter *meter);
 
 /* Can the facet of a contact hide some of the facet that it touches? */
 int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,

@@ -38,7 +38,8 @@ void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
     if (!classification->undecided[facet]) {
         o->answer = answered_area(o, facet);
         o->whole = o->answer.low > 0;
-    } else if (!lrcsi_query_screened(classification, &o->facets, facet)) {
+    } else if (!lrcsi_query_screened(classification, &o->facets, facet,
+                                     classification->view->meter)) {
         o->undecided = 1;
         lrcsi_alone_open(&o->alone, facet);
     }
@@ -89,7 +90,8 @@ static int occlude_begin(lrcsi_classification *classification, lrcs_work *work, 
 {
     *o = (lrcsi_occluding){.classification = classification};
     o->uniform = lrcsi_work_take(work, classification->view->prepared->scene->facet_count, 1);
-    return o->uniform ? lrcsi_query_uniform(classification, work, &o->facets, o->uniform)
+    return o->uniform ? lrcsi_query_uniform(classification, classification->view->meter, work,
+                                            &o->facets, o->uniform)
                       : LRCS_E_MEMORY;
 }
 

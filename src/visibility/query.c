@@ -45,6 +45,7 @@ static int inside_point(const lrcsi_view *view, uint32_t facet, double point[3])
 /* A line of sight through the inside of a facet, and how far the search along it has come. */
 typedef struct query_line {
     const lrcsi_grid *grid;
+    lrcsi_meter *meter;
     uint32_t facet;
     double point[3];
     double x[3], x_err; /* the point in view coordinates, and how far each may be off */
@@ -69,9 +70,10 @@ static void line_place(query_line *line)
 }
 
 /* 0 if no point inside the facet was found. */
-static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet)
+static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet,
+                      lrcsi_meter *meter)
 {
-    *line = (query_line){.grid = facets, .facet = facet};
+    *line = (query_line){.grid = facets, .meter = meter, .facet = facet};
     line->sense = inside_point(facets->view, facet, line->point);
     if (line->sense == 0) {
         return 0;
@@ -111,7 +113,7 @@ static uint32_t line_next(query_line *line)
             size_t row = (size_t)line->y++ * grid->size;
             line->item = grid->first[row + line->cells.x0];
             line->end = grid->first[row + line->cells.x1];
-            if (!lrcsi_meter_take(grid->view->meter, line->end - line->item)) {
+            if (!lrcsi_meter_take(line->meter, line->end - line->item)) {
                 return LRCS_NONE;
             }
         }
@@ -144,18 +146,19 @@ static int line_answer(query_line *line)
         }
         answer = nearer == 0 ? LRCSI_QUERY_UNDECIDED : answer;
     }
-    return lrcsi_meter_spent(line->grid->view->meter) ? LRCSI_QUERY_UNDECIDED : answer;
+    return lrcsi_meter_spent(line->meter) ? LRCSI_QUERY_UNDECIDED : answer;
 }
 
-int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet)
+int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet, lrcsi_meter *meter)
 {
     query_line line;
-    return line_start(&line, facets, facet) ? line_answer(&line) : LRCSI_QUERY_UNDECIDED;
+    return line_start(&line, facets, facet, meter) ? line_answer(&line) : LRCSI_QUERY_UNDECIDED;
 }
 
-int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double point[3])
+int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double point[3],
+                      lrcsi_meter *meter)
 {
-    query_line line = {.grid = facets, .facet = facet, .sense = 1};
+    query_line line = {.grid = facets, .meter = meter, .facet = facet, .sense = 1};
     memcpy(line.point, point, sizeof line.point);
     if (!lrcsi_sample_covers(facets->view, facet, point)) {
         return LRCSI_QUERY_UNDECIDED;
@@ -166,8 +169,8 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
 
 /* Answers for the uniform facets from the first one of each region. Returns how many regions are
    undecided by it. */
-static uint32_t query_regions(const lrcsi_classification *classification, const lrcsi_grid *facets,
-                              unsigned char *answer)
+static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_meter *meter,
+                              const lrcsi_grid *facets, unsigned char *answer)
 {
     uint32_t undecided = 0;
     for (uint32_t f = 0; f < classification->view->prepared->scene->facet_count; f++) {
@@ -176,7 +179,7 @@ static uint32_t query_regions(const lrcsi_classification *classification, const 
         if (first != f) {
             answer[f] = answer[first];
         } else if (lrcsi_grid_casts(classification->view, f) && !classification->undecided[f]) {
-            answer[f] = (unsigned char)lrcsi_query_facet(facets, f);
+            answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
             undecided += answer[f] == LRCSI_QUERY_UNDECIDED;
         }
     }
@@ -185,8 +188,8 @@ static uint32_t query_regions(const lrcsi_classification *classification, const 
 
 /* The grid lists what only some facets ask for; where a region's first one gives no answer, which
    hardly ever happens, all are listed and each of its facets asks for itself. */
-int lrcsi_query_uniform(const lrcsi_classification *classification, lrcs_work *work,
-                        lrcsi_grid *facets, unsigned char *answer)
+int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter *meter,
+                        lrcs_work *work, lrcsi_grid *facets, unsigned char *answer)
 {
     size_t mark = work->used;
     uint32_t count = classification->view->prepared->scene->facet_count;
@@ -196,24 +199,23 @@ int lrcsi_query_uniform(const lrcsi_classification *classification, lrcs_work *w
     }
     int status =
         lrcsi_grid_facets(&classification->grid, &classification->boxes, answer, work, facets);
-    if (status != LRCS_OK || query_regions(classification, facets, answer) == 0) {
+    if (status != LRCS_OK || query_regions(classification, meter, facets, answer) == 0) {
         return status;
     }
     work->used = mark;
     status = lrcsi_grid_facets(&classification->grid, &classification->boxes, NULL, work, facets);
     for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
         if (answer[f] == LRCSI_QUERY_UNDECIDED) {
-            answer[f] = (unsigned char)lrcsi_query_facet(facets, f);
+            answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
         }
     }
     return status;
 }
 
 /* Does `other` touch the inside of the facet? Where the meter is spent, perhaps. */
-static int touched_by(const lrcsi_view *view, uint32_t facet, uint32_t other)
+static int touched_by(const lrcs_prepared *p, uint32_t facet, uint32_t other, lrcsi_meter *meter)
 {
-    const lrcs_prepared *p = view->prepared;
-    if (!lrcsi_meter_take(view->meter, lrcsi_intersection_of(&p->intersections, facet))) {
+    if (!lrcsi_meter_take(meter, lrcsi_intersection_of(&p->intersections, facet))) {
         return 1;
     }
     for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
@@ -224,30 +226,25 @@ static int touched_by(const lrcsi_view *view, uint32_t facet, uint32_t other)
     return 0;
 }
 
-/* Does none of the component's edges cross the facet, and none of its facets touch its inside? */
+/* Does none of the component's edges cross the facet, and none of its facets touch its interior?
+   Where the meter is spent, perhaps not. `all`: another component was found broken before, so that
+   all crossings are searched for at once. */
 static int component_unbroken(lrcsi_classification *classification, uint32_t component,
-                              uint32_t facet)
+                              uint32_t facet, int all, lrcsi_meter *meter)
 {
-    const lrcs_prepared *p = classification->view->prepared;
-    lrcsi_meter *meter = classification->view->meter;
-    uint32_t crossings = lrcsi_classify_crossings(classification, facet);
-    if (!lrcsi_meter_take(meter, lrcsi_intersection_of(&p->intersections, facet))) {
-        return 0; /* nor are those all the crossings, perhaps */
-    }
-    for (uint32_t i = 0; i < crossings; i++) {
-        const lrcsi_edge *edge = &p->topology.edge[classification->crossing[i]];
-        if (!lrcsi_meter_take(meter, edge->uses)) {
+    const lrcsi_intersections *contacts = &classification->view->prepared->intersections;
+    if (all) {
+        uint32_t crossings = lrcsi_classify_crossings(classification, facet, meter);
+        if (!lrcsi_meter_take(meter, crossings)) {
             return 0;
         }
-        for (uint32_t k = 0; k < edge->uses; k++) {
-            if (classification->component[p->topology.use[edge->first_use + k].facet] ==
-                component) {
-                return 0;
-            }
-        }
     }
-    for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
-        if (classification->component[p->intersections.entry[i].other] == component) {
+    if (!lrcsi_meter_take(meter, lrcsi_intersection_of(contacts, facet)) ||
+        lrcsi_classify_crossed_by(classification, facet, component, meter)) {
+        return 0;
+    }
+    for (uint32_t i = contacts->first[facet]; i < contacts->first[facet + 1]; i++) {
+        if (classification->component[contacts->entry[i].other] == component) {
             return 0;
         }
     }
@@ -255,21 +252,22 @@ static int component_unbroken(lrcsi_classification *classification, uint32_t com
 }
 
 int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid *facets,
-                         uint32_t facet)
+                         uint32_t facet, lrcsi_meter *meter)
 {
     query_line line;
-    if (!line_start(&line, facets, facet)) {
+    if (!line_start(&line, facets, facet, meter)) {
         return 0;
     }
     uint32_t broken = LRCS_NONE; /* the component last found so */
     uint32_t other;
     while ((other = line_next(&line)) != LRCS_NONE) {
         if (classification->component[other] == broken ||
-            touched_by(facets->view, other, facet) || /* order perhaps a guess */
+            touched_by(facets->view->prepared, other, facet, meter) || /* order perhaps a guess */
             line_nearer(&line, other) <= 0) {
             continue;
         }
-        if (component_unbroken(classification, classification->component[other], facet)) {
+        if (component_unbroken(classification, classification->component[other], facet,
+                               broken != LRCS_NONE, meter)) {
             return 1;
         }
         broken = classification->component[other];

@@ -286,12 +286,11 @@ static lrcsi_sampling_error drift_parted(const sampled_facet *d, const uint32_t 
     return sampling_error;
 }
 
-lrcsi_sampling_error lrcsi_sampling_error_facet(const lrcsi_classification *classification,
-                                                uint32_t crossings, const lrcsi_raster *raster,
-                                                uint32_t facet)
+lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
+                                                const lrcsi_raster *raster, uint32_t facet,
+                                                const uint32_t *crossing, uint32_t crossings)
 {
-    sampled_facet d = {raster, lrcsi_raster_edges(raster, facet), classification->component, facet,
-                       0};
+    sampled_facet d = {raster, lrcsi_raster_edges(raster, facet), component, facet, 0};
     double area = miscount_area(raster, facet);
     uint32_t owned = raster->owned[facet];
     uint32_t covered = raster->covered[facet];
@@ -301,12 +300,12 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const lrcsi_classification *clas
     } else if (owned == 0) {
         sampling_error.square = lrcsi_least(sampling_error.square, NONE);
     } else if (owned == covered) {
-        double hiders = drift_hiders(raster, facet, classification->crossing, crossings);
+        double hiders = drift_hiders(raster, facet, crossing, crossings);
         sampling_error.square =
             lrcsi_least(sampling_error.square, lrcsi_least(ALL, HIDERS * hiders * hiders));
     } else {
         d.share = (double)owned / covered;
-        sampling_error = drift_parted(&d, classification->crossing, crossings);
+        sampling_error = drift_parted(&d, crossing, crossings);
         sampling_error.square = lrcsi_least(sampling_error.square, SMALL * area * area);
     }
     return sampling_error;

@@ -15,11 +15,11 @@ typedef struct lrcsi_sampling_error {
     double bias; /* signed: too much is positive */
 } lrcsi_sampling_error;
 
-/* Given: classification and raster of one view; an undecided facet; classification->crossing
-   holding the event edges that cross it, so many. */
-lrcsi_sampling_error lrcsi_sampling_error_facet(const lrcsi_classification *classification,
-                                                uint32_t crossings, const lrcsi_raster *raster,
-                                                uint32_t facet);
+/* Of an undecided facet. Given: the component of each facet, the raster, and the event edges that
+   cross the facet (of the topology). */
+lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
+                                                const lrcsi_raster *raster, uint32_t facet,
+                                                const uint32_t *crossing, uint32_t crossings);
 
 /* A facet of the longest side given, in pixels, that shares its samples with its neighbours
    (visibility/visible_fraction.h), of whose samples together that share is seen. */

@@ -9,7 +9,11 @@
    1/2. As computed that is off by at most 4 u of its parts, which moves the value by at most 4 u
    (|row| + |limit|) <= 10 u N h + off / 16 for a box of half perimeter h on N x N pixels: less than
    off / 4, for off is at least 64 u N (h + 2), of which an edge function's own error takes 5 / 8
-   (visibility/raster.c). So limits of -off and off still err on the safe side. */
+   (visibility/raster.c). So limits of -off and off still err on the safe side.
+
+   Crossings are computed as cross_at + cross_up y instead: cross_at from at + up / 2 with three
+   roundings more, cross_up y with three, and their sum with one. With the limit that is at most 5 u
+   (|at| + |up| (N + 1)) + 2 u |limit| <= 10 u N (h + 2) + off / 16, which is the same. */
 #include "visibility/span.h"
 
 #include <math.h>
@@ -66,6 +70,24 @@ void lrcsi_span_prepare(lrcsi_edges *edges)
         edges->over[k] = over;
         edges->near[k] = 0.5 + edges->off * fabs(over);
         edges->far[k] = 0.5 + (edges->off + side_bend(edges, k)) * fabs(over);
+    }
+    int sides[2] = {0, 0};
+    edges->level = 0;
+    for (int i = 0; i < 4; i++) {
+        edges->cross_at[i] = i < 2 ? -HUGE_VAL : HUGE_VAL;
+        edges->cross_up[i] = edges->cross_near[i] = edges->cross_far[i] = 0;
+    }
+    for (int k = 0; k < 3; k++) { /* of three differences around a triangle two are alike at most */
+        int right = edges->over[k] < 0;
+        if (edges->over[k] == 0) {
+            edges->level = 1;
+        } else {
+            int i = 2 * right + sides[right]++;
+            edges->cross_at[i] = -(edges->at[k] + 0.5 * edges->up[k]) * edges->over[k];
+            edges->cross_up[i] = -edges->up[k] * edges->over[k];
+            edges->cross_near[i] = edges->near[k];
+            edges->cross_far[i] = edges->far[k];
+        }
     }
 }
 
@@ -132,26 +154,33 @@ lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
     return row;
 }
 
-lrcsi_samples lrcsi_span_samples(const lrcsi_edges *edges, uint32_t y)
+/* A side along the row tells of all its pixels at once. */
+static void level_judge(const lrcsi_edges *e, uint32_t y, double may[2], double sure[2])
 {
-    double x0 = edges->x0;
-    double x1 = edges->x1;
-    double may[2] = {x0, x1};
-    double sure[2] = {x0, x1};
     for (int k = 0; k < 3; k++) {
-        double row = edges->at[k] + edges->up[k] * (y + 0.5);
-        double zero = -row * edges->over[k];
-        double near = edges->near[k];
-        if (edges->over[k] > 0) {
-            may[0] = lrcsi_most(may[0], zero - near);
-            sure[0] = lrcsi_most(sure[0], zero + near);
-        } else if (edges->over[k] < 0) {
-            may[1] = lrcsi_least(may[1], zero + near);
-            sure[1] = lrcsi_least(sure[1], zero - near);
-        } else {
-            may[1] = row < -edges->off ? 0 : may[1];
-            sure[1] = row > edges->off ? sure[1] : 0;
+        if (e->over[k] == 0) {
+            double row = e->at[k] + e->up[k] * (y + 0.5);
+            may[1] = row < -e->off ? 0 : may[1];
+            sure[1] = row > e->off ? sure[1] : 0;
         }
+    }
+}
+
+lrcsi_samples lrcsi_span_samples(const lrcsi_edges *e, uint32_t y)
+{
+    double x0 = e->x0;
+    double x1 = e->x1;
+    double cross[4];
+    for (int i = 0; i < 4; i++) {
+        cross[i] = e->cross_at[i] + e->cross_up[i] * y;
+    }
+    const double *near = e->cross_near;
+    double may[2] = {lrcsi_most(x0, lrcsi_most(cross[0] - near[0], cross[1] - near[1])),
+                     lrcsi_least(x1, lrcsi_least(cross[2] + near[2], cross[3] + near[3]))};
+    double sure[2] = {lrcsi_most(x0, lrcsi_most(cross[0] + near[0], cross[1] + near[1])),
+                      lrcsi_least(x1, lrcsi_least(cross[2] - near[2], cross[3] - near[3]))};
+    if (e->level) {
+        level_judge(e, y, may, sure);
     }
     lrcsi_samples samples;
     samples.may = span_of(round_up(lrcsi_least(may[0], x1)), (uint32_t)lrcsi_most(may[1], x0));
@@ -162,19 +191,20 @@ lrcsi_samples lrcsi_span_samples(const lrcsi_edges *edges, uint32_t y)
     return samples;
 }
 
-lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *edges, uint32_t y)
+lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *e, uint32_t y)
 {
-    span_ends ends = {.from = {edges->left}, .to = {edges->right}};
-    for (int k = 0; k < 3; k++) {
-        double row = edges->at[k] + edges->up[k] * (y + 0.5);
-        double zero = -row * edges->over[k];
-        if (edges->over[k] > 0) {
-            ends.from[TOUCHED] = lrcsi_most(ends.from[TOUCHED], zero - edges->far[k]);
-        } else if (edges->over[k] < 0) {
-            ends.to[TOUCHED] = lrcsi_least(ends.to[TOUCHED], zero + edges->far[k]);
-        } else {
-            ends_judge(&ends, edges, k, row);
+    double from[2];
+    double to[2];
+    for (int i = 0; i < 2; i++) {
+        from[i] = e->cross_at[i] + e->cross_up[i] * y - e->cross_far[i];
+        to[i] = e->cross_at[2 + i] + e->cross_up[2 + i] * y + e->cross_far[2 + i];
+    }
+    span_ends ends = {.from = {lrcsi_most(e->left, lrcsi_most(from[0], from[1]))},
+                      .to = {lrcsi_least(e->right, lrcsi_least(to[0], to[1]))}};
+    for (int k = 0; e->level && k < 3; k++) {
+        if (e->over[k] == 0) {
+            ends_judge(&ends, e, k, e->at[k] + e->up[k] * (y + 0.5));
         }
     }
-    return outer_span(&ends, TOUCHED, edges->left, edges->right);
+    return outer_span(&ends, TOUCHED, e->left, e->right);
 }

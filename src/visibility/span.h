@@ -11,9 +11,15 @@
 /* A facet's edge functions in pixel coordinates, positive inside: value = at + along x + up y. */
 typedef struct lrcsi_edges {
     double at[3], along[3], up[3];
-    double over[3];          /* 1 / along, 0 if the side runs along the rows */
-    double near[3], far[3];  /* half a pixel, and how far along a row a value changes by off, and by
-                                off and what it changes over half a pixel */
+    double over[3];         /* 1 / along, 0 if the side runs along the rows */
+    double near[3], far[3]; /* half a pixel, and how far along a row a value changes by off, and by
+                               off and what it changes over half a pixel */
+    /* Where sides cross rows: side i at x = cross_at[i] + cross_up[i] y for the centres of row y. 0
+       and 1 bound the facet on the left, 2 and 3 on the right; one that there is not is at
+       infinity. cross_near and cross_far: their near and far. level: some side runs along the rows.
+     */
+    double cross_at[4], cross_up[4], cross_near[4], cross_far[4];
+    int level;
     double position_err;     /* error bound of the corners' pixel coordinates and of samples' */
     double off;              /* error bound of a value in pixels touched, with 3 / 8 to spare */
     uint32_t x0, x1, y0, y1; /* pixels whose centres may be covered: x0 <= x < x1 */
@@ -59,7 +65,7 @@ static inline void lrcsi_span_follow(const lrcsi_segment *s, uint32_t y, uint32_
     *x1 = to < *x1 ? (uint32_t)lrcsi_most(to + 1, 0) : *x1;
 }
 
-/* Fills in over, near and far of edges whose other numbers are known. */
+/* Fills in over, near, far and the crossings of edges whose other numbers are known. */
 void lrcsi_span_prepare(lrcsi_edges *edges);
 
 lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y);

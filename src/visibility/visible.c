@@ -1,10 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* From samples to areas with bounds. What an undecided facet has in a pixel that is touched by no
-   event edge crossing the facet and by no contact with it is visible all together or not at all: a
-   sample on the facet tells which, exactly, and one in a neighbouring such pixel does too, since
-   the facet's part of both is connected. And where a pixel is known to be covered by one visible
-   facet, all others are hidden there. Those pixels bound the area from below and above; the
-   area between the bounds comes from the samples (visibility/visible_fraction.h). */
+/* From samples to areas with bounds. A pixel is mixed for an undecided facet if an event edge that
+   crosses the facet touches it, or a contact on the facet may lie in it. What the facet has in any
+   other pixel is visible or hidden together: a sample on the facet tells which, exactly, and so
+   does one in a neighbouring pixel that is not mixed, since what the facet has in both is
+   connected. A pixel that one visible facet covers whole is pure: all others are hidden there.
+   These pixels bound the area from below and above; between the bounds the samples decide
+   (visibility/visible_fraction.h).
+
+   The driver is lrcsi_visible_sampled:
+   1. known_draw: the samples of the tiles that undecided facets touch.
+   2. certain_begin: each undecided facet that owns samples has its mixed pixels marked and the
+   others counted; pixels that it proves pure are noted.
+   3. drawn_area: the bounds of each undecided facet, with all pure pixels known; its area and its
+      likely error.
+   4. lrcsi_visible_fraction_settle: what bounds cut off goes to other facets of the component. */
 #include "visibility/visible.h"
 
 #include <math.h>
@@ -32,86 +41,81 @@ void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
     }
 }
 
-/* --- pixels where visibility may change ------------------------------------------------------- */
+/* --- mixed pixels ----------------------------------------------------------------------------- */
 
-/* The pixels that a facet may touch, and which of them are mixed. */
-typedef struct pixel_marks {
+/* What is certain of a facet, in pixels: what of it is visible, and what hidden. Pixels that it
+   covers whole are counted, exactly. Of the others at most 12 N are added up (along each row or
+   column a side touches 4 at most), so that an addition rounds by at most 12 u N: less than each
+   part gives away. */
+typedef struct pixel_sums {
+    uint32_t whole_visible, whole_hidden;
+    double visible, hidden;
+    int listed; /* the facet's open pixels are listed, and not in these sums */
+} pixel_sums;
+
+/* What the facets of one raster share. */
+typedef struct visible_job {
     const lrcsi_known *known;
     lrcsi_raster *raster;
-    lrcsi_edges edges;    /* of the facet */
-    double corner[3][2];  /* its corners, in pixels, counter-clockwise */
-    lrcsi_row *row;       /* row of the raster, of those touched */
-    unsigned char *mixed; /* pixel of the raster, of those touched: visibility may change in it */
-    /* Pixels of which nothing is known of a facet yet, one list behind the other in facet order: 2
-       at for pixel number `at`, + 1 if the facet covers all of it; each ends with LRCS_NONE. */
+    lrcsi_row *row;       /* row of the raster, of those that the facet at hand touches */
+    unsigned char *mixed; /* pixel of the raster, of those touched: mixed for that facet */
+    pixel_sums *begun;    /* undecided facet: what certain_begin found */
+    /* Open pixels: those of which nothing is certain yet, facet after facet. 2 place + 1 if the
+       facet covers all of the pixel, else 2 place; LRCS_NONE ends those of a facet. */
     uint32_t *open;
-    size_t open_room, open_count, open_read;
-} pixel_marks;
+    size_t open_room, open_count;
+} visible_job;
 
-static size_t marks_at(const pixel_marks *m, uint32_t x, uint32_t y)
-{
-    return (size_t)y * m->raster->size + x;
-}
+/* The facet at hand. */
+typedef struct drawn_facet {
+    uint32_t facet;
+    lrcsi_edges edges;
+    double corner[3][2]; /* in pixels, counter-clockwise */
+} drawn_facet;
 
-/* The facet whose pixels are asked for. */
-static void marks_facet(pixel_marks *m, uint32_t facet)
+static drawn_facet drawn_facet_of(const lrcsi_raster *r, uint32_t facet)
 {
-    const lrcsi_raster *r = m->raster;
     const uint32_t *corner = r->view->prepared->scene->facet[facet].corner;
-    m->edges = lrcsi_raster_edges(r, facet);
+    drawn_facet f = {.facet = facet, .edges = lrcsi_raster_edges(r, facet)};
     for (int k = 0; k < 3; k++) {
-        lrcsi_raster_point(r, corner[r->view->facing[facet] > 0 ? k : 2 - k], m->corner[k]);
+        lrcsi_raster_point(r, corner[r->view->facing[facet] > 0 ? k : 2 - k], f.corner[k]);
     }
+    return f;
 }
 
-/* The same, with all pixels that it may touch, none of them mixed. */
-static void marks_start(pixel_marks *m, uint32_t facet)
+static size_t pixel_place(const visible_job *job, uint32_t x, uint32_t y)
 {
-    marks_facet(m, facet);
-    const lrcsi_edges e = m->edges;
-    for (uint32_t y = e.bottom; y < e.top; y++) {
-        lrcsi_row row = m->row[y] = lrcsi_span_row(&e, y);
-        memset(m->mixed + marks_at(m, row.touched.x0, y), 0, row.touched.x1 - row.touched.x0);
-    }
+    return (size_t)y * job->raster->size + x;
 }
 
-/* The first row from which on the segment may be marked, and one past the last. */
-static uint32_t mark_row(const pixel_marks *m, double y)
+/* Marks every pixel of the facet that an edge may touch. The coordinates of its ends have errors of
+   at most a fourth of the margin, which widens rows and ranges (visibility/span.h). */
+static void mark_edge(const visible_job *job, const drawn_facet *f, uint32_t edge)
 {
-    return (uint32_t)lrcsi_least(lrcsi_most(y, m->edges.bottom), m->edges.top);
-}
-
-/* Marks every pixel that the segment a b may touch. Its ends are off by at most `off`; the same
-   margin widens rows and ranges. */
-static void mark_segment(pixel_marks *m, const double a[2], const double b[2], double off)
-{
-    double margin = 4 * off;
-    lrcsi_segment s = lrcsi_span_segment(a, b, margin);
-    uint32_t first = mark_row(m, lrcsi_least(a[1], b[1]) - margin);
-    uint32_t last = mark_row(m, lrcsi_most(a[1], b[1]) + margin + 1);
-    for (uint32_t y = first; y < last; y++) {
-        uint32_t x0 = m->row[y].touched.x0;
-        uint32_t x1 = m->row[y].touched.x1;
+    const lrcsi_edge *e = &job->raster->view->prepared->topology.edge[edge];
+    const double bottom = f->edges.bottom;
+    const double top = f->edges.top;
+    double a[2];
+    double b[2];
+    const double a_err = lrcsi_raster_point(job->raster, e->low, a);
+    const double b_err = lrcsi_raster_point(job->raster, e->high, b);
+    const double margin = 4 * lrcsi_most(a_err, b_err);
+    const lrcsi_segment s = lrcsi_span_segment(a, b, margin);
+    const double y0 = lrcsi_most(bottom, lrcsi_least(a[1], b[1]) - margin);
+    const double y1 = lrcsi_least(top, lrcsi_most(a[1], b[1]) + margin + 1);
+    for (uint32_t y = (uint32_t)lrcsi_least(y0, top); y < (uint32_t)lrcsi_most(y1, bottom); y++) {
+        uint32_t x0 = job->row[y].touched.x0;
+        uint32_t x1 = job->row[y].touched.x1;
         lrcsi_span_follow(&s, y, &x0, &x1);
         if (x0 < x1) {
-            memset(m->mixed + marks_at(m, x0, y), 1, x1 - x0);
+            memset(job->mixed + pixel_place(job, x0, y), 1, x1 - x0);
         }
     }
 }
 
-static void mark_edge(pixel_marks *m, uint32_t edge)
-{
-    const lrcsi_edge *e = &m->raster->view->prepared->topology.edge[edge];
-    double a[2];
-    double b[2];
-    double off = lrcsi_raster_point(m->raster, e->low, a);
-    off = lrcsi_most(off, lrcsi_raster_point(m->raster, e->high, b));
-    mark_segment(m, a, b, off);
-}
-
-/* Where a height may be 0 in a row, it being row + along (x + 1/2) to within slack: among pixels
-   *x0 .. *x1 - 1. As safely as two pixels to either side and 8 roundings are; where division gives
-   no number, anywhere. */
+/* Where a height may be 0 in a row, if it is row + along (x + 1/2) to within slack: among pixels
+   *x0 .. *x1 - 1. Two pixels and 8 roundings are added on either side; where the division gives no
+   number, the range stays. */
 static void level_narrow(double row, double along, double slack, double *x0, double *x1)
 {
     double middle = -row / along;
@@ -125,24 +129,24 @@ static void level_narrow(double row, double along, double slack, double *x0, dou
     }
 }
 
-/* Marks the pixels of both facets where their planes may meet: where the difference of heights is
-   not surely of one sign over the whole pixel. Each row is asked where that may be in it before the
-   other facet is asked what it touches there: so the line is walked along on which they meet. */
-static void mark_meeting(pixel_marks *m, uint32_t facet, uint32_t other)
+/* Marks the pixels of both facets in which their planes may intersect: where the difference of
+   heights does not have one sign for certain over the whole pixel. In each row the range where it
+   may be 0 is found first, so that only the line of intersection is followed. */
+static void mark_intersection(const visible_job *job, const drawn_facet *f, uint32_t other)
 {
-    const lrcsi_raster *r = m->raster;
-    lrcsi_plane p = lrcsi_raster_plane(r, facet);
-    lrcsi_plane q = lrcsi_raster_plane(r, other);
-    lrcsi_edges e = lrcsi_raster_edges(r, other);
-    double along = p.along - q.along;
-    double up = p.up - q.up;
-    double slack = lrcsi_raster_slack(r, facet) + lrcsi_raster_slack(r, other) +
-                   0.51 * (fabs(along) + fabs(up));
-    uint32_t bottom = e.bottom > m->edges.bottom ? e.bottom : m->edges.bottom;
-    for (uint32_t y = bottom; y < m->edges.top && y < e.top; y++) {
+    const lrcsi_raster *r = job->raster;
+    const lrcsi_plane p = lrcsi_raster_plane(r, f->facet);
+    const lrcsi_plane q = lrcsi_raster_plane(r, other);
+    const lrcsi_edges e = lrcsi_raster_edges(r, other);
+    const double along = p.along - q.along;
+    const double up = p.up - q.up;
+    const double slack = lrcsi_raster_slack(r, f->facet) + lrcsi_raster_slack(r, other) +
+                         0.51 * (fabs(along) + fabs(up));
+    uint32_t bottom = e.bottom > f->edges.bottom ? e.bottom : f->edges.bottom;
+    for (uint32_t y = bottom; y < f->edges.top && y < e.top; y++) {
         double row = p.at - q.at + up * (y + 0.5);
-        double x0 = m->row[y].touched.x0;
-        double x1 = m->row[y].touched.x1;
+        double x0 = job->row[y].touched.x0;
+        double x1 = job->row[y].touched.x1;
         level_narrow(row, along, slack, &x0, &x1);
         if (!(x0 < x1)) {
             continue;
@@ -151,57 +155,80 @@ static void mark_meeting(pixel_marks *m, uint32_t facet, uint32_t other)
         x1 = lrcsi_least(x1, touched.x1);
         for (double x = lrcsi_most(x0, touched.x0); x < x1; x++) {
             if (!(fabs(row + along * (x + 0.5)) > slack)) {
-                m->mixed[marks_at(m, (uint32_t)x, y)] = 1;
+                job->mixed[pixel_place(job, (uint32_t)x, y)] = 1;
             }
         }
     }
 }
 
-static void mark_touches(pixel_marks *m, uint32_t facet)
+/* The event edges that cross a facet; they may be those of classification->crossing. */
+static const uint32_t *known_crossings(const lrcsi_known *k, uint32_t facet, uint32_t *count)
 {
-    const lrcsi_view *view = m->raster->view;
-    const lrcsi_intersections *intersections = &view->prepared->intersections;
-    for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
-        const lrcsi_intersection *touch = &intersections->entry[i];
-        if (!lrcsi_intersection_hides(view, facet, touch)) {
+    if (facet < k->listed) {
+        *count = k->first[facet + 1] - k->first[facet];
+        return k->crossing + k->first[facet];
+    }
+    *count = lrcsi_classify_crossings(k->classification, facet, NULL);
+    return k->classification->crossing;
+}
+
+/* Finds the pixels that a facet touches, and marks those that are mixed for it. */
+static void mark_facet(const visible_job *job, const drawn_facet *f)
+{
+    const lrcsi_view *view = job->raster->view;
+    const lrcs_prepared *p = view->prepared;
+    for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
+        lrcsi_row row = job->row[y] = lrcsi_span_row(&f->edges, y);
+        memset(job->mixed + pixel_place(job, row.touched.x0, y), 0,
+               row.touched.x1 - row.touched.x0);
+    }
+    uint32_t crossings;
+    const uint32_t *crossing = known_crossings(job->known, f->facet, &crossings);
+    for (uint32_t i = 0; i < crossings; i++) {
+        mark_edge(job, f, crossing[i]);
+    }
+    const lrcsi_intersections *contacts = &p->intersections;
+    for (uint32_t i = contacts->first[f->facet]; i < contacts->first[f->facet + 1]; i++) {
+        const lrcsi_intersection *contact = &contacts->entry[i];
+        if (!lrcsi_intersection_hides(view, f->facet, contact)) {
             continue;
         }
-        if (touch->kind == LRCSI_INTERSECTION_CROSS) {
-            mark_meeting(m, facet, touch->other);
+        if (contact->kind == LRCSI_INTERSECTION_CROSS) {
+            mark_intersection(job, f, contact->other);
             continue;
         }
         for (int k = 0; k < 3; k++) {
-            mark_edge(m, view->prepared->topology.facet_edge[touch->other].corner[k]);
+            mark_edge(job, f, p->topology.facet_edge[contact->other].corner[k]);
         }
     }
 }
 
-/* --- undecided facets ------------------------------------------------------------------------- */
+/* --- what is certain -------------------------------------------------------------------------- */
 
 /* The part of a unit square where a linear function that is `value` at its centre, and changes by
    most >= least >= 0 along its sides, is positive. */
-static double square_share(double value, double most, double least)
+static double square_part(double value, double most, double least)
 {
     double from = fabs(value);
-    double rest = 0.5 * (most + least) - from;
-    double less = rest >= least ? 0.5 - from / most
-                  : rest > 0    ? 0.5 * (rest / most) * (rest / least)
-                                : 0;
+    double beyond = 0.5 * (most + least) - from;
+    double less = beyond >= least ? 0.5 - from / most
+                  : beyond > 0    ? 0.5 * (beyond / most) * (beyond / least)
+                                  : 0;
     return value > 0 ? 1 - less : less;
 }
 
-/* How much the facet surely covers, in pixels, of one that it may not cover whole. Where just one
-   side passes: a value that is too large by off moves the line by off / |gradient|, and the area by
-   that times its length in the pixel, below 1.5; roundings are below 8 u, and off is at least 64 u
-   N h. Else corners are off by their position error in each coordinate, and the area by at most 4
-   times that, as far as sides run within the pixel along both axes together. Roundings
-   (visibility/clip.h) are less than another 4 times: a position error is more than 8 u of a
-   corner's distance from any pixel, and more than 16 u. */
-static double pixel_share(const pixel_marks *m, uint32_t x, uint32_t y)
+/* How much a facet surely covers of a pixel that it may not cover whole. Where one side alone
+   passes through it: a value that is too large by off moves the line by off / |gradient|, and the
+   area by that times its length in the pixel, below 1.5; roundings are below 8 u, and off is at
+   least 64 u N h. Otherwise corners are off by their position error in each coordinate, and the
+   area by at most 4 times that, as far as sides run within the pixel along both axes together.
+   Roundings (visibility/clip.h) are less than another 4 times: a position error is more than 8 u of
+   a corner's distance from any pixel, and more than 16 u. */
+static double pixel_part(const drawn_facet *f, uint32_t x, uint32_t y)
 {
-    const lrcsi_edges *e = &m->edges;
+    const lrcsi_edges *e = &f->edges;
     int sides = 0;
-    double share = 0;
+    double part = 0;
     for (int k = 0; k < 3; k++) {
         double along = fabs(e->along[k]);
         double up = fabs(e->up[k]);
@@ -209,221 +236,168 @@ static double pixel_share(const pixel_marks *m, uint32_t x, uint32_t y)
         if (!(value - 0.5 * (along + up) > e->off)) {
             double most = lrcsi_most(along, up);
             sides++;
-            share = square_share(value, most, lrcsi_least(along, up)) - 2 * e->off / most;
+            part = square_part(value, most, lrcsi_least(along, up)) - 2 * e->off / most;
         }
     }
     if (sides != 1) {
         const double low[2] = {x, y};
-        share = lrcsi_clip_box_area((const double(*)[2])m->corner, low) - 8 * m->edges.position_err;
+        part = lrcsi_clip_box_area((const double(*)[2])f->corner, low) - 8 * e->position_err;
     }
-    return lrcsi_most(0, share);
+    return lrcsi_most(0, part);
 }
 
-/* Does a sample on the facet tell what the pixel shows of it? Then *shows. Coordinates below 0 wrap
-   round and are outside. */
-static int pixel_tells(const pixel_marks *m, uint32_t facet, uint32_t x, uint32_t y, int *shows)
+enum { SAMPLE_HIDDEN, SAMPLE_VISIBLE, SAMPLE_NONE };
+
+/* Whether the sample of a pixel tells that the facet is visible there. It does not if the pixel is
+   mixed or the facet may not cover the sample. Coordinates below 0 wrap round and are outside. */
+static int sample_tells(const visible_job *job, const drawn_facet *f, uint32_t x, uint32_t y)
 {
-    if (y < m->edges.bottom || y >= m->edges.top || !lrcsi_span_has(m->row[y].sure, x) ||
-        m->mixed[marks_at(m, x, y)]) {
-        return 0;
+    if (y < f->edges.bottom || y >= f->edges.top || !lrcsi_span_has(job->row[y].sure, x) ||
+        job->mixed[pixel_place(job, x, y)]) {
+        return SAMPLE_NONE;
     }
-    *shows = m->raster->owner[marks_at(m, x, y)] == facet;
-    return 1;
+    return job->raster->owner[pixel_place(job, x, y)] == f->facet ? SAMPLE_VISIBLE : SAMPLE_HIDDEN;
 }
 
-/* The same, from the pixel or from one beside it. */
-static int pixel_known(const pixel_marks *m, uint32_t facet, uint32_t x, uint32_t y, int *shows)
+/* The same of the pixel's sample, or else of a neighbouring one. */
+static int pixel_tells(const visible_job *job, const drawn_facet *f, uint32_t x, uint32_t y)
 {
-    return m->mixed[marks_at(m, x, y)] == 0 &&
-           (pixel_tells(m, facet, x, y, shows) || pixel_tells(m, facet, x - 1, y, shows) ||
-            pixel_tells(m, facet, x + 1, y, shows) || pixel_tells(m, facet, x, y - 1, shows) ||
-            pixel_tells(m, facet, x, y + 1, shows));
+    if (job->mixed[pixel_place(job, x, y)]) {
+        return SAMPLE_NONE;
+    }
+    int tells = sample_tells(job, f, x, y);
+    tells = tells == SAMPLE_NONE ? sample_tells(job, f, x - 1, y) : tells;
+    tells = tells == SAMPLE_NONE ? sample_tells(job, f, x + 1, y) : tells;
+    tells = tells == SAMPLE_NONE ? sample_tells(job, f, x, y - 1) : tells;
+    return tells == SAMPLE_NONE ? sample_tells(job, f, x, y + 1) : tells;
 }
-
-/* What is certain of a facet, in pixels: what it shows, and what is hidden. Those that it covers
-   whole are counted, exactly. Of the rest at most 12 N are added up (along each row or column a
-   side touches 4 at most), so that an addition rounds by at most 12 u N: less than each share gives
-   away. */
-typedef struct pixel_sums {
-    uint32_t whole_shown, whole_hidden;
-    double shown, hidden;
-} pixel_sums;
 
 /* Lists a pixel as open; where there is no room it is only counted. */
-static void open_add(pixel_marks *m, size_t at, uint32_t whole)
+static void open_add(visible_job *job, size_t place, uint32_t whole)
 {
-    if (m->open_count < m->open_room) {
-        m->open[m->open_count] = 2 * (uint32_t)at + whole;
+    if (job->open_count < job->open_room) {
+        job->open[job->open_count] = 2 * (uint32_t)place + whole;
     }
-    m->open_count++;
+    job->open_count++;
 }
 
-/* Pixels that the facet touches and may not cover whole. */
-static void count_parts(pixel_marks *m, uint32_t facet, uint32_t y, lrcsi_pixels part,
-                        pixel_sums *sums)
+/* Adds up the pixels of a facet of which something is certain, and lists the others. Pixels that it
+   covers whole and is visible in are noted as pure. */
+static pixel_sums certain_sums(visible_job *job, const drawn_facet *f)
 {
-    const lrcsi_raster *r = m->raster;
-    for (uint32_t x = part.x0; x < part.x1; x++) {
-        size_t at = marks_at(m, x, y);
-        int shows = 0;
-        if ((r->pure[at] && r->owner[at] != facet) || pixel_known(m, facet, x, y, &shows)) {
-            *(shows ? &sums->shown : &sums->hidden) += pixel_share(m, x, y);
-        } else {
-            open_add(m, at, 0);
-        }
-    }
-}
-
-/* Pixels that it covers whole, and so their samples, which tell: most of them, and cheap. */
-static void count_whole(pixel_marks *m, uint32_t facet, uint32_t y, lrcsi_pixels whole,
-                        pixel_sums *sums)
-{
-    size_t row = marks_at(m, 0, y);
-    const uint32_t *owner = m->raster->owner + row;
-    unsigned char *pure = m->raster->pure + row;
-    const unsigned char *mixed = m->mixed + row;
-    for (uint32_t x = whole.x0; x < whole.x1; x++) {
-        uint32_t own = owner[x] == facet;
-        uint32_t tells = mixed[x] == 0;
-        sums->whole_shown += tells & own;
-        sums->whole_hidden += (tells | pure[x]) & (own ^ 1);
-        pure[x] |= (unsigned char)(tells & own);
-        if ((tells | pure[x]) == 0) {
-            open_add(m, row + x, 1);
-        }
-    }
-}
-
-/* Visits the pixels of a facet: counts those of which something is certain, lists the others, and
-   notes the pixels that it covers and is visible in, all of them, as pure. */
-static pixel_sums count_certain(pixel_marks *m, uint32_t facet)
-{
-    pixel_sums sums = {0, 0, 0, 0};
-    for (uint32_t y = m->edges.bottom; y < m->edges.top; y++) {
-        lrcsi_pixels touched = m->row[y].touched;
-        lrcsi_pixels whole = m->row[y].whole;
-        if (whole.x0 == whole.x1) { /* it may stand anywhere then */
+    const lrcsi_raster *r = job->raster;
+    pixel_sums sums = {0, 0, 0, 0, 0};
+    for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
+        const size_t row = pixel_place(job, 0, y);
+        const lrcsi_pixels touched = job->row[y].touched;
+        lrcsi_pixels whole = job->row[y].whole;
+        if (whole.x0 == whole.x1) { /* it may be anywhere then */
             whole = (lrcsi_pixels){touched.x1, touched.x1};
         }
-        count_parts(m, facet, y, (lrcsi_pixels){touched.x0, whole.x0}, &sums);
-        count_whole(m, facet, y, whole, &sums);
-        count_parts(m, facet, y, (lrcsi_pixels){whole.x1, touched.x1}, &sums);
+        for (uint32_t x = touched.x0; x < touched.x1; x++) {
+            if (x == whole.x0) {
+                for (; x < whole.x1; x++) { /* most pixels, and few operations each */
+                    uint32_t own = r->owner[row + x] == f->facet;
+                    uint32_t tells = job->mixed[row + x] == 0;
+                    sums.whole_visible += tells & own;
+                    sums.whole_hidden += (tells | r->pure[row + x]) & (own ^ 1);
+                    r->pure[row + x] |= (unsigned char)(tells & own);
+                    if ((tells | r->pure[row + x]) == 0) {
+                        open_add(job, row + x, 1);
+                    }
+                }
+                if (x >= touched.x1) {
+                    break;
+                }
+            }
+            int tells = r->pure[row + x] && r->owner[row + x] != f->facet
+                            ? SAMPLE_HIDDEN
+                            : pixel_tells(job, f, x, y);
+            if (tells == SAMPLE_NONE) {
+                open_add(job, row + x, 0);
+            } else {
+                *(tells == SAMPLE_VISIBLE ? &sums.visible : &sums.hidden) += pixel_part(f, x, y);
+            }
+        }
     }
     return sums;
 }
 
-/* Puts the event edges that cross a facet into classification->crossing; returns how many they are.
- */
-static uint32_t known_crossings(const lrcsi_known *known, uint32_t facet)
+/* Begins a facet: its sums and its open pixels, if there is room for these. */
+static pixel_sums certain_begin(visible_job *job, uint32_t facet)
 {
-    if (facet >= known->listed) {
-        return lrcsi_classify_crossings(known->classification, facet);
+    const drawn_facet f = drawn_facet_of(job->raster, facet);
+    const size_t first = job->open_count;
+    mark_facet(job, &f);
+    pixel_sums sums = certain_sums(job, &f);
+    sums.listed = job->open_count < job->open_room;
+    if (sums.listed) {
+        job->open[job->open_count++] = LRCS_NONE;
+    } else {
+        job->open_count = first;
     }
-    uint32_t first = known->first[facet];
-    uint32_t count = known->first[facet + 1] - first;
-    lrcsi_classify_recall(known->classification, facet, known->crossing + first, count);
-    return count;
+    return sums;
 }
 
-/* Marks where the visibility of an undecided facet may change. */
-static void mark_changes(pixel_marks *m, uint32_t facet)
+/* Ends it, once all pure pixels are known: open pixels that other facets are visible in are hidden.
+   *read: where its open pixels are listed; it moves on to those of the next facet. A facet without
+   a list is measured anew. */
+static pixel_sums certain_end(visible_job *job, uint32_t facet, size_t *read)
 {
-    marks_start(m, facet);
-    uint32_t crossings = known_crossings(m->known, facet);
-    for (uint32_t i = 0; i < crossings; i++) {
-        mark_edge(m, m->known->classification->crossing[i]);
-    }
-    mark_touches(m, facet);
-}
-
-/* Visits a facet that owns samples: what is certain of it is kept in *visible until
-   certain_finish, its pixels as open. Returns 0 if there is no room for these. */
-static int certain_begin(pixel_marks *m, uint32_t facet, lrcsi_visible *visible)
-{
-    size_t first = m->open_count;
-    mark_changes(m, facet);
-    pixel_sums sums = count_certain(m, facet);
-    if (m->open_count >= m->open_room) {
-        m->open_count = first;
-        return 0;
-    }
-    m->open[m->open_count++] = LRCS_NONE;
-    visible->low = sums.whole_shown + sums.shown;
-    visible->high = sums.hidden;
-    visible->likely = sums.whole_hidden;
-    return 1;
-}
-/* The sums of such a facet, once all pure pixels are known: of those open, the ones that show
-   another facet are hidden. */
-static pixel_sums certain_finish(pixel_marks *m, uint32_t facet, const lrcsi_visible *visible)
-{
-    const lrcsi_raster *r = m->raster;
-    pixel_sums sums = {0, (uint32_t)visible->likely, visible->low, visible->high};
-    int shaped = 0; /* the facet's shape is at hand */
+    const lrcsi_raster *r = job->raster;
+    pixel_sums sums = job->begun[facet];
+    drawn_facet f = {.facet = LRCS_NONE};
     uint32_t open;
-    while ((open = m->open[m->open_read++]) != LRCS_NONE) {
-        size_t at = open / 2;
-        if (!r->pure[at] || r->owner[at] == facet) {
+    if (!sums.listed) {
+        f = drawn_facet_of(r, facet);
+        job->open_count = job->open_room; /* nobody asks again */
+        mark_facet(job, &f);
+        return certain_sums(job, &f);
+    }
+    while ((open = job->open[(*read)++]) != LRCS_NONE) {
+        const size_t place = open / 2;
+        if (!r->pure[place] || r->owner[place] == facet) {
             continue;
         }
         if (open % 2 != 0) {
             sums.whole_hidden++;
             continue;
         }
-        if (!shaped) {
-            marks_facet(m, facet);
-            shaped = 1;
+        if (f.facet != facet) {
+            f = drawn_facet_of(r, facet);
         }
-        sums.hidden += pixel_share(m, (uint32_t)(at % r->size), (uint32_t)(at / r->size));
+        sums.hidden += pixel_part(&f, (uint32_t)(place % r->size), (uint32_t)(place / r->size));
     }
     return sums;
 }
 
-/* The sums of a facet of which nothing is kept. */
-static pixel_sums certain_sums(pixel_marks *m, uint32_t facet)
-{
-    size_t first = m->open_count;
-    mark_changes(m, facet);
-    pixel_sums sums = count_certain(m, facet);
-    m->open_count = first; /* nobody asks again */
-    return sums;
-}
+/* --- areas ------------------------------------------------------------------------------------ */
 
-static lrcsi_sampling_error undecided_error(const lrcsi_sharing *sharing, uint32_t facet,
-                                            const lrcsi_visible_fraction *share)
-{
-    if (share->row) {
-        return lrcsi_sampling_error_row(sharing->raster, facet, share->longest, share->share);
-    }
-    uint32_t crossings = known_crossings(sharing->known, facet);
-    return lrcsi_sampling_error_facet(sharing->known->classification, crossings, sharing->raster,
-                                      facet);
-}
-
-/* Of a facet that certain_begin visited *v holds what it kept. Pixel areas are side^2 / N^2 to a
-   few roundings; 1e-12 of them is given away. */
-static void undecided_area(const lrcsi_sharing *sharing, pixel_marks *marks, uint32_t facet,
-                           int begun, lrcsi_visible *v)
+/* The area of an undecided facet. Pixel areas are side^2 / N^2 to a few roundings; 1e-12 of them is
+   given away. Where a depth was undecided nothing is certain. */
+static void drawn_area(const lrcsi_sharing *sharing, const pixel_sums *sums, uint32_t facet,
+                       lrcsi_visible *v)
 {
     const lrcsi_raster *raster = sharing->raster;
-    double area = lrcsi_view_projected(raster->view, facet);
-    double pixel = raster->pixel * raster->pixel;
-    lrcsi_visible_fraction share = lrcsi_visible_fraction_facet(sharing, facet);
-    pixel_sums sums = {0, 0, 0, 0};
-    lrcsi_sampling_error sampling_error = {HUGE_VAL, 0};
-    if (!raster->undecided[facet]) {
-        sums = begun ? certain_finish(marks, facet, v) : certain_sums(marks, facet);
-        sampling_error = undecided_error(sharing, facet, &share);
+    const double area = lrcsi_view_projected(raster->view, facet);
+    const double pixel = raster->pixel * raster->pixel;
+    const lrcsi_visible_fraction fraction = lrcsi_visible_fraction_facet(sharing, facet);
+    lrcsi_sampling_error error = {HUGE_VAL, 0};
+    if (!raster->undecided[facet] && fraction.row) {
+        error = lrcsi_sampling_error_row(raster, facet, fraction.longest, fraction.share);
+    } else if (!raster->undecided[facet]) {
+        uint32_t crossings;
+        const uint32_t *crossing = known_crossings(sharing->known, facet, &crossings);
+        error = lrcsi_sampling_error_facet(sharing->known->classification->component, raster, facet,
+                                           crossing, crossings);
     }
-    v->low = lrcsi_least(area, (sums.whole_shown + sums.shown) * pixel * (1 - 1e-12));
-    v->high = lrcsi_most(v->low, area - (sums.whole_hidden + sums.hidden) * pixel * (1 - 1e-12));
-    lrcsi_visible_fraction_keep(sharing, facet, area, &share, v);
+    v->low = lrcsi_least(area, (sums->whole_visible + sums->visible) * pixel * (1 - 1e-12));
+    v->high = lrcsi_most(v->low, area - (sums->whole_hidden + sums->hidden) * pixel * (1 - 1e-12));
+    lrcsi_visible_fraction_keep(sharing, facet, area, &fraction, v);
     double gap = v->high - v->low;
-    v->likely = lrcsi_least(gap, sqrt(sampling_error.square) * pixel);
-    v->bias = lrcsi_least(gap, lrcsi_most(-gap, sampling_error.bias * pixel));
+    v->likely = lrcsi_least(gap, sqrt(error.square) * pixel);
+    v->bias = lrcsi_least(gap, lrcsi_most(-gap, error.bias * pixel));
 }
-
-/* --- what is known ---------------------------------------------------------------------------- */
 
 /* Room for crossings: more than ordinary scenes have. Those of facets beyond it are searched for
    whenever they are needed. */
@@ -441,37 +415,8 @@ size_t lrcsi_visible_known_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
 }
 
-/* Lists what crosses the next facet, which is undecided or not, unless there is no room. */
-static void known_list(lrcsi_known *k, uint32_t facet, uint32_t crossings)
-{
-    uint32_t used = k->first[facet];
-    if (crossings <= known_room(k->classification->view->prepared) - used) {
-        if (crossings != 0) { /* mostly there are none */
-            memcpy(k->crossing + used, k->classification->crossing,
-                   crossings * sizeof *k->crossing);
-        }
-        k->first[facet + 1] = used + crossings;
-        k->listed++;
-    }
-}
-
-/* Asks about undecided facets. The search that serves the answer serves the list too. */
-static void known_undecided(lrcsi_known *k)
-{
-    k->first[0] = 0;
-    for (uint32_t f = 0; f < k->classification->view->prepared->scene->facet_count; f++) {
-        uint32_t crossings = 0;
-        if (k->classification->undecided[f] &&
-            !lrcsi_query_screened(k->classification, &k->facets, f)) {
-            k->answer[f] = LRCSI_QUERY_UNDECIDED;
-            crossings = k->listed == f ? lrcsi_classify_crossings(k->classification, f) : 0;
-        }
-        if (k->listed == f) {
-            known_list(k, f, crossings);
-        }
-    }
-}
-
+/* Uniform facets are asked first. Of the others one search for what crosses them serves to prove
+   that they are hidden, and is listed for the rasters. */
 int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, lrcsi_known *known)
 {
     size_t mark = work->used;
@@ -482,20 +427,32 @@ int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, l
     k.first = lrcsi_work_take(work, (size_t)count + 1, sizeof *k.first);
     k.crossing = lrcsi_work_take(work, known_room(p), sizeof *k.crossing);
     int status = k.answer && k.first && k.crossing
-                     ? lrcsi_query_uniform(classification, work, &k.facets, k.answer)
+                     ? lrcsi_query_uniform(classification, NULL, work, &k.facets, k.answer)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    known_undecided(&k);
+    k.first[0] = 0;
+    for (uint32_t f = 0; f < count; f++) {
+        uint32_t crossings = 0;
+        if (classification->undecided[f] &&
+            !lrcsi_query_screened(classification, &k.facets, f, NULL)) {
+            k.answer[f] = LRCSI_QUERY_UNDECIDED;
+            crossings = k.listed == f ? lrcsi_classify_crossings(classification, f, NULL) : 0;
+        }
+        if (k.listed == f && crossings <= known_room(p) - k.first[f]) {
+            memcpy(k.crossing + k.first[f], classification->crossing,
+                   crossings * sizeof *k.crossing);
+            k.first[f + 1] = k.first[f] + crossings;
+            k.listed++;
+        }
+    }
     *known = k;
     return LRCS_OK;
 }
 
-/* --- all facets ------------------------------------------------------------------------------- */
-
-/* Room for open pixels: more than ordinary scenes have. Facets beyond it are visited twice. */
+/* Room for open pixels: more than ordinary scenes have. Facets beyond it are measured twice. */
 static size_t open_room(const lrcs_prepared *prepared, uint32_t size)
 {
     return lrcsi_work_add(lrcsi_work_square(size) / 2, 2 * (size_t)prepared->scene->facet_count);
@@ -503,11 +460,24 @@ static size_t open_room(const lrcs_prepared *prepared, uint32_t size)
 
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
-    size_t need = lrcsi_work_bytes((size_t)size * size, 1);
+    size_t need = lrcsi_work_bytes(lrcsi_work_square(size), 1);
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(lrcsi_row)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(prepared->scene->facet_count, sizeof(pixel_sums)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(open_room(prepared, size), sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_visible_fraction_need(prepared));
     return lrcsi_work_add(need, lrcsi_raster_need(prepared, size));
+}
+
+static int visible_start(visible_job *job, lrcs_work *work)
+{
+    const lrcs_prepared *p = job->raster->view->prepared;
+    const uint32_t size = job->raster->size;
+    job->mixed = lrcsi_work_take(work, lrcsi_work_square(size), 1);
+    job->row = lrcsi_work_take(work, size, sizeof *job->row);
+    job->begun = lrcsi_work_take(work, p->scene->facet_count, sizeof *job->begun);
+    job->open_room = open_room(p, size);
+    job->open = lrcsi_work_take(work, job->open_room, sizeof *job->open);
+    return job->mixed && job->row && job->begun && job->open ? LRCS_OK : LRCS_E_MEMORY;
 }
 
 /* Facets proved hidden own no samples; those proved visible own all of theirs. Only the tiles of
@@ -533,7 +503,7 @@ static void known_draw(const lrcsi_known *known, lrcsi_raster *raster)
     }
 }
 
-/* A uniform facet of which no query could tell. */
+/* A uniform facet for which no query gave an answer. */
 static lrcsi_visible unknown_area(lrcsi_raster *raster, uint32_t facet)
 {
     double area = lrcsi_view_projected(raster->view, facet);
@@ -541,55 +511,50 @@ static lrcsi_visible unknown_area(lrcsi_raster *raster, uint32_t facet)
     return (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
 }
 
-static void visible_fill(const lrcsi_sharing *sharing, pixel_marks *marks, lrcsi_visible *visible)
-{
-    const lrcsi_known *known = sharing->known;
-    lrcsi_classification *classification = known->classification;
-    lrcsi_raster *raster = marks->raster;
-    uint32_t count = classification->view->prepared->scene->facet_count;
-    for (uint32_t f = 0; f < count; f++) {
-        if (classification->undecided[f] && raster->owned[f] != 0 && !raster->undecided[f] &&
-            !certain_begin(marks, f, &visible[f])) {
-            visible[f].likely = -1; /* no room */
-        }
-    }
-    lrcsi_visible_answered(classification->view, known->answer, visible);
-    for (uint32_t f = 0; f < count; f++) {
-        if (known->answer[f] != LRCSI_QUERY_UNDECIDED) {
-            continue;
-        }
-        if (classification->undecided[f]) {
-            int begun = raster->owned[f] != 0 && !raster->undecided[f] && visible[f].likely >= 0;
-            undecided_area(sharing, marks, f, begun, &visible[f]);
-        } else {
-            visible[f] = unknown_area(raster, f);
-        }
-    }
-    lrcsi_visible_fraction_settle(sharing, visible);
-}
-
 int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
                           lrcsi_raster *raster, lrcsi_visible *visible)
 {
-    size_t mark = work->used;
-    int status = lrcsi_raster_start(known->classification->view, size, work, raster);
+    const lrcsi_classification *classification = known->classification;
+    const uint32_t count = classification->view->prepared->scene->facet_count;
+    const size_t mark = work->used;
+    int status = lrcsi_raster_start(classification->view, size, work, raster);
     if (status != LRCS_OK) {
         return status;
     }
-    size_t end = work->used;
-    pixel_marks marks = {.known = known, .raster = raster};
-    marks.mixed = lrcsi_work_take(work, (size_t)size * size, 1);
-    marks.row = lrcsi_work_take(work, size, sizeof *marks.row);
-    marks.open_room = open_room(known->classification->view->prepared, size);
-    marks.open = lrcsi_work_take(work, marks.open_room, sizeof *marks.open);
+    const size_t end = work->used;
+    visible_job job = {.known = known, .raster = raster};
     lrcsi_sharing sharing;
-    if (!marks.mixed || !marks.row || !marks.open ||
+    if (visible_start(&job, work) != LRCS_OK ||
         lrcsi_visible_fraction_make(known, raster, work, &sharing) != LRCS_OK) {
         work->used = mark;
         return LRCS_E_MEMORY;
     }
     known_draw(known, raster);
-    visible_fill(&sharing, &marks, visible);
+    for (uint32_t f = 0; f < count; f++) {
+        if (known->answer[f] == LRCSI_QUERY_UNDECIDED && classification->undecided[f]) {
+            job.begun[f].listed = 0;
+            if (raster->owned[f] != 0 && !raster->undecided[f]) {
+                job.begun[f] = certain_begin(&job, f);
+            }
+        }
+    }
+    lrcsi_visible_answered(classification->view, known->answer, visible);
+    size_t read = 0;
+    for (uint32_t f = 0; f < count; f++) {
+        if (known->answer[f] != LRCSI_QUERY_UNDECIDED) {
+            continue;
+        }
+        if (!classification->undecided[f]) {
+            visible[f] = unknown_area(raster, f);
+            continue;
+        }
+        pixel_sums sums = {0, 0, 0, 0, 0};
+        if (!raster->undecided[f]) {
+            sums = certain_end(&job, f, &read);
+        }
+        drawn_area(&sharing, &sums, f, &visible[f]);
+    }
+    lrcsi_visible_fraction_settle(&sharing, visible);
     work->used = end;
     return LRCS_OK;
 }

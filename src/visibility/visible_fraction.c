@@ -140,9 +140,10 @@ static double share_asked(const lrcsi_sharing *s, uint32_t facet)
     static const double share[] = {0, 1, 0.5}; /* by lrcsi_query_answer */
     double point[3];
     share_point(s->raster, facet, point);
-    int answer = lrcsi_query_point(&s->known->facets, facet, point);
-    return share[answer != LRCSI_QUERY_UNDECIDED ? answer
-                                                 : lrcsi_query_facet(&s->known->facets, facet)];
+    int answer = lrcsi_query_point(&s->known->facets, facet, point, NULL);
+    return share[answer != LRCSI_QUERY_UNDECIDED
+                     ? answer
+                     : lrcsi_query_facet(&s->known->facets, facet, NULL)];
 }
 
 lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sharing *s, uint32_t facet)

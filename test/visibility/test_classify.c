@@ -41,7 +41,8 @@ static void body_alone_is_uncontested(void **state)
     assert_int_equal(classification.undecided_count, 0);
     assert_int_equal(classification.events.count, 6); /* the contour of a box is a hexagon */
     for (uint32_t f = 0; f < 12; f++) {
-        assert_true(view.facing[f] <= 0 || lrcsi_query_facet(&facets, f) == LRCSI_QUERY_VISIBLE);
+        assert_true(view.facing[f] <= 0 ||
+                    lrcsi_query_facet(&facets, f, NULL) == LRCSI_QUERY_VISIBLE);
     }
 }
 
@@ -65,8 +66,8 @@ static void winding_that_changes_makes_no_events(void **state)
         assert_int_equal(classification.undecided_count, 0);
         uint32_t seen = 0;
         for (uint32_t f = 0; f < 12; f++) {
-            seen +=
-                lrcsi_grid_casts(&view, f) && lrcsi_query_facet(&facets, f) == LRCSI_QUERY_VISIBLE;
+            seen += lrcsi_grid_casts(&view, f) &&
+                    lrcsi_query_facet(&facets, f, NULL) == LRCSI_QUERY_VISIBLE;
         }
         assert_int_equal(seen, 6);
     }
@@ -84,18 +85,17 @@ static void rims_in_front_contest_what_they_cross(void **state)
     assert_int_equal(classification.events.count, 8);
     assert_true(classification.undecided[0]);
     assert_false(classification.undecided[1]);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0), 4);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 1), 0);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 1, view.meter), 0);
     assert_int_equal(classification.undecided[2] + classification.undecided[3], 0); /* the nearer */
-    assert_int_equal(lrcsi_query_facet(&facets, 1), LRCSI_QUERY_VISIBLE);
+    assert_int_equal(lrcsi_query_facet(&facets, 1, NULL), LRCSI_QUERY_VISIBLE);
     look_from(0, 0, -1); /* from behind the large one hides the small one whole */
     assert_int_equal(classification.undecided_count, 0);
-    assert_int_equal(lrcsi_query_facet(&facets, 2), LRCSI_QUERY_HIDDEN);
-    assert_int_equal(lrcsi_query_facet(&facets, 3), LRCSI_QUERY_HIDDEN);
+    assert_int_equal(lrcsi_query_facet(&facets, 2, NULL), LRCSI_QUERY_HIDDEN);
+    assert_int_equal(lrcsi_query_facet(&facets, 3, NULL), LRCSI_QUERY_HIDDEN);
 }
 
-/* What was found of a facet is at hand until another is asked about; what was kept of it comes back
-   without a search. */
+/* What was found for a facet stays available until another is asked about. */
 static void crossings_are_searched_for_once(void **state)
 {
     (void)state;
@@ -103,19 +103,16 @@ static void crossings_are_searched_for_once(void **state)
     square(0, 0, 0, 4);
     square(2.5, 0.5, 1, 1);
     look_from(0, 0, 1);
-    uint32_t kept[4];
+    uint32_t found[4];
     uint32_t before = classification.asked;
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0), 4);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0), 4);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
     assert_int_equal(classification.asked, before + 1);
-    memcpy(kept, classification.crossing, sizeof kept);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 1), 0);
+    memcpy(found, classification.crossing, sizeof found);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 1, view.meter), 0);
     assert_int_equal(classification.asked, before + 2);
-    lrcsi_classify_recall(&classification, 0, kept, 4);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0), 4);
-    assert_memory_equal(classification.crossing, kept, sizeof kept);
-    assert_int_equal(classification.asked, before + 2);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 1), 0);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
+    assert_memory_equal(classification.crossing, found, sizeof found);
     assert_int_equal(classification.asked, before + 3);
 }
 
@@ -136,7 +133,7 @@ static void rims_behind_all_of_a_facet_do_not_contest_it(void **state)
     scene_facet(&scene, v, v + 1, v + 2);
     look_from(0, 0, 1);
     assert_false(classification.undecided[0]);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0), 0);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 0);
     assert_true(classification.undecided[1]);
 }
 
@@ -151,8 +148,8 @@ static void rims_along_rims_contest_nothing(void **state)
     square(0, 0, -1, 2);  /* right below */
     look_from(0, 0, 1);
     assert_int_equal(classification.undecided_count, 0);
-    assert_int_equal(lrcsi_query_facet(&facets, 0), LRCSI_QUERY_VISIBLE);
-    assert_int_equal(lrcsi_query_facet(&facets, 8), LRCSI_QUERY_HIDDEN);
+    assert_int_equal(lrcsi_query_facet(&facets, 0, NULL), LRCSI_QUERY_VISIBLE);
+    assert_int_equal(lrcsi_query_facet(&facets, 8, NULL), LRCSI_QUERY_HIDDEN);
 }
 
 static void piercing_and_overlapping_facets_contest_each_other(void **state)
@@ -171,7 +168,7 @@ static void piercing_and_overlapping_facets_contest_each_other(void **state)
     look_from(0, 0, 1);
     assert_false(classification.undecided[0]);
     assert_true(classification.undecided[2] && classification.undecided[3]);
-    assert_true(lrcsi_query_screened(&classification, &facets, 2) == 0);
+    assert_true(lrcsi_query_screened(&classification, &facets, 2, view.meter) == 0);
 }
 
 /* A roof whose ridge stands over the y axis: facet 0 slopes down to the left, facet 1 to the
@@ -190,7 +187,7 @@ static void roof(void)
 static int region_answer(uint32_t facet)
 {
     static unsigned char answer[SCENE_FACETS];
-    assert_int_equal(lrcsi_query_uniform(&classification, &work, &facets, answer), LRCS_OK);
+    assert_int_equal(lrcsi_query_uniform(&classification, NULL, &work, &facets, answer), LRCS_OK);
     return answer[facet];
 }
 
@@ -271,8 +268,8 @@ static void whole_components_screen_and_others_do_not(void **state)
     uint32_t screen = square(-1, -1, 2, 6);
     look_from(0.125, 0, 1);
     assert_true(classification.undecided[low]);
-    assert_true(lrcsi_query_screened(&classification, &facets, low));
-    assert_false(lrcsi_query_screened(&classification, &facets, screen));
+    assert_true(lrcsi_query_screened(&classification, &facets, low, view.meter));
+    assert_false(lrcsi_query_screened(&classification, &facets, screen, view.meter));
 
     scene_start(&scene);
     low = square(0, 0, 0, 4);
@@ -282,7 +279,7 @@ static void whole_components_screen_and_others_do_not(void **state)
                 (const double[3]){0, 6, 0});
     look_from(0, 0, 1);
     assert_true(classification.undecided[low]);
-    assert_false(lrcsi_query_screened(&classification, &facets, low));
+    assert_false(lrcsi_query_screened(&classification, &facets, low, view.meter));
 
     scene_start(&scene);
     low = scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
@@ -290,7 +287,7 @@ static void whole_components_screen_and_others_do_not(void **state)
     square(-1, -1, 2, 6); /* the tip looks out of it */
     look_from(0, -1, 3);
     assert_true(classification.undecided[low]);
-    assert_false(lrcsi_query_screened(&classification, &facets, low));
+    assert_false(lrcsi_query_screened(&classification, &facets, low, view.meter));
 }
 
 static int listed(const lrcsi_grid *grid, const double xy[2], uint32_t item)

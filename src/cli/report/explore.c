@@ -240,24 +240,10 @@ static const char explore_style[] =
     "button{font:inherit;padding:.3rem .8rem;border:1px solid var(--faint);border-radius:6px;"
     "background:var(--card);color:var(--ink);cursor:pointer}\n";
 
-static void page_head(FILE *out, const report_job *job)
-{
-    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-          "<meta name=\"color-scheme\" content=\"light dark\">\n"
-          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-          "'unsafe-inline'; script-src 'unsafe-inline'\">\n<title>",
-          out);
-    cli_page_text(out, cli_report_title(job));
-    fputs(": laser radar cross-section, explorer</title>\n<style>\n", out);
-    cli_report_style(out);
-    fputs(explore_style, out);
-    fputs("</style>\n</head>\n<body>\n<header>\n<p class=\"kind\">Laser radar cross-section</p>\n"
-          "<h1>",
-          out);
-    cli_page_text(out, cli_report_title(job));
-    fputs("</h1>\n</header>\n<main>\n", out);
-}
+/* Nothing may be loaded. */
+static const char explore_policy[] =
+    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+    "'unsafe-inline'; script-src 'unsafe-inline'\" />\n";
 
 static void page_controls(FILE *out)
 {
@@ -320,7 +306,8 @@ int cli_report_explore_page(FILE *out, const void *context, lrcs_host_error *err
     const report_job *job = context;
     explore_mesh mesh;
     memset(&mesh, 0, sizeof mesh);
-    page_head(out, job);
+    cli_report_head(out, job, "", ", explorer", explore_policy, explore_style);
+    fputs("</header>\n<main>\n", out);
     page_controls(out);
     int code = data_put(out, job, &mesh);
     page_notes(out, job, &mesh);

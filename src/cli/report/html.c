@@ -148,6 +148,15 @@ void cli_page_fact_end(FILE *out)
     fputs("</dd></div>\n", out);
 }
 
+void cli_page_fact_number(FILE *out, const char *name, const char *id, double value, int digits,
+                          const char *unit)
+{
+    cli_page_fact(out, name);
+    cli_page_number(out, id, value, digits);
+    fprintf(out, " %s", unit);
+    cli_page_fact_end(out);
+}
+
 /* ---- folds ---- */
 
 void cli_page_fold(FILE *out, const char *title)

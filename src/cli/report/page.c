@@ -11,17 +11,24 @@ static const struct {
                    {"model", "Model"},       {"materials", "Materials"}, {"effects", "Effects"},
                    {"accuracy", "Accuracy"}, {"again", "Reproduce"}};
 
-static void page_head(FILE *out, const report_job *job)
+void cli_report_head(FILE *out, const report_job *job, const char *attribute, const char *more,
+                     const char *meta, const char *style)
 {
-    fputs("<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n"
-          "<meta charset=\"utf-8\" />\n"
-          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n"
-          "<meta name=\"color-scheme\" content=\"light dark\" />\n<title>",
-          out);
+    fprintf(out,
+            "<!DOCTYPE html>\n<html lang=\"en\"%s>\n<head>\n"
+            "<meta charset=\"utf-8\" />\n"
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n"
+            "<meta name=\"color-scheme\" content=\"light dark\" />\n%s<title>",
+            attribute, meta);
     cli_page_text(out, cli_report_title(job));
-    fputs(": laser radar cross-section</title>\n<style>\n", out);
+    fprintf(out, ": laser radar cross-section%s</title>\n<style>\n", more);
     cli_report_style(out);
-    fputs("</style>\n</head>\n<body>\n", out);
+    fprintf(out,
+            "%s</style>\n</head>\n<body>\n<header>\n"
+            "<p class=\"kind\">Laser radar cross-section</p>\n<h1>",
+            style);
+    cli_page_text(out, cli_report_title(job));
+    fputs("</h1>\n", out);
 }
 
 static void page_way(FILE *out)
@@ -103,9 +110,6 @@ static void lead_direction(FILE *out, const report_job *job)
 
 static void page_lead(FILE *out, const report_job *job)
 {
-    fputs("<header>\n<p class=\"kind\">Laser radar cross-section</p>\n<h1>", out);
-    cli_page_text(out, cli_report_title(job));
-    fputs("</h1>\n", out);
     lead_sigma(out, job);
     lead_materials(out, job);
     lead_direction(out, job);
@@ -131,7 +135,7 @@ int cli_report_page(FILE *out, const void *context, lrcs_host_error *error)
 {
     const report_job *job = context;
     (void)error;
-    page_head(out, job);
+    cli_report_head(out, job, " xmlns=\"http://www.w3.org/1999/xhtml\"", "", "", "");
     page_lead(out, job);
     page_way(out);
     fputs("<main>\n", out);

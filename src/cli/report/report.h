@@ -95,6 +95,11 @@ cli_writer cli_report_explore_page;
 /* Its style sheet. */
 void cli_report_style(FILE *out);
 
+/* The beginning of a page, to the scene's title inside <header>: an attribute of <html>, more of
+   its title, of its head and of its style. */
+void cli_report_head(FILE *out, const report_job *job, const char *attribute, const char *more,
+                     const char *meta, const char *style);
+
 /* Begins a section with its heading; ends it. */
 void cli_page_section(FILE *out, const char *id, const char *title);
 void cli_page_section_end(FILE *out);
@@ -115,6 +120,8 @@ void cli_page_percent(FILE *out, double share);
 /* Begins a fact with its name; its value follows; ends it. */
 void cli_page_fact(FILE *out, const char *name);
 void cli_page_fact_end(FILE *out);
+void cli_page_fact_number(FILE *out, const char *name, const char *id, double value, int digits,
+                          const char *unit);
 
 /* A table that scrolls by itself if it is wide: columns as "name|name|#number", where '#' marks
    those of numbers; rows, the last of which may be the sum of the others; cells, whose text wraps

@@ -17,14 +17,6 @@ static void more_say(FILE *out, uint32_t more)
 
 /* ---- the model ---- */
 
-static void fact_number(FILE *out, const char *name, double value, const char *unit)
-{
-    cli_page_fact(out, name);
-    cli_page_number(out, NULL, value, 7);
-    fprintf(out, " %s", unit);
-    cli_page_fact_end(out);
-}
-
 static void fact_count(FILE *out, const char *name, uint64_t value)
 {
     cli_page_fact(out, name);
@@ -59,9 +51,9 @@ static void model_facts(FILE *out, const report_job *job)
     fact_count(out, "Facets", scene->facet_count);
     fact_count(out, "Vertices", scene->vertex_count);
     fact_box(out, r);
-    fact_number(out, "Surface", r->area, "m\xc2\xb2");
+    cli_page_fact_number(out, "Surface", NULL, r->area, 7, "m\xc2\xb2");
     if (r->closed) {
-        fact_number(out, "Volume", r->volume, "m\xc2\xb3");
+        cli_page_fact_number(out, "Volume", NULL, r->volume, 7, "m\xc2\xb3");
     } else {
         fact_text(out, "Volume", "none: not closed");
     }

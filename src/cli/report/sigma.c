@@ -7,41 +7,35 @@
 
 /* ---- the certificate ---- */
 
-static void sigma_fact(FILE *out, const char *name, const char *id, double value, int digits,
-                       const char *unit)
-{
-    cli_page_fact(out, name);
-    cli_page_number(out, id, value, digits);
-    fprintf(out, " %s", unit);
-    cli_page_fact_end(out);
-}
-
 static void sigma_facts(FILE *out, const report_job *job)
 {
     const lrcs_result *r = &job->result;
     fputs("<dl class=\"facts\">\n", out);
-    sigma_fact(out, "\xcf\x83", "sigma_m2", r->sigma_m2, 10, "m\xc2\xb2");
+    cli_page_fact_number(out, "\xcf\x83", "sigma_m2", r->sigma_m2, 10, "m\xc2\xb2");
     if (r->sigma_m2 > 0.0) {
-        sigma_fact(out, "in decibels", "sigma_dbsm", cli_dbsm(r->sigma_m2), 8, "dBsm");
+        cli_page_fact_number(out, "in decibels", "sigma_dbsm", cli_dbsm(r->sigma_m2), 8, "dBsm");
     }
-    sigma_fact(out, "of it, glint", "sigma_glint_m2", r->sigma_glint_m2, 7, "m\xc2\xb2");
-    sigma_fact(out, "of it, diffuse", "sigma_diffuse_m2", r->sigma_diffuse_m2, 7, "m\xc2\xb2");
+    cli_page_fact_number(out, "of it, glint", "sigma_glint_m2", r->sigma_glint_m2, 7, "m\xc2\xb2");
+    cli_page_fact_number(out, "of it, diffuse", "sigma_diffuse_m2", r->sigma_diffuse_m2, 7,
+                         "m\xc2\xb2");
     cli_page_fact(out, "Bound, proved");
     cli_page_bound(out, "bound_m2", r->bound_m2, 3);
     fputs(" m\xc2\xb2", out);
     cli_page_fact_end(out);
     if (job->uncertainty.stated) {
-        sigma_fact(out, "Materials, one standard deviation", "material_deviation_m2",
-                   job->uncertainty.deviation_m2, 3, "m\xc2\xb2");
+        cli_page_fact_number(out, "Materials, one standard deviation", "material_deviation_m2",
+                             job->uncertainty.deviation_m2, 3, "m\xc2\xb2");
     }
     if (r->estimate_m2 >= 0.0) {
-        sigma_fact(out, "Likely error, an estimate", "estimate_m2", r->estimate_m2, 3, "m\xc2\xb2");
+        cli_page_fact_number(out, "Likely error, an estimate", "estimate_m2", r->estimate_m2, 3,
+                             "m\xc2\xb2");
     }
     if (r->curvature_estimate_m2 >= 0.0) {
-        sigma_fact(out, "Cubature over curved normals, an estimate beside the bound",
-                   "curvature_estimate_m2", r->curvature_estimate_m2, 3, "m\xc2\xb2");
+        cli_page_fact_number(out, "Cubature over curved normals, an estimate beside the bound",
+                             "curvature_estimate_m2", r->curvature_estimate_m2, 3, "m\xc2\xb2");
     }
-    sigma_fact(out, "Silhouette", "projected_area_m2", r->projected_area_m2, 8, "m\xc2\xb2");
+    cli_page_fact_number(out, "Silhouette", "projected_area_m2", r->projected_area_m2, 8,
+                         "m\xc2\xb2");
     fputs("</dl>\n", out);
 }
 

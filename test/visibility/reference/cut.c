@@ -178,7 +178,8 @@ int ref_cuts_make(lrcsi_classification *classification, const lrcsi_target *targ
     const lrcsi_intersections *intersections = &target->view->prepared->intersections;
     uint32_t first = intersections->first[target->facet];
     uint32_t end = intersections->first[target->facet + 1];
-    uint32_t crossings = lrcsi_classify_crossings(classification, target->facet);
+    uint32_t crossings =
+        lrcsi_classify_crossings(classification, target->facet, classification->view->meter);
     size_t room = crossings + 3 * (size_t)(end - first);
     *cuts = (ref_cuts){.target = target};
     cuts->cut = lrcsi_work_take(work, room, sizeof *cuts->cut);

@@ -378,7 +378,8 @@ int ref_occlude_open(ref_occluding *o, uint32_t facet)
         o->whole = o->answer.low > 0;
         return LRCS_OK;
     }
-    o->undecided = !lrcsi_query_screened(classification, &o->cover.facets, facet);
+    o->undecided =
+        !lrcsi_query_screened(classification, &o->cover.facets, facet, classification->view->meter);
     int status = o->undecided ? cells_open(o, facet) : LRCS_OK;
     if (status != LRCS_OK) {
         o->work->used = o->mark;
@@ -440,7 +441,8 @@ int ref_occlude_make(lrcsi_classification *classification, lrcs_work *work, ref_
     int status =
         o->uniform && o->stack ? ref_cover_make(classification, work, &o->cover) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        status = lrcsi_query_uniform(classification, work, &o->cover.facets, o->uniform);
+        status = lrcsi_query_uniform(classification, classification->view->meter, work,
+                                     &o->cover.facets, o->uniform);
     }
     if (status != LRCS_OK) {
         work->used = mark;
