@@ -49,7 +49,7 @@ static inline void scene_start(test_scene *s)
                             .unmatched = LRCS_NONE};
 }
 
-/* Facets from now on wear a new material. Returns it, to be changed. */
+/* Facets from now on have a new material. Returns it, to be changed. */
 static inline lrcs_material *scene_material(test_scene *s, double A, double B, double slope,
                                             double m)
 {

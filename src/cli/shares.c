@@ -50,15 +50,15 @@ static uint32_t part_of_facet(const shares_plan *plan, uint32_t facet)
            (mesh ? mesh->facet_part[facet - plan->scene->part[part].first_facet] : 0);
 }
 
-typedef struct shares_worn {
+typedef struct shares_material {
     const lrcs_material *material;
-} shares_worn;
+} shares_material;
 
 /* Materials with the same name and the same numbers are treated as one. */
 static int material_compare(const void *a, const void *b)
 {
-    const lrcs_material *x = ((const shares_worn *)a)->material;
-    const lrcs_material *y = ((const shares_worn *)b)->material;
+    const lrcs_material *x = ((const shares_material *)a)->material;
+    const lrcs_material *y = ((const shares_material *)b)->material;
     int order = strcmp(x->name, y->name);
     return order ? order : memcmp(&x->brdf, &y->brdf, sizeof x->brdf);
 }
@@ -66,7 +66,7 @@ static int material_compare(const void *a, const void *b)
 static int materials_number(shares_plan *plan)
 {
     const lrcs_scene *scene = plan->scene;
-    shares_worn *sorted = calloc((size_t)scene->material_count + 1, sizeof *sorted);
+    shares_material *sorted = calloc((size_t)scene->material_count + 1, sizeof *sorted);
     if (!sorted) {
         return -1;
     }

@@ -243,7 +243,7 @@ static int is_default(const lrcs_brdf *brdf)
 }
 
 /* Facets by material: counts omitted and unbound ones, and checks the assigned materials. */
-static void scene_notes(lrcs_host_scene *host, const uint32_t *worn)
+static void scene_notes(lrcs_host_scene *host, const uint32_t *facets)
 {
     const lrcs_scene *scene = &host->scene;
     uint64_t omitted = 0;
@@ -251,14 +251,14 @@ static void scene_notes(lrcs_host_scene *host, const uint32_t *worn)
     uint64_t assumed = 0;
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *material = &scene->material[i];
-        if (worn[i] == 0) {
+        if (facets[i] == 0) {
             continue;
         }
         if (material->omitted) {
-            omitted += worn[i];
+            omitted += facets[i];
             continue;
         }
-        *(is_default(&material->brdf) ? &unbound : &assumed) += material->bound ? 0 : worn[i];
+        *(is_default(&material->brdf) ? &unbound : &assumed) += material->bound ? 0 : facets[i];
         material_notes(&host->notices, material);
     }
     if (omitted > 0) {
@@ -269,7 +269,7 @@ static void scene_notes(lrcs_host_scene *host, const uint32_t *worn)
     }
     if (unbound > 0) {
         lrcsi_host_note(&host->notices,
-                        "%llu of %lu facets have no material bound: they wear A=1, B=0.25, s=0.2, "
+                        "%llu of %lu facets have no material bound: they have A=1, B=0.25, s=0.2, "
                         "m=0.5 (--material binds one)",
                         (unsigned long long)unbound, (unsigned long)scene->facet_count);
     }
@@ -283,17 +283,17 @@ static void scene_notes(lrcs_host_scene *host, const uint32_t *worn)
     }
 }
 
-static void worn_notes(lrcs_host_scene *host)
+static void scene_material_notes(lrcs_host_scene *host)
 {
     const lrcs_scene *scene = &host->scene;
-    uint32_t *worn = calloc((size_t)scene->material_count + 1, sizeof *worn);
-    for (uint32_t i = 0; worn && i < scene->facet_count; i++) {
-        worn[scene->facet_material[i]]++;
+    uint32_t *facets = calloc((size_t)scene->material_count + 1, sizeof *facets);
+    for (uint32_t i = 0; facets && i < scene->facet_count; i++) {
+        facets[scene->facet_material[i]]++;
     }
-    if (worn) {
-        scene_notes(host, worn);
+    if (facets) {
+        scene_notes(host, facets);
     }
-    free(worn);
+    free(facets);
 }
 
 /* ---- in public ---- */
@@ -336,7 +336,7 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
         lrcs_host_scene_free(scene);
         return status;
     }
-    worn_notes(scene);
+    scene_material_notes(scene);
     lrcsi_host_scene_notes(scene);
     scene->seconds_load = lrcsi_host_seconds() - start;
     return LRCS_OK;

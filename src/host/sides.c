@@ -103,16 +103,16 @@ static int materials_split(const sides_job *job)
     }
     memcpy(all, scene->material, count * sizeof *all);
     for (uint32_t i = 0; i < scene->facet_count; i++) {
-        uint32_t worn = scene->facet_material[i];
-        if (!job->meant[i] || all[worn].two_sided) {
+        uint32_t material = scene->facet_material[i];
+        if (!job->meant[i] || all[material].two_sided) {
             continue;
         }
-        if (copy[worn] == 0) {
-            copy[worn] = used;
-            all[used] = all[worn];
+        if (copy[material] == 0) {
+            copy[material] = used;
+            all[used] = all[material];
             all[used++].two_sided = 1;
         }
-        scene->facet_material[i] = copy[worn];
+        scene->facet_material[i] = copy[material];
     }
     scene->material = all;
     scene->material_count = used;

@@ -151,9 +151,10 @@ static lrcs_effect normals_effect(const lrcs_prepared *p)
     }
     switch (p->scene->normals) {
     case LRCS_NORMALS_AUTO:
-        return p->smooth ? (lrcs_effect){1, "some facets turn too far for the glint they wear"}
-               : given   ? (lrcs_effect){0, "no model's facets turn too far for their glint"}
-                         : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
+        return p->smooth
+                   ? (lrcs_effect){1, "some facets turn too far for the glint of their material"}
+               : given ? (lrcs_effect){0, "no model's facets turn too far for their glint"}
+                       : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
     case LRCS_NORMALS_SMOOTH:
         return p->smooth ? (lrcs_effect){1, "smoothing groups or vertex normals, as asked"}
                : given   ? (lrcs_effect){0, "all smoothed facets are flat"}

@@ -41,7 +41,7 @@ lrcsi_plan_sides lrcsi_plan_backs(const lrcs_prepared *prepared, const lrcs_run_
 lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
                            const lrcs_run_options *options);
 
-/* What a material's facets wear, as far as the plan takes it into account. */
+/* The BRDF of a material, as far as the plan takes it into account. */
 lrcs_brdf lrcsi_plan_brdf(const lrcsi_plan *plan, const lrcs_material *material);
 
 /* Fills effect[LRCS_EFFECTS]: on or off, and why. `seen` holds the bits GLINT and DIFFUSE where

@@ -42,12 +42,12 @@ def numbers(key, kind): raw = base64.b64decode(data[key]); return struct.unpack(
 sigma, bound = numbers("sigma", "d"), numbers("bound", "d")
 rows = [r for r in csv.DictReader(l for l in open("map.csv") if not l.startswith("#"))]
 check("the_map_is_that_of_the_sweep", list(sigma) == [float(r["sigma_m2"]) for r in rows] and list(bound) == [float(r["bound_m2"]) for r in rows] and len(sigma) == 25 * 13)
-points, facets, worn = numbers("points", "f"), numbers("facets", "I"), numbers("worn", "I")
-check("every_facet_is_drawn", len(worn) == 26 and len(facets) == 78 and max(facets) * 3 + 2 < len(points) and max(worn) < len(data["materials"]))
+points, facets, material = numbers("points", "f"), numbers("facets", "I"), numbers("material", "I")
+check("every_facet_is_drawn", len(material) == 26 and len(facets) == 78 and max(facets) * 3 + 2 < len(points) and max(material) < len(data["materials"]))
 try:
     large = open("large.html", encoding="utf-8").read()
     d = json.loads(re.search(r'id="data">(.*?)</script>', large, re.S).group(1))
-    n = len(base64.b64decode(d["worn"])) // 4
+    n = len(base64.b64decode(d["material"])) // 4
     p = base64.b64decode(d["points"]); p = struct.unpack("<%df" % (len(p) // 4), p)
     check("a_reduced_body_is_within_the_limit_and_keeps_its_box", 5000 < n <= 20000 and
           abs(max(p[1::3]) - min(p[1::3]) - 37.2662) < 0.2)

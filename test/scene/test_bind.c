@@ -52,7 +52,7 @@ static void make_recipe(lrcs_binding binding[5], uint32_t count, lrcs_recipe *re
     recipe->material_count = 1;
 }
 
-static lrcs_material bind(const lrcs_recipe *recipe, uint32_t worn, const lrcs_surface *surface,
+static lrcs_material bind(const lrcs_recipe *recipe, uint32_t index, const lrcs_surface *surface,
                           uint32_t *unmatched)
 {
     unsigned char bytes[2048];
@@ -61,8 +61,8 @@ static lrcs_material bind(const lrcs_recipe *recipe, uint32_t worn, const lrcs_s
     lrcs_material material;
     assert_true(lrcsi_binder_need(recipe) <= sizeof bytes);
     assert_int_equal(lrcsi_binder_make(recipe, &work, &binder), LRCS_OK);
-    material = surface ? lrcsi_binder_surface(&binder, worn, surface)
-                       : lrcsi_binder_unassigned(&binder, worn);
+    material = surface ? lrcsi_binder_surface(&binder, index, surface)
+                       : lrcsi_binder_unassigned(&binder, index);
     if (unmatched) {
         *unmatched = lrcsi_binder_unmatched(&binder);
     }
@@ -197,7 +197,7 @@ static void a_name_changes_a_scene_files_material_wherever_it_is_put_on(void **s
     check_who(&material, BY_OVERRIDE);
     assert_string_equal(material.name, "own");
     assert_int_equal(unmatched, LRCS_NONE);
-    recipe.binding_count = 1; /* defined, worn by nothing: the name is there all the same */
+    recipe.binding_count = 1; /* defined, assigned to nothing: the name is there all the same */
     recipe.binding = &binding[1];
     bind(&recipe, LRCS_NONE, &skin, &unmatched);
     assert_int_equal(unmatched, LRCS_NONE);
@@ -242,25 +242,25 @@ static void parts_wear_the_recipes_materials_before_the_librarys(void **state)
     lrcs_recipe recipe = {.material = &gold, .material_count = 1};
     lrcs_recipe_part part = {.material = "mli-gold", .material_index = -1};
     lrcsi_binder binder = lrcsi_binder_plain(&recipe);
-    uint32_t worn;
-    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_OK);
-    assert_int_equal(worn, 0);
+    uint32_t index;
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &index), LRCS_OK);
+    assert_int_equal(index, 0);
     part.material = "solar-cell";
-    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_OK);
-    assert_true(worn >= 1 && worn < lrcsi_binder_material_count(&recipe));
-    lrcs_material material = bind(&recipe, worn, NULL, NULL);
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &index), LRCS_OK);
+    assert_true(index >= 1 && index < lrcsi_binder_material_count(&recipe));
+    lrcs_material material = bind(&recipe, index, NULL, NULL);
     assert_string_equal(material.name, "solar-cell");
     part.material = "none such";
-    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_E_NAME);
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &index), LRCS_E_NAME);
     part.material = "mli-geld";
-    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_E_NAME);
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &index), LRCS_E_NAME);
     part.material = "mli-gold";
     part.material_index = 1; /* beyond the recipe's materials: by name */
-    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_OK);
-    assert_int_equal(worn, 0);
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &index), LRCS_OK);
+    assert_int_equal(index, 0);
     part.material = NULL;
-    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &worn), LRCS_OK);
-    assert_int_equal(worn, LRCS_NONE);
+    assert_int_equal(lrcsi_binder_assigned(&binder, &part, &index), LRCS_OK);
+    assert_int_equal(index, LRCS_NONE);
 }
 
 static void the_slow_binder_agrees_with_the_indexed_one(void **state)
@@ -273,14 +273,14 @@ static void the_slow_binder_agrees_with_the_indexed_one(void **state)
         make_recipe(binding, count, &recipe);
         lrcsi_binder plain = lrcsi_binder_plain(&recipe);
         for (size_t i = 0; i < 10; i++) {
-            uint32_t worn = i < 5 ? 0 : LRCS_NONE;
+            uint32_t index = i < 5 ? 0 : LRCS_NONE;
             const lrcs_surface surface = surface_of(name[i % 5]);
-            lrcs_material a = bind(&recipe, worn, &surface, NULL);
-            lrcs_material b = lrcsi_binder_surface(&plain, worn, &surface);
+            lrcs_material a = bind(&recipe, index, &surface, NULL);
+            lrcs_material b = lrcsi_binder_surface(&plain, index, &surface);
             check_same(a.brdf.A, b.brdf.A);
             check_same(a.brdf.B, b.brdf.B);
-            a = bind(&recipe, worn, NULL, NULL);
-            b = lrcsi_binder_unassigned(&plain, worn);
+            a = bind(&recipe, index, NULL, NULL);
+            b = lrcsi_binder_unassigned(&plain, index);
             check_same(a.brdf.B, b.brdf.B);
         }
     }

@@ -24,7 +24,7 @@ typedef struct explore_mesh {
     float (*point)[3]; /* m */
     uint32_t points;
     uint32_t (*facet)[3];
-    uint32_t *worn; /* material of each facet */
+    uint32_t *material; /* material of each facet */
     uint32_t facets, all;
 } explore_mesh;
 
@@ -78,7 +78,7 @@ static uint32_t facets_keep(const lrcs_scene *scene, const uint32_t *place, expl
         }
         if (mesh->facet) {
             memcpy(mesh->facet[used], (const uint32_t[3]){a, b, c}, sizeof *mesh->facet);
-            mesh->worn[used] = scene->facet_material[f];
+            mesh->material[used] = scene->facet_material[f];
         }
         used++;
     }
@@ -123,9 +123,9 @@ static int mesh_reduce(const lrcs_scene *scene, const double least[3], double si
     }
     if (code == 0) {
         mesh->facet = calloc((size_t)mesh->facets + 1, sizeof *mesh->facet);
-        mesh->worn = calloc((size_t)mesh->facets + 1, sizeof *mesh->worn);
+        mesh->material = calloc((size_t)mesh->facets + 1, sizeof *mesh->material);
         mesh->point = calloc((size_t)3 * mesh->facets + 1, sizeof *mesh->point);
-        code = mesh->facet && mesh->worn && mesh->point ? 0 : -1;
+        code = mesh->facet && mesh->material && mesh->point ? 0 : -1;
     }
     if (code == 0) {
         facets_keep(scene, place, mesh);
@@ -220,7 +220,7 @@ static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
     words_put(out, "bound", value + map->plan.rows, map->plan.rows, 8);
     words_put(out, "points", mesh->point, (size_t)3 * mesh->points, 4);
     words_put(out, "facets", mesh->facet, (size_t)3 * mesh->facets, 4);
-    words_put(out, "worn", mesh->worn, mesh->facets, 4);
+    words_put(out, "material", mesh->material, mesh->facets, 4);
     fputs("}</script>\n", out);
     free(value);
     return 0;
@@ -316,7 +316,7 @@ int cli_report_explore_page(FILE *out, const void *context, lrcs_host_error *err
     fputs("</script>\n</body>\n</html>\n", out);
     free(mesh.point);
     free(mesh.facet);
-    free(mesh.worn);
+    free(mesh.material);
     if (code != 0) {
         snprintf(error->text, sizeof error->text, "out of memory");
         return LRCS_E_SYSTEM;

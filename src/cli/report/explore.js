@@ -18,7 +18,7 @@
   }
   const sigma = new Float64Array(bytes(data.sigma)), bound = new Float64Array(bytes(data.bound));
   const point = new Float32Array(bytes(data.points)), corner = new Uint32Array(bytes(data.facets));
-  const worn = new Uint32Array(bytes(data.worn)), seen = new Float32Array(point.length);
+  const material = new Uint32Array(bytes(data.material)), seen = new Float32Array(point.length);
 
   // ---- the map's numbers: rows go through azimuth, then elevation ----
   const az = data.az, el = data.el, rows = el.count;
@@ -88,11 +88,11 @@
       seen[i + 1] = n / 2 - scale * (p[0] * y[0] + p[1] * y[1] + p[2] * y[2]);
       seen[i + 2] = scale * (p[0] * z[0] + p[1] * z[1] + p[2] * z[2]);
     }
-    for (let f = 0; f < worn.length; f++) {
+    for (let f = 0; f < material.length; f++) {
       const a = 3 * corner[3 * f], b = 3 * corner[3 * f + 1], c = 3 * corner[3 * f + 2];
       const u = [0, 1, 2].map((k) => seen[b + k] - seen[a + k]), v = [0, 1, 2].map((k) => seen[c + k] - seen[a + k]);
       const nx = u[1] * v[2] - u[2] * v[1], ny = u[2] * v[0] - u[0] * v[2], nz = u[0] * v[1] - u[1] * v[0];
-      const light = 0.15 + 0.85 * Math.abs(nz) / (Math.hypot(nx, ny, nz) || 1), m = data.materials[worn[f]];
+      const light = 0.15 + 0.85 * Math.abs(nz) / (Math.hypot(nx, ny, nz) || 1), m = data.materials[material[f]];
       const dead = nz > 0 && !m.two_sided; // y points down: the back shows
       const rgb = dead ? [0x55, 0x55, 0x55] : m.rgb;
       fill(n, a, b, c, (255 << 24 | light * rgb[2] << 16 | light * rgb[1] << 8 | light * rgb[0]) >>> 0, pixels,

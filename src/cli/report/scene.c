@@ -113,12 +113,12 @@ static void material_name_cell(FILE *out, const lrcs_material *material)
     cli_page_cell_end(out);
 }
 
-static void material_row(FILE *out, const lrcs_material *material, const info_material *worn)
+static void material_row(FILE *out, const lrcs_material *material, const info_material *found)
 {
     cli_page_row(out);
     material_name_cell(out, material);
-    cli_page_count_cell(out, worn->facets);
-    cli_page_number_cell(out, cli_sum_value(&worn->area), 6);
+    cli_page_count_cell(out, found->facets);
+    cli_page_number_cell(out, cli_sum_value(&found->area), 6);
     cli_page_number_cell(out, material->brdf.A, 6);
     cli_page_number_cell(out, material->brdf.B, 6);
     cli_page_number_cell(out, material->brdf.s, 6);

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs run --time-budget: the most accurate answer that can be computed in a given time. How long a
-   setting takes is not known in advance, and whether the exact method is quicker than a raster
-   depends on the scene. So after the cheapest setting of all, without shadows, two processes run
-   settings at the same time, each in the order of cost: one the rasters, the other the tolerances
-   or clipping. Each reports every answer. When the time is up, the best of all answers counts,
-   whenever it came, and the running settings are stopped: no setting that was reached within the
-   time would have been better. This file decides which settings are tried; each is an ordinary run,
-   which the same options reproduce. */
+/* lrcs run --time-budget: the most accurate answer that can be computed in a given time. Settings
+   are run one after another, in the order of the time that they are expected to take. How long a
+   setting takes is not known in advance, so a separate process runs them and reports every answer;
+   when the time is up, the best of all answers counts, whenever it came, and the running setting is
+   stopped. So no setting that comes before it would have been better. This file decides which
+   settings are tried; each is an ordinary run, which the same options reproduce. */
 #include "cli/run/run.h"
 
 #include <errno.h>
@@ -47,10 +45,7 @@ typedef struct budget_answer {
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
-/* The processes that try settings: rasters, and tolerances or clipping. */
-enum budget_chain { CHAIN_RASTERS, CHAIN_SOUGHT, CHAINS };
-
-/* One of them, and the pipe of its answers. */
+/* The process that runs settings, and the pipe of its answers. */
 typedef struct budget_runner {
     pid_t process;
     int end; /* read end of its pipe; negative if the process has ended */
@@ -92,26 +87,15 @@ static int setting_run(run_job *job, int rung, int sought, budget_answer *answer
     return status;
 }
 
-/* The same in a runner, which reports the answer; 0, or -1 if it failed or the pipe is closed. */
-static int setting_report(run_job *job, int rung, int sought, int answers)
+/* The same in the runner, which reports the answer; 0, or -1 if it failed or the pipe is closed. */
+static int setting_report(run_job *job, int rung, int sought, int answers, double *seconds)
 {
     budget_answer answer;
-    return setting_run(job, rung, sought, &answer, NULL) == LRCS_OK &&
-                   write(answers, &answer, sizeof answer) == (ssize_t)sizeof answer
+    int status = setting_run(job, rung, sought, &answer, NULL);
+    *seconds = answer.seconds_pose;
+    return status == LRCS_OK && write(answers, &answer, sizeof answer) == (ssize_t)sizeof answer
                ? 0
                : -1;
-}
-
-/* All rasters of the current mesh. */
-static void rasters_run(run_job *job, int rung, int answers)
-{
-    int over = 0;
-    job->options.method = LRCS_METHOD_ZBUFFER;
-    for (size_t i = 0; i < RASTERS && over == 0; i++) {
-        job->options.resolution = rasters[i].size;
-        job->options.accept = rasters[i].accept;
-        over = setting_report(job, rung, 0, answers);
-    }
 }
 
 /* Reads the scene with its shapes built for finer and finer rungs, starting with this one, until
@@ -133,22 +117,40 @@ static int rung_scene(run_job *job, int rung)
     return rung < RUNGS && lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? rung : RUNGS;
 }
 
-/* Tolerances by the method that suffices; if no tolerance changes anything, clipping once. */
-static void tolerances_run(run_job *job, int rung, int answers)
+/* Runs settings in the order of their expected times: rasters, and tolerances by the method that
+   suffices; if no tolerance changes anything, clipping instead. The first tolerance is expected to
+   take as long as the scene took to prepare, and rasters come before it as long as they take less.
+   The time of the next raster is expected to grow in proportion to its pixels per row, because part
+   of the time depends on the facets. Once a tolerance has an answer, rasters of the same mesh
+   cannot improve it. */
+static void settings_run(run_job *job, int rung, int answers)
 {
     const int last = rung == RUNG_NONE ? RUNG_NONE : RUNGS - 1;
     const int shapes = cli_has_curved_shapes(&job->scene.scene);
+    const double prepare = job->scene.seconds_prepare;
+    double expected = 0.0; /* time of the next raster */
+    double seconds;
     int over = 0;
+    job->options.method = LRCS_METHOD_ZBUFFER;
+    for (size_t i = 0; i < RASTERS && over == 0 && expected <= prepare; i++) {
+        job->options.resolution = rasters[i].size;
+        job->options.accept = rasters[i].accept;
+        over = setting_report(job, rung, 0, answers, &seconds);
+        double times = i + 1 < RASTERS ? (double)rasters[i + 1].size / rasters[i].size : 1.0;
+        expected = seconds * fmax(times, 1.0);
+    }
     job->options.method = rung == RUNG_NONE ? LRCS_METHOD_EXACT : LRCS_METHOD_AUTO;
+    job->options.resolution = 0;
+    job->options.accept = LRCS_ACCEPT_BOUND;
     while (over == 0 && rung <= last) {
         job->options.tolerance = rung_tolerance(rung);
-        over = setting_report(job, rung, 1, answers);
+        over = setting_report(job, rung, 1, answers, &seconds);
         rung = shapes ? rung_scene(job, rung + 1) : rung + 1;
     }
 }
 
-/* Starts a process; if that fails, it counts as ended. */
-static void runner_start(run_job *job, int chain, int rung, budget_runner *runner)
+/* Starts the process; if that fails, it counts as ended. */
+static void runner_start(run_job *job, int rung, budget_runner *runner)
 {
     int end[2];
     *runner = (budget_runner){.end = -1};
@@ -159,7 +161,7 @@ static void runner_start(run_job *job, int chain, int rung, budget_runner *runne
     if (runner->process == 0) {
         signal(SIGINT, SIG_DFL); /* the parent reports what remains after a Ctrl-C */
         close(end[0]);
-        (chain == CHAIN_RASTERS ? rasters_run : tolerances_run)(job, rung, end[1]);
+        settings_run(job, rung, end[1]);
         _exit(0);
     }
     close(end[1]);
@@ -215,33 +217,22 @@ static int time_left(const run_budget *budget)
     return left > 1e9 ? 1000000000 : left > 0.0 ? (int)ceil(left) : 0;
 }
 
-/* Receives answers until the time is up, no more are to come, or one meets the tolerance asked for.
-   A sought answer with an informative bound ends the rasters: they cannot improve on it. */
-static void runners_watch(run_job *job, budget_runner runner[CHAINS], budget_answer *best)
+/* Receives answers until the time is up, no more are to come, or one meets the tolerance asked
+   for. */
+static void runner_watch(run_job *job, const budget_runner *runner, budget_answer *best)
 {
-    while (!cli_run_meets(&best->result, job->asked) &&
-           (runner[CHAIN_RASTERS].end >= 0 || runner[CHAIN_SOUGHT].end >= 0)) {
-        /* poll ignores negative descriptors */
-        struct pollfd wait[CHAINS] = {{.fd = runner[CHAIN_RASTERS].end, .events = POLLIN},
-                                      {.fd = runner[CHAIN_SOUGHT].end, .events = POLLIN}};
-        int ready = poll(wait, CHAINS, time_left(&job->budget));
+    while (!cli_run_meets(&best->result, job->asked)) {
+        struct pollfd wait = {.fd = runner->end, .events = POLLIN};
+        int ready = poll(&wait, 1, time_left(&job->budget));
         if (ready < 0 && errno == EINTR) {
             continue; /* interrupted by the signal of the watch */
         }
-        if (ready <= 0) {
-            break;
-        }
-        int chain = wait[CHAIN_SOUGHT].revents ? CHAIN_SOUGHT : CHAIN_RASTERS;
         budget_answer answer;
-        if (read(runner[chain].end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
-            runner_stop(&runner[chain]); /* it has run all of its settings */
-            continue;
+        if (ready <= 0 || read(runner->end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
+            break;
         }
         if (answer_beats(&answer, best)) {
             *best = answer;
-        }
-        if (best->sought && best->result.bound_m2 <= BOUND_TELLS * best->result.sigma_m2) {
-            runner_stop(&runner[CHAIN_RASTERS]);
         }
     }
 }
@@ -325,7 +316,7 @@ int cli_run_budget(run_job *job)
 {
     lrcs_host_error error;
     budget_answer best;
-    budget_runner runner[CHAINS];
+    budget_runner runner;
     int scales =
         cli_has_curved_shapes(&job->scene.scene) || job->scene.scene.normals != LRCS_NORMALS_FLAT;
     int rung = scales ? 0 : RUNG_NONE;
@@ -338,14 +329,12 @@ int cli_run_budget(run_job *job)
         return cli_failed(&error);
     }
     job->options.method = LRCS_METHOD_AUTO;
-    fflush(NULL); /* otherwise all processes would write the buffered output */
-    for (int i = 0; i < CHAINS; i++) {
-        runner_start(job, i, rung, &runner[i]);
+    fflush(NULL); /* otherwise both processes would write the buffered output */
+    runner_start(job, rung, &runner);
+    if (runner.end >= 0) {
+        runner_watch(job, &runner, &best);
     }
-    runners_watch(job, runner, &best);
     job->budget.spent_ms = 1e3 * (cli_seconds() - job->budget.start);
-    for (int i = 0; i < CHAINS; i++) {
-        runner_stop(&runner[i]);
-    }
+    runner_stop(&runner);
     return budget_settle(job, &best);
 }

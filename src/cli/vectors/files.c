@@ -29,8 +29,8 @@ static int obj_write(FILE *out, const void *context, lrcs_host_error *error)
     }
     for (uint32_t i = 0; i < mesh->facets; i++) {
         const uint32_t *v = mesh->facet[i].corner;
-        if (i == 0 || mesh->wear[i] != mesh->wear[i - 1]) {
-            fprintf(out, "usemtl %s\n", cli_vectors_materials[mesh->wear[i]].name);
+        if (i == 0 || mesh->material[i] != mesh->material[i - 1]) {
+            fprintf(out, "usemtl %s\n", cli_vectors_materials[mesh->material[i]].name);
         }
         fprintf(out, "f %lu %lu %lu\n", v[0] + 1UL, v[1] + 1UL, v[2] + 1UL);
     }
@@ -48,10 +48,10 @@ int cli_vectors_write(const char *prefix, const vectors_file *file, int count, c
     return code;
 }
 
-static int mesh_wears(const vectors_mesh *mesh, uint32_t material)
+static int mesh_uses(const vectors_mesh *mesh, uint32_t material)
 {
     uint32_t i = 0;
-    while (i < mesh->facets && mesh->wear[i] != material) {
+    while (i < mesh->facets && mesh->material[i] != material) {
         i++;
     }
     return i < mesh->facets;
@@ -64,7 +64,7 @@ static int mtl_write(FILE *out, const void *context, lrcs_host_error *error)
     fputs("# colours for viewers; how a material reflects is in materials.csv\n", out);
     for (uint32_t i = 0; cli_vectors_materials[i].name; i++) {
         const vectors_material *material = &cli_vectors_materials[i];
-        if (mesh_wears(file->mesh, i)) {
+        if (mesh_uses(file->mesh, i)) {
             fprintf(out, "newmtl %s\nKd", material->name);
             for (int k = 0; k < 3; k++) {
                 cli_number_put(out, " ", material->rgb[k] / 255.0);
@@ -125,7 +125,7 @@ static void mesh_json(lrcs_host_json *json, const vectors_mesh *mesh)
     lrcs_host_json_end(json);
     lrcs_host_json_begin(json, "facet_material", LRCS_HOST_ROW_ARRAY);
     for (uint32_t i = 0; i < mesh->facets; i++) {
-        lrcs_host_json_count(json, NULL, mesh->wear[i]);
+        lrcs_host_json_count(json, NULL, mesh->material[i]);
     }
     lrcs_host_json_end(json);
 }

@@ -64,7 +64,7 @@ static uint32_t point_add(mesh_build *build, const double p[3])
     return mesh->vertices++;
 }
 
-static uint32_t wear_find(char letter)
+static uint32_t material_find(char letter)
 {
     uint32_t i = 0;
     while (cli_vectors_materials[i].name && cli_vectors_materials[i].letter != letter) {
@@ -76,8 +76,8 @@ static uint32_t wear_find(char letter)
 /* The letter of an item's face. */
 static char face_letter(const vectors_item *item, size_t face)
 {
-    size_t last = strlen(item->wear) - 1;
-    return item->wear[face < last ? face : last];
+    size_t last = strlen(item->material) - 1;
+    return item->material[face < last ? face : last];
 }
 
 /* Adds a triangle unless two of its corners coincide. */
@@ -96,10 +96,10 @@ static void triangle_add(mesh_build *build, size_t face, const double *a, const 
         return;
     }
     mesh->facet = room_grow(mesh->facet, &mesh->facet_room, mesh->facets, sizeof facet);
-    mesh->wear = room_grow(mesh->wear, &room, mesh->facets, sizeof *mesh->wear);
-    mesh->failed |= !mesh->facet || !mesh->wear;
+    mesh->material = room_grow(mesh->material, &room, mesh->facets, sizeof *mesh->material);
+    mesh->failed |= !mesh->facet || !mesh->material;
     if (!mesh->failed) {
-        mesh->wear[mesh->facets] = wear_find(letter);
+        mesh->material[mesh->facets] = material_find(letter);
         mesh->facet[mesh->facets++] = facet;
     }
 }
@@ -272,6 +272,6 @@ void cli_vectors_mesh_free(vectors_mesh *mesh)
 {
     free(mesh->vertex);
     free(mesh->facet);
-    free(mesh->wear);
+    free(mesh->material);
     memset(mesh, 0, sizeof *mesh);
 }

@@ -24,15 +24,15 @@ enum vectors_kind {
     VECTORS_FAN    /* a disc of count triangles around its centre: slivers */
 };
 
-/* A body of a scene. `wear` has the material's letter for each of its faces (box: +x -x +y -y +z
-   -z; round: wall, above, below); '-' leaves the face out; the last letter applies to all remaining
-   faces. */
+/* A body of a scene. `material` has the material's letter for each of its faces (box: +x -x +y -y
+   +z -z; round: wall, above, below); '-' leaves the face out; the last letter applies to all
+   remaining faces. */
 typedef struct vectors_item {
     int kind;
     int count; /* number of divisions */
     double size[3], at[3];
     double turn_deg[3]; /* rotations about X, Y, Z, applied before `at` */
-    const char *wear;
+    const char *material;
 } vectors_item;
 
 typedef struct vectors_scene {
@@ -65,7 +65,7 @@ extern const vectors_scene cli_vectors_scenes[];
 typedef struct vectors_mesh {
     lrcs_point *vertex;
     lrcs_facet *facet;
-    uint32_t *wear; /* by facet: an index into cli_vectors_materials */
+    uint32_t *material; /* by facet: an index into cli_vectors_materials */
     uint32_t vertices, facets, vertex_room, facet_room;
     int failed; /* 1 if out of memory */
 } vectors_mesh;
