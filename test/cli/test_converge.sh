@@ -5,33 +5,31 @@
 examples=$root/examples
 cd "$scratch" || exit 1
 
-# rows: of t.csv, the names of columns first.
-rows() { grep -v '^#' t.csv; }
 # column NAME: a column of the CSV t.csv, its rows of some settings (a pattern).
 column() {
-    rows | awk -F, -v name="$1" -v rows="${2:-.}" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) k = i }
-        NR > 1 && $1 ~ rows { print $k }'
+    awk -F, -v name="$1" -v rows="${2:-.}" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) k = i }
+        NR > 1 && $1 ~ rows { print $k }' t.csv
 }
 # truth KEY: of the JSON in $out.
 truth() { value truth | sed "s/.*\"$1\": \([^,}]*\)[,}].*/\1/"; }
 # within NAME: every error in t.csv that has a bound lies within it, the truth's own ($2) added.
 within() {
-    same "$1" "$(rows | awk -F, -v own="$2" 'NR > 1 && $11 != "" { n++; if (!($10 <= $11 + own)) bad++ }
-        END { print (n > 0), bad + 0 }')" "1 0"
+    same "$1" "$(awk -F, -v own="$2" 'NR > 1 && $11 != "" { n++; if (!($10 <= $11 + own)) bad++ }
+        END { print (n > 0), bad + 0 }' t.csv)" "1 0"
 }
 
 # ---- a scene of flat faces, in the open: the truth is the closed form ----
 run converge "$examples/plate.toml" --azel 0,70 --seconds 1 --csv t.csv --plot p.svg --plot p.PNG
 same plate_exits_0 "$rc" 0
-same csv_columns "$(rows | head -1)" "setting,method,resolution,mesh_tolerance,facets,repetitions,prepare_ms,pose_ms,sigma_m2,error_m2,bound_m2,estimate_m2,relative_error,relative_bound,relative_estimate,accepted_by"
-same rows_have_all_columns "$(rows | awk -F, 'NF != 16' | wc -l | tr -d ' ')" 0
+same csv_columns "$(head -1 t.csv)" "setting,method,resolution,mesh_tolerance,facets,repetitions,prepare_ms,pose_ms,sigma_m2,error_m2,bound_m2,estimate_m2,relative_error,relative_bound,relative_estimate,accepted_by"
+same rows_have_all_columns "$(awk -F, 'NF != 16' t.csv | wc -l | tr -d ' ')" 0
 same facet_rasters_and_exact_are_tried "$(column setting | sed -n '1,3p;$p' | tr '\n' ' ')" "facet zbuffer 16 zbuffer 32 exact "
 same flat_faces_have_no_mesh_tolerance "$(column mesh_tolerance | sort -u)" ""
 near spot_value_of_the_plate "$(column sigma_m2 exact)" 3.27656091132
 within plate_errors_are_within_their_bounds 1e-14
 same table_ends_with_the_sentence "$(printf '%s\n' "$out" | tail -1 | grep -cE '^The cheapest setting by pose time for a bound of 1e-2.*1e-3.*1e-4.*1e-6.*; the best bound, [^ ]+ of sigma, is that of .*\.$')" 1
 same table_names_its_truth "$(printf '%s\n' "$out" | grep -c '^truth .*: the closed form of the plate$')" 1
-same table_has_a_line_for_every_row "$(printf '%s\n' "$out" | grep -cE '^(facet|exact|zbuffer) ')" "$(rows | sed 1d | wc -l | tr -d ' ')"
+same table_has_a_line_for_every_row "$(printf '%s\n' "$out" | grep -cE '^(facet|exact|zbuffer) ')" "$(sed 1d t.csv | wc -l | tr -d ' ')"
 same svg_is_one "$(sed -n 2p p.svg | cut -c1-4)" "<svg"
 same png_is_one "$(od -An -tx1 -N8 p.PNG | tr -d ' ')" 89504e470d0a1a0a
 
@@ -42,10 +40,10 @@ same truth_of_a_shape_is_not_of_its_facets "$(truth of_facets)" false
 same meshes_get_finer "$(column facets mesh | sort -cn && column facets mesh | sort -u | wc -l | tr -d ' ')" 6
 same meshes_are_named_by_their_tolerance "$(column mesh_tolerance mesh | tr '\n' ' ')" "1e-1 1e-2 1e-3 1e-4 1e-5 1e-6 "
 same finer_meshes_have_smaller_errors "$(column error_m2 mesh | sort -rg | tr '\n' ' ')" "$(column error_m2 mesh | tr '\n' ' ')"
-same a_mesh_for_a_tolerance_meets_it "$(rows | awk -F, 'NR > 1 && $14 > $4' | wc -l | tr -d ' ')" 0
+same a_mesh_for_a_tolerance_meets_it "$(awk -F, 'NR > 1 && $14 > $4' t.csv | wc -l | tr -d ' ')" 0
 within cylinder_errors_are_within_their_bounds 1e-13
 same json_keys_in_order "$(keys)" "schema version scene_hash files unit direction truth settings cheapest best notices sentence title materials options "
-same json_has_every_setting "$(printf '%s\n' "$out" | grep -c '^    {"setting": ')" "$(rows | sed 1d | wc -l | tr -d ' ')"
+same json_has_every_setting "$(printf '%s\n' "$out" | grep -c '^    {"setting": ')" "$(sed 1d t.csv | wc -l | tr -d ' ')"
 same json_has_four_tolerances "$(printf '%s\n' "$out" | grep -cE '^    \{"tolerance": [0-9.e-]+, "setting": "')" 4
 same json_says_what_time_left_out "$(printf '%s\n' "$out" | grep -c '"left out: zbuffer 16 and finer, for time"')" 1
 run shape cylinder --radius 0.5 --length 2 --aspect 60 --material 1,0.25,0.2,0.5 --json
@@ -114,8 +112,7 @@ same zero_sigma_is_in_m2 "$(printf '%s\n' "$out" | tail -1 | grep -c 'the best b
 
 # ---- files ----
 run converge "$examples/plate.toml" --seconds 0.05 --csv -
-same csv_instead_of_the_table "$(printf '%s\n' "$out" | sed -n 2p | cut -c1-15)" "setting,method,"
-same csv_says_what_of "$(printf '%s\n' "$out" | head -1 | grep -cE '^# lrcs [0-9.]+ converge; scene_hash=[0-9a-f]{16}; title=plate.toml; options=--[^;]*; file=plate.toml fnv1a:[0-9a-f]{16}; direction=0,0,1; truth_m2=[0-9.]+; truth_bound_m2=[-0-9.e]+; truth_of=shapes; truth=the closed form of the plate$')" 1
+same csv_instead_of_the_table "$(printf '%s\n' "$out" | head -1 | cut -c1-15)" "setting,method,"
 run converge "$examples/plate.toml" --seconds 0.05 --plot no/p.svg
 same unwritable_plot_exits_1 "$rc" 1
 same unwritable_plot_says_nothing_on_stdout "$out" ""

@@ -79,20 +79,18 @@ run plot all.csv -o all.svg -o all.png --projection mollweide
 same a_whole_map_is_drawn "$rc" 0
 run plot sphere.csv -o ball.svg --projection mollweide --dbsm
 same a_sphere_is_drawn "$rc" 0
-# Tables of profile and converge.
+# Tables of profile.
 run profile bus.toml --azel 20,30 --bin 0.05 --csv flat.csv --plot flat.svg
 run profile bus.toml --azel 20,30 --bin 0.05 --pulse-fwhm 0.3 --csv pulse.csv --plot pulse.svg
-run converge "$root/examples/cylinder.toml" --azel 0,30 --seconds 0.1 --csv mesh.csv --plot mesh.svg
-run converge pair.toml --azel 20,40 --seconds 0.1 --csv price.csv --plot price.svg
-run converge "$root/examples/plate.toml" --azel 0,-70 --seconds 0.05 --csv zero.csv --plot zero.svg
-for name in flat pulse mesh price zero; do
+run profile pair.toml --azel 20,30 --bin 0.5 --csv coarse.csv --plot coarse.svg
+for name in flat pulse coarse; do
     run plot $name.csv -o again.svg -o again.png
     same "${name}_is_drawn_again" "$rc $(cmp $name.svg again.svg && echo same) $(head -c 4 again.png | tail -c 3)" "0 same PNG"
 done
 run sweep pair.toml --az 0:90:10 --tolerance 0.01 --stats-file dist.csv -o turned.csv
 usage_error statistics_are_drawn_from_their_sweep "dist.csv holds statistics: draw them from the sweep's own file" plot dist.csv -o y.svg
 usage_error profiles_have_no_dbsm "--dbsm is for sweeps: flat.csv is a range profile" plot flat.csv --dbsm -o y.svg
-usage_error profiles_are_drawn_one_by_one "flat.csv is a range profile: these are drawn one by one" plot flat.csv mesh.csv -o y.svg
+usage_error profiles_are_drawn_one_by_one "flat.csv is a range profile: these are drawn one by one" plot flat.csv coarse.csv -o y.svg
 cp flat.csv same.svg
 usage_error not_over_a_profile "-o ./same.svg: would overwrite what is read" plot same.svg -o ./same.svg
 usage_error a_profile_needs_an_output "nothing to do: give -o OUT.svg" plot flat.csv
@@ -103,10 +101,6 @@ sed '4s/,.*/,x,1,1,1,1,1/' flat.csv >odd.csv
 failure a_profile_with_a_word "odd.csv: line 4, column far_m" plot odd.csv -o y.svg
 sed '3,$d' flat.csv >odd.csv
 failure a_profile_without_rows "odd.csv: has no rows: nothing to draw" plot odd.csv -o y.svg
-sed '1s/; truth_m2=[^;]*//' mesh.csv >odd.csv
-failure settings_without_their_truth "odd.csv: its first line is not that of lrcs converge: no truth" plot odd.csv -o y.svg
-sed '3s/^[^,]*,[^,]*,/by hand,none,/' mesh.csv >odd.csv
-failure settings_of_no_method "expected what lrcs converge writes" plot odd.csv -o y.svg
 same nothing_odd_was_drawn "$(ls y.svg 2>/dev/null)" ""
 command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 python3 - <<'END' || not_ok the_python_ends_well

@@ -42,6 +42,8 @@ beside() {
 \"$input\" \"$hash\""
     same "${file}_has_its_options" "$(grep -c "\"options\": \[.*=$file\"" "$file.json")" 1
 }
+beside settings.csv box.toml "$box" converge box.toml --seconds 0.05 --csv settings.csv
+same the_settings_have_their_header_first "$(head -1 settings.csv | cut -d, -f1,2)" "setting,method"
 beside facets.csv pair.toml "$pair" run pair.toml --azel 30,20 --facets facets.csv
 same a_table_of_facets_has_its_header_first "$(head -1 facets.csv)" "facet,material,area_m2,cos_theta,visible_area_m2,sigma_m2"
 run run pair.toml --azel 30,20 --json
@@ -77,7 +79,7 @@ inside bins.csv pair.toml "$pair"
 inside bins.svg pair.toml "$pair"
 same a_table_has_its_options "$(head -1 bins.csv | grep -c "; options=--bin=0.1;")" 1
 "$tool" converge box.toml --seconds 0.05 --csv settings.csv --plot cost.svg --plot cost.png >/dev/null 2>&1
-for file in settings.csv cost.svg cost.png; do
+for file in cost.svg cost.png; do
     inside $file box.toml "$box"
 done
 "$tool" fit data.csv --plot fit.svg --residuals left.png >/dev/null 2>&1

@@ -49,8 +49,10 @@ for e in demo.iter(NS + "polygon"):
     if len(p) in (4, 24):
         centres.append((sum(x for x, y in p) / len(p), sum(y for x, y in p) / len(p)))
 rows = list(csv.DictReader(open("d.csv")))
+# An error below the truth's own bound stands on that line instead: the truth is the last row, exact.
+floor = max(1e-9, float(rows[-1]["relative_bound"]))
 wanted = [(float(r["pose_ms"]), float(r[k])) for r in rows for k in ("relative_error", "relative_bound")
-          if "mesh" not in r["setting"] and (k, r["setting"][:11]) != ("relative_bound", "by estimate") and r[k] and float(r[k]) > 1e-9]
+          if "mesh" not in r["setting"] and (k, r["setting"][:11]) != ("relative_bound", "by estimate") and r[k] and float(r[k]) > floor]
 check("demo_has_points_to_find", len(wanted) >= 2)
 check("every_point_has_its_marker", all(any(math.hypot(at_x(x) - cx, at_y(y) - shift - cy) < 0.6 for cx, cy in centres)
       for x, y in wanted))

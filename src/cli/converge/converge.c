@@ -14,7 +14,8 @@ static const char converge_help[] =
     "is a single shape, not turned or scaled, else exact on the finest mesh.\n"
     "\n" CLI_POSE_HELP "\n"
     "options\n"
-    "  --csv FILE.csv        one row for every setting ('-': instead of the table)\n"
+    "  --csv FILE.csv        one row for every setting ('-': instead of the table);\n"
+    "                        FILE.csv.json beside it says what they were made from\n"
     "  --plot FILE           error against time; FILE.svg or FILE.png; repeatable\n"
     "  --seconds S           time for the runs, about (20); loading and preparing come on top\n"
     "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"
@@ -73,6 +74,9 @@ static int files_write(const converge_job *job)
 {
     const cli_args *args = job->args;
     int code = job->csv ? cli_output_write(job->csv, csv_write, job) : 0;
+    if (code == 0 && job->csv) {
+        code = cli_provenance_beside(args, job->csv, &cli_converge_finest(job)->scene, &job->pose);
+    }
     for (int i = 0; i < args->given_count && code == 0; i++) {
         if (strcmp(args->given[i].name, "plot") == 0) {
             const char *path = args->given[i].value;

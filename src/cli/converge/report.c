@@ -211,9 +211,7 @@ void cli_converge_about(FILE *out, const void *context)
 
 void cli_converge_csv(const converge_job *job, FILE *out)
 {
-    fputs("# ", out);
-    cli_converge_about(out, job);
-    fputs("\nsetting,method", out);
+    fputs("setting,method", out);
     for (int k = 0; k < NUMBERS; k++) {
         fprintf(out, ",%s", number_name[k]);
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs plot: draws the output of sweeps, profiles and lrcs converge again without computing: one
-   file as its command draws it, or the curves of several sweeps together. This file decides which
-   files fit together; sweep/plot.c and plot/table.c draw. */
+/* lrcs plot: draws the output of sweeps and range profiles again without computing: one file as its
+   command draws it, or the curves of several sweeps together. This file decides which files fit
+   together; sweep/plot.c and plot/table.c draw. */
 #include "cli/plot/table.h"
 #include "cli/sweep/sweep.h"
 
@@ -12,12 +12,12 @@ static const char plot_help[] =
     "usage: lrcs plot FILE... -o OUT [options]\n"
     "\n"
     "Draws without computing what other commands wrote: of lrcs sweep FILE.csv, FILE.jsonl, or\n"
-    "FILE.npy with its FILE.npy.head; of lrcs profile and lrcs converge FILE.csv, one at a time, "
-    "as\n"
-    "their --plot does. Files of sweeps are checked as sweep --resume checks them: one that is "
-    "damaged, or a\n"
-    "shard (lrcs merge), is refused. Curves of several sweeps along the same axis are drawn\n"
-    "together; where the files differ in scene, options or version, a notice says in what.\n"
+    "FILE.npy with its FILE.npy.head; of lrcs profile FILE.csv, one at a time, as its --plot "
+    "does.\n"
+    "Files of sweeps are checked as sweep --resume checks them: one that is damaged, or a shard\n"
+    "(lrcs merge), is refused. Curves of several sweeps along the same axis are drawn together; "
+    "if\n"
+    "the files differ in scene, options or version, a notice says in what.\n"
     "\n"
     "options\n"
     "  -o OUT                OUT.svg or OUT.png, repeatable: up to 7 curves, or a map\n"
@@ -201,11 +201,9 @@ static int job_run(plot_job *job)
     return code;
 }
 
-/* Checks the options for one file of lrcs profile or lrcs converge, and draws it. */
+/* Checks the options for one file of lrcs profile, and draws it. */
 static int table_run(const cli_args *args, const char *path, int kind)
 {
-    static const char *const what[] = {
-        [TABLE_PROFILE] = "a range profile", [TABLE_CONVERGE] = "of lrcs converge"};
     int files = 0;
     int outputs = 0;
     if (kind == TABLE_STATISTICS) {
@@ -219,8 +217,8 @@ static int table_run(const cli_args *args, const char *path, int kind)
         if (one->name[0] == '\0') {
             files++;
         } else if (strcmp(one->name, "o") != 0) {
-            return cli_usage(args->command, "--%s is for sweeps: %s is %s", one->name, path,
-                             what[kind]);
+            return cli_usage(args->command, "--%s is for sweeps: %s is a range profile", one->name,
+                             path);
         } else if (lrcs_host_output_same(one->value, path)) {
             return cli_usage(args->command, "-o %s: would overwrite what is read", one->value);
         } else {
@@ -228,9 +226,9 @@ static int table_run(const cli_args *args, const char *path, int kind)
         }
     }
     if (files > 1) {
-        return cli_usage(args->command, "%s is %s: these are drawn one by one", path, what[kind]);
+        return cli_usage(args->command, "%s is a range profile: these are drawn one by one", path);
     }
-    return outputs > 0 ? cli_table_draw(args, path, kind)
+    return outputs > 0 ? cli_table_draw(args, path)
                        : cli_usage(args->command, "nothing to do: give -o OUT.svg");
 }
 
@@ -255,6 +253,5 @@ static int plot_command(const cli_args *args)
 }
 
 const cli_command cli_plot_command = {
-    "plot",    "FILE...",    "give files that lrcs sweep, profile or converge wrote",
-    plot_help, plot_options, plot_command,
-    NULL};
+    "plot",       "FILE...", "give files that lrcs sweep or profile wrote", plot_help, plot_options,
+    plot_command, NULL};

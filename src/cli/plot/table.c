@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads back the CSV files of lrcs profile and lrcs converge, to draw them again. The first line
-   says which command wrote a file and what it was made from; columns are found by their names. The
-   charts are those of the commands. */
+/* Reads back the CSV files of lrcs profile, to draw them again. The first line says what wrote a
+   file and what it was made from; columns are found by their names. The chart is that of the
+   command. */
 #include "cli/plot/table.h"
 
 #include <lrcs/table.h>
@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/converge/converge.h"
 #include "cli/profile/profile.h"
 
 #define TABLE_TEXT 256
@@ -23,7 +22,6 @@ typedef struct table_job {
     char title[TABLE_TEXT];
     char *about; /* the first line without "# " */
     profile_job profile;
-    converge_job converge;
 } table_job;
 
 /* ---- the first line ---- */
@@ -71,32 +69,12 @@ static double head_number(const lrcs_host_file *file, const char *key)
                : (double)NAN;
 }
 
-/* Reads "direction=x,y,z"; 0 if it is not there. */
-static int direction_read(const lrcs_host_file *file, double direction[3])
-{
-    char text[TABLE_TEXT];
-    const char *at = text;
-    if (!head_text(file, "direction", text)) {
-        return 0;
-    }
-    for (int k = 0; k < 3; k++) {
-        size_t size = strcspn(at, ",");
-        if (lrcs_host_number_read(at, size, &direction[k]) != LRCS_OK) {
-            return 0;
-        }
-        at += size + (at[size] == ',');
-    }
-    return 1;
-}
-
 int cli_table_kind(const char *path)
 {
     static const struct {
         const char *word;
         int kind;
-    } known[] = {{" profile", TABLE_PROFILE},
-                 {" converge", TABLE_CONVERGE},
-                 {" statistics", TABLE_STATISTICS}};
+    } known[] = {{" profile", TABLE_PROFILE}, {" statistics", TABLE_STATISTICS}};
     lrcs_host_file file;
     lrcs_host_error error;
     int kind = TABLE_NONE;
@@ -118,15 +96,6 @@ int cli_table_kind(const char *path)
 }
 
 /* ---- rows ---- */
-
-/* Reads a field that may be empty, which is NAN. */
-static int number_take(const table_job *job, uint32_t column, double *value, lrcs_host_error *error)
-{
-    *value = (double)NAN;
-    return job->table.field[column].size == 0
-               ? LRCS_OK
-               : lrcs_host_field_read(&job->table, column, "a number", value, error);
-}
 
 /* Finds columns by name. */
 static int columns_find(const table_job *job, const char *const *name, uint32_t count,
@@ -189,88 +158,6 @@ static int profile_read(table_job *job, lrcs_host_error *error)
     return status;
 }
 
-/* The digit k of "1e-k" in a text, 0 if there is none. */
-static int digits_of(const char *text)
-{
-    const char *at = strstr(text, "1e-");
-    return at && at[3] >= '1' && at[3] <= '9' ? at[3] - '0' : 0;
-}
-
-static int converge_row_take(table_job *job, const uint32_t column[8], lrcs_host_error *error)
-{
-    converge_job *converge = &job->converge;
-    const lrcs_host_field *field = job->table.field;
-    converge_setting *one = &converge->setting[converge->settings];
-    char method[48];
-    double value[6];
-    if (converge->settings == CONVERGE_SETTINGS) {
-        snprintf(error->text, sizeof error->text, "%s: more than %d settings", job->path,
-                 CONVERGE_SETTINGS);
-        return LRCS_E_LIMIT;
-    }
-    snprintf(one->name, sizeof one->name, "%.*s", (int)field[column[0]].size,
-             field[column[0]].text);
-    snprintf(method, sizeof method, "%.*s", (int)field[column[1]].size, field[column[1]].text);
-    one->method = strcmp(method, lrcs_method_text(LRCS_METHOD_CLOSED)) == 0
-                      ? LRCS_METHOD_CLOSED
-                      : lrcs_method_find(method);
-    for (int i = 0; i < 6; i++) {
-        int status = number_take(job, column[i + 2], &value[i], error);
-        if (status != LRCS_OK) {
-            return status;
-        }
-    }
-    if (one->method < 0 || !(value[1] >= 0.0)) {
-        return lrcs_host_field_refuse(&job->table, LRCS_E_SYNTAX, column[one->method < 0 ? 1 : 3],
-                                      "what lrcs converge writes", error);
-    }
-    int mesh = strstr(one->name, " on mesh ") != NULL;
-    one->digits = digits_of(one->name);
-    one->dial = strncmp(one->name, "by estimate", 11) == 0 ? CONVERGE_PREVIEW
-                : mesh                                     ? CONVERGE_MESH
-                : one->method == LRCS_METHOD_ZBUFFER       ? CONVERGE_ZBUFFER
-                : one->method == LRCS_METHOD_FACET         ? CONVERGE_FACET
-                : one->method == LRCS_METHOD_EXACT         ? CONVERGE_EXACT
-                                                           : CONVERGE_CLOSED;
-    one->mesh = mesh ? (uint32_t)one->digits % CONVERGE_MESHES : 0;
-    converge->mesh[one->mesh].digits = mesh ? one->digits : converge->mesh[one->mesh].digits;
-    one->resolution = value[0] > 0.0 ? (uint32_t)value[0] : 0;
-    one->pose_s = 1e-3 * value[1];
-    one->sigma_m2 = value[2];
-    one->error_m2 = value[3] >= 0.0 ? value[3] : -1.0;
-    one->bound_m2 = value[4] >= 0.0 ? value[4] : -1.0;
-    one->estimate_m2 = value[5] >= 0.0 ? value[5] : -1.0;
-    converge->settings++;
-    return LRCS_OK;
-}
-
-static int converge_read(table_job *job, lrcs_host_error *error)
-{
-    static const char *const name[8] = {"setting",  "method",   "resolution", "pose_ms",
-                                        "sigma_m2", "error_m2", "bound_m2",   "estimate_m2"};
-    char text[TABLE_TEXT] = "";
-    uint32_t column[8];
-    converge_job *converge = &job->converge;
-    int more;
-    int status = columns_find(job, name, 8, column, error);
-    converge->title = job->title;
-    converge->truth.sigma_m2 = head_number(&job->file, "truth_m2");
-    converge->truth.bound_m2 = head_number(&job->file, "truth_bound_m2");
-    head_text(&job->file, "truth", text);
-    snprintf(converge->truth.text, sizeof converge->truth.text, "%.90s", text);
-    converge->truth.whole = head_text(&job->file, "truth_of", text) && strcmp(text, "shapes") == 0;
-    int known = direction_read(&job->file, converge->pose.direction);
-    if (status == LRCS_OK && !(known && converge->truth.sigma_m2 >= 0.0)) {
-        snprintf(error->text, sizeof error->text,
-                 "%s: its first line is not that of lrcs converge: no truth", job->path);
-        status = LRCS_E_SYNTAX;
-    }
-    while (status == LRCS_OK && (more = lrcs_host_table_read(&job->table, error)) != 0) {
-        status = more < 0 ? more : converge_row_take(job, column, error);
-    }
-    return status;
-}
-
 /* ---- the drawing ---- */
 
 static void about_write(FILE *out, const void *context)
@@ -284,24 +171,20 @@ static void about_write(FILE *out, const void *context)
     }
 }
 
-static int drawing_write(FILE *out, const table_job *job, int png, lrcs_host_error *error)
-{
-    return job->profile.rows > 0 ? cli_profile_chart(&job->profile, png, out, error)
-                                 : cli_converge_chart(&job->converge, png, out, error);
-}
-
 static int svg_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    return drawing_write(out, context, 0, error);
+    const table_job *job = context;
+    return cli_profile_chart(&job->profile, 0, out, error);
 }
 
 static int png_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    return drawing_write(out, context, 1, error);
+    const table_job *job = context;
+    return cli_profile_chart(&job->profile, 1, out, error);
 }
 
 /* Reads the whole table, from the names of its columns. */
-static int job_read(table_job *job, int kind, lrcs_host_error *error)
+static int job_read(table_job *job, lrcs_host_error *error)
 {
     int status = lrcs_host_file_read(job->path, &job->file, error);
     if (status != LRCS_OK) {
@@ -316,15 +199,15 @@ static int job_read(table_job *job, int kind, lrcs_host_error *error)
         return named;
     }
     lrcs_host_table_names(&job->table);
-    status = kind == TABLE_PROFILE ? profile_read(job, error) : converge_read(job, error);
-    if (status == LRCS_OK && job->profile.rows == 0 && job->converge.settings == 0) {
+    status = profile_read(job, error);
+    if (status == LRCS_OK && job->profile.rows == 0) {
         snprintf(error->text, sizeof error->text, "%s: has no rows: nothing to draw", job->path);
         return LRCS_E_SYNTAX;
     }
     return status;
 }
 
-int cli_table_draw(const cli_args *args, const char *path, int kind)
+int cli_table_draw(const cli_args *args, const char *path)
 {
     lrcs_host_error error;
     table_job *job = calloc(1, sizeof *job);
@@ -332,9 +215,9 @@ int cli_table_draw(const cli_args *args, const char *path, int kind)
         return cli_out_of_memory();
     }
     job->path = path;
-    int code = job_read(job, kind, &error) == LRCS_OK ? 0 : cli_failed(&error);
+    int code = job_read(job, &error) == LRCS_OK ? 0 : cli_failed(&error);
     job->about = code == 0 ? cli_text_of(about_write, job) : NULL;
-    job->profile.about = job->converge.about = job->about;
+    job->profile.about = job->about;
     for (int i = 0; i < args->given_count && code == 0; i++) {
         const char *out = args->given[i].value;
         if (strcmp(args->given[i].name, "o") == 0) {

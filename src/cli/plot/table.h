@@ -6,12 +6,11 @@
 #include "cli/cli.h"
 
 /* What the first line of a file says that it is; TABLE_NONE for everything else. */
-enum table_kind { TABLE_NONE, TABLE_PROFILE, TABLE_CONVERGE, TABLE_STATISTICS };
+enum table_kind { TABLE_NONE, TABLE_PROFILE, TABLE_STATISTICS };
 
 int cli_table_kind(const char *path);
 
-/* Draws a profile or the settings of converge as every -o. 0, or CLI_FAILED with the message
-   printed. */
-int cli_table_draw(const cli_args *args, const char *path, int kind);
+/* Draws a range profile as every -o. 0, or CLI_FAILED with the message printed. */
+int cli_table_draw(const cli_args *args, const char *path);
 
 #endif
