@@ -485,10 +485,11 @@ static void facet_profile(profile_job *job, uint32_t facet, lrcsi_occluding *o)
     lrcsi_incidence incidence = lrcsi_view_incidence(job->view, facet);
     lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
     lrcsi_curve_facet curve;
-    profile_facet f = {.curve = lrcsi_curve_wanted(job->view, facet) ? &curve : NULL};
+    profile_facet f = {.curve = NULL};
     double before = lrcsi_sum_value(&job->glint) + lrcsi_sum_value(&job->diffuse);
-    if (f.curve) {
+    if (lrcsi_curve_wanted(job->view, facet)) {
         lrcsi_curve_start(&job->curves, facet, &curve);
+        f.curve = &curve;
         f.most = FOUR_PI * lrcsi_curve_most(&curve) * (1 + incidence.error);
     } else {
         lrcsi_facet_terms terms =

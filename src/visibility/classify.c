@@ -170,8 +170,7 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
 {
     const lrcsi_view *view = classification->view;
     const lrcsi_grid *grid = &classification->grid;
-    crossing_ask ask; /* made where it is first needed */
-    int asking = 0;
+    crossing_ask ask = {.corner = NULL}; /* made when it is first needed */
     const lrcsi_view_box box = classification->boxes.facet[facet];
     const lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
     const uint32_t allowed = steps_allowed(meter, *steps);
@@ -202,17 +201,14 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
                     break;
                 }
                 near--;
-                if (event->asked == asked) {
-                    continue;
-                }
+                int again = event->asked == asked;
                 event->asked = asked;
-                if (component != LRCS_NONE &&
-                    !component_has_edge(classification, event->edge, component)) {
+                if (again || (component != LRCS_NONE &&
+                              !component_has_edge(classification, event->edge, component))) {
                     continue;
                 }
-                if (!asking) {
+                if (!ask.corner) {
                     ask = crossing_ask_of(view, facet);
-                    asking = 1;
                 }
                 if (edge_crosses(view, &ask, event->edge, &classification->along)) {
                     classification->crossing[count++] = event->edge;
