@@ -160,7 +160,9 @@ static lrcs_effect normals_effect(const lrcs_prepared *p)
                : given   ? (lrcs_effect){0, "all smoothed facets are flat"}
                          : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
     default:
-        return (lrcs_effect){0, "flat facets, as Eq. 2 over facets means"};
+        return p->curved ? (lrcs_effect){0, "facets of models are flat; those of round shapes "
+                                            "stand for the true surface"}
+                         : (lrcs_effect){0, "flat facets, as Eq. 2 over facets means"};
     }
 }
 

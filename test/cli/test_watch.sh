@@ -23,6 +23,7 @@ import os, pty, re, signal, sys, time
 tool, seconds, wanted = sys.argv[1], float(sys.argv[2]), re.compile(sys.argv[3].encode())
 pid, terminal = pty.fork()
 if pid == 0:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # ignored where the tests run in the background
     os.execv(tool, [tool] + sys.argv[4:])
 seen, end = b"", time.time() + seconds
 while time.time() < end and not wanted.search(seen):
