@@ -258,7 +258,7 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double a
     patch->glint += weight * at.glint;
     patch->diffuse += weight * at.diffuse;
     patch->glint_u += weight * at.glint * u;
-    patch->diffuse_log += weight * at.diffuse * log(1 + u);
+    patch->diffuse_log += weight * at.diffuse * log1p(u);
     patch->rounding += weight * (at.error + at.glint * (glint_off + glint_off * glint_off) +
                                  at.diffuse * (diffuse_off + diffuse_off * diffuse_off));
     return 1;
