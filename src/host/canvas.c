@@ -12,8 +12,8 @@
 #include <string.h>
 
 #define CANVAS_SLICES 4   /* of a pixel's height, in areas */
-#define STROKE_MOST   64  /* spots of a stroke: the font's longest has 44 */
-#define STROKE_PIECES 5   /* straight pieces from spot to spot */
+#define STROKE_MOST   64  /* points of a stroke: the font's longest has 44 */
+#define STROKE_PIECES 5   /* straight pieces from point to point */
 #define STROKE_CORNER 0.6 /* the cosine of a turn that is a corner */
 
 static uint32_t canvas_clamp(double value, uint32_t most)
@@ -104,14 +104,14 @@ static void canvas_stretch(lrcsi_canvas *canvas, lrcsi_plot_point a, lrcsi_plot_
     }
 }
 
-static void canvas_line(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, uint32_t count,
+static void canvas_line(lrcsi_plotter *plotter, const lrcsi_plot_point *point, uint32_t count,
                         const lrcsi_ink *ink)
 {
     lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
     double gone = 0.0;
     for (uint32_t i = 0; i + 1 < count; i++) {
-        lrcsi_plot_point a = {spot[i].x * canvas->scale, spot[i].y * canvas->scale};
-        lrcsi_plot_point b = {spot[i + 1].x * canvas->scale, spot[i + 1].y * canvas->scale};
+        lrcsi_plot_point a = {point[i].x * canvas->scale, point[i].y * canvas->scale};
+        lrcsi_plot_point b = {point[i + 1].x * canvas->scale, point[i + 1].y * canvas->scale};
         canvas_stretch(canvas, a, b, ink, gone);
         gone += hypot(b.x - a.x, b.y - a.y);
     }
@@ -119,14 +119,14 @@ static void canvas_line(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, ui
 }
 
 /* Where the horizontal at y, in pixels, runs inside a convex polygon: from span[0] to span[1]. */
-static void area_span(const lrcsi_plot_point *spot, uint32_t count, double scale, double y,
+static void area_span(const lrcsi_plot_point *point, uint32_t count, double scale, double y,
                       double span[2])
 {
     span[0] = HUGE_VAL;
     span[1] = -HUGE_VAL;
     for (uint32_t i = 0; i < count; i++) {
-        const lrcsi_plot_point *a = &spot[i];
-        const lrcsi_plot_point *b = &spot[(i + 1) % count];
+        const lrcsi_plot_point *a = &point[i];
+        const lrcsi_plot_point *b = &point[(i + 1) % count];
         double ay = a->y * scale - y;
         double by = b->y * scale - y;
         if ((ay < 0.0) != (by < 0.0)) {
@@ -137,23 +137,23 @@ static void area_span(const lrcsi_plot_point *spot, uint32_t count, double scale
     }
 }
 
-static void canvas_area(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, uint32_t count,
+static void canvas_area(lrcsi_plotter *plotter, const lrcsi_plot_point *point, uint32_t count,
                         uint32_t colour)
 {
     lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
     double reach[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     uint32_t part[4];
     for (uint32_t i = 0; i < count; i++) {
-        reach[0] = fmin(reach[0], spot[i].x * canvas->scale);
-        reach[1] = fmin(reach[1], spot[i].y * canvas->scale);
-        reach[2] = fmax(reach[2], spot[i].x * canvas->scale);
-        reach[3] = fmax(reach[3], spot[i].y * canvas->scale);
+        reach[0] = fmin(reach[0], point[i].x * canvas->scale);
+        reach[1] = fmin(reach[1], point[i].y * canvas->scale);
+        reach[2] = fmax(reach[2], point[i].x * canvas->scale);
+        reach[3] = fmax(reach[3], point[i].y * canvas->scale);
     }
     canvas_touch(canvas, reach, part);
     for (uint32_t i = part[1] * CANVAS_SLICES; i < part[3] * CANVAS_SLICES; i++) {
         double span[2];
         float *row = canvas->cover + (size_t)(i / CANVAS_SLICES) * canvas->width;
-        area_span(spot, count, canvas->scale, (i + 0.5) / CANVAS_SLICES, span);
+        area_span(point, count, canvas->scale, (i + 0.5) / CANVAS_SLICES, span);
         for (uint32_t x = part[0]; x < part[2]; x++) {
             double in = fmin(span[1], x + 1.0) - fmax(span[0], x);
             row[x] += (float)(fmax(in, 0.0) / CANVAS_SLICES);
@@ -162,8 +162,8 @@ static void canvas_area(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, ui
     canvas_settle(canvas, colour);
 }
 
-/* The direction in which a curve through three spots passes the middle one, times a length; zero if
-   they form a corner. */
+/* The direction in which a curve through three points passes the middle one, times a length; zero
+   if they form a corner. */
 static lrcsi_plot_point stroke_tangent(lrcsi_plot_point a, lrcsi_plot_point b, lrcsi_plot_point c)
 {
     double in = hypot(b.x - a.x, b.y - a.y);
@@ -177,17 +177,17 @@ static lrcsi_plot_point stroke_tangent(lrcsi_plot_point a, lrcsi_plot_point b, l
                               ((b.y - a.y) * out / in + (c.y - b.y) * in / out) / (in + out)};
 }
 
-/* A stroke of a letter: the font gives spots on a curve, which cubics join where they turn little,
+/* A stroke of a letter: the font gives points on a curve, which cubics join where they turn little,
    and corners, which stay corners. A straight piece between two corners stays straight. */
-static void canvas_stroke(lrcsi_canvas *canvas, const lrcsi_plot_point *spot, uint32_t count,
+static void canvas_stroke(lrcsi_canvas *canvas, const lrcsi_plot_point *point, uint32_t count,
                           double half)
 {
-    int closed = count > 3 && spot[0].x == spot[count - 1].x && spot[0].y == spot[count - 1].y;
+    int closed = count > 3 && point[0].x == point[count - 1].x && point[0].y == point[count - 1].y;
     for (uint32_t i = 0; i + 1 < count; i++) {
-        lrcsi_plot_point a = spot[i];
-        lrcsi_plot_point b = spot[i + 1];
-        lrcsi_plot_point before = i > 0 ? spot[i - 1] : closed ? spot[count - 2] : a;
-        lrcsi_plot_point after = i + 2 < count ? spot[i + 2] : closed ? spot[1] : b;
+        lrcsi_plot_point a = point[i];
+        lrcsi_plot_point b = point[i + 1];
+        lrcsi_plot_point before = i > 0 ? point[i - 1] : closed ? point[count - 2] : a;
+        lrcsi_plot_point after = i + 2 < count ? point[i + 2] : closed ? point[1] : b;
         double chord = hypot(b.x - a.x, b.y - a.y);
         lrcsi_plot_point ta = stroke_tangent(before, a, b);
         lrcsi_plot_point tb = stroke_tangent(a, b, after);

@@ -47,7 +47,7 @@ static int chart_shows(int log, double floor, double *value)
 }
 
 static int chart_point(const chart_plan *plan, const lrcs_host_series *series, uint32_t i,
-                       lrcsi_plot_point *spot)
+                       lrcsi_plot_point *point)
 {
     const lrcs_host_chart *chart = plan->chart;
     double x = series->x[i];
@@ -55,7 +55,7 @@ static int chart_point(const chart_plan *plan, const lrcs_host_series *series, u
     if (!chart_shows(chart->x_log, 0.0, &x) || !chart_shows(chart->y_log, chart->floor, &y)) {
         return 0;
     }
-    *spot = (lrcsi_plot_point){chart_x(plan, x), chart_y(plan, y)};
+    *point = (lrcsi_plot_point){chart_x(plan, x), chart_y(plan, y)};
     return 1;
 }
 
@@ -143,16 +143,16 @@ static void chart_ticks(const chart_plan *plan)
 /* ---- the data ---- */
 
 static void run_draw(const chart_plan *plan, const lrcs_host_series *series,
-                     const lrcsi_plot_point *spot, uint32_t count)
+                     const lrcsi_plot_point *point, uint32_t count)
 {
     const lrcsi_ink ink = lrcsi_series_ink(series);
     int joined = series->dash != LRCS_HOST_NO_LINE;
     if (count > 1 && joined) {
-        plan->plotter->line(plan->plotter, spot, count, &ink);
+        plan->plotter->line(plan->plotter, point, count, &ink);
     }
     for (uint32_t i = 0; i < count; i++) {
-        lrcsi_board_point(plan->board, spot[i], LRCSI_CHART_RING);
-        lrcsi_board_line(plan->board, spot[i > 0 && joined ? i - 1 : i], spot[i]);
+        lrcsi_board_point(plan->board, point[i], LRCSI_CHART_RING);
+        lrcsi_board_line(plan->board, point[i > 0 && joined ? i - 1 : i], point[i]);
     }
 }
 

@@ -10,27 +10,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SCALE_DB    40.0 /* what the scale of sigma spans at most */
-#define SCALE_BINS  800  /* a histogram of -400 .. 400 dB */
-#define SCALE_TEXTS 9.0
-#define LOOK_DEG    (180.0 / LRCSI_PI)
-#define LOOK_PLAIN  0xc8c8c8u /* facets without a colour of their own, shaded */
-#define LOOK_LEVEL  1e-9      /* a slope that no colour shows */
-#define LOOK_CREASE 0.05      /* cosines that differ by more show an edge */
+#define SCALE_DB      40.0 /* what the scale of sigma spans at most */
+#define SCALE_BINS    800  /* a histogram of -400 .. 400 dB */
+#define SCALE_TEXTS   9.0
+#define DEGREES       (180.0 / LRCSI_PI)
+#define COLOUR_PLAIN  0xc8c8c8u /* facets without a colour of their own, shaded */
+#define SLOPE_LEAST   1e-9      /* a slope that no colour shows */
+#define CREASE_COSINE 0.05      /* cosines that differ by more show an edge */
 
-static const char *const look_names[] = {"sigma", "theta", "range", "facet", "material", "shaded"};
+static const char *const colouring_names[] = {"sigma", "theta",    "range",
+                                              "facet", "material", "shaded"};
 
-#define LOOKS (int)(sizeof look_names / sizeof look_names[0])
+#define COLOURINGS (int)(sizeof colouring_names / sizeof colouring_names[0])
 
 const char *lrcs_host_colouring_text(int colouring)
 {
-    return colouring >= 0 && colouring < LOOKS ? look_names[colouring] : NULL;
+    return colouring >= 0 && colouring < COLOURINGS ? colouring_names[colouring] : NULL;
 }
 
 int lrcs_host_colouring_find(const char *name)
 {
-    for (int i = 0; i < LOOKS; i++) {
-        if (strcmp(look_names[i], name) == 0) {
+    for (int i = 0; i < COLOURINGS; i++) {
+        if (strcmp(colouring_names[i], name) == 0) {
             return i;
         }
     }
@@ -49,7 +50,7 @@ uint32_t lrcsi_colouring_ink(const lrcsi_colouring *colouring)
 
 /* ---- numbers of a facet ---- */
 
-static const lrcs_material *facet_wears(const lrcsi_colouring *colouring, uint32_t facet)
+static const lrcs_material *facet_material_of(const lrcsi_colouring *colouring, uint32_t facet)
 {
     const lrcs_scene *scene = colouring->picture->scene;
     return &scene->material[scene->facet_material[facet]];
@@ -222,7 +223,7 @@ static void materials_list(lrcsi_colouring *colouring)
         if (!used[i] || material_repeats(scene, used, i)) {
             continue;
         }
-        if (colouring->materials < LRCSI_LOOK_MATERIALS) {
+        if (colouring->materials < LRCSI_COLOURING_MATERIALS) {
             colouring->material[colouring->materials++] = i;
         } else {
             colouring->more++;
@@ -244,16 +245,16 @@ uint32_t lrcsi_colouring_material(const lrcsi_colouring *colouring, uint32_t mat
     return place < colouring->materials ? colouring->hue[place] : lrcsi_palette_distinct(material);
 }
 
-/* ---- the look ---- */
+/* ---- colours of facets ---- */
 
-static void look_centre(lrcsi_colouring *colouring)
+static void find_centre(lrcsi_colouring *colouring)
 {
     const lrcs_scene *scene = colouring->picture->scene;
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (size_t i = 0; i < 3 * (size_t)scene->facet_count; i++) {
         const double *x = scene->vertex[scene->facet[i / 3].corner[i % 3]].x;
-        for (int k = 0; k < 3 && !facet_wears(colouring, (uint32_t)(i / 3))->omitted; k++) {
+        for (int k = 0; k < 3 && !facet_material_of(colouring, (uint32_t)(i / 3))->omitted; k++) {
             low[k] = fmin(low[k], x[k]);
             high[k] = fmax(high[k], x[k]);
         }
@@ -271,7 +272,7 @@ lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture)
         materials_list(&colouring);
     }
     if (picture->colouring == LRCS_HOST_BY_RANGE) {
-        look_centre(&colouring);
+        find_centre(&colouring);
     }
     if (colouring.scaled && picture->records) {
         scale_make(&colouring);
@@ -280,18 +281,18 @@ lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture)
 }
 
 /* The colour of a facet without a value on the scale: darker at larger incidence. */
-static uint32_t look_grey(const lrcs_facet_record *record)
+static uint32_t facet_grey(const lrcs_facet_record *record)
 {
     return lrcsi_palette_shade(0x787878u, 0.375 + 0.625 * fmin(fabs(record->cos_theta), 1.0));
 }
 
-static int look_dead(const lrcsi_colouring *colouring, uint32_t facet)
+static int facet_reflects_nothing(const lrcsi_colouring *colouring, uint32_t facet)
 {
     return colouring->picture->records[facet].cos_theta < 0.0 &&
-           !facet_wears(colouring, facet)->two_sided;
+           !facet_material_of(colouring, facet)->two_sided;
 }
 
-static double look_height(const lrcsi_colouring *colouring, uint32_t facet, const double view[2])
+static double facet_height(const lrcsi_colouring *colouring, uint32_t facet, const double view[2])
 {
     double at[3];
     double height[2];
@@ -305,27 +306,28 @@ static double look_height(const lrcsi_colouring *colouring, uint32_t facet, cons
     return fmin(fmax(at[0] + at[1] * x[0] + at[2] * x[1], height[0]), height[1]);
 }
 
-static uint32_t look_shaded(const lrcsi_colouring *colouring, uint32_t facet)
+static uint32_t facet_shaded(const lrcsi_colouring *colouring, uint32_t facet)
 {
-    const lrcs_material *material = facet_wears(colouring, facet);
+    const lrcs_material *material = facet_material_of(colouring, facet);
     double light = 0.12 + 0.88 * fmin(fabs(colouring->picture->records[facet].cos_theta), 1.0);
     uint32_t own = (uint32_t)material->rgb[0] << 16 | (uint32_t)material->rgb[1] << 8 |
                    (uint32_t)material->rgb[2];
-    return lrcsi_palette_shade(material->has_colour ? own : LOOK_PLAIN, light);
+    return lrcsi_palette_shade(material->has_colour ? own : COLOUR_PLAIN, light);
 }
 
 /* Nothing to show is -HUGE_VAL. */
-static double look_value(const lrcsi_colouring *colouring, uint32_t facet, const double view[2])
+static double facet_value(const lrcsi_colouring *colouring, uint32_t facet, const double view[2])
 {
     const lrcs_facet_record *record = &colouring->picture->records[facet];
     switch (colouring->picture->colouring) {
     case LRCS_HOST_BY_SIGMA:
         return facet_return(record);
     case LRCS_HOST_BY_THETA:
-        return look_dead(colouring, facet) ? -HUGE_VAL
-                                           : LOOK_DEG * acos(fmin(fabs(record->cos_theta), 1.0));
+        return facet_reflects_nothing(colouring, facet)
+                   ? -HUGE_VAL
+                   : DEGREES * acos(fmin(fabs(record->cos_theta), 1.0));
     default:
-        return look_height(colouring, facet, view);
+        return facet_height(colouring, facet, view);
     }
 }
 
@@ -333,9 +335,9 @@ uint32_t lrcsi_colouring_colour(const lrcsi_colouring *colouring, uint32_t facet
                                 const double view[2])
 {
     if (colouring->scaled) {
-        double value = look_value(colouring, facet, view);
+        double value = facet_value(colouring, facet, view);
         return isfinite(value) ? lrcsi_palette_even(lrcsi_axis_at(&colouring->scale, value))
-                               : look_grey(&colouring->picture->records[facet]);
+                               : facet_grey(&colouring->picture->records[facet]);
     }
     switch (colouring->picture->colouring) {
     case LRCS_HOST_BY_FACET:
@@ -344,7 +346,7 @@ uint32_t lrcsi_colouring_colour(const lrcsi_colouring *colouring, uint32_t facet
         return lrcsi_colouring_material(colouring,
                                         colouring->picture->scene->facet_material[facet]);
     default:
-        return look_shaded(colouring, facet);
+        return facet_shaded(colouring, facet);
     }
 }
 
@@ -360,7 +362,7 @@ int lrcsi_colouring_slope(const lrcsi_colouring *colouring, uint32_t facet, doub
         const double *c = colouring->centre;
         at[0] -= at[k + 1] * (axis[0] * c[0] + axis[1] * c[1] + axis[2] * c[2]);
     }
-    return hypot(at[1], at[2]) > LOOK_LEVEL;
+    return hypot(at[1], at[2]) > SLOPE_LEAST;
 }
 
 int lrcsi_colouring_outline(const lrcsi_colouring *colouring, uint32_t a, uint32_t b)
@@ -373,6 +375,6 @@ int lrcsi_colouring_outline(const lrcsi_colouring *colouring, uint32_t a, uint32
         return in_a;
     }
     int crease = colouring->picture->colouring == LRCS_HOST_BY_MATERIAL &&
-                 fabs(records[a].cos_theta - records[b].cos_theta) > LOOK_CREASE;
+                 fabs(records[a].cos_theta - records[b].cos_theta) > CREASE_COSINE;
     return crease || scene->facet_part[a] != scene->facet_part[b];
 }

@@ -7,17 +7,17 @@
 
 #include "host/axis.h"
 
-#define LRCSI_LOOK_MATERIALS 64u
+#define LRCSI_COLOURING_MATERIALS 64u
 
 typedef struct lrcsi_colouring {
     const lrcs_host_picture *picture;
-    int scaled;                              /* colours are read by a scale */
-    lrcsi_axis scale;                        /* then this one */
-    double centre[3];                        /* of the box round the facets, body frame */
-    uint32_t materials;                      /* that look apart; by material only */
-    uint32_t material[LRCSI_LOOK_MATERIALS]; /* one of each */
-    uint32_t hue[LRCSI_LOOK_MATERIALS];      /* its false colour */
-    uint32_t more;                           /* number of further ones */
+    int scaled;         /* colours are read by a scale */
+    lrcsi_axis scale;   /* then this one */
+    double centre[3];   /* of the bounding box of the facets, body frame */
+    uint32_t materials; /* of different appearance; only when coloured by material */
+    uint32_t material[LRCSI_COLOURING_MATERIALS]; /* one of each */
+    uint32_t hue[LRCSI_COLOURING_MATERIALS];      /* its false colour */
+    uint32_t more;                                /* number of further ones */
 } lrcsi_colouring;
 
 /* Without records, fills only what does not depend on them: everything except the scale. */

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#define LABEL_STEP 4.0 /* between the spots that stand for a line */
+#define LABEL_STEP 4.0 /* between the points that stand for a line */
 
 static void board_take(lrcsi_board *board, lrcsi_room room)
 {
@@ -22,9 +22,9 @@ static lrcsi_room box_about(double x, double y, double half_x, double half_y)
                         (float)(y + half_y)};
 }
 
-void lrcsi_board_point(lrcsi_board *board, lrcsi_plot_point spot, double half)
+void lrcsi_board_point(lrcsi_board *board, lrcsi_plot_point point, double half)
 {
-    board_take(board, box_about(spot.x, spot.y, half, half));
+    board_take(board, box_about(point.x, point.y, half, half));
 }
 
 void lrcsi_board_line(lrcsi_board *board, lrcsi_plot_point a, lrcsi_plot_point b)
@@ -53,7 +53,7 @@ static int board_free(const lrcsi_board *board, const lrcsi_room *want)
     return 1;
 }
 
-int lrcsi_board_text(lrcsi_board *board, lrcsi_plot_point spot, double clear, const char *text,
+int lrcsi_board_text(lrcsi_board *board, lrcsi_plot_point point, double clear, const char *text,
                      double size, lrcsi_plot_point *at)
 {
     static const double place[8][2] = {{0, -1}, {1, -1}, {1, 0},  {-1, -1},
@@ -61,8 +61,8 @@ int lrcsi_board_text(lrcsi_board *board, lrcsi_plot_point spot, double clear, co
     double half_x = 0.5 * size * lrcsi_letters_width(text);
     double half_y = 0.38 * size;
     for (int i = 0; i < 8; i++) {
-        double x = spot.x + place[i][0] * (half_x + clear);
-        double y = spot.y + place[i][1] * (half_y + clear);
+        double x = point.x + place[i][0] * (half_x + clear);
+        double y = point.y + place[i][1] * (half_y + clear);
         lrcsi_room want = box_about(x, y, half_x + 1.0, half_y + 1.0);
         if (board_free(board, &want)) {
             board_take(board, want);

@@ -19,12 +19,12 @@ typedef struct lrcsi_board {
 } lrcsi_board;
 
 /* Marks as occupied a square about a point, and squares along a line. */
-void lrcsi_board_point(lrcsi_board *board, lrcsi_plot_point spot, double half);
+void lrcsi_board_point(lrcsi_board *board, lrcsi_plot_point point, double half);
 void lrcsi_board_line(lrcsi_board *board, lrcsi_plot_point a, lrcsi_plot_point b);
 
 /* Finds a place for a text of the given size beside a point, at least `clear` away, and marks it as
    occupied. Returned: its left end on the base line. Returns 0 if there is no free place. */
-int lrcsi_board_text(lrcsi_board *board, lrcsi_plot_point spot, double clear, const char *text,
+int lrcsi_board_text(lrcsi_board *board, lrcsi_plot_point point, double clear, const char *text,
                      double size, lrcsi_plot_point *at);
 
 #endif

@@ -43,9 +43,9 @@ static double length_choose(double most, char name[32])
 static void legend_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
                           uint32_t ink)
 {
-    const lrcsi_plot_point spot[2] = {{x0, y0}, {x1, y1}};
+    const lrcsi_plot_point point[2] = {{x0, y0}, {x1, y1}};
     const lrcsi_ink line = {ink, 1.2, {0.0, 0.0}};
-    plotter->line(plotter, spot, 2, &line);
+    plotter->line(plotter, point, 2, &line);
 }
 
 /* The bar of metres with its ends, on a line at y. */

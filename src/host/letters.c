@@ -140,7 +140,7 @@ double lrcsi_letters_width(const char *text)
     return width;
 }
 
-int lrcsi_letters_next(lrcsi_letters *letters, lrcsi_plot_point *spot)
+int lrcsi_letters_next(lrcsi_letters *letters, lrcsi_plot_point *point)
 {
     int move = LRCSI_LETTERS_DRAW;
     while (*letters->text) {
@@ -153,8 +153,8 @@ int lrcsi_letters_next(lrcsi_letters *letters, lrcsi_plot_point *spot)
             move = LRCSI_LETTERS_JUMP;
         }
         if (strokes && *letters->at) {
-            spot->x = letters->x + LETTER_NARROW * (letters->at[0] - strokes[0]) / LETTER_EM;
-            spot->y = (LETTER_BASE - (letters->at[1] - 'R')) / LETTER_EM;
+            point->x = letters->x + LETTER_NARROW * (letters->at[0] - strokes[0]) / LETTER_EM;
+            point->y = (LETTER_BASE - (letters->at[1] - 'R')) / LETTER_EM;
             letters->at += 2;
             return move;
         }

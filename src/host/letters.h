@@ -18,7 +18,7 @@ typedef struct lrcsi_letters {
 
 enum lrcsi_letters_move { LRCSI_LETTERS_END, LRCSI_LETTERS_JUMP, LRCSI_LETTERS_DRAW };
 
-/* Returns END, or how to move to *spot. */
-int lrcsi_letters_next(lrcsi_letters *letters, lrcsi_plot_point *spot);
+/* Returns END, or how to move to *point. */
+int lrcsi_letters_next(lrcsi_letters *letters, lrcsi_plot_point *point);
 
 #endif

@@ -162,24 +162,24 @@ static void ellipse_cells(const map_plan *plan, double west, double east, const 
 
 static void ellipse_line(const map_plan *plan, double longitude, uint32_t colour, double width)
 {
-    lrcsi_plot_point spot[61];
+    lrcsi_plot_point point[61];
     const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
     for (int i = 0; i <= 60; i++) {
-        spot[i] = ellipse_spot(longitude, sin(LRCSI_PI * (i - 30) / 60.0));
+        point[i] = ellipse_spot(longitude, sin(LRCSI_PI * (i - 30) / 60.0));
     }
-    plan->plotter->line(plan->plotter, spot, 61, &ink);
+    plan->plotter->line(plan->plotter, point, 61, &ink);
 }
 
 /* The background below the cells, for what they do not cover. */
 static void ellipse_ground(const map_plan *plan)
 {
-    lrcsi_plot_point spot[120];
+    lrcsi_plot_point point[120];
     for (int i = 0; i < 120; i++) {
         double t = LRCSI_PI * i / 60.0;
-        spot[i] = (lrcsi_plot_point){ELLIPSE_X + ELLIPSE_WIDE * cos(t),
-                                     ELLIPSE_Y - ELLIPSE_HIGH * sin(t)};
+        point[i] = (lrcsi_plot_point){ELLIPSE_X + ELLIPSE_WIDE * cos(t),
+                                      ELLIPSE_Y - ELLIPSE_HIGH * sin(t)};
     }
-    plan->plotter->area(plan->plotter, spot, 120, ELLIPSE_EMPTY);
+    plan->plotter->area(plan->plotter, point, 120, ELLIPSE_EMPTY);
 }
 
 static void ellipse_number(const map_plan *plan, int degrees, lrcsi_plot_point at, int anchor)
@@ -278,20 +278,20 @@ static lrcsi_plot_point contour_cross(const lrcsi_plot_point corner[4], const do
 static void contour_square(const map_plan *plan, const lrcsi_plot_point corner[4],
                            const double z[4], double level, const lrcsi_ink *ink)
 {
-    lrcsi_plot_point spot[4];
+    lrcsi_plot_point point[4];
     int count = 0;
     for (int side = 0; side < 4; side++) {
         if ((z[side] >= level) != (z[(side + 1) % 4] >= level)) {
-            spot[count++] = contour_cross(corner, z, side, level);
+            point[count++] = contour_cross(corner, z, side, level);
         }
     }
     if (count == 2) {
-        plan->plotter->line(plan->plotter, spot, 2, ink);
+        plan->plotter->line(plan->plotter, point, 2, ink);
     } else if (count == 4) {
         int middle = 0.25 * (z[0] + z[1] + z[2] + z[3]) >= level;
         int round = middle == (z[0] >= level); /* corners 1 and 3 are cut off, not 0 and 2 */
-        const lrcsi_plot_point pair[4] = {spot[round ? 0 : 3], spot[round ? 1 : 0],
-                                          spot[round ? 2 : 1], spot[round ? 3 : 2]};
+        const lrcsi_plot_point pair[4] = {point[round ? 0 : 3], point[round ? 1 : 0],
+                                          point[round ? 2 : 1], point[round ? 3 : 2]};
         plan->plotter->line(plan->plotter, pair, 2, ink);
         plan->plotter->line(plan->plotter, pair + 2, 2, ink);
     }

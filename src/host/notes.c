@@ -89,7 +89,7 @@ static void unit_note(lrcs_host_scene *host, uint32_t part)
 
 /* ---- maps ---- */
 
-static int surface_answers(const lrcs_surface *surface, const lrcs_binding *binding)
+static int surface_matches(const lrcs_surface *surface, const lrcs_binding *binding)
 {
     return binding->kind == LRCS_BIND_MAP_NAME
                ? strcmp(surface->name, binding->name) == 0
@@ -97,12 +97,12 @@ static int surface_answers(const lrcs_surface *surface, const lrcs_binding *bind
                      memcmp(surface->rgb, binding->rgb, sizeof surface->rgb) == 0;
 }
 
-static int models_answer(const lrcs_host_scene *host, const lrcs_binding *binding)
+static int models_match(const lrcs_host_scene *host, const lrcs_binding *binding)
 {
     for (uint32_t i = 0; i < host->recipe.part_count; i++) {
         const lrcs_mesh *model = &host->model[i];
         for (uint32_t k = 0; host->recipe.part[i].file && k < model->material_count; k++) {
-            if (surface_answers(&model->material[k], binding)) {
+            if (surface_matches(&model->material[k], binding)) {
                 return 1;
             }
         }
@@ -136,7 +136,7 @@ static void map_note(lrcs_host_scene *host, const lrcs_binding *binding)
 {
     char colour[8];
     int named = binding->kind == LRCS_BIND_MAP_NAME;
-    if ((!named && binding->kind != LRCS_BIND_MAP_COLOUR) || models_answer(host, binding)) {
+    if ((!named && binding->kind != LRCS_BIND_MAP_COLOUR) || models_match(host, binding)) {
         return;
     }
     if (named) {

@@ -32,10 +32,10 @@ typedef struct lrcsi_words {
 
 typedef struct lrcsi_plotter lrcsi_plotter;
 struct lrcsi_plotter {
-    void (*line)(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, uint32_t count,
+    void (*line)(lrcsi_plotter *plotter, const lrcsi_plot_point *point, uint32_t count,
                  const lrcsi_ink *ink);
     /* A convex polygon, filled. */
-    void (*area)(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, uint32_t count,
+    void (*area)(lrcsi_plotter *plotter, const lrcsi_plot_point *point, uint32_t count,
                  uint32_t colour);
     void (*text)(lrcsi_plotter *plotter, const lrcsi_words *words);
 };

@@ -47,12 +47,12 @@ static void polar_range(const lrcs_host_chart *chart, double range[2])
 
 static void ring_draw(const polar_plan *plan, double part, uint32_t colour, double width)
 {
-    lrcsi_plot_point spot[181];
+    lrcsi_plot_point point[181];
     const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
     for (int i = 0; i <= 180; i++) {
-        spot[i] = polar_point(plan, 2.0 * i, part);
+        point[i] = polar_point(plan, 2.0 * i, part);
     }
-    plan->plotter->line(plan->plotter, spot, 181, &ink);
+    plan->plotter->line(plan->plotter, point, 181, &ink);
 }
 
 static void spoke_draw(const polar_plan *plan, int deg)

@@ -12,9 +12,9 @@
 void lrcsi_chart_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
                         uint32_t colour, double width)
 {
-    const lrcsi_plot_point spot[2] = {{x0, y0}, {x1, y1}};
+    const lrcsi_plot_point point[2] = {{x0, y0}, {x1, y1}};
     const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
-    plotter->line(plotter, spot, 2, &ink);
+    plotter->line(plotter, point, 2, &ink);
 }
 
 void lrcsi_chart_words(lrcsi_plotter *plotter, lrcsi_words words, double room)

@@ -37,7 +37,7 @@ void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series,
 void lrcsi_chart_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
                         uint32_t colour, double width);
 
-/* A mark at a spot of an axis, with its number below or, on an upright axis, to the left. */
+/* A mark at a point of an axis, with its number below or, on an upright axis, to the left. */
 void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_plot_point at,
                       int upright);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Facets that reflect from both sides because the user says so: all of them, those of parts that
-   are not closed, or those of a named part or material. It decides which facets are meant; a
+   are not closed, or those of a named part or material. It decides which facets are selected; a
    material that becomes two-sided on only some of its facets is copied. */
 #include "host/sides.h"
 
@@ -12,7 +12,7 @@
 typedef struct sides_job {
     lrcs_host_scene *host;
     const char *what;
-    unsigned char *meant; /* of each facet */
+    unsigned char *selected; /* of each facet */
     int matched;
 } sides_job;
 
@@ -32,14 +32,14 @@ static int facets_closed(const lrcs_scene *scene, const lrcs_facet *facet, uint3
     return status;
 }
 
-/* One object of a part: its facets, gathered; marks those that are meant. */
+/* One object of a part: its facets, gathered; marks those that are selected. */
 static int object_mark(sides_job *job, const char *name, const uint32_t *list, uint32_t count)
 {
     const lrcs_scene *scene = &job->host->scene;
     int open = strcmp(job->what, "open") == 0;
-    int meant = strcmp(job->what, name) == 0;
+    int selected = strcmp(job->what, name) == 0;
     int status = LRCS_OK;
-    job->matched |= meant || open;
+    job->matched |= selected || open;
     if (open && count > 0) {
         lrcs_facet *facet = malloc(count * sizeof *facet);
         int closed = 0;
@@ -47,11 +47,11 @@ static int object_mark(sides_job *job, const char *name, const uint32_t *list, u
             facet[i] = scene->facet[list[i]];
         }
         status = facet ? facets_closed(scene, facet, count, &closed) : LRCS_E_MEMORY;
-        meant = status == LRCS_OK && !closed;
+        selected = status == LRCS_OK && !closed;
         free(facet);
     }
-    for (uint32_t i = 0; i < count && meant; i++) {
-        job->meant[list[i]] = 1;
+    for (uint32_t i = 0; i < count && selected; i++) {
+        job->selected[list[i]] = 1;
     }
     return status;
 }
@@ -81,7 +81,7 @@ static int part_mark(sides_job *job, uint32_t index)
         status = object_mark(job, name, list + first, end[k] - first);
     }
     if (status == LRCS_OK && strcmp(job->what, part->name) == 0) {
-        memset(job->meant + part->first_facet, 1, part->facet_count);
+        memset(job->selected + part->first_facet, 1, part->facet_count);
         job->matched = 1;
     }
     free(list);
@@ -104,7 +104,7 @@ static int materials_split(const sides_job *job)
     memcpy(all, scene->material, count * sizeof *all);
     for (uint32_t i = 0; i < scene->facet_count; i++) {
         uint32_t material = scene->facet_material[i];
-        if (!job->meant[i] || all[material].two_sided) {
+        if (!job->selected[i] || all[material].two_sided) {
             continue;
         }
         if (copy[material] == 0) {
@@ -136,13 +136,13 @@ int lrcsi_host_sides(lrcs_host_scene *host, const char *what, lrcs_host_error *e
             job.matched = 1;
         }
     }
-    job.meant = calloc((size_t)scene->facet_count + 1, 1);
-    int status = job.meant ? LRCS_OK : LRCS_E_MEMORY;
+    job.selected = calloc((size_t)scene->facet_count + 1, 1);
+    int status = job.selected ? LRCS_OK : LRCS_E_MEMORY;
     for (uint32_t i = 0; i < scene->part_count && status == LRCS_OK; i++) {
         status = part_mark(&job, i);
     }
     status = status == LRCS_OK ? materials_split(&job) : status;
-    free(job.meant);
+    free(job.selected);
     if (status != LRCS_OK) {
         return lrcsi_host_fail(error, status, "two-sided: %s", lrcs_status_text(status));
     }

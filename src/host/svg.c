@@ -40,19 +40,19 @@ static void svg_escape(FILE *out, const char *text)
     }
 }
 
-static void svg_points(FILE *out, const lrcsi_plot_point *spot, uint32_t count)
+static void svg_points(FILE *out, const lrcsi_plot_point *point, uint32_t count)
 {
     fputs(" points=\"", out);
     for (uint32_t i = 0; i < count; i++) {
         fputs(i == 0 ? "" : " ", out);
-        svg_number(out, spot[i].x);
+        svg_number(out, point[i].x);
         putc(',', out);
-        svg_number(out, spot[i].y);
+        svg_number(out, point[i].y);
     }
     putc('"', out);
 }
 
-static void svg_line(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, uint32_t count,
+static void svg_line(lrcsi_plotter *plotter, const lrcsi_plot_point *point, uint32_t count,
                      const lrcsi_ink *ink)
 {
     FILE *out = ((lrcsi_svg *)plotter)->out;
@@ -65,16 +65,16 @@ static void svg_line(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, uint3
         svg_number(out, ink->dash[1]);
         putc('"', out);
     }
-    svg_points(out, spot, count);
+    svg_points(out, point, count);
     fputs("/>\n", out);
 }
 
-static void svg_area(lrcsi_plotter *plotter, const lrcsi_plot_point *spot, uint32_t count,
+static void svg_area(lrcsi_plotter *plotter, const lrcsi_plot_point *point, uint32_t count,
                      uint32_t colour)
 {
     FILE *out = ((lrcsi_svg *)plotter)->out;
     fprintf(out, "<polygon fill=\"#%06lx\"", (unsigned long)colour);
-    svg_points(out, spot, count);
+    svg_points(out, point, count);
     fputs("/>\n", out);
 }
 

@@ -119,7 +119,7 @@ static void without_any_binding_the_default_is_worn_and_said_to_be(void **state)
     assert_string_equal(material.name, "");
 }
 
-static void a_surface_named_as_in_the_library_wears_that(void **state)
+static void a_surface_named_as_in_the_library_is_assigned_that_material(void **state)
 {
     (void)state;
     const lrcs_surface gold = surface_of("mli-gold");
@@ -292,7 +292,7 @@ int main(void)
         cmocka_unit_test(each_kind_yields_to_the_next),
         cmocka_unit_test(a_parts_material_beats_the_map_and_yields_to_the_command_line),
         cmocka_unit_test(without_any_binding_the_default_is_worn_and_said_to_be),
-        cmocka_unit_test(a_surface_named_as_in_the_library_wears_that),
+        cmocka_unit_test(a_surface_named_as_in_the_library_is_assigned_that_material),
         cmocka_unit_test(the_last_of_equal_bindings_wins),
         cmocka_unit_test(colours_match_only_surfaces_that_have_one),
         cmocka_unit_test(a_colour_that_a_name_beats_still_matched),
