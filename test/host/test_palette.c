@@ -35,7 +35,7 @@ static double difference(uint32_t a, uint32_t b)
 
 static double least_difference(uint32_t count)
 {
-    uint32_t colour[3 + LRCSI_LOOK_MATERIALS] = {0xffffffu, 0x0d111cu, 0x787878u};
+    uint32_t colour[3 + LRCSI_COLOURING_MATERIALS] = {0xffffffu, 0x0d111cu, 0x787878u};
     double least = HUGE_VAL;
     lrcsi_palette_apart(count, colour + 3);
     for (uint32_t i = 3; i < count + 3; i++) {
@@ -51,7 +51,7 @@ static void colours_of_materials_are_told_apart(void **state)
     (void)state;
     assert_true(least_difference(7) > 25.0);
     assert_true(least_difference(24) > 20.0);
-    assert_true(least_difference(LRCSI_LOOK_MATERIALS) > 10.0);
+    assert_true(least_difference(LRCSI_COLOURING_MATERIALS) > 10.0);
 }
 
 static void more_materials_do_not_change_the_colours_of_the_first(void **state)
