@@ -144,19 +144,20 @@ done
 for header in include/lrcs/*.h; do
     base=$(basename "$header")
     case $base in
-    lrcs.h | emulate.h | fit.h | host.h | picture.h | sweep.h | table.h) continue ;;
+    lrcs.h | emulate.h | fit.h | host.h | chart.h | file.h | glint.h | load.h | readings.h | write.h | picture.h | \
+        sweep.h | table.h) continue ;;
     esac
     grep -q "^#include <lrcs/$base>" include/lrcs/lrcs.h ||
         echo "include/lrcs/lrcs.h: does not include <lrcs/$base>" >>"$log"
 done
 
-# The map names every room, by itself or as one of several (`toml*`).
-families=$(grep -oE '`[a-z0-9_]+\*`' src/README.md | tr -d '`*')
+# src/README.md names every source file, by itself or by a pattern (`toml*`).
+patterns=$(grep -oE '`[a-z0-9_]+\*`' src/README.md | tr -d '`*')
 for file in src/*/*.c src/*/*/*.c; do
-    room=$(basename "$file" .c)
-    grep -q "\`$room\`" src/README.md && continue
-    for family in $families; do
-        case $room in "$family"*) continue 2 ;; esac
+    stem=$(basename "$file" .c)
+    grep -q "\`$stem\`" src/README.md && continue
+    for pattern in $patterns; do
+        case $stem in "$pattern"*) continue 2 ;; esac
     done
     echo "src/README.md: does not name $file" >>"$log"
 done
