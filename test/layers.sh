@@ -7,6 +7,9 @@
 # usage: layers.sh    (in the root; CC names the compiler)
 core='base mesh optics scene view visibility integrate'
 layers="$core analysis host cli"
+# Public headers above the core: of analysis, and of the host layer.
+analysis_headers="emulate|fit"
+host_headers="chart|file|glint|host|load|picture|readings|sweep|table|write"
 core_headers='float.h limits.h math.h stddef.h stdint.h string.h'
 public_headers='stddef.h stdint.h'
 CC=${CC:-cc}
@@ -23,7 +26,8 @@ done
 
 files=$(find src include -name '*.[ch]' | LC_ALL=C sort)
 awk -v layers="$layers" -v core="$core" -v core_headers="$core_headers" \
-    -v public_headers="$public_headers" '
+    -v public_headers="$public_headers" -v analysis_headers="$analysis_headers" \
+    -v host_headers="$host_headers" '
 function has(list, word) { return index(" " list " ", " " word " ") > 0 }
 function exists(path,   line, status) {
     status = (getline line < path)
@@ -34,7 +38,7 @@ function breach(reason) { print FILENAME ":" FNR ": " reason }
 BEGIN { count = split(layers, name, " "); for (i = 1; i <= count; i++) rank[name[i]] = i }
 FNR == 1 {
     public = FILENAME ~ /^include\//
-    host = FILENAME ~ /^include\/lrcs\/(host|picture|sweep|table)\.h$/
+    host = FILENAME ~ ("^include/lrcs/(" host_headers ")[.]h$")
     split(FILENAME, part, "/")
     layer = part[2]
     in_core = !public && has(core, layer)
@@ -47,7 +51,7 @@ FNR == 1 {
     path = substr(target, 2, length(target) - 2)
     if (quote == "<" && path ~ /^lrcs\//) {
         if (!exists("include/" path)) breach("no such public header: " path)
-        if (path ~ /^lrcs\/(emulate|fit|host|picture|sweep|table)\.h$/ && (in_core || (public && !host)))
+        if (path ~ ("^lrcs/(" analysis_headers "|" host_headers ")[.]h$") && (in_core || (public && !host)))
             breach("it is above the core: <" path ">")
     } else if (quote == "<") {
         if (public && !has(public_headers, path) && !(host && path ~ /^(stdio|signal)\.h$/))
@@ -143,20 +147,18 @@ done
 # The umbrella holds the core; fits, emulation, files and threads are included by name.
 for header in include/lrcs/*.h; do
     base=$(basename "$header")
-    case $base in
-    lrcs.h | emulate.h | fit.h | host.h | picture.h | sweep.h | table.h) continue ;;
-    esac
+    echo "$base" | grep -qE "^(lrcs|$analysis_headers|$host_headers)\.h\$" && continue
     grep -q "^#include <lrcs/$base>" include/lrcs/lrcs.h ||
         echo "include/lrcs/lrcs.h: does not include <lrcs/$base>" >>"$log"
 done
 
-# The map names every room, by itself or as one of several (`toml*`).
-families=$(grep -oE '`[a-z0-9_]+\*`' src/README.md | tr -d '`*')
+# src/README.md names every source file, by itself or by a pattern (`toml*`).
+patterns=$(grep -oE '`[a-z0-9_]+\*`' src/README.md | tr -d '`*')
 for file in src/*/*.c src/*/*/*.c; do
-    room=$(basename "$file" .c)
-    grep -q "\`$room\`" src/README.md && continue
-    for family in $families; do
-        case $room in "$family"*) continue 2 ;; esac
+    stem=$(basename "$file" .c)
+    grep -q "\`$stem\`" src/README.md && continue
+    for pattern in $patterns; do
+        case $stem in "$pattern"*) continue 2 ;; esac
     done
     echo "src/README.md: does not name $file" >>"$log"
 done

@@ -8,7 +8,7 @@ usage: python3 oracle.py LIBLRCS.so [SCENE]    prints sigma of a scene around it
         truth = scene.run((0.0, -1.0, 0.2))
         assert abs(mine - truth.sigma_m2) <= 1e-4 * truth.sigma_m2 + truth.bound_m2
 
-The structs are those of lrcs/pose.h, run.h, scene.h and host.h of version 0.1."""
+The structs are those of lrcs/pose.h, run.h, scene.h, file.h and load.h of version 0.1."""
 import ctypes as C
 import math
 import sys

@@ -9,6 +9,7 @@
 #include <lrcs/pose.h>
 #include <lrcs/profile.h>
 #include <lrcs/read.h>
+#include <lrcs/recipe.h>
 #include <lrcs/run.h>
 #include <lrcs/scene.h>
 #include <lrcs/shape.h>

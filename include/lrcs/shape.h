@@ -78,7 +78,7 @@ int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_
    proportion to its area), and over every patch:
      the true normal deviates from the facet's normal by at most `turn` (rad);
      |patch area - facet area| <= area_error * facet area;
-     |integral over the patch of the turn vector (rad, in the facet's plane)| <= lean * facet area;
+     |integral over the patch of the turn vector (rad, in the facet's plane)| <= bias * facet area;
      integral over the patch of the squared turn (rad^2) <= spread^2 * facet area.
    All are zero for polyhedra. The bounds hold for the exact dimensions and include the rounding of
    the mesh's own vertices. They are invariant under rigid motions, reflections and uniform scaling

@@ -69,7 +69,7 @@ static int is_named(const lrcs_binding *binding)
     return binding->kind == LRCS_BIND_NAME || binding->kind == LRCS_BIND_MAP_NAME;
 }
 
-static int name_matches(const char *text, const char *name, const binding_match *match)
+static int is_match(const char *text, const char *name, const binding_match *match)
 {
     return match->rank == RANK_PATTERN  ? lrcsi_name_matches(text, name, match->fold)
            : match->rank == RANK_FOLDED ? lrcsi_name_same_folded(text, name)
@@ -89,7 +89,7 @@ static binding_match binding_read(const lrcs_binding *binding, const binding_nam
     for (int i = 0; i < 3 && is_named(binding); i++) {
         binding_match match = reading[i];
         for (uint32_t k = 0; k < names->count; k++) {
-            if (name_matches(binding->name, names->name[k], &match)) {
+            if (is_match(binding->name, names->name[k], &match)) {
                 match.first = match.count == 0 ? names->name[k] : match.first;
                 match.count++;
             }
@@ -110,7 +110,7 @@ static void folded_note(lrcs_host_scene *scene, const lrcs_binding *binding,
     int others = 0;
     for (uint32_t i = 0; i < names->count; i++) {
         others |= strcmp(names->name[i], match->first) != 0 &&
-                  name_matches(binding->name, names->name[i], match);
+                  is_match(binding->name, names->name[i], match);
     }
     lrcsi_host_note(&scene->notices,
                     "%s%.200s%s: no material has that name in these letters; taken for '%.200s'%s, "
@@ -137,7 +137,7 @@ static uint32_t rank_add(const lrcs_recipe *recipe, const binding_names names[2]
             continue;
         }
         for (uint32_t k = 0; k < known->count; k++) {
-            if (name_matches(one->name, known->name[k], &match[i])) {
+            if (is_match(one->name, known->name[k], &match[i])) {
                 all[used] = *one;
                 all[used++].name = known->name[k];
             }

@@ -15,7 +15,7 @@
 #define SCALE_TEXTS   9.0
 #define DEGREES       (180.0 / LRCSI_PI)
 #define COLOUR_PLAIN  0xc8c8c8u /* facets without a colour of their own, shaded */
-#define SLOPE_LEAST   1e-9      /* a slope that no colour shows */
+#define VISIBLE_SLOPE   1e-9      /* a slope that no colour shows */
 #define CREASE_COSINE 0.05      /* cosines that differ by more show an edge */
 
 static const char *const colouring_names[] = {"sigma", "theta",    "range",
@@ -362,7 +362,7 @@ int lrcsi_colouring_slope(const lrcsi_colouring *colouring, uint32_t facet, doub
         const double *c = colouring->centre;
         at[0] -= at[k + 1] * (axis[0] * c[0] + axis[1] * c[1] + axis[2] * c[2]);
     }
-    return hypot(at[1], at[2]) > SLOPE_LEAST;
+    return hypot(at[1], at[2]) > VISIBLE_SLOPE;
 }
 
 int lrcsi_colouring_outline(const lrcsi_colouring *colouring, uint32_t a, uint32_t b)
