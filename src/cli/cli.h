@@ -196,8 +196,7 @@ int cli_has_curved_shapes(const lrcs_scene *scene);
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 
 /* What a table was made from, the beginning of its first line after "# ": "lrcs VERSION COMMAND;
-   key=text; ..". The caller ends the line. The title, the scene (then the operand is named as the
-   file) and the direction may be NULL. */
+   key=text; ..". The caller ends the line. */
 void cli_table_head(FILE *out, const cli_args *args, const char *title,
                     const lrcs_host_scene *scene, const double direction[3]);
 
@@ -231,8 +230,8 @@ int cli_materials_open(const lrcs_scene *scene);         /* 1 if some are illust
 void cli_version_json(lrcs_host_json *json);             /* schema and version */
 void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* hash of the scene */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
-/* The same in one line for pictures, as cli_table_head, and the materials; without a scene (NULL),
-   the operand as the file. NULL without memory; the caller frees it. */
+/* The same for pictures, which do not depend on the command, and the materials; without a scene
+   (NULL), the operand as the file. NULL without memory; the caller frees it. */
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene);
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
 void cli_options_json(const cli_args *args, lrcs_host_json *json); /* only the options given */

@@ -109,26 +109,32 @@ void cli_file_text(const char *path, uint64_t hash, char text[CLI_FILE_TEXT])
              (unsigned long long)hash);
 }
 
-void cli_table_head(FILE *out, const cli_args *args, const char *title,
-                    const lrcs_host_scene *scene, const double direction[3])
+/* "; key=text" for the scene, or if that is NULL for the operand as a file; options; files. */
+static void source_put(FILE *out, const cli_args *args, const char *title,
+                       const lrcs_host_scene *scene)
 {
     char text[CLI_FILE_TEXT];
-    fprintf(out, "lrcs %s %s", lrcs_version(), args->command->name);
     if (scene) {
         fprintf(out, "; scene_hash=%016llx", (unsigned long long)lrcs_scene_hash(&scene->scene));
-    } else {
-        cli_file_text(args->operand, file_hash(args->operand), text);
-        cli_line_put(out, "; file=", text);
-    }
-    if (title) {
         cli_line_put(out, "; title=", cli_base_name(title));
     }
     options_put(out, args);
+    if (!scene) {
+        cli_file_text(args->operand, file_hash(args->operand), text);
+        cli_line_put(out, "; file=", text);
+    }
     for (const lrcs_host_input *input = scene ? scene->input : NULL; input; input = input->next) {
         cli_file_text(input->path, input->hash, text);
         cli_line_put(out, "; file=", text);
     }
-    for (int k = 0; k < 3 && direction; k++) {
+}
+
+void cli_table_head(FILE *out, const cli_args *args, const char *title,
+                    const lrcs_host_scene *scene, const double direction[3])
+{
+    fprintf(out, "lrcs %s %s", lrcs_version(), args->command->name);
+    source_put(out, args, title, scene);
+    for (int k = 0; k < 3; k++) {
         cli_number_put(out, k == 0 ? "; direction=" : ",", direction[k]);
     }
 }
@@ -317,7 +323,8 @@ static void picture_put(FILE *out, const void *context)
 {
     const picture_source *from = context;
     const lrcs_host_scene *scene = from->scene;
-    cli_table_head(out, from->args, scene ? cli_scene_title(from->args, scene) : NULL, scene, NULL);
+    fprintf(out, "lrcs %s", lrcs_version());
+    source_put(out, from->args, scene ? cli_scene_title(from->args, scene) : NULL, scene);
     for (uint32_t i = 0; scene && i < scene->scene.material_count; i++) {
         const lrcs_material *material = &scene->scene.material[i];
         const lrcs_brdf *brdf = &material->brdf;
