@@ -88,7 +88,7 @@ static uint32_t samples_add_neighbours(const lrcsi_sharing *s, uint32_t facet, d
 }
 
 /* The longest side of a facet, in pixels. */
-static double longest_side(const lrcsi_raster *raster, uint32_t facet)
+static double longest_in_pixels(const lrcsi_raster *raster, uint32_t facet)
 {
     lrcsi_edges e = lrcsi_raster_edges(raster, facet);
     double square = 0;
@@ -157,7 +157,7 @@ lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sharing *s, uint
     double owned;
     double covered;
     lrcsi_visible_fraction found;
-    found.longest = longest_side(s->raster, facet);
+    found.longest = longest_in_pixels(s->raster, facet);
     found.row = samples_find(s, facet, found.longest, &owned, &covered);
     found.fraction = covered > 0 ? owned / covered : fraction_of_point(s, facet);
     return found;
@@ -205,7 +205,7 @@ void lrcsi_visible_fraction_correct(const lrcsi_sharing *s, lrcsi_visible *visib
         lrcsi_visible *v = &visible[f];
         double samples[2];
         if (component->covered > 0 && v->high > v->low &&
-            samples_find(s, f, longest_side(s->raster, f), &samples[0], &samples[1])) {
+            samples_find(s, f, longest_in_pixels(s->raster, f), &samples[0], &samples[1])) {
             v->area = lrcsi_least(v->high, lrcsi_most(v->low, area_corrected(component, v)));
         }
     }
