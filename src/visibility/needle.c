@@ -46,7 +46,7 @@ lrcsi_dd lrcsi_needle_quotient(lrcsi_dd a, lrcsi_dd b)
 }
 
 /* x - from, exactly. Returns its length, within 4 u. */
-static double exact_difference(const double *x, const double *from, lrcsi_dd out[3])
+static double difference_dd(const double *x, const double *from, lrcsi_dd out[3])
 {
     double square = 0;
     for (int k = 0; k < 3; k++) {
@@ -88,7 +88,7 @@ int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
     n->length = view->length;
     n->reach = 0;
     for (int i = 0; i < 2; i++) {
-        n->reach = lrcsi_most(n->reach, exact_difference(point[i + 1], n->origin, n->side[i]));
+        n->reach = lrcsi_most(n->reach, difference_dd(point[i + 1], n->origin, n->side[i]));
         n->corner[i][0] = corner[i + 1][0];
         n->corner[i][1] = corner[i + 1][1];
     }
@@ -103,7 +103,7 @@ int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
 double lrcsi_needle_place(const lrcsi_needle *n, const double x[3], lrcsi_dd out[2])
 {
     lrcsi_dd gap[3];
-    double far = exact_difference(x, n->origin, gap);
+    double far = difference_dd(x, n->origin, gap);
     for (int i = 0; i < 2; i++) {
         out[i] = lrcsi_needle_quotient(dot_dd(n->row[i], gap), n->whole);
     }
@@ -182,8 +182,8 @@ double lrcsi_needle_line(const lrcsi_needle *n, const double p[3], const double 
     lrcsi_dd along[3];
     lrcsi_dd gap[3];
     lrcsi_dd row[3];
-    double length = exact_difference(q, p, along);
-    double far = exact_difference(n->origin, p, gap) + 4 * n->reach;
+    double length = difference_dd(q, p, along);
+    double far = difference_dd(n->origin, p, gap) + 4 * n->reach;
     cross_view(along, n->direction, -1, row);
     line[0] = lrcsi_dd_value(dot_dd(row, n->side[0]));
     line[1] = lrcsi_dd_value(dot_dd(row, n->side[1]));
@@ -200,8 +200,8 @@ double lrcsi_needle_side(const lrcsi_needle *n, const double p[3], const double 
     lrcsi_dd along[3];
     lrcsi_dd gap[3];
     lrcsi_dd row[3];
-    double length = exact_difference(q, p, along);
-    double far = exact_difference(n->origin, p, gap) + 2 * n->reach;
+    double length = difference_dd(q, p, along);
+    double far = difference_dd(n->origin, p, gap) + 2 * n->reach;
     for (int k = 0; k < 3; k++) {
         gap[k] = lrcsi_dd_add(gap[k], lrcsi_dd_scale(n->side[0][k], at[0]));
         gap[k] = lrcsi_dd_add(gap[k], lrcsi_dd_scale(n->side[1][k], at[1]));
