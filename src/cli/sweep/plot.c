@@ -248,7 +248,7 @@ static int by_size(const void *a, const void *b)
 int cli_plot_uncertainty(const sweep_plot *plot, double part[2])
 {
     uint64_t count = 0;
-    double *half = malloc(plot->plan->rows * sizeof *half);
+    double *half = malloc((plot->plan->rows + 1) * sizeof *half);
     if (!half) {
         return cli_out_of_memory();
     }
