@@ -200,6 +200,23 @@ const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 void cli_table_head(FILE *out, const cli_args *args, const char *title,
                     const lrcs_host_scene *scene, const double direction[3]);
 
+/* Writes `before` as it is, and a text with its control characters as '?': it stays one line. */
+void cli_line_put(FILE *out, const char *before, const char *text);
+
+/* A file as such lines name it: its last name and the hash of its bytes. */
+#define CLI_FILE_TEXT 336
+void cli_file_text(const char *path, uint64_t hash, char text[CLI_FILE_TEXT]);
+
+/* Such a line read back. The place of the next "; key=" in a line, or NULL; the text of a key, cut
+   at the size: 1, or 0 if the key is missing; its number, or NAN. */
+char *cli_key_next(const char *line);
+int cli_key_text(const char *line, const char *key, char *text, size_t size);
+double cli_key_number(const char *line, const char *key);
+
+/* Ends a JSON text, which begins at `at` after its quote, at its closing quote, each escaped
+   character (a quote or a backslash) by itself; returns what follows. */
+char *cli_json_unquote(char *at);
+
 /* What a writer writes, as a text that the caller frees; NULL without memory. */
 typedef void cli_text_writer(FILE *out, const void *context);
 char *cli_text_of(cli_text_writer *write, const void *context);
@@ -213,19 +230,20 @@ int cli_materials_open(const lrcs_scene *scene);         /* 1 if some are illust
 void cli_version_json(lrcs_host_json *json);             /* schema and version */
 void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* hash of the scene */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
-/* The same in one line for pictures: version, scene hash, files, materials, options; without a
-   scene (NULL), the operand as the file. NULL without memory; the caller frees it. */
+/* The same for pictures, which do not depend on the command, and the materials; without a scene
+   (NULL), the operand as the file. NULL without memory; the caller frees it. */
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene);
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
 void cli_options_json(const cli_args *args, lrcs_host_json *json); /* only the options given */
 void cli_operand_json(const cli_args *args, lrcs_host_json *json); /* the operand as "files" */
 void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json);
 /* Writes them beside a file of numbers whose format has no place for them, as FILE.json (FILE.csv
-   .json), with the hash of that file; nothing beside standard output or a device. scene and pose
-   may be NULL. 0 or CLI_FAILED. */
+   .json), with the hash of that file; nothing beside standard output or a device. scene, pose and
+   about, the first line that a table would have, may be NULL. 0 or CLI_FAILED. */
 #define CLI_BESIDE ".json"
+#define CLI_ABOUT  "about"
 int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
-                          const lrcs_pose *pose);
+                          const lrcs_pose *pose, const char *about);
 
 /* FNV-1a: the sum of no bytes, and of more bytes. */
 #define CLI_SUM_BEGIN 0xcbf29ce484222325u

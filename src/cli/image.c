@@ -224,7 +224,7 @@ static int image_write(const image_job *job)
     }
     const char *vtk = job->path[IMAGE_VTK];
     if (code == 0 && vtk) {
-        code = cli_provenance_beside(job->args, vtk, &job->scene, &job->pose);
+        code = cli_provenance_beside(job->args, vtk, &job->scene, &job->pose, NULL);
     }
     return code;
 }

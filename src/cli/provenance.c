@@ -60,29 +60,80 @@ const char *cli_base_name(const char *path)
     return slash && slash[1] ? slash + 1 : path;
 }
 
-/* The options given, but for files to write: a result does not depend on where it is written. */
-static void options_put(FILE *out, const char *before, const cli_args *args)
+uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size)
 {
+    const unsigned char *at = bytes;
+    for (size_t i = 0; i < size; i++) {
+        sum = (sum ^ at[i]) * 0x100000001b3u;
+    }
+    return sum;
+}
+
+/* The hash of a file; that of no bytes if it cannot be read. */
+static uint64_t file_hash(const char *path)
+{
+    lrcs_host_file file;
+    uint64_t hash = CLI_SUM_BEGIN;
+    if (lrcs_host_file_read(path, &file, NULL) == LRCS_OK) {
+        hash = cli_sum_more(hash, file.bytes, file.size);
+        lrcs_host_file_free(&file);
+    }
+    return hash;
+}
+
+void cli_line_put(FILE *out, const char *before, const char *text)
+{
+    fputs(before, out);
+    for (; *text; text++) {
+        putc((unsigned char)*text < 0x20 || *text == 0x7f ? '?' : *text, out);
+    }
+}
+
+/* The options given, except files to write: a result does not depend on where it is written. */
+static void options_put(FILE *out, const cli_args *args)
+{
+    const char *before = "; options=";
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *given = &args->given[i];
         if (!cli_is_output(args->command, given->name)) {
-            fprintf(out, "%s%s%s%s%s", before, cli_dashes(given->name), given->name,
-                    given->value ? "=" : "", given->value ? given->value : "");
+            fprintf(out, "%s%s%s", before, cli_dashes(given->name), given->name);
+            cli_line_put(out, given->value ? "=" : "", given->value ? given->value : "");
             before = " ";
         }
+    }
+}
+
+void cli_file_text(const char *path, uint64_t hash, char text[CLI_FILE_TEXT])
+{
+    snprintf(text, CLI_FILE_TEXT, "%.300s fnv1a:%016llx", cli_base_name(path),
+             (unsigned long long)hash);
+}
+
+/* "; key=text" for the scene, or if that is NULL for the operand as a file; options; files. */
+static void source_put(FILE *out, const cli_args *args, const char *title,
+                       const lrcs_host_scene *scene)
+{
+    char text[CLI_FILE_TEXT];
+    if (scene) {
+        fprintf(out, "; scene_hash=%016llx", (unsigned long long)lrcs_scene_hash(&scene->scene));
+        cli_line_put(out, "; title=", cli_base_name(title));
+    }
+    options_put(out, args);
+    if (!scene) {
+        cli_file_text(args->operand, file_hash(args->operand), text);
+        cli_line_put(out, "; file=", text);
+    }
+    for (const lrcs_host_input *input = scene ? scene->input : NULL; input; input = input->next) {
+        cli_file_text(input->path, input->hash, text);
+        cli_line_put(out, "; file=", text);
     }
 }
 
 void cli_table_head(FILE *out, const cli_args *args, const char *title,
                     const lrcs_host_scene *scene, const double direction[3])
 {
-    fprintf(out, "lrcs %s %s; scene_hash=%016llx; title=%s", lrcs_version(), args->command->name,
-            (unsigned long long)lrcs_scene_hash(&scene->scene), cli_base_name(title));
-    options_put(out, "; options=", args);
-    for (const lrcs_host_input *input = scene->input; input; input = input->next) {
-        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
-                (unsigned long long)input->hash);
-    }
+    fprintf(out, "lrcs %s %s", lrcs_version(), args->command->name);
+    source_put(out, args, title, scene);
     for (int k = 0; k < 3; k++) {
         cli_number_put(out, k == 0 ? "; direction=" : ",", direction[k]);
     }
@@ -118,27 +169,6 @@ void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json)
         file_json(NULL, input->path, input->hash, json);
     }
     lrcs_host_json_end(json);
-}
-
-uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size)
-{
-    const unsigned char *at = bytes;
-    for (size_t i = 0; i < size; i++) {
-        sum = (sum ^ at[i]) * 0x100000001b3u;
-    }
-    return sum;
-}
-
-/* The hash of a file; that of no bytes if it cannot be read. */
-static uint64_t file_hash(const char *path)
-{
-    lrcs_host_file file;
-    uint64_t hash = CLI_SUM_BEGIN;
-    if (lrcs_host_file_read(path, &file, NULL) == LRCS_OK) {
-        hash = cli_sum_more(hash, file.bytes, file.size);
-        lrcs_host_file_free(&file);
-    }
-    return hash;
 }
 
 void cli_operand_json(const cli_args *args, lrcs_host_json *json)
@@ -226,6 +256,7 @@ typedef struct beside {
     const char *path;
     const lrcs_host_scene *scene; /* NULL: made from the operand alone */
     const lrcs_pose *pose;        /* or NULL */
+    const char *about;            /* or NULL */
 } beside;
 
 static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
@@ -237,6 +268,9 @@ static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
     lrcs_host_json_text(&json, "lrcs", from->args->command->name);
     cli_version_json(&json);
     file_json("file", cli_base_name(from->path), file_hash(from->path), &json);
+    if (from->about) {
+        lrcs_host_json_text(&json, CLI_ABOUT, from->about);
+    }
     if (from->scene) {
         cli_hash_json(lrcs_scene_hash(&from->scene->scene), &json);
         cli_files_json(from->scene, &json);
@@ -257,11 +291,11 @@ static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
 }
 
 int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
-                          const lrcs_pose *pose)
+                          const lrcs_pose *pose, const char *about)
 {
-    const beside from = {args, path, scene, pose};
-    struct stat about;
-    if (strcmp(path, "-") == 0 || stat(path, &about) != 0 || !S_ISREG(about.st_mode)) {
+    const beside from = {args, path, scene, pose, about};
+    struct stat kind;
+    if (strcmp(path, "-") == 0 || stat(path, &kind) != 0 || !S_ISREG(kind.st_mode)) {
         return 0; /* nothing stands beside standard output or a device */
     }
     size_t room = strlen(path) + sizeof CLI_BESIDE;
@@ -280,38 +314,30 @@ int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_hos
 
 /* ---- in one line ---- */
 
-char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
+typedef struct picture_source {
+    const cli_args *args;
+    const lrcs_host_scene *scene; /* NULL: made from the operand alone */
+} picture_source;
+
+static void picture_put(FILE *out, const void *context)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) {
-        return NULL;
-    }
+    const picture_source *from = context;
+    const lrcs_host_scene *scene = from->scene;
     fprintf(out, "lrcs %s", lrcs_version());
-    if (scene) {
-        fprintf(out, "; scene=%s; scene_hash=%016llx", cli_base_name(args->operand),
-                (unsigned long long)lrcs_scene_hash(&scene->scene));
-    } else {
-        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(args->operand),
-                (unsigned long long)file_hash(args->operand));
-    }
-    for (const lrcs_host_input *input = scene ? scene->input : NULL; input; input = input->next) {
-        fprintf(out, "; file=%s fnv1a:%016llx", cli_base_name(input->path),
-                (unsigned long long)input->hash);
-    }
-    options_put(out, "; options: ", args);
+    source_put(out, from->args, scene ? cli_scene_title(from->args, scene) : NULL, scene);
     for (uint32_t i = 0; scene && i < scene->scene.material_count; i++) {
         const lrcs_material *material = &scene->scene.material[i];
         const lrcs_brdf *brdf = &material->brdf;
-        fprintf(out, "; material %s=%.6g,%.6g,%.6g,%.6g %s", cli_material_name(material), brdf->A,
-                brdf->B, brdf->s, brdf->m, cli_material_source(material));
+        cli_line_put(out, "; material=", cli_material_name(material));
+        fprintf(out, " %.6g,%.6g,%.6g,%.6g %s", brdf->A, brdf->B, brdf->s, brdf->m,
+                cli_material_source(material));
     }
-    if (fclose(out) != 0) {
-        free(text);
-        return NULL;
-    }
-    return text;
+}
+
+char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
+{
+    const picture_source from = {args, scene};
+    return cli_text_of(picture_put, &from);
 }
 
 char *cli_text_of(cli_text_writer *write, const void *context)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The boxes of runs, and of facets. */
+/* Boxes in the view, of runs and of facets. */
 #include "visibility/boxes.h"
 
 #include <math.h>
@@ -15,9 +15,9 @@ size_t lrcsi_boxes_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_work_bytes(runs, 1));
 }
 
-/* A point of the box is m + d, where |d_k| <= h_k. The view has m within lrcsi_view_off, which
-   leaves room for a sum, and a row of the axes within 4 u, so that d counts for at most
-   sum (|R_k| + 4 u) h_k, computed within 4 u of itself. */
+/* A point of the box is m + d, with |d_k| <= h_k. The position of m in the view has an error of at
+   most lrcsi_view_off, which includes a sum; a row of the axes has an error of 4 u. So d
+   contributes at most sum (|R_k| + 4 u) h_k, computed with a relative error of 4 u. */
 static lrcsi_view_box run_box(const lrcsi_view *view, const lrcsi_run *run)
 {
     double middle[3];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The boxes in the view of facets that can hide something, made run by run (scene/runs.h) where
-   somebody asks: most runs are told by one box around all of their facets. */
+/* Boxes in the view of the facets that can hide something. One box for each run (scene/runs.h) is
+   made at once; the boxes of its facets only when they are needed, since the run's box usually
+   suffices. */
 #ifndef LRCSI_BOXES_H
 #define LRCSI_BOXES_H
 
@@ -8,8 +9,8 @@
 
 enum lrcsi_boxes_state {
     LRCSI_BOXES_NONE,  /* no facet of the run can hide anything */
-    LRCSI_BOXES_RUN,   /* the run's box is made, */
-    LRCSI_BOXES_FACETS /* and those of its facets that can hide something */
+    LRCSI_BOXES_RUN,   /* the run's box is made */
+    LRCSI_BOXES_FACETS /* so are those of its facets that can hide something */
 };
 
 typedef struct lrcsi_boxes {
@@ -19,7 +20,7 @@ typedef struct lrcsi_boxes {
     unsigned char *state; /* run: a lrcsi_boxes_state */
 } lrcsi_boxes;
 
-/* Can a facet hide anything, and be seen? Not where it is redundant in this view. */
+/* Can a facet hide anything, and be visible? Not if it is redundant in this view. */
 static inline int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
 {
     int facing = view->facing[facet];
@@ -36,7 +37,7 @@ size_t lrcsi_boxes_need(const lrcs_prepared *prepared);
 int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
                      lrcsi_boxes *boxes);
 
-/* Makes those of a run's facets, if there are any and they are not made yet. */
+/* Makes the boxes of a run's facets, unless they exist or none can hide anything. */
 void lrcsi_boxes_open(const lrcsi_boxes *boxes, uint32_t run);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is computed of convex pieces, none of it exact. It knows nothing of facets. */
+/* Convex polygons in plain doubles: split by a line, measured. Nothing here is exact. */
 #include "visibility/clip.h"
 
 #include <math.h>
@@ -86,13 +86,13 @@ double lrcsi_clip_area(const lrcsi_clip_polygon *polygon)
     return area;
 }
 
-/* What the segment p q contributes to the area on its left within the unit square at the origin:
-   the integral of x, cut off at 0 and 1, over y from p to q, likewise cut off.
+/* The contribution of the segment p q to the area of a polygon within the unit square at the
+   origin: the integral of x, clamped to 0 .. 1, over y from p to q, also clamped to 0 .. 1.
 
-   With corners at most C from the square along either axis, differences of coordinates are off by u
-   of themselves, the slope by 3 u of itself, and x, where it is between 0 and 1, by 6 u (C + 1) in
-   all. The mean of what is cut off is a quotient of sums of positive numbers, each of differences
-   of given ones: off by less than 10 u of itself. */
+   If the corners are at most C away from the square along either axis, the relative errors are u
+   for differences of coordinates and 3 u for the slope; the error of x, where it is between 0 and
+   1, is at most 6 u (C + 1). The mean of the clamped x is a quotient of sums of positive numbers,
+   each a difference of given ones: its relative error is less than 10 u. */
 static double box_integral(const double p[2], const double q[2])
 {
     double from = lrcsi_least(1, lrcsi_most(0, p[1]));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Telling event edges from those across which a surface goes on, by which way their facets face.
-   What they cross is decided elsewhere. */
+/* Which edges are event edges in a view and which join two facets of one surface, from the
+   directions in which their facets face. What event edges cross is decided elsewhere. */
 #include "visibility/event.h"
 
 #include <string.h>
@@ -9,14 +9,15 @@
 #include "base/work.h"
 #include "visibility/grid.h"
 
-/* --- odd edges -------------------------------------------------------------------------------- */
+/* --- one edge --------------------------------------------------------------------------------- */
 
-enum edge_kind { EDGE_IDLE, EDGE_JOINS, EDGE_EVENT };
+enum edge_kind { EDGE_UNUSED, EDGE_JOINS, EDGE_EVENT };
 
-/* What an edge is; where it joins two facets, they are in pair. In projection a facet lies to the
-   left of its side where it faces the laser, else to the right: two lie on opposite sides of an
-   edge if and only if they run it in opposite directions and face the same way, or in the same
-   direction and face opposite ways, as where the winding of a surface changes. */
+/* The kind of an edge; if it joins two facets, they are returned in pair. In projection a facet
+   lies to the left of its side if it faces the laser, otherwise to the right. Two facets lie on
+   opposite sides of an edge if and only if they traverse it in opposite directions and face the
+   same way, or in the same direction and face opposite ways (as where the winding of a surface
+   changes). */
 static int edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2])
 {
     const lrcsi_topology *t = &view->prepared->topology;
@@ -30,12 +31,12 @@ static int edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2])
             left += use[i].forward ? view->facing[use[i].facet] : -view->facing[use[i].facet];
         }
     }
-    return count == 0 ? EDGE_IDLE : count == 2 && left == 0 ? EDGE_JOINS : EDGE_EVENT;
+    return count == 0 ? EDGE_UNUSED : count == 2 && left == 0 ? EDGE_JOINS : EDGE_EVENT;
 }
 
 /* --- all edges -------------------------------------------------------------------------------- */
 
-/* A bit for each edge, so that those found come out in order and once, and in little memory. */
+/* One bit for each edge: the events are listed in order, each once, in little memory. */
 enum { MARK_BITS = 32 };
 
 static size_t mark_words(const lrcs_prepared *p)
@@ -54,8 +55,9 @@ static int run_alike(const signed char *value, uint32_t start, uint32_t end)
     return memcmp(value + start, value + start + 1, end - start - 1) == 0;
 }
 
-/* Across a plain edge (scene/across.h) two facets continue each other where both cast and face the
-   same way. Within a run of facets that cast alike there are no events. */
+/* Marks events among the plain edges (scene/across.h): two facets continue each other across such
+   an edge if both cast shadows and face the same way. Within a run whose facets all have the same
+   value there are none. */
 static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t *mark)
 {
     uint32_t count = p->scene->facet_count;
@@ -109,7 +111,7 @@ size_t lrcsi_events_need(const lrcs_prepared *prepared)
                           lrcsi_work_bytes(prepared->topology.edge_count, sizeof(uint32_t)));
 }
 
-/* Room for as many events as there are edges, given back but for what they need. */
+/* Takes room for as many events as there are edges, and returns what is not needed. */
 int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
                       lrcsi_events *events)
 {
@@ -155,7 +157,7 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
         }
     }
     const lrcsi_run_side *side = p->runs.side;
-    uint32_t last[2] = {0, 0}; /* the groups joined last: runs mostly meet along many sides */
+    uint32_t last[2] = {0, 0}; /* the groups joined last: two runs mostly share many sides */
     for (uint32_t i = p->runs.run[p->runs.count].first_side; i > 0; i--, side++) {
         if (side->other < side->facet && joinable[side->facet] != 0 &&
             joinable[side->other] == joinable[side->facet]) {

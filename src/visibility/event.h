@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Event edges: those whose facets do not continue each other in a view, that is, not exactly two,
-   one on each side of the edge in projection (contours, rims, and edges of three or more facets).
+/* Event edges of a view: all edges except those with exactly two facets, one on each side of the
+   edge in projection. They are contour edges, boundary edges, and edges of three or more facets.
    Facets that cannot hide anything do not count. */
 #ifndef LRCSI_EVENT_H
 #define LRCSI_EVENT_H
@@ -14,13 +14,14 @@ typedef struct lrcsi_events {
 
 size_t lrcsi_events_need(const lrcs_prepared *prepared);
 
-/* Given cast[facet]: which way it faces where it can hide something, else 0; one more 0 at the end.
-   Status: LRCS_OK; LRCS_E_MEMORY. The result stays in the work area. */
+/* Given: cast[facet], the direction in which it faces (1 or -1) if it can hide something, otherwise
+   0; one additional 0 at the end. Returned: events, which stay in the work area. Status: LRCS_OK;
+   LRCS_E_MEMORY. */
 int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
                       lrcsi_events *events);
 
-/* Joins facets into groups (base/join.h) across the edges that are no event edges. Given
-   joinable[facet]: like cast, but 0 too for a facet that is to stay alone. */
+/* Joins facets into groups (base/join.h) across all edges that are not event edges.
+   Given: joinable[facet], as cast, but also 0 for facets that shall not be joined. */
 void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Who is asked how: uniform facets once a region, undecided ones that one component hides at once,
-   all others in cells of the view plane, together or one by one. */
+/* Which computation finds the visible area of a facet: one exact sample per region for uniform
+   facets; a proof that one component hides it, for some undecided facets; cells of the view plane
+   for all others, together or one by one. */
 #include "visibility/occlude.h"
 
 #include <string.h>
@@ -9,15 +10,15 @@
 #include "visibility/cells.h"
 #include "visibility/query.h"
 
-/* So many undecided facets, or more, are done together (visibility/cells.h), if they are one of so
-   many facets at least: all facets are sorted into the blocks for that, which costs more than to
-   do a few of them. */
+/* Undecided facets are processed together (visibility/cells.h) if there are at least CELLS_LEAST of
+   them, and at least one in CELLS_SHARE facets: for this all facets are sorted into blocks, which
+   costs more than processing a few facets one by one. */
 #define CELLS_LEAST 192u
 #define CELLS_SHARE 32u
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-static lrcsi_visible answered_area(const lrcsi_occluding *o, uint32_t facet)
+static lrcsi_visible uniform_area(const lrcsi_occluding *o, uint32_t facet)
 {
     double whole = lrcsi_view_incidence(o->classification->view, facet).projected;
     int answer = o->uniform[facet];
@@ -36,7 +37,7 @@ void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
         return;
     }
     if (!classification->undecided[facet]) {
-        o->answer = answered_area(o, facet);
+        o->answer = uniform_area(o, facet);
         o->whole = o->answer.low > 0;
     } else if (!lrcsi_query_screened(classification, &o->facets, facet,
                                      classification->view->meter)) {
@@ -70,7 +71,7 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* May undecided facets be done together? */
+/* Can undecided facets be processed together? */
 static int cells_serve(const lrcs_prepared *prepared)
 {
     return prepared->scene->facet_count >= CELLS_LEAST && !prepared->convex;
@@ -85,7 +86,7 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, alone > cells ? alone : cells);
 }
 
-/* All but what single facets take. */
+/* Everything except the memory for single facets. */
 static int occlude_begin(lrcsi_classification *classification, lrcs_work *work, lrcsi_occluding *o)
 {
     *o = (lrcsi_occluding){.classification = classification};
@@ -107,7 +108,7 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcs_work *work, lr
     return status;
 }
 
-/* Undecided facets: many all together, then one by one what that left open. */
+/* Undecided facets: together if there are many; then one by one those that are still open. */
 static int occlude_undecided(lrcsi_occluding *o, lrcs_work *work, unsigned char *open,
                              lrcsi_visible *visible)
 {
@@ -150,11 +151,11 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcs_work *work,
         if (open[f]) {
             o.uniform[f] = LRCSI_QUERY_UNDECIDED;
         } else if (o.uniform[f] == LRCSI_QUERY_UNDECIDED) {
-            visible[f] = answered_area(&o, f);
+            visible[f] = uniform_area(&o, f);
         }
     }
     status = status == LRCS_OK ? occlude_undecided(&o, work, open, visible) : status;
-    /* What the answers tell. They move down to where the work area was, if not there yet. */
+    /* Either the answers, moved to the beginning of the work area used here, or all areas. */
     work->used = mark;
     if (status == LRCS_OK && answer) {
         *answer = memmove(lrcsi_work_take(work, count, 1), o.uniform, count);

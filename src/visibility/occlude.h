@@ -6,43 +6,43 @@
 
 #include "visibility/cells_alone.h"
 
-/* What serves all facets of a view, and the facet at hand. */
+/* Data for all facets of a view, and the current facet. */
 typedef struct lrcsi_occluding {
     lrcsi_classification *classification;
     lrcsi_grid facets;
-    unsigned char *uniform; /* facet: what a uniform one shows, a lrcsi_query_answer */
-    lrcsi_alone alone;      /* target and piece of the facet at hand */
-    lrcsi_visible answer;   /* of a facet that is not undecided */
+    unsigned char *uniform; /* of each uniform facet: a lrcsi_query_answer */
+    lrcsi_alone alone;      /* target and piece of the current facet */
+    lrcsi_visible answer;   /* the area of a facet that is not undecided */
     int undecided;
-    int whole; /* all of it is visible, and no piece has been asked for yet */
+    int whole; /* all of it is visible, and its piece has not been returned yet */
 } lrcsi_occluding;
 
 /* Bytes at most. */
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
 
-/* What serves all facets; it stays in the work area.
+/* Makes the data for all facets; they stay in the work area.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
 int lrcsi_occlude_make(lrcsi_classification *classification, lrcs_work *work, lrcsi_occluding *o);
 
-/* One facet piece by piece: open it, ask for more until there are none, close it. Each `next` that
-   returns 1 leaves one more of the disjoint convex pieces of what is visible in o->alone.piece, in
-   the frame of o->alone.target (lrcsi_target_weights leads back to the facet). A facet that is
-   visible whole comes as its own triangle; one of which nothing is known to be visible has no
-   pieces. The pieces together differ from what is visible, both ways, by an area of at most high -
-   low of the answer, and by the rounding of their corners: 20 u reach perimeter. */
+/* One facet piece by piece: call open, then next until it returns 0, then close. Each `next` that
+   returns 1 leaves one of the disjoint convex pieces of the visible region in o->alone.piece, in
+   the frame of o->alone.target (lrcsi_target_weights leads back to the facet). An entirely visible
+   facet is one piece, its own triangle; a facet of which nothing is known to be visible has no
+   pieces. The area in which the union of the pieces differs from the visible region is at most high
+   - low of the returned area, and 20 u reach perimeter for the rounding of the corners. */
 void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet);
 int lrcsi_occlude_next(lrcsi_occluding *o);
 lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o);
 
-/* Closes a facet of which only the area is wanted, and no piece has been asked for. */
+/* Closes a facet whose pieces are not needed, only its area; to be called right after open. */
 lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o);
 
-/* Every facet: uniform ones by one exact sample; undecided ones all together where they are many
-   (visibility/cells.h), else one by one. One that falls into more cells than the limit is bounded
-   by what was reached.
-   Returned: *answer, unless answer is NULL: facet -> LRCSI_QUERY_HIDDEN or _VISIBLE where it shows
-   nothing or all of itself, which is exact then; else LRCSI_QUERY_UNDECIDED, and visible[facet] is
-   its area. So most of visible[] is never touched. With answer NULL visible[] has the areas of all.
+/* All facets: uniform ones by one exact sample; undecided ones together if there are many
+   (visibility/cells.h), otherwise one by one. If the limit on cells is reached, the bounds of the
+   areas include what is still open.
+   Returned: *answer, unless answer is NULL: by facet, LRCSI_QUERY_HIDDEN or _VISIBLE if nothing or
+   all of it is visible (exact); otherwise LRCSI_QUERY_UNDECIDED, and visible[facet] is its area.
+   Thus most of visible[] is never written. With answer NULL, visible[] has the areas of all facets.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Only *answer stays in the work area. */
 int lrcsi_occlude_all(lrcsi_classification *classification, lrcs_work *work,
                       const unsigned char **answer, lrcsi_visible *visible);

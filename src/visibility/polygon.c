@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The visible regions of all facets as rings of points: counted first, then filled in. What is
-   visible is decided in visibility/occlude.c; here only which of its pieces are worth a ring, and
-   where their corners lie on the facet. */
+   visible is decided in visibility/occlude.c; this file decides which of its pieces become rings,
+   and where their corners lie on the facet. */
 #include <lrcs/polygon.h>
 
 #include <math.h>
@@ -11,13 +11,13 @@
 #include "base/work.h"
 #include "visibility/occlude.h"
 
-/* Rings and points a facet: twice what satellites take; as if there were some facets more, for
-   scenes of few that cut each other up. */
+/* Rings and points per facet: twice what satellites take. ORDINARY_MORE facets are added, for small
+   scenes whose facets cut each other into many pieces. */
 #define ORDINARY_RINGS  6u
 #define ORDINARY_POINTS 24u
 #define ORDINARY_MORE   64u
 
-/* Rings so far. What stands beyond the room, if only for a while, is counted and not written. */
+/* The rings so far. What exceeds the room is counted but not written. */
 typedef struct ring_list {
     lrcs_ring *ring;
     lrcs_ring_point *point;
@@ -28,9 +28,10 @@ typedef struct ring_list {
 
 /* --- one ring --------------------------------------------------------------------------------- */
 
-/* On the facet: three products and two sums of shares that add up to 1 within 4 u, 8 u D. In the
-   view: the first corner's place, 4 u D, and the frame's, 10 u of its reach of at most 2 D, added.
-   The shares move it by at most 100 u of the reach (visibility/target.h). */
+/* A ring's point on the facet and in the view. Errors, with D the largest coordinate: on the facet
+   8 u D (three products and two sums, with barycentric coordinates that add up to 1 within 4 u); in
+   the view 4 u D for the first corner and 10 u of the reach, at most 2 D, for the frame. The
+   barycentric coordinates add at most 100 u of the reach (visibility/target.h). */
 static lrcs_ring_point point_at(const lrcsi_target *t, const double at[2])
 {
     const lrcs_prepared *p = t->view->prepared;
@@ -68,7 +69,7 @@ static void ring_add(ring_list *list, const lrcsi_target *t, size_t first)
     list->rings++;
 }
 
-/* A facet seen whole keeps its corners, even where rounding puts some in one place of the view. */
+/* An entirely visible facet keeps its corners, even if rounding makes some coincide in the view. */
 static void ring_add_facet(ring_list *list, const lrcsi_target *t, const double (*corner)[2])
 {
     size_t first = list->points;
@@ -78,7 +79,7 @@ static void ring_add_facet(ring_list *list, const lrcsi_target *t, const double 
     ring_add(list, t, first);
 }
 
-/* Of corners in one place the first counts. What rounding has left without area shows nothing. */
+/* Of coinciding corners the first is kept. A piece whose area is 0 after rounding is left out. */
 static void ring_add_piece(ring_list *list, const lrcsi_target *t, const lrcsi_clip_polygon *piece)
 {
     size_t first = list->points;
@@ -99,8 +100,8 @@ static void ring_add_piece(ring_list *list, const lrcsi_target *t, const lrcsi_c
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* Where the bounds reach all of the facet, or none of it, but not both, that is the answer: it is
-   no farther from the truth than they are from each other. */
+/* If the bounds of the visible area admit the whole facet or nothing, but not both, that is taken:
+   its error is at most the difference of the bounds. */
 static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
 {
     ring_list before = *list;
@@ -177,8 +178,9 @@ static int polygon_list(const lrcs_prepared *prepared, const lrcs_pose *pose, lr
     return status == LRCS_OK ? list_fill(list, &o, work) : status;
 }
 
-/* The rings stand above what was needed to find them; they sink to the bottom, rings first. */
-static lrcs_polygons list_settle(const ring_list *list, lrcs_work *work)
+/* Moves the rings and points, which lie above the memory that was used to find them, to the
+   beginning of the work area. */
+static lrcs_polygons list_move(const ring_list *list, lrcs_work *work)
 {
     lrcs_polygons p = {.rings = (uint32_t)list->rings, .points = (uint32_t)list->points};
     p.ring = lrcsi_work_take(work, list->rings, sizeof *p.ring);
@@ -197,7 +199,7 @@ int lrcs_polygon_run(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_
     work->used = mark;
     if (status == LRCS_OK) {
         double count = prepared->scene->facet_count;
-        *polygons = list_settle(&list, work);
+        *polygons = list_move(&list, work);
         polygons->bound_m2 =
             lrcsi_prepared_area(prepared, list.bound * (1 + 1e-9 + 2 * count * LRCSI_U));
     }

@@ -1,28 +1,29 @@
 /* SPDX-License-Identifier: MIT */
-/* How far samples are likely to misjudge the area of a facet that is seen in part: a guess from the
-   pixels of the run, not a bound. */
+/* An estimate of the error of areas that are counted in samples. It is heuristic: not a bound. */
 #ifndef LRCSI_SAMPLING_ERROR_H
 #define LRCSI_SAMPLING_ERROR_H
 
 #include "visibility/classify.h"
 #include "visibility/raster.h"
 
-/* In pixels: twice what errors are in the root mean square, so that few are above it. Errors of
-   different facets add up by chance, but for those along one edge, which share a sign: of many
-   facets the guess is the root of the sum of `square` and of the square of the sum of `bias`. */
+/* Estimates in pixels: twice the root mean square of the errors, so that few errors exceed them.
+   The errors of different facets are independent, except those along one edge, which have the same
+   sign. The estimate for many facets is therefore the root of (the sum of `square` + the square of
+   the sum of `bias`). */
 typedef struct lrcsi_sampling_error {
     double square;
-    double bias; /* signed: too much is positive */
+    double bias; /* signed: positive if the sampled area is too large */
 } lrcsi_sampling_error;
 
-/* Of an undecided facet. Given: the component of each facet, the raster, and the event edges that
-   cross the facet (of the topology). */
+/* For an undecided facet.
+   Given: the surface component of each facet; the raster; crossing[crossings], the event edges (of
+   the topology) that cross the facet. */
 lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
                                                 const lrcsi_raster *raster, uint32_t facet,
                                                 const uint32_t *crossing, uint32_t crossings);
 
-/* A facet of the longest side given, in pixels, that shares its samples with its neighbours
-   (visibility/visible_fraction.h), of whose samples together that share is seen. */
+/* For a facet that shares its samples with its neighbours (visibility/visible_fraction.h).
+   Given: its longest side, in pixels; share, the visible fraction of all those samples. */
 lrcsi_sampling_error lrcsi_sampling_error_row(const lrcsi_raster *raster, uint32_t facet,
                                               double longest, double share);
 

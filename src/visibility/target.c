@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A facet's frame of the view plane: how its corners and those of others come into it, and how
-   points of it go back to the facet. It knows nothing of what hides what. */
+/* The frame of a facet in the view plane: transformations of scene points into it, and of points of
+   the frame back onto the facet. What hides what is decided elsewhere. */
 #include "visibility/target.h"
 
 #include <math.h>
@@ -11,14 +11,16 @@
 #include "base/range.h"
 #include "view/product.h"
 
-/* What is so many times as far off as what is near is far away. */
+/* A point counts as far away if its distance is this many times that of the points it is compared
+   with. */
 #define FAR_OFF 8.0
 
-/* A scene point far behind or before the origin. The rows of R are off by 4 u, and so is what they
-   make of a depth. Taken instead are their parts across the direction d, r - (r . d) d / d^2: in
-   the plane as near to the exact axes, and exactly across d. Products with the exact difference p
-   are off by 16 u^2 |p|, the slope r . d, below 4 u |d|, by 21 u^2 |d|, and its product with the
-   depth by 24 u^2 |p| more: all below 80 u^2 |p|. */
+/* The position of a scene point that is much deeper, or much nearer, than the origin. The rows r of
+   R have errors of 4 u, which a large depth would multiply. Therefore their components
+   perpendicular to the direction d are used, r - (r . d) d / d^2: they are as close to the exact
+   axes, and exactly perpendicular to d. Errors: the products with the exact difference p, 16 u^2
+   |p|; the slope r . d (at most 4 u |d|), 21 u^2 |d|; its product with the depth, 24 u^2 |p| more.
+   Together less than 80 u^2 |p|. */
 static double frame_point_deep(const lrcsi_view *view, const double *origin, const double *x,
                                double out[2])
 {
@@ -43,8 +45,8 @@ static double frame_point_deep(const lrcsi_view *view, const double *origin, con
     return fabs(out[0]) + fabs(out[1]) + 8 * LRCSI_U * length;
 }
 
-/* A scene point relative to the target's first corner, in the view plane; returns the distance of
-   which it is off by 10 u. */
+/* A scene point relative to the target's first corner, in the view plane. Returns a distance; the
+   position error is at most 10 u times it. */
 static double frame_point(const lrcsi_view *view, const double *origin, const double *x,
                           double out[2])
 {
@@ -63,9 +65,9 @@ static double frame_point(const lrcsi_view *view, const double *origin, const do
                : away;
 }
 
-/* The corner from which a facet is counted: its first, unless that is far away from the scene's
-   bulk and another is not. Seen from a far corner, all that is near the others would be off by as
-   much. */
+/* The corner at which a facet's frame begins: its first, unless that one is far away from the bulk
+   of the scene and another is not. With a far corner as origin, positions near the other corners
+   would have errors in proportion to the distance. */
 static int corner_first(const lrcsi_view *view, uint32_t facet)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
@@ -78,7 +80,7 @@ static int corner_first(const lrcsi_view *view, uint32_t facet)
     return off <= FAR_OFF * lrcsi_least(second, third) ? 0 : second <= third ? 1 : 2;
 }
 
-/* The facet's own number of its corner k, counted counter-clockwise in the view from its first. */
+/* The index within the facet of corner k, counted counter-clockwise in the view from `first`. */
 static int corner_number(const lrcsi_view *view, uint32_t facet, int first, int k)
 {
     return (first + (view->facing[facet] > 0 ? k : 3 - k)) % 3;
@@ -100,31 +102,31 @@ double lrcsi_target_place(const lrcsi_target *t, const double x[3], double out[2
     return frame_point(t->view, t->origin, x, out);
 }
 
-/* With n and f the distances of its nearer and its farther end, a point at the share t of its
-   length is off by 10 u ((1 - t) n + t f). The target lies within its diameter d of the frame's
-   origin, so that the segment may end where a coordinate passes 4 d: beyond, the coordinate grows
-   by more than the error does, if its end is 32 u f and more beyond that. The new end is rounded
-   by 4 u (n + 8 d). */
+/* Let n and f be the distances of the nearer and the farther end. The point at parameter t (0 .. 1)
+   of the segment has an error of 10 u ((1 - t) n + t f). The target lies within its diameter d of
+   the frame's origin. The segment can therefore be cut where a coordinate exceeds 4 d: if its end
+   is at least 32 u f beyond that, the coordinate grows faster than the error. The rounding error
+   of the new end is 4 u (n + 8 d). */
 double lrcsi_target_segment(const lrcsi_target *t, double end[2][2], const double away[2])
 {
     int far = away[1] > away[0];
     double n = away[!far];
     double f = away[far];
     double box = 4 * t->diameter;
-    double share = 1;
+    double t_end = 1;
     for (int k = 0; k < 2 && f > FAR_OFF * (n + box); k++) {
         if (fabs(end[far][k]) > box + 32 * LRCSI_U * f) {
             double exit = copysign(box, end[far][k]) - end[!far][k];
-            share = lrcsi_least(share, exit / (end[far][k] - end[!far][k]));
+            t_end = lrcsi_least(t_end, exit / (end[far][k] - end[!far][k]));
         }
     }
-    if (!(share > 0 && share < 1)) {
+    if (!(t_end > 0 && t_end < 1)) {
         return f;
     }
     for (int k = 0; k < 2; k++) {
-        end[far][k] = end[!far][k] + share * (end[far][k] - end[!far][k]);
+        end[far][k] = end[!far][k] + t_end * (end[far][k] - end[!far][k]);
     }
-    return (2 - share) * n + share * f + box;
+    return (2 - t_end) * n + t_end * f + box;
 }
 
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
@@ -147,8 +149,9 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
     }
 }
 
-/* Shares are off by 100 u of the reach. A sum of three products, of shares that add up to 1, is off
-   by 3 u of the largest coordinate in each, below 6 u in norm. */
+/* The barycentric coordinates cause an error of 100 u of the reach. The sum of three products, with
+   coordinates that add up to 1, has an error of 3 u of the largest component in each component,
+   less than 6 u in norm. */
 double lrcsi_target_lift_off(const lrcsi_target *t)
 {
     return 100 * LRCSI_U * t->reach + 8 * LRCSI_U * t->size;
@@ -189,7 +192,7 @@ static double clamped(double x, double low, double high)
     return lrcsi_most(low, lrcsi_least(x, high));
 }
 
-/* The corner at which the longest side starts. */
+/* The corner at which the longest side begins. */
 static int longest_from(const lrcsi_target *t)
 {
     int longest = 0;
@@ -205,19 +208,21 @@ static int longest_from(const lrcsi_target *t)
     return longest;
 }
 
-/* Along the longest side (of length d) places are as good as their coordinates, in a needle too;
-   across it the height's share of the third corner's is all there is, and that is off by u d over
-   the latter. So this share goes first, and the place along, which it must not disturb, is kept by
-   the other two. Of rounded differences, two products, a sum and a quotient: the place along is off
-   by 9 u d, the foot of the third corner likewise, heights by 4 u d each; a share of a height h
-   that is off by 4 u d moves the point by at most 8 u d (where h < 8 u d, by less than h). With the
-   shares' own rounding at most 50 u d, and d is at most twice the reach. */
+/* Barycentric coordinates with respect to the longest side, of length d. Along this side the
+   position is as accurate as the given coordinates, also in a needle. Across it only the ratio of
+   the point's height to that of the third corner is known, with an error of u d divided by the
+   latter. Therefore the third corner's coordinate is computed first, and the other two are chosen
+   so that the position along the side is kept. Errors from rounded differences, two products, a sum
+   and a quotient: the position along the side, 9 u d; the foot of the third corner, the same; the
+   heights, 4 u d each. A coordinate computed from a height h with an error of 4 u d moves the point
+   by at most 8 u d (if h < 8 u d, by less than h). With the rounding of the coordinates themselves
+   at most 50 u d; d is at most twice the reach. */
 void lrcsi_target_weights(const lrcsi_target *t, const double at[2], double weight[3])
 {
     int k = longest_from(t);
     const double *from = t->corner[k];
     const double *third = t->corner[(k + 2) % 3];
-    double shares[3] = {0, 0, 1}; /* of corners k, k + 1, k + 2 */
+    double b[3] = {0, 0, 1}; /* barycentric coordinates of corners k, k + 1, k + 2 */
     if (at[0] != third[0] || at[1] != third[1]) {
         const double to[2] = {t->corner[(k + 1) % 3][0] - from[0],
                               t->corner[(k + 1) % 3][1] - from[1]};
@@ -227,12 +232,12 @@ void lrcsi_target_weights(const lrcsi_target *t, const double at[2], double weig
         double height = to[0] * top[1] - to[1] * top[0];
         double foot = (to[0] * top[0] + to[1] * top[1]) / square;
         double along = (to[0] * p[0] + to[1] * p[1]) / square;
-        shares[2] = height > 0 ? clamped((to[0] * p[1] - to[1] * p[0]) / height, 0, 1) : 0;
-        shares[1] = clamped(along - shares[2] * foot, 0, 1 - shares[2]);
-        shares[0] = 1 - shares[2] - shares[1];
+        b[2] = height > 0 ? clamped((to[0] * p[1] - to[1] * p[0]) / height, 0, 1) : 0;
+        b[1] = clamped(along - b[2] * foot, 0, 1 - b[2]);
+        b[0] = 1 - b[2] - b[1];
     }
     int first = corner_first(t->view, t->facet);
     for (int i = 0; i < 3; i++) {
-        weight[corner_number(t->view, t->facet, first, (k + i) % 3)] = shares[i];
+        weight[corner_number(t->view, t->facet, first, (k + i) % 3)] = b[i];
     }
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The facet that may be hidden, in its own frame of the view plane: relative to its first corner,
-   view axes; a needle also in that of its shares (visibility/needle.h). */
+/* A facet that may be hidden, in a frame of its own in the view plane: relative to its first
+   corner, along the view's axes; for a needle also in barycentric coordinates
+   (visibility/needle.h). */
 #ifndef LRCSI_TARGET_H
 #define LRCSI_TARGET_H
 
@@ -10,51 +11,53 @@
 typedef struct lrcsi_target {
     const lrcsi_view *view;
     uint32_t facet;
-    const double *origin; /* its first corner */
+    const double *origin; /* the first corner */
     double corner[3][2];  /* counter-clockwise in the view */
-    double reach;         /* largest distance, in space, of a corner from the first; of one far
-                             behind it less: no corner is off by more than 10 u of it */
-    double size;          /* largest coordinate of a corner, in space */
-    double diameter;      /* its longest side in the view, upper bound */
-    double perimeter;     /* in the view, upper bound */
-    double position_err;  /* by which its corners may be off, but for 10 u reach */
-    double unit;          /* the area of the view plane that is 1 in the frame */
-    const lrcsi_needle *needle; /* whose frame it is; NULL: view axes */
+    double reach;         /* the largest distance, in space, of a corner from the first (less for a
+                             corner far behind it): position errors are at most 10 u of this */
+    double size;          /* the largest component of a corner, in space */
+    double diameter;      /* upper bound of the longest side in the view */
+    double perimeter;     /* upper bound of the perimeter in the view */
+    double position_err;  /* error of the corners' positions, in addition to 10 u reach */
+    double unit;          /* the area in the view plane of a unit area of the frame */
+    const lrcsi_needle *needle; /* the needle whose barycentric coordinates these are; NULL: the
+                                   view's axes */
 } lrcsi_target;
 
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *target);
 
-/* How far from a place of the frame of view axes, in the view, a point of the facet is that is put
-   there by its corners' shares, its coordinates rounded. */
+/* Upper bound of the distance, in the view, between a point of the frame (view axes) and the point
+   of the facet that lrcsi_target_weights gives for it, with rounded coordinates. */
 double lrcsi_target_lift_off(const lrcsi_target *target);
 
-/* The same in the frame that its parts are distinguished in: of its shares, where it is a needle.
- */
+/* The frame in which parts of the facet can be told apart: barycentric coordinates if it is a
+   needle, otherwise the same frame. */
 void lrcsi_target_refine(const lrcsi_target *target, lrcsi_needle *needle, lrcsi_target *refined);
 
-/* A point of the refined frame in that of the view axes, within 3 u of the reach. */
+/* From the refined frame to that of the view's axes, within 3 u of the reach. */
 void lrcsi_target_unrefine(const lrcsi_target *refined, const double at[2], double out[2]);
 
 /* Corner k of a facet, counted so that they run counter-clockwise in the view. */
 const double *lrcsi_target_corner(const lrcsi_view *view, uint32_t facet, int k);
 
-/* The same, counted from one that is not far away, if the facet has such: so a target's frame
-   counts its own. */
+/* The same, counted from the corner at which the facet's frame begins: one that is not far away
+   from the bulk of the scene, if the facet has one. */
 const double *lrcsi_target_own(const lrcsi_view *view, uint32_t facet, int k);
 
-/* A scene point in the target's frame; returns its distance, in space, from the first corner, or
-   less: that of which it is off by 10 u. */
+/* A scene point in the target's frame. Returns a distance, at most that of the point from the first
+   corner, in space: the position error is at most 10 u of it. */
 double lrcsi_target_place(const lrcsi_target *target, const double x[3], double out[2]);
 
-/* Cuts off what a segment of the frame has far away, where the distances of its ends in space are
-   `away` and each is off by 10 u of that. Returns the distance of which both are then off by
-   10 u. */
+/* Cuts off the part of a segment that is far away from the target.
+   Given: end, in the frame, with errors of 10 u times away[0] and away[1]. Returns a distance: the
+   errors of both ends are then at most 10 u of it. */
 double lrcsi_target_segment(const lrcsi_target *target, double end[2][2], const double away[2]);
 
-/* The point of the facet that is seen at `at`, a point of the frame, as shares of the facet's
-   corners in the facet's own order: each at least 0, their sum 1 but for rounding. At a corner of
-   the frame exactly that corner; a point beyond the rim goes to the rim. Its projection is within
-   100 u of the reach of `at`; along the direction that may be tan(theta) times as much. */
+/* The point of the facet that is seen at `at`, a point of the frame, in barycentric coordinates, in
+   the order of the facet's corners: each at least 0, their sum 1 to rounding. A corner gives
+   exactly that corner; a point outside the facet gives a point of its boundary. The projection of
+   the point is within 100 u of the reach of `at`; along the direction the error may be tan(theta)
+   times as large. */
 void lrcsi_target_weights(const lrcsi_target *target, const double at[2], double weight[3]);
 
 #endif

@@ -13,7 +13,7 @@
    others counted; pixels that it proves pure are noted.
    3. drawn_area: the bounds of each undecided facet, with all pure pixels known; its area and its
       likely error.
-   4. lrcsi_visible_fraction_settle: what bounds cut off goes to other facets of the component. */
+   4. lrcsi_visible_fraction_correct: what bounds cut off goes to other facets of the component. */
 #include "visibility/visible.h"
 
 #include <math.h>
@@ -384,7 +384,7 @@ static void drawn_area(const lrcsi_sharing *sharing, const pixel_sums *sums, uin
     const lrcsi_visible_fraction fraction = lrcsi_visible_fraction_facet(sharing, facet);
     lrcsi_sampling_error error = {HUGE_VAL, 0};
     if (!raster->undecided[facet] && fraction.row) {
-        error = lrcsi_sampling_error_row(raster, facet, fraction.longest, fraction.share);
+        error = lrcsi_sampling_error_row(raster, facet, fraction.longest, fraction.fraction);
     } else if (!raster->undecided[facet]) {
         uint32_t crossings;
         const uint32_t *crossing = known_crossings(sharing->known, facet, &crossings);
@@ -554,7 +554,7 @@ int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *wo
         }
         drawn_area(&sharing, &sums, f, &visible[f]);
     }
-    lrcsi_visible_fraction_settle(&sharing, visible);
+    lrcsi_visible_fraction_correct(&sharing, visible);
     work->used = end;
     return LRCS_OK;
 }

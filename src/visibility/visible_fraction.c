@@ -1,13 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* From samples to the area of an undecided facet. Many samples give it the share of them that it
-   owns, so that its own sides, which miscount owned and covered samples alike, do not matter. Of
-   few, in a row of facets thinner than a pixel or two that an edge cuts all alike, those shares
-   would err one way. There a facet takes the samples that it owns, as they are, and only of the
-   rest of its area the share of its samples and its neighbours' together; what its bounds cut off
-   is passed on within its component, so that the row together shows what its samples show. Small
-   facets need none of this: their shares, or a query somewhere in each, err less than pixels do.
-   Nothing here depends on the order of facets. The bounds are not its business, nor how far
-   the areas may be off. */
+/* The visible area of an undecided facet, from its samples. The bounds of the area are given, and
+   the likely error is estimated elsewhere (visibility/sampling_error.h).
+
+   With many samples, the visible fraction is the fraction of its samples that the facet owns. The
+   facet's own sides, which cause errors in both counts, then cancel.
+
+   With few samples this would be biased: in a row of facets thinner than a pixel or two that one
+   edge cuts in the same way, all fractions err in the same direction. Such a facet takes the area
+   of the samples that it owns; to the rest of its area applies the visible fraction of its own and
+   its neighbours' samples together. Where the facet's bounds reduce this area, the difference goes
+   to other facets of its component, so that the facets together have the area of their samples.
+
+   Small facets need neither: their error is smaller than a pixel. Nothing here depends on the order
+   of facets. */
 #include "visibility/visible_fraction.h"
 
 #include <math.h>
@@ -18,7 +23,8 @@
 #include "base/work.h"
 #include "visibility/query.h"
 
-/* Fewer samples than this are few, and of a long facet fewer than four for each pixel along it. */
+/* Fewer samples than this are few; for a long facet, fewer than four for each pixel of its length.
+ */
 #define FEW 16.0
 
 /* A facet whose longest side is shorter, in pixels, is small. */
@@ -26,7 +32,7 @@
 
 size_t lrcsi_visible_fraction_need(const lrcs_prepared *prepared)
 {
-    return lrcsi_work_bytes(prepared->scene->facet_count, sizeof(lrcsi_fraction_remainder));
+    return lrcsi_work_bytes(prepared->scene->facet_count, sizeof(lrcsi_component_sum));
 }
 
 int lrcsi_visible_fraction_make(const lrcsi_known *known, const lrcsi_raster *raster,
@@ -35,21 +41,20 @@ int lrcsi_visible_fraction_make(const lrcsi_known *known, const lrcsi_raster *ra
     const lrcsi_classification *classification = known->classification;
     uint32_t facets = raster->view->prepared->scene->facet_count;
     *sharing = (lrcsi_sharing){known, raster, NULL};
-    sharing->rest = lrcsi_work_take(work, facets, sizeof *sharing->rest);
-    if (!sharing->rest) {
+    sharing->sum = lrcsi_work_take(work, facets, sizeof *sharing->sum);
+    if (!sharing->sum) {
         return LRCS_E_MEMORY;
     }
-    for (uint32_t f = 0; f < facets; f++) { /* only those that are asked for: they are few */
+    for (uint32_t f = 0; f < facets; f++) { /* only for undecided facets: they are few */
         if (classification->undecided[f]) {
-            sharing->rest[classification->component[f]] =
-                (lrcsi_fraction_remainder){0, 0, 0, 0, 0, 0};
+            sharing->sum[classification->component[f]] = (lrcsi_component_sum){0, 0, 0, 0, 0, 0};
         }
     }
     return LRCS_OK;
 }
 
-/* Adds the samples of one facet, or its area where it is known what it shows. */
-static void share_add(const lrcsi_sharing *s, uint32_t facet, double *owned, double *covered)
+/* Adds the samples of one facet, or its area in pixels if a query has decided its visibility. */
+static void samples_add(const lrcsi_sharing *s, uint32_t facet, double *owned, double *covered)
 {
     if (s->known->answer[facet] == LRCSI_QUERY_UNDECIDED) {
         *owned += s->raster->owned[facet];
@@ -62,9 +67,9 @@ static void share_add(const lrcsi_sharing *s, uint32_t facet, double *owned, dou
     *covered += pixels;
 }
 
-/* Adds what a facet's neighbours in its component show. Returns how many neighbours. */
-static uint32_t share_neighbours(const lrcsi_sharing *s, uint32_t facet, double *owned,
-                                 double *covered)
+/* Adds the samples of a facet's neighbours in its component. Returns the number of neighbours. */
+static uint32_t samples_add_neighbours(const lrcsi_sharing *s, uint32_t facet, double *owned,
+                                       double *covered)
 {
     const lrcsi_topology *topology = &s->raster->view->prepared->topology;
     const uint32_t *component = s->known->classification->component;
@@ -74,7 +79,7 @@ static uint32_t share_neighbours(const lrcsi_sharing *s, uint32_t facet, double 
         for (uint32_t i = 0; i < edge->uses; i++) {
             uint32_t other = topology->use[edge->first_use + i].facet;
             if (other != facet && component[other] == component[facet]) {
-                share_add(s, other, owned, covered);
+                samples_add(s, other, owned, covered);
                 count++;
             }
         }
@@ -83,7 +88,7 @@ static uint32_t share_neighbours(const lrcsi_sharing *s, uint32_t facet, double 
 }
 
 /* The longest side of a facet, in pixels. */
-static double share_longest(const lrcsi_raster *raster, uint32_t facet)
+static double longest_in_pixels(const lrcsi_raster *raster, uint32_t facet)
 {
     lrcsi_edges e = lrcsi_raster_edges(raster, facet);
     double square = 0;
@@ -93,10 +98,10 @@ static double share_longest(const lrcsi_raster *raster, uint32_t facet)
     return sqrt(square);
 }
 
-/* Does the facet share its samples? The samples that decide its share, its own or with its
-   neighbours' together, go to *owned and *covered. */
-static int share_row(const lrcsi_sharing *s, uint32_t facet, double longest, double *owned,
-                     double *covered)
+/* Does the facet share its samples with its neighbours? Returned in *owned and *covered: the
+   samples that determine its visible fraction, its own or those of the row. */
+static int samples_find(const lrcsi_sharing *s, uint32_t facet, double longest, double *owned,
+                        double *covered)
 {
     *owned = s->raster->owned[facet];
     *covered = s->raster->covered[facet];
@@ -105,16 +110,16 @@ static int share_row(const lrcsi_sharing *s, uint32_t facet, double longest, dou
     }
     double all_owned = *owned;
     double all_covered = *covered;
-    if (share_neighbours(s, facet, &all_owned, &all_covered) < 2) {
-        return 0; /* two facets are no row */
+    if (samples_add_neighbours(s, facet, &all_owned, &all_covered) < 2) {
+        return 0; /* two facets do not form a row */
     }
     *owned = all_owned;
     *covered = all_covered;
     return 1;
 }
 
-/* A point of the facet, anywhere: where depends on its first corner, as if by chance. */
-static void share_point(const lrcsi_raster *raster, uint32_t facet, double point[3])
+/* A pseudo-random point of the facet, determined by the coordinates of its first corner. */
+static void random_point(const lrcsi_raster *raster, uint32_t facet, double point[3])
 {
     const lrcs_prepared *p = raster->view->prepared;
     double at[2];
@@ -133,41 +138,42 @@ static void share_point(const lrcsi_raster *raster, uint32_t facet, double point
     }
 }
 
-/* What is visible of a facet that lies between samples, alone: all or nothing, as one point of it
-   is. In the middle of each, many facets hidden alike, as cells of a panel are, would err alike. */
-static double share_asked(const lrcsi_sharing *s, uint32_t facet)
+/* The visible fraction of a facet without samples: 1 or 0, as one of its points is visible or
+   hidden. The point is not the centroid: in a regular pattern, such as the cells of a panel, the
+   errors of many facets would then be equal. */
+static double fraction_of_point(const lrcsi_sharing *s, uint32_t facet)
 {
-    static const double share[] = {0, 1, 0.5}; /* by lrcsi_query_answer */
+    static const double fraction[] = {0, 1, 0.5}; /* by lrcsi_query_answer */
     double point[3];
-    share_point(s->raster, facet, point);
+    random_point(s->raster, facet, point);
     int answer = lrcsi_query_point(&s->known->facets, facet, point, NULL);
-    return share[answer != LRCSI_QUERY_UNDECIDED
-                     ? answer
-                     : lrcsi_query_facet(&s->known->facets, facet, NULL)];
+    return fraction[answer != LRCSI_QUERY_UNDECIDED
+                        ? answer
+                        : lrcsi_query_facet(&s->known->facets, facet, NULL)];
 }
 
 lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sharing *s, uint32_t facet)
 {
     double owned;
     double covered;
-    lrcsi_visible_fraction share;
-    share.longest = share_longest(s->raster, facet);
-    share.row = share_row(s, facet, share.longest, &owned, &covered);
-    share.share = covered > 0 ? owned / covered : share_asked(s, facet);
-    return share;
+    lrcsi_visible_fraction found;
+    found.longest = longest_in_pixels(s->raster, facet);
+    found.row = samples_find(s, facet, found.longest, &owned, &covered);
+    found.fraction = covered > 0 ? owned / covered : fraction_of_point(s, facet);
+    return found;
 }
 
 void lrcsi_visible_fraction_keep(const lrcsi_sharing *s, uint32_t facet, double area,
-                                 const lrcsi_visible_fraction *share, lrcsi_visible *visible)
+                                 const lrcsi_visible_fraction *found, lrcsi_visible *visible)
 {
     double pixel = s->raster->pixel * s->raster->pixel;
-    double wanted = area * share->share;
-    if (share->row) {
-        wanted += (s->raster->owned[facet] - share->share * s->raster->covered[facet]) * pixel;
+    double target = area * found->fraction;
+    if (found->row) {
+        target += (s->raster->owned[facet] - found->fraction * s->raster->covered[facet]) * pixel;
     }
-    visible->area = lrcsi_least(visible->high, lrcsi_most(visible->low, wanted));
-    if (share->row) {
-        lrcsi_fraction_remainder *component = &s->rest[s->known->classification->component[facet]];
+    visible->area = lrcsi_least(visible->high, lrcsi_most(visible->low, target));
+    if (found->row) {
+        lrcsi_component_sum *component = &s->sum[s->known->classification->component[facet]];
         component->owned += s->raster->owned[facet];
         component->covered += s->raster->covered[facet];
         component->area += area;
@@ -177,29 +183,30 @@ void lrcsi_visible_fraction_keep(const lrcsi_sharing *s, uint32_t facet, double 
     }
 }
 
-/* A facet's area once its component shows what its samples show: what is missing or too much is
-   taken up in proportion to the room that each has. */
-static double share_settled(const lrcsi_fraction_remainder *component, const lrcsi_visible *v)
+/* The area of a facet after the difference between the samples of its component and the areas kept
+   so far has been distributed, in proportion to the distance of each area from its bound. */
+static double area_corrected(const lrcsi_component_sum *component, const lrcsi_visible *v)
 {
-    double rest = component->area * component->owned / component->covered - component->kept;
-    double room = rest > 0 ? component->high - component->kept : component->kept - component->low;
-    double part = fabs(rest) < room ? fabs(rest) / room : 1;
-    return v->area + part * ((rest > 0 ? v->high : v->low) - v->area);
+    double missing = component->area * component->owned / component->covered - component->kept;
+    double room =
+        missing > 0 ? component->high - component->kept : component->kept - component->low;
+    double part = fabs(missing) < room ? fabs(missing) / room : 1;
+    return v->area + part * ((missing > 0 ? v->high : v->low) - v->area);
 }
 
-void lrcsi_visible_fraction_settle(const lrcsi_sharing *s, lrcsi_visible *visible)
+void lrcsi_visible_fraction_correct(const lrcsi_sharing *s, lrcsi_visible *visible)
 {
     const lrcsi_classification *classification = s->known->classification;
     for (uint32_t f = 0; f < classification->view->prepared->scene->facet_count; f++) {
         if (!classification->undecided[f]) {
             continue;
         }
-        const lrcsi_fraction_remainder *component = &s->rest[classification->component[f]];
+        const lrcsi_component_sum *component = &s->sum[classification->component[f]];
         lrcsi_visible *v = &visible[f];
         double samples[2];
         if (component->covered > 0 && v->high > v->low &&
-            share_row(s, f, share_longest(s->raster, f), &samples[0], &samples[1])) {
-            v->area = lrcsi_least(v->high, lrcsi_most(v->low, share_settled(component, v)));
+            samples_find(s, f, longest_in_pixels(s->raster, f), &samples[0], &samples[1])) {
+            v->area = lrcsi_least(v->high, lrcsi_most(v->low, area_corrected(component, v)));
         }
     }
 }

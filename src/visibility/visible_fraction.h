@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: MIT */
-/* The areas that samples give undecided facets, within bounds that others found. */
+/* The visible areas of undecided facets, from their samples and within given bounds. */
 #ifndef LRCSI_VISIBLE_FRACTION_H
 #define LRCSI_VISIBLE_FRACTION_H
 
 #include "visibility/raster.h"
 #include "visibility/visible_area.h"
 
-/* Sums over the facets of one component that share samples; areas in scaled units. */
-typedef struct lrcsi_fraction_remainder {
+/* Sums over the facets of one component that share their samples; areas in scaled units. */
+typedef struct lrcsi_component_sum {
     double owned, covered, area;
-    double kept, low, high; /* what they were given so far, and their bounds */
-} lrcsi_fraction_remainder;
+    double kept, low, high; /* the areas kept so far, and their bounds */
+} lrcsi_component_sum;
 
 typedef struct lrcsi_sharing {
     const lrcsi_known *known;
     const lrcsi_raster *raster;
-    lrcsi_fraction_remainder *rest; /* facet: of the component that it names */
+    lrcsi_component_sum *sum; /* by component */
 } lrcsi_sharing;
 
-/* What is known of one facet. */
+/* How the area of one facet follows from samples. */
 typedef struct lrcsi_visible_fraction {
-    int row;        /* it shares its samples with its neighbours */
-    double share;   /* visible: of its samples, or of theirs together */
-    double longest; /* its longest side, in pixels */
+    int row;         /* it shares its samples with its neighbours */
+    double fraction; /* the visible fraction of its samples, or of all shared ones */
+    double longest;  /* its longest side, in pixels */
 } lrcsi_visible_fraction;
 
 size_t lrcsi_visible_fraction_need(const lrcs_prepared *prepared);
@@ -31,15 +31,16 @@ size_t lrcsi_visible_fraction_need(const lrcs_prepared *prepared);
 int lrcsi_visible_fraction_make(const lrcsi_known *known, const lrcsi_raster *raster,
                                 lrcs_work *work, lrcsi_sharing *sharing);
 
-/* Asks about an undecided facet. */
+/* Finds the visible fraction of an undecided facet. */
 lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sharing *sharing, uint32_t facet);
 
-/* Puts its area, of the projected area given, between visible->low and visible->high. */
+/* Sets visible->area from the fraction found, within visible->low and visible->high.
+   Given: area, the projected area of the facet. */
 void lrcsi_visible_fraction_keep(const lrcsi_sharing *sharing, uint32_t facet, double area,
-                                 const lrcsi_visible_fraction *share, lrcsi_visible *visible);
+                                 const lrcsi_visible_fraction *found, lrcsi_visible *visible);
 
-/* Gives what is left of a component to those of its facets that have room for it: once, after all
-   facets have been kept. */
-void lrcsi_visible_fraction_settle(const lrcsi_sharing *sharing, lrcsi_visible *visible);
+/* Distributes what the bounds cut off over the other facets of the component. To be called once,
+   after lrcsi_visible_fraction_keep for all undecided facets. */
+void lrcsi_visible_fraction_correct(const lrcsi_sharing *sharing, lrcsi_visible *visible);
 
 #endif

@@ -38,6 +38,22 @@ run() {
     err=$(cat "$scratch/.err")
 }
 
+# FNV-1a in awk, 32 bits at a time in halves of 16, from the bytes that od prints.
+fnv1a() {
+    od -An -v -tu1 "$1" | awk '
+        function xor(a, b,   r, p) { r = 0; for (p = 1; p < 65536; p *= 2) { if (int(a / p) % 2 != int(b / p) % 2) r += p } return r }
+        BEGIN { h[3] = 52210; h[2] = 40164; h[1] = 33826; h[0] = 8997 }
+        { for (i = 1; i <= NF; i++) {
+            h[0] = xor(h[0], $i)
+            # times 0x100000001b3: by 0x1b3, and by 2^40, which is two halves and 8 bits up
+            c = h[0] * 435; n0 = c % 65536
+            c = h[1] * 435 + int(c / 65536); n1 = c % 65536
+            c = h[2] * 435 + h[0] * 256 + int(c / 65536); n2 = c % 65536
+            c = h[3] * 435 + h[1] * 256 + int(c / 65536); n3 = c % 65536
+            h[0] = n0; h[1] = n1; h[2] = n2; h[3] = n3 } }
+        END { printf "fnv1a:%04x%04x%04x%04x\n", h[3], h[2], h[1], h[0] }'
+}
+
 # same NAME GOT WANT
 same() {
     if [ "$2" = "$3" ]; then ok "$1"; else not_ok "$1" "got '$2', want '$3'"; fi

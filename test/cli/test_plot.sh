@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# lrcs plot: drawn from files, a sweep looks as it did from its rows; curves of several files; maps in
+# lrcs plot: drawn from files, a sweep, a profile or a comparison looks as it did from its rows; curves of several files; maps in
 # Mollweide's projection, held against its formula; and which files are refused.
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
@@ -101,6 +101,40 @@ sed '4s/,.*/,x,1,1,1,1,1/' flat.csv >odd.csv
 failure a_profile_with_a_word "odd.csv: line 4, column far_m" plot odd.csv -o y.svg
 sed '3,$d' flat.csv >odd.csv
 failure a_profile_without_rows "odd.csv: has no rows: nothing to draw" plot odd.csv -o y.svg
+
+# Tables of converge, with the truth beside them.
+printf 'name = "The; bus=1\\n\\"b\\\\c\\""\n[[part]]\nname = "c"\nshape = "cylinder"\nradius = 0.5\nlength = 1\n[[part]]\nname = "b"\nshape = "box"\nsize = [1, 1, 1]\ntranslate = [2, 0, 0]\n' >round.toml
+run converge round.toml --azel 20,30 --seconds 0.3 --csv accuracy.csv --plot accuracy.svg
+run plot accuracy.csv -o again.svg -o again.png
+same a_comparison_is_drawn_again "$rc $(cmp accuracy.svg again.svg && echo same) $(head -c 4 again.png | tail -c 3)" "0 same PNG"
+printf '[[part]]\nname = "k"\nshape = "cone"\nradius = 0.5\nlength = 1\n' >cone.toml
+run converge cone.toml --azel 20,30 --seconds 0.3 --csv cone.csv --plot cone.svg
+run plot cone.csv -o again.svg
+same one_with_a_closed_form_is_drawn_again "$rc $(cmp cone.svg again.svg && echo same)" "0 same"
+usage_error a_comparison_has_no_dbsm "--dbsm is for sweeps: cone.csv is a table of lrcs converge" plot cone.csv --dbsm -o y.svg
+cp cone.csv alone.csv
+failure a_comparison_without_its_truth "alone.csv: expected its FILE.json" plot alone.csv -o y.svg
+cp accuracy.csv.json alone.csv.json
+failure a_comparison_with_another_truth "alone.csv: is not the table that its FILE.json describes" plot alone.csv -o y.svg
+# damaged SED: a comparison with a change, whose FILE.json states its hash.
+damaged() {
+    sed "$1" cone.csv >alone.csv
+    printf '{\n  "hash": "%s",\n  "about": "lrcs x converge; %s; truth_of=shapes; truth=t"\n}\n' "$(fnv1a alone.csv)" "${2-direction=1,0,0; truth_m2=1; truth_bound_m2=0}" >alone.csv.json
+}
+damaged '' && run plot alone.csv -o again.svg
+same a_comparison_described_by_hand "$rc" 0
+damaged '2s/,[a-z]*,/,guess,/'
+failure a_comparison_by_no_method "alone.csv: line 2, column method" plot alone.csv -o y.svg
+damaged '1s/pose_ms/pose/'
+failure a_comparison_without_times "alone.csv: has no column 'pose_ms'" plot alone.csv -o y.svg
+damaged '2s/1e-1,/1e-9,/'
+failure a_comparison_of_no_mesh "alone.csv: line 2, column setting" plot alone.csv -o y.svg
+damaged '2s/,\([^,]*,[^,]*,[^,]*,[^,]*,[^,]*,[^,]*\)$/,-\1/'
+failure a_comparison_with_a_negative_bound "alone.csv: line 2, column bound_m2" plot alone.csv -o y.svg
+damaged '' 'truth_m2=1; truth_bound_m2=0'
+failure a_comparison_without_a_direction "states no truth or direction" plot alone.csv -o y.svg
+damaged '2,$d'
+failure a_comparison_without_rows "alone.csv: has no rows: nothing to draw" plot alone.csv -o y.svg
 same nothing_odd_was_drawn "$(ls y.svg 2>/dev/null)" ""
 command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 python3 - <<'END' || not_ok the_python_ends_well

@@ -75,7 +75,8 @@ static int files_write(const converge_job *job)
     const cli_args *args = job->args;
     int code = job->csv ? cli_output_write(job->csv, csv_write, job) : 0;
     if (code == 0 && job->csv) {
-        code = cli_provenance_beside(args, job->csv, &cli_converge_finest(job)->scene, &job->pose);
+        code = cli_provenance_beside(args, job->csv, &cli_converge_finest(job)->scene, &job->pose,
+                                     job->about);
     }
     for (int i = 0; i < args->given_count && code == 0; i++) {
         if (strcmp(args->given[i].name, "plot") == 0) {

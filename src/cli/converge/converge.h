@@ -20,6 +20,7 @@ enum converge_dial {
     CONVERGE_CLOSED, /* no facets: closed forms of shapes that nothing hides */
     CONVERGE_DIALS
 };
+#define CONVERGE_PREVIEW_NAME "by estimate" /* its settings' names begin so */
 
 /* The scene with its shapes tessellated for a tolerance of 10^-digits; digits is 0 for a mesh that
    does not depend on it. */

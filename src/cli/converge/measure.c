@@ -138,7 +138,7 @@ static int previews_add(converge_job *job)
     int code = 0;
     for (int digits = 1; digits <= PREVIEWS && code == 0; digits++) {
         converge_setting *setting = &job->setting[job->settings++];
-        snprintf(setting->name, sizeof setting->name, "by estimate 1e-%d", digits);
+        snprintf(setting->name, sizeof setting->name, CONVERGE_PREVIEW_NAME " 1e-%d", digits);
         setting->dial = CONVERGE_PREVIEW;
         while (mesh + 1 < job->meshes && job->mesh[mesh].digits < digits) {
             mesh++;

@@ -303,7 +303,7 @@ static int fit_report(const fit_job *job)
         }
     }
     if (failed == 0 && csv) {
-        failed = cli_provenance_beside(args, csv, NULL, NULL);
+        failed = cli_provenance_beside(args, csv, NULL, NULL, NULL);
     }
     if (failed) {
         return failed;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs plot: draws the output of sweeps and range profiles again without computing: one file as its
-   command draws it, or the curves of several sweeps together. This file decides which files fit
-   together; sweep/plot.c and plot/table.c draw. */
+/* lrcs plot: draws the output of sweeps, range profiles and comparisons of lrcs converge again
+   without computing: one file as its command draws it, or the curves of several sweeps together.
+   This file decides which files fit together; sweep/plot.c and plot/table.c draw. */
 #include "cli/plot/table.h"
 #include "cli/sweep/sweep.h"
 
@@ -12,8 +12,9 @@ static const char plot_help[] =
     "usage: lrcs plot FILE... -o OUT [options]\n"
     "\n"
     "Draws without computing what other commands wrote: of lrcs sweep FILE.csv, FILE.jsonl, or\n"
-    "FILE.npy with its FILE.npy.head; of lrcs profile FILE.csv, one at a time, as its --plot "
-    "does.\n"
+    "FILE.npy with its FILE.npy.head; of lrcs profile FILE.csv, and of lrcs converge FILE.csv "
+    "with\n"
+    "its FILE.csv.json, one at a time, as their --plot does.\n"
     "Files of sweeps are checked as sweep --resume checks them: one that is damaged, or a shard\n"
     "(lrcs merge), is refused. Curves of several sweeps along the same axis are drawn together; "
     "if\n"
@@ -40,6 +41,7 @@ static const char plot_help[] =
     "  lrcs plot map.npy -o sky.svg --projection mollweide --dbsm\n"
     "  lrcs plot before.csv after.csv -o both.svg --dbsm\n"
     "  lrcs plot profile.csv -o profile.svg\n"
+    "  lrcs plot accuracy.csv -o accuracy.svg\n"
     "  lrcs plot ball.csv --stats --stats-file ball.json --stats-file ball.svg\n";
 
 static const cli_option plot_options[] = {{"o", CLI_CHART, 1}, {"dbsm", 0, 0},
@@ -201,9 +203,10 @@ static int job_run(plot_job *job)
     return code;
 }
 
-/* Checks the options for one file of lrcs profile, and draws it. */
+/* Checks the options for one file of lrcs profile or lrcs converge, and draws it. */
 static int table_run(const cli_args *args, const char *path, int kind)
 {
+    const char *what = kind == TABLE_CONVERGE ? "a table of lrcs converge" : "a range profile";
     int files = 0;
     int outputs = 0;
     if (kind == TABLE_STATISTICS) {
@@ -217,8 +220,7 @@ static int table_run(const cli_args *args, const char *path, int kind)
         if (one->name[0] == '\0') {
             files++;
         } else if (strcmp(one->name, "o") != 0) {
-            return cli_usage(args->command, "--%s is for sweeps: %s is a range profile", one->name,
-                             path);
+            return cli_usage(args->command, "--%s is for sweeps: %s is %s", one->name, path, what);
         } else if (lrcs_host_output_same(one->value, path)) {
             return cli_usage(args->command, "-o %s: would overwrite what is read", one->value);
         } else {
@@ -226,9 +228,9 @@ static int table_run(const cli_args *args, const char *path, int kind)
         }
     }
     if (files > 1) {
-        return cli_usage(args->command, "%s is a range profile: these are drawn one by one", path);
+        return cli_usage(args->command, "%s is %s: these are drawn one by one", path, what);
     }
-    return outputs > 0 ? cli_table_draw(args, path)
+    return outputs > 0 ? cli_table_draw(args, path, kind)
                        : cli_usage(args->command, "nothing to do: give -o OUT.svg");
 }
 
@@ -253,5 +255,6 @@ static int plot_command(const cli_args *args)
 }
 
 const cli_command cli_plot_command = {
-    "plot",       "FILE...", "give files that lrcs sweep or profile wrote", plot_help, plot_options,
-    plot_command, NULL};
+    "plot",    "FILE...",    "give files that lrcs sweep, profile or converge wrote",
+    plot_help, plot_options, plot_command,
+    NULL};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads back the CSV files of lrcs profile, to draw them again. The first line says what wrote a
-   file and what it was made from; columns are found by their names. The chart is that of the
-   command. */
+/* Reads back the CSV files of lrcs profile and lrcs converge, to draw them again. A line says what
+   wrote a file and what it was made from: the first line of a profile, a key in the FILE.csv.json
+   of a comparison. Columns are found by their names. The chart is that of the command. */
 #include "cli/plot/table.h"
 
 #include <lrcs/table.h>
@@ -9,7 +9,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "cli/converge/converge.h"
 #include "cli/profile/profile.h"
 
 #define TABLE_TEXT 256
@@ -17,82 +19,105 @@
 /* A file at work, and what is drawn of it. */
 typedef struct table_job {
     const char *path;
+    int kind;
     lrcs_host_file file;
     lrcs_host_table table;
+    char *text;  /* a copy of what holds the next, terminated */
+    char *about; /* "lrcs VERSION COMMAND; key=text; .." */
     char title[TABLE_TEXT];
-    char *about; /* the first line without "# " */
     profile_job profile;
+    converge_job converge;
 } table_job;
 
-/* ---- the first line ---- */
-
-/* Copies the text of a key in the first line, "; key=text"; 0 if there is no such key. A text ends
-   where the next "; key=" begins. */
-static int head_text(const lrcs_host_file *file, const char *key, char text[TABLE_TEXT])
-{
-    const char *at = (const char *)file->bytes;
-    const char *end = memchr(at, '\n', file->size);
-    size_t size = strlen(key);
-    size_t used = 0;
-    end = end ? end : at + file->size;
-    while (
-        (size_t)(end - at) > size + 2 &&
-        !(at[0] == ';' && at[1] == ' ' && strncmp(at + 2, key, size) == 0 && at[2 + size] == '=')) {
-        at++;
-    }
-    if ((size_t)(end - at) <= size + 2) {
-        return 0;
-    }
-    for (at += size + 3; at < end && *at != '\r' && used + 1 < TABLE_TEXT; at++) {
-        size_t word = 2;
-        while (*at == ';' && at + word < end &&
-               (at[word] == '_' || (at[word] >= 'a' && at[word] <= 'z') ||
-                (at[word] >= '0' && at[word] <= '9'))) {
-            word++;
-        }
-        if (*at == ';' && at[1] == ' ' && word > 2 && at + word < end && at[word] == '=') {
-            break;
-        }
-        text[used++] = *at;
-    }
-    text[used] = '\0';
-    return 1;
-}
-
-static double head_number(const lrcs_host_file *file, const char *key)
-{
-    char text[TABLE_TEXT];
-    double value;
-    return head_text(file, key, text) &&
-                   lrcs_host_number_read(text, strlen(text), &value) == LRCS_OK
-               ? value
-               : (double)NAN;
-}
+/* ---- what a file is ---- */
 
 int cli_table_kind(const char *path)
 {
-    static const struct {
-        const char *word;
-        int kind;
-    } known[] = {{" profile", TABLE_PROFILE}, {" statistics", TABLE_STATISTICS}};
-    lrcs_host_file file;
-    lrcs_host_error error;
-    int kind = TABLE_NONE;
-    if (cli_extension(path, ".npy") || lrcs_host_file_read(path, &file, &error) != LRCS_OK) {
+    char line[80]; /* the beginning of the first line */
+    char command[16] = "";
+    struct stat about;
+    FILE *file = stat(path, &about) == 0 && S_ISREG(about.st_mode) ? fopen(path, "rb") : NULL;
+    if (!file) {
         return TABLE_NONE;
     }
-    const char *at = (const char *)file.bytes;
-    const char *words =
-        file.size > 7 && memcmp(at, "# lrcs ", 7) == 0 ? memchr(at + 7, ' ', file.size - 7) : NULL;
-    for (size_t i = 0; i < sizeof known / sizeof known[0] && words; i++) {
-        size_t size = strlen(known[i].word);
-        size_t left = file.size - (size_t)(words - at);
-        if (left > size && memcmp(words, known[i].word, size) == 0 && words[size] == ';') {
-            kind = known[i].kind;
-        }
+    if (!fgets(line, sizeof line, file)) {
+        line[0] = '\0';
     }
-    lrcs_host_file_free(&file);
-    return kind;
+    fclose(file);
+    if (strncmp(line, "setting,method,", 15) == 0) {
+        return TABLE_CONVERGE;
+    }
+    sscanf(line, "# lrcs %*s %15[a-z];", command);
+    return strcmp(command, "profile") == 0      ? TABLE_PROFILE
+           : strcmp(command, "statistics") == 0 ? TABLE_STATISTICS
+                                                : TABLE_NONE;
+}
+
+static int job_refuse(const table_job *job, const char *what, lrcs_host_error *error)
+{
+    snprintf(error->text, sizeof error->text, "%s: %s", job->path, what);
+    return LRCS_E_SYNTAX;
+}
+
+/* Copies bytes as a text. */
+static int text_copy(table_job *job, const void *bytes, size_t size, lrcs_host_error *error)
+{
+    job->text = malloc(size + 1);
+    if (!job->text) {
+        return job_refuse(job, "out of memory", error);
+    }
+    memcpy(job->text, bytes, size);
+    job->text[size] = '\0';
+    return LRCS_OK;
+}
+
+/* The first line without "# ". */
+static int about_of_line(table_job *job, lrcs_host_error *error)
+{
+    const char *line = (const char *)job->file.bytes;
+    const char *end = memchr(line, '\n', job->file.size);
+    int status = text_copy(job, line, end ? (size_t)(end - line) : job->file.size, error);
+    if (status == LRCS_OK) {
+        job->text[strcspn(job->text, "\r")] = '\0';
+        job->about = job->text + 2;
+    }
+    return status;
+}
+
+/* The text of the key CLI_ABOUT in FILE.csv.json, which must state the hash of this table. */
+static int about_of_json(table_job *job, lrcs_host_error *error)
+{
+    static const char key[] = "\"" CLI_ABOUT "\": \"";
+    char hash[48];
+    lrcs_host_file json;
+    size_t room = strlen(job->path) + sizeof CLI_BESIDE;
+    char *name = malloc(room);
+    if (!name) {
+        return job_refuse(job, "out of memory", error);
+    }
+    snprintf(name, room, "%s" CLI_BESIDE, job->path);
+    int status = lrcs_host_file_read(name, &json, error);
+    free(name);
+    if (status != LRCS_OK) {
+        return job_refuse(job,
+                          "expected its FILE" CLI_BESIDE ", which lrcs converge writes beside "
+                          "it and which states the truth",
+                          error);
+    }
+    status = text_copy(job, json.bytes, json.size, error);
+    lrcs_host_file_free(&json);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    snprintf(hash, sizeof hash, "\"hash\": \"fnv1a:%016llx\"",
+             (unsigned long long)cli_sum_more(CLI_SUM_BEGIN, job->file.bytes, job->file.size));
+    char *at = strstr(job->text, key);
+    if (!at || !strstr(job->text, hash)) {
+        return job_refuse(job, "is not the table that its FILE" CLI_BESIDE " describes", error);
+    }
+    job->about = at + strlen(key);
+    cli_json_unquote(job->about);
+    return LRCS_OK;
 }
 
 /* ---- rows ---- */
@@ -117,8 +142,7 @@ static int profile_row_take(table_job *job, const uint32_t column[5], lrcs_host_
     double value[5] = {0.0}; /* near, far, glint, diffuse, pulse */
     profile_row *more = realloc(profile->row, (profile->rows + 1) * sizeof *more);
     if (!more) {
-        snprintf(error->text, sizeof error->text, "out of memory");
-        return LRCS_E_SYSTEM;
+        return job_refuse(job, "out of memory", error);
     }
     profile->row = more;
     for (int i = 0; i < 5 && column[i] != LRCS_NONE; i++) {
@@ -149,38 +173,142 @@ static int profile_read(table_job *job, lrcs_host_error *error)
     int status = columns_find(job, name, 4, column, error);
     column[4] = lrcs_host_table_column(&job->table, "pulse_m");
     profile->title = job->title;
-    profile->open = head_text(&job->file, "materials", text);
-    profile->profile.list.sigma_diffuse_m2 = head_number(&job->file, "sigma_m2");
-    profile->fwhm_m = column[4] != LRCS_NONE ? head_number(&job->file, "pulse_fwhm_m") : 0.0;
+    profile->about = job->about;
+    profile->open = cli_key_text(job->about, "materials", text, sizeof text);
+    profile->profile.list.sigma_diffuse_m2 = cli_key_number(job->about, "sigma_m2");
+    profile->fwhm_m = column[4] != LRCS_NONE ? cli_key_number(job->about, "pulse_fwhm_m") : 0.0;
     while (status == LRCS_OK && (more = lrcs_host_table_read(&job->table, error)) != 0) {
         status = more < 0 ? more : profile_row_take(job, column, error);
     }
     return status;
 }
 
-/* ---- the drawing ---- */
+/* The columns of a comparison that the chart needs. */
+enum {
+    ROW_SETTING,
+    ROW_METHOD,
+    ROW_RESOLUTION,
+    ROW_TIME,
+    ROW_ERROR,
+    ROW_BOUND,
+    ROW_ESTIMATE,
+    ROWS
+};
 
-static void about_write(FILE *out, const void *context)
+/* The kind of a setting, and its digits, from its name as measure.c gives it. The method of a
+   preview is that which auto chose. */
+static int setting_name_read(table_job *job, const uint32_t column[ROWS], converge_setting *setting,
+                             lrcs_host_error *error)
 {
-    const table_job *job = context;
-    const char *at = (const char *)job->file.bytes;
-    const char *end = memchr(at, '\n', job->file.size);
-    size_t size = end ? (size_t)(end - at) : job->file.size;
-    if (size > 2) {
-        fwrite(at + 2, 1, size - 2 - (at[size - 1] == '\r'), out);
+    static const int dial[] = {[LRCS_METHOD_ZBUFFER] = CONVERGE_ZBUFFER,
+                               [LRCS_METHOD_FACET] = CONVERGE_FACET,
+                               [LRCS_METHOD_EXACT] = CONVERGE_EXACT,
+                               [LRCS_METHOD_CLOSED] = CONVERGE_CLOSED};
+    const lrcs_host_field *name = &job->table.field[column[ROW_SETTING]];
+    const lrcs_host_field *method = &job->table.field[column[ROW_METHOD]];
+    snprintf(setting->name, sizeof setting->name, "%.*s", (int)name->size, name->text);
+    const char *digits = strstr(setting->name, " 1e-");
+    setting->method = -1;
+    for (int i = 0; i < (int)(sizeof dial / sizeof dial[0]); i++) {
+        if (i != LRCS_METHOD_AUTO && lrcs_host_field_is(method, lrcs_method_text(i))) {
+            setting->method = i;
+            setting->dial = dial[i];
+        }
     }
+    if (setting->method < 0) {
+        return lrcs_host_field_refuse(&job->table, LRCS_E_SYNTAX, column[ROW_METHOD], "a method",
+                                      error);
+    }
+    if (digits &&
+        strncmp(setting->name, CONVERGE_PREVIEW_NAME, strlen(CONVERGE_PREVIEW_NAME)) == 0) {
+        setting->dial = CONVERGE_PREVIEW;
+        setting->digits = (int)strtol(digits + 4, NULL, 10);
+    } else if (digits) {
+        long mesh = strtol(digits + 4, NULL, 10);
+        if (mesh < 1 || mesh > CONVERGE_MESHES) {
+            return lrcs_host_field_refuse(&job->table, LRCS_E_SYNTAX, column[ROW_SETTING],
+                                          "a mesh of 1e-1 .. 1e-6", error);
+        }
+        setting->dial = CONVERGE_MESH;
+        setting->mesh = (uint32_t)mesh - 1;
+        job->converge.mesh[mesh - 1].digits = (int)mesh;
+    }
+    return LRCS_OK;
 }
+
+static int converge_row_take(table_job *job, const uint32_t column[ROWS], lrcs_host_error *error)
+{
+    converge_job *converge = &job->converge;
+    converge_setting *setting = &converge->setting[converge->settings];
+    double value[ROWS];
+    if (converge->settings == CONVERGE_SETTINGS) {
+        return job_refuse(job, "has too many rows for lrcs converge", error);
+    }
+    int status = setting_name_read(job, column, setting, error);
+    for (int i = ROW_RESOLUTION; i < ROWS && status == LRCS_OK; i++) {
+        int known = i == ROW_TIME || i == ROW_ERROR || job->table.field[column[i]].size > 0;
+        value[i] = i == ROW_RESOLUTION ? 0.0 : -1.0;
+        status = known ? lrcs_host_field_read(&job->table, column[i], "a number", &value[i], error)
+                       : LRCS_OK;
+        if (status == LRCS_OK && known && !(value[i] >= 0.0 && value[i] < 1e300)) {
+            status = lrcs_host_field_refuse(&job->table, LRCS_E_NUMBER, column[i], "a number >= 0",
+                                            error);
+        }
+    }
+    if (status == LRCS_OK) {
+        setting->resolution = (uint32_t)value[ROW_RESOLUTION];
+        setting->pose_s = 1e-3 * value[ROW_TIME];
+        setting->error_m2 = value[ROW_ERROR];
+        setting->bound_m2 = value[ROW_BOUND];
+        setting->estimate_m2 = value[ROW_ESTIMATE];
+        converge->settings++;
+    }
+    return status;
+}
+
+static int converge_read(table_job *job, lrcs_host_error *error)
+{
+    static const char *const name[ROWS] = {"setting",  "method",   "resolution", "pose_ms",
+                                           "error_m2", "bound_m2", "estimate_m2"};
+    char text[TABLE_TEXT];
+    uint32_t column[ROWS];
+    converge_job *converge = &job->converge;
+    converge_truth *truth = &converge->truth;
+    int more;
+    int status = columns_find(job, name, ROWS, column, error);
+    converge->title = job->title;
+    converge->about = job->about;
+    truth->sigma_m2 = cli_key_number(job->about, "truth_m2");
+    truth->bound_m2 = cli_key_number(job->about, "truth_bound_m2");
+    truth->whole =
+        cli_key_text(job->about, "truth_of", text, sizeof text) && strcmp(text, "shapes") == 0;
+    cli_key_text(job->about, "truth", truth->text, sizeof truth->text);
+    converge->pose = lrcs_pose_default();
+    if (status == LRCS_OK && (!(truth->sigma_m2 >= 0.0) || !(truth->bound_m2 >= 0.0) ||
+                              !cli_key_text(job->about, "direction", text, sizeof text) ||
+                              cli_list(text, converge->pose.direction, 3) != 0)) {
+        status = job_refuse(job, "its " CLI_BESIDE " file states no truth or direction", error);
+    }
+    while (status == LRCS_OK && (more = lrcs_host_table_read(&job->table, error)) != 0) {
+        status = more < 0 ? more : converge_row_take(job, column, error);
+    }
+    return status;
+}
+
+/* ---- the drawing ---- */
 
 static int svg_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const table_job *job = context;
-    return cli_profile_chart(&job->profile, 0, out, error);
+    return job->kind == TABLE_CONVERGE ? cli_converge_chart(&job->converge, 0, out, error)
+                                       : cli_profile_chart(&job->profile, 0, out, error);
 }
 
 static int png_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const table_job *job = context;
-    return cli_profile_chart(&job->profile, 1, out, error);
+    return job->kind == TABLE_CONVERGE ? cli_converge_chart(&job->converge, 1, out, error)
+                                       : cli_profile_chart(&job->profile, 1, out, error);
 }
 
 /* Reads the whole table, from the names of its columns. */
@@ -190,8 +318,12 @@ static int job_read(table_job *job, lrcs_host_error *error)
     if (status != LRCS_OK) {
         return status;
     }
+    status = job->kind == TABLE_CONVERGE ? about_of_json(job, error) : about_of_line(job, error);
+    if (status != LRCS_OK) {
+        return status;
+    }
     job->table = lrcs_host_table_make(job->path, &job->file);
-    if (!head_text(&job->file, "title", job->title)) {
+    if (!cli_key_text(job->about, "title", job->title, sizeof job->title)) {
         snprintf(job->title, sizeof job->title, "%.200s", cli_base_name(job->path));
     }
     int named = lrcs_host_table_read(&job->table, error);
@@ -199,15 +331,14 @@ static int job_read(table_job *job, lrcs_host_error *error)
         return named;
     }
     lrcs_host_table_names(&job->table);
-    status = profile_read(job, error);
-    if (status == LRCS_OK && job->profile.rows == 0) {
-        snprintf(error->text, sizeof error->text, "%s: has no rows: nothing to draw", job->path);
-        return LRCS_E_SYNTAX;
+    status = job->kind == TABLE_CONVERGE ? converge_read(job, error) : profile_read(job, error);
+    if (status == LRCS_OK && job->profile.rows + job->converge.settings == 0) {
+        return job_refuse(job, "has no rows: nothing to draw", error);
     }
     return status;
 }
 
-int cli_table_draw(const cli_args *args, const char *path)
+int cli_table_draw(const cli_args *args, const char *path, int kind)
 {
     lrcs_host_error error;
     table_job *job = calloc(1, sizeof *job);
@@ -215,16 +346,15 @@ int cli_table_draw(const cli_args *args, const char *path)
         return cli_out_of_memory();
     }
     job->path = path;
+    job->kind = kind;
     int code = job_read(job, &error) == LRCS_OK ? 0 : cli_failed(&error);
-    job->about = code == 0 ? cli_text_of(about_write, job) : NULL;
-    job->profile.about = job->about;
     for (int i = 0; i < args->given_count && code == 0; i++) {
         const char *out = args->given[i].value;
         if (strcmp(args->given[i].name, "o") == 0) {
             code = cli_output_write(out, cli_extension(out, ".png") ? png_write : svg_write, job);
         }
     }
-    free(job->about);
+    free(job->text);
     free(job->profile.row);
     lrcs_host_file_free(&job->file);
     free(job);

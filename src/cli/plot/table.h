@@ -6,11 +6,12 @@
 #include "cli/cli.h"
 
 /* What the first line of a file says that it is; TABLE_NONE for everything else. */
-enum table_kind { TABLE_NONE, TABLE_PROFILE, TABLE_STATISTICS };
+enum table_kind { TABLE_NONE, TABLE_PROFILE, TABLE_CONVERGE, TABLE_STATISTICS };
 
 int cli_table_kind(const char *path);
 
-/* Draws a range profile as every -o. 0, or CLI_FAILED with the message printed. */
-int cli_table_draw(const cli_args *args, const char *path);
+/* Draws a range profile or a comparison of lrcs converge as every -o. 0, or CLI_FAILED with the
+   message printed. */
+int cli_table_draw(const cli_args *args, const char *path, int kind);
 
 #endif

@@ -128,7 +128,7 @@ static int image_write(FILE *out, const void *context, lrcs_host_error *error)
 static int table_write(const run_job *job, const char *path, cli_writer *write)
 {
     int code = path ? cli_output_write(path, write, job) : 0;
-    return code == 0 && path ? cli_provenance_beside(job->args, path, &job->scene, &job->pose)
+    return code == 0 && path ? cli_provenance_beside(job->args, path, &job->scene, &job->pose, NULL)
                              : code;
 }
 

@@ -73,15 +73,14 @@ static int head_options(const cli_args *args, const sweep_plan *plan,
 static int head_scene(const cli_args *args, const lrcs_host_scene *scene, sweep_head *head)
 {
     static const char *const told[] = {"unit", "material", "two-sided", "keep-transparent", NULL};
-    char text[400];
+    char text[CLI_FILE_TEXT];
     head_add(head, "normals", lrcs_normals_text(scene->scene.normals));
     head_add(head, "title", cli_base_name(cli_scene_title(args, scene)));
     if (cli_materials_open(&scene->scene)) {
         head_add(head, "materials", "illustrative or assumed");
     }
     for (const lrcs_host_input *input = scene->input; input; input = input->next) {
-        snprintf(text, sizeof text, "%.300s fnv1a:%016llx", cli_base_name(input->path),
-                 (unsigned long long)input->hash);
+        cli_file_text(input->path, input->hash, text);
         if (!head_add(head, "files", text)) {
             break; /* the scene's hash stands for all of them */
         }

@@ -33,22 +33,6 @@ static int word_put(sweep_data *data, const char *key, const char *text)
     return 0;
 }
 
-/* Terminates the text at its closing quote, with "" in CSV or \" in JSON replaced by a quote;
-   returns what follows. */
-static char *quoted_end(char *at, char escape)
-{
-    char *to = at;
-    for (; *at && *at != '"'; at++) {
-        if (*at == escape && at[1]) {
-            at++;
-        }
-        *to++ = *at;
-    }
-    char *next = *at ? at + 1 : at;
-    *to = '\0';
-    return next;
-}
-
 /* A CSV field of the line of column names; returns the next field, or NULL. */
 static char *csv_name(char *at, const char **name)
 {
@@ -73,28 +57,16 @@ static char *csv_name(char *at, const char **name)
     return end + 1;
 }
 
-/* The place where the next "; key=" begins, or NULL; a title may also contain "; ". */
-static char *csv_next(char *at)
-{
-    for (at = strstr(at, "; "); at; at = strstr(at + 1, "; ")) {
-        size_t size = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz_-");
-        if (size > 0 && at[2 + size] == '=') {
-            break;
-        }
-    }
-    return at;
-}
-
 /* "# lrcs VERSION sweep; key=text; ..", and the line of names. */
 static int csv_words(sweep_data *data, char *line)
 {
     char *names = strchr(line, '\n');
     *names++ = '\0';
     names[strcspn(names, "\n")] = '\0';
-    for (char *at = csv_next(line); at;) {
+    for (char *at = cli_key_next(line); at;) {
         char *key = at + 2;
         char *text = strchr(key, '=');
-        at = csv_next(text);
+        at = cli_key_next(text);
         if (at) {
             *at = '\0';
         }
@@ -117,18 +89,18 @@ static int json_words(sweep_data *data, char *line)
     uint32_t columns = 0;
     for (char *at = strchr(line, '"'); at;) {
         const char *key = at + 1;
-        at = quoted_end(at + 1, '\\');
+        at = cli_json_unquote(at + 1);
         at += strspn(at, ": ");
         if (*at == '"') {
             const char *text = at + 1;
-            at = quoted_end(at + 1, '\\');
+            at = cli_json_unquote(at + 1);
             if (word_put(data, key, text) != 0) {
                 return -1;
             }
         } else if (strcmp(key, "columns") == 0) {
             for (at++; *at == '"' && columns < data->text.columns; at += strspn(at, ", ")) {
                 data->column[columns++] = at + 1;
-                at = quoted_end(at + 1, '\\');
+                at = cli_json_unquote(at + 1);
             }
         }
         at = strchr(at, '"');
