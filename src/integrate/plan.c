@@ -3,8 +3,6 @@
    the effects that the options switch off or on. */
 #include "integrate/plan.h"
 
-#include "integrate/tessellation.h"
-
 /* The first raster whose bound is to meet the tolerance. */
 #define FIRST_SIZE 512u
 
@@ -87,19 +85,6 @@ static void plan_method(lrcsi_plan *plan, const lrcsi_clear *clear, const lrcs_r
     }
 }
 
-/* How facets that stand for curved shapes are dealt with. Where back sides are left out of a scene
-   that shows some, the true surfaces are not known, and there is no band. Without one, visibility
-   is that of the true shapes if no front facet is hidden, or if no search was made: then everything
-   that could be hidden is part of the bound. */
-static void plan_tessellation(const lrcsi_view *view, lrcsi_plan *plan)
-{
-    const lrcs_prepared *p = view->prepared;
-    plan->proximity_band = p->proximity.reach && (view->backs_cast || p->solid);
-    plan->tessellation_known =
-        lrcsi_tessellation_known(p, plan->unshadowed) &&
-        (plan->unshadowed || plan->proximity_band || plan->method == LRCS_METHOD_FACET);
-}
-
 lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
                            const lrcs_run_options *options)
 {
@@ -110,12 +95,13 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
     plan.no_back_hidden = !view->backs_cast || view->front == 0 || view->back == 0;
     plan.nothing_hidden = p->convex && plan.no_back_hidden;
     plan.shadows_forced = has_effect(options->with, LRCS_EFFECT_SELF_SHADOWING);
+    /* where back sides are left out of a scene that shows some, its true surfaces are not known */
+    plan.proximity_band = p->proximity.reach && (view->backs_cast || p->solid);
     plan.patches = p->curved;
     plan.glint = plan_term(options, LRCS_EFFECT_GLINT);
     plan.diffuse = plan_term(options, LRCS_EFFECT_DIFFUSE);
     plan.size = options->resolution != 0 ? options->resolution : FIRST_SIZE;
     plan_method(&plan, clear, options);
-    plan_tessellation(view, &plan);
     return plan;
 }
 

@@ -716,7 +716,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
             facet_add_profile(run, facet, &o);
         }
     }
-    if (status != LRCS_OK || !p->curved || !run->plan.tessellation_known) {
+    if (status != LRCS_OK || !p->curved || !lrcsi_tessellation_known(p, &run->plan)) {
         return status;
     }
     if (run->band) {
@@ -766,7 +766,7 @@ static void profile_finish(const profile_run *run, lrcs_profile *profile)
     profile->bound_m2 = lrcsi_bound_area(
         p, (run->bound + run->tessellation + (glint + diffuse) * adding) * outward);
     profile->curvature_estimate_m2 = p->smooth ? lrcsi_bound_area(p, run->estimate * outward) : -1;
-    profile->tessellation_known = !p->curved || run->plan.tessellation_known;
+    profile->tessellation_known = !p->curved || lrcsi_tessellation_known(p, &run->plan);
     profile->range_err_m = ldexp(run->range_err, p->exponent);
 }
 

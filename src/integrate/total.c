@@ -842,7 +842,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     }
     if (plan->method == LRCS_METHOD_CLOSED) {
         job.sums.tessellation = 0;
-    } else if (p->curved && plan->tessellation_known) {
+    } else if (p->curved && lrcsi_tessellation_known(p, plan)) {
         sum_tessellation(&job);
     } else if (p->curved) {
         job.sums.tessellation = -HUGE_VAL;
