@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "random.h"
 
 typedef struct obj_case {
     char *bytes;
@@ -588,7 +589,7 @@ static void flipped_bytes_are_read_or_refused(void **state)
         char bytes[sizeof sample];
         memcpy(bytes, sample, sizeof sample);
         for (int k = 0; k <= i % 4; k++) {
-            seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+            random_mmix(&seed);
             size_t at = (size_t)(seed >> 33) % (sizeof sample - 1);
             unsigned char bit = (unsigned char)(1u << (seed >> 29 & 7));
             bytes[at] = (seed >> 28 & 1) ? spice[(seed >> 20 & 255) % (sizeof spice - 1)]

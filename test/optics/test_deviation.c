@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "random.h"
 
 typedef struct body {
     int kind, parts;
@@ -143,8 +144,7 @@ static void facets_err_by_less_than_their_bound(void **state)
 /* A number between low and high, evenly in its logarithm. */
 static double draw(uint64_t *seed, double low, double high)
 {
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return low * pow(high / low, (double)(*seed >> 11) * 0x1p-53);
+    return low * pow(high / low, random_fraction(random_mmix(seed)));
 }
 
 /* F at an angle; polar coordinates (turn, azimuth) about a normal at theta give the angle. */

@@ -65,13 +65,13 @@ static void degenerate_and_omitted_facets_take_no_part(void **state)
    short beside its sides. */
 static void sliver_of(uint64_t *seed, int64_t x[3][3])
 {
-    int64_t k = 1 + scene_random(seed, 1 << 14);
-    int64_t m = scene_random(seed, 1 << 14);
+    int64_t k = 1 + random_below(seed, 1 << 14);
+    int64_t m = random_below(seed, 1 << 14);
     for (int i = 0; i < 3; i++) {
-        int64_t e = (int64_t)scene_random(seed, 1 << 12) - (1 << 11);
-        x[0][i] = (int64_t)scene_random(seed, 1 << 26) - (1 << 25);
+        int64_t e = (int64_t)random_below(seed, 1 << 12) - (1 << 11);
+        x[0][i] = (int64_t)random_below(seed, 1 << 26) - (1 << 25);
         x[1][i] = x[0][i] + k * e;
-        x[2][i] = x[0][i] + m * e + (int64_t)scene_random(seed, 3) - 1;
+        x[2][i] = x[0][i] + m * e + (int64_t)random_below(seed, 3) - 1;
     }
 }
 

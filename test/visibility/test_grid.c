@@ -13,7 +13,7 @@ static uint64_t seed;
 /* Exact in binary: from 0 to `most`. */
 static double random_to(double most)
 {
-    return most * scene_random(&seed, 4096) / 4096;
+    return most * random_below(&seed, 4096) / 4096;
 }
 
 /* Triangles one above the other that all reach over half of the view. */

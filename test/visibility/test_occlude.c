@@ -292,8 +292,8 @@ static void needles_turned_over_by_rounding_hide_nothing(void **state)
     uint64_t seed = 3;
     double worst = 0;
     for (int i = 0; i < 4000; i++) {
-        double length = ldexp(1, -(int)scene_random(&seed, 30));
-        double angle = 0.001 * scene_random(&seed, 6283);
+        double length = ldexp(1, -(int)random_below(&seed, 30));
+        double angle = 0.001 * random_below(&seed, 6283);
         double error;
         const double a[3] = {0.7 + 0.0001 * i, 1.3 - 0.0001 * i, 0.3 * length};
         double b[3] = {a[0] + length * cos(angle), a[1] + length * sin(angle), -0.7 * length};
