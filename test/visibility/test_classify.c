@@ -32,7 +32,7 @@ static uint32_t square(double x, double y, double z, double size)
                        (const double[3]){0, size, 0});
 }
 
-static void body_alone_is_uncontested(void **state)
+static void a_body_alone_has_no_undecided_facets(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -75,7 +75,7 @@ static void winding_that_changes_makes_no_events(void **state)
 
 /* A square of side 1 over the lower right half of a square of side 4, whose diagonal runs from
    (0, 0) to (4, 4): its four rims cross facet 0 and none crosses facet 1. */
-static void rims_in_front_contest_what_they_cross(void **state)
+static void boundary_edges_in_front_make_facets_that_they_cross_undecided(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -119,7 +119,7 @@ static void crossings_are_searched_for_once(void **state)
 /* A rim that projects exactly onto another plate's rim, or only touches it, crosses nothing. */
 /* A slope over which a level edge passes underneath, lower than all of it; but far to the left,
    where the slope is no more, the edge is above the slope's plane. */
-static void rims_behind_all_of_a_facet_do_not_contest_it(void **state)
+static void boundary_edges_behind_a_facet_do_not_make_it_undecided(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -137,7 +137,7 @@ static void rims_behind_all_of_a_facet_do_not_contest_it(void **state)
     assert_true(classification.undecided[1]);
 }
 
-static void rims_along_rims_contest_nothing(void **state)
+static void boundary_edges_along_boundary_edges_make_nothing_undecided(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -152,7 +152,7 @@ static void rims_along_rims_contest_nothing(void **state)
     assert_int_equal(lrcsi_query_facet(&facets, 8, NULL), LRCSI_QUERY_HIDDEN);
 }
 
-static void piercing_and_overlapping_facets_contest_each_other(void **state)
+static void piercing_and_overlapping_facets_make_each_other_undecided(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -404,7 +404,7 @@ static void events_stand_in_order_of_depth(void **state)
 
 /* Triangles in a stack, each crossed by edges of all above it, of which most look as if they might:
    asking each about every edge in front of it took 15 million steps for 1,000. */
-static void stacked_facets_are_told_in_linear_time(void **state)
+static void stacked_facets_are_classified_in_linear_time(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -455,20 +455,20 @@ static void needles_about_a_tip_are_decided(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(body_alone_is_uncontested),
+        cmocka_unit_test(a_body_alone_has_no_undecided_facets),
         cmocka_unit_test(winding_that_changes_makes_no_events),
-        cmocka_unit_test(rims_in_front_contest_what_they_cross),
+        cmocka_unit_test(boundary_edges_in_front_make_facets_that_they_cross_undecided),
         cmocka_unit_test(crossings_are_searched_for_once),
-        cmocka_unit_test(rims_behind_all_of_a_facet_do_not_contest_it),
-        cmocka_unit_test(rims_along_rims_contest_nothing),
-        cmocka_unit_test(piercing_and_overlapping_facets_contest_each_other),
+        cmocka_unit_test(boundary_edges_behind_a_facet_do_not_make_it_undecided),
+        cmocka_unit_test(boundary_edges_along_boundary_edges_make_nothing_undecided),
+        cmocka_unit_test(piercing_and_overlapping_facets_make_each_other_undecided),
         cmocka_unit_test(uniform_neighbours_form_regions),
         cmocka_unit_test(a_rim_along_a_shared_edge_parts_regions),
         cmocka_unit_test(a_plane_through_a_shared_edge_parts_regions),
         cmocka_unit_test(components_end_at_contours),
         cmocka_unit_test(whole_components_screen_and_others_do_not),
         cmocka_unit_test(events_stand_in_order_of_depth),
-        cmocka_unit_test(stacked_facets_are_told_in_linear_time),
+        cmocka_unit_test(stacked_facets_are_classified_in_linear_time),
         cmocka_unit_test(needles_about_a_tip_are_decided),
         cmocka_unit_test(grids_list_every_item_wherever_it_stands),
         cmocka_unit_test(grids_have_complete_lists_where_they_are_read),
