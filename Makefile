@@ -25,6 +25,8 @@ WARN     = -Wall -Wextra -Werror -Wshadow -Wconversion -Wsign-conversion -Wstric
            -Wmissing-prototypes -Wold-style-definition -Wcast-qual -Wcast-align -Wwrite-strings \
            -Wpointer-arith -Wformat=2 -Wundef -Wvla -Wswitch-enum -Wdouble-promotion
 CFLAGS   =
+# One compilation serves the static and the shared library.
+PIC      = -fPIC -fno-semantic-interposition
 THREADS  = -pthread
 LDLIBS   = $(THREADS) -lm
 
@@ -215,11 +217,13 @@ ESTIMATE_SEED       = 1
 ESTIMATE_MODELS     =
 
 # The tessellation bound on SHADOWS_SCENES scenes of curved shapes in contact, flush, nested, pierced:
-# a coarse mesh against a fine one, and meshes against rays over the true shapes.
-shadows: cmocka $(BUILD)/test/integrate/test_proximity_band
+# a coarse mesh against a fine one, and meshes against rays over the true shapes. Then closed forms of
+# shapes that nothing hides against meshes, on as many scenes.
+shadows: cmocka $(BUILD)/test/integrate/test_proximity_band $(BUILD)/test/integrate/test_shapes
 	$(BUILD)/test/integrate/test_proximity_band $(SHADOWS_SCENES) $(SHADOWS_SEED)
 	$(BUILD)/test/integrate/test_proximity_band $(SHADOWS_SCENES) $(SHADOWS_SEED) 24
-SHADOWS_SCENES = 280
+	$(BUILD)/test/integrate/test_shapes $(SHADOWS_SCENES) $(SHADOWS_SEED)
+SHADOWS_SCENES = 420
 SHADOWS_SEED   = 1
 
 # What loading, preparing and whole poses cost on this machine: real models, generated scenes and
@@ -310,13 +314,12 @@ $(LIB): $(CORE_OBJ) $(ABOVE_OBJ) $(HOST_OBJ)
 	$(call say,ar)
 	$(Q)$(AR) rcs $@ $^
 
-# The same objects once more as position-independent code; only lrcs_ names are to be seen.
+# Only lrcs_ names are exported.
 $(SHARED): $(LIB)
-	$(MAKE) BUILD=$(BUILD)/pic CFLAGS="$(CFLAGS) -fPIC" $(BUILD)/pic/liblrcs.a
 	$(Q)echo '{ global: lrcs_*; local: *; };' >$(BUILD)/lrcs.map
 	$(call say,link)
 	$(Q)$(CC) -shared -o $@ -Wl,-soname,$(SONAME) -Wl,--version-script,$(BUILD)/lrcs.map \
-	    -Wl,--whole-archive $(BUILD)/pic/liblrcs.a -Wl,--no-whole-archive $(LDLIBS)
+	    -Wl,--whole-archive $(LIB) -Wl,--no-whole-archive $(LDLIBS)
 
 $(BUILD)/lrcs.pc: include/lrcs/status.h Makefile
 	@mkdir -p $(@D)
@@ -333,7 +336,7 @@ $(BUILD)/src/cli/%.o: src/cli/%.c
 $(BUILD)/src/host/%.o: src/host/%.c
 	@mkdir -p $(@D)
 	$(call say,cc)
-	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) $(THREADS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(PIC) $(CFLAGS) $(THREADS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
 
 $(JOINED)/lrcs.c: src/amalgamate.sh $(CORE_SRC) $(wildcard $(CORE:%=src/%/*.h) include/lrcs/*.h)
 	$(call say,join)
@@ -370,6 +373,9 @@ $(INCLUDED):
 	$(call say,gen)
 	$(Q)od -An -v -td1 $< | sed 's/-*[0-9][0-9]*/&,/g' >$@
 
+# The flags stand in this file.
+$(CORE_OBJ) $(ABOVE_OBJ) $(HOST_OBJ): Makefile
+
 $(BUILD)/src/host/demo.o: $(BUILD)/demo.inc
 $(BUILD)/src/cli/report/explore.o: $(BUILD)/explore.inc
 $(BUILD)/src/cli/vectors/index.o: $(BUILD)/readme.inc
@@ -377,7 +383,7 @@ $(BUILD)/src/cli/vectors/index.o: $(BUILD)/readme.inc
 $(BUILD)/src/%.o: src/%.c
 	@mkdir -p $(@D)
 	$(call say,cc)
-	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(CFLAGS) -Iinclude -Isrc -MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(PIC) $(CFLAGS) -Iinclude -Isrc -MMD -MP -c -o $@ $<
 
 $(BUILD)/examples/%: examples/%.c $(LIB)
 	@mkdir -p $(@D)

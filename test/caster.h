@@ -10,6 +10,8 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "random.h"
+
 #define CAST_PI     3.14159265358979323846
 #define CAST_REPEAT 16
 
@@ -40,15 +42,6 @@ typedef struct cast_scene {
 typedef struct cast_answer {
     double sigma, error;
 } cast_answer;
-
-static inline double cast_random(cast_scene *s)
-{
-    s->seed += UINT64_C(0x9e3779b97f4a7c15); /* splitmix64 */
-    uint64_t z = s->seed;
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
 
 static inline void cast_disc(cast_scene *s, cast_surface like, double radius, double at,
                              double sign)
@@ -338,8 +331,8 @@ static inline cast_answer cast_run(cast_scene *s, const double d[3], int side)
     for (int repeat = 0; repeat < CAST_REPEAT; repeat++) {
         double sigma = 0;
         for (int i = 0; i < s->count * side * side; i++) {
-            double u = (i / s->count % side + cast_random(s)) / side;
-            double v = (i / s->count / side + cast_random(s)) / side;
+            double u = (i / s->count % side + random_unit(&s->seed)) / side;
+            double v = (i / s->count / side + random_unit(&s->seed)) / side;
             sigma += cast_sample(s, &s->surface[i % s->count], u, v, d) / side / side;
         }
         got[repeat] = sigma;

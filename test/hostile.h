@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "random.h"
 
 typedef struct hostile_reader {
     int (*count)(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrcs_where *where);
@@ -82,13 +83,10 @@ static inline int check_read(const hostile_reader *reader, const void *bytes, si
     return status;
 }
 
-/* Marsaglia (2003), xorshift64: the same attacks everywhere. */
+/* The same attacks everywhere. */
 static inline uint32_t hostile_random(uint64_t *state)
 {
-    *state ^= *state << 13;
-    *state ^= *state >> 7;
-    *state ^= *state << 17;
-    return (uint32_t)(*state >> 32);
+    return (uint32_t)(random_xorshift(state) >> 32);
 }
 
 /* Every prefix. */

@@ -9,6 +9,8 @@
 
 #include <math.h>
 
+#include "random.h"
+
 #define NASTY_PARTS 5
 #define NASTY_PI    3.14159265358979323846
 
@@ -37,13 +39,9 @@ typedef struct nasty_scene {
 
 static uint64_t nasty_seed = 1;
 
-/* Marsaglia 2003, xorshift64. */
 static uint32_t pick(uint32_t below)
 {
-    nasty_seed ^= nasty_seed << 13;
-    nasty_seed ^= nasty_seed >> 7;
-    nasty_seed ^= nasty_seed << 17;
-    return (uint32_t)((nasty_seed >> 33) % below);
+    return random_below(&nasty_seed, below);
 }
 
 static double between(double low, double high)

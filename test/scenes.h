@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "random.h"
 
 #define SCENE_VERTICES  8192u
 #define SCENE_FACETS    8192u
@@ -158,20 +159,11 @@ static inline void scene_invert(test_scene *s, uint32_t first)
     }
 }
 
-/* Small reproducible numbers (Marsaglia 2003, xorshift64). */
-static inline uint32_t scene_random(uint64_t *seed, uint32_t below)
-{
-    *seed ^= *seed << 13;
-    *seed ^= *seed >> 7;
-    *seed ^= *seed << 17;
-    return (uint32_t)((*seed >> 33) % below);
-}
-
 /* Facets in another order. */
 static inline void scene_shuffle(test_scene *s, uint64_t seed)
 {
     for (uint32_t f = s->scene.facet_count; f > 1; f--) {
-        uint32_t other = scene_random(&seed, f);
+        uint32_t other = random_below(&seed, f);
         lrcs_facet facet = s->facet[f - 1];
         uint32_t material = s->material_of[f - 1];
         s->facet[f - 1] = s->facet[other];

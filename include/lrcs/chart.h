@@ -46,8 +46,7 @@ typedef struct lrcs_host_series {
     int colour, marker, dash; /* lrcs_host_colour, ... */
     int hollow;               /* markers are outlines */
     const double *low, *high; /* the ends of a band at each point, shaded below all lines; an end
-                                 that the axis cannot show lies at its edge; not in polar charts.
-                                 NULL: none */
+                                 that the axis cannot show lies at its edge. NULL: none */
 } lrcs_host_series;
 
 typedef struct lrcs_host_chart {

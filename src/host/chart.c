@@ -13,9 +13,6 @@
 
 #define GRID_MOST 60u /* ticks */
 
-/* The share of its colour in the tint of a band. */
-#define BAND_COLOUR 0.25
-
 typedef struct chart_plan {
     const lrcs_host_chart *chart;
     lrcsi_plotter *plotter;
@@ -268,10 +265,9 @@ static double band_y(const chart_plan *plan, double value)
     return fmin(LRCSI_CHART_BOTTOM, fmax(LRCSI_CHART_TOP, y));
 }
 
-/* A series' band, from point to point, in a light tint of its colour. */
+/* A series' band, from point to point. */
 static void series_band(const chart_plan *plan, const lrcs_host_series *series)
 {
-    uint32_t tint = lrcsi_palette_tint(lrcsi_palette_named(series->colour), BAND_COLOUR);
     for (uint32_t i = 1; series->low && series->high && i < series->count; i++) {
         double x[2] = {series->x[i - 1], series->x[i]};
         if (!chart_shows(plan->chart->x_log, 0.0, &x[0]) ||
@@ -283,7 +279,7 @@ static void series_band(const chart_plan *plan, const lrcs_host_series *series)
             {chart_x(plan, x[0]), band_y(plan, series->high[i - 1])},
             {chart_x(plan, x[1]), band_y(plan, series->high[i])},
             {chart_x(plan, x[1]), band_y(plan, series->low[i])}};
-        plan->plotter->area(plan->plotter, corner, 4, tint);
+        lrcsi_series_band(plan->plotter, series, corner);
     }
 }
 

@@ -40,6 +40,10 @@ static void polar_range(const lrcs_host_chart *chart, double range[2])
                 range[0] = fmin(range[0], y);
                 range[1] = fmax(range[1], y);
             }
+            double high = chart->series[i].high ? chart->series[i].high[k] : y;
+            if (isfinite(high)) { /* low ends may lie far below */
+                range[1] = fmax(range[1], high);
+            }
         }
     }
     range[0] = chart->y_from_0 ? 0.0 : fmax(range[0], range[1] - POLAR_DEEP);
@@ -86,6 +90,28 @@ static void polar_ground(const polar_plan *plan)
     }
 }
 
+/* A point at an angle and a distance; distances that lie below the pole are drawn at it. */
+static lrcsi_plot_point polar_place(const polar_plan *plan, double deg, double value)
+{
+    double part = isfinite(value) ? fmax(lrcsi_axis_at(&plan->axis, value), 0.0) : 0.0;
+    return polar_point(plan, deg, part);
+}
+
+/* A series' band, from point to point. */
+static void polar_band(const polar_plan *plan, const lrcs_host_series *series)
+{
+    for (uint32_t i = 1; series->low && series->high && i < series->count; i++) {
+        const double *x = &series->x[i - 1];
+        if (isfinite(x[0]) && isfinite(x[1])) {
+            const lrcsi_plot_point corner[4] = {polar_place(plan, x[0], series->low[i - 1]),
+                                                polar_place(plan, x[0], series->high[i - 1]),
+                                                polar_place(plan, x[1], series->high[i]),
+                                                polar_place(plan, x[1], series->low[i])};
+            lrcsi_series_band(plan->plotter, series, corner);
+        }
+    }
+}
+
 /* A line as long as its points can be shown; points below the pole are drawn at it. */
 static void polar_line(const polar_plan *plan, const lrcs_host_series *series)
 {
@@ -95,8 +121,7 @@ static void polar_line(const polar_plan *plan, const lrcs_host_series *series)
     for (uint32_t i = 0; i < series->count; i++) {
         int shown = isfinite(series->x[i]) && isfinite(series->y[i]);
         if (shown) {
-            double part = fmax(lrcsi_axis_at(&plan->axis, series->y[i]), 0.0);
-            run[count++] = polar_point(plan, series->x[i], part);
+            run[count++] = polar_place(plan, series->x[i], series->y[i]);
         }
         if (shown && count < sizeof run / sizeof run[0] && i + 1 < series->count) {
             continue;
@@ -167,6 +192,9 @@ void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
     plan.pole.y = LRCSI_CHART_TOP + 0.5 * high;
     double right = plan.pole.x + 0.5 * high + LRCSI_CHART_MARGIN;
     polar_ground(&plan);
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        polar_band(&plan, &chart->series[i]);
+    }
     for (uint32_t i = 0; i < chart->series_count; i++) {
         polar_line(&plan, &chart->series[i]);
     }

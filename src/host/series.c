@@ -9,6 +9,8 @@
 
 #include <math.h>
 
+#define BAND_COLOUR 0.25 /* the share of a colour in the tint of a band */
+
 void lrcsi_chart_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
                         uint32_t colour, double width)
 {
@@ -115,6 +117,16 @@ void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series,
     corner[count] = corner[0];
     plotter->area(plotter, corner, count, series->hollow ? LRCSI_COLOUR_PAPER : colour);
     plotter->line(plotter, corner, count + 1, &ink);
+}
+
+/* In a light tint. A line covers the last side, where the next piece begins, because the
+   background would shine through where two pieces each cover a part of a pixel. */
+void lrcsi_series_band(lrcsi_plotter *plotter, const lrcs_host_series *series,
+                       const lrcsi_plot_point corner[4])
+{
+    uint32_t tint = lrcsi_palette_tint(lrcsi_palette_named(series->colour), BAND_COLOUR);
+    plotter->area(plotter, corner, 4, tint);
+    lrcsi_chart_stroke(plotter, corner[2].x, corner[2].y, corner[3].x, corner[3].y, tint, 0.7);
 }
 
 /* ---- what is said about a chart ---- */

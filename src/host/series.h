@@ -34,6 +34,10 @@ lrcsi_ink lrcsi_series_ink(const lrcs_host_series *series);
 void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series,
                          lrcsi_plot_point at);
 
+/* A piece of a series' band, from its first to its second point: low, high, high, low. */
+void lrcsi_series_band(lrcsi_plotter *plotter, const lrcs_host_series *series,
+                       const lrcsi_plot_point corner[4]);
+
 void lrcsi_chart_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
                         uint32_t colour, double width);
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "random.h"
 #include "starve.h"
 
 #include "../vectors/fit.inc"
@@ -18,12 +19,9 @@ static const double pi = 3.14159265358979323846;
 
 /* ---- readings ---- */
 
-static double random_part(uint64_t *state) /* 0 < x < 1: SplitMix64 (Steele et al. 2014) */
+static double random_part(uint64_t *state) /* 0 < x < 1 */
 {
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return ((double)((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
+    return random_unit(state) + 0x1p-54;
 }
 
 static double random_normal(uint64_t *state) /* Box and Muller 1958 */

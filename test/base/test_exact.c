@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "random.h"
 
 typedef struct sign_case {
     char kind; /* s: side, t: turn */
@@ -125,7 +126,7 @@ static void far_from_the_origin_agrees_with_integers(void **state)
         double x[4][3];
         for (int p = 0; p < 4; p++) {
             for (int k = 0; k < 3; k++) {
-                seed = seed * 6364136223846793005u + 1442695040888963407u;
+                random_mmix(&seed);
                 m[p][k] = (long long)(seed >> 60) - 8;
                 x[p][k] = (double)m[p][k] * 0x1p-20 + 0x1p30;
             }
@@ -170,7 +171,7 @@ static void dot_keeps_its_digits_where_all_but_e_cancels(void **state)
         double x[4][3];
         for (int k = 0; k < 3; k++) {
             for (int v = 0; v < 3; v++) {
-                seed = seed * 6364136223846793005u + 1442695040888963407u;
+                random_mmix(&seed);
                 m[v][k] = (long long)(seed >> 60) - 8;
             }
             x[0][k] = 0.375 * k;

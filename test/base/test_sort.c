@@ -3,16 +3,9 @@
 #include "base/sort.h"
 
 #include "check.h"
+#include "random.h"
 
 enum { MANY = 5000 };
-
-static uint64_t next_random(uint64_t *seed)
-{
-    *seed ^= *seed << 13;
-    *seed ^= *seed >> 7;
-    *seed ^= *seed << 17;
-    return *seed;
-}
 
 /* Sorts random keys under a mask and checks order, stability, and that pairs stay together. */
 static void check_mask(uint64_t mask, uint32_t count)
@@ -21,7 +14,7 @@ static void check_mask(uint64_t mask, uint32_t count)
     static uint32_t value[MANY], value_spare[MANY];
     uint64_t seed = 88172645463325252u;
     for (uint32_t i = 0; i < count; i++) {
-        key[i] = before[i] = next_random(&seed) & mask;
+        key[i] = before[i] = random_xorshift(&seed) & mask;
         value[i] = i;
     }
     lrcsi_sort_pairs(key, value, spare, value_spare, count);

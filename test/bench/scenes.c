@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "bench/measure.h"
+#include "random.h"
 
 #define PI 3.14159265358979323846
 
@@ -266,11 +267,10 @@ void bench_layers(bench_scene *s, uint32_t layers, uint32_t n)
     }
 }
 
-/* In -1 .. 1, from a generator of D. Knuth (MMIX). */
+/* In -1 .. 1. */
 static double random_place(uint64_t *state)
 {
-    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return ldexp((double)(*state >> 12), -51) - 1;
+    return ldexp((double)(random_mmix(state) >> 12), -51) - 1;
 }
 
 void bench_shards(bench_scene *s, uint32_t count, int kind)

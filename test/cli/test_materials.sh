@@ -50,7 +50,7 @@ run run bent.toml --azel 0,70 --json
 same a_bent_sigma_is_sampled "$(printf '%s\n' "$out" | grep -c '"by": "sample"')" 1
 run run bent.toml --azel 0,70
 same and_the_table_says_so "$(printf '%s\n' "$out" | grep -c '^materials    +- .* one standard deviation, from a sample; not in the bound$')" 1
-same the_verdict_names_it "$(printf '%s\n' "$out" | grep -c 'their stated errors leave sigma uncertain by .* % (one standard deviation)$')" 1
+same the_verdict_names_it "$(printf '%s\n' "$out" | grep -c '^  materials  their stated errors leave sigma uncertain by .* % (one standard deviation)$')" 1
 
 # The command line's errors, and a scene file's replaced by them.
 run run exact.toml --azel 0,70 --json --material 'foil=1+-0.1,0.25+-0.01,0.2,0.5'
@@ -182,6 +182,31 @@ same drawn_again_it_is_the_same "$(cmp plotted.svg drawn.svg && echo same)" same
 
 # ---- what pictures were made from ----
 hash=$("$tool" run linear.toml --json | sed -n 's/.*"hash": "\(fnv1a:[0-9a-f]*\)".*/\1/p')
+# Polar diagrams have bands, and maps state numbers.
+"$tool" sweep linear.toml --az 0 --el 60:80:2 --plot polar.svg --polar >/dev/null 2>&1
+"$tool" sweep exact.toml --az 0 --el 60:80:2 --plot bare.svg --polar >/dev/null 2>&1
+same a_polar_band_has_an_area_between_points "$(($(grep -c '<polygon fill="#bfdcec"' polar.svg) - $(grep -c '<polygon fill="#bfdcec"' bare.svg)))" 10
+same and_its_note_says_so "$(grep -c 'shaded: 68 % by the errors of materials' polar.svg bare.svg | tr '\n' ' ')" "polar.svg:1 bare.svg:0 "
+box_scene >box.toml
+for form in "--az 0:80:10 --el 0:80:10" "--sphere 40" "--az 0:80:10 --el 0:80:10 --projection mollweide"; do
+    # shellcheck disable=SC2086 # options are words
+    "$tool" sweep box.toml --material 1+-0.2,0.25+-0.05,0.2,0.5 $form -o rows.csv --plot map.svg >/dev/null 2>&1
+    python3 - "$form" <<'END'
+from tap import check
+import csv, re, sys
+rows = [r for r in csv.DictReader(l for l in open("rows.csv") if l[0] != "#")]
+half = sorted(0.5 * (float(r["material_high_m2"]) - float(r["material_low_m2"])) / float(r["sigma_m2"]) for r in rows if float(r["sigma_m2"]) > 0)
+n = len(half)
+want = (50 * (half[(n - 1) // 2] + half[n // 2]), 100 * half[-1])
+found = re.search(r"errors of materials \(68 %\): \+-([0-9.e+-]+) % of sigma \(median\), \+-([0-9.e+-]+) % \(most\)", open("map.svg").read())
+check("the_note_of_a_map_has_its_uncertainty " + sys.argv[1], n > 30 and found and all(abs(float(a) / b - 1) < 0.06 for a, b in zip(found.groups(), want)), (found and found.groups(), want))
+END
+done
+"$tool" sweep exact.toml --az 0:80:10 --el 0:80:10 --plot map.svg >/dev/null 2>&1
+same without_errors_a_map_says_nothing "$(grep -c 'errors of materials' map.svg)" 0
+run report linear.toml --azel 0,70 --seconds 0.2 -o page.html
+same a_report_says_them_of_two_cuts_and_its_map "$rc $(grep -c 'Errors of its materials' page.html)" "0 3"
+same its_cuts_are_shaded "$(grep -o '<polygon fill="#bfdcec"' page.html | wc -l | awk '{ print ($1 > 20) }')" 1
 same an_svg_names_its_files "$(grep -c "<metadata>lrcs .*files=linear.toml $hash" plotted.svg)" 1
 python3 - "$hash" <<END
 from tap import check

@@ -47,6 +47,6 @@ for scene in 'boxes 2' 'boxes 16' 'boxes 64' 'sheets 8' 'sheets 64' 'random 8' '
         ' - "$folder/lrcs.c.gcov" || bad=1
 done
 # shellcheck disable=SC2086
-gcc -std=c11 -ffp-contract=off -O2 -Iexamples/flight -Iinclude -o "$folder/survey" test/flight/survey.c \
+gcc -std=c11 -ffp-contract=off -O2 -Itest -Iexamples/flight -Iinclude -o "$folder/survey" test/flight/survey.c \
     examples/flight/task.c "$1/lrcs.c" -lm && "$folder/survey" || bad=1
 exit $bad

@@ -6,12 +6,13 @@
 
 #include <stdio.h>
 
+#include "random.h"
+
 #define ATTITUDES 20000u
 
 static double uniform(uint64_t *state)
 {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-52 - 1;
+    return 2 * random_fraction(random_mmix(state)) - 1;
 }
 
 int main(void)

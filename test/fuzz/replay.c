@@ -5,6 +5,7 @@
    a file of its own, as libFuzzer wants them. usage: fuzz_NAME MUTATIONS SEEDS fuzz_NAME unpack
    FOLDER SEEDS */
 #include "fuzz.h"
+#include "random.h"
 
 #define MOST_BYTES 4096u
 #define MOST_SEEDS 256u
@@ -16,13 +17,9 @@ typedef struct replay_seed {
 
 static replay_seed seeds[MOST_SEEDS];
 
-/* Marsaglia (2003), xorshift64. */
 static uint32_t replay_random(uint64_t *state)
 {
-    *state ^= *state << 13;
-    *state ^= *state >> 7;
-    *state ^= *state << 17;
-    return (uint32_t)(*state >> 32);
+    return (uint32_t)(random_xorshift(state) >> 32);
 }
 
 /* In room of its own size, for tools that watch the heap. */

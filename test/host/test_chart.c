@@ -146,6 +146,65 @@ static void what_lies_below_the_floor_has_an_arrow(void **state)
     free(svg);
 }
 
+/* The coordinates of the i-th polygon of a colour; their number. */
+static unsigned polygon_of(const char *svg, const char *colour, unsigned i, double at[16])
+{
+    char begin[64];
+    snprintf(begin, sizeof begin, "<polygon fill=\"%s\" points=\"", colour);
+    const char *from = strstr(svg, begin);
+    for (; from && i > 0; i--) {
+        from = strstr(from + 1, begin);
+    }
+    if (!from) {
+        return 0;
+    }
+    char *rest = (char *)(uintptr_t)from + strlen(begin);
+    unsigned count = 0;
+    while (*rest != '"' && count < 16) {
+        at[count++] = strtod(rest, &rest);
+        rest += *rest == ',' || *rest == ' ';
+    }
+    return count;
+}
+
+static void a_polar_band_lies_between_its_ends(void **state)
+{
+    (void)state;
+    const double x[] = {0.0, 90.0, 180.0};
+    const double y[] = {5.0, 5.0, 5.0};
+    const double low[] = {4.0, -HUGE_VAL, 4.0};
+    const double high[] = {6.0, 8.0, 10.0};
+    const lrcs_host_series series = {.name = "s",
+                                     .count = 3,
+                                     .x = x,
+                                     .y = y,
+                                     .low = low,
+                                     .high = high,
+                                     .marker = LRCS_HOST_NO_MARKER};
+    lrcs_host_chart chart = chart_of(&series, 1);
+    chart.x_log = chart.y_log = 0;
+    chart.polar = chart.y_from_0 = 1;
+    char *svg = svg_of(&chart);
+    double first[16];
+    double second[16];
+    assert_int_equal(polygon_of(svg, "#bfbfbf", 2, second), 0);
+    assert_int_equal(polygon_of(svg, "#bfbfbf", 0, first), 8);
+    assert_int_equal(polygon_of(svg, "#bfbfbf", 1, second), 8);
+    /* An end that is not finite is at the pole; distances are in proportion, the largest value is
+       within the outer ring. */
+    const double pole[2] = {first[6], first[7]};
+    const double unit = 0.25 * (first[0] - pole[0]);
+    const double found[] = {first[1], first[2] - pole[0],  pole[1] - first[5],
+                            first[4], pole[0] - second[4], pole[0] - second[6]};
+    const double want[] = {pole[1], 6.0 * unit, 8.0 * unit, pole[0], 10.0 * unit, 4.0 * unit};
+    for (int i = 0; i < 6; i++) {
+        check_abs(found[i], want[i], 0.05);
+    }
+    assert_true(10.0 * unit < 0.5 * LRCS_HOST_CHART_POLAR_SIDE);
+    assert_int_equal(occurrences(svg, "nan") + occurrences(svg, "inf"), 0);
+    free(svg);
+}
+
 static void points_may_lack_their_line_or_their_markers(void **state)
 {
     (void)state;
@@ -281,6 +340,7 @@ int main(void)
         cmocka_unit_test(a_letter_the_font_lacks_is_one_question_mark),
         cmocka_unit_test(points_an_axis_cannot_show_are_left_out),
         cmocka_unit_test(what_lies_below_the_floor_has_an_arrow),
+        cmocka_unit_test(a_polar_band_lies_between_its_ends),
         cmocka_unit_test(points_may_lack_their_line_or_their_markers),
         cmocka_unit_test(words_are_escaped),
         cmocka_unit_test(linear_axes_have_plain_numbers),

@@ -157,7 +157,7 @@ static void random_polytope(uint64_t *seed)
     scene_start(&scene);
     for (int i = 0; i < POINTS; i++) {
         for (int k = 0; k < 3; k++) {
-            x[i][k] = (double)scene_random(seed, 2 * REACH + 1) - REACH;
+            x[i][k] = (double)random_below(seed, 2 * REACH + 1) - REACH;
         }
         scene_vertex(&scene, x[i][0], x[i][1], x[i][2]);
     }

@@ -11,24 +11,15 @@
 
 #include "base/rotate.h"
 #include "check.h"
+#include "random.h"
 #include "view/view.h"
 
 static unsigned char memory[1u << 26];
 static uint64_t seed = 1;
 
-/* splitmix64, in 0 .. 1. */
-static double chance(void)
-{
-    seed += UINT64_C(0x9e3779b97f4a7c15);
-    uint64_t z = seed;
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
 static double between(double low, double high)
 {
-    return low * pow(high / low, chance());
+    return low * pow(high / low, random_unit(&seed));
 }
 
 /* --- one shape in a view -----------------------------------------------------------------------
@@ -151,14 +142,14 @@ static lrcs_shape any_shape(void)
 {
     static const int kind[] = {LRCS_SHAPE_SPHERE, LRCS_SHAPE_DOME,    LRCS_SHAPE_PARABOLOID,
                                LRCS_SHAPE_CONE,   LRCS_SHAPE_FRUSTUM, LRCS_SHAPE_CYLINDER};
-    lrcs_shape shape = {.kind = kind[(int)(6 * chance())]};
+    lrcs_shape shape = {.kind = kind[(int)(6 * random_unit(&seed))]};
     shape.radius = between(0.1, 2);
     if (shape.kind != LRCS_SHAPE_SPHERE && shape.kind != LRCS_SHAPE_DOME) {
         shape.length = between(0.1, 2);
     }
     shape.radius2 = shape.kind == LRCS_SHAPE_FRUSTUM ? between(0.1, 2) : 0;
-    shape.parts =
-        shape.kind != LRCS_SHAPE_SPHERE && chance() < 0.5 ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
+    shape.parts = shape.kind != LRCS_SHAPE_SPHERE && random_unit(&seed) < 0.5 ? LRCS_SHAPE_WALL
+                                                                              : LRCS_SHAPE_ALL;
     return shape;
 }
 
@@ -173,21 +164,21 @@ static void shape_check(void)
     uint64_t began = seed;
     lrcs_shape shape = any_shape();
     lrcs_place place = lrcs_place_default();
-    const lrcs_brdf brdf = {chance() < 0.7 ? chance() : 0, chance(), between(0.02, 2),
-                            4 * chance() * chance()};
-    double scale = between(0.1, 10) * (chance() < 0.5 ? -1 : 1);
+    const lrcs_brdf brdf = {random_unit(&seed) < 0.7 ? random_unit(&seed) : 0, random_unit(&seed),
+                            between(0.02, 2), 4 * random_unit(&seed) * random_unit(&seed)};
+    double scale = between(0.1, 10) * (random_unit(&seed) < 0.5 ? -1 : 1);
     double d[3];
     double euler[3];
     for (int k = 0; k < 3; k++) {
         place.scale[k] = scale;
-        place.translate[k] = chance();
-        euler[k] = 360 * chance();
-        d[k] = chance() - 0.5;
+        place.translate[k] = random_unit(&seed);
+        euler[k] = 360 * random_unit(&seed);
+        d[k] = random_unit(&seed) - 0.5;
     }
     assert_int_equal(lrcsi_rotate_euler("XYZ", euler, place.rotate), LRCS_OK);
     scene_make(&shape, &place, &brdf, 1, d, &s);
     const lrcs_part *part = &s.scene.part[0];
-    for (uint32_t f = (uint32_t)(37 * chance()); f < part->facet_count; f += 37) {
+    for (uint32_t f = (uint32_t)(37 * random_unit(&seed)); f < part->facet_count; f += 37) {
         lrcsi_patch patch = {.side = 0};
         if (s.view.prepared->skip[f] || !lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patch)) {
             continue;

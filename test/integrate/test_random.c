@@ -18,7 +18,7 @@ static const int methods[METHODS] = {LRCS_METHOD_FACET, LRCS_METHOD_ZBUFFER, LRC
 static double grain(uint64_t *seed, int bits, uint32_t reach)
 {
     uint32_t steps = 2 * (reach << bits) + 1;
-    return ldexp((double)scene_random(seed, steps), -bits) - (double)reach;
+    return ldexp((double)random_below(seed, steps), -bits) - (double)reach;
 }
 
 static void random_point(uint64_t *seed, int bits, uint32_t reach, double x[3])
@@ -32,7 +32,7 @@ static void soup(uint64_t *seed, uint32_t count, int bits, uint32_t reach)
 {
     for (uint32_t f = 0; f < count; f++) {
         double x[3][3];
-        scene.assigned = scene_random(seed, scene.scene.material_count);
+        scene.assigned = random_below(seed, scene.scene.material_count);
         for (int c = 0; c < 3; c++) {
             random_point(seed, bits, reach, x[c]);
         }
@@ -58,7 +58,7 @@ static void piercing_plates(uint64_t *seed)
         double corner[3];
         double u[3];
         double v[3];
-        scene.assigned = scene_random(seed, scene.scene.material_count);
+        scene.assigned = random_below(seed, scene.scene.material_count);
         random_point(seed, 8, 4, u);
         random_point(seed, 8, 4, v);
         for (int k = 0; k < 3; k++) {
@@ -73,10 +73,10 @@ static void slivers(uint64_t *seed)
 {
     for (int i = 0; i < 16; i++) {
         double x[3][3];
-        scene.assigned = scene_random(seed, scene.scene.material_count);
+        scene.assigned = random_below(seed, scene.scene.material_count);
         random_point(seed, 6, 2, x[0]);
         random_point(seed, 6, 2, x[1]);
-        double off = ldexp(1, -6 - (int)scene_random(seed, 21));
+        double off = ldexp(1, -6 - (int)random_below(seed, 21));
         for (int k = 0; k < 3; k++) {
             x[2][k] = 0.5 * (x[0][k] + x[1][k]) + off * grain(seed, 0, 2);
         }
@@ -92,13 +92,13 @@ static void satellite(uint64_t *seed)
     double high[3];
     double at[3];
     for (int k = 0; k < 3; k++) {
-        low[k] = -0.25 - ldexp((double)scene_random(seed, 256), -8);
-        high[k] = 0.25 + ldexp((double)scene_random(seed, 256), -8);
+        low[k] = -0.25 - ldexp((double)random_below(seed, 256), -8);
+        high[k] = 0.25 + ldexp((double)random_below(seed, 256), -8);
         at[k] = grain(seed, 8, 1);
     }
     scene.assigned = 0;
     scene_box(&scene, low, high);
-    scene.assigned = scene_random(seed, scene.scene.material_count);
+    scene.assigned = random_below(seed, scene.scene.material_count);
     uint32_t first = scene.scene.vertex_count;
     scene_sphere(&scene, at, 0.5, 8);
     for (uint32_t v = first; v < scene.scene.vertex_count; v++) {
@@ -107,7 +107,7 @@ static void satellite(uint64_t *seed)
         }
     }
     for (int side = -1; side <= 1; side += 2) {
-        scene.assigned = scene_random(seed, scene.scene.material_count);
+        scene.assigned = random_below(seed, scene.scene.material_count);
         scene_plate(&scene, (const double[3]){side * 1.625 - 1, -0.5, at[2] / 4},
                     (const double[3]){2, 0, at[0] / 4}, (const double[3]){0, 1, at[1] / 4});
     }
@@ -187,7 +187,7 @@ static double turn_both(uint64_t *seed, double direction[3])
     int q[4];
     do {
         for (int k = 0; k < 4; k++) {
-            q[k] = (int)scene_random(seed, 5) - 2;
+            q[k] = (int)random_below(seed, 5) - 2;
         }
     } while (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0);
     double factor = scene_turn(&scene, q, direction);
@@ -251,7 +251,7 @@ static double split(uint64_t *seed, double direction[3])
     (void)direction;
     uint32_t count = scene.scene.facet_count;
     for (uint32_t f = 0; f < count; f += 2) {
-        uint32_t turn = scene_random(seed, 3);
+        uint32_t turn = random_below(seed, 3);
         uint32_t a = scene.facet[f].corner[turn];
         uint32_t b = scene.facet[f].corner[(turn + 1) % 3];
         uint32_t c = scene.facet[f].corner[(turn + 2) % 3];
@@ -414,8 +414,8 @@ static void visible_areas_of_boxes_are_those_counted_cell_by_cell(void **state)
         scene_start(&scene);
         for (int b = 0; b < BOXES; b++) {
             for (int k = 0; k < 3; k++) {
-                box[b][k] = scene_random(&seed, CELLS - 1);
-                box[b][k + 3] = box[b][k] + 1 + scene_random(&seed, CELLS - 1 - box[b][k]);
+                box[b][k] = random_below(&seed, CELLS - 1);
+                box[b][k + 3] = box[b][k] + 1 + random_below(&seed, CELLS - 1 - box[b][k]);
             }
             scene_box(&scene, (const double[3]){box[b][0], box[b][1], box[b][2]},
                       (const double[3]){box[b][3], box[b][4], box[b][5]});

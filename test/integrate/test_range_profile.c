@@ -216,9 +216,9 @@ static long double cut(uint32_t f, const double d[3], int64_t k, double bin)
            share;
 }
 
-static double random_unit(uint64_t *seed)
+static double random_place(uint64_t *seed)
 {
-    return scene_random(seed, 2000001) / 1e6 - 1;
+    return random_below(seed, 2000001) / 1e6 - 1;
 }
 
 /* Triangles side by side, none of which hides another: along each line of sight there is one. */
@@ -229,15 +229,15 @@ static void bins_hold_the_truth_of_random_triangles(void **state)
     uint64_t seed = 20261122;
     for (int round = 0; round < 400; round++) {
         scene_start(&scene);
-        double shift = round % 3 == 0 ? 1000 * random_unit(&seed) : 0;
-        double direction[3] = {random_unit(&seed), random_unit(&seed), random_unit(&seed)};
+        double shift = round % 3 == 0 ? 1000 * random_place(&seed) : 0;
+        double direction[3] = {random_place(&seed), random_place(&seed), random_place(&seed)};
         const double corner[3][3] = {
-            {random_unit(&seed) + shift, random_unit(&seed), random_unit(&seed) - shift},
-            {random_unit(&seed) + shift, random_unit(&seed), random_unit(&seed) - shift},
-            {random_unit(&seed) + shift, random_unit(&seed), random_unit(&seed) - shift}};
+            {random_place(&seed) + shift, random_place(&seed), random_place(&seed) - shift},
+            {random_place(&seed) + shift, random_place(&seed), random_place(&seed) - shift},
+            {random_place(&seed) + shift, random_place(&seed), random_place(&seed) - shift}};
         scene.material[0].brdf.s = round % 2 ? 0.2 : 0.6;
         scene_triangle(&scene, corner[0], corner[1], corner[2]);
-        double bin = 0.01 + 0.5 * fabs(random_unit(&seed));
+        double bin = 0.01 + 0.5 * fabs(random_place(&seed));
         if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0) {
             continue;
         }
@@ -259,9 +259,9 @@ static void clutter(uint64_t *seed, int count)
 {
     scene_start(&scene);
     for (int i = 0; i < count; i++) {
-        const double a[3] = {random_unit(seed), random_unit(seed), random_unit(seed)};
-        const double b[3] = {random_unit(seed), random_unit(seed), random_unit(seed)};
-        const double c[3] = {random_unit(seed), random_unit(seed), random_unit(seed)};
+        const double a[3] = {random_place(seed), random_place(seed), random_place(seed)};
+        const double b[3] = {random_place(seed), random_place(seed), random_place(seed)};
+        const double c[3] = {random_place(seed), random_place(seed), random_place(seed)};
         scene_triangle(&scene, a, b, c);
     }
     scene.material[0].two_sided = *seed % 2 == 0;
@@ -272,7 +272,7 @@ static void bins_add_up_to_sigma(void **state)
     (void)state;
     uint64_t seed = 7;
     for (int round = 0; round < 60; round++) {
-        double direction[3] = {random_unit(&seed), random_unit(&seed), 1};
+        double direction[3] = {random_place(&seed), random_place(&seed), 1};
         if (round % 4 == 0) {
             direction[0] = direction[1] = 0;
         }
@@ -300,7 +300,7 @@ static void a_bin_is_the_sum_of_its_halves(void **state)
     (void)state;
     uint64_t seed = 99;
     for (int round = 0; round < 20; round++) {
-        double direction[3] = {random_unit(&seed), 1, random_unit(&seed)};
+        double direction[3] = {random_place(&seed), 1, random_place(&seed)};
         lrcs_profile_bin coarse[64];
         clutter(&seed, 30);
         profile_make(direction, 0.1);
@@ -399,15 +399,15 @@ static int curved_triangle(uint64_t *seed, char *text, double at[3][3], double u
     double plane[3];
     text[0] = '\0';
     for (int i = 0; i < 3; i++) {
-        double p = 0.5 * random_unit(seed);
-        double q = 0.5 * random_unit(seed);
+        double p = 0.5 * random_place(seed);
+        double q = 0.5 * random_place(seed);
         double length = sqrt(1 + p * p + q * q);
         unit[i][0] = p / length;
         unit[i][1] = q / length;
         unit[i][2] = 1 / length;
-        at[i][0] = random_unit(seed);
-        at[i][1] = random_unit(seed);
-        at[i][2] = 0.3 * random_unit(seed);
+        at[i][0] = random_place(seed);
+        at[i][1] = random_place(seed);
+        at[i][2] = 0.3 * random_place(seed);
         curved_line(text, "v %.17g %.17g %.17g\nvn %.17g %.17g %.17g", at[i][0], at[i][1], at[i][2],
                     unit[i][0], unit[i][1], unit[i][2]);
     }
@@ -439,7 +439,7 @@ static void bins_of_curved_triangles_are_those_of_quadrature(void **state)
     for (int round = 0; round < 60; round++) {
         double at[3][3];
         double unit[3][3];
-        double bin = 0.02 + 0.1 * fabs(random_unit(&seed));
+        double bin = 0.02 + 0.1 * fabs(random_place(&seed));
         if (!curved_triangle(&seed, text, at, unit)) {
             continue;
         }

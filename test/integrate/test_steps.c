@@ -125,7 +125,7 @@ static void triangles_through_each_other(void **state)
         for (int i = 0; i < (seed < 24 ? 5 : 14); i++) {
             double corner[3][3];
             for (int k = 0; k < 9; k++) {
-                corner[k / 3][k % 3] = scene_random(&random, seed % 4 < 2 ? 5 : 4096);
+                corner[k / 3][k % 3] = random_below(&random, seed % 4 < 2 ? 5 : 4096);
             }
             scene_triangle(&scene, corner[0], corner[1], corner[2]);
         }

@@ -15,8 +15,8 @@ static lrcs_facet_record before[SCENE_FACETS];
 /* A number in -2 .. 2: a multiple of 1/4, where bodies meet exactly, or any. */
 static double coordinate(uint64_t *seed, int exact)
 {
-    return exact ? (double)scene_random(seed, 17) / 4 - 2
-                 : (double)scene_random(seed, 1u << 30) / 0x1p28 - 2;
+    return exact ? (double)random_below(seed, 17) / 4 - 2
+                 : (double)random_below(seed, 1u << 30) / 0x1p28 - 2;
 }
 
 static void coordinates(uint64_t *seed, int exact, double x[3])
@@ -32,7 +32,7 @@ static void random_body(uint64_t *seed, int exact)
     double b[3];
     double c[3];
     uint32_t first = scene.scene.facet_count;
-    uint32_t kind = scene_random(seed, 8);
+    uint32_t kind = random_below(seed, 8);
     coordinates(seed, exact, a);
     coordinates(seed, exact, b);
     coordinates(seed, exact, c);
@@ -42,13 +42,13 @@ static void random_body(uint64_t *seed, int exact)
         }
         scene_box(&scene, a, b);
     } else if (kind < 6) {
-        scene_sphere(&scene, a, 0.25 + fabs(b[0]) / 2, 4 + 2 * scene_random(seed, 4));
+        scene_sphere(&scene, a, 0.25 + fabs(b[0]) / 2, 4 + 2 * random_below(seed, 4));
     } else if (kind == 6) {
         scene_plate(&scene, a, b, c);
     } else {
         scene_triangle(&scene, a, b, c);
     }
-    if (scene_random(seed, 6) == 0) {
+    if (random_below(seed, 6) == 0) {
         scene_invert(&scene, first);
     }
 }
@@ -56,17 +56,17 @@ static void random_body(uint64_t *seed, int exact)
 /* One to four bodies in two materials, each term and each side worn or not. */
 static void random_scene(uint64_t *seed)
 {
-    uint32_t bodies = 1 + scene_random(seed, 4);
-    int exact = scene_random(seed, 2) == 0;
+    uint32_t bodies = 1 + random_below(seed, 4);
+    int exact = random_below(seed, 2) == 0;
     scene_start(&scene);
     scene_material(&scene, 1, 1, 1, 1);
     for (uint32_t i = 0; i < 2; i++) {
-        scene.material[i].brdf = (lrcs_brdf){scene_random(seed, 3) != 0, scene_random(seed, 3) != 0,
-                                             0.25 + scene_random(seed, 2), scene_random(seed, 3)};
-        scene.material[i].two_sided = scene_random(seed, 2) != 0;
+        scene.material[i].brdf = (lrcs_brdf){random_below(seed, 3) != 0, random_below(seed, 3) != 0,
+                                             0.25 + random_below(seed, 2), random_below(seed, 3)};
+        scene.material[i].two_sided = random_below(seed, 2) != 0;
     }
     for (uint32_t i = 0; i < bodies; i++) {
-        scene.assigned = scene_random(seed, 2);
+        scene.assigned = random_below(seed, 2);
         random_body(seed, exact);
     }
 }
@@ -75,9 +75,9 @@ static void random_direction(uint64_t *seed, double d[3])
 {
     d[0] = d[1] = d[2] = 0;
     while (d[0] == 0 && d[1] == 0 && d[2] == 0) {
-        coordinates(seed, scene_random(seed, 2) == 0, d);
-        if (scene_random(seed, 4) == 0) {
-            d[scene_random(seed, 3)] = 0;
+        coordinates(seed, random_below(seed, 2) == 0, d);
+        if (random_below(seed, 4) == 0) {
+            d[random_below(seed, 3)] = 0;
         }
     }
 }

@@ -287,7 +287,7 @@ static void deep_scenes_fit_into_what_is_asked_for(void **state)
         for (uint32_t i = 0; i < count; i++) {
             double corner[3][3];
             for (int k = 0; k < 9; k++) {
-                corner[k / 3][k % 3] = scene_random(&seed, 4096) / 4096.0;
+                corner[k / 3][k % 3] = random_below(&seed, 4096) / 4096.0;
             }
             scene_triangle(&scene, corner[0], corner[1], corner[2]);
         }

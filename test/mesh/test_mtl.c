@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "random.h"
 
 static const char two_words[] = "two words";
 static const char accent[] = "caf\xc3\xa9";
@@ -224,7 +225,7 @@ static void flipped_bytes_are_read_or_refused(void **state)
         char bytes[sizeof sample];
         memcpy(bytes, sample, sizeof sample);
         for (int k = 0; k <= i % 8; k++) {
-            seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+            random_mmix(&seed);
             size_t at = (size_t)(seed >> 33) % (sizeof sample - 1);
             bytes[at] = (char)((unsigned char)bytes[at] ^ (1u << (seed >> 29 & 7)));
         }

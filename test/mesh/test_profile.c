@@ -4,19 +4,16 @@
 #include "mesh/profile.h"
 
 #include "check.h"
+#include "random.h"
 
 #define NORMALS 24
 
 static uint64_t seed = 5;
 
-/* splitmix64, in -1 .. 1. */
+/* -1 .. 1. */
 static double chance(void)
 {
-    seed += UINT64_C(0x9e3779b97f4a7c15);
-    uint64_t z = seed;
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
+    return 2 * random_unit(&seed) - 1;
 }
 
 static double dot(const double a[3], const double b[3])

@@ -201,10 +201,10 @@ static void digest_decimals(void)
         double value = 0;
         unsigned part[3];
         for (int k = 0; k < 3; k++) {
-            part[k] = scene_random(&seed, 1u << 30);
+            part[k] = random_below(&seed, 1u << 30);
         }
         int length = snprintf(text, sizeof text, "%u%u.%ue%d", part[0], part[1], part[2],
-                              (int)scene_random(&seed, 640) - 330);
+                              (int)random_below(&seed, 640) - 330);
         assert_non_null(lrcsi_decimal_read(text, text + length, &value));
         take_double(value);
     }
@@ -217,7 +217,7 @@ static void digest_predicates(void)
     for (uint32_t i = 0; i < 4000; i += stride) {
         double p[4][3];
         for (int k = 0; k < 12; k++) {
-            p[k / 3][k % 3] = (double)scene_random(&seed, 5) + 0x1p-52 * scene_random(&seed, 3);
+            p[k / 3][k % 3] = (double)random_below(&seed, 5) + 0x1p-52 * random_below(&seed, 3);
         }
         double high[3];
         double low[3];
@@ -248,7 +248,7 @@ static void digest_poses(void)
         lrcs_pose pose;
         double q[4];
         for (int k = 0; k < 4; k++) {
-            q[k] = (double)scene_random(&seed, 20001) - 10000;
+            q[k] = (double)random_below(&seed, 20001) - 10000;
         }
         const double angle[3] = {0.037 * q[0], 0.041 * q[1], 0.043 * q[2]};
         assert_int_equal(lrcs_pose_from_quaternion(q, &pose), LRCS_OK);
@@ -371,8 +371,9 @@ static void digest_emulation(const lrcs_prepared *prepared, const lrcs_pose *pos
     take_pixels();
 }
 
-/* Many facets at random, on lattice points, for full blocks of every kind of material: narrow and
-   wide glints, each form of the diffuse part, one-sided and two-sided. */
+/* Many facets at random, on lattice points, each in a cube of its own, for full blocks of every
+   kind of material: narrow and wide glints, each form of the diffuse part, one-sided and two-sided.
+ */
 static void digest_materials(void)
 {
     static test_scene scene;
@@ -386,11 +387,12 @@ static void digest_materials(void)
         scene_material(&scene, brdf[i].A, brdf[i].B, brdf[i].s, brdf[i].m)->two_sided = i % 3 == 1;
     }
     for (uint32_t i = 0; i < 2000; i++) {
+        const double cube[3] = {i % 13 - 6.0, i / 13 % 13 - 6.0, i / 169 - 6.0};
         double p[3][3];
         for (int k = 0; k < 9; k++) {
-            p[k / 3][k % 3] = (double)scene_random(&seed, 1u << 20) - 0x1p19;
+            p[k / 3][k % 3] = (double)random_below(&seed, 1u << 20) + 0x1p21 * cube[k % 3];
         }
-        scene.assigned = scene_random(&seed, scene.scene.material_count);
+        scene.assigned = random_below(&seed, scene.scene.material_count);
         scene_triangle(&scene, p[0], p[1], p[2]);
     }
     lrcs_work work = lrcs_work_make(memory, sizeof memory);
@@ -398,8 +400,8 @@ static void digest_materials(void)
     assert_int_equal(lrcs_prepare_run(&scene.scene, &work, &prepared), LRCS_OK);
     for (uint32_t i = 0; i < 60; i += stride) {
         lrcs_run_options options = lrcs_run_options_default();
-        const double direction[3] = {scene_random(&seed, 2000) - 999.5, scene_random(&seed, 999),
-                                     scene_random(&seed, 2000) - 999.5};
+        const double direction[3] = {random_below(&seed, 2000) - 999.5, random_below(&seed, 999),
+                                     random_below(&seed, 2000) - 999.5};
         lrcs_pose pose;
         lrcs_result result;
         options.method = LRCS_METHOD_FACET;

@@ -3,6 +3,7 @@
    facets on random ones. */
 #include "scene/prepare.h"
 
+#include "random.h"
 #include "scenes.h"
 
 static test_scene scene;
@@ -86,10 +87,7 @@ static void random_facets(uint32_t seed)
     for (int f = 0; f < 20; f++) {
         uint32_t corner[3];
         for (int k = 0; k < 3; k++) {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            corner[k] = (uint32_t)(state >> 32) % 3 + 3 * (uint32_t)k;
+            corner[k] = (uint32_t)(random_xorshift(&state) >> 32) % 3 + 3 * (uint32_t)k;
         }
         int turn = f % 2;
         scene_facet(&scene, corner[0], corner[1 + turn], corner[2 - turn]);

@@ -21,7 +21,7 @@ static const lrcs_prepared *random_scene(uint32_t facets)
         double size = i % 5 == 0 ? 0x1p-240 : i % 5 == 1 ? 1e-9 : 1;
         double p[3][3];
         for (int k = 0; k < 9; k++) {
-            p[k / 3][k % 3] = size * ((double)scene_random(&seed, 1u << 30) - 0x1p29);
+            p[k / 3][k % 3] = size * ((double)random_below(&seed, 1u << 30) - 0x1p29);
         }
         for (int k = 0; i % 7 == 0 && k < 3; k++) {
             p[2][k] = p[1][k] + 1e-10 * p[2][k];
@@ -29,7 +29,7 @@ static const lrcs_prepared *random_scene(uint32_t facets)
         for (int k = 0; i % 11 == 3 && k < 3; k++) {
             p[2][k] = p[1][k]; /* degenerate */
         }
-        scene.assigned = scene_random(&seed, scene.scene.material_count);
+        scene.assigned = random_below(&seed, scene.scene.material_count);
         scene_triangle(&scene, p[0], p[1], p[2]);
     }
     return scene_prepare(&scene, &work);

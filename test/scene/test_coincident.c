@@ -30,8 +30,8 @@ static void random_copies(uint64_t *seed, uint32_t count)
     scene_material(&scene, 0, 0.7, 0.2, 2)->two_sided = 1;
     scene_material(&scene, 3, 1, 0.2, 2)->omitted = 1;
     for (uint32_t i = 0; i < count; i++) {
-        scene.assigned = scene_random(seed, 4);
-        add_copy(scene_random(seed, 3), (int)scene_random(seed, 2));
+        scene.assigned = random_below(seed, 4);
+        add_copy(random_below(seed, 3), (int)random_below(seed, 2));
     }
 }
 
@@ -152,14 +152,14 @@ static void random_bodies(uint64_t *seed)
     for (uint32_t i = 0; i < 6; i++) {
         double at[3];
         double far[3];
-        scene.assigned = scene_random(seed, 3);
+        scene.assigned = random_below(seed, 3);
         for (int k = 0; k < 3; k++) {
-            at[k] = 0.25 * scene_random(seed, 9);
-            far[k] = at[k] + 0.25 * (1 + scene_random(seed, 4));
+            at[k] = 0.25 * random_below(seed, 9);
+            far[k] = at[k] + 0.25 * (1 + random_below(seed, 4));
         }
         if (i == 0) {
             scene_sphere(&scene, at, 0.6, 8);
-        } else if (scene_random(seed, 2)) {
+        } else if (random_below(seed, 2)) {
             scene_box(&scene, at, far);
         } else {
             scene_plate(&scene, at, (const double[3]){far[0] - at[0], 0, 0.25},
@@ -173,12 +173,12 @@ static void random_bodies(uint64_t *seed)
 static void store_twice(uint64_t *seed, int all)
 {
     for (uint32_t f = 0, count = scene.scene.facet_count; f < count; f++) {
-        if (all || scene_random(seed, 2)) {
+        if (all || random_below(seed, 2)) {
             const uint32_t *c = scene.facet[f].corner;
-            uint32_t turn = scene_random(seed, 3);
+            uint32_t turn = random_below(seed, 3);
             lrcs_point p[3] = {scene.vertex[c[turn]], scene.vertex[c[(turn + 2) % 3]],
                                scene.vertex[c[(turn + 1) % 3]]};
-            scene.assigned = scene_random(seed, 3);
+            scene.assigned = random_below(seed, 3);
             scene_triangle(&scene, p[0].x, p[1].x, p[2].x);
         }
     }
@@ -236,7 +236,7 @@ static void twins_are_seen_as_the_side_that_faces_the_laser(void **state)
         store_twice(&seed, i % 2 != 0);
         double d[3];
         for (int k = 0; k < 3; k++) {
-            d[k] = i % 5 == 0 ? scene_random(&seed, 2) : scene_random(&seed, 1000) / 500.0 - 1;
+            d[k] = i % 5 == 0 ? random_below(&seed, 2) : random_below(&seed, 1000) / 500.0 - 1;
         }
         d[2] += d[0] == 0 && d[1] == 0 && d[2] == 0;
         for (int m = 0; m < 3; m++) {

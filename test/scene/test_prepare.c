@@ -65,13 +65,13 @@ static void degenerate_and_omitted_facets_take_no_part(void **state)
    short beside its sides. */
 static void sliver_of(uint64_t *seed, int64_t x[3][3])
 {
-    int64_t k = 1 + scene_random(seed, 1 << 14);
-    int64_t m = scene_random(seed, 1 << 14);
+    int64_t k = 1 + random_below(seed, 1 << 14);
+    int64_t m = random_below(seed, 1 << 14);
     for (int i = 0; i < 3; i++) {
-        int64_t e = (int64_t)scene_random(seed, 1 << 12) - (1 << 11);
-        x[0][i] = (int64_t)scene_random(seed, 1 << 26) - (1 << 25);
+        int64_t e = (int64_t)random_below(seed, 1 << 12) - (1 << 11);
+        x[0][i] = (int64_t)random_below(seed, 1 << 26) - (1 << 25);
         x[1][i] = x[0][i] + k * e;
-        x[2][i] = x[0][i] + m * e + (int64_t)scene_random(seed, 3) - 1;
+        x[2][i] = x[0][i] + m * e + (int64_t)random_below(seed, 3) - 1;
     }
 }
 
@@ -155,7 +155,7 @@ static int prepare_status(void)
     return status;
 }
 
-static void door_refuses_what_a_built_scene_never_holds(void **state)
+static void prepare_refuses_scenes_that_build_never_makes(void **state)
 {
     (void)state;
     static const double wrong[] = {NAN, INFINITY, -INFINITY, 1.0000001e100, -1e308};
@@ -206,7 +206,7 @@ int main(void)
         cmocka_unit_test(normals_of_slivers_agree_with_exact_integers),
         cmocka_unit_test(sliver_of_aspect_1e80_keeps_its_incidence),
         cmocka_unit_test(tiny_facet_in_a_large_scene_keeps_its_area),
-        cmocka_unit_test(door_refuses_what_a_built_scene_never_holds),
+        cmocka_unit_test(prepare_refuses_scenes_that_build_never_makes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -65,7 +65,7 @@ static void runs_connect_what_edges_connect(void **state)
     scene_box(&scene, (const double[3]){3, -1, -1}, (const double[3]){4, 1, 1});
     check_runs();
     for (uint32_t f = scene.scene.facet_count; f > 1; f--) { /* shuffled */
-        uint32_t other = (uint32_t)scene_random(&seed, f);
+        uint32_t other = (uint32_t)random_below(&seed, f);
         lrcs_facet swap = scene.facet[f - 1];
         scene.facet[f - 1] = scene.facet[other];
         scene.facet[other] = swap;

@@ -104,14 +104,14 @@ static void facets_seen_from_behind_are_never_in_a_solid(void **state)
         scene_start(&scene);
         for (int i = 0; i < 3; i++) {
             uint32_t first = scene.scene.facet_count;
-            box(scene_random(&seed, 5), scene_random(&seed, 5), scene_random(&seed, 5),
-                1 + scene_random(&seed, 3));
-            if (scene_random(&seed, 6) == 0) {
+            box(random_below(&seed, 5), random_below(&seed, 5), random_below(&seed, 5),
+                1 + random_below(&seed, 3));
+            if (random_below(&seed, 6) == 0) {
                 scene_invert(&scene, first);
             }
-            if (scene_random(&seed, 6) ==
+            if (random_below(&seed, 6) ==
                 0) { /* a corner displaced, perhaps through the far side */
-                scene.vertex[8 * (uint32_t)i].x[2] += scene_random(&seed, 9);
+                scene.vertex[8 * (uint32_t)i].x[2] += random_below(&seed, 9);
             }
         }
         lrcs_prepared prepared = *scene_prepare(&scene, &work);
@@ -119,8 +119,8 @@ static void facets_seen_from_behind_are_never_in_a_solid(void **state)
         if (prepared.solid) {
             prepared.solid = 0; /* draw back sides, too: none may show */
             prepared.convex = 0;
-            const double d[3] = {1 + scene_random(&seed, 3), scene_random(&seed, 4),
-                                 scene_random(&seed, 5)};
+            const double d[3] = {1 + random_below(&seed, 3), random_below(&seed, 4),
+                                 random_below(&seed, 5)};
             lrcs_result r = scene_pose(&scene, &prepared, &work, d, LRCS_METHOD_EXACT, 0);
             check_most(r.back_side_area_m2, 1e-12);
         }

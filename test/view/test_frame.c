@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The axes of a view: how far they are from an exact rotation, in double-double. */
 #include "check.h"
+#include "random.h"
 
 #include "base/dd.h"
 #include "view/frame.h"
@@ -38,8 +39,7 @@ static double frame_off(const double d[3], double R[3][3])
 
 static double uniform(uint64_t *state)
 {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-52 - 1;
+    return 2 * random_fraction(random_mmix(state)) - 1;
 }
 
 static void axes_are_within_four_roundings_of_a_rotation(void **state)

@@ -97,7 +97,7 @@ static void parts_are_those_of_cutting_and_add_up(void **state)
     for (int i = 0; i < 3000; i++) {
         double corner[3][2];
         for (int k = 0; k < 6; k++) {
-            double x = (double)scene_random(&seed, 16 << 20) / (1 << 20);
+            double x = (double)random_below(&seed, 16 << 20) / (1 << 20);
             corner[k / 2][k % 2] = i % 3 == 1 ? floor(x) : x;
         }
         if (i % 3 == 2) { /* all but on one line, which may be level or upright */

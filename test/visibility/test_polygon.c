@@ -410,8 +410,8 @@ static void rings_hold_just_the_points_that_are_seen(void **state)
             uint32_t f = n / 40;
             int64_t at[3] = {0, 0, 0};
             int64_t x[3];
-            uint32_t p = 1 + scene_random(&seed, PARTS - 2);
-            uint32_t q = 1 + scene_random(&seed, PARTS - 1 - p);
+            uint32_t p = 1 + random_below(&seed, PARTS - 2);
+            uint32_t q = 1 + random_below(&seed, PARTS - 1 - p);
             const uint32_t part[3] = {p, q, PARTS - p - q};
             for (int c = 0; c < 3; c++) {
                 corner_int(f, c, part[c], x);

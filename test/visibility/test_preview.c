@@ -39,10 +39,10 @@ static void tangle(uint64_t seed)
     for (int i = 0; i < 12; i++) {
         double corner[3][3];
         for (int k = 0; k < 3; k++) {
-            double angle = 2 * (double)SCENE_PI * (k + scene_random(&seed, 64) / 192.0) / 3;
+            double angle = 2 * (double)SCENE_PI * (k + random_below(&seed, 64) / 192.0) / 3;
             corner[k][0] = 2 * cos(angle);
             corner[k][1] = 2 * sin(angle);
-            corner[k][2] = scene_random(&seed, 256) / 64.0 - 2;
+            corner[k][2] = random_below(&seed, 256) / 64.0 - 2;
         }
         scene_triangle(&scene, corner[0], corner[1], corner[2]);
     }

@@ -37,8 +37,8 @@ static void grid_of(uint32_t n, double shift)
     for (uint32_t y = 0; y <= n; y++) {
         for (uint32_t x = 0; x <= n; x++) {
             int inner = x > 0 && x < n && y > 0 && y < n;
-            double dx = inner ? shift * (scene_random(&seed, 3) - 1.0) : 0;
-            double dy = inner ? shift * (scene_random(&seed, 3) - 1.0) : 0;
+            double dx = inner ? shift * (random_below(&seed, 3) - 1.0) : 0;
+            double dy = inner ? shift * (random_below(&seed, 3) - 1.0) : 0;
             scene_vertex(&scene, x + dx, y + dy, 0);
         }
     }

@@ -48,12 +48,12 @@ static void triangle_of(uint64_t *seed, int sliver, int corner[3][2])
     long turn = 0;
     while (turn == 0) {
         for (int k = 0; k < 3; k++) {
-            corner[k][0] = (int)scene_random(seed, 8 * N + 1);
-            corner[k][1] = (int)scene_random(seed, 8 * N + 1);
+            corner[k][0] = (int)random_below(seed, 8 * N + 1);
+            corner[k][1] = (int)random_below(seed, 8 * N + 1);
         }
         if (sliver) {
-            corner[2][0] = (corner[0][0] + corner[1][0]) / 2 + (int)scene_random(seed, 2);
-            corner[2][1] = (corner[0][1] + corner[1][1]) / 2 + (int)scene_random(seed, 2);
+            corner[2][0] = (corner[0][0] + corner[1][0]) / 2 + (int)random_below(seed, 2);
+            corner[2][1] = (corner[0][1] + corner[1][1]) / 2 + (int)random_below(seed, 2);
         }
         turn = (long)(corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
                (long)(corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
@@ -106,15 +106,15 @@ static void spans_are_those_of_whole_numbers(void **state)
         int corner[3][2];
         triangle_of(&seed, i % 2, corner);
         for (int y = 0; y < N; y++) {
-            int x0 = (int)scene_random(&seed, 4) == 0 ? (int)scene_random(&seed, N) : 0;
-            int x1 = x0 + (int)scene_random(&seed, (uint32_t)(N - x0 + 1));
+            int x0 = (int)random_below(&seed, 4) == 0 ? (int)random_below(&seed, N) : 0;
+            int x1 = x0 + (int)random_below(&seed, (uint32_t)(N - x0 + 1));
             found += check_row((const int(*)[2])corner, y, x0, x1);
         }
     }
     assert_true(found > 10000);
 }
 
-static void sides_along_the_rows_are_told_by_the_row(void **state)
+static void sides_along_the_rows_are_decided_for_the_whole_row(void **state)
 {
     (void)state;
     static const int flat[3][2] = {{0, 80}, {512, 80}, {256, 400}};
@@ -199,9 +199,9 @@ static void segments_are_followed_through_the_pixels_they_meet(void **state)
         int a[2];
         int b[2];
         for (int k = 0; k < 2; k++) {
-            a[k] = (int)scene_random(&seed, 8 * N + 64) - 32;
-            b[k] = i % 4 == 0 ? a[k] + (int)scene_random(&seed, 17) - 8
-                              : (int)scene_random(&seed, 8 * N + 64) - 32;
+            a[k] = (int)random_below(&seed, 8 * N + 64) - 32;
+            b[k] = i % 4 == 0 ? a[k] + (int)random_below(&seed, 17) - 8
+                              : (int)random_below(&seed, 8 * N + 64) - 32;
         }
         b[1] = i % 4 == 1 ? a[1] : b[1];
         b[0] = i % 4 == 2 ? a[0] : b[0];
@@ -214,7 +214,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spans_are_those_of_whole_numbers),
-        cmocka_unit_test(sides_along_the_rows_are_told_by_the_row),
+        cmocka_unit_test(sides_along_the_rows_are_decided_for_the_whole_row),
         cmocka_unit_test(what_is_within_the_error_is_not_sure),
         cmocka_unit_test(segments_are_followed_through_the_pixels_they_meet),
     };

@@ -73,8 +73,8 @@ static void points_come_back_to_where_they_are_seen_in_any_needle(void **state)
             double part[3];
             double weight[3];
             lrcsi_target t = target_from(0.1 * i - 2, 0.3, 0.8);
-            part[0] = scene_random(&seed, 1000) / 1000.0;
-            part[1] = (1 - part[0]) * scene_random(&seed, 1000) / 1000.0;
+            part[0] = random_below(&seed, 1000) / 1000.0;
+            part[1] = (1 - part[0]) * random_below(&seed, 1000) / 1000.0;
             part[2] = 1 - part[0] - part[1];
             double at[2];
             for (int k = 0; k < 2; k++) {

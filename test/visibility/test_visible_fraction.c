@@ -136,7 +136,7 @@ static int ascending(const void *a, const void *b)
 
 static double some(uint64_t *seed, double span)
 {
-    return span * (scene_random(seed, 2001) / 1000.0 - 1);
+    return span * (random_below(seed, 2001) / 1000.0 - 1);
 }
 
 /* A ball of 1,500 facets between plates, some of which go through it. */

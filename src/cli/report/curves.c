@@ -51,6 +51,13 @@ static void extremes_say(FILE *out, const report_sweep *sweep)
     cli_page_bound(out, NULL, bound, 2);
     fprintf(out, " m\xc2\xb2 or better%s.",
             sweep->plot.open ? " for its materials, which are illustrative" : "");
+    if (sweep->band && most > 0.0) {
+        cli_page_say(
+            out,
+            " Errors of its materials (68\xc2\xa0%%%s): \xc2\xb1%.2g\xc2\xa0%% of \xcf\x83 in the "
+            "median, \xc2\xb1%.2g\xc2\xa0%% at most.",
+            sweep->plot.map ? "" : ", shaded", 100.0 * sweep->part[0], 100.0 * sweep->part[1]);
+    }
 }
 
 static void cut_figure(FILE *out, const report_sweep *sweep, const char *plane, const char *angle)

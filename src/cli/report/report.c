@@ -177,6 +177,7 @@ static void report_free(report_job *job)
 {
     for (int i = 0; i < REPORT_SWEEPS; i++) {
         free(job->sweep[i].row);
+        free(job->sweep[i].band);
         free(job->sweep[i].svg.bytes);
     }
     for (uint32_t i = 0; i < REPORT_PEAKS; i++) {

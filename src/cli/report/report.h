@@ -32,8 +32,10 @@ typedef struct report_sweep {
     cli_args args;
     sweep_plan plan;
     sweep_plot plot;
-    double (*row)[2]; /* sigma and bound, m2 */
-    report_bytes svg; /* none if sigma is 0 everywhere */
+    double (*row)[2];  /* sigma and bound, m2 */
+    double (*band)[2]; /* the interval of the material uncertainty, m2; NULL if none is stated */
+    double part[2];    /* as of cli_plot_uncertainty */
+    report_bytes svg;  /* none if sigma is 0 everywhere */
 } report_sweep;
 
 typedef struct report_job {

@@ -36,17 +36,26 @@ static double steps_poses(uint32_t cut, uint32_t map)
    first finds out how much memory it needs. */
 static int pose_measure(report_job *job, const lrcs_host_scene *scene, double *seconds)
 {
+    const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
     lrcs_host_error error;
     lrcs_result result;
-    for (int i = 0; i < 2; i++) {
+    lrcs_uncertainty uncertainty;
+    int stated = cli_errors_stated(&scene->scene);
+    lrcs_sensitivity *each = calloc(scene->scene.material_count + 1, sizeof *each);
+    int status = LRCS_OK;
+    if (!each) {
+        return cli_out_of_memory();
+    }
+    for (int i = 0; i < 2 && status == LRCS_OK; i++) {
         clock_t begun = clock();
-        if (lrcs_host_scene_run(scene, &job->pose, &job->sweep_options, &result, NULL, NULL, NULL,
-                                &error) != LRCS_OK) {
-            return cli_failed(&error);
-        }
+        status = stated ? lrcs_host_scene_uncertainty(scene, &job->pose, &job->sweep_options, &how,
+                                                      &result, each, &uncertainty, &error)
+                        : lrcs_host_scene_run(scene, &job->pose, &job->sweep_options, &result, NULL,
+                                              NULL, NULL, &error);
         *seconds = (double)(clock() - begun) / CLOCKS_PER_SEC;
     }
-    return 0;
+    free(each);
+    return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
 /* The approximate number of poses that can be computed in a time. */
@@ -153,12 +162,16 @@ static int walk_take(void *context, uint64_t index, const lrcs_pose *pose,
 {
     sweep_walk *walk = context;
     (void)pose;
-    (void)uncertainty;
     (void)glint;
     (void)error;
     double *row = walk->sweep->row[walk->list[index]];
     row[0] = result->sigma_m2;
     row[1] = result->bound_m2;
+    if (uncertainty) {
+        double *band = walk->sweep->band[walk->list[index]];
+        band[0] = uncertainty->low_m2;
+        band[1] = uncertainty->high_m2;
+    }
     cli_progress_show(walk->progress, walk->before + index + 1);
     return LRCS_OK;
 }
@@ -166,7 +179,9 @@ static int walk_take(void *context, uint64_t index, const lrcs_pose *pose,
 static int walk_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *walk)
 {
     lrcs_host_error error;
-    const lrcs_host_sweep sweep = {.count = walk->listed,
+    const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
+    const lrcs_host_sweep sweep = {.uncertainty = walk->sweep->band ? &how : NULL,
+                                   .count = walk->listed,
                                    .threads = job->threads,
                                    .pose = walk_pose,
                                    .take = walk_take,
@@ -184,11 +199,14 @@ static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *
 {
     const sweep_plan *plan = &walk->sweep->plan;
     double(*row)[2] = calloc(plan->rows, sizeof *row);
+    int stated = cli_errors_stated(&scene->scene);
+    double(*band)[2] = stated ? calloc(plan->rows, sizeof *band) : NULL;
     uint64_t *list = calloc(plan->rows, sizeof *list);
     walk->sweep->row = row;
+    walk->sweep->band = band;
     walk->list = list;
     walk->listed = 0;
-    if (!row || !list) {
+    if (!row || !list || (stated && !band)) {
         free(list);
         return cli_out_of_memory();
     }
@@ -199,7 +217,11 @@ static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *
     }
     int code = walk_run(job, scene, walk);
     for (uint64_t i = 0; i < plan->rows && code == 0; i++) {
-        memcpy(row[i], row[row_first(plan, i)], sizeof row[i]);
+        uint64_t first = row_first(plan, i);
+        memcpy(row[i], row[first], sizeof row[i]);
+        if (band) {
+            memcpy(band[i], band[first], sizeof band[i]);
+        }
     }
     free(list);
     return code;
@@ -216,6 +238,10 @@ static int sweep_draw(report_sweep *sweep)
         return 0;
     }
     sweep->plot.row = sweep->row;
+    sweep->plot.band = sweep->band;
+    if (sweep->band && cli_plot_uncertainty(&sweep->plot, sweep->part) != 0) {
+        return CLI_FAILED;
+    }
     FILE *out = cli_report_bytes_begin(&sweep->svg);
     if (!out) {
         return CLI_FAILED;

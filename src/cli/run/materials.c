@@ -170,7 +170,7 @@ void cli_run_materials_verdict(const run_job *job, FILE *out)
     const lrcs_uncertainty *u = &job->uncertainty;
     if (u->stated) {
         fprintf(out,
-                "             their stated errors leave sigma uncertain by %.3g %% (one standard "
+                "  materials  their stated errors leave sigma uncertain by %.3g %% (one standard "
                 "deviation)\n",
                 share(u->deviation_m2, job->result.sigma_m2));
     }

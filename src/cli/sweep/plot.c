@@ -238,8 +238,34 @@ int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot
 
 /* ---- notes ---- */
 
-/* The text below the title: the fixed values, and how accurate sigma is. */
-static void plot_note(const sweep_plot *plots, uint32_t count, char note[512])
+static int by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a;
+    double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+int cli_plot_uncertainty(const sweep_plot *plot, double part[2])
+{
+    uint64_t count = 0;
+    double *half = malloc((plot->plan->rows + 1) * sizeof *half);
+    if (!half) {
+        return cli_out_of_memory();
+    }
+    for (uint64_t i = 0; i < plot->plan->rows; i++) {
+        if (plot->row[i][0] > 0.0) {
+            half[count++] = 0.5 * (plot->band[i][1] - plot->band[i][0]) / plot->row[i][0];
+        }
+    }
+    qsort(half, count, sizeof *half, by_size);
+    part[0] = count > 0 ? 0.5 * (half[(count - 1) / 2] + half[count / 2]) : 0.0;
+    part[1] = count > 0 ? half[count - 1] : 0.0;
+    free(half);
+    return 0;
+}
+
+/* The text below the title: the fixed values, and how accurate sigma is. 0 or CLI_FAILED. */
+static int plot_note(const sweep_plot *plots, uint32_t count, char note[512])
 {
     const sweep_plan *plan = plots->plan;
     const char *accept = NULL;
@@ -247,7 +273,8 @@ static void plot_note(const sweep_plot *plots, uint32_t count, char note[512])
     double worst = 0.0;
     int dark = 0;
     int open = 0;
-    int banded = 0;
+    char banded[120] = "";
+    int code = 0;
     int used = 0;
     note[0] = '\0';
     for (uint32_t i = 0; i < plan->axes && used < 300 && count == 1; i++) {
@@ -264,19 +291,27 @@ static void plot_note(const sweep_plot *plots, uint32_t count, char note[512])
             dark |= plot->dbsm && !(plot->row[i][0] > 0.0);
         }
         open |= plot->open;
-        banded |= plot->band && !plot->map && !plot->polar;
+        if (plot->band && plot->map) {
+            double part[2] = {0.0, 0.0};
+            code = cli_plot_uncertainty(plot, part);
+            snprintf(banded, sizeof banded,
+                     "; errors of materials (68 %%): +-%.2g %% of sigma (median), +-%.2g %% (most)",
+                     100.0 * part[0], 100.0 * part[1]);
+        } else if (plot->band) {
+            snprintf(banded, sizeof banded, "; shaded: 68 %% by the errors of materials");
+        }
         accept = plot->accept && strcmp(plot->accept, "bound") != 0 ? plot->accept : accept;
     }
     cli_bound_text(worst, 2, bound);
     snprintf(note + used, 512 - (size_t)used,
              "each sigma is proved to within %s m2 or better%s%s%s%s%s%s", bound,
-             open ? " for its materials, which are illustrative" : "",
-             banded ? "; shaded: 68 % by the errors of materials" : "",
+             open ? " for its materials, which are illustrative" : "", banded,
              accept ? "; accepted by " : "", accept ? accept : "",
              !dark        ? ""
              : plots->map ? "; grey: sigma is 0"
                           : "; gaps: sigma is 0",
              plan->kind == SWEEP_SPHERE ? "; each place shows the nearest direction" : "");
+    return code;
 }
 
 /* ---- data ---- */
@@ -515,7 +550,7 @@ static int sheet_make(const sweep_plot *plot, uint32_t count, plot_sheet *sheet)
     }
     snprintf(sheet->title, sizeof sheet->title, "Laser radar cross-section%s%.200s",
              alike ? " of " : "", alike ? plot->title : "");
-    plot_note(plot, count, sheet->note);
+    code = code ? code : plot_note(plot, count, sheet->note);
     plot_about(plot, count, sheet->about, sizeof sheet->about);
     time_title(plot, &plot->x, sheet->x_name);
     time_title(plot, &plot->y, sheet->y_name);

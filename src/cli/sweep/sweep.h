@@ -391,6 +391,10 @@ int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot
 int cli_plot_write(const cli_args *args, const sweep_plot *plot, uint32_t count);
 int cli_plot_svg(FILE *out, const sweep_plot *plot);
 
+/* The material uncertainty of a sweep that has bands: the median and the largest half width of its
+   band relative to sigma, over the rows with sigma > 0 (0 if there is none). 0 or CLI_FAILED. */
+int cli_plot_uncertainty(const sweep_plot *plot, double part[2]);
+
 /* ---- peaks ---- */
 
 /* Finds the brightest rows that are brighter than all their neighbours, at most `most` of them, the
