@@ -6,7 +6,7 @@
 #include "view/view.h"
 
 /* Pixels along a side at most, of rasters too: 2^28 in all. */
-#define LRCSI_IMAGE_MOST 16384u
+#define LRCSI_IMAGE_SIZE_MAX 16384u
 
 /* Given: the view that was drawn; owner, image->size squared, row 0 at the bottom. Returned: the
    rest of the image. */

@@ -11,11 +11,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "integrate/patch.h"
 #include "optics/reflect.h"
 #include "visibility/query.h"
-
-#define FOUR_PI 12.566370614359172954
 
 /* The visible share of a facet that reflects. */
 static double visible_share(const lrcsi_view *view, const lrcsi_areas *areas, uint32_t facet,
@@ -35,7 +34,7 @@ static double visible_share(const lrcsi_view *view, const lrcsi_areas *areas, ui
 static void response_add_facet(const lrcsi_view *view, const lrcs_brdf *brdf, uint32_t facet,
                                double share, double u, lrcsi_response *response)
 {
-    double weight = FOUR_PI * 0.5 * view->prepared->normal[facet].length * share;
+    double weight = LRCSI_FOUR_PI * 0.5 * view->prepared->normal[facet].length * share;
     if (!isfinite(u)) {
         return;
     }
@@ -52,7 +51,7 @@ static void response_add_facet(const lrcsi_view *view, const lrcs_brdf *brdf, ui
 static void response_add_patch(const lrcsi_view *view, double s, uint32_t facet, double share,
                                const lrcsi_patch *patch, lrcsi_response *response)
 {
-    double weight = FOUR_PI * 0.5 * view->prepared->normal[facet].length * share;
+    double weight = LRCSI_FOUR_PI * 0.5 * view->prepared->normal[facet].length * share;
     double slope = patch->glint_u > 0 ? 2 * (patch->glint_u / s / s) / s : 0;
     lrcsi_sum_add(&response->glint, weight * patch->glint);
     lrcsi_sum_add(&response->glint_s, weight * slope);
@@ -90,7 +89,7 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
         double share = visible_share(view, areas, f, incidence.projected);
         const lrcs_brdf unit = {brdf[material].s > 0 ? 1 : 0, 1, brdf[material].s,
                                 brdf[material].m};
-        if (curved && lrcsi_curve_wanted(view, f)) {
+        if (curved && lrcsi_curve_applies(view, f)) {
             response_add_curved(&brdf[material], &curved[f], &response[material]);
         } else if (share > 0 && lrcsi_patch_make(view, plan, &unit, f, &patch)) {
             response_add_patch(view, unit.s, f, share, &patch, &response[material]);

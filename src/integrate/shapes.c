@@ -12,9 +12,9 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "optics/closed.h"
 
-#define FOUR_PI  12.566370614359172954
 #define AXES_OFF 0x1p-95
 
 /* The largest value of (1 + u)^2 exp(-u / s^2) over u >= 0, rounded up: where the exponential is
@@ -72,12 +72,12 @@ lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_pla
         shape_turn(&placed->shape, &brdf, &sum);
     }
     lrcsi_closed_scale(&sum, unit * unit, 1);
-    lrcsi_closed_scale(&sum, FOUR_PI, 1);
+    lrcsi_closed_scale(&sum, LRCSI_FOUR_PI, 1);
     double most = (brdf.A > 0 ? brdf.A * glint_peak_most(brdf.s) : 0) + brdf.B;
     return (lrcsi_shape_terms){.glint = sum.value[LRCSI_GLINT],
                                .diffuse = sum.value[LRCSI_DIFFUSE],
                                .rounding = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE],
-                               .visibility = FOUR_PI * 1.000001 * slab * most,
+                               .visibility = LRCSI_FOUR_PI * 1.000001 * slab * most,
                                .silhouette = silhouette * unit * unit};
 }
 
@@ -146,7 +146,7 @@ lrcsi_shape_response lrcsi_shape_response_make(const lrcsi_view *view, uint32_t 
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *placed = &p->scene->part[part];
     double unit = ldexp(placed->unit, -p->exponent);
-    double scale = FOUR_PI * unit * unit;
+    double scale = LRCSI_FOUR_PI * unit * unit;
     double s = brdf->s >= 0x1p-333 && brdf->s <= 0x1p333 ? brdf->s : 0;
     double term[2];
     lrcsi_dd direction[3];

@@ -26,8 +26,6 @@
 #include "optics/shade.h"
 #include "visibility/query.h"
 
-#define FOUR_PI 12.566370614359172954
-
 /* The relative error of a visible area that is all of a facet not near grazing: that of
    lrcsi_incidence.projected (8 u), and a product. */
 #define AREA_ERROR (10 * LRCSI_U)
@@ -146,7 +144,7 @@ lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_pla
         at = reflection_planned(&brdf, plan, incidence->tan2);
         uncertainty = reflection_uncertainty(&brdf, incidence, &at);
     }
-    double whole = FOUR_PI * 0.5 * p->normal[facet].length;
+    double whole = LRCSI_FOUR_PI * 0.5 * p->normal[facet].length;
     double share = share_of(visible->area, incidence->projected);
     double most = share_of(visible->high, incidence->projected);
     lrcsi_facet_terms terms = {.glint = whole * at.glint * share,
@@ -175,15 +173,6 @@ static void add_curved(total_sums *sums, const lrcsi_curved *curved)
     sums->rounding += curved->rounding + LRCSI_FACET_UNDERFLOW;
     sums->likely = lrcsi_length_flat(sums->likely, curved->likely);
     sums->curvature += curved->estimate;
-}
-
-/* Can what the facets err from the true shapes be bounded? Where nothing is searched, all that
-   could be hidden is in the bound. */
-static int tessellation_known(const total_job *job)
-{
-    int unshadowed = job->plan->unshadowed;
-    return lrcsi_tessellation_known(job->view->prepared, unshadowed) &&
-           (unshadowed || job->margin || job->plan->method == LRCS_METHOD_FACET);
 }
 
 /* Counts a facet of which nothing, or only a part, is visible. An area computed by clipping that
@@ -276,7 +265,7 @@ static void sum_precisely(total_job *job, uint32_t facet)
     add_seen(sums, &brdf);
     lrcsi_sum_add(&sums->projected, visible.area);
     count_shown(&job->total, incidence.projected, &visible);
-    if (job->curved && lrcsi_curve_wanted(job->view, facet)) {
+    if (job->curved && lrcsi_curve_applies(job->view, facet)) {
         add_curved(sums, &job->curved[facet]);
         record_sigma(job, facet, job->curved[facet].glint, job->curved[facet].diffuse);
         return;
@@ -519,7 +508,7 @@ static uint32_t places_filter(total_job *job, uint32_t *list, uint32_t count, in
         count = left;
         left = 0;
         for (uint32_t k = 0; k < count; k++) {
-            if (lrcsi_curve_wanted(job->view, facet[list[k]])) {
+            if (lrcsi_curve_applies(job->view, facet[list[k]])) {
                 sum_precisely(job, facet[list[k]]);
             } else {
                 list[left++] = list[k];
@@ -731,11 +720,11 @@ static double facet_tessellation(total_job *job, uint32_t facet, const lrcsi_inc
     if (is_in_shape(job, facet)) {
         return 0;
     }
-    if (job->curved && lrcsi_curve_wanted(job->view, facet)) {
-        return job->margin ? job->margin->share[facet] * job->curved[facet].most : 0;
+    if (job->curved && lrcsi_curve_applies(job->view, facet)) {
+        return job->margin ? job->margin->share[facet] * job->curved[facet].upper_bound : 0;
     }
-    return FOUR_PI * lrcsi_tessellation_error(job->view, job->plan, facet, incidence, job->visible,
-                                              job->margin, &job->patch);
+    return LRCSI_FOUR_PI * lrcsi_tessellation_error(job->view, job->plan, facet, incidence,
+                                                    job->visible, job->margin, &job->patch);
 }
 
 static void sum_tessellation(total_job *job)
@@ -853,7 +842,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     }
     if (plan->method == LRCS_METHOD_CLOSED) {
         job.sums.tessellation = 0;
-    } else if (p->curved && tessellation_known(&job)) {
+    } else if (p->curved && lrcsi_tessellation_known(p, plan)) {
         sum_tessellation(&job);
     } else if (p->curved) {
         job.sums.tessellation = -HUGE_VAL;
