@@ -134,39 +134,50 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
 
 /* --- groups ----------------------------------------------------------------------------------- */
 
+/* Joins the facets of a run among themselves. */
+static void join_within(const lrcs_prepared *p, const signed char *joinable, uint32_t start,
+                        uint32_t end, uint32_t *group)
+{
+    int alike = run_alike(joinable, start, end);
+    for (uint32_t f = start; f < end; f++) {
+        group[f] = alike ? start + p->runs.first[f] : f;
+        for (int k = 0; k < 3 && !alike && joinable[f] != 0; k++) {
+            uint32_t other = p->across.facet[f].corner[k];
+            if (other >= start && other < f && joinable[other] == joinable[f]) {
+                lrcsi_join(group, other, f);
+            }
+        }
+    }
+}
+
+/* Run by run: each is joined within and then to earlier runs, while its facets are in the cache.
+   The groups do not depend on the order. Nothing is joined in a run without joinable facets. */
 void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t count = p->scene->facet_count;
-    for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
+    uint32_t last[2] = {0, 0}; /* the groups joined last: two runs mostly share many sides */
+    for (uint32_t r = 0; r < p->runs.count; r++) {
+        uint32_t start = r * LRCSI_RUN;
         uint32_t end = lrcsi_run_end(start, count);
-        if (run_alike(joinable, start, end) && joinable[start] != 0) {
+        if (joinable[start] == 0 && run_alike(joinable, start, end)) {
             for (uint32_t f = start; f < end; f++) {
-                group[f] = start + p->runs.first[f];
+                group[f] = f;
             }
             continue;
         }
-        for (uint32_t f = start; f < end; f++) {
-            group[f] = f;
-            for (int k = 0; k < 3 && joinable[f] != 0; k++) {
-                uint32_t other = p->across.facet[f].corner[k];
-                if (other >= start && other < f && joinable[other] == joinable[f]) {
-                    lrcsi_join(group, other, f);
+        join_within(p, joinable, start, end, group);
+        for (uint32_t i = p->runs.run[r].first_side; i < p->runs.run[r + 1].first_side; i++) {
+            const lrcsi_run_side *side = &p->runs.side[i];
+            if (side->other < side->facet && joinable[side->facet] != 0 &&
+                joinable[side->other] == joinable[side->facet]) {
+                uint32_t a = group[side->other];
+                uint32_t b = group[side->facet];
+                if (a != b && (a != last[0] || b != last[1])) {
+                    lrcsi_join(group, a, b);
+                    last[0] = a;
+                    last[1] = b;
                 }
-            }
-        }
-    }
-    const lrcsi_run_side *side = p->runs.side;
-    uint32_t last[2] = {0, 0}; /* the groups joined last: two runs mostly share many sides */
-    for (uint32_t i = p->runs.run[p->runs.count].first_side; i > 0; i--, side++) {
-        if (side->other < side->facet && joinable[side->facet] != 0 &&
-            joinable[side->other] == joinable[side->facet]) {
-            uint32_t a = group[side->other];
-            uint32_t b = group[side->facet];
-            if (a != b && (a != last[0] || b != last[1])) {
-                lrcsi_join(group, a, b);
-                last[0] = a;
-                last[1] = b;
             }
         }
     }

@@ -317,8 +317,12 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
         return LRCS_OK;
     }
     want->bit = lrcsi_work_take_zero(work, want->words * grid->size, sizeof *want->bit);
-    for (uint32_t f = 0; f < grid->view->prepared->scene->facet_count && want->bit; f++) {
-        if ((readers->undecided[f] || readers->region[f] == f) && lrcsi_grid_casts(grid->view, f)) {
+    uint32_t count = grid->view->prepared->scene->facet_count;
+    for (uint32_t f = 0; f < count && want->bit; f++) {
+        if (boxes->state[f / LRCSI_RUN] == LRCSI_BOXES_NONE) {
+            f = lrcsi_run_end(f, count) - 1;
+        } else if ((readers->undecided[f] || readers->region[f] == f) &&
+                   lrcsi_grid_casts(grid->view, f)) {
             lrcsi_boxes_open(boxes, f / LRCSI_RUN);
             want_facet(want, lrcsi_grid_cells(grid, &boxes->facet[f]));
         }
