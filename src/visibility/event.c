@@ -11,14 +11,12 @@
 
 /* --- one edge --------------------------------------------------------------------------------- */
 
-enum edge_kind { EDGE_UNUSED, EDGE_JOINS, EDGE_EVENT };
-
-/* The kind of an edge; if it joins two facets, they are returned in pair. In projection a facet
+/* In projection a facet
    lies to the left of its side if it faces the laser, otherwise to the right. Two facets lie on
    opposite sides of an edge if and only if they traverse it in opposite directions and face the
    same way, or in the same direction and face opposite ways (as where the winding of a surface
    changes). */
-static int edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2])
+int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2])
 {
     const lrcsi_topology *t = &view->prepared->topology;
     const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
@@ -31,7 +29,9 @@ static int edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2])
             left += use[i].forward ? view->facing[use[i].facet] : -view->facing[use[i].facet];
         }
     }
-    return count == 0 ? EDGE_UNUSED : count == 2 && left == 0 ? EDGE_JOINS : EDGE_EVENT;
+    return count == 0                ? LRCSI_EDGE_UNUSED
+           : count == 2 && left == 0 ? LRCSI_EDGE_JOINS
+                                     : LRCSI_EDGE_EVENT;
 }
 
 /* --- all edges -------------------------------------------------------------------------------- */
@@ -86,7 +86,7 @@ static void mark_irregular(const lrcsi_view *view, uint32_t *mark)
     const lrcsi_across *across = &view->prepared->across;
     for (uint32_t i = 0; i < across->irregular_count; i++) {
         uint32_t pair[2];
-        if (edge_kind_of(view, across->irregular[i], pair) == EDGE_EVENT) {
+        if (lrcsi_edge_kind_of(view, across->irregular[i], pair) == LRCSI_EDGE_EVENT) {
             mark_edge_event(mark, across->irregular[i]);
         }
     }
@@ -183,7 +183,7 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
     }
     for (uint32_t i = 0; i < p->across.irregular_count; i++) {
         uint32_t pair[2];
-        if (edge_kind_of(view, p->across.irregular[i], pair) == EDGE_JOINS &&
+        if (lrcsi_edge_kind_of(view, p->across.irregular[i], pair) == LRCSI_EDGE_JOINS &&
             joinable[pair[0]] != 0 && joinable[pair[1]] != 0) {
             lrcsi_join(group, pair[0], pair[1]);
         }
