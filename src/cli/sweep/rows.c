@@ -137,25 +137,22 @@ static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 static void jsonl_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
 {
     lrcs_host_json json = lrcs_host_json_make(out);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_text(&json, "lrcs", "sweep");
+    cli_json(&json, "{lrcs=%s", "sweep");
     cli_version_json(&json);
     cli_hash_json(head->scene_hash, &json);
-    lrcs_host_json_count(&json, "rows", head->rows);
-    lrcs_host_json_begin(&json, "shape", LRCS_HOST_ROW_ARRAY);
+    cli_json(&json, "rows=%llu shape=[", (unsigned long long)head->rows);
     for (uint32_t i = 0; i < head->dimensions; i++) {
         lrcs_host_json_count(&json, NULL, head->shape[i]);
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_begin(&json, "columns", LRCS_HOST_ROW_ARRAY);
+    cli_json(&json, "] columns=[");
     for (uint32_t i = 0; i < plan->columns; i++) {
         lrcs_host_json_text(&json, NULL, plan->column[i]);
     }
-    lrcs_host_json_end(&json);
+    cli_json(&json, "]");
     for (uint32_t i = 0; i < head->options; i++) {
         lrcs_host_json_text(&json, head->option[i].key, head->option[i].text);
     }
-    lrcs_host_json_end(&json);
+    cli_json(&json, "}");
 }
 
 static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
@@ -163,8 +160,7 @@ static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
     double number[FIELD_FLAGS];
     row_numbers(row, number);
     lrcs_host_json json = lrcs_host_json_make(out);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_count(&json, "index", row->index);
+    cli_json(&json, "{index=%llu", (unsigned long long)row->index);
     for (uint32_t i = 0; i < plan->columns; i++) {
         lrcs_host_json_number(&json, plan->column[i], row->value[i]);
     }
@@ -175,14 +171,8 @@ static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
         int kind = plan->extras.kind[i];
         lrcs_host_json_number(&json, cli_extra_name[kind], row->extra[kind]);
     }
-    lrcs_host_json_begin(&json, "flags", LRCS_HOST_ROW_ARRAY);
-    for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
-        if (bits & 1u) {
-            lrcs_host_json_text(&json, NULL, lrcs_flag_text((int)bit));
-        }
-    }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_end(&json);
+    cli_flags_json(&json, row->flags);
+    cli_json(&json, "}");
 }
 
 /* ---- either ---- */
@@ -210,11 +200,8 @@ void cli_rows_mean(FILE *out, int format, const sweep_tally *tally)
     double bound = tally->bound / (double)tally->rows;
     if (format == SWEEP_JSONL) {
         lrcs_host_json json = lrcs_host_json_make(out);
-        lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_number(&json, "mean_sigma_m2", tally->mean);
-        lrcs_host_json_number(&json, "standard_error_m2", cli_tally_error(tally));
-        lrcs_host_json_number(&json, "mean_bound_m2", bound);
-        lrcs_host_json_end(&json);
+        cli_json(&json, "{mean_sigma_m2=%g standard_error_m2=%g mean_bound_m2=%g}", tally->mean,
+                 cli_tally_error(tally), bound);
         return;
     }
     number_put(out, "# mean_sigma_m2=", tally->mean);
