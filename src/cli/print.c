@@ -83,11 +83,8 @@ static size_t json_value(lrcs_host_json *json, const char *key, const char *conv
     case 'g':
         lrcs_host_json_number(json, key, va_arg(*list, double));
         break;
-    case 'c':
-        lrcs_host_json_bool(json, key, va_arg(*list, int));
-        break;
     case 'd':
-        lrcs_host_json_count(json, key, (uint64_t)va_arg(*list, int));
+        lrcs_host_json_bool(json, key, va_arg(*list, int));
         break;
     default:
         lrcs_host_json_count(

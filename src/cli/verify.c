@@ -77,7 +77,7 @@ static void case_json(const verify_case *one, lrcs_host_json *json)
     cli_json(json, "{shape=%s aspect_deg=%g material={", one->shape, one->aspect_deg);
     cli_brdf_json(one->brdf, json);
     cli_json(json,
-             "} engine_m2=%g closed_form_m2=%g relative_error=%g bound_m2=%g seconds=%g ok=%c}",
+             "} engine_m2=%g closed_form_m2=%g relative_error=%g bound_m2=%g seconds=%g ok=%d}",
              one->engine, one->closed,
              one->closed != 0.0 ? (one->engine - one->closed) / one->closed : (double)NAN,
              one->bound, one->seconds, one->good);

@@ -7,11 +7,11 @@
 static void case_json(lrcs_host_json *json, const compare_job *job, const compare_case *one)
 {
     int finding = one->explained;
-    cli_json(json, "{scene=%s attitude=%s tier=%d sigma_m2=%g theirs_m2=%g allowed_m2=%g",
+    cli_json(json, "{scene=%s attitude=%s tier=%u sigma_m2=%g theirs_m2=%g allowed_m2=%g",
              job->kit.scene[one->scene].name, one->attitude, one->tier, one->sigma_m2,
              one->given ? one->theirs_m2 : (double)NAN,
              cli_compare_allowed(one, job->grade, job->pixels));
-    cli_json(json, "class=%s passed=%c finding=%s}", cli_compare_grade(one->grade),
+    cli_json(json, "class=%s passed=%d finding=%s}", cli_compare_grade(one->grade),
              !cli_compare_failed(job, one), finding > 0 ? job->finding[finding - 1].name : NULL);
 }
 
@@ -71,7 +71,7 @@ int cli_compare_json(FILE *out, const void *context, lrcs_host_error *error)
     (void)error;
     cli_json(&json, "{\n");
     cli_version_json(&json);
-    cli_json(&json, "passed=%c tier=%u class=%s pixels=%u asked=%u given=%u failed=%u",
+    cli_json(&json, "passed=%d tier=%u class=%s pixels=%u asked=%u given=%u failed=%u",
              cli_compare_passed(job), job->tier, cli_compare_grade(job->grade), job->pixels,
              job->asked, job->given, job->failed);
     cli_json(&json, "not_numbers=%u negatives=%u unexplained=%u findings=[\n", job->not_numbers,

@@ -261,11 +261,11 @@ static void material_json(const fit_material *material, lrcs_host_json *json)
         const lrcs_fit_parameter *one = &fit->parameter[p];
         report_statement statement = statement_make(fit, p);
         lrcs_host_json_begin(json, report_name[p], LRCS_HOST_ROW_OBJECT);
-        cli_json(json, "value=%g std_error=%g low=%g high=%g determined=%c statement=%s}",
+        cli_json(json, "value=%g std_error=%g low=%g high=%g determined=%d statement=%s}",
                  one->value, one->error, one->low, one->high, one->verdict == LRCS_FIT_DETERMINED,
                  statement.text);
     }
-    cli_json(json, "} all_determined=%c correlation=[\n", cli_fit_open(fit) == 0);
+    cli_json(json, "} all_determined=%d correlation=[\n", cli_fit_open(fit) == 0);
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         cli_numbers_json(json, NULL, fit->correlation[p], LRCS_FIT_PARAMETERS);
     }
@@ -286,7 +286,7 @@ void cli_fit_json(const fit_job *job)
     cli_json(&json, "{\n");
     cli_version_json(&json);
     cli_operand_json(job->args, &json);
-    cli_json(&json, "unit_per_sr=%g cosine=%c fits=[\n", job->options.unit, job->options.cosine);
+    cli_json(&json, "unit_per_sr=%g cosine=%d fits=[\n", job->options.unit, job->options.cosine);
     for (uint32_t i = 0; i < job->materials; i++) {
         material_json(&job->material[i], &json);
     }

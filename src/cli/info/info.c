@@ -43,7 +43,7 @@ static void info_json(const cli_args *args, const cli_info *info)
              report->area, report->volume);
     cli_numbers_json(&json, "box_min_m", report->box_min, 3);
     cli_numbers_json(&json, "box_max_m", report->box_max, 3);
-    cli_json(&json, "closed=%c convex=%c", report->closed, report->convex);
+    cli_json(&json, "closed=%d convex=%d", report->closed, report->convex);
     cli_json(&json, "materials=[\n");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *material = &scene->material[i];

@@ -98,7 +98,7 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
         p->tessellation_known ? "the facets of models, and true curved shapes"
                               : "the facets, also those that stand for curved shapes");
     if (job->asked > 0.0) {
-        cli_json(json, "tolerance={asked=%g met=%c}", job->asked, job->met);
+        cli_json(json, "tolerance={asked=%g met=%d}", job->asked, job->met);
     } else {
         cli_json(json, "tolerance={asked=null met=null}");
     }

@@ -51,7 +51,7 @@ static void json_head(const run_job *job, lrcs_host_json *json)
         cli_json(json, "asked=%g met=null accepted_by=%s}", job->asked,
                  cli_accepted_by(result->flags));
     } else {
-        cli_json(json, "asked=%g met=%c accepted_by=%s}", job->asked, job->met,
+        cli_json(json, "asked=%g met=%d accepted_by=%s}", job->asked, job->met,
                  cli_accepted_by(result->flags));
     }
     if (job->budget.asked_ms > 0.0) {
@@ -79,7 +79,7 @@ static void json_effects(const run_job *job, lrcs_host_json *json)
     const lrcs_result *result = &job->result;
     cli_json(json, "effects=[\n");
     for (int i = 0; i < LRCS_EFFECTS; i++) {
-        cli_json(json, "{name=%s on=%c reason=%s", lrcs_effect_text(i), result->effect[i].on,
+        cli_json(json, "{name=%s on=%d reason=%s", lrcs_effect_text(i), result->effect[i].on,
                  result->effect[i].reason);
         if (job->explain) {
             cli_run_explain_json(job, i, json);

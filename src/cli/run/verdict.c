@@ -59,7 +59,7 @@ void cli_run_open_json(const run_job *job, lrcs_host_json *json)
              open->back_area_m2, open->back_share, open->back_sigma_m2, open->coarse,
              open->glint.glint_m2, open->glint.error_m2);
     if (job->records || open->coarse == 0) {
-        cli_json(json, "one_facet_dominates=%c}",
+        cli_json(json, "one_facet_dominates=%d}",
                  cli_glint_dominates(&open->glint, job->result.sigma_m2));
     } else {
         cli_json(json, "one_facet_dominates=null}"); /* not known */

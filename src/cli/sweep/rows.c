@@ -7,45 +7,36 @@
 #include <math.h>
 #include <string.h>
 
-const char *const cli_extra_name[SWEEP_EXTRAS] = {"material_deviation_m2",   "material_low_m2",
-                                                  "material_high_m2",        "material_sampled",
-                                                  "glint_error_estimate_m2", "one_facet_dominates"};
+const char *const cli_field_name[SWEEP_FIELDS] = {"sigma_m2",           "sigma_dbsm",
+                                                  "bound_m2",           "sigma_glint_m2",
+                                                  "sigma_diffuse_m2",   "material_deviation_m2",
+                                                  "material_low_m2",    "material_high_m2",
+                                                  "material_sampled",   "glint_error_estimate_m2",
+                                                  "one_facet_dominates"};
 
-const char *const cli_row_field[SWEEP_FIELDS] = {"sigma_m2",       "sigma_dbsm",       "bound_m2",
-                                                 "sigma_glint_m2", "sigma_diffuse_m2", "flags"};
-
-/* The numbers of a row up to its extras; sigma = 0 has no dBsm. */
-static void row_numbers(const sweep_row *row, double number[FIELD_FLAGS])
+sweep_fields cli_fields_make(int materials, int glint)
 {
-    number[FIELD_SIGMA] = row->sigma_m2;
-    number[FIELD_DBSM] = row->sigma_m2 > 0.0 ? cli_dbsm(row->sigma_m2) : (double)NAN;
-    number[FIELD_BOUND] = row->bound_m2;
-    number[FIELD_GLINT] = row->sigma_glint_m2;
-    number[FIELD_DIFFUSE] = row->sigma_diffuse_m2;
-}
-
-sweep_extras cli_extras_make(int materials, int glint)
-{
-    sweep_extras extras = {.materials = materials, .glint = glint};
-    for (int kind = 0; kind < SWEEP_EXTRAS; kind++) {
-        if (kind < EXTRA_GLINT_ERROR ? materials : glint) {
-            extras.kind[extras.count++] = kind;
+    sweep_fields fields = {.materials = materials, .glint = glint};
+    for (int kind = 0; kind < SWEEP_FIELDS; kind++) {
+        if (kind < FIELD_DEVIATION || (kind < FIELD_GLINT_ERROR ? materials : glint)) {
+            fields.kind[fields.count++] = kind;
         }
     }
-    return extras;
+    return fields;
 }
 
 void cli_tally_add(sweep_tally *tally, const sweep_row *row)
 {
-    double off = row->sigma_m2 - tally->mean;
+    double sigma = row->field[FIELD_SIGMA];
+    double off = sigma - tally->mean;
     tally->rows++;
     tally->mean += off / (double)tally->rows; /* B. P. Welford, Technometrics 4 (1962) 419 */
-    tally->square += off * (row->sigma_m2 - tally->mean);
-    tally->bound += row->bound_m2;
+    tally->square += off * (sigma - tally->mean);
+    tally->bound += row->field[FIELD_BOUND];
     tally->missed += (row->flags & LRCS_FLAG_TOLERANCE_NOT_MET) != 0;
     tally->estimated += (row->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE) != 0;
     tally->unjudged += (row->flags & LRCS_FLAG_ACCEPTED_UNJUDGED) != 0;
-    tally->dominated += row->extra[EXTRA_DOMINATED] > 0.0;
+    tally->dominated += row->field[FIELD_DOMINATED] > 0.0;
     tally->starved += (row->flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
 }
 
@@ -99,11 +90,8 @@ static void csv_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
         putc(',', out);
         csv_field(out, plan->column[i]);
     }
-    for (int i = 0; i < FIELD_FLAGS; i++) {
-        fprintf(out, ",%s", cli_row_field[i]);
-    }
-    for (uint32_t i = 0; i < plan->extras.count; i++) {
-        fprintf(out, ",%s", cli_extra_name[plan->extras.kind[i]]);
+    for (uint32_t i = 0; i < plan->fields.count; i++) {
+        fprintf(out, ",%s", cli_field_name[plan->fields.kind[i]]);
     }
     fputs(",flags\n", out);
 }
@@ -111,17 +99,12 @@ static void csv_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
 static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 {
     const char *before = ",";
-    double number[FIELD_FLAGS];
-    row_numbers(row, number);
     fprintf(out, "%llu", (unsigned long long)row->index);
     for (uint32_t i = 0; i < plan->columns; i++) {
         number_put(out, ",", row->value[i]);
     }
-    for (int i = 0; i < FIELD_FLAGS; i++) {
-        number_put(out, ",", number[i]);
-    }
-    for (uint32_t i = 0; i < plan->extras.count; i++) {
-        number_put(out, ",", row->extra[plan->extras.kind[i]]);
+    for (uint32_t i = 0; i < plan->fields.count; i++) {
+        number_put(out, ",", row->field[plan->fields.kind[i]]);
     }
     for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
         if (bits & 1u) {
@@ -157,19 +140,14 @@ static void jsonl_head(FILE *out, const sweep_head *head, const sweep_plan *plan
 
 static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 {
-    double number[FIELD_FLAGS];
-    row_numbers(row, number);
     lrcs_host_json json = lrcs_host_json_make(out);
     cli_json(&json, "{index=%llu", (unsigned long long)row->index);
     for (uint32_t i = 0; i < plan->columns; i++) {
         lrcs_host_json_number(&json, plan->column[i], row->value[i]);
     }
-    for (int i = 0; i < FIELD_FLAGS; i++) {
-        lrcs_host_json_number(&json, cli_row_field[i], number[i]);
-    }
-    for (uint32_t i = 0; i < plan->extras.count; i++) {
-        int kind = plan->extras.kind[i];
-        lrcs_host_json_number(&json, cli_extra_name[kind], row->extra[kind]);
+    for (uint32_t i = 0; i < plan->fields.count; i++) {
+        int kind = plan->fields.kind[i];
+        lrcs_host_json_number(&json, cli_field_name[kind], row->field[kind]);
     }
     cli_flags_json(&json, row->flags);
     cli_json(&json, "}");

@@ -176,7 +176,7 @@ static int stats_json(FILE *out, const void *context, lrcs_host_error *error)
     row_json(&json, "most", stats, &stats->row[stats->rows - 1]);
     cli_json(&json, "percentiles=[\n");
     for (int k = 0; k < STATS_PERCENTS; k++) {
-        cli_json(&json, "{percent=%d", cli_stats_percent[k]);
+        cli_json(&json, "{percent=%u", cli_stats_percent[k]);
         value_json(&json, "sigma_m2", &stats->percentile[k]);
         cli_json(&json, "}");
     }

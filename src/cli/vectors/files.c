@@ -99,12 +99,12 @@ static int json_write(FILE *out, const void *context, lrcs_host_error *error)
     const vectors_mesh *mesh = file->mesh;
     lrcs_host_json json = lrcs_host_json_make(out);
     (void)error;
-    cli_json(&json, "{\nschema=%d name=%s tier=%d about=%s materials=[\n", CLI_SCHEMA,
+    cli_json(&json, "{\nschema=%u name=%s tier=%u about=%s materials=[\n", CLI_SCHEMA,
              file->scene->name, file->scene->tier, file->scene->about);
     for (const vectors_material *one = cli_vectors_materials; one->name; one++) {
         cli_json(&json, "{name=%s", one->name);
         cli_brdf_json(&one->brdf, &json);
-        cli_json(&json, "two_sided=%c}", one->two_sided);
+        cli_json(&json, "two_sided=%d}", one->two_sided);
     }
     cli_json(&json, "] vertices_m=[\n");
     for (uint32_t i = 0; i < mesh->vertices; i++) {

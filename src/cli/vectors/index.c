@@ -92,7 +92,7 @@ static void case_json(lrcs_host_json *json, const vectors_job *job, const vector
 {
     const double *value[CASE_NUMBERS];
     case_values(one, value);
-    cli_json(json, "{scene=%s attitude=%s tier=%d", one->scene->name, one->attitude->name,
+    cli_json(json, "{scene=%s attitude=%s tier=%u", one->scene->name, one->attitude->name,
              one->scene->tier);
     for (int k = 0; k < CASE_NUMBERS; k++) {
         if (case_numbers[k].count == 1) {
@@ -111,19 +111,19 @@ static int kit_write(FILE *out, const void *context, lrcs_host_error *error)
     const vectors_job *job = context;
     lrcs_host_json json = lrcs_host_json_make(out);
     (void)error;
-    cli_json(&json, "{\nschema=%d kit=%d lrcs=%s tiers=[\n", CLI_SCHEMA, KIT_VERSION,
+    cli_json(&json, "{\nschema=%u kit=%u lrcs=%s tiers=[\n", CLI_SCHEMA, KIT_VERSION,
              lrcs_version());
     for (int i = 0; i < KIT_TIERS; i++) {
-        cli_json(&json, "{tier=%d about=%s}", i + 1, tier_text[i]);
+        cli_json(&json, "{tier=%u about=%s}", i + 1, tier_text[i]);
     }
     cli_json(&json, "] materials=[\n");
     for (const vectors_material *one = cli_vectors_materials; one->name; one++) {
-        cli_json(&json, "{name=%s A_B_s_m=[%g %g %g %g] two_sided=%c}", one->name, one->brdf.A,
+        cli_json(&json, "{name=%s A_B_s_m=[%g %g %g %g] two_sided=%d}", one->name, one->brdf.A,
                  one->brdf.B, one->brdf.s, one->brdf.m, one->two_sided);
     }
     cli_json(&json, "] scenes=[\n");
     for (const vectors_scene *one = cli_vectors_scenes; one->name; one++) {
-        cli_json(&json, "{name=%s tier=%d about=%s}", one->name, one->tier, one->about);
+        cli_json(&json, "{name=%s tier=%u about=%s}", one->name, one->tier, one->about);
     }
     cli_json(&json, "] cases=[\n");
     for (uint32_t i = 0; i < job->cases; i++) {
