@@ -8,11 +8,11 @@
 #include <string.h>
 
 #include "analysis/gpu.h"
+#include "base/constant.h"
 #include "base/single.h"
 #include "base/work.h"
 #include "integrate/image.h"
 
-#define FOUR_PI 12.566370614359172954
 
 static const char *const precision_name[] = {"float64", "float32"};
 
@@ -188,9 +188,9 @@ static void records_fill(const lrcsi_gpu *gpu, const gpu_shade *shade, lrcs_face
         double pixels = records[f].visible_area_m2;
         records[f].visible_area_m2 = pixels_area(gpu, pixels);
         if (pixels > 0) { /* shades of facets without pixels may be infinite */
-            records[f].sigma_glint_m2 = pixels_area(gpu, FOUR_PI * pixels * shade[f].glint);
+            records[f].sigma_glint_m2 = pixels_area(gpu, LRCSI_FOUR_PI * pixels * shade[f].glint);
             records[f].sigma_m2 =
-                records[f].sigma_glint_m2 + pixels_area(gpu, FOUR_PI * pixels * shade[f].diffuse);
+                records[f].sigma_glint_m2 + pixels_area(gpu, LRCSI_FOUR_PI * pixels * shade[f].diffuse);
         }
     }
 }
@@ -198,11 +198,11 @@ static void records_fill(const lrcsi_gpu *gpu, const gpu_shade *shade, lrcs_face
 static lrcs_emulation emulation_make(const lrcsi_gpu *gpu, const gpu_totals *totals)
 {
     lrcs_emulation e;
-    e.sigma_glint_m2 = pixels_area(gpu, FOUR_PI * totals->glint);
-    e.sigma_diffuse_m2 = pixels_area(gpu, FOUR_PI * totals->diffuse);
+    e.sigma_glint_m2 = pixels_area(gpu, LRCSI_FOUR_PI * totals->glint);
+    e.sigma_diffuse_m2 = pixels_area(gpu, LRCSI_FOUR_PI * totals->diffuse);
     e.sigma_m2 = e.sigma_glint_m2 + e.sigma_diffuse_m2;
-    e.running_m2 = pixels_area(gpu, FOUR_PI * totals->running[0]) +
-                   pixels_area(gpu, FOUR_PI * totals->running[1]);
+    e.running_m2 = pixels_area(gpu, LRCSI_FOUR_PI * totals->running[0]) +
+                   pixels_area(gpu, LRCSI_FOUR_PI * totals->running[1]);
     e.projected_area_m2 = pixels_area(gpu, (double)totals->owned);
     return e;
 }
@@ -213,7 +213,7 @@ static int emulation_check(const lrcs_prepared *prepared, const lrcs_emulation_o
                            const lrcs_image *image)
 {
     uint32_t bits = options->depth_bits;
-    if (options->resolution < 1 || options->resolution > LRCSI_IMAGE_MOST ||
+    if (options->resolution < 1 || options->resolution > LRCSI_IMAGE_SIZE_MAX ||
         !lrcs_precision_text(options->precision) ||
         (bits != 16 && bits != 24 && bits != 32 && bits != 64) ||
         (image && image->size != options->resolution)) {

@@ -148,9 +148,9 @@ static int parts_tell(const shares_plan *plan, cli_shares *shares)
         list[i] = (shares_alike){&shares->part[i].name, i - plan->first_part[part] + 1};
     }
     qsort(list, plan->parts, sizeof *list, alike_compare);
-    int told = alike_number(list, plan->parts);
+    int status = alike_number(list, plan->parts);
     free(list);
-    return told;
+    return status;
 }
 
 static int rows_name(const shares_plan *plan, cli_shares *shares)

@@ -114,7 +114,7 @@ static double ellipse_height(double degrees)
 }
 
 /* Of a longitude in -180 .. 180 at a height. */
-static lrcsi_plot_point ellipse_spot(double longitude, double height)
+static lrcsi_plot_point ellipse_point(double longitude, double height)
 {
     double narrow = sqrt(fmax(1.0 - height * height, 0.0));
     return (lrcsi_plot_point){ELLIPSE_X + ELLIPSE_WIDE * narrow * longitude / 180.0,
@@ -135,8 +135,8 @@ static void ellipse_piece(const map_plan *plan, double west, double east, const 
     double high = fmin(height[1] + MAP_LAP / ELLIPSE_HIGH, 1.0);
     double lap = 180.0 * MAP_LAP / ELLIPSE_WIDE;
     east = fmin(east + lap, 180.0);
-    const lrcsi_plot_point corner[4] = {ellipse_spot(west, low), ellipse_spot(east, low),
-                                        ellipse_spot(east, high), ellipse_spot(west, high)};
+    const lrcsi_plot_point corner[4] = {ellipse_point(west, low), ellipse_point(east, low),
+                                        ellipse_point(east, high), ellipse_point(west, high)};
     plan->plotter->area(plan->plotter, corner, 4, colour);
 }
 
@@ -165,7 +165,7 @@ static void ellipse_line(const map_plan *plan, double longitude, uint32_t colour
     lrcsi_plot_point point[61];
     const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
     for (int i = 0; i <= 60; i++) {
-        point[i] = ellipse_spot(longitude, sin(LRCSI_PI * (i - 30) / 60.0));
+        point[i] = ellipse_point(longitude, sin(LRCSI_PI * (i - 30) / 60.0));
     }
     plan->plotter->line(plan->plotter, point, 61, &ink);
 }
@@ -210,14 +210,14 @@ static void ellipse_graticule(const map_plan *plan)
     }
     for (int degrees = -60; degrees <= 60; degrees += 30) {
         double height = ellipse_height(degrees);
-        lrcsi_plot_point left = ellipse_spot(-180.0, height);
-        lrcsi_plot_point right = ellipse_spot(180.0, height);
+        lrcsi_plot_point left = ellipse_point(-180.0, height);
+        lrcsi_plot_point right = ellipse_point(180.0, height);
         lrcsi_chart_stroke(plan->plotter, left.x, left.y, right.x, right.y, 0x777777u, 0.5);
         left.x -= 8.0;
         ellipse_number(plan, degrees, left, LRCSI_ANCHOR_RIGHT);
     }
     for (int degrees = -120; degrees <= 120; degrees += 60) {
-        ellipse_number(plan, degrees, ellipse_spot(degrees, 0.0), LRCSI_ANCHOR_MIDDLE);
+        ellipse_number(plan, degrees, ellipse_point(degrees, 0.0), LRCSI_ANCHOR_MIDDLE);
     }
     ellipse_line(plan, -180.0, LRCSI_COLOUR_TEXT, 0.9);
     ellipse_line(plan, 180.0, LRCSI_COLOUR_TEXT, 0.9);
@@ -310,7 +310,7 @@ static void contours_between(const map_plan *plan, uint32_t column, uint32_t row
         double x = cell_place(map->x, c, plan->wide, map->columns);
         double y = cell_place(map->y, r, plan->high, map->rows);
         z[k] = cell_value(plan, c, r);
-        corner[k] = map->mollweide ? ellipse_spot(x + turn, ellipse_height(y))
+        corner[k] = map->mollweide ? ellipse_point(x + turn, ellipse_height(y))
                                    : (lrcsi_plot_point){map_x(plan, x), map_y(plan, y)};
         if (!isfinite(z[k]) || (map->mollweide && x + turn > 180.0)) {
             return; /* nothing there, or on both sides of the map */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The derivatives of sigma in attitude: central differences of proved poses. A quotient over a step
-   h has the bounds of its two poses, divided by 2 h; how far it is from the derivative, the
-   quotient over 2 h estimates. (sigma is continuous and has a derivative but at kinks, where a
-   facet turns edge-on or an edge passes a corner.) */
+/* The derivatives of sigma in attitude: central differences of poses with proved bounds. The bound
+   of a difference quotient with step h is the sum of the bounds of its two poses, divided by 2 h.
+   How far it is from the derivative is estimated by its difference from the quotient with step 2 h.
+   (sigma is continuous, and differentiable except at kinks, where a facet turns edge-on or an edge
+   passes a corner.) */
 #include <lrcs/uncertainty.h>
 
 #include <math.h>
@@ -12,7 +13,7 @@
 
 #define STEP_DEG 0.01
 
-/* The pose after the body is turned by `deg` about the observation axis x (0) or y (1):
+/* The pose after a rotation of the body by `deg` degrees about the observation axis x (0) or y (1):
    v_obs' = Rx(deg) v_obs or Ry(deg) v_obs. */
 static void pose_turn(const lrcs_pose *pose, int axis, double deg, lrcs_pose *turned)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A model of what methods cost: a sum of what is counted, each item at a price. Prices are those of
-   one machine (make bench; 3 GHz); only their ratios matter. It decides nothing that is proved. */
+/* A model of the time that methods take: a sum of counts, each times the time of one item. Times
+   were measured on one machine (make bench; 3 GHz); only their ratios matter. No bound depends on
+   it. */
 #include "integrate/cost.h"
 
 #include <math.h>
@@ -11,35 +12,37 @@
 #include "base/range.h"
 #include "visibility/grid.h"
 
-/* Facets that are looked at to count: all of so many, else about as many, spread at random. */
+/* Counts are made over all facets if there are no more than this, else over about as many, chosen
+   at random. */
 #define COST_SAMPLE 4096u
 
-/* Prices in ns. Drawing: of a facet, of a pixel on the rim of one, of a pixel, of one covered once.
-   Clipping: of a facet, of one that casts (it is classified and summed), of an undecided one, of a
-   place where two borders cross. */
+/* Times in ns. Drawing: per facet, per pixel on the border of one, per pixel, per pixel and facet
+   that covers it. Clipping: per facet, per facet that casts shadows (it is classified and summed),
+   per undecided facet, per crossing of two borders. */
 #define DRAW_FACET     250.0
-#define DRAW_RIM       40.0
+#define DRAW_BORDER    40.0
 #define DRAW_PIXEL     2.5
 #define DRAW_COVERED   3.0
 #define CLIP_FACET     15.0
 #define CLIP_CASTING   120.0
 #define CLIP_UNDECIDED 6500.0
 #define CLIP_CROSSING  900.0
-/* A step of clipping, at least. */
+/* The shortest time of a step of clipping, ns. */
 #define CLIP_STEP 25.0
 
-/* An event edge leaves so many facets undecided, and a facet with a contact is undecided unless the
-   other one is behind it. */
-#define EVENT_CROSSES 1.3
-#define TOUCH_HIDES   0.7
+/* The mean number of facets that an event edge makes undecided, and that a facet with a contact
+   does: none if the other facet is behind it. */
+#define UNDECIDED_PER_EVENT   1.3
+#define UNDECIDED_PER_CONTACT 0.7
 
-/* The coarsest raster; and the part of what one costs that a finer one may cost more, for safety.
- */
-#define RASTER_LEAST  256u
-#define RASTER_MARGIN 0.15
-/* No first raster costs more than so many of the coarsest, which tells of finer ones. */
+/* The coarsest raster; and the fraction by which a finer one may take longer, to be more likely to
+   be accepted. */
+#define RASTER_MIN   256u
+#define RASTER_EXTRA 0.15
+/* The first raster takes at most this many times as long as the coarsest: its estimate shows how
+   fine the next one must be. */
 #define FIRST_TIMES 4.0
-/* What an estimate is above the error that borders cause by chance: it errs on the safe side. */
+/* The ratio of the estimate of sampling_error.h, which is on the safe side, to the random error. */
 #define ESTIMATE_SAFETY 4.0
 
 /* Twice the projected area of a facet, from view coordinates. */
@@ -51,8 +54,9 @@ static double area_twice(const lrcsi_view *view, const uint32_t *corner)
     return fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
 }
 
-/* Adds the sides of a facet that are event edges. Where back sides cast too, a contour is a side of
-   two facets; irregular edges count as events. */
+/* Adds the sides of a facet that are event edges, `times` over. Where back sides cast shadows too,
+   a contour edge is a side of two facets, and counts by half for each; irregular edges count as
+   event edges. */
 static void count_events(const lrcsi_view *view, uint32_t facet, double times, lrcsi_cost *cost)
 {
     const lrcs_prepared *p = view->prepared;
@@ -74,8 +78,8 @@ static void count_events(const lrcsi_view *view, uint32_t facet, double times, l
     }
 }
 
-/* Of so many facets that follow each other one is looked at, by chance: meshes repeat themselves.
- */
+/* One facet is chosen at random from each run of `stride` facets: meshes have regular patterns,
+   which a fixed stride could miss. */
 lrcsi_cost lrcsi_cost_count(const lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
@@ -104,40 +108,42 @@ lrcsi_cost lrcsi_cost_count(const lrcsi_view *view)
     return cost;
 }
 
-/* The rims of facets are about as long as the roots of their areas: together, over the window's
-   side, the root of their number and of the area that they cover in it. */
+/* The length of a facet's border is about the square root of its area. The sum over all facets, in
+   sides of the window, is the square root of their number times the area that they cover. */
 double lrcsi_cost_draw(const lrcsi_cost *cost, uint32_t size)
 {
-    double rims = sqrt(cost->casting * cost->overdraw);
+    double borders = sqrt(cost->casting * cost->overdraw);
     double pixels = (double)size * size;
-    return DRAW_FACET * cost->casting + DRAW_RIM * rims * size +
+    return DRAW_FACET * cost->casting + DRAW_BORDER * borders * size +
            (DRAW_PIXEL + DRAW_COVERED * cost->overdraw) * pixels;
 }
 
 double lrcsi_cost_undecided(const lrcsi_cost *cost)
 {
-    return lrcsi_least(cost->casting, EVENT_CROSSES * cost->events + TOUCH_HIDES * cost->contacts);
+    return lrcsi_least(cost->casting,
+                       UNDECIDED_PER_EVENT * cost->events + UNDECIDED_PER_CONTACT * cost->contacts);
 }
 
-/* Of facets thrown at random, whose areas are D in all, this part of the window is covered,
-   1 - exp(-D): by functions that are the same everywhere, so that choices are; */
-static double covered(const lrcsi_cost *cost)
+/* The fraction of the window that is covered, if facets whose areas sum to D windows lie
+   in it at random: 1 - exp(-D). The exponential of base/elementary.h makes choices the same on
+   every machine. */
+static double covered_fraction(const lrcsi_cost *cost)
 {
     double d = cost->overdraw;
     return d < 1e-4 ? d : 1 - lrcsi_exp(-lrcsi_least(d, 100));
 }
 
-/* by so many on average: one of so many borders is seen. */
-static double layers(const lrcsi_cost *cost)
+/* The mean number of facets that cover a point of that fraction: one border in this many is
+   visible. */
+static double mean_overdraw(const lrcsi_cost *cost)
 {
-    return cost->overdraw > 0 ? cost->overdraw / covered(cost) : 1;
+    return cost->overdraw > 0 ? cost->overdraw / covered_fraction(cost) : 1;
 }
 
-/* Segments thrown at random, of length L together, cross in L^2 / pi places of a square of side 1
-   (Crofton). */
+/* Random segments of total length L in a square of side 1 cross at L^2 / pi points (Crofton). */
 double lrcsi_cost_clip(const lrcsi_cost *cost, double undecided)
 {
-    double crossings = cost->borders * cost->borders / LRCSI_PI / layers(cost);
+    double crossings = cost->borders * cost->borders / LRCSI_PI / mean_overdraw(cost);
     return CLIP_FACET * cost->facets + CLIP_CASTING * cost->casting + CLIP_UNDECIDED * undecided +
            CLIP_CROSSING * crossings;
 }
@@ -147,23 +153,24 @@ uint64_t lrcsi_cost_steps(double ns)
     return (uint64_t)lrcsi_least(ns / CLIP_STEP, 0x1p62);
 }
 
-/* Borders of length L that are seen, in sides of the window, pass L N pixels of area 1 / N^2, each
-   of which errs by half of itself and by chance: sqrt(L N) / 2 N^2 in all, of an area A that is
-   seen. Where they pass more pixels than there are this tells nothing: a coarse raster will. */
-uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t most)
+/* Visible borders of length L, in sides of the window, pass through L N pixels of area 1 / N^2.
+   Each of these has a random error of half its area: sqrt(L N) / (2 N^2) in all, of a visible area
+   A. If borders would pass through more pixels than there are, this model says nothing, and a
+   coarse raster is chosen, whose estimate does. */
+uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t largest)
 {
-    double borders = cost->borders / layers(cost);
-    double error = 0.5 * ESTIMATE_SAFETY * sqrt(borders) / covered(cost) / tolerance;
-    uint32_t n = RASTER_LEAST;
-    while (n + 64 <= most && (double)n * n * n < error * error) {
+    double borders = cost->borders / mean_overdraw(cost);
+    double error = 0.5 * ESTIMATE_SAFETY * sqrt(borders) / covered_fraction(cost) / tolerance;
+    uint32_t n = RASTER_MIN;
+    while (n + 64 <= largest && (double)n * n * n < error * error) {
         n += 64;
     }
-    n = borders > n && n < most ? RASTER_LEAST : n;
-    if (n == most) {
-        return most;
+    n = borders > n && n < largest ? RASTER_MIN : n;
+    if (n == largest) {
+        return largest;
     }
-    double dear = (1 + RASTER_MARGIN) * lrcsi_cost_draw(cost, n);
-    while (n + 64 <= most && lrcsi_cost_draw(cost, n + 64) <= dear) {
+    double allowed = (1 + RASTER_EXTRA) * lrcsi_cost_draw(cost, n);
+    while (n + 64 <= largest && lrcsi_cost_draw(cost, n + 64) <= allowed) {
         n += 64;
     }
     return n;
@@ -171,8 +178,8 @@ uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t most
 
 uint32_t lrcsi_cost_first(const lrcsi_cost *cost, uint32_t size)
 {
-    double most = FIRST_TIMES * lrcsi_cost_draw(cost, RASTER_LEAST);
-    while (size >= RASTER_LEAST + 64 && lrcsi_cost_draw(cost, size) > most) {
+    double allowed = FIRST_TIMES * lrcsi_cost_draw(cost, RASTER_MIN);
+    while (size >= RASTER_MIN + 64 && lrcsi_cost_draw(cost, size) > allowed) {
         size -= 64;
     }
     return size;

@@ -1,29 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* Adaptive cubature of f_r cos(theta) over a triangle of interpolated normals. It decides where to
-   look closer and when to stop; over which triangles the integral goes, and which area they have,
-   the caller says.
+/* Adaptive cubature of f_r cos(theta) over a triangle of interpolated normals. This file decides
+   where cells are divided and when to stop; the caller decides over which triangles the integral is
+   taken, and what their areas are.
 
-   Normals are linear in position, so the part with n . s_hat > 0 is the triangle less a half-plane,
-   cut off first; inside it the integrand is analytic, but may peak in a small fraction of the
-   triangle, or outside of it. A cell (a convex polygon) is halved by a line across the direction in
-   which its normals turn most, the half nearer to the laser done first, so that the peak, if there
-   is one, is in the sum before what surrounds it.
-   - A rule is trusted only where the normals turn by less than the peaks are wide (of the glint
-     s cos^2 theta, of the diffuse part 1 / sqrt(m + 1)) and than their flanks take for a few powers
-     of e: no peak can then hide from the rule, nor a flank from the comparison below. Elsewhere a
-     cell is halved unheard, unless the most that such a part reaches in it (a proved bound) is
-     nothing to what the sum and its estimate have, or are sure to get.
-   - There the rule of degree 5 on 7 points (Radon 1948) is compared with itself on four quarters,
-   the halves of both halves: between them every direction in which the normals turn much is halved,
-     which one halving does not do. The difference is the estimate; being the error of the coarser,
-     it is some ten to sixty times that of what is kept.
-   - Where the normals turn by less than a small part p of those widths, and of the way to the dark
-     edge, the rule alone serves: its error is of the order of p^6, which then is the estimate; p^5
-     where a linear function of the caller's is integrated too.
-   Where halvings run out, the bound on the cell stands as the estimate. Where cells run out, the
-   triangle is done again to a coarser tolerance: all of it a little coarse beats a part untouched.
-   Where steps run out, cells that should be divided are left as they are, and what that may cost is
-   a bound and no estimate. */
+   Normals are linear in position, so that the part with n . s_hat > 0 is the triangle less a
+   half-plane, which is cut off first. Inside it the integrand is analytic, but may have a peak in a
+   small fraction of the triangle, or outside of it. A cell (a convex polygon) is halved by a line
+   across the direction in which its normals turn most. The half nearer to the laser is done first,
+   so that a peak is in the sum before what surrounds it.
+   - A rule is trusted only where the normals turn by less than the widths of the peaks (of the
+   glint s cos^2 theta, of the diffuse term 1 / sqrt(m + 1)), and by less than the angle in which
+   their flanks fall by a few powers of e: then no peak can be missed by the rule, nor a flank by
+   the comparison below. Elsewhere a cell is halved without evaluating a rule, unless the upper
+   bound of the integrand on it (proved) is negligible compared with the sum and its estimate, or
+   with a lower bound of the sum to come.
+   - A trusted rule, of degree 5 on 7 points (Radon 1948), is compared with itself on four quarters,
+     the halves of both halves: between them, every direction in which the normals turn much is
+     halved, which one halving does not achieve. The difference is the estimate; being the error of
+     the coarser value, it is some ten to sixty times the error of the finer one, which is kept.
+   - Where the normals turn by less than a small fraction p of those widths, and of the angle to the
+     edge where n . s_hat = 0, the rule alone suffices: its error is of the order of p^6, which then
+     is the estimate; p^5 if a linear function of the caller's is integrated as well.
+   Where halvings run out, the upper bound on the cell serves as the estimate. Where cells run out,
+   the triangle is done again with a larger tolerance: all of it slightly less accurate is better
+   than a part not done. Where steps run out, cells that should be divided are left as they are, and
+   what this may cost is a bound and not an estimate. */
 #include "integrate/cubature.h"
 
 #include <math.h>
@@ -34,81 +35,82 @@
 #include "base/vec3.h"
 #include "base/work.h"
 
-/* Halvings of a cell, and cells of one sum but for those that each triangle is granted. A
-   quartering leaves three cells more waiting, for two halvings. */
-#define MOST_HALVINGS 64u
-#define PARTS_WAITING (3 * MOST_HALVINGS / 2 + 4)
-/* Corners of a cell: one with so many is halved along a diagonal, which leaves fewer. */
-#define CORNERS     8
-#define MOST_SPLITS (1u << 15)
-/* By how much the tolerance grows where cells run out, and until when. */
-#define COARSER     100
-#define MOST_COARSE 1e-2
-/* Steps that a part takes: quarters, the rule on each, bounds. */
-#define PART_STEPS 256
-/* No cell's normals turn by more than this (rad) where a rule is trusted. */
-#define MOST_TURN 0.5
-/* Of the tolerance: what stays below this, relative to what a peak of the most and of the BRDF's
-   own width would add over a radian, is nothing. It goes to the estimate all the same. */
-#define NOTHING 0x1p-20
-/* Of A and B: bounds on what underflows end here (optics/deviation.c), and nothing less can be
- * told. */
-#define LEAST_TOLD 0x1p-1008
-/* Beyond this tan^2 the laser is as good as in the plane. */
-#define MOST_TAN2 1e300
+/* Limit on the halvings of a cell, and cells on the stack. Quartering leaves three more cells on
+   the stack, and takes two halvings. */
+#define HALVINGS_MAX 64u
+#define STACK_CELLS  (3 * HALVINGS_MAX / 2 + 4)
+/* Corners of a cell: one that has all of them is halved along a diagonal, which leaves fewer. */
+#define CORNERS 8
+/* Limit on the cells of one sum, apart from those that each triangle is granted. */
+#define SPLITS_MAX (1u << 15)
+/* The factor by which the tolerance grows where cells run out, and its limit. */
+#define COARSER    100
+#define COARSE_MAX 1e-2
+/* Steps that a cell takes: quarters, the rule on each, bounds. */
+#define CELL_STEPS 256
+/* A rule is trusted only if the normals of the cell turn by no more than this, rad. */
+#define TURN_MAX 0.5
+/* Values below this, times the tolerance, are negligible compared with what a peak of the upper
+   bound's height and of the BRDF's own width adds over a radian. They are part of the estimate. */
+#define NEGLIGIBLE 0x1p-20
+/* Relative to A and B: terms smaller than this are lost in the bounds on underflow
+   (optics/deviation.c). */
+#define TERM_MIN 0x1p-1008
+/* At a tan^2 above this the laser is in the plane as far as doubles can show. */
+#define TAN2_MAX 1e300
 
-/* A rule's sum over a cell. */
+/* The value of the rule on a cell. */
 typedef struct cube_value {
     double glint, diffuse, rounding;
-    double glint_u, diffuse_log; /* moments, where wanted */
+    double glint_u, diffuse_log; /* moments, if sum.moments */
     double weighted;             /* times the caller's linear function, 0 without one */
 } cube_value;
 
-/* A convex polygon. Positions are relative to the first corner, so that they stay good to a few u
-   of the cell's size however small it is. */
+/* A convex polygon. Positions are relative to the first corner, so that their errors stay below a
+   few u of the cell's size, however small it is. */
 struct lrcsi_cubature_cell {
     double normal[CORNERS][3], at[CORNERS][2], weight[CORNERS];
     int count;
     double unit;    /* area of the square of positions */
-    double theta;   /* from the mean of its corners' normals to the laser */
-    double unheard; /* bound on a glint that no rule need find, per area */
+    double theta;   /* angle between the mean of its corners' normals and the laser */
+    double skipped; /* bound on the terms, per area, that the rule is allowed to miss */
     uint32_t depth;
-    int trusted;  /* the rule may be: `value` is its sum */
-    double rough; /* relative error of that where it is small enough to go by, else 1 */
+    int trusted;     /* the rule is: `value` is its value */
+    double rule_err; /* estimated relative error of the rule if that can be relied on, else 1 */
     cube_value value;
 };
 typedef struct lrcsi_cubature_cell cube_cell;
 
 /* --- the rule --------------------------------------------------------------------------------- */
 
-/* By how much the parts may move where the normal is off by d. Their logarithms fall with theta by
-   at most t (5 + 2 (1 + t^2)/s^2) and (m + 1) t, t = tan(theta), both growing with t; tan(theta +
-   d)
-   <= t + 2 d (1 + t^2) for d t <= 1/2; e^x - 1 <= 2 x for x <= 1/4. Where a part may move by more,
-   all that is known is the most that it reaches near by. */
+/* A bound on the error of f_r cos at a node of the rule where the normal has an error of d, rad.
+   The logarithms of the two terms fall with theta by at most t (5 + 2 (1 + t^2)/s^2) and (m + 1) t
+   per radian, t = tan(theta), both of which grow with t; and tan(theta + d) <= t + 2 d (1 + t^2)
+   for d t <= 1/2; e^x - 1 <= 2 x for x <= 1/4. If the change may be larger, the error is at most
+   the upper bound of the term in the neighbourhood. */
 static double node_position_err(const lrcsi_cubature *sum, double u, double d, const cube_value *at)
 {
     const lrcs_brdf *brdf = sum->brdf;
     double t = sqrt(u) + 2 * d * (1 + u);
-    double steep = brdf->A > 0 ? d * t * (5 + 2 * ((1 + t * t) / brdf->s) / brdf->s) : 0;
-    double flat = d * t * (brdf->m + 1);
-    if (steep <= 0.25 && flat <= 0.25) {
-        return 2 * (at->glint * steep + at->diffuse * flat);
+    double glint_change = brdf->A > 0 ? d * t * (5 + 2 * ((1 + t * t) / brdf->s) / brdf->s) : 0;
+    double diffuse_change = d * t * (brdf->m + 1);
+    if (glint_change <= 0.25 && diffuse_change <= 0.25) {
+        return 2 * (at->glint * glint_change + at->diffuse * diffuse_change);
     }
-    lrcsi_reflection most = lrcsi_reflect_most(brdf, atan(sqrt(u)), 2 * d);
-    return (steep <= 0.25 ? 2 * at->glint * steep : most.glint) +
-           (flat <= 0.25 ? 2 * at->diffuse * flat : most.diffuse);
+    lrcsi_reflection bound = lrcsi_reflect_most(brdf, atan(sqrt(u)), 2 * d);
+    return (glint_change <= 0.25 ? 2 * at->glint * glint_change : bound.glint) +
+           (diffuse_change <= 0.25 ? 2 * at->diffuse * diffuse_change : bound.diffuse);
 }
 
 /* f_r cos at one normal. Rounding: lrcsi_reflect's own, and a square root and a product; tan^2 is
-   good to 6 u, which is at most 2 u in theta and part of the position error. */
+   good to 6 u, which is at bound 2 u in theta and part of the position error. */
 static cube_value node_value(const lrcsi_cubature *sum, const double n[3])
 {
     cube_value at = {0, 0, 0, 0, 0, 0};
     if (!(n[2] > 0)) {
         return at;
     }
-    double u = lrcsi_least(MOST_TAN2, (n[0] * n[0] + n[1] * n[1]) / n[2] / n[2]);
+    double u = lrcsi_least(TAN2_MAX, (n[0] * n[0] + n[1] * n[1]) / n[2] / n[2]);
     lrcsi_reflection reflection = lrcsi_reflect(sum->brdf, u, 0);
     double secant = sqrt(1 + u);
     at.glint = reflection.glint * secant;
@@ -132,10 +134,10 @@ static void value_add(cube_value *sum, double weight, const cube_value *value)
     sum->weighted += weight * value->weighted;
 }
 
-/* What rounding may add to the area of the triangle of corners 0, i and i + 1, in units of the
-   cell's: positions lose 2 u of the cell's size at every halving, the area that times the size, and
-   4 u itself. */
-static double fan_slack(const cube_cell *cell, int i)
+/* A bound on the rounding error of the area of the triangle of corners 0, i and i + 1, in units of
+   the cell's. Each halving adds an error of 2 u of the cell's size to positions, which is that
+   times the size in the area; the area itself adds 4 u. */
+static double fan_area_err(const cube_cell *cell, int i)
 {
     const double *u = cell->at[i];
     const double *v = cell->at[i + 1];
@@ -143,8 +145,9 @@ static double fan_slack(const cube_cell *cell, int i)
            (u[0] * u[0] + u[1] * u[1] + v[0] * v[0] + v[1] * v[1]);
 }
 
-/* The rule over the triangle of corners 0, i and i + 1: centroid 9/40; points (a, a, 1 - 2 a) and
-   turned, a = (6 -+ sqrt 15)/21, (155 -+ sqrt 15)/1200. Weights and sums are good to 16 u. */
+/* The rule on the triangle of corners 0, i and i + 1: the centroid with weight 9/40; the points
+   (a, a, 1 - 2 a) and their rotations, a = (6 -+ sqrt 15)/21, with weights (155 -+ sqrt 15)/1200.
+   Weights and sums have relative errors below 16 u. */
 static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cube_value *value)
 {
     static const double rule[3][3] = {
@@ -154,7 +157,7 @@ static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cu
     const double *u = cell->at[i];
     const double *v = cell->at[i + 1];
     double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
-    double slack = fan_slack(cell, i);
+    double area_err = fan_area_err(cell, i);
     cube_value mean = {0, 0, 0, 0, 0, 0};
     for (int k = 0; k < 7 && area > 0; k++) {
         const double *node = rule[(k + 2) / 3]; /* the centroid once, the others three times */
@@ -172,7 +175,7 @@ static void rule_add(const lrcsi_cubature *sum, const cube_cell *cell, int i, cu
     }
     mean.rounding += 16 * LRCSI_U * (mean.glint + mean.diffuse);
     value_add(value, cell->unit * area, &mean);
-    value->rounding += cell->unit * slack * (mean.glint + mean.diffuse);
+    value->rounding += cell->unit * area_err * (mean.glint + mean.diffuse);
 }
 
 static cube_value rule_value(const lrcsi_cubature *sum, const cube_cell *cell)
@@ -214,66 +217,73 @@ static void cube_measure(cube_cell *cell)
     cell->theta = atan2(sqrt(n[0] * n[0] + n[1] * n[1]), n[2]);
 }
 
-/* The largest angle from the mean normal to one of the cell's: to a corner's where that is
-   less than a right angle, since such a circle that holds the corners holds their triangle. */
+/* The largest angle between the mean normal and any normal of the cell. It is attained at a corner
+   if it is less than a right angle, since a spherical cap smaller than a hemisphere that contains
+   the corners contains everything between them. */
 static double cube_turn(const cube_cell *cell)
 {
     double n[3];
-    double most = 0;
+    double tangent = 0;
     cube_mean(cell, n);
     for (int i = 0; i < cell->count; i++) {
         const double *m = cell->normal[i];
         double dot = lrcsi_vec3_dot(n, m);
         double cross[3];
         lrcsi_vec3_cross(n, m, cross);
-        most = lrcsi_most(most, dot > 0 ? sqrt(lrcsi_vec3_dot(cross, cross)) / dot : HUGE_VAL);
+        tangent =
+            lrcsi_most(tangent, dot > 0 ? sqrt(lrcsi_vec3_dot(cross, cross)) / dot : HUGE_VAL);
     }
-    return isfinite(most) ? atan(most) * (1 + 4 * LRCSI_U) + 16 * LRCSI_U : LRCSI_PI;
+    return isfinite(tangent) ? atan(tangent) * (1 + 4 * LRCSI_U) + 16 * LRCSI_U : LRCSI_PI;
 }
 
-/* An error of f_r cos that nobody looks for. */
+/* Errors of f_r cos below this are accepted. */
 static double negligible_below(const lrcsi_cubature *sum)
 {
-    return lrcsi_most(sum->negligible, sum->tolerance * sum->had);
+    return lrcsi_most(sum->negligible, sum->tolerance * sum->reference);
 }
 
-/* Decides whether a rule may be trusted with the cell, or never hear of its glint. */
+/* Decides whether the rule is trusted on the cell, and evaluates it if so:
+   1. whether the normals turn little enough for the glint and for the diffuse term;
+   2. if not, whether the terms are negligible on the cell, by their proved upper bound;
+   3. the estimated error of the rule, from the turn relative to the widths of the terms. */
 static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
 {
     const lrcs_brdf *brdf = sum->brdf;
     double turn = cube_turn(cell);
     double cosine = cos(cell->theta);
     double t = fabs(tan(cell->theta));
-    double wide = brdf->s * cosine * cosine * lrcsi_least(1, 2 * brdf->s / t);
-    double steep = (brdf->m + 1) * lrcsi_least(1, t);
-    int glint = !(brdf->A > 0) || turn <= wide;
-    int glint_near = glint;
-    int diffuse = !(brdf->B > 0) || (turn * turn * (brdf->m + 1) <= 1 && turn * steep <= 4);
-    cell->unheard = 0;
-    if (turn <= MOST_TURN && !(glint && diffuse)) {
-        lrcsi_reflection most = lrcsi_reflect_most(brdf, cell->theta, turn);
-        cell->unheard = (glint ? 0 : most.glint) + (diffuse ? 0 : most.diffuse);
-        double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse) + sum->estimate;
-        double scale = lrcsi_most(had, sum->least * sum->whole);
-        glint = diffuse = cell->unheard <= negligible_below(sum) ||
-                          cell->unheard * sum->whole <= sum->tolerance * scale;
+    double width = brdf->s * cosine * cosine * lrcsi_least(1, 2 * brdf->s / t); /* of the glint */
+    double steepness = (brdf->m + 1) * lrcsi_least(1, t); /* of the diffuse term */
+    int glint_resolved = !(brdf->A > 0) || turn <= width;
+    int diffuse_resolved =
+        !(brdf->B > 0) || (turn * turn * (brdf->m + 1) <= 1 && turn * steepness <= 4);
+    int serves = glint_resolved && diffuse_resolved;
+    cell->skipped = 0;
+    if (turn <= TURN_MAX && !serves) {
+        lrcsi_reflection bound = lrcsi_reflect_most(brdf, cell->theta, turn);
+        cell->skipped = (glint_resolved ? 0 : bound.glint) + (diffuse_resolved ? 0 : bound.diffuse);
+        double sum_so_far =
+            lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse) + sum->estimate;
+        double scale = lrcsi_most(sum_so_far, sum->diffuse_min * sum->area);
+        serves = cell->skipped <= negligible_below(sum) ||
+                 cell->skipped * sum->area <= sum->tolerance * scale;
     }
-    cell->trusted = turn <= MOST_TURN && diffuse && glint;
-    double part = lrcsi_most(turn * sqrt(brdf->m + 1), 0.25 * turn * (brdf->m + 1) * t);
-    part = lrcsi_most(part, brdf->A > 0 && glint_near ? turn / wide : 0);
-    double fifth = part * part * part * part * part;
-    cell->rough = part < 1 ? fifth * (sum->weight ? 1 : part) : 1;
+    cell->trusted = turn <= TURN_MAX && serves;
+    double p = lrcsi_most(turn * sqrt(brdf->m + 1), 0.25 * turn * (brdf->m + 1) * t);
+    p = lrcsi_most(p, brdf->A > 0 && glint_resolved ? turn / width : 0);
+    double fifth = p * p * p * p * p;
+    cell->rule_err = p < 1 ? fifth * (sum->weight ? 1 : p) : 1;
     if (cell->trusted) {
         cell->value = rule_value(sum, cell);
     }
 }
 
-/* The direction in which normals turn most: from corner *from to corner *to, the chord between
-   their normals of length 1. */
+/* The two corners *from and *to whose unit normals are farthest apart, and the chord between these:
+   the direction in which normals turn most. */
 static void cube_chord(const cube_cell *cell, int *from, int *to, double chord[3])
 {
     double unit[CORNERS][3];
-    double most = -1;
+    double longest = -1;
     for (int i = 0; i < cell->count; i++) {
         double length = sqrt(lrcsi_vec3_dot(cell->normal[i], cell->normal[i]));
         for (int k = 0; k < 3; k++) {
@@ -282,8 +292,8 @@ static void cube_chord(const cube_cell *cell, int *from, int *to, double chord[3
         for (int j = 0; j < i; j++) {
             double apart[3] = {unit[i][0] - unit[j][0], unit[i][1] - unit[j][1],
                                unit[i][2] - unit[j][2]};
-            if (lrcsi_vec3_dot(apart, apart) > most) {
-                most = lrcsi_vec3_dot(apart, apart);
+            if (lrcsi_vec3_dot(apart, apart) > longest) {
+                longest = lrcsi_vec3_dot(apart, apart);
                 *from = j;
                 *to = i;
                 for (int k = 0; k < 3; k++) {
@@ -294,7 +304,8 @@ static void cube_chord(const cube_cell *cell, int *from, int *to, double chord[3
     }
 }
 
-/* A convex cell never has too many; one that rounding has dented loses a sliver of its rim. */
+/* Adds a corner. A convex cell never has too many; one that is not quite convex, by rounding, may
+   lose a sliver. */
 static void corner_add(cube_cell *cell, const double normal[3], const double at[2], double weight)
 {
     if (cell->count == CORNERS) {
@@ -309,7 +320,7 @@ static void corner_add(cube_cell *cell, const double normal[3], const double at[
     cell->weight[cell->count++] = weight;
 }
 
-/* The part of a cell with level >= 0, `sign` 1, or <= 0, -1; the level is linear in position. */
+/* The part of a cell where sign * level >= 0. level is linear in position, and given at corners. */
 static void cube_cut(const cube_cell *cell, const double level[CORNERS], int sign, cube_cell *part)
 {
     for (int i = 0; i < cell->count; i++) {
@@ -335,8 +346,8 @@ static void cube_cut(const cube_cell *cell, const double level[CORNERS], int sig
     }
 }
 
-/* Positions relative to the first corner, and the angle to the laser. */
-static void cube_settle(cube_cell *cell)
+/* Makes positions relative to the first corner, and finds the angle to the laser. */
+static void cube_finish(cube_cell *cell)
 {
     for (int i = cell->count - 1; i >= 0; i--) {
         cell->at[i][0] -= cell->at[0][0];
@@ -345,11 +356,11 @@ static void cube_settle(cube_cell *cell)
     cube_measure(cell);
 }
 
-/* The direction in position along which the component of the normals along `chord` grows, from the
-   largest triangle of the fan; of any length. */
+/* The gradient, over positions, of the component of the normals along `chord`, up to a positive
+   factor: that of the largest triangle of the fan. */
 static void cube_gradient(const cube_cell *cell, const double chord[3], double gradient[2])
 {
-    double most = 0;
+    double largest = 0;
     gradient[0] = gradient[1] = 0;
     for (int i = 1; i + 1 < cell->count; i++) {
         const double *u = cell->at[i];
@@ -360,17 +371,18 @@ static void cube_gradient(const cube_cell *cell, const double chord[3], double g
             gu += chord[k] * (cell->normal[i][k] - cell->normal[0][k]);
             gv += chord[k] * (cell->normal[i + 1][k] - cell->normal[0][k]);
         }
-        if (u[0] * v[1] - u[1] * v[0] > most) {
-            most = u[0] * v[1] - u[1] * v[0];
+        if (u[0] * v[1] - u[1] * v[0] > largest) {
+            largest = u[0] * v[1] - u[1] * v[0];
             gradient[0] = gu * v[1] - gv * u[1];
             gradient[1] = gv * u[0] - gu * v[0];
         }
     }
 }
 
-/* Levels whose zero halves a cell; 0 if none of it is below, as where no normal turns. They are
-   linear in position, so that areas add up whatever rounding does to normals: across the largest
-   turn, midway, or where the cell has corners enough, along a diagonal. */
+/* The levels at corners whose zero line halves a cell; returns 0 if no level is negative, as where
+   all normals are the same. They are linear in position, so that areas add up whatever rounding
+   does to normals. The line is midway across the direction in which normals turn most or, if the
+   cell has all the corners it may have, a diagonal. */
 static int cube_levels(const cube_cell *cell, double level[CORNERS])
 {
     int from = 0;
@@ -392,20 +404,20 @@ static int cube_levels(const cube_cell *cell, double level[CORNERS])
     return below;
 }
 
-/* Both halves, the one nearer to the laser second. */
+/* Both halves; the second one is nearer to the laser. */
 static void cube_halve(const cube_cell *cell, cube_cell half[2])
 {
     double level[CORNERS];
     int parts = cube_levels(cell, level);
     for (int h = 0; h < 2; h++) {
         half[h] =
-            (cube_cell){.unit = cell->unit, .unheard = cell->unheard, .depth = cell->depth + 1};
+            (cube_cell){.unit = cell->unit, .skipped = cell->skipped, .depth = cell->depth + 1};
         half[h].trusted = cell->trusted;
-        half[h].rough = 1;
+        half[h].rule_err = 1;
         if (h == 0 || parts) {
             cube_cut(cell, level, h == 0 ? 1 : -1, &half[h]);
         }
-        cube_settle(&half[h]);
+        cube_finish(&half[h]);
     }
     if (half[0].theta < half[1].theta) {
         cube_cell other = half[0];
@@ -414,7 +426,7 @@ static void cube_halve(const cube_cell *cell, cube_cell half[2])
     }
 }
 
-/* The halves of both halves, with the rule's sums. */
+/* The halves of both halves, with the values of the rule. */
 static void cube_quarter(const lrcsi_cubature *sum, const cube_cell *cell, cube_cell quarter[4])
 {
     cube_cell half[2];
@@ -426,6 +438,7 @@ static void cube_quarter(const lrcsi_cubature *sum, const cube_cell *cell, cube_
     }
 }
 
+/* Adds the value of a cell to the sum. */
 static void sum_keep(lrcsi_cubature *sum, const cube_cell *cell)
 {
     lrcsi_sum_add(&sum->glint, cell->value.glint);
@@ -436,6 +449,7 @@ static void sum_keep(lrcsi_cubature *sum, const cube_cell *cell)
     lrcsi_sum_add(&sum->weighted, cell->value.weighted);
 }
 
+/* The length of the shortest normal at a corner. */
 static double cube_shortest(const cube_cell *cell)
 {
     double shortest = HUGE_VAL;
@@ -445,47 +459,39 @@ static double cube_shortest(const cube_cell *cell)
     return shortest;
 }
 
-/* The most that f_r cos reaches in the cone of the corners' normals, each off by the position
- * error. */
-static double cube_peak(const lrcsi_cubature *sum, const cube_cell *cell)
+/* An upper bound of f_r cos in the cone of the corners' normals, each with an error of at most
+   position_err. */
+static double cube_upper_bound(const lrcsi_cubature *sum, const cube_cell *cell)
 {
-    double off = 2 * sum->position_err / cube_shortest(cell);
-    double turn = off <= 1 ? cube_turn(cell) + off : LRCSI_PI;
-    lrcsi_reflection most = lrcsi_reflect_most(sum->brdf, cell->theta, turn);
-    return most.glint + most.diffuse;
+    double err = 2 * sum->position_err / cube_shortest(cell);
+    double turn = err <= 1 ? cube_turn(cell) + err : LRCSI_PI;
+    lrcsi_reflection bound = lrcsi_reflect_most(sum->brdf, cell->theta, turn);
+    return bound.glint + bound.diffuse;
 }
 
-/* The most that a cell may hold, and that the rule may find there. */
-static double cube_most(const lrcsi_cubature *sum, const cube_cell *cell)
+/* An upper bound of the integral over a cell, and of the value of the rule on it. */
+static double cube_integral_bound(const lrcsi_cubature *sum, const cube_cell *cell)
 {
-    double slack = 0;
+    double area_err = 0;
     for (int i = 1; i + 1 < cell->count; i++) {
-        slack += fan_slack(cell, i);
+        area_err += fan_area_err(cell, i);
     }
-    return (cube_area(cell) + cell->unit * slack) * cube_peak(sum, cell);
+    return (cube_area(cell) + cell->unit * area_err) * cube_upper_bound(sum, cell);
 }
 
-/* What a cell that should be divided and is not may be off by: a guess or, where it is for want of
-   steps, the most. */
-static void sum_leave(lrcsi_cubature *sum, double most, double guess)
+/* Adds the error of a cell that is not accurate enough and is not divided further: its estimate, or
+   the bound if it is not divided because no steps are left. */
+static void sum_add_error(lrcsi_cubature *sum, double bound, double estimate)
 {
     if (lrcsi_meter_spent(sum->meter)) {
-        sum->left += most;
+        sum->unresolved += bound;
     } else {
-        sum->estimate += guess;
+        sum->estimate += estimate;
     }
 }
 
-/* A cell that no rule is good for, and that is not divided further. */
-static void cube_give_up(lrcsi_cubature *sum, cube_cell *cell)
-{
-    double most = cube_most(sum, cell);
-    cell->value = rule_value(sum, cell);
-    sum_keep(sum, cell);
-    sum_leave(sum, most, most);
-}
-
-/* Keeps the quarters where they agree with the whole, or must. 0: they are not kept. */
+/* Adds four quarters if their sum agrees with the value on the whole cell, or if they must be
+   added. Returns 0 if they are not added. */
 static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_cell quarter[4],
                          int must)
 {
@@ -494,24 +500,25 @@ static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_
         value_add(&all, 1, &quarter[i].value);
     }
     double area = cube_area(cell);
-    double off = fabs(all.glint - cell->value.glint) + fabs(all.diffuse - cell->value.diffuse);
-    if (sum->weight) { /* the integral with the weight, relative to its largest value */
+    double difference =
+        fabs(all.glint - cell->value.glint) + fabs(all.diffuse - cell->value.diffuse);
+    if (sum->weight) { /* also of the weighted integral, relative to the largest weight */
         const double *w = sum->weight;
         double largest = lrcsi_most(fabs(w[0]), lrcsi_most(fabs(w[1]), fabs(w[2])));
-        double moved = fabs(all.weighted - cell->value.weighted);
-        off = largest > 0 ? lrcsi_most(off, moved / largest) : off;
+        double weighted = fabs(all.weighted - cell->value.weighted);
+        difference = largest > 0 ? lrcsi_most(difference, weighted / largest) : difference;
     }
-    double had = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
-    double most = sum->tolerance * (all.glint + all.diffuse + had * (area / sum->whole));
-    int agree = off <= most + negligible_below(sum) * area;
+    double sum_so_far = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
+    double allowed = sum->tolerance * (all.glint + all.diffuse + sum_so_far * (area / sum->area));
+    int agree = difference <= allowed + negligible_below(sum) * area;
     if (!must && !agree) {
         return 0;
     }
-    double guess = off + cell->unheard * area;
+    double estimate = difference + cell->skipped * area;
     if (agree) {
-        sum->estimate += guess;
+        sum->estimate += estimate;
     } else {
-        sum_leave(sum, cube_most(sum, cell), guess);
+        sum_add_error(sum, cube_integral_bound(sum, cell), estimate);
     }
     for (int i = 0; i < 4; i++) {
         sum_keep(sum, &quarter[i]);
@@ -519,8 +526,8 @@ static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_
     return 1;
 }
 
-/* One cell: kept, or parted into `part`. Returns into how many. */
-static uint32_t cube_step(lrcsi_cubature *sum, cube_cell *cell, int may_part, cube_cell part[4])
+/* One cell: it is added to the sum, or divided into `part`. Returns how many parts there are. */
+static uint32_t cube_step(lrcsi_cubature *sum, cube_cell *cell, int may_divide, cube_cell part[4])
 {
     if (!cell->trusted) {
         cube_trust(sum, cell);
@@ -528,40 +535,44 @@ static uint32_t cube_step(lrcsi_cubature *sum, cube_cell *cell, int may_part, cu
     double area = cube_area(cell);
     double value = cell->value.glint + cell->value.diffuse;
     if (cell->trusted &&
-        cell->rough * value <= sum->tolerance * value + negligible_below(sum) * area) {
+        cell->rule_err * value <= sum->tolerance * value + negligible_below(sum) * area) {
         sum_keep(sum, cell);
-        sum->estimate += cell->rough * value + cell->unheard * area;
+        sum->estimate += cell->rule_err * value + cell->skipped * area;
         return 0;
     }
     if (cell->trusted) {
         cube_quarter(sum, cell, part);
-        return quarters_keep(sum, cell, part, !may_part) ? 0 : 4;
+        return quarters_keep(sum, cell, part, !may_divide) ? 0 : 4;
     }
-    if (may_part) {
+    if (may_divide) {
         cube_halve(cell, part);
         return 2;
     }
-    cube_give_up(sum, cell);
+    double bound = cube_integral_bound(sum, cell);
+    cell->value = rule_value(sum, cell);
+    sum_keep(sum, cell);
+    sum_add_error(sum, bound, bound);
     return 0;
 }
 
-/* A triangle may always be parted once; what is left when the meter is spent, no more. */
+/* Adds a cell and all cells into which it is divided. The first one may always be divided; once the
+   meter is spent, no other is. */
 static void cells_add(lrcsi_cubature *sum, cube_cell first)
 {
     cube_cell part[4];
     uint32_t top = 0;
-    cube_settle(&first);
-    sum->waiting[top++] = first;
+    cube_finish(&first);
+    sum->stack[top++] = first;
     while (top > 0) {
-        cube_cell cell = sum->waiting[--top];
-        int left = lrcsi_meter_take(sum->meter, PART_STEPS);
-        int may_part = cell.depth == 0 ||
-                       (left && cell.depth + 2 <= MOST_HALVINGS && sum->splits < MOST_SPLITS);
-        uint32_t parts = cube_step(sum, &cell, may_part, part);
+        cube_cell cell = sum->stack[--top];
+        int left = lrcsi_meter_take(sum->meter, CELL_STEPS);
+        int may_divide =
+            cell.depth == 0 || (left && cell.depth + 2 <= HALVINGS_MAX && sum->splits < SPLITS_MAX);
+        uint32_t parts = cube_step(sum, &cell, may_divide, part);
         sum->splits += parts;
         for (uint32_t i = 0; i < parts; i++) {
             if (part[i].count >= 3 && cube_area(&part[i]) > 0) {
-                sum->waiting[top++] = part[i];
+                sum->stack[top++] = part[i];
             }
         }
     }
@@ -569,7 +580,8 @@ static void cells_add(lrcsi_cubature *sum, cube_cell first)
 
 /* --- triangles -------------------------------------------------------------------------------- */
 
-/* A triangle of that area, with the values of a linear function at its corners (NULL: 0). */
+/* A triangle as a cell. Given: its normals; the values of the caller's linear function at its
+   corners (NULL: 0); its area. */
 static cube_cell cube_of(const double normal[3][3], const double weight[3], double area)
 {
     static const double at[3][2] = {{0, 0}, {1, 0}, {0, 1}};
@@ -582,48 +594,50 @@ static cube_cell cube_of(const double normal[3][3], const double weight[3], doub
 
 size_t lrcsi_cubature_need(void)
 {
-    return lrcsi_work_bytes(PARTS_WAITING, sizeof(cube_cell));
+    return lrcsi_work_bytes(STACK_CELLS, sizeof(cube_cell));
 }
 
-lrcsi_cubature_cell *lrcsi_cubature_cells(lrcs_work *work)
+lrcsi_cubature_cell *lrcsi_cubature_stack(lrcs_work *work)
 {
-    return lrcsi_work_take(work, PARTS_WAITING, sizeof(cube_cell));
+    return lrcsi_work_take(work, STACK_CELLS, sizeof(cube_cell));
 }
 
 lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
-                                   double tolerance, lrcsi_cubature_cell *waiting)
+                                   double tolerance, lrcsi_cubature_cell *stack)
 {
-    lrcsi_cubature sum = {.brdf = brdf, .tolerance = tolerance, .waiting = waiting};
+    lrcsi_cubature sum = {.brdf = brdf, .tolerance = tolerance, .stack = stack};
     cube_cell cell = cube_of(normal, NULL, 0);
     cube_measure(&cell);
-    sum.most = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
-    double far = cell.theta + cube_turn(&cell);
-    sum.least = far < LRCSI_PI / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(far)), brdf->m + 1) : 0;
-    sum.negligible =
-        NOTHING * tolerance *
-        (sum.most.glint * lrcsi_least(1, brdf->s * brdf->s) + sum.most.diffuse / (brdf->m + 1));
-    sum.negligible = lrcsi_most(sum.negligible, LEAST_TOLD * (brdf->A + brdf->B));
+    sum.upper_bound = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
+    double farthest = cell.theta + cube_turn(&cell);
+    sum.diffuse_min =
+        farthest < LRCSI_PI / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(farthest)), brdf->m + 1) : 0;
+    sum.negligible = NEGLIGIBLE * tolerance *
+                     (sum.upper_bound.glint * lrcsi_least(1, brdf->s * brdf->s) +
+                      sum.upper_bound.diffuse / (brdf->m + 1));
+    sum.negligible = lrcsi_most(sum.negligible, TERM_MIN * (brdf->A + brdf->B));
     return sum;
 }
 
-/* What may be missed, per area, where normals that are off by the position error face the laser and
-   do not seem to: those are off the plane by no more than the position error over their length,
-   which is at least the shortest corner's times the cosine of the turn. */
+/* A bound, per area, on what is missed where a normal faces the laser and its computed value, with
+   an error of position_err, does not. The angle of such a normal to the plane n . s_hat = 0 is at
+   highest position_err over its length, which is at lowest that of the shortest corner normal times
+   the cosine of the turn. */
 static double dark_position_err(const lrcsi_cubature *sum, const cube_cell *whole)
 {
-    double least = HUGE_VAL;
-    double most = -HUGE_VAL;
+    double lowest = HUGE_VAL;
+    double highest = -HUGE_VAL;
     for (int i = 0; i < 3; i++) {
-        least = lrcsi_least(least, whole->normal[i][2]);
-        most = lrcsi_most(most, whole->normal[i][2]);
+        lowest = lrcsi_least(lowest, whole->normal[i][2]);
+        highest = lrcsi_most(highest, whole->normal[i][2]);
     }
-    if (least > sum->position_err || most < -sum->position_err) {
+    if (lowest > sum->position_err || highest < -sum->position_err) {
         return 0;
     }
     double turn = cube_turn(whole);
     double length = turn < LRCSI_PI / 2 ? cube_shortest(whole) * cos(turn) : 0;
-    double off = 2 * sum->position_err / length;
-    lrcsi_reflection seen = lrcsi_reflect_most(sum->brdf, LRCSI_PI / 2, off <= 1 ? off : LRCSI_PI);
+    double err = 2 * sum->position_err / length;
+    lrcsi_reflection seen = lrcsi_reflect_most(sum->brdf, LRCSI_PI / 2, err <= 1 ? err : LRCSI_PI);
     return seen.glint + seen.diffuse;
 }
 
@@ -645,7 +659,7 @@ void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double a
     }
     lrcsi_cubature start = *sum;
     cells_add(sum, lit);
-    while (sum->splits >= MOST_SPLITS && start.tolerance < MOST_COARSE) {
+    while (sum->splits >= SPLITS_MAX && start.tolerance < COARSE_MAX) {
         start.tolerance *= COARSER;
         *sum = start;
         cells_add(sum, lit);

@@ -10,46 +10,49 @@
 #include "base/sum.h"
 #include "optics/reflect.h"
 
-/* A part of a triangle that is yet to be done. */
+/* A part of a triangle that is still to be integrated. */
 typedef struct lrcsi_cubature_cell lrcsi_cubature_cell;
 
 /* A sum over triangles of one surface. Areas are in any one unit. */
 typedef struct lrcsi_cubature {
     const lrcs_brdf *brdf;
-    double tolerance;      /* relative error aimed at; grows where the work would */
-    double whole;          /* area of all triangles to come, or about that */
-    double position_err;   /* by how much a normal may be off where it is evaluated, rad */
-    lrcsi_reflection most; /* bounds on the parts of f_r cos over all of them */
-    double least;          /* a diffuse f_r cos that is nowhere undercut */
-    double negligible;     /* f_r cos below this is not looked for */
-    double had;            /* f_r cos that other surfaces have to set against this one's: an error
-                              of the tolerance times this, per area, is small enough */
+    double tolerance;             /* relative error aimed at; larger where the work would exceed the
+                                     limits */
+    double area;                  /* of all triangles that will be added, approximately */
+    double position_err;          /* bound on the error of normals where they are evaluated, rad */
+    lrcsi_reflection upper_bound; /* of the two terms of f_r cos on the surface */
+    double diffuse_min;           /* a lower bound of the diffuse term of f_r cos on the surface */
+    double negligible;            /* values of f_r cos below this are not searched for */
+    double reference; /* f_r cos of other surfaces with which this one is summed: an error
+                         of the tolerance times this, per area, is accepted */
     lrcsi_sum glint, diffuse;
-    int moments;                    /* 1: sum these too, at the same nodes; set by the caller */
-    lrcsi_sum glint_u, diffuse_log; /* f_r cos times tan^2, and times log(1 + tan^2) */
-    const double *weight;           /* at the three corners of the triangle to be added: a linear
-                                       function; set by the caller; NULL: none */
-    lrcsi_sum weighted;             /* f_r cos times that function, at the same nodes */
+    int moments;                    /* 1: compute the next two, too; set by the caller */
+    lrcsi_sum glint_u, diffuse_log; /* the glint times tan^2, the diffuse term times
+                                       log(1 + tan^2) */
+    const double *weight;           /* a linear function, as its values at the three corners of the
+                                       triangle to be added; set by the caller; NULL: none */
+    lrcsi_sum weighted;             /* f_r cos times that function */
     double estimate;                /* of the cubature's error */
-    double left;     /* bound on the error where the meter left no steps to look closer */
-    double rounding; /* bound on the error that rounding adds to the cubature's own sum */
-    uint32_t splits;
-    lrcsi_meter *meter;           /* once spent, no part is divided further; NULL: no limit */
-    lrcsi_cubature_cell *waiting; /* room for parts: nothing is kept there between triangles */
+    double unresolved;  /* bound on the error where no steps were left to divide further */
+    double rounding;    /* bound on the error that rounding adds to the cubature's own sum */
+    uint32_t splits;    /* cells made so far by dividing others */
+    lrcsi_meter *meter; /* once spent, no cell is divided further; NULL: no limit */
+    lrcsi_cubature_cell *stack; /* memory for cells: empty between triangles */
 } lrcsi_cubature;
 
-/* The parts that wait at most: bytes, and room for them in a work area, NULL if it has none. */
+/* Bytes of the stack, and the stack from a work area; NULL if that is too small. */
 size_t lrcsi_cubature_need(void);
-lrcsi_cubature_cell *lrcsi_cubature_cells(lrcs_work *work);
+lrcsi_cubature_cell *lrcsi_cubature_stack(lrcs_work *work);
 
-/* An empty sum over surfaces whose normals lie between these three (as below), with such room,
-   which sums may share: whole, position_err and the meter are the caller's to set, and negligible
-   and had where there are other surfaces. */
+/* An empty sum over surfaces whose normals lie between these three (as below). Several sums may
+   share one stack. The caller sets area, position_err and meter and, if there are other surfaces,
+   negligible and reference. */
 lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
-                                   double tolerance, lrcsi_cubature_cell *waiting);
+                                   double tolerance, lrcsi_cubature_cell *stack);
 
-/* Given: the normals at the corners, view axes (z to the laser), of about unit length; area.
-   Normals with z <= 0 see nothing of the laser and add nothing. */
+/* Adds a triangle. Given: the normals at its corners, in view axes (z to the laser), of about unit
+   length; its area. Where the interpolated normal has z <= 0 it does not face the laser, and adds
+   nothing. */
 void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double area);
 
 #endif

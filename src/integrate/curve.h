@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Eq. 2 over facets with curved normals: 4 pi times the integral of f_r cos(theta) over what is
-   visible of each, with what visibility, rounding and steps that ran out leave open as bounds, and
-   what the cubature leaves as an estimate. */
+/* Eq. 2 over facets with curved normals: 4 pi times the integral of f_r cos(theta) over the visible
+   part of each. What visibility, rounding and spent steps leave uncertain is a bound; the error of
+   the cubature is an estimate. */
 #ifndef LRCSI_CURVE_H
 #define LRCSI_CURVE_H
 
@@ -10,72 +10,83 @@
 #include "visibility/occlude.h"
 #include "visibility/visible.h"
 
-/* One facet's part of sigma, in scaled units of area. */
+/* What one facet adds to sigma, in scaled units of area. */
 typedef struct lrcsi_curved {
     double glint, diffuse;
-    double visibility, rounding; /* bounds; where steps ran out, what they left is in the first */
-    double likely;               /* likely error of a sampled share; 0: none */
-    double most;                 /* bound on what all of the facet could add, were it seen */
+    double visibility, rounding; /* bounds; the first includes what spent steps leave uncertain */
+    double likely;               /* estimated error of a sampled area; 0: none */
+    double upper_bound;          /* of what the facet could add if all of it were visible */
     double estimate;             /* of the cubature's error */
-    /* where moments are wanted: the glint's integral with tan^2 in it, the diffuse part's with
+    /* with moments only: the integral of the glint times tan^2, and of the diffuse part times
        log(1 + tan^2) */
     double glint_u, diffuse_log;
 } lrcsi_curved;
 
-/* How to integrate: what the plan leaves of the BRDF, the relative error asked for, and room for
-   parts of facets. */
-typedef struct lrcsi_curving {
+/* How to integrate: the plan, which selects the terms of the BRDF; the relative error accepted; and
+   memory for the cubature. */
+typedef struct lrcsi_curve_options {
     const lrcsi_plan *plan;
     double tolerance;
-    lrcsi_cubature_cell *waiting;
-    int moments; /* 1: wanted */
-} lrcsi_curving;
+    lrcsi_cubature_cell *stack;
+    int moments; /* 1: compute them */
+} lrcsi_curve_options;
 
-/* All facets to integrate over. The sum so far tells how small a contribution is still worth work:
-   a dark sliver gets no more than it can add. Each facet may err by its share of the sum, by area
-   and by count: all together by twice the aim. */
-typedef struct lrcsi_curve_all {
+/* What the integrals over all facets share. The sum so far decides how accurate the next integral
+   must be, so that facets that can add little take little work. The allowed error of a facet is its
+   share of the tolerance, by area plus by count: all together at most twice the tolerance. */
+typedef struct lrcsi_curve_context {
     const lrcsi_view *view;
-    const lrcsi_curving *how;
-    double negligible; /* f_r cos below this is negligible beside the brightest facet */
-    double projected;  /* area of all */
-    double count;
-    double done; /* integral of f_r cos over the visible parts of the facets done so far */
-} lrcsi_curve_all;
+    const lrcsi_curve_options *options;
+    double negligible; /* f_r cos below this is negligible compared with the brightest facet */
+    double projected;  /* area of all facets to integrate over */
+    double count;      /* of these facets */
+    double sum;        /* integral of f_r cos over the visible parts of the facets done so far */
+} lrcsi_curve_context;
 
-/* A facet at work. */
-typedef struct lrcsi_curve_facet {
+/* The integral over one facet. sum.brdf points into it, so that it must not be copied. */
+typedef struct lrcsi_curve_integral {
     const lrcsi_view *view;
     uint32_t facet;
     lrcsi_incidence incidence;
     lrcs_brdf brdf;
-    double normal[3][3]; /* at its corners, view axes, on the side that is seen */
-    lrcsi_cubature sum;  /* empty, with its tolerance and limits set */
-} lrcsi_curve_facet;
+    double normal[3][3]; /* at its corners, view axes, on the side towards the laser */
+    lrcsi_cubature sum;  /* empty at first, with its tolerance and limits */
+} lrcsi_curve_integral;
 
-/* Does the facet have curved normals, and is it on its reflecting side? */
-int lrcsi_curve_wanted(const lrcsi_view *view, uint32_t facet);
+/* 1 if a facet has curved normals and its side towards the laser reflects; else 0. */
+int lrcsi_curve_applies(const lrcsi_view *view, uint32_t facet);
 
-/* For callers that integrate over regions of their own: all facets that are wanted; one of them;
-   what it has added to sigma (scaled), for those that follow; the most that f_r cos reaches on it;
-   and how far normals may be off at points of its visible pieces, rad, for sum.position_err, which
-   is set for points of the whole facet. sum.brdf points into the job, which must not be copied. */
-lrcsi_curve_all lrcsi_curve_all_make(const lrcsi_view *view, const lrcsi_curving *how);
-void lrcsi_curve_start(const lrcsi_curve_all *all, uint32_t facet, lrcsi_curve_facet *job);
-void lrcsi_curve_have(lrcsi_curve_all *all, double sigma);
-double lrcsi_curve_most(const lrcsi_curve_facet *job);
-double lrcsi_curve_position_err(const lrcsi_curve_facet *job, const lrcsi_target *target);
+/* The context of all facets to which lrcsi_curve_applies. */
+lrcsi_curve_context lrcsi_curve_context_make(const lrcsi_view *view,
+                                             const lrcsi_curve_options *options);
 
-/* Facets of which an area is all that is known: the integral over the whole facet, times the share
-   of it that is visible.
-   Given: visible. Returned: curved[facet_count] of the facets wanted. */
-void lrcsi_curve_shares(const lrcsi_view *view, const lrcsi_curving *how,
-                        const lrcsi_visible *visible, lrcsi_curved *curved);
+/* Adds what a facet has contributed to sigma, scaled, to the sum so far. */
+void lrcsi_curve_context_add(lrcsi_curve_context *context, double sigma);
 
-/* Every facet by clipping, as lrcsi_occlude_all, and those wanted integrated over the pieces that
-   are visible. Where visible is given, sampled, only those that are wanted and seen in part:
-   samples tell how much of a facet is seen, but not where on it. Status: as lrcsi_occlude_all. */
-int lrcsi_curve_pieces(lrcsi_classification *classification, const lrcsi_curving *how, int sampled,
-                       lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved);
+/* Prepares the integral over one such facet, or over regions of it that the caller chooses.
+   sum.position_err is set for points of the whole facet. */
+void lrcsi_curve_integral_make(const lrcsi_curve_context *context, uint32_t facet,
+                               lrcsi_curve_integral *integral);
+
+/* An upper bound of f_r cos on the facet. */
+double lrcsi_curve_upper_bound(const lrcsi_curve_integral *integral);
+
+/* A bound on the error of normals at points of the facet's visible pieces, rad: for
+   sum.position_err. */
+double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcsi_target *target);
+
+/* For facets of which only the visible area is known: the integral over the whole facet, times the
+   fraction that is visible.
+   Given: visible[facet_count]. Returned: curved[facet_count], 0 where lrcsi_curve_applies is 0. */
+void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *options,
+                            const lrcsi_visible *visible, lrcsi_curved *curved);
+
+/* Clips every facet, as lrcsi_occlude_all, and integrates over the visible pieces of those to which
+   lrcsi_curve_applies. If `sampled` is 1, visible[] is given, from samples, which give the area but
+   not the region that is visible: then only facets with curved normals that are partly visible are
+   clipped. Status: as lrcsi_occlude_all. */
+int lrcsi_curve_from_pieces(lrcsi_classification *classification,
+                            const lrcsi_curve_options *options, int sampled, lrcs_work *work,
+                            lrcsi_visible *visible, lrcsi_curved *curved);
 
 #endif

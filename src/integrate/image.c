@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* An item buffer handed out as a picture: row 0 on top, and the place of its window about the
-   body's origin. Who owns which pixel was decided before. */
+/* Converts an item buffer to a picture: row 0 on top, and the place of its window relative to the
+   body's origin. The owner of each pixel was decided before (visibility/raster.c). */
 #include "integrate/image.h"
 
 #include <math.h>

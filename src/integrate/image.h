@@ -5,11 +5,11 @@
 
 #include "view/view.h"
 
-/* Pixels along a side at most, of rasters too: 2^28 in all. */
-#define LRCSI_IMAGE_MOST 16384u
+/* The largest number of pixels along a side, of rasters as well: 2^28 pixels in all. */
+#define LRCSI_IMAGE_SIZE_MAX 16384u
 
-/* Given: the view that was drawn; owner, image->size squared, row 0 at the bottom. Returned: the
-   rest of the image. */
+/* Given: the view that was drawn; owner[image->size^2], row 0 at the bottom. Returned: the pixels
+   of the image, row 0 on top, and its place. */
 void lrcsi_image_fill(const lrcsi_view *view, const uint32_t *owner, lrcs_image *image);
 
 #endif

@@ -1,43 +1,47 @@
 /* SPDX-License-Identifier: MIT */
-/* What the planner decides from the proofs of scene/solid.h and the facets' facing, and from what
-   it was told to leave out or not to leave out. */
+/* The planner's decisions, from the proofs of scene/solid.h, from which way facets face, and from
+   the effects that the options switch off or on. */
 #include "integrate/plan.h"
 
-/* The first raster for the sake of its bound. */
+/* The first raster whose bound is to meet the tolerance. */
 #define FIRST_SIZE 512u
 
-/* The tolerance below which no raster is tried for the sake of its likely error. */
-#define PREVIEW_LEAST 1e-4
+/* With a tolerance below this, no raster is expected to be accepted by its estimate. */
+#define PREVIEW_TOLERANCE_MIN 1e-4
 
-static int effect_in(uint32_t set, int effect)
+static int has_effect(uint32_t set, int effect)
 {
     return (set >> effect & 1u) != 0;
 }
 
-/* Is self-shadowing left out whatever the scene calls for? */
+/* Is self-shadowing left out, whether or not the scene requires it? */
 static int shadows_dropped(const lrcs_run_options *options)
 {
-    return effect_in(options->without, LRCS_EFFECT_SELF_SHADOWING) ||
+    return has_effect(options->without, LRCS_EFFECT_SELF_SHADOWING) ||
            (options->method == LRCS_METHOD_FACET &&
-            !effect_in(options->with, LRCS_EFFECT_SELF_SHADOWING));
+            !has_effect(options->with, LRCS_EFFECT_SELF_SHADOWING));
 }
 
-lrcsi_plan_sides lrcsi_plan_backs(const lrcs_prepared *p, const lrcs_run_options *options)
+int lrcsi_plan_view(const lrcs_prepared *p, const lrcs_pose *pose, const lrcs_run_options *options,
+                    lrcs_work *work, lrcsi_view *view)
 {
-    lrcsi_plan_sides backs;
-    int asked = effect_in(options->with, LRCS_EFFECT_BACK_FACE_CASTERS) ||
-                (p->two_sided && effect_in(options->with, LRCS_EFFECT_TWO_SIDED));
-    backs.cast = (!p->solid || (asked && !shadows_dropped(options))) &&
-                 !effect_in(options->without, LRCS_EFFECT_BACK_FACE_CASTERS);
-    backs.reflect = backs.cast && !effect_in(options->without, LRCS_EFFECT_TWO_SIDED);
-    return backs;
+    int requested = has_effect(options->with, LRCS_EFFECT_BACK_FACE_CASTERS) ||
+                    (p->two_sided && has_effect(options->with, LRCS_EFFECT_TWO_SIDED));
+    int cast = (!p->solid || (requested && !shadows_dropped(options))) &&
+               !has_effect(options->without, LRCS_EFFECT_BACK_FACE_CASTERS);
+    int status = lrcsi_view_face(p, pose, work, view);
+    if (status == LRCS_OK) {
+        view->backs_cast = cast;
+        view->backs_reflect = cast && !has_effect(options->without, LRCS_EFFECT_TWO_SIDED);
+    }
+    return status;
 }
 
 static int plan_term(const lrcs_run_options *options, int effect)
 {
-    return effect_in(options->without, effect) ? LRCSI_TERM_OUT
-           : effect_in(options->with, effect)  ? LRCSI_TERM_FORCED
-                                               : LRCSI_TERM_ASSIGNED;
+    return has_effect(options->without, effect) ? LRCSI_TERM_OUT
+           : has_effect(options->with, effect)  ? LRCSI_TERM_FORCED
+                                                : LRCSI_TERM_ASSIGNED;
 }
 
 static void plan_choose(lrcsi_plan *plan, int method, const char *reason)
@@ -46,27 +50,27 @@ static void plan_choose(lrcsi_plan *plan, int method, const char *reason)
     plan->reason = reason;
 }
 
-/* Does auto look for a raster whose estimate may count? */
+/* Does auto try a raster whose estimate may be accepted? */
 static int preview_tried(const lrcs_run_options *options)
 {
     return options->method == LRCS_METHOD_AUTO && options->accept != LRCS_ACCEPT_BOUND &&
-           (options->tolerance >= PREVIEW_LEAST || options->accept == LRCS_ACCEPT_ANY);
+           (options->tolerance >= PREVIEW_TOLERANCE_MIN || options->accept == LRCS_ACCEPT_ANY);
 }
 
-/* What auto takes for the rest: clipping, since a raster whose bound is as close as a tolerance
-   asks mostly costs more. */
+/* The method, with its reason. Under auto the last choice is clipping, since a raster whose bound
+   meets the tolerance mostly costs more. */
 static void plan_method(lrcsi_plan *plan, const lrcsi_clear *clear, const lrcs_run_options *options)
 {
     if (shadows_dropped(options)) {
         plan_choose(plan, LRCS_METHOD_FACET,
                     options->method == LRCS_METHOD_FACET ? "as asked"
                                                          : "self-shadowing is left out on request");
-    } else if (clear->all && !plan->searched && plan->backless) {
+    } else if (clear->all && !plan->shadows_forced && plan->no_back_hidden) {
         plan_choose(plan, LRCS_METHOD_CLOSED,
                     "every part is a shape that nothing hides: closed forms");
     } else if (options->method > LRCS_METHOD_FACET) {
         plan_choose(plan, options->method, "as asked");
-    } else if (plan->alone && !plan->searched) {
+    } else if (plan->nothing_hidden && !plan->shadows_forced) {
         plan_choose(plan, LRCS_METHOD_FACET, "proved convex and alone: nothing is hidden");
     } else if (options->resolution != 0) {
         plan_choose(plan, LRCS_METHOD_ZBUFFER, "the raster asked for meets the tolerance");
@@ -75,8 +79,9 @@ static void plan_method(lrcsi_plan *plan, const lrcsi_clear *clear, const lrcs_r
         plan_choose(plan, LRCS_METHOD_ZBUFFER, "any answer counts: the first raster");
     } else {
         plan_choose(plan, LRCS_METHOD_EXACT,
-                    plan->alone ? "self-shadowing is asked for"
-                                : "not proved convex and alone; clipping has the closest bound");
+                    plan->nothing_hidden
+                        ? "self-shadowing is asked for"
+                        : "not proved convex and alone; clipping has the closest bound");
     }
 }
 
@@ -87,9 +92,11 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
     lrcsi_plan plan = {0};
     plan.unshadowed = p->convex;
     plan.grazing_cos = p->convex ? p->grazing_cos : 1;
-    plan.backless = !view->backs_cast || view->front == 0 || view->back == 0;
-    plan.alone = p->convex && plan.backless;
-    plan.searched = effect_in(options->with, LRCS_EFFECT_SELF_SHADOWING);
+    plan.no_back_hidden = !view->backs_cast || view->front == 0 || view->back == 0;
+    plan.nothing_hidden = p->convex && plan.no_back_hidden;
+    plan.shadows_forced = has_effect(options->with, LRCS_EFFECT_SELF_SHADOWING);
+    /* where back sides are left out of a scene that shows some, its true surfaces are not known */
+    plan.proximity_band = p->proximity.reach && (view->backs_cast || p->solid);
     plan.patches = p->curved;
     plan.glint = plan_term(options, LRCS_EFFECT_GLINT);
     plan.diffuse = plan_term(options, LRCS_EFFECT_DIFFUSE);
@@ -111,13 +118,13 @@ static lrcs_effect shadowing_effect(const lrcs_prepared *p, const lrcsi_plan *pl
     if (plan->method == LRCS_METHOD_CLOSED) {
         return (lrcs_effect){0, "nothing hides any part, proved"};
     }
-    if (plan->method == LRCS_METHOD_FACET && plan->alone) {
+    if (plan->method == LRCS_METHOD_FACET && plan->nothing_hidden) {
         return (lrcs_effect){0, "convex and alone: no front side is ever hidden"};
     }
     if (plan->method == LRCS_METHOD_FACET) {
         return (lrcs_effect){0, "left out on request; the bound holds all that could be hidden"};
     }
-    if (plan->alone) {
+    if (plan->nothing_hidden) {
         return (lrcs_effect){1, "on request, though proved convex and alone"};
     }
     if (plan->unshadowed) {
@@ -142,7 +149,8 @@ static lrcs_effect caster_effect(const lrcsi_view *view, const lrcsi_plan *plan)
                             : (lrcs_effect){0, "left out on request"};
 }
 
-/* Shapes are tessellated to the tolerance, with a proof: they need none. */
+/* Only models have curved normals: shapes are divided as finely as the tolerance requires, with a
+   proved bound. */
 static lrcs_effect normals_effect(const lrcs_prepared *p)
 {
     int given = 0;
@@ -180,12 +188,12 @@ static lrcs_effect two_sided_effect(const lrcsi_view *view)
                                                   : "left out on request"};
 }
 
-/* The sentences on a term of the BRDF. */
+/* The reasons given for a term of the BRDF. */
 typedef struct term_text {
     const char *assigned, *none, *unseen, *forced;
 } term_text;
 
-/* A term that a facet has but none that may be seen adds nothing, and counts as off. */
+/* A term that no visible facet has adds nothing, and is reported as off. */
 static lrcs_effect term_effect(int term, int assigned, int seen, const term_text *text)
 {
     if (assigned && term == LRCSI_TERM_OUT) {
@@ -226,9 +234,9 @@ void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, const lr
     effect[LRCS_EFFECT_SELF_SHADOWING] = shadowing_effect(p, plan);
     effect[LRCS_EFFECT_BACK_FACE_CASTERS] = caster_effect(view, plan);
     effect[LRCS_EFFECT_GLINT] =
-        term_effect(plan->glint, p->glint, effect_in(seen, LRCS_EFFECT_GLINT), &glint);
+        term_effect(plan->glint, p->glint, has_effect(seen, LRCS_EFFECT_GLINT), &glint);
     effect[LRCS_EFFECT_DIFFUSE] =
-        term_effect(plan->diffuse, p->diffuse, effect_in(seen, LRCS_EFFECT_DIFFUSE), &diffuse);
+        term_effect(plan->diffuse, p->diffuse, has_effect(seen, LRCS_EFFECT_DIFFUSE), &diffuse);
     effect[LRCS_EFFECT_CURVED_NORMALS] = normals_effect(p);
     effect[LRCS_EFFECT_TWO_SIDED] = two_sided_effect(view);
     effect[LRCS_EFFECT_ARTICULATION] = p->articulated

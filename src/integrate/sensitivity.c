@@ -3,23 +3,22 @@
    u = tan^2(theta) the two terms of f_r cos^2 at amplitude 1 are
        g = (1 + u)^2 exp(-u / s^2)      and      d = (1 + u)^(-m/2 - 1),
    so that dg/ds = g 2 u / s^3 and dd/dm = -d log(1 + u) / 2. Limits: as s -> 0, g and dg/ds vanish
-   but for u = 0 exactly, and count as 0 at s = 0; as u -> infinity all four vanish.
-   Nothing else of sigma depends on materials: which areas are visible does not.
+   except at u = 0, and count as 0 at s = 0; as u -> infinity all four vanish.
+   Visible areas do not depend on materials.
    Called: lrcsi_view_incidence, lrcsi_reflect; lrcsi_shape_response. */
 #include "integrate/sensitivity.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "integrate/patch.h"
 #include "optics/reflect.h"
 #include "visibility/query.h"
 
-#define FOUR_PI 12.566370614359172954
-
-/* The visible share of a facet that reflects. */
-static double visible_share(const lrcsi_view *view, const lrcsi_areas *areas, uint32_t facet,
-                            double projected)
+/* The visible fraction of a facet that reflects. */
+static double visible_fraction(const lrcsi_view *view, const lrcsi_areas *areas, uint32_t facet,
+                               double projected)
 {
     if (areas->answer && areas->answer[facet] != LRCSI_QUERY_UNDECIDED) {
         return areas->answer[facet] == LRCSI_QUERY_VISIBLE ? 1 : 0;
@@ -28,14 +27,14 @@ static double visible_share(const lrcsi_view *view, const lrcsi_areas *areas, ui
         return lrcsi_grid_casts(view, facet) ? 1 : 0;
     }
     double area = areas->visible[facet].area;
-    return area == projected ? 1 : area / projected;
+    return area == projected ? 1 : area / projected; /* 1 even if both are 0 */
 }
 
-/* A flat facet. */
+/* Adds a flat facet. Given: the fraction of it that is visible, and u. */
 static void response_add_facet(const lrcsi_view *view, const lrcs_brdf *brdf, uint32_t facet,
-                               double share, double u, lrcsi_response *response)
+                               double fraction, double u, lrcsi_response *response)
 {
-    double weight = FOUR_PI * 0.5 * view->prepared->normal[facet].length * share;
+    double weight = LRCSI_FOUR_PI * 0.5 * view->prepared->normal[facet].length * fraction;
     if (!isfinite(u)) {
         return;
     }
@@ -48,11 +47,11 @@ static void response_add_facet(const lrcsi_view *view, const lrcs_brdf *brdf, ui
     lrcsi_sum_add(&response->diffuse_m, weight * (at.diffuse * (-0.5 * lrcsi_log1p(u).hi)));
 }
 
-/* One that stands for a patch of a curved wall. */
-static void response_add_patch(const lrcsi_view *view, double s, uint32_t facet, double share,
+/* Adds a facet that stands for a patch of a curved wall. */
+static void response_add_patch(const lrcsi_view *view, double s, uint32_t facet, double fraction,
                                const lrcsi_patch *patch, lrcsi_response *response)
 {
-    double weight = FOUR_PI * 0.5 * view->prepared->normal[facet].length * share;
+    double weight = LRCSI_FOUR_PI * 0.5 * view->prepared->normal[facet].length * fraction;
     double slope = patch->glint_u > 0 ? 2 * (patch->glint_u / s / s) / s : 0;
     lrcsi_sum_add(&response->glint, weight * patch->glint);
     lrcsi_sum_add(&response->glint_s, weight * slope);
@@ -60,7 +59,7 @@ static void response_add_patch(const lrcsi_view *view, double s, uint32_t facet,
     lrcsi_sum_add(&response->diffuse_m, weight * (-0.5 * patch->diffuse_log));
 }
 
-/* One with curved normals. */
+/* Adds a facet with curved normals. */
 static void response_add_curved(const lrcs_brdf *brdf, const lrcsi_curved *curved,
                                 lrcsi_response *response)
 {
@@ -81,21 +80,21 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
     lrcsi_patch patch = {.side = 0};
     memset(response, 0, scene->material_count * sizeof *response);
     for (uint32_t f = 0; f < scene->facet_count; f++) {
-        int in_shape = clear && clear->count > 0 && clear->part[scene->facet_part[f]];
-        if (view->facing[f] == 0 || !lrcsi_view_reflects(view, f) || in_shape) {
+        int in_clear_shape = clear && clear->count > 0 && clear->part[scene->facet_part[f]];
+        if (view->facing[f] == 0 || !lrcsi_view_reflects(view, f) || in_clear_shape) {
             continue;
         }
         uint32_t material = scene->facet_material[f];
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-        double share = visible_share(view, areas, f, incidence.projected);
+        double fraction = visible_fraction(view, areas, f, incidence.projected);
         const lrcs_brdf unit = {brdf[material].s > 0 ? 1 : 0, 1, brdf[material].s,
                                 brdf[material].m};
-        if (curved && lrcsi_curve_wanted(view, f)) {
+        if (curved && lrcsi_curve_applies(view, f)) {
             response_add_curved(&brdf[material], &curved[f], &response[material]);
-        } else if (share > 0 && lrcsi_patch_make(view, plan, &unit, f, &patch)) {
-            response_add_patch(view, unit.s, f, share, &patch, &response[material]);
-        } else if (share > 0) {
-            response_add_facet(view, &brdf[material], f, share, incidence.tan2,
+        } else if (fraction > 0 && lrcsi_patch_make(view, plan, &unit, f, &patch)) {
+            response_add_patch(view, unit.s, f, fraction, &patch, &response[material]);
+        } else if (fraction > 0) {
+            response_add_facet(view, &brdf[material], f, fraction, incidence.tan2,
                                &response[material]);
         }
     }

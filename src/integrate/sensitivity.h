@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What each material's surfaces reflect at amplitudes of 1, and its slopes in s and m: sigma is A
-   times the first plus B times the second, for any A and B. */
+/* What the surfaces of each material reflect at amplitudes of 1, and the derivatives of that in s
+   and m. For any A and B, sigma is A times the glint plus B times the diffuse response. */
 #ifndef LRCSI_SENSITIVITY_H
 #define LRCSI_SENSITIVITY_H
 
@@ -15,10 +15,10 @@ typedef struct lrcsi_response {
     lrcsi_sum glint_s, diffuse_m; /* their derivatives in s, in m */
 } lrcsi_response;
 
-/* Given: a view, its plan and its visible areas as for lrcsi_total_make; curved: facets with curved
-   normals, integrated at amplitudes of 1 with their moments (NULL: none); brdf[material_count]: the
-   s and m to use, A and B being ignored.
-   Returned: response[material_count], facets first, in their order, then clear shapes. */
+/* Given: a view, its plan, its visible areas and its clear shapes as for lrcsi_total_make;
+   curved[]: the integrals over facets with curved normals, at amplitudes of 1 and with moments
+   (NULL: there are none); brdf[material_count]: the s and m to use, while A and B are ignored.
+   Returned: response[material_count], summed over facets in their order, then clear shapes. */
 void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcsi_areas *areas,
                          const lrcsi_curved *curved, const lrcsi_clear *clear,
                          const lrcs_brdf *brdf, lrcsi_response *response);

@@ -1,48 +1,51 @@
 /* SPDX-License-Identifier: MIT */
 /* One shape in a scene by its closed form (optics/closed.h): its frame, its scale, and what these
-   add to the bound. Which shapes may be taken so is view/clear.h's to prove.
+   add to the bound. view/clear.h proves which shapes may be evaluated like this.
 
-   The laser in the shape's frame. The direction is taken as exact, the axes are good to 2^-97: its
-   angles are off by at most eta = 2^-95, or by nothing where the axes are exact. With t = tan
-   (theta), d ln F / d theta is 4 t - 2 t (1 + t^2) / s^2 for the glint: up to t = 64 s its value is
-   at most 64 s (4 + 2 (1 + 4096 s^2) / s^2), which times eta is the relative error of all that is
-   nearer; beyond, F is below exp(-4095) of its peak and underflows. The diffuse part's F moves by
-   at most (m + 2) B eta per unit of surface. */
+   Error of the direction to the laser in the shape's frame. The direction is exact by definition,
+   and the axes have errors below 2^-97: angles have errors of at most eta = 2^-95 rad, or none
+   where the axes are exact. With t = tan(theta), d ln F / d theta is 4 t - 2 t (1 + t^2) / s^2 for
+   the glint. Up to t = 64 s its absolute value is at most 64 s (4 + 2 (1 + 4096 s^2) / s^2), and
+   that times eta is the relative error of everything at such angles; at larger angles F is below
+   exp(-4095) of its peak, and underflows. F of the diffuse term changes by at most (m + 2) B eta
+   per unit of surface. */
 #include "integrate/shapes.h"
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "optics/closed.h"
 
-#define FOUR_PI  12.566370614359172954
-#define AXES_OFF 0x1p-95
+#define AXES_ERR 0x1p-95
 
-/* The largest value of (1 + u)^2 exp(-u / s^2) over u >= 0, rounded up: where the exponential is
-   left out. */
-static double glint_peak_most(double s)
+/* An upper bound of (1 + u)^2 exp(-u / s^2) over u >= 0: its largest value without the factor
+   exp(2 / q - 2), which is at most 1. */
+static double glint_peak_bound(double s)
 {
     double q = 2 * s * s;
     return q <= 1 ? 1 : q * q;
 }
 
-static double shape_surface(const lrcs_shape *shape)
+/* An upper bound of the surface of a shape. */
+static double shape_surface_bound(const lrcs_shape *shape)
 {
-    double wide = fmax(shape->radius, shape->radius2);
-    return 4 * LRCSI_PI * wide * (wide + lrcsi_closed_length(shape));
+    double radius = fmax(shape->radius, shape->radius2);
+    return 4 * LRCSI_PI * radius * (radius + lrcsi_closed_length(shape));
 }
 
-/* amount += what eta does to it. */
-static void shape_turn(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcsi_amount *amount)
+/* Adds the error that eta causes. */
+static void add_axis_error(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcsi_amount *amount)
 {
     double s = brdf->s;
     if (amount->value[LRCSI_GLINT] > 0) {
         double flank = 64 * s * (4 + 2 * (1 + 4096 * s * s) / s / s);
-        amount->error[LRCSI_GLINT] += 2 * AXES_OFF * flank * amount->value[LRCSI_GLINT];
+        amount->error[LRCSI_GLINT] += 2 * AXES_ERR * flank * amount->value[LRCSI_GLINT];
     }
-    amount->error[LRCSI_DIFFUSE] += 2 * AXES_OFF * (brdf->m + 2) * brdf->B * shape_surface(shape);
+    amount->error[LRCSI_DIFFUSE] +=
+        2 * AXES_ERR * (brdf->m + 2) * brdf->B * shape_surface_bound(shape);
 }
 
-/* The laser in the shape's frame, as the part is placed. */
+/* The direction to the laser in the shape's frame. */
 static void shape_direction(const lrcsi_view *view, const lrcs_part *placed, lrcsi_dd direction[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -69,22 +72,22 @@ lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_pla
         sum.error[LRCSI_GLINT] = HUGE_VAL; /* never: pose and shape have been checked */
     }
     if (!placed->axis_exact) {
-        shape_turn(&placed->shape, &brdf, &sum);
+        add_axis_error(&placed->shape, &brdf, &sum);
     }
     lrcsi_closed_scale(&sum, unit * unit, 1);
-    lrcsi_closed_scale(&sum, FOUR_PI, 1);
-    double most = (brdf.A > 0 ? brdf.A * glint_peak_most(brdf.s) : 0) + brdf.B;
+    lrcsi_closed_scale(&sum, LRCSI_FOUR_PI, 1);
+    double bound = (brdf.A > 0 ? brdf.A * glint_peak_bound(brdf.s) : 0) + brdf.B;
     return (lrcsi_shape_terms){.glint = sum.value[LRCSI_GLINT],
                                .diffuse = sum.value[LRCSI_DIFFUSE],
                                .rounding = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE],
-                               .visibility = FOUR_PI * 1.000001 * slab * most,
+                               .visibility = LRCSI_FOUR_PI * 1.000001 * slab * bound,
                                .silhouette = silhouette * unit * unit};
 }
 
 /* --- derivatives --------------------------------------------------------------------------------
  */
 
-/* The integrals of both terms at amplitudes of 1. */
+/* The integrals of both terms over the shape, at amplitudes of 1. */
 static void unit_terms(const lrcs_shape *shape, const lrcsi_dd direction[3], double s, double m,
                        double out[2])
 {
@@ -96,7 +99,8 @@ static void unit_terms(const lrcs_shape *shape, const lrcsi_dd direction[3], dou
     out[1] = sum.value[LRCSI_DIFFUSE];
 }
 
-/* The logarithmic slope |change / value| / step, which sets the scale over which a term varies. */
+/* The logarithmic slope |change / value| / step of a term: the inverse of the scale over which it
+   varies. */
 static double term_slope(double value, double moved, double step)
 {
     return value > 0 && moved > 0 ? fabs(moved - value) / value / step : 0;
@@ -123,8 +127,8 @@ static double shape_glint_s(const lrcs_shape *shape, const lrcsi_dd direction[3]
     return slope / h / s;
 }
 
-/* The derivative of the diffuse part in m: a forward difference of order 8, for m may be 0, with an
-   error of h^8 f(9) / 9, below 1e-10 of f'; rounding adds some 1e-12 of f. */
+/* The derivative of the diffuse part in m: a forward difference of order 8, because m may be 0,
+   with an error of h^8 f(9) / 9, below 1e-10 of f'; rounding adds some 1e-12 of f. */
 static double shape_diffuse_m(const lrcs_shape *shape, const lrcsi_dd direction[3], double s,
                               double m, double value)
 {
@@ -133,7 +137,7 @@ static double shape_diffuse_m(const lrcs_shape *shape, const lrcsi_dd direction[
     unit_terms(shape, direction, s, m + 1e-3, at);
     double h = 0.05 / (1 + term_slope(value, at[1], 1e-3));
     double slope = 0;
-    for (int k = 1; k <= 8; k++) { /* the weights of all nine add up to 0 */
+    for (int k = 1; k <= 8; k++) { /* the weight of f(m) makes the sum of all nine 0 */
         unit_terms(shape, direction, s, m + k * h, at);
         slope += c[k - 1] * (at[1] - value);
     }
@@ -146,7 +150,7 @@ lrcsi_shape_response lrcsi_shape_response_make(const lrcsi_view *view, uint32_t 
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *placed = &p->scene->part[part];
     double unit = ldexp(placed->unit, -p->exponent);
-    double scale = FOUR_PI * unit * unit;
+    double scale = LRCSI_FOUR_PI * unit * unit;
     double s = brdf->s >= 0x1p-333 && brdf->s <= 0x1p333 ? brdf->s : 0;
     double term[2];
     lrcsi_dd direction[3];

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* One pose, from a prepared scene to a result: it chooses the raster's resolution, lays out the
-   memory and hands each stage the work of the one before. */
+/* One pose, from a prepared scene to a result. This file decides in which order the stages run,
+   which method follows if the first one does not meet the tolerance, and at which resolution
+   rasters are drawn. The stages, in the order of lrcsi_sigma_stages:
+   1. view: lrcsi_plan_view, lrcsi_clear_make, lrcsi_plan_make, lrcsi_view_project;
+   2. classification: run_classify;
+   3. visible areas: run_exact (clipping), run_zbuffer or run_previews (samples);
+   4. the sum of Eq. 2: run_sum, and run_facet where nothing is searched for shadows. */
 #include "integrate/sigma.h"
 
 #include <math.h>
@@ -9,66 +14,40 @@
 #include "base/work.h"
 #include "integrate/cost.h"
 #include "integrate/image.h"
-#include "integrate/plan.h"
-#include "integrate/total.h"
-#include "integrate/uncertainty.h"
-#include "visibility/occlude.h"
 #include "visibility/preview.h"
 
-/* The finest raster: beyond it the bound gains less than it costs. */
+/* The finest raster: a finer one costs more than the bound gains. */
 #define LAST_SIZE 4096u
 
-/* For the sake of an estimate a raster must be likely to cost so many times less than clipping: the
-   first, and another one once an estimate did not suffice. */
+/* Clipping is tried before a raster if it is estimated to cost at most this many times as much: the
+   first factor before the first raster, the second after an estimate was not accepted. */
 #define CLIP_PREFERRED      1.5
 #define CLIP_PREFERRED_NEXT 2.5
 
-/* Fewer facets are never judged by samples alone. */
+/* With fewer facets than this, answers are never accepted from samples alone. */
 #define PREVIEW_FACETS 1024u
-
-/* What a run passes from stage to stage. */
-typedef struct sigma_run {
-    lrcsi_view view;
-    lrcsi_clear clear; /* shapes that count by their closed forms: under auto */
-    lrcsi_plan plan;
-    lrcsi_classification classification;
-    lrcsi_proximity_band margin;
-    const lrcsi_proximity_band *doubt; /* margin, or NULL if none was made */
-    lrcsi_visible *visible;
-    const unsigned char *answer;  /* of facets of which visible[] tells nothing, or NULL */
-    lrcsi_curved *curved;         /* NULL: all facets are flat */
-    lrcsi_cubature_cell *waiting; /* NULL: the same */
-    int moments;                  /* of curved normals: for derivatives */
-    double tolerance;
-    lrcsi_meter meter; /* of the view */
-    lrcsi_total total;
-    lrcs_work *work;
-    lrcs_image *image;
-    int last;      /* lrcsi_sigma_stage: the run ends after it */
-    uint32_t size; /* of the raster used, 0: none */
-    int undecided; /* facets are classified, and the proximity band is made where it is wanted */
-    uint32_t flags;
-} sigma_run;
 
 lrcs_run_options lrcs_run_options_default(void)
 {
     return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0, 0, LRCS_ACCEPT_BOUND, NULL};
 }
 
-static int run_check(const lrcs_run_options *options, const lrcs_image *image)
+int lrcsi_sigma_check(const lrcs_run_options *options, const lrcs_image *image)
 {
     if (options->method < LRCS_METHOD_AUTO || options->method > LRCS_METHOD_EXACT ||
-        !(options->tolerance > 0) || options->resolution > LRCSI_IMAGE_MOST ||
+        !(options->tolerance > 0) || options->resolution > LRCSI_IMAGE_SIZE_MAX ||
         options->accept < LRCS_ACCEPT_BOUND || options->accept > LRCS_ACCEPT_ANY ||
         ((options->without | options->with) & ~LRCS_EFFECTS_SWITCHED) != 0 ||
-        (options->without & options->with) != 0 || (image && image->size > LRCSI_IMAGE_MOST)) {
+        (options->without & options->with) != 0 || (image && image->size > LRCSI_IMAGE_SIZE_MAX)) {
         return LRCS_E_ARGUMENT;
     }
     return LRCS_OK;
 }
 
-/* What finding visible areas takes: under auto, whichever method does. On samples, curved facets
-   that are seen in part are clipped. */
+/* --- memory ----------------------------------------------------------------------------------- */
+
+/* Bytes for visible areas; under auto, for the method that needs more. With samples, facets with
+   curved normals that are partly visible are clipped as well. */
 static size_t method_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
 {
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
@@ -106,260 +85,193 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     return lrcsi_work_add(need, method_need(prepared, options));
 }
 
-static double run_bound(const lrcsi_total *total)
+/* Is no search for shadows made? */
+static int run_is_unshadowed(const lrcsi_sigma *run)
+{
+    return run->plan.method == LRCS_METHOD_FACET || run->plan.method == LRCS_METHOD_CLOSED;
+}
+
+/* Memory for the results of the facets, as far as the plan's method needs it. */
+static int run_take(lrcsi_sigma *run)
+{
+    const lrcs_prepared *p = run->view.prepared;
+    uint32_t facets = p->scene->facet_count;
+    int areas = !run_is_unshadowed(run) || p->smooth;
+    run->visible = areas ? lrcsi_work_take(run->work, facets, sizeof *run->visible) : NULL;
+    run->curved = p->smooth ? lrcsi_work_take(run->work, facets, sizeof *run->curved) : NULL;
+    run->stack = p->smooth ? lrcsi_cubature_stack(run->work) : NULL;
+    return (run->visible || !areas) && ((run->curved && run->stack) || !p->smooth) ? LRCS_OK
+                                                                                   : LRCS_E_MEMORY;
+}
+
+/* --- is the answer accepted? ------------------------------------------------------------------ */
+
+static double total_bound(const lrcsi_total *total)
 {
     return total->visibility + fmax(0, total->tessellation) + total->rounding;
 }
 
-static int run_meets(const lrcsi_total *total, double tolerance)
-{
-    double most = tolerance * (total->glint + total->diffuse);
-    return run_bound(total) <= most && total->curvature <= most;
-}
-
-/* Does the likely error meet the tolerance where the proved one does not? Only the raster's part of
-   the bound has an estimate. One that knows nothing is none: where sigma is 0, samples have met
-   nothing that reflects; where a depth is undecided, an owner is a guess; where steps are spent,
-   facets count by half. */
-static int run_estimate_meets(const sigma_run *run, double tolerance)
+/* The flag of the answer: 0 if its bound meets the tolerance.
+   Where the options accept estimates, the estimated error of sampled areas takes the place of the
+   proved one. There is no such estimate where sigma is 0, since no sample has met anything that
+   reflects; where the depths at a sample are undecided, since its owner is a guess; and where the
+   steps are spent, since undecided facets then count by half. */
+static uint32_t run_verdict(const lrcsi_sigma *run)
 {
     const lrcsi_total *t = &run->total;
-    double most = tolerance * (t->glint + t->diffuse);
-    return run->size != 0 && !(run->flags & LRCS_FLAG_DEPTH_UNDECIDED) && !run->meter.spent &&
-           most > 0 && t->likely + fmax(0, t->tessellation) + t->rounding <= most &&
-           t->curvature <= most;
-}
-
-/* What the answer is to be flagged with: 0 if its bound meets the tolerance. */
-static uint32_t run_verdict(const sigma_run *run, const lrcs_run_options *options)
-{
-    return run_meets(&run->total, options->tolerance) ? 0u
-           : options->accept != LRCS_ACCEPT_BOUND && run_estimate_meets(run, options->tolerance)
-               ? LRCS_FLAG_ACCEPTED_BY_ESTIMATE
-           : options->accept == LRCS_ACCEPT_ANY ? LRCS_FLAG_ACCEPTED_UNJUDGED
-                                                : LRCS_FLAG_TOLERANCE_NOT_MET;
-}
-
-static int run_image(sigma_run *run)
-{
-    lrcsi_raster raster;
-    lrcsi_view view = run->view;
-    size_t mark = run->work->used;
-    int status = view.point ? LRCS_OK : lrcsi_view_project(run->work, &view);
-    if (status == LRCS_OK) {
-        status = lrcsi_raster_make(&view, run->image->size, run->work, &raster);
+    double allowed = run->options->tolerance * (t->glint + t->diffuse);
+    int estimated = run->size != 0 && !(run->flags & LRCS_FLAG_DEPTH_UNDECIDED) &&
+                    !run->meter.spent && allowed > 0 &&
+                    t->likely + fmax(0, t->tessellation) + t->rounding <= allowed;
+    if (total_bound(t) <= allowed && t->curvature <= allowed) {
+        return 0;
     }
-    if (status == LRCS_OK) {
-        lrcsi_image_fill(&view, raster.owner, run->image);
+    if (run->options->accept != LRCS_ACCEPT_BOUND && estimated && t->curvature <= allowed) {
+        return LRCS_FLAG_ACCEPTED_BY_ESTIMATE;
     }
-    run->work->used = mark;
-    return status;
+    return run->options->accept == LRCS_ACCEPT_ANY ? LRCS_FLAG_ACCEPTED_UNJUDGED
+                                                   : LRCS_FLAG_TOLERANCE_NOT_MET;
 }
 
-static void run_total(sigma_run *run, lrcs_facet_record *records)
+/* --- the sum over visible areas --------------------------------------------------------------- */
+
+static lrcsi_curve_options run_curve_options(const lrcsi_sigma *run)
+{
+    return (lrcsi_curve_options){&run->plan, run->options->tolerance, run->stack, run->moments};
+}
+
+static lrcsi_total run_total(const lrcsi_sigma *run, lrcs_facet_record *records)
 {
     const lrcsi_areas areas = {run->visible, run->answer};
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
-    run->total = lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run->doubt,
-                                  &run->clear, records);
+    return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run->band, &run->clear,
+                            records);
 }
 
-static lrcsi_curving run_curving(const sigma_run *run)
+/* Method facet. Only facets with curved normals need areas in memory; lrcsi_total_make takes those
+   of the others from the plan. */
+static void run_facet(lrcsi_sigma *run)
 {
-    return (lrcsi_curving){&run->plan, run->tolerance, run->waiting, run->moments};
-}
-
-/* Areas are written down for curved normals only: the sum takes them from the plan. */
-static int run_facet(sigma_run *run)
-{
+    const lrcsi_view *view = &run->view;
     if (run->last < LRCSI_SIGMA_SUM) {
-        return LRCS_OK;
+        return;
     }
     if (run->curved) {
-        const lrcsi_view *view = &run->view;
-        lrcsi_curving how = run_curving(run);
+        lrcsi_curve_options options = run_curve_options(run);
         for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
             lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
             run->visible[f] = lrcsi_grid_casts(view, f)
                                   ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
                                   : (lrcsi_visible){0, 0, 0, 0, 0};
         }
-        lrcsi_curve_shares(&run->view, &how, run->visible, run->curved);
+        lrcsi_curve_from_areas(view, &options, run->visible, run->curved);
     }
-    run_total(run, NULL);
-    return LRCS_OK;
+    run->total = run_total(run, NULL);
 }
 
-/* On a convex surface samples serve the back sides only: fronts are known. Where they were searched
-   all the same, what is known joins what was found: bodies convex by construction are not searched
-   for contacts, so that the search alone proves nothing of them. */
-static void fronts_are_known(const lrcsi_view *view, const lrcsi_plan *plan, lrcsi_visible *visible)
+/* Is something proved about the visible areas of the pose that the methods do not use? */
+static int run_has_proofs(const lrcsi_sigma *run)
 {
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        if (view->facing[f] > 0) {
-            lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-            lrcsi_visible known = lrcsi_visible_unshadowed(&incidence, plan->grazing_cos);
-            if (plan->searched) {
-                known.area = visible[f].area;
-                known.low = lrcsi_least(known.low, visible[f].low);
-                known.likely = visible[f].likely;
-                known.bias = visible[f].bias;
-            }
-            visible[f] = known;
-        }
-    }
+    return run->plan.unshadowed || run->clear.count > 0 ||
+           (run->view.prepared->solid && run->view.backs_cast);
 }
 
-/* Back sides proved never to be seen, and looked for all the same: none of them may be all there
-   is to the truth. */
-static void backs_are_known(const lrcsi_view *view, lrcsi_visible *visible)
-{
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        visible[f].low = view->facing[f] < 0 ? 0 : visible[f].low;
-    }
-}
-
-/* The fronts of clear shapes are seen whole: for what is reported of their facets. */
-static void shapes_are_known(const sigma_run *run)
+/* Replaces areas by what is proved about them:
+   1. On a convex surface fronts are visible, and only back sides are left to samples. If the search
+      was made for fronts all the same, the proved interval is joined with the one found: bodies
+      that are convex by construction have no contacts, so that the search alone proves nothing.
+   2. Back sides that are proved never to be seen, but were searched for, may show nothing.
+   3. The fronts of clear shapes are visible; this serves what is reported about their facets. */
+static void areas_apply_proofs(const lrcsi_sigma *run)
 {
     const lrcsi_view *view = &run->view;
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        if (view->facing[f] > 0 && run->clear.part[view->prepared->scene->facet_part[f]]) {
-            double whole = lrcsi_view_projected(view, f);
-            run->visible[f] = (lrcsi_visible){whole, whole, whole, 0, 0};
+    const lrcs_prepared *p = view->prepared;
+    int backs_unseen = p->solid && view->backs_cast;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        lrcsi_visible *visible = &run->visible[f];
+        int front = view->facing[f] > 0;
+        if (front && run->plan.unshadowed) {
+            lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
+            lrcsi_visible known = lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos);
+            if (run->plan.shadows_forced) {
+                known.area = visible->area;
+                known.low = lrcsi_least(known.low, visible->low);
+                known.likely = visible->likely;
+                known.bias = visible->bias;
+            }
+            *visible = known;
+        }
+        if (backs_unseen && view->facing[f] < 0) {
+            visible->low = 0;
+        }
+        if (front && run->clear.count > 0 && run->clear.part[p->scene->facet_part[f]]) {
+            double projected = lrcsi_view_projected(view, f);
+            *visible = (lrcsi_visible){projected, projected, projected, 0, 0};
         }
     }
 }
 
-/* Curved facets of which samples know the areas: clipped where they are seen in part, as far as
-   there is memory for that. */
-static void sum_curved(sigma_run *run)
-{
-    lrcsi_curving how = run_curving(run);
-    int status =
-        lrcsi_curve_pieces(&run->classification, &how, 1, run->work, run->visible, run->curved);
-    if (status != LRCS_OK) {
-        lrcsi_curve_shares(&run->view, &how, run->visible, run->curved);
-    }
-    run->flags |= status != LRCS_OK ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
-}
-
-/* The sum over visible areas found by sampling or clipping. */
-static void run_sum(sigma_run *run, int sampled)
+/* The sum over visible areas that samples or clipping found:
+   1. the areas, with what is proved about them;
+   2. if they are sampled, the integrals over facets with curved normals, which are clipped where
+      they are partly visible, provided there is memory for it; clipping has already integrated
+      over its pieces;
+   3. the hidden regions of the proximity band;
+   4. the sum. */
+static void run_sum(lrcsi_sigma *run, int sampled)
 {
     if (run->last < LRCSI_SIGMA_SUM) {
         return;
     }
-    if (run->plan.unshadowed) {
-        fronts_are_known(&run->view, &run->plan, run->visible);
+    if (run_has_proofs(run)) {
+        areas_apply_proofs(run);
     }
-    if (run->view.prepared->solid && run->view.backs_cast) {
-        backs_are_known(&run->view, run->visible);
-    }
-    if (run->clear.count > 0) {
-        shapes_are_known(run);
-    }
-    if (run->curved && sampled) { /* clipping has integrated over its pieces */
-        sum_curved(run);
-    }
-    if (run->doubt) {
-        lrcsi_proximity_band_settle(run->doubt, run->visible);
-    }
-    run_total(run, NULL);
-}
-
-/* One raster of the given size, or of the largest smaller one that the work area holds. */
-static int run_raster(sigma_run *run, const lrcsi_known *known, uint32_t size)
-{
-    lrcsi_raster raster;
-    size_t mark = run->work->used;
-    int status = LRCS_E_MEMORY;
-    run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
-    run->answer = NULL;
-    for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
-        status = lrcsi_visible_sampled(known, size, run->work, &raster, run->visible);
-        run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
-    }
-    if (status == LRCS_OK) {
-        run->size = raster.size;
-        for (uint32_t f = 0; f < run->view.prepared->scene->facet_count; f++) {
-            run->flags |= raster.undecided[f] ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
+    if (run->curved && sampled) {
+        lrcsi_curve_options options = run_curve_options(run);
+        int status = lrcsi_curve_from_pieces(&run->classification, &options, 1, run->work,
+                                             run->visible, run->curved);
+        if (status != LRCS_OK) {
+            lrcsi_curve_from_areas(&run->view, &options, run->visible, run->curved);
+            run->flags |= LRCS_FLAG_MEMORY_FALLBACK;
         }
-        run_sum(run, 1);
     }
-    run->work->used = mark;
-    return status;
+    if (run->band) {
+        lrcsi_proximity_band_settle(run->band, run->visible);
+    }
+    run->total = run_total(run, NULL);
 }
 
-/* Which facets are undecided, and what curved shapes may show otherwise: once. Where back sides are
-   left out of a scene that shows some, its true curves are not known. */
-static int run_classify(sigma_run *run)
+/* --- classification, clipping ----------------------------------------------------------------- */
+
+/* Finds which facets are undecided, and the proximity band if the plan needs it: once a pose. */
+static int run_classify(lrcsi_sigma *run)
 {
-    const lrcs_prepared *p = run->view.prepared;
-    if (run->undecided) {
+    if (run->classified) {
         return LRCS_OK;
     }
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_CLASSIFY, 0, 0);
     int status = lrcsi_classify_make(&run->view, run->work, &run->classification);
-    if (status == LRCS_OK && p->proximity.reach && (run->view.backs_cast || p->solid)) {
-        status = lrcsi_proximity_band_make(&run->classification, run->work, &run->margin);
-        run->doubt = &run->margin;
+    if (status == LRCS_OK && run->plan.proximity_band) {
+        status = lrcsi_proximity_band_make(&run->classification, run->work, &run->band_memory);
+        run->band = &run->band_memory;
     }
-    run->undecided = status == LRCS_OK;
+    run->classified = status == LRCS_OK;
     return status;
 }
 
-/* Are areas taken from samples alone, without a proof? Curved normals need to know where on a facet
-   it is seen, and curved shapes among others which facets are undecided. Of few facets, what could
-   hide them is searched for at less than the cost of a raster, and tells more of errors than so few
-   do by chance. */
-static int run_samples_only(const sigma_run *run, const lrcs_run_options *options)
+/* Clipping. If the sum is all that reads the visible areas, uniform facets get only an answer and
+   no area; tessellation and the proofs of areas_apply_proofs need the areas of all facets. */
+static int run_exact(lrcsi_sigma *run)
 {
-    const lrcs_prepared *p = run->view.prepared;
-    return run->plan.method == LRCS_METHOD_ZBUFFER && options->accept != LRCS_ACCEPT_BOUND &&
-           !p->smooth && !p->proximity.reach && run->flags == 0 &&
-           run->view.front + run->view.back >= PREVIEW_FACETS;
-}
-
-/* One such raster; of a size that the work area holds, if it can. */
-static int run_preview_at(sigma_run *run, uint32_t size)
-{
-    int undecided = 0;
-    int status = LRCS_E_MEMORY;
-    run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
-    run->answer = NULL;
-    for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
-        status = lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
-        run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
-        run->size = size;
-    }
-    if (status == LRCS_OK) {
-        run->flags |= undecided ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
-        run_sum(run, 1);
-    }
-    return status;
-}
-
-/* Is the sum all that reads visible areas? It takes those of facets that are seen whole or not at
-   all from their answers; tessellation, clear shapes, and what is known of fronts and backs, need
-   them all. */
-static int run_sums_alone(const sigma_run *run)
-{
-    const lrcs_prepared *p = run->view.prepared;
-    return !p->curved && !run->plan.unshadowed && run->clear.count == 0 &&
-           !(p->solid && run->view.backs_cast);
-}
-
-static int run_exact(sigma_run *run)
-{
-    lrcsi_curving how = run_curving(run);
     int status = run_classify(run);
-    if (status == LRCS_OK) {
-        status = run->curved
-                     ? lrcsi_curve_pieces(&run->classification, &how, 0, run->work, run->visible,
-                                          run->curved)
-                     : lrcsi_occlude_all(&run->classification, run->work,
-                                         run_sums_alone(run) ? &run->answer : NULL, run->visible);
+    if (status == LRCS_OK && run->curved) {
+        lrcsi_curve_options options = run_curve_options(run);
+        status = lrcsi_curve_from_pieces(&run->classification, &options, 0, run->work, run->visible,
+                                         run->curved);
+    } else if (status == LRCS_OK) {
+        int sum_only = !run->view.prepared->curved && !run_has_proofs(run);
+        status = lrcsi_occlude_all(&run->classification, run->work, sum_only ? &run->answer : NULL,
+                                   run->visible);
     }
     if (status == LRCS_OK) {
         run->size = 0;
@@ -368,89 +280,135 @@ static int run_exact(sigma_run *run)
     return status;
 }
 
-/* The size at which the visibility bound, falling as 1/N, would leave the tolerance room; or the
-   likely error, which falls at least as N^-1.33 on most models: there in steps of at most four
-   times, since a coarse raster's estimate is rough. */
-static uint32_t next_size(const sigma_run *run, const lrcs_run_options *options)
+/* --- rasters ---------------------------------------------------------------------------------- */
+
+/* May areas be taken from samples alone, without a proof? Not with curved normals, which must know
+   where on a facet it is visible; nor with curved shapes among other parts, whose proximity band
+   needs the classification; nor with few facets, for which the search for occluders costs less than
+   a raster, and whose sampling errors are too few to be estimated well. */
+static int run_samples_only(const lrcsi_sigma *run)
 {
-    double sigma = run->total.glint + run->total.diffuse;
-    double proved = run_bound(&run->total) - run->total.visibility;
-    double room = options->tolerance * sigma - proved;
-    double likely = sqrt(run->total.likely / room);
-    double times = options->accept == LRCS_ACCEPT_BOUND ? 1.2 * run->total.visibility / room
-                                                        : fmin(likely * sqrt(likely), 4);
-    double size = run->size * fmax(1.5, times);
-    if (!(room > 0) || !(size < LAST_SIZE)) {
-        return LAST_SIZE;
-    }
-    return 64 * ((uint32_t)size / 64 + 1);
+    const lrcs_prepared *p = run->view.prepared;
+    return run->plan.method == LRCS_METHOD_ZBUFFER && run->options->accept != LRCS_ACCEPT_BOUND &&
+           !p->smooth && !p->proximity.reach && run->flags == 0 &&
+           run->view.front + run->view.back >= PREVIEW_FACETS;
 }
 
-/* Is nothing to be gained by a finer raster than the last one? */
-static int raster_ends(const sigma_run *run, const lrcs_run_options *options, int samples_only)
+/* One raster of the given size, or of half of it, a quarter and so on until it fits into the work
+   area; and the sum over its areas. Where known is NULL the areas are those of samples alone. */
+static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
 {
-    return options->resolution != 0 || run->size >= LAST_SIZE || run->meter.spent ||
-           (run->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
-           (!samples_only && run->classification.undecided_count == 0) ||
-           !(run_verdict(run, options) & LRCS_FLAG_TOLERANCE_NOT_MET);
-}
-
-/* Rasters, from the first to one that is accepted, or to the finest. */
-static int run_zbuffer(sigma_run *run, const lrcs_run_options *options)
-{
-    lrcsi_known known;
+    lrcsi_raster raster;
+    int undecided = 0;
     size_t mark = run->work->used;
-    int samples_only = run_samples_only(run, options);
-    uint32_t size = run->plan.size;
-    int status = samples_only ? LRCS_OK : run_classify(run);
-    if (status == LRCS_OK && !samples_only) {
-        status = lrcsi_visible_known(&run->classification, run->work, &known);
+    int status = LRCS_E_MEMORY;
+    run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
+    run->answer = NULL;
+    for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
+        status = known ? lrcsi_visible_sampled(known, size, run->work, &raster, run->visible)
+                       : lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
+        run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
+        run->size = size;
     }
-    while (status == LRCS_OK) {
-        status = samples_only ? run_preview_at(run, size) : run_raster(run, &known, size);
-        if (status != LRCS_OK || raster_ends(run, options, samples_only)) {
-            break;
+    if (status == LRCS_OK) {
+        for (uint32_t f = 0; known && f < run->view.prepared->scene->facet_count; f++) {
+            undecided |= raster.undecided[f];
         }
-        size = next_size(run, options);
+        run->flags |= undecided ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
+        run_sum(run, 1);
     }
     run->work->used = mark;
     return status;
 }
 
-/* What came of an attempt to clip. */
-enum { CLIP_DONE, CLIP_GIVEN_UP, CLIP_NOT_BEGUN };
+/* The size of the next raster. The visibility bound falls as 1/N, and the estimated error as
+   N^-1.33 or faster on most models; a coarse raster's estimate is rough, so the size grows by at
+   most four times for its sake. */
+static uint32_t next_size(const lrcsi_sigma *run)
+{
+    double sigma = run->total.glint + run->total.diffuse;
+    double others = total_bound(&run->total) - run->total.visibility;
+    double allowed = run->options->tolerance * sigma - others; /* for visibility */
+    double ratio = sqrt(run->total.likely / allowed);
+    double times = run->options->accept == LRCS_ACCEPT_BOUND ? 1.2 * run->total.visibility / allowed
+                                                             : fmin(ratio * sqrt(ratio), 4);
+    double size = run->size * fmax(1.5, times);
+    if (!(allowed > 0) || !(size < LAST_SIZE)) {
+        return LAST_SIZE;
+    }
+    return 64 * ((uint32_t)size / 64 + 1);
+}
 
-/* Clipping in no more steps than fit in the time that a raster takes. Where it does not come to an
-   end, or is not begun since too many facets turn out to be undecided, nothing is left of it but
-   which ones are, where that was found. */
-static int run_clip_within(sigma_run *run, const lrcsi_cost *cost, double ns)
+/* Is the last raster accepted, or can a finer one gain nothing? */
+static int raster_ends(const lrcsi_sigma *run, int samples_only)
+{
+    return run->options->resolution != 0 || run->size >= LAST_SIZE || run->meter.spent ||
+           (run->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
+           (!samples_only && run->classification.undecided_count == 0) ||
+           !(run_verdict(run) & LRCS_FLAG_TOLERANCE_NOT_MET);
+}
+
+/* Rasters from the first size up, until one is accepted or is the finest. */
+static int run_zbuffer(lrcsi_sigma *run)
+{
+    lrcsi_known known;
+    size_t mark = run->work->used;
+    int samples_only = run_samples_only(run);
+    uint32_t size = run->plan.size;
+    int status = LRCS_OK;
+    if (!samples_only) {
+        status = run_classify(run);
+        status = status == LRCS_OK ? lrcsi_visible_known(&run->classification, run->work, &known)
+                                   : status;
+    }
+    while (status == LRCS_OK) {
+        status = run_raster(run, samples_only ? NULL : &known, size);
+        if (status != LRCS_OK || raster_ends(run, samples_only)) {
+            break;
+        }
+        size = next_size(run);
+    }
+    run->work->used = mark;
+    return status;
+}
+
+/* --- the cheapest method first ---------------------------------------------------------------- */
+
+/* The outcome of an attempt to clip. */
+enum { CLIP_DONE, CLIP_ABANDONED, CLIP_NOT_BEGUN };
+
+/* Clips in at most the steps that fit into ns, the estimated time of a raster. The attempt is
+   abandoned when these are spent, and is not begun if too many facets turn out to be undecided; the
+   run is then as before, except for the steps taken and, if it was completed, the classification.
+ */
+static int run_clip_within(lrcsi_sigma *run, const lrcsi_cost *cost, double ns)
 {
     const lrcsi_plan plan = run->plan;
     const lrcsi_total total = run->total;
     const uint32_t flags = run->flags;
     const uint32_t size = run->size;
-    const int undecided = run->undecided;
-    const lrcsi_proximity_band *doubt = run->doubt;
-    const uint64_t most = run->meter.most;
+    const int classified = run->classified;
+    const lrcsi_proximity_band *band = run->band;
+    const uint64_t limit = run->meter.most;
     uint64_t steps = lrcsi_cost_steps(ns);
-    uint64_t left = run->meter.most - run->meter.taken;
+    uint64_t left = limit - run->meter.taken;
     size_t mark = run->work->used;
-    int result = CLIP_GIVEN_UP;
+    int outcome = CLIP_ABANDONED;
     run->meter.most = run->meter.taken + (steps < left ? steps : left);
     if (run_classify(run) != LRCS_OK || run->meter.spent) {
-        run->undecided = undecided;
-        run->doubt = doubt;
+        run->classified = classified;
+        run->band = band;
     } else if (lrcsi_cost_clip(cost, run->classification.undecided_count) > ns) {
         mark = run->work->used;
-        result = CLIP_NOT_BEGUN;
+        outcome = CLIP_NOT_BEGUN;
     } else {
         mark = run->work->used;
         run->plan.method = LRCS_METHOD_EXACT;
         int status = run_exact(run);
-        result = status == LRCS_OK && !run->meter.spent ? CLIP_DONE : CLIP_GIVEN_UP;
+        outcome = status == LRCS_OK && !run->meter.spent ? CLIP_DONE : CLIP_ABANDONED;
     }
-    run->meter.most = most;
-    if (result != CLIP_DONE) {
+    run->meter.most = limit;
+    if (outcome != CLIP_DONE) {
         run->work->used = mark;
         run->meter.spent = 0;
         run->plan = plan;
@@ -458,81 +416,83 @@ static int run_clip_within(sigma_run *run, const lrcsi_cost *cost, double ns)
         run->size = size;
         run->total = total;
     }
-    return result;
+    return outcome;
 }
 
-/* For the sake of an estimate, where samples alone are judges, until an answer is accepted:
-   1. run_clip_within, where that is likely to take not much longer than the next raster, whose
-      estimate may not suffice; again only once a raster takes four times as long as the last
-      attempt might;
-   2. run_preview_at, a cheap one first.
-   Where no raster is accepted the caller clips. Any answer being good, the first raster is. */
-static int run_previews(sigma_run *run, const lrcs_run_options *options)
+/* Looks for an answer that is accepted by its estimate, by the method that is estimated to cost
+   less:
+   1. clipping, if it is likely to take little longer than the next raster, whose estimate may not
+      be accepted; after an abandoned attempt again only if a raster takes four times as long as
+      that attempt was allowed;
+   2. a raster of samples alone, a cheap one first.
+   If no raster is accepted the caller clips. If any answer is accepted, the first raster is. */
+static int run_previews(lrcsi_sigma *run)
 {
     const lrcsi_cost cost = lrcsi_cost_count(&run->view);
-    const int any = options->accept == LRCS_ACCEPT_ANY;
-    uint32_t size = lrcsi_cost_size(&cost, any ? 1 : options->tolerance, LAST_SIZE);
-    double tried = 0;
+    const int any = run->options->accept == LRCS_ACCEPT_ANY;
+    uint32_t size = lrcsi_cost_size(&cost, any ? 1 : run->options->tolerance, LAST_SIZE);
+    double abandoned_ns = 0;
     int status = LRCS_OK;
     for (int rasters = 0; status == LRCS_OK; rasters++) {
         double undecided =
-            run->undecided ? run->classification.undecided_count : lrcsi_cost_undecided(&cost);
-        double draw = lrcsi_cost_draw(&cost, size);
-        draw *= rasters == 0 ? CLIP_PREFERRED : CLIP_PREFERRED_NEXT;
-        if (!any && draw >= 4 * tried && lrcsi_cost_clip(&cost, undecided) <= draw) {
-            int result = run_clip_within(run, &cost, draw);
-            if (result == CLIP_DONE) {
+            run->classified ? run->classification.undecided_count : lrcsi_cost_undecided(&cost);
+        double ns = lrcsi_cost_draw(&cost, size);
+        ns *= rasters == 0 ? CLIP_PREFERRED : CLIP_PREFERRED_NEXT;
+        if (!any && ns >= 4 * abandoned_ns && lrcsi_cost_clip(&cost, undecided) <= ns) {
+            int outcome = run_clip_within(run, &cost, ns);
+            if (outcome == CLIP_DONE) {
                 run->plan.reason = "clipping is reckoned to cost less than a raster";
                 return LRCS_OK;
             }
-            tried = result == CLIP_GIVEN_UP ? draw : tried;
+            abandoned_ns = outcome == CLIP_ABANDONED ? ns : abandoned_ns;
         }
         size = rasters == 0 ? lrcsi_cost_first(&cost, size) : size;
-        status = run_preview_at(run, size);
-        if (status != LRCS_OK || raster_ends(run, options, 1) ||
-            (run->flags & LRCS_FLAG_DEPTH_UNDECIDED)) {
+        status = run_raster(run, NULL, size);
+        if (status != LRCS_OK || raster_ends(run, 1) || (run->flags & LRCS_FLAG_DEPTH_UNDECIDED)) {
             break;
         }
-        size = next_size(run, options);
+        size = next_size(run);
     }
     if (!any) {
-        run->plan.reason = tried > 0 ? "clipping was begun, and took longer than a raster"
-                                     : "a raster is reckoned to cost less than clipping";
+        run->plan.reason = abandoned_ns > 0 ? "clipping was begun, and took longer than a raster"
+                                            : "a raster is reckoned to cost less than clipping";
     }
     return status;
 }
 
-static int run_method(sigma_run *run, const lrcs_run_options *options)
-{
-    return run->plan.method == LRCS_METHOD_EXACT ? run_exact(run)
-           : run->plan.previews                  ? run_previews(run, options)
-                                                 : run_zbuffer(run, options);
-}
+/* --- the stages ------------------------------------------------------------------------------- */
 
-/* Under auto a raster goes first where its size was asked for, or where it costs less than clipping
-   and its estimate may count; where it is not accepted, clipping follows. Clipping that finds no
-   memory yields to a raster, which needs less, whether it was asked for or not. */
-static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
+/* Visible areas and their sum, where shadows are searched for:
+   1. view coordinates, and whether samples alone may serve;
+   2. the classification, except for samples alone;
+   3. the plan's method. Under auto a raster comes first if its size was asked for, or if it costs
+      less than clipping and its estimate may be accepted;
+   4. clipping under auto, if no raster was accepted;
+   5. a raster, which needs less memory, if clipping had too little. */
+static int run_shadowed(lrcsi_sigma *run)
 {
+    const lrcs_run_options *options = run->options;
     int status = lrcsi_view_project(run->work, &run->view);
-    if (run->plan.previews && !run_samples_only(run, options)) {
+    if (run->plan.previews && !run_samples_only(run)) {
         run->plan.previews = 0;
         if (options->accept == LRCS_ACCEPT_ESTIMATE) {
             run->plan.method = LRCS_METHOD_EXACT;
             run->plan.reason = "few facets, or curved ones: a raster saves little of clipping";
         }
     }
-    if (status == LRCS_OK && run->last > LRCSI_SIGMA_VIEW && !run_samples_only(run, options)) {
+    if (status == LRCS_OK && run->last > LRCSI_SIGMA_VIEW && !run_samples_only(run)) {
         status = run_classify(run);
     }
     if (status != LRCS_OK || run->last <= LRCSI_SIGMA_CLASSIFY) {
         return status;
     }
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_VISIBILITY, 0, 0);
-    status = run_method(run, options);
+    status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run)
+             : run->plan.previews                  ? run_previews(run)
+                                                   : run_zbuffer(run);
     if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
         run->plan.method == LRCS_METHOD_ZBUFFER && !run->meter.spent &&
-        (run_verdict(run, options) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
+        (run_verdict(run) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
         run->plan.method = LRCS_METHOD_EXACT;
         run->plan.reason = options->resolution != 0 ? "the raster asked for misses the tolerance"
                                                     : "no raster's estimate meets the tolerance";
@@ -543,18 +503,46 @@ static int run_shadowed(sigma_run *run, const lrcs_run_options *options)
         run->plan.method = LRCS_METHOD_ZBUFFER;
         run->plan.reason = "too little memory for clipping";
         run->flags = LRCS_FLAG_MEMORY_FALLBACK;
-        status = run_zbuffer(run, options);
+        status = run_zbuffer(run);
     }
     return status;
 }
 
-static void result_fill(const sigma_run *run, const lrcs_run_options *options, lrcs_result *result)
+int lrcsi_sigma_stages(lrcsi_sigma *run, const lrcs_prepared *prepared, const lrcs_pose *pose)
+{
+    const lrcs_run_options *options = run->options;
+    run->meter.most = options->steps != 0 ? options->steps : UINT64_MAX;
+    int status = lrcsi_plan_view(prepared, pose, options, run->work, &run->view);
+    if (status == LRCS_OK) {
+        run->view.meter = &run->meter;
+        run->view.progress = options->progress;
+        lrcsi_view_progress(&run->view, LRCS_PROGRESS_VIEW, 0, 0);
+        status = options->method == LRCS_METHOD_AUTO
+                     ? lrcsi_clear_make(&run->view, run->work, &run->clear)
+                     : LRCS_OK;
+    }
+    if (status == LRCS_OK) {
+        run->plan = lrcsi_plan_make(&run->view, &run->clear, options);
+        status = run_take(run);
+    }
+    if (status == LRCS_OK && run_is_unshadowed(run)) {
+        run_facet(run);
+    } else if (status == LRCS_OK) {
+        status = run_shadowed(run);
+    }
+    return status;
+}
+
+int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result)
 {
     const lrcsi_total *t = &run->total;
+    if (!isfinite(total_bound(t) + t->glint + t->diffuse + t->curvature)) {
+        return LRCS_E_NUMBER;
+    }
     lrcs_result r = {.sigma_m2 = t->glint + t->diffuse,
                      .sigma_glint_m2 = t->glint,
                      .sigma_diffuse_m2 = t->diffuse,
-                     .bound_m2 = run_bound(t),
+                     .bound_m2 = total_bound(t),
                      .budget = {t->visibility, t->tessellation, t->rounding},
                      .estimate_m2 = run->size != 0 ? t->likely : -1,
                      .curvature_estimate_m2 = run->curved ? t->curvature : -1,
@@ -571,75 +559,47 @@ static void result_fill(const sigma_run *run, const lrcs_run_options *options, l
                      .flags = run->flags,
                      .steps = run->meter.taken};
     lrcsi_plan_effects(&run->view, &run->plan, &run->clear, t->seen, r.effect);
-    r.flags |= run_verdict(run, options);
+    r.flags |= run_verdict(run);
     r.flags |= run->meter.spent ? LRCS_FLAG_STEPS_SPENT : 0u;
     r.notices |= t->back_sides != 0 ? LRCS_NOTICE_BACK_SIDES_VISIBLE : 0u;
     r.notices |= t->tessellation < 0 ? LRCS_NOTICE_TESSELLATION_UNKNOWN : 0u;
     *result = r;
-}
-
-/* Is nothing searched for that could hide facets? */
-static int run_unshadowed(const sigma_run *run)
-{
-    return run->plan.method == LRCS_METHOD_FACET || run->plan.method == LRCS_METHOD_CLOSED;
-}
-
-/* What the facets' results go to. */
-static int run_take(sigma_run *run)
-{
-    const lrcs_prepared *p = run->view.prepared;
-    uint32_t facets = p->scene->facet_count;
-    int areas = !run_unshadowed(run) || p->smooth;
-    run->visible = areas ? lrcsi_work_take(run->work, facets, sizeof *run->visible) : NULL;
-    run->curved = p->smooth ? lrcsi_work_take(run->work, facets, sizeof *run->curved) : NULL;
-    run->waiting = p->smooth ? lrcsi_cubature_cells(run->work) : NULL;
-    return (run->visible || !areas) && ((run->curved && run->waiting) || !p->smooth)
-               ? LRCS_OK
-               : LRCS_E_MEMORY;
-}
-
-static int run_stages(sigma_run *run, const lrcs_prepared *prepared, const lrcs_pose *pose,
-                      const lrcs_run_options *options)
-{
-    run->tolerance = options->tolerance;
-    run->meter.most = options->steps != 0 ? options->steps : UINT64_MAX;
-    int status = lrcsi_view_face(prepared, pose, run->work, &run->view);
-    if (status == LRCS_OK) {
-        run->view.meter = &run->meter;
-        run->view.progress = options->progress;
-        lrcsi_view_progress(&run->view, LRCS_PROGRESS_VIEW, 0, 0);
-        const lrcsi_plan_sides backs = lrcsi_plan_backs(prepared, options);
-        run->view.backs_cast = backs.cast;
-        run->view.backs_reflect = backs.reflect;
-        status = options->method == LRCS_METHOD_AUTO
-                     ? lrcsi_clear_make(&run->view, run->work, &run->clear)
-                     : LRCS_OK;
-    }
-    if (status == LRCS_OK) {
-        run->plan = lrcsi_plan_make(&run->view, &run->clear, options);
-        status = run_take(run);
-    }
-    if (status == LRCS_OK) {
-        status = run_unshadowed(run) ? run_facet(run) : run_shadowed(run, options);
-    }
-    return status;
+    return LRCS_OK;
 }
 
 int lrcsi_sigma_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
                       const lrcs_run_options *options, int last, lrcs_work *work)
 {
     lrcs_run_options asked = *options;
-    if (options->method == LRCS_METHOD_CLOSED) { /* auto's choice again, which runs once */
+    if (options->method == LRCS_METHOD_CLOSED) { /* only auto chooses it, and then runs once */
         asked.method = LRCS_METHOD_AUTO;
     }
-    int status = options->method == LRCS_METHOD_AUTO ? LRCS_E_ARGUMENT : run_check(&asked, NULL);
+    int status =
+        options->method == LRCS_METHOD_AUTO ? LRCS_E_ARGUMENT : lrcsi_sigma_check(&asked, NULL);
     if (status != LRCS_OK) {
         return status;
     }
     size_t mark = work->used;
-    sigma_run run = {.work = work, .last = last};
-    status = run_stages(&run, prepared, pose, &asked);
+    lrcsi_sigma run = {.options = &asked, .work = work, .last = last};
+    status = lrcsi_sigma_stages(&run, prepared, pose);
     work->used = mark;
+    return status;
+}
+
+/* Draws the picture that was asked for. */
+static int run_image(const lrcsi_sigma *run)
+{
+    lrcsi_raster raster;
+    lrcsi_view view = run->view;
+    size_t mark = run->work->used;
+    int status = view.point ? LRCS_OK : lrcsi_view_project(run->work, &view);
+    if (status == LRCS_OK) {
+        status = lrcsi_raster_make(&view, run->image->size, run->work, &raster);
+    }
+    if (status == LRCS_OK) {
+        lrcsi_image_fill(&view, raster.owner, run->image);
+    }
+    run->work->used = mark;
     return status;
 }
 
@@ -647,208 +607,23 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                    const lrcs_run_options *options, lrcs_work *work, lrcs_result *result,
                    lrcs_facet_record *records, lrcs_image *image)
 {
-    int status = run_check(options, image);
+    int status = lrcsi_sigma_check(options, image);
     if (status != LRCS_OK) {
         return status;
     }
     size_t mark = work->used;
-    sigma_run run = {.work = work, .image = image, .last = LRCSI_SIGMA_SUM};
-    status = run_stages(&run, prepared, pose, options);
-    if (status == LRCS_OK && !isfinite(run_bound(&run.total) + run.total.glint + run.total.diffuse +
-                                       run.total.curvature)) {
-        status = LRCS_E_NUMBER;
-    }
+    lrcs_result answer;
+    lrcsi_sigma run = {.options = options, .work = work, .image = image, .last = LRCSI_SIGMA_SUM};
+    status = lrcsi_sigma_stages(&run, prepared, pose);
+    status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
     if (status == LRCS_OK && image && image->size != 0) {
         status = run_image(&run);
     }
     if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
         if (records) {
-            run_total(&run, records);
+            run.total = run_total(&run, records);
         }
-        result_fill(&run, options, result);
-    }
-    work->used = mark;
-    return status;
-}
-
-/* --- material uncertainty -----------------------------------------------------------------------
- */
-
-#define DRAWS_MOST (1u << 20)
-
-lrcs_uncertainty_options lrcs_uncertainty_options_default(void)
-{
-    return (lrcs_uncertainty_options){4096, 1};
-}
-
-/* How many nodes of s and m a sample needs: none but the materials' own where sigma is linear in
-   all that is uncertain. */
-static uint32_t uncertainty_nodes(const lrcs_prepared *prepared,
-                                  const lrcs_uncertainty_options *how)
-{
-    return how->draws == 0 || !lrcsi_uncertainty_bends(prepared->scene) ? 1
-           : prepared->smooth                                           ? LRCSI_NODES_CURVED
-                                                                        : LRCSI_NODES;
-}
-
-size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_options *options,
-                             const lrcs_uncertainty_options *how)
-{
-    size_t count = prepared->scene->material_count;
-    size_t need = lrcs_sigma_need(prepared, options);
-    need = lrcsi_work_add(need, lrcsi_work_bytes(count * LRCSI_NODES, sizeof(lrcsi_node)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcs_brdf)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcsi_response)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcs_material)));
-    return lrcsi_work_add(need, lrcsi_uncertainty_need(prepared->scene, how));
-}
-
-/* Room for the responses of materials: at all nodes, and at one. */
-typedef struct response_room {
-    lrcsi_node *node; /* [nodes][material_count] */
-    lrcs_brdf *brdf;
-    lrcsi_response *response;
-    lrcs_material *material; /* a scene's own, with other numbers */
-} response_room;
-
-static int room_take(lrcs_work *work, uint32_t nodes, uint32_t materials, response_room *room)
-{
-    room->node = lrcsi_work_take(work, (size_t)nodes * materials, sizeof *room->node);
-    room->brdf = lrcsi_work_take(work, materials, sizeof *room->brdf);
-    room->response = lrcsi_work_take(work, materials, sizeof *room->response);
-    room->material = lrcsi_work_take(work, materials, sizeof *room->material);
-    return room->node && room->brdf && room->response && room->material ? LRCS_OK : LRCS_E_MEMORY;
-}
-
-/* The responses of a finished run's materials, with the numbers of room->brdf, as node k. */
-static void node_fill(const sigma_run *run, const response_room *room, uint32_t k)
-{
-    const lrcs_prepared *p = run->view.prepared;
-    const lrcsi_areas areas = {run->visible, run->answer};
-    uint32_t count = p->scene->material_count;
-    lrcsi_response_make(&run->view, &run->plan, &areas, run->curved, &run->clear, room->brdf,
-                        room->response);
-    for (uint32_t i = 0; i < count; i++) {
-        const lrcsi_response *at = &room->response[i];
-        room->node[(size_t)k * count + i] =
-            (lrcsi_node){lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint)),
-                         lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse)),
-                         lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint_s)),
-                         lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse_m))};
-    }
-}
-
-/* Node k of a scene with curved normals: the pose again, with these numbers at amplitudes of 1. */
-static int node_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
-                    const lrcs_run_options *options, lrcs_work *work, const response_room *room,
-                    uint32_t k)
-{
-    size_t mark = work->used;
-    lrcs_scene scene = *prepared->scene;
-    lrcs_prepared other = *prepared;
-    sigma_run run = {.work = work, .last = LRCSI_SIGMA_SUM, .moments = 1};
-    for (uint32_t i = 0; i < scene.material_count; i++) {
-        room->material[i] = prepared->scene->material[i];
-        room->material[i].brdf = room->brdf[i];
-        room->material[i].brdf.A = room->brdf[i].s > 0 ? 1 : 0;
-        room->material[i].brdf.B = 1;
-    }
-    scene.material = room->material;
-    other.scene = &scene;
-    int status = run_stages(&run, &other, pose, options);
-    if (status == LRCS_OK) {
-        node_fill(&run, room, k);
-    }
-    work->used = mark;
-    return status;
-}
-
-static int errors_check(const lrcs_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lrcs_material *m = &scene->material[i];
-        if (lrcs_brdf_error_check(&m->brdf, &m->error) != LRCS_OK) {
-            return LRCS_E_NUMBER;
-        }
-    }
-    return LRCS_OK;
-}
-
-/* The derivatives, from the materials' own node; and whether they are all numbers. */
-static int sensitivity_check(const lrcs_scene *scene, const lrcsi_node *own)
-{
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lrcs_brdf *brdf = &scene->material[i].brdf;
-        if (!isfinite(own[i].glint + own[i].diffuse + brdf->A * own[i].glint_s +
-                      brdf->B * own[i].diffuse_m)) {
-            return LRCS_E_NUMBER;
-        }
-    }
-    return LRCS_OK;
-}
-
-static void sensitivity_fill(const lrcs_scene *scene, const lrcsi_node *own, lrcs_sensitivity *out)
-{
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lrcs_brdf *brdf = &scene->material[i].brdf;
-        out[i] = (lrcs_sensitivity){own[i].glint, own[i].diffuse, brdf->A * own[i].glint_s,
-                                    brdf->B * own[i].diffuse_m};
-    }
-}
-
-/* Steps: 1. the pose, as lrcs_sigma_run; 2. the responses of materials at each node of s and m:
-   over the areas of that pose, or with curved normals from a pose each; 3. derivatives, first order
-   and sample. */
-int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
-                         const lrcs_run_options *options, const lrcs_uncertainty_options *how,
-                         lrcs_work *work, lrcs_result *result, lrcs_sensitivity *sensitivity,
-                         lrcs_uncertainty *uncertainty)
-{
-    const lrcs_scene *scene = prepared->scene;
-    uint32_t nodes = uncertainty_nodes(prepared, how);
-    size_t mark = work->used;
-    response_room room;
-    lrcs_result answer;
-    lrcs_uncertainty found;
-    sigma_run run = {.work = work, .last = LRCSI_SIGMA_SUM};
-    int status = how->draws == 1 || how->draws > DRAWS_MOST ? LRCS_E_ARGUMENT : LRCS_OK;
-    status = status == LRCS_OK ? run_check(options, NULL) : status;
-    status = status == LRCS_OK ? errors_check(scene) : status;
-    status = status == LRCS_OK ? room_take(work, nodes, scene->material_count, &room) : status;
-    if (status != LRCS_OK) {
-        work->used = mark;
-        return status;
-    }
-    size_t start = work->used;
-    status = run_stages(&run, prepared, pose, options);
-    if (status == LRCS_OK && !isfinite(run_bound(&run.total) + run.total.glint + run.total.diffuse +
-                                       run.total.curvature)) {
-        status = LRCS_E_NUMBER;
-    }
-    if (status == LRCS_OK) {
-        result_fill(&run, options, &answer);
-    }
-    for (uint32_t k = 0; k < nodes && status == LRCS_OK; k++) {
-        for (uint32_t i = 0; i < scene->material_count; i++) {
-            room.brdf[i] = lrcsi_uncertainty_node(&scene->material[i], k, nodes);
-        }
-        if (prepared->smooth) {
-            work->used = start; /* what the pose left is done with */
-            status = node_run(prepared, pose, options, work, &room, k);
-        } else {
-            node_fill(&run, &room, k);
-        }
-    }
-    const lrcsi_node *own = room.node + (size_t)(nodes / 2) * scene->material_count;
-    work->used = status == LRCS_OK ? start : work->used;
-    status = status == LRCS_OK ? sensitivity_check(scene, own) : status;
-    status = status == LRCS_OK ? lrcsi_uncertainty_make(scene, answer.sigma_m2, room.node, nodes,
-                                                        how, work, &found)
-                               : status;
-    if (status == LRCS_OK) {
-        sensitivity_fill(scene, own, sensitivity);
         *result = answer;
-        *uncertainty = found;
     }
     work->used = mark;
     return status;

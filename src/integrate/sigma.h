@@ -1,20 +1,58 @@
 /* SPDX-License-Identifier: MIT */
-/* The stages of lrcs_sigma_run, so that a host can time them: the core has no clock. */
+/* One pose, stage by stage: for lrcs_sigma_run, for computations that need what its stages leave
+   (integrate/uncertainty.c), and for a host that times the stages, because the core has no clock.
+ */
 #ifndef LRCSI_SIGMA_H
 #define LRCSI_SIGMA_H
 
-#include <lrcs/run.h>
+#include "integrate/total.h"
 
 enum lrcsi_sigma_stage {
-    LRCSI_SIGMA_VIEW,       /* which way facets face; view coordinates, if they are wanted */
-    LRCSI_SIGMA_CLASSIFY,   /* event edges; facets seen whole or not at all, and undecided ones */
+    LRCSI_SIGMA_VIEW,       /* which way facets face; their view coordinates, if needed */
+    LRCSI_SIGMA_CLASSIFY,   /* event edges; which facets are uniform and which are undecided */
     LRCSI_SIGMA_VISIBILITY, /* visible areas */
-    LRCSI_SIGMA_SUM,        /* Eq. 2; curved facets of which samples tell */
+    LRCSI_SIGMA_SUM,        /* Eq. 2; the integrals over facets with curved normals */
     LRCSI_SIGMA_STAGES
 };
 
-/* Runs a pose up to a stage and drops what it found. The method is not AUTO, which may go through
-   stages more than once: LRCS_E_ARGUMENT. Else as lrcs_sigma_run. */
+/* The state of a run. The caller sets the first five fields, and all others to 0. */
+typedef struct lrcsi_sigma {
+    const lrcs_run_options *options;
+    lrcs_work *work;
+    lrcs_image *image; /* NULL: no picture is asked for */
+    int last;          /* lrcsi_sigma_stage: the run ends after it */
+    int moments;       /* 1: curved normals are integrated with moments, for derivatives */
+
+    lrcsi_view view;
+    lrcsi_meter meter; /* of the view */
+    lrcsi_clear clear; /* shapes that are evaluated by their closed forms: method auto only */
+    lrcsi_plan plan;
+    int classified; /* the classification is made, and the band if the plan needs it */
+    lrcsi_classification classification;
+    lrcsi_proximity_band band_memory;
+    const lrcsi_proximity_band *band; /* NULL: none was made */
+    lrcsi_visible *visible;           /* [facet_count]; NULL: the plan implies all areas */
+    const unsigned char *answer;      /* as in lrcsi_areas */
+    lrcsi_curved *curved;             /* [facet_count]; NULL: all normals are flat */
+    lrcsi_cubature_cell *stack;       /* NULL: likewise */
+    uint32_t size;                    /* of the raster that the areas come from, 0: none */
+    uint32_t flags;
+    lrcsi_total total;
+} lrcsi_sigma;
+
+/* Checks options and the size of a picture (NULL: none). Status: LRCS_OK; LRCS_E_ARGUMENT. */
+int lrcsi_sigma_check(const lrcs_run_options *options, const lrcs_image *image);
+
+/* All stages up to run->last, for checked options. Status: as lrcs_sigma_run. What the stages found
+   stays in the work area. */
+int lrcsi_sigma_stages(lrcsi_sigma *run, const lrcs_prepared *prepared, const lrcs_pose *pose);
+
+/* The result after the last stage. Status: LRCS_OK; LRCS_E_NUMBER if sigma or its bound is not
+   finite. */
+int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result);
+
+/* Runs a pose up to a stage and discards what it found. The method is not AUTO, which may go
+   through stages more than once: LRCS_E_ARGUMENT. Otherwise as lrcs_sigma_run. */
 int lrcsi_sigma_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
                       const lrcs_run_options *options, int last, lrcs_work *work);
 

@@ -257,14 +257,15 @@ static double inside_shown(const lrcsi_view *view, uint32_t facet, const lrcs_br
     return most * fmin(1, visible[facet].high / incidence->projected);
 }
 
-int lrcsi_tessellation_known(const lrcs_prepared *p, int unshadowed)
+int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
 {
-    for (uint32_t i = 0; i < p->scene->part_count && unshadowed; i++) {
+    for (uint32_t i = 0; i < p->scene->part_count && plan->unshadowed; i++) {
         if (p->scene->part[i].facet_count != 0 && !p->scene->part[i].curvature_known) {
             return 0;
         }
     }
-    return unshadowed || p->proximity.reach != NULL;
+    return plan->unshadowed || plan->proximity_band ||
+           (p->proximity.reach && plan->method == LRCS_METHOD_FACET);
 }
 
 double lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,

@@ -8,8 +8,10 @@
 #include "visibility/proximity_band.h"
 #include "visibility/visible.h"
 
-/* 1 if that error can be bounded: every part's curvature is known. */
-int lrcsi_tessellation_known(const lrcs_prepared *prepared, int unshadowed);
+/* 1 if that error can be bounded: every part's curvature is known and visibility is that of the
+   true shapes, because no front facet is hidden or because a proximity band bounds the difference;
+   or no shadows are searched for, so that the bound includes everything that could be hidden. */
+int lrcsi_tessellation_known(const lrcs_prepared *prepared, const lrcsi_plan *plan);
 
 /* A bound on it for one facet that is not skipped and its patch, scaled, without the 4 pi.
    Given: what the facet has; the visible areas of all facets; the proximity band, or NULL if

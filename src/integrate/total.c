@@ -1,13 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* The sum of Eq. 2 over visible areas, material by material, compensated. A facet at incidence
-   theta of which a projected area a is visible adds 4 pi f_r cos(theta) a.
+/* The sum of Eq. 2 over visible areas, material by material, compensated. A facet of area S at
+   incidence theta whose visible projected area is a adds
+       4 pi f_r cos(theta) a = 4 pi S f (a / (S cos(theta))),  f = f_r cos^2(theta).
 
-   Nearly all facets go in blocks through plain doubles (optics/shade.h); those near grazing, in the
-   bright lobe of a narrow glint, or with curved normals go one by one through double-double
-   incidence (view/view.h) and optics/reflect.h. What each adds to the bounds stands beside each
-   step; the bounds themselves are widened by 1e-9 and 2 u a facet for their own rounding.
-   Called: lrcsi_view_dot, lrcsi_shade, lrcsi_sum_lanes_add; lrcsi_view_incidence, lrcsi_reflect;
-   lrcsi_tessellation_error. */
+   Nearly all facets are summed in blocks of LRCSI_LANES, in plain doubles (optics/shade.h). Facets
+   near grazing incidence, in the bright lobe of a narrow glint, with curved normals, or on curved
+   walls are summed one by one (sum_facet), with incidence in double-double (view/view.h). What each
+   step adds to the bounds is stated beside it; the bounds themselves are increased by 1e-9 and 2 u
+   a facet for their own rounding. The steps of lrcsi_total_make:
+   1. sum_material, for each material: places_pick selects the facets of its batch that face the
+      laser (lrcsi_view_dot), places_filter keeps those that are visible, and block_run evaluates
+      blocks of them: normals and areas, lrcsi_shade, visible areas, sums, bounds;
+   2. sum_shape, for each clear shape: lrcsi_shape_terms_make;
+   3. sum_tessellation, if shapes are curved: lrcsi_tessellation_error;
+   4. total_finish: square metres, and the rounding of the sums. */
 #include "integrate/total.h"
 
 #include <float.h>
@@ -26,37 +32,37 @@
 #include "optics/shade.h"
 #include "visibility/query.h"
 
-#define FOUR_PI 12.566370614359172954
-
-/* The relative error of a visible area that is all of a facet not near grazing: that of
+/* The relative error of the area of a facet that is entirely visible and not near grazing: that of
    lrcsi_incidence.projected (8 u), and a product. */
 #define AREA_ERROR (10 * LRCSI_U)
 
-/* Running sums, in scaled units. */
+/* Running sums, scaled. */
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
     double visibility, tessellation, rounding, curvature;
-    double likely, bias; /* of errors that add up by chance; of those that share a sign */
+    double likely, bias; /* estimated errors: independent ones (root of squares); one of one sign */
     uint32_t seen;
 } total_sums;
 
-/* What the sum is over, and what has come together. */
-typedef struct total_job {
+/* What is given to lrcsi_total_make, and the sums so far. */
+typedef struct total_run {
     const lrcsi_view *view;
     const lrcsi_plan *plan;
-    const lrcsi_visible *visible;       /* NULL: all that nothing is known to hide */
-    const unsigned char *answer;        /* lrcsi_areas */
-    const lrcsi_curved *curved;         /* NULL: all facets are flat */
-    const lrcsi_proximity_band *margin; /* NULL: none was made */
-    const lrcsi_clear *clear;           /* shapes that count by closed forms; NULL: none */
-    lrcs_facet_record *records;         /* NULL: none asked for */
-    lrcsi_patch patch;                  /* of the last facet that has one */
+    const lrcsi_visible *visible;     /* lrcsi_areas */
+    const unsigned char *answer;      /* lrcsi_areas */
+    const lrcsi_curved *curved;       /* NULL: all normals are flat */
+    const lrcsi_proximity_band *band; /* NULL: none was made */
+    const lrcsi_clear *clear;         /* NULL: no shape is evaluated by its closed form */
+    lrcs_facet_record *records;       /* NULL: none are asked for */
+    lrcsi_patch patch;                /* of the last facet that has one */
     lrcsi_total total;
     total_sums sums;
-} total_job;
+} total_run;
 
-/* Its reflection. A term of amplitude 0 that is to be evaluated all the same is so at amplitude 1,
-   and added 0 times; with no slope there is no glint to evaluate. */
+/* --- the terms of one facet ------------------------------------------------------------------- */
+
+/* The reflection at tan^2. A term of amplitude 0 that the plan evaluates all the same is evaluated
+   at amplitude 1 and multiplied by 0; without a slope there is no glint to evaluate. */
 static lrcsi_reflection reflection_planned(const lrcs_brdf *brdf, const lrcsi_plan *plan,
                                            double tan2)
 {
@@ -64,10 +70,10 @@ static lrcsi_reflection reflection_planned(const lrcs_brdf *brdf, const lrcsi_pl
     int glint = plan->glint == LRCSI_TERM_FORCED && brdf->A == 0 && brdf->s > 0;
     int diffuse = plan->diffuse == LRCSI_TERM_FORCED && brdf->B == 0;
     if (glint || diffuse) {
-        const lrcs_brdf idle = {glint, diffuse, brdf->s, brdf->m};
-        lrcsi_reflection none = lrcsi_reflect(&idle, tan2, 0);
-        at.glint += brdf->A * none.glint;
-        at.diffuse += brdf->B * none.diffuse;
+        const lrcs_brdf unit = {glint, diffuse, brdf->s, brdf->m};
+        lrcsi_reflection forced = lrcsi_reflect(&unit, tan2, 0);
+        at.glint += brdf->A * forced.glint;
+        at.diffuse += brdf->B * forced.diffuse;
     }
     return at;
 }
@@ -79,59 +85,56 @@ static double glint_peak(double s)
     return q <= 1 ? 1 : q * q * lrcsi_exp(2 / q - 2);
 }
 
-/* How far the glint may be off where tan^2 is too vague for its flank: truth and value both lie
-   between 0 and the glint at the least tan^2, which beyond the peak (2 s^2 - 1) is the most. */
+/* A bound on the error of the glint where the relative error of tan^2 is too large for its slope to
+   be linearised: the true and the computed value both lie between 0 and the glint at the lower
+   bound of tan^2, which is their upper bound beyond the peak (at 2 s^2 - 1). */
 static double glint_uncertainty(const lrcs_brdf *brdf, const lrcsi_incidence *incidence)
 {
-    double least = incidence->tan2 * (1 - 2 * incidence->tan2_err);
-    if (!(least >= 2 * brdf->s * brdf->s)) {
+    double lower = incidence->tan2 * (1 - 2 * incidence->tan2_err);
+    if (!(lower >= 2 * brdf->s * brdf->s)) {
         return brdf->A * glint_peak(brdf->s);
     }
     const lrcs_brdf alone = {brdf->A, 0, brdf->s, 0};
-    lrcsi_reflection most = lrcsi_reflect(&alone, least, 0);
-    return most.glint + most.error;
+    lrcsi_reflection upper = lrcsi_reflect(&alone, lower, 0);
+    return upper.glint + upper.error;
 }
 
-/* At least e^x - 1, for 0 <= x < 1. */
-static double growth(double x)
+/* An upper bound of e^x - 1, for 0 <= x < 1. */
+static double exp_minus_1_bound(double x)
 {
     return x + x * x;
 }
 
-/* How far f_r cos^2 may be off for want of knowing tan^2. With u = tan^2 known to a relative r,
-   log of the glint moves by at most r (2 min(u, 1) + u / s^2), of the diffuse part by at most
-   r (m + 2)/2 min(u, 1); where these are no small numbers, each part is bounded itself. Near
-   edge-on (r infinite) u is at least this, and beyond the glint's peak both parts only fall. */
+/* A bound on the error of f_r cos^2 from the error of tan^2. If u = tan^2 has the relative error r,
+   the logarithm of the glint changes by at most r (2 min(u, 1) + u / s^2), and that of the diffuse
+   term by at most r (m + 2)/2 min(u, 1). If these changes are not small, the terms themselves are
+   bounded. Near edge-on r is infinite, and u is a lower bound; beyond the peak of the glint both
+   terms decrease with u. */
 static double reflection_uncertainty(const lrcs_brdf *brdf, const lrcsi_incidence *incidence,
                                      const lrcsi_reflection *at)
 {
     if (isinf(incidence->tan2_err)) {
-        double most = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
-        return incidence->tan2 >= 2 * brdf->s * brdf->s ? at->glint + at->diffuse : most;
+        double highest = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
+        return incidence->tan2 >= 2 * brdf->s * brdf->s ? at->glint + at->diffuse : highest;
     }
-    double bent = lrcsi_least(incidence->tan2, 1);
+    double u_or_1 = lrcsi_least(incidence->tan2, 1);
     double glint =
-        brdf->A > 0 ? incidence->tan2_err * (2 * bent + incidence->tan2 / brdf->s / brdf->s) : 0;
-    double diffuse = incidence->tan2_err * (0.5 * brdf->m + 1) * bent;
-    return (glint < 1 ? at->glint * growth(glint) : glint_uncertainty(brdf, incidence)) +
-           (diffuse < 1 ? at->diffuse * growth(diffuse) : brdf->B);
+        brdf->A > 0 ? incidence->tan2_err * (2 * u_or_1 + incidence->tan2 / brdf->s / brdf->s) : 0;
+    double diffuse = incidence->tan2_err * (0.5 * brdf->m + 1) * u_or_1;
+    return (glint < 1 ? at->glint * exp_minus_1_bound(glint) : glint_uncertainty(brdf, incidence)) +
+           (diffuse < 1 ? at->diffuse * exp_minus_1_bound(diffuse) : brdf->B);
 }
 
-static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
-{
-    sums->seen |= brdf->A > 0 ? 1u << LRCS_EFFECT_GLINT : 0u;
-    sums->seen |= brdf->B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
-}
-
-/* Of nearly all facets the whole is visible: no quotient, then. */
-static double share_of(double part, double whole)
+/* The fraction part / whole: 1, without a division, for the many facets that are entirely
+   visible. */
+static double fraction_of(double part, double whole)
 {
     return part == whole ? 1 : part / whole;
 }
 
-/* One facet that reflects towards the laser, precisely: by the mean over its patch where it stands
-   for a part of a curved wall, else by its normal. Rounding: S, 4 pi, two products and the share,
-   8 u; the relative error of areas; what f_r cos^2 is off by, over all that may be visible. */
+/* The reflectance is the mean over the facet's patch if it stands for a part of a curved wall, else
+   that of its normal. Rounding: S, 4 pi, two products and the fraction, 8 u; the relative error of
+   areas; and the error of f_r cos^2, times the upper bound of the visible area. */
 lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t facet, const lrcsi_incidence *incidence,
                                          const lrcsi_visible *visible, lrcsi_patch *patch)
@@ -146,49 +149,73 @@ lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_pla
         at = reflection_planned(&brdf, plan, incidence->tan2);
         uncertainty = reflection_uncertainty(&brdf, incidence, &at);
     }
-    double whole = FOUR_PI * 0.5 * p->normal[facet].length;
-    double share = share_of(visible->area, incidence->projected);
-    double most = share_of(visible->high, incidence->projected);
-    lrcsi_facet_terms terms = {.glint = whole * at.glint * share,
-                               .diffuse = whole * at.diffuse * share};
+    double four_pi_s = LRCSI_FOUR_PI * 0.5 * p->normal[facet].length;
+    double fraction = fraction_of(visible->area, incidence->projected);
+    double fraction_high = fraction_of(visible->high, incidence->projected);
+    lrcsi_facet_terms terms = {.glint = four_pi_s * at.glint * fraction,
+                               .diffuse = four_pi_s * at.diffuse * fraction};
     terms.rounding = (terms.glint + terms.diffuse) * (incidence->error + 8 * LRCSI_U) +
-                     whole * most * (at.error + uncertainty) +
+                     four_pi_s * fraction_high * (at.error + uncertainty) +
                      (brdf.A > 0 || brdf.B > 0 ? LRCSI_FACET_UNDERFLOW : 0);
-    terms.per_area = whole * (at.glint + at.diffuse) / incidence->projected;
+    terms.per_area = four_pi_s * (at.glint + at.diffuse) / incidence->projected;
     return terms;
 }
 
-static void add_doubt(total_sums *sums, double per_area, const lrcsi_visible *visible)
+/* --- what is visible of a facet --------------------------------------------------------------- */
+
+/* Is all of the facet visible, or nothing, by its answer? */
+static inline int facet_answered(const total_run *run, uint32_t facet)
 {
-    double doubt = lrcsi_most(visible->area - visible->low, visible->high - visible->area);
-    sums->visibility += per_area * doubt;
-    sums->likely = lrcsi_length_flat(sums->likely, per_area * visible->likely);
-    sums->bias += per_area * visible->bias;
+    return run->answer && run->answer[facet] != LRCSI_QUERY_UNDECIDED;
 }
 
-/* One with curved normals, which comes summed. */
-static void add_curved(total_sums *sums, const lrcsi_curved *curved)
+static lrcsi_visible facet_visible(const total_run *run, uint32_t facet,
+                                   const lrcsi_incidence *incidence)
 {
-    lrcsi_sum_add(&sums->glint, curved->glint);
-    lrcsi_sum_add(&sums->diffuse, curved->diffuse);
-    sums->visibility += curved->visibility;
-    sums->rounding += curved->rounding + LRCSI_FACET_UNDERFLOW;
-    sums->likely = lrcsi_length_flat(sums->likely, curved->likely);
-    sums->curvature += curved->estimate;
+    if (facet_answered(run, facet)) {
+        double area = run->answer[facet] == LRCSI_QUERY_VISIBLE ? incidence->projected : 0;
+        return (lrcsi_visible){area, area, area, 0, 0};
+    }
+    if (run->visible) {
+        return run->visible[facet];
+    }
+    return lrcsi_grid_casts(run->view, facet)
+               ? lrcsi_visible_unshadowed(incidence, run->plan->grazing_cos)
+               : (lrcsi_visible){0, 0, 0, 0, 0};
 }
 
-/* Can what the facets err from the true shapes be bounded? Where nothing is searched, all that
-   could be hidden is in the bound. */
-static int tessellation_known(const total_job *job)
+/* The visible area of a facet, where areas were found and some of it may be visible. */
+static inline double facet_area(const total_run *run, uint32_t facet)
 {
-    int unshadowed = job->plan->unshadowed;
-    return lrcsi_tessellation_known(job->view->prepared, unshadowed) &&
-           (unshadowed || job->margin || job->plan->method == LRCS_METHOD_FACET);
+    return facet_answered(run, facet) ? lrcsi_view_projected(run->view, facet)
+                                      : run->visible[facet].area;
 }
 
-/* Counts a facet of which nothing, or only a part, is visible. An area computed by clipping that
-   cannot be distinguished from none, or from all, counts as that. */
-static void count_shown(lrcsi_total *total, double projected, const lrcsi_visible *visible)
+/* May something of a facet be visible, where areas were found? */
+static inline int area_may_be_visible(const total_run *run, uint32_t facet)
+{
+    return facet_answered(run, facet) ? run->answer[facet] == LRCSI_QUERY_VISIBLE
+                                      : run->visible[facet].high > 0;
+}
+
+/* The same for any method, from the side that faces the laser: 1, or -1 for the back. Instead of a
+   redundant facet, the one that coincides with it is visible. */
+static inline int side_may_be_visible(const total_run *run, uint32_t facet, int side)
+{
+    int limit = side > 0 ? LRCSI_REDUNDANT : LRCSI_REDUNDANT_FROM_BEHIND;
+    return run->visible ? area_may_be_visible(run, facet)
+                        : run->view->prepared->redundant[facet] < limit;
+}
+
+/* Is what a facet reflects part of a closed form? */
+static int is_in_clear_shape(const total_run *run, uint32_t facet)
+{
+    return run->clear && run->clear->part[run->view->prepared->scene->facet_part[facet]];
+}
+
+/* Counts a facet if nothing, or only a part, of it is visible. The area of a clipped facet that
+   cannot be distinguished from 0, or from the projected area, counts as that. */
+static void count_visible(lrcsi_total *total, double projected, const lrcsi_visible *visible)
 {
     int below = visible->area < projected;
     int clipped = visible->likely == 0 && visible->high - visible->low < projected;
@@ -198,184 +225,127 @@ static void count_shown(lrcsi_total *total, double projected, const lrcsi_visibl
     total->hidden += visible->area == 0 || (below && visible->low <= 0 && !partly) ? 1 : 0;
 }
 
-/* A bound in square metres. Where that is no normal double its rounding is made up for, and that of
-   the two values that it may hold for: half of 2^-1074 each. */
-double lrcsi_bound_area(const lrcs_prepared *p, double scaled)
+/* --- facets one by one ------------------------------------------------------------------------ */
+
+static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
 {
-    double area = lrcsi_prepared_area(p, scaled);
-    return scaled > 0 && area < DBL_MIN ? area + 0x1p-1073 : area;
+    sums->seen |= brdf->A > 0 ? 1u << LRCS_EFFECT_GLINT : 0u;
+    sums->seen |= brdf->B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
 }
 
-/* To square metres; the compensated sums' own error goes to rounding. */
-static void total_finish(total_job *job)
+/* Adds the errors of an uncertain visible area, given what the facet reflects per area. */
+static void add_area_error(total_sums *sums, double per_area, const lrcsi_visible *visible)
 {
-    const lrcs_prepared *p = job->view->prepared;
-    const total_sums *sums = &job->sums;
-    lrcsi_total *total = &job->total;
-    double glint = lrcsi_sum_value(&sums->glint);
-    double diffuse = lrcsi_sum_value(&sums->diffuse);
-    double count = p->scene->facet_count;
-    double outward = 1 + 1e-9 + 2 * count * LRCSI_U;
-    total->glint = lrcsi_prepared_area(p, glint);
-    total->diffuse = lrcsi_prepared_area(p, diffuse);
-    total->projected = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->projected));
-    total->back_side = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->back_side));
-    total->visibility = lrcsi_bound_area(p, sums->visibility * outward);
-    total->tessellation =
-        sums->tessellation < 0 ? -1 : lrcsi_bound_area(p, sums->tessellation * outward);
-    double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
-    total->rounding = lrcsi_bound_area(p, (sums->rounding + adding) * outward);
-    double likely = lrcsi_length_flat(sums->likely, sums->bias);
-    total->likely = fmin(lrcsi_prepared_area(p, likely), total->visibility);
-    total->curvature = lrcsi_prepared_area(p, sums->curvature);
-    total->seen = sums->seen;
+    double area_err = lrcsi_most(visible->area - visible->low, visible->high - visible->area);
+    sums->visibility += per_area * area_err;
+    sums->likely = lrcsi_length_flat(sums->likely, per_area * visible->likely);
+    sums->bias += per_area * visible->bias;
 }
 
-/* Is all of the facet visible, or nothing, as its answer tells? */
-static inline int facet_answered(const total_job *job, uint32_t facet)
+static void record_sigma(const total_run *run, uint32_t facet, double glint, double diffuse)
 {
-    return job->answer && job->answer[facet] != LRCSI_QUERY_UNDECIDED;
-}
-
-/* What is visible of a facet. */
-static lrcsi_visible facet_visible(const total_job *job, uint32_t facet,
-                                   const lrcsi_incidence *incidence)
-{
-    if (facet_answered(job, facet)) {
-        double area = job->answer[facet] == LRCSI_QUERY_VISIBLE ? incidence->projected : 0;
-        return (lrcsi_visible){area, area, area, 0, 0};
-    }
-    if (job->visible) {
-        return job->visible[facet];
-    }
-    return lrcsi_grid_casts(job->view, facet)
-               ? lrcsi_visible_unshadowed(incidence, job->plan->grazing_cos)
-               : (lrcsi_visible){0, 0, 0, 0, 0};
-}
-
-/* What a facet adds goes into its record. */
-static void record_sigma(const total_job *job, uint32_t facet, double glint, double diffuse)
-{
-    if (job->records) {
-        const lrcs_prepared *p = job->view->prepared;
-        job->records[facet].sigma_m2 = lrcsi_prepared_area(p, glint + diffuse);
-        job->records[facet].sigma_glint_m2 = lrcsi_prepared_area(p, glint);
+    if (run->records) {
+        const lrcs_prepared *p = run->view->prepared;
+        run->records[facet].sigma_m2 = lrcsi_prepared_area(p, glint + diffuse);
+        run->records[facet].sigma_glint_m2 = lrcsi_prepared_area(p, glint);
     }
 }
 
-/* --- one by one ------------------------------------------------------------------------------- */
-
-/* A facet that reflects and of which something may be visible. */
-static void sum_precisely(total_job *job, uint32_t facet)
+/* Adds a facet that reflects towards the laser, and of which something may be visible:
+   1. its incidence and visible area;
+   2. with curved normals, the integral over them;
+   3. otherwise 4 pi S f times the visible fraction, with the rounding error;
+   4. the error of the visible area. */
+static void sum_precisely(total_run *run, uint32_t facet)
 {
-    total_sums *sums = &job->sums;
-    lrcsi_incidence incidence = lrcsi_view_incidence(job->view, facet);
-    lrcsi_visible visible = facet_visible(job, facet, &incidence);
+    total_sums *sums = &run->sums;
+    lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
+    lrcsi_visible visible = facet_visible(run, facet, &incidence);
     lrcs_brdf brdf =
-        lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(job->view->prepared, facet));
+        lrcsi_plan_brdf(run->plan, lrcsi_prepared_material(run->view->prepared, facet));
     add_seen(sums, &brdf);
     lrcsi_sum_add(&sums->projected, visible.area);
-    count_shown(&job->total, incidence.projected, &visible);
-    if (job->curved && lrcsi_curve_wanted(job->view, facet)) {
-        add_curved(sums, &job->curved[facet]);
-        record_sigma(job, facet, job->curved[facet].glint, job->curved[facet].diffuse);
+    count_visible(&run->total, incidence.projected, &visible);
+    if (run->curved && lrcsi_curve_applies(run->view, facet)) {
+        const lrcsi_curved *curved = &run->curved[facet];
+        lrcsi_sum_add(&sums->glint, curved->glint);
+        lrcsi_sum_add(&sums->diffuse, curved->diffuse);
+        sums->visibility += curved->visibility;
+        sums->rounding += curved->rounding + LRCSI_FACET_UNDERFLOW;
+        sums->likely = lrcsi_length_flat(sums->likely, curved->likely);
+        sums->curvature += curved->estimate;
+        record_sigma(run, facet, curved->glint, curved->diffuse);
         return;
     }
     lrcsi_facet_terms terms =
-        lrcsi_facet_terms_make(job->view, job->plan, facet, &incidence, &visible, &job->patch);
+        lrcsi_facet_terms_make(run->view, run->plan, facet, &incidence, &visible, &run->patch);
     lrcsi_sum_add(&sums->glint, terms.glint);
     lrcsi_sum_add(&sums->diffuse, terms.diffuse);
     sums->rounding += terms.rounding;
-    record_sigma(job, facet, terms.glint, terms.diffuse);
+    record_sigma(run, facet, terms.glint, terms.diffuse);
     if (visible.low < visible.high) {
-        add_doubt(sums, terms.per_area, &visible);
+        add_area_error(sums, terms.per_area, &visible);
     }
 }
 
-/* The visible area of a facet that shows, where areas were found. */
-static inline double facet_area(const total_job *job, uint32_t facet)
+/* A facet of a clear shape. What it reflects is part of the closed form, and nothing hides its
+   front. The projected area of a closed shape is part of the closed form, too. */
+static void sum_in_clear_shape(total_run *run, uint32_t facet)
 {
-    return facet_answered(job, facet) ? lrcsi_view_projected(job->view, facet)
-                                      : job->visible[facet].area;
-}
-
-/* A back side that shows and does not reflect. */
-static void sum_back(total_job *job, double area)
-{
-    lrcsi_sum_add(&job->sums.projected, area);
-    lrcsi_sum_add(&job->sums.back_side, area);
-    job->total.back_sides += area > 0 ? 1 : 0;
-}
-
-/* Does something of a facet show, where areas were found? */
-static inline int area_shows(const total_job *job, uint32_t facet)
-{
-    return facet_answered(job, facet) ? job->answer[facet] == LRCSI_QUERY_VISIBLE
-                                      : job->visible[facet].high > 0;
-}
-
-static int facet_shows(const total_job *job, uint32_t facet)
-{
-    return job->visible ? area_shows(job, facet) : lrcsi_grid_casts(job->view, facet);
-}
-
-/* Is a facet's reflection part of a closed form? */
-static int is_in_shape(const total_job *job, uint32_t facet)
-{
-    return job->clear && job->clear->part[job->view->prepared->scene->facet_part[facet]];
-}
-
-/* A facet of a clear shape: what it reflects counts in the closed form, and nothing hides its
-   front. The silhouette of a closed one has a formula too. */
-static void sum_in_shape(total_job *job, uint32_t facet)
-{
-    const lrcs_prepared *p = job->view->prepared;
-    int front = job->view->facing[facet] > 0;
+    const lrcs_prepared *p = run->view->prepared;
+    int front = run->view->facing[facet] > 0;
     if (front && !p->scene->part[p->scene->facet_part[facet]].solid) {
-        lrcsi_sum_add(&job->sums.projected, lrcsi_view_projected(job->view, facet));
+        lrcsi_sum_add(&run->sums.projected, lrcsi_view_projected(run->view, facet));
     }
-    job->total.hidden += front ? 0 : 1;
+    run->total.hidden += front ? 0 : 1;
 }
 
 /* Any facet, by its exact facing. */
-static void sum_facet(total_job *job, uint32_t facet)
+static void sum_facet(total_run *run, uint32_t facet)
 {
-    int reflects = lrcsi_view_reflects(job->view, facet);
-    int shows = job->view->facing[facet] != 0 && facet_shows(job, facet);
-    if (reflects && is_in_shape(job, facet)) {
-        sum_in_shape(job, facet);
-    } else if (reflects && shows) {
-        sum_precisely(job, facet);
-    } else if (shows) {
-        sum_back(job,
-                 job->visible ? facet_area(job, facet) : lrcsi_view_projected(job->view, facet));
+    int reflects = lrcsi_view_reflects(run->view, facet);
+    int visible =
+        run->view->facing[facet] != 0 &&
+        (run->visible ? area_may_be_visible(run, facet) : lrcsi_grid_casts(run->view, facet));
+    if (reflects && is_in_clear_shape(run, facet)) {
+        sum_in_clear_shape(run, facet);
+    } else if (reflects && visible) {
+        sum_precisely(run, facet);
     } else if (reflects) {
-        job->total.hidden++;
+        run->total.hidden++;
+    } else if (visible) { /* a back side that does not reflect */
+        double area =
+            run->visible ? facet_area(run, facet) : lrcsi_view_projected(run->view, facet);
+        lrcsi_sum_add(&run->sums.projected, area);
+        lrcsi_sum_add(&run->sums.back_side, area);
+        run->total.back_sides += area > 0 ? 1 : 0;
     }
 }
 
-/* --- in blocks -------------------------------------------------------------------------------- */
+/* --- facets in blocks ------------------------------------------------------------------------- */
 
-/* The facets of one material on their way through blocks. */
+/* The facets of one material. Those that a block can serve are collected until there are enough of
+   them for one; they are named by their places in prepared->batches. */
 typedef struct total_batch {
     lrcsi_lobes lobes;
-    int back_reflects, back_shows; /* back sides do, or may */
-    int seen;                      /* one that reflects shows */
-    uint32_t waiting;              /* places of facets that wait for a block to fill up */
+    int back_reflects; /* back sides reflect */
+    int back_visible;  /* back sides may be visible */
+    int seen;          /* a facet that reflects may be visible */
+    uint32_t waiting;  /* facets collected for the next block */
     uint32_t place[2 * LRCSI_LANES];
-    signed char side[2 * LRCSI_LANES]; /* 1; if back sides reflect, -1 for those */
+    signed char side[2 * LRCSI_LANES]; /* 1 or, if back sides reflect, -1 for those */
     lrcsi_shades shades;
-    double area[LRCSI_LANES]; /* S, then S cos(theta), then of that the visible part */
-    double most[LRCSI_LANES]; /* that may be visible; by method facet all of `area`, and unused */
+    double area[LRCSI_LANES]; /* S, then S cos(theta), then the visible part of that */
+    double high[LRCSI_LANES]; /* upper bounds of the visible areas, where areas were found */
     lrcsi_sum_lanes glint, diffuse, projected, back_side;
     double error[LRCSI_SUM_LANES];
 } total_batch;
 
-/* Unit normals towards the laser, and areas, of the first facets that wait. Empty lanes get the
-   direction for a normal, and no area. */
-static void block_gather(const total_job *job, total_batch *batch, uint32_t count)
+/* Fills the block with the unit normals towards the laser, and the areas, of the first facets
+   collected. Unused lanes get the direction to the laser as their normal, and no area. */
+static void block_gather(const total_run *run, total_batch *batch, uint32_t count)
 {
-    const lrcsi_view *view = job->view;
+    const lrcsi_view *view = run->view;
     const lrcsi_batches *b = &view->prepared->batches;
     const double *x = b->normal[0];
     const double *y = b->normal[1];
@@ -402,106 +372,90 @@ static void block_gather(const total_job *job, total_batch *batch, uint32_t coun
     }
 }
 
-/* The areas of facets that are not known to be visible whole, where areas were found. */
-static void block_parts(const total_job *job, total_batch *batch, uint32_t count)
-{
-    memcpy(batch->most, batch->area, sizeof batch->most);
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t facet = job->view->prepared->batches.facet[batch->place[i]];
-        if (!facet_answered(job, facet)) {
-            const lrcsi_visible *visible = &job->visible[facet];
-            batch->area[i] = visible->area;
-            batch->most[i] = lrcsi_most(visible->high, visible->area);
-        }
-    }
-}
-
-/* Facets that are seen in part, or may be; by method facet, all whose cosine may be below the
-   plan's threshold. */
-static void block_doubts(total_job *job, const total_batch *batch, uint32_t count)
+/* The visible areas of a block, where areas were found: replaces S cos(theta) where the facet is
+   not known to be entirely visible, and adds the errors of these areas. */
+static void block_visible(total_run *run, total_batch *batch, uint32_t count)
 {
     const lrcsi_shades *shades = &batch->shades;
+    memcpy(batch->high, batch->area, sizeof batch->high);
     for (uint32_t i = 0; i < count; i++) {
-        double per_area = shades->glint[i] + shades->diffuse[i];
-        if (!job->visible) {
-            int sure = shades->cosine[i] > job->plan->grazing_cos + 0x1p-40;
-            job->sums.visibility += sure ? 0 : per_area * batch->area[i];
+        uint32_t facet = run->view->prepared->batches.facet[batch->place[i]];
+        if (facet_answered(run, facet)) {
             continue;
         }
-        uint32_t facet = job->view->prepared->batches.facet[batch->place[i]];
-        const lrcsi_visible *visible = &job->visible[facet];
-        if (!facet_answered(job, facet) && visible->low < visible->high) {
-            add_doubt(&job->sums, per_area, visible);
-            count_shown(&job->total, lrcsi_view_projected(job->view, facet), visible);
+        const lrcsi_visible *visible = &run->visible[facet];
+        batch->area[i] = visible->area;
+        batch->high[i] = lrcsi_most(visible->high, visible->area);
+        if (visible->low < visible->high) {
+            add_area_error(&run->sums, shades->glint[i] + shades->diffuse[i], visible);
+            count_visible(&run->total, lrcsi_view_projected(run->view, facet), visible);
         }
     }
 }
 
-/* Eq. 2 for one block, the first LRCSI_LANES facets that wait:
+/* Eq. 2 for one block, the first LRCSI_LANES facets collected:
    1. normals and areas S;
    2. 4 pi f_r cos(theta), with errors;
-   3. projected areas S cos(theta); of facets not visible whole, the visible part;
-   4. each product with the area joins the sums;
-   5. records, and what is doubtful about visible areas. */
-static void block_run(total_job *job, total_batch *batch)
+   3. projected areas S cos(theta), and the visible part of them. By method facet all that is within
+      the rounding of the plan's grazing threshold may be hidden;
+   4. the products with the areas, added to the sums;
+   5. records. */
+static void block_run(total_run *run, total_batch *batch)
 {
-    const lrcsi_view *view = job->view;
+    const lrcsi_view *view = run->view;
+    const double threshold = run->plan->grazing_cos;
+    const double *high = run->visible ? batch->high : batch->area;
     lrcsi_shades *shades = &batch->shades;
-    const double *most = job->visible ? batch->most : batch->area;
     uint32_t count = batch->waiting < LRCSI_LANES ? batch->waiting : LRCSI_LANES;
     double glint[LRCSI_LANES];
     double diffuse[LRCSI_LANES];
     double error[LRCSI_LANES];
-    block_gather(job, batch, count);
+    block_gather(run, batch, count);
     lrcsi_shade(&batch->lobes, view->unit, view->unit_low, shades);
     for (int i = 0; i < LRCSI_LANES; i++) {
         batch->area[i] *= shades->cosine[i];
     }
-    if (job->visible) {
-        block_parts(job, batch, count);
+    if (run->visible) {
+        block_visible(run, batch, count);
+    } else if (threshold > 0 && threshold < 1) {
+        for (uint32_t i = 0; i < count; i++) {
+            double per_area = shades->glint[i] + shades->diffuse[i];
+            int proved = shades->cosine[i] > threshold + 0x1p-40;
+            run->sums.visibility += proved ? 0 : per_area * batch->area[i];
+        }
     }
     for (int i = 0; i < LRCSI_LANES; i++) {
         glint[i] = shades->glint[i] * batch->area[i];
         diffuse[i] = shades->diffuse[i] * batch->area[i];
-        error[i] = shades->error[i] * most[i];
+        error[i] = shades->error[i] * high[i];
     }
     lrcsi_sum_lanes_add(&batch->glint, glint);
     lrcsi_sum_lanes_add(&batch->diffuse, diffuse);
     lrcsi_sum_lanes_add(&batch->projected, batch->area);
     lrcsi_lanes_add(batch->error, error);
-    for (uint32_t i = 0; job->records && i < count; i++) {
-        record_sigma(job, view->prepared->batches.facet[batch->place[i]], glint[i], diffuse[i]);
-    }
-    if (job->visible || (job->plan->grazing_cos > 0 && job->plan->grazing_cos < 1)) {
-        block_doubts(job, batch, count);
+    for (uint32_t i = 0; run->records && i < count; i++) {
+        record_sigma(run, view->prepared->batches.facet[batch->place[i]], glint[i], diffuse[i]);
     }
     if (batch->lobes.A > 0 || batch->lobes.B > 0) {
-        job->sums.rounding += count * LRCSI_FACET_UNDERFLOW;
+        run->sums.rounding += count * LRCSI_FACET_UNDERFLOW;
     }
     batch->waiting -= count;
     memmove(batch->place, batch->place + LRCSI_LANES, sizeof batch->place / 2);
     memmove(batch->side, batch->side + LRCSI_LANES, sizeof batch->side / 2);
 }
 
-/* Does a facet that is seen from that side show? Of redundant ones another is seen instead. */
-static inline int side_shows(const total_job *job, uint32_t facet, int side)
+/* Given places of facets that reflect, keeps those that blocks serve, and returns how many these
+   are. Facets of clear shapes, and those with curved normals, are summed at once; hidden ones are
+   counted. */
+static uint32_t places_filter(total_run *run, uint32_t *list, uint32_t count, int side)
 {
-    int most = side > 0 ? LRCSI_REDUNDANT : LRCSI_REDUNDANT_FROM_BEHIND;
-    return job->visible ? area_shows(job, facet) : job->view->prepared->redundant[facet] < most;
-}
-
-/* Of places listed, all of facets that reflect, those stay that blocks serve: not those of clear
-   shapes, none that is hidden, none with curved normals, which are summed at once. Returns how many
-   stay. */
-static uint32_t places_filter(total_job *job, uint32_t *list, uint32_t count, int side)
-{
-    const uint32_t *facet = job->view->prepared->batches.facet;
+    const uint32_t *facet = run->view->prepared->batches.facet;
     uint32_t left = count;
-    if (job->clear) {
+    if (run->clear) {
         left = 0;
         for (uint32_t k = 0; k < count; k++) {
-            if (is_in_shape(job, facet[list[k]])) {
-                sum_in_shape(job, facet[list[k]]);
+            if (is_in_clear_shape(run, facet[list[k]])) {
+                sum_in_clear_shape(run, facet[list[k]]);
             } else {
                 list[left++] = list[k];
             }
@@ -512,15 +466,15 @@ static uint32_t places_filter(total_job *job, uint32_t *list, uint32_t count, in
     for (uint32_t k = 0; k < count; k++) { /* without branches */
         uint32_t at = list[k];
         list[left] = at;
-        left += (uint32_t)side_shows(job, facet[at], side);
+        left += (uint32_t)side_may_be_visible(run, facet[at], side);
     }
-    job->total.hidden += count - left;
-    if (job->curved) {
+    run->total.hidden += count - left;
+    if (run->curved) {
         count = left;
         left = 0;
         for (uint32_t k = 0; k < count; k++) {
-            if (lrcsi_curve_wanted(job->view, facet[list[k]])) {
-                sum_precisely(job, facet[list[k]]);
+            if (lrcsi_curve_applies(run->view, facet[list[k]])) {
+                sum_precisely(run, facet[list[k]]);
             } else {
                 list[left++] = list[k];
             }
@@ -529,9 +483,9 @@ static uint32_t places_filter(total_job *job, uint32_t *list, uint32_t count, in
     return left;
 }
 
-/* Places from `place` on of facets that reflect on the side towards the laser, which is 1, or -1
-   for their back: those that are picked and show wait for a block, which is run once it is full. */
-static void batch_add(total_job *job, total_batch *batch, uint32_t place,
+/* Collects the facets picked from `place` on for the next block, and runs it once it is full. They
+   reflect on the side towards the laser, which is 1, or -1 for their back. */
+static void batch_add(total_run *run, total_batch *batch, uint32_t place,
                       const uint64_t pick[LRCSI_LANES], int side)
 {
     uint32_t *list = batch->place + batch->waiting;
@@ -540,8 +494,8 @@ static void batch_add(total_job *job, total_batch *batch, uint32_t place,
         list[count] = place + i;
         count += (uint32_t)(pick[i] >> 63);
     }
-    if (job->visible || job->curved || job->clear || job->view->prepared->batches.redundant) {
-        count = places_filter(job, list, count, side);
+    if (run->visible || run->curved || run->clear || run->view->prepared->batches.redundant) {
+        count = places_filter(run, list, count, side);
     }
     for (uint32_t i = 0; batch->back_reflects && i < count; i++) {
         batch->side[batch->waiting + i] = (signed char)side;
@@ -549,7 +503,7 @@ static void batch_add(total_job *job, total_batch *batch, uint32_t place,
     batch->waiting += count;
     batch->seen |= count > 0;
     if (batch->waiting >= LRCSI_LANES) {
-        block_run(job, batch);
+        block_run(run, batch);
     }
 }
 
@@ -559,23 +513,23 @@ static inline double place_dot(const lrcsi_batches *b, uint32_t at, const double
     return lrcsi_view_dot(b->normal[0][at], b->normal[1][at], b->normal[2][at], d);
 }
 
-/* Adds the areas of the back sides picked that show and do not reflect. */
-static void batch_backs(total_job *job, total_batch *batch, uint32_t place,
-                        const uint64_t pick[LRCSI_LANES])
+/* Adds the areas of the back sides picked that are visible and do not reflect. */
+static void batch_add_backs(total_run *run, total_batch *batch, uint32_t place,
+                            const uint64_t pick[LRCSI_LANES])
 {
-    const lrcsi_batches *b = &job->view->prepared->batches;
-    const double *d = job->view->unit;
+    const lrcsi_batches *b = &run->view->prepared->batches;
+    const double *d = run->view->unit;
     double area[LRCSI_LANES] = {0}; /* projected */
     uint32_t count = 0;
-    if (job->visible || b->redundant) {
+    if (run->visible || b->redundant) {
         for (uint32_t i = 0; i < LRCSI_LANES; i++) {
             if (pick[i] >> 63) {
                 uint32_t facet = b->facet[place + i];
-                if (side_shows(job, facet, -1)) {
-                    area[count] = job->visible ? facet_area(job, facet)
+                if (side_may_be_visible(run, facet, -1)) {
+                    area[count] = run->visible ? facet_area(run, facet)
                                                : -place_dot(b, place + i, d) * b->area[place + i];
                 }
-                job->total.back_sides += area[count++] > 0;
+                run->total.back_sides += area[count++] > 0;
             }
         }
     } else {
@@ -584,37 +538,37 @@ static void batch_backs(total_job *job, total_batch *batch, uint32_t place,
             area[i] = lrcsi_bits_masked(-place_dot(b, at, d) * b->area[at], ~((pick[i] >> 63) - 1));
             count += (uint32_t)(pick[i] >> 63);
         }
-        job->total.back_sides += count;
+        run->total.back_sides += count;
     }
     lrcsi_sum_lanes_add(&batch->back_side, area);
 }
 
-/* Which of LRCSI_LANES places hold facets that blocks serve, as sign bits: those that show their
-   front, and their back, to the laser. */
+/* Which of LRCSI_LANES places have facets that blocks serve, as sign bits: those that face the
+   laser with their front, and with their back. */
 typedef struct total_pick {
     uint64_t front[LRCSI_LANES], back[LRCSI_LANES];
-    uint64_t any_front, any_back, any_other; /* none where the sign bit is clear */
+    uint64_t any_front, any_back, any_other; /* sign bit: 1 if there is one */
 } total_pick;
 
-/* a - b is negative where a < b. */
-static void places_pick(const total_job *job, const total_batch *batch, uint32_t place,
+/* Compares cosines by the sign bits of differences: a - b is negative if a < b. */
+static void places_pick(const total_run *run, const total_batch *batch, uint32_t place,
                         uint32_t count, total_pick *restrict pick)
 {
-    const lrcsi_batches *b = &job->view->prepared->batches;
+    const lrcsi_batches *b = &run->view->prepared->batches;
     const double *x = b->normal[0] + place;
     const double *y = b->normal[1] + place;
     const double *z = b->normal[2] + place;
-    const double d[3] = {job->view->unit[0], job->view->unit[1], job->view->unit[2]};
+    const double d[3] = {run->view->unit[0], run->view->unit[1], run->view->unit[2]};
     const double low = batch->lobes.low;
     const double high = batch->lobes.high;
-    const double far = batch->back_reflects ? high : 2;
+    const double back_high = batch->back_reflects ? high : 2;
     uint64_t fronts = 0;
     uint64_t backs = 0;
     uint64_t others = 0;
     for (int i = 0; i < LRCSI_LANES; i++) {
         double dot = lrcsi_view_dot(x[i], y[i], z[i], d);
         uint64_t front = lrcsi_bits_of(low - dot) & lrcsi_bits_of(dot - high);
-        uint64_t back = lrcsi_bits_of(low + dot) & lrcsi_bits_of(-far - dot);
+        uint64_t back = lrcsi_bits_of(low + dot) & lrcsi_bits_of(-back_high - dot);
         pick->front[i] = front;
         pick->back[i] = back;
         fronts |= front;
@@ -629,59 +583,51 @@ static void places_pick(const total_job *job, const total_batch *batch, uint32_t
     pick->any_other = others;
 }
 
-/* Facets that stand for patches of curved walls are summed one by one. */
-static void patches_pick(const total_job *job, uint32_t place, uint32_t count, total_pick *pick)
+/* Up to LRCSI_LANES facets from a place on:
+   1. which of them blocks serve; facets that stand for patches of curved walls are not served;
+   2. front sides are collected for a block;
+   3. so are back sides that reflect; of those that do not, the areas are added;
+   4. the others, near grazing or in the bright lobe of a narrow glint, are summed one by one. */
+static void sum_places(total_run *run, total_batch *batch, uint32_t place, uint32_t count)
 {
-    const lrcsi_batches *b = &job->view->prepared->batches;
-    for (uint32_t i = 0; i < count; i++) {
-        if (lrcsi_patch_exists(job->view->prepared, b->facet[place + i])) {
-            pick->front[i] = pick->back[i] = 0;
-            pick->any_other = UINT64_MAX;
+    const uint32_t *facet = run->view->prepared->batches.facet + place;
+    total_pick pick;
+    places_pick(run, batch, place, count, &pick);
+    for (uint32_t i = 0; run->plan->patches && i < count; i++) {
+        if (lrcsi_patch_exists(run->view->prepared, facet[i])) {
+            pick.front[i] = pick.back[i] = 0;
+            pick.any_other = UINT64_MAX;
         }
     }
-}
-
-/* Up to LRCSI_LANES facets from a place on:
-   1. which of them blocks serve;
-   2. front sides wait for a block;
-   3. back sides too where they reflect, or their areas are added up;
-   4. the others, near grazing or in the bright lobe of a narrow glint, are summed one by one. */
-static void sum_places(total_job *job, total_batch *batch, uint32_t place, uint32_t count)
-{
-    total_pick pick;
-    places_pick(job, batch, place, count, &pick);
-    if (job->plan->patches) {
-        patches_pick(job, place, count, &pick);
-    }
     if (pick.any_front >> 63) {
-        batch_add(job, batch, place, pick.front, 1);
+        batch_add(run, batch, place, pick.front, 1);
     }
     if (!(pick.any_back >> 63)) {
         /* nothing */
-    } else if (batch->back_reflects && batch->back_shows) {
-        batch_add(job, batch, place, pick.back, -1);
-    } else if (batch->back_shows) {
-        batch_backs(job, batch, place, pick.back);
+    } else if (batch->back_reflects && batch->back_visible) {
+        batch_add(run, batch, place, pick.back, -1);
+    } else if (batch->back_visible) {
+        batch_add_backs(run, batch, place, pick.back);
     } else if (batch->back_reflects) {
         for (uint32_t i = 0; i < count; i++) {
-            job->total.hidden += (uint32_t)(pick.back[i] >> 63);
+            run->total.hidden += (uint32_t)(pick.back[i] >> 63);
         }
     }
     for (uint32_t i = 0; pick.any_other >> 63 && i < count; i++) {
         if (!((pick.front[i] | pick.back[i]) >> 63)) {
-            sum_facet(job, job->view->prepared->batches.facet[place + i]);
+            sum_facet(run, facet[i]);
         }
     }
 }
 
-/* The batch's sums join the others. By method facet, where the plan knows nothing of what hides
-   what, all of it may be hidden. */
-static void batch_finish(total_job *job, total_batch *batch)
+/* Runs the last block, and adds the sums of the batch to the others. By method facet with a grazing
+   threshold of 1 nothing is known about what is hidden, and all of the batch may be. */
+static void batch_finish(total_run *run, total_batch *batch)
 {
     if (batch->waiting > 0) {
-        block_run(job, batch);
+        block_run(run, batch);
     }
-    total_sums *sums = &job->sums;
+    total_sums *sums = &run->sums;
     lrcsi_sum both = {0, 0};
     lrcsi_sum_lanes_join(&both, &batch->glint);
     lrcsi_sum_lanes_join(&both, &batch->diffuse);
@@ -693,171 +639,201 @@ static void batch_finish(total_job *job, total_batch *batch)
     for (int k = 0; k < LRCSI_SUM_LANES; k++) {
         sums->rounding += batch->error[k] * LRCSI_SHADE_UNIT;
     }
-    sums->rounding += job->visible ? lrcsi_sum_value(&both) * AREA_ERROR : 0;
-    sums->visibility += !job->visible && job->plan->grazing_cos >= 1 ? lrcsi_sum_value(&both) : 0;
+    sums->rounding += run->visible ? lrcsi_sum_value(&both) * AREA_ERROR : 0;
+    sums->visibility += !run->visible && run->plan->grazing_cos >= 1 ? lrcsi_sum_value(&both) : 0;
 }
 
-/* --- all of it -------------------------------------------------------------------------------- */
-
-static int term_wanted(int term, double amplitude)
+static int is_evaluated(int term, double amplitude)
 {
     return amplitude > 0 || term == LRCSI_TERM_FORCED;
 }
 
-static void sum_material(total_job *job, uint32_t material)
+/* All facets of a material, in their order. */
+static void sum_material(total_run *run, uint32_t material)
 {
-    const lrcsi_view *view = job->view;
+    const lrcsi_view *view = run->view;
     const lrcs_material *m = &view->prepared->scene->material[material];
-    lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, m);
+    lrcs_brdf brdf = lrcsi_plan_brdf(run->plan, m);
     total_batch batch = {
-        .lobes = lrcsi_lobes_make(&brdf, brdf.s > 0 && term_wanted(job->plan->glint, brdf.A),
-                                  term_wanted(job->plan->diffuse, brdf.B)),
+        .lobes = lrcsi_lobes_make(&brdf, brdf.s > 0 && is_evaluated(run->plan->glint, brdf.A),
+                                  is_evaluated(run->plan->diffuse, brdf.B)),
         .back_reflects = view->backs_reflect && m->two_sided,
-        .back_shows = view->backs_cast || job->visible};
+        .back_visible = view->backs_cast || run->visible};
     const uint32_t *first = view->prepared->batches.first + material;
     for (uint32_t place = first[0]; place < first[1]; place += LRCSI_LANES) {
         uint32_t left = first[1] - place;
-        sum_places(job, &batch, place, left < LRCSI_LANES ? left : LRCSI_LANES);
+        sum_places(run, &batch, place, left < LRCSI_LANES ? left : LRCSI_LANES);
     }
-    batch_finish(job, &batch);
+    batch_finish(run, &batch);
     if (batch.seen) {
-        add_seen(&job->sums, &brdf);
+        add_seen(&run->sums, &brdf);
     }
 }
 
-/* What the facets of tessellated shapes err from their true surfaces. */
-static double facet_tessellation(total_job *job, uint32_t facet, const lrcsi_incidence *incidence)
-{
-    if (is_in_shape(job, facet)) {
-        return 0;
-    }
-    if (job->curved && lrcsi_curve_wanted(job->view, facet)) {
-        return job->margin ? job->margin->share[facet] * job->curved[facet].most : 0;
-    }
-    return FOUR_PI * lrcsi_tessellation_error(job->view, job->plan, facet, incidence, job->visible,
-                                              job->margin, &job->patch);
-}
+/* --- curved shapes ---------------------------------------------------------------------------- */
 
-static void sum_tessellation(total_job *job)
+/* The error of facets in place of curved shapes. Facets with curved normals add what could be
+   visible otherwise within the proximity band; clear shapes have no such error. */
+static void sum_tessellation(total_run *run)
 {
-    const lrcsi_batches *b = &job->view->prepared->batches;
+    const lrcsi_batches *b = &run->view->prepared->batches;
     for (uint32_t place = 0; place < b->count; place += LRCSI_INCIDENCES) {
         lrcsi_incidence incidence[LRCSI_INCIDENCES];
         uint32_t left = b->count - place;
         uint32_t count = left < LRCSI_INCIDENCES ? left : LRCSI_INCIDENCES;
-        lrcsi_view_incidences(job->view, b->facet + place, count, incidence);
+        lrcsi_view_incidences(run->view, b->facet + place, count, incidence);
         for (uint32_t i = 0; i < count; i++) {
-            job->sums.tessellation += facet_tessellation(job, b->facet[place + i], &incidence[i]);
+            uint32_t facet = b->facet[place + i];
+            if (is_in_clear_shape(run, facet)) {
+                continue;
+            }
+            if (!run->curved || !lrcsi_curve_applies(run->view, facet)) {
+                run->sums.tessellation +=
+                    LRCSI_FOUR_PI * lrcsi_tessellation_error(run->view, run->plan, facet,
+                                                             &incidence[i], run->visible, run->band,
+                                                             &run->patch);
+            } else if (run->band) {
+                run->sums.tessellation += run->band->share[facet] * run->curved[facet].upper_bound;
+            }
         }
     }
 }
 
-/* --- shapes by their closed forms ------------------------------------------------------------- */
-
-/* What flat facets of a clear part would reflect, into their records; returns the sum. */
-static lrcsi_shape_terms shape_records(const total_job *job, const lrcs_part *part)
+/* Divides the sigma of a clear part among its facets that face the laser: each of its terms in
+   proportion to that of the flat facets or, if they have none, to the projected areas. */
+static void record_shape(const total_run *run, const lrcs_part *part,
+                         const lrcsi_shape_terms *terms)
 {
-    lrcsi_shape_terms all = {0, 0, 0, 0, 0};
+    lrcs_facet_record *records = run->records;
+    lrcsi_shape_terms flat = {0, 0, 0, 0, 0};
     lrcsi_patch patch = {.side = 0};
-    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
-        lrcsi_incidence incidence = lrcsi_view_incidence(job->view, f);
+    uint32_t end = part->first_facet + part->facet_count;
+    for (uint32_t f = part->first_facet; f < end; f++) {
+        lrcsi_incidence incidence = lrcsi_view_incidence(run->view, f);
         lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
-        if (job->view->facing[f] > 0) {
-            lrcsi_facet_terms terms =
-                lrcsi_facet_terms_make(job->view, job->plan, f, &incidence, &whole, &patch);
-            job->records[f].sigma_glint_m2 = terms.glint;
-            job->records[f].sigma_m2 = terms.diffuse;
-            all.glint += terms.glint;
-            all.diffuse += terms.diffuse;
-            all.silhouette += incidence.projected;
+        if (run->view->facing[f] > 0) {
+            lrcsi_facet_terms facet =
+                lrcsi_facet_terms_make(run->view, run->plan, f, &incidence, &whole, &patch);
+            records[f].sigma_glint_m2 = facet.glint; /* scaled, until the second loop */
+            records[f].sigma_m2 = facet.diffuse;
+            flat.glint += facet.glint;
+            flat.diffuse += facet.diffuse;
+            flat.silhouette += incidence.projected;
         }
     }
-    return all;
-}
-
-/* Shares a clear part's sigma out among its facets. */
-static void share_out(const total_job *job, const lrcs_part *part, const lrcsi_shape_terms *terms)
-{
-    lrcsi_shape_terms flat = shape_records(job, part);
-    for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
-        if (job->view->facing[f] > 0) {
-            lrcs_facet_record *record = &job->records[f];
-            double share = lrcsi_view_projected(job->view, f) / flat.silhouette;
-            double glint = flat.glint > 0 ? record->sigma_glint_m2 / flat.glint : share;
-            double diffuse = flat.diffuse > 0 ? record->sigma_m2 / flat.diffuse : share;
-            record_sigma(job, f, glint * terms->glint, diffuse * terms->diffuse);
+    for (uint32_t f = part->first_facet; f < end; f++) {
+        if (run->view->facing[f] > 0) {
+            double by_area = lrcsi_view_projected(run->view, f) / flat.silhouette;
+            double glint = flat.glint > 0 ? records[f].sigma_glint_m2 / flat.glint : by_area;
+            double diffuse = flat.diffuse > 0 ? records[f].sigma_m2 / flat.diffuse : by_area;
+            record_sigma(run, f, glint * terms->glint, diffuse * terms->diffuse);
         }
     }
 }
 
-/* Adds one. Its compensated sums add what facets' do to the bound. */
-static void sum_shape(total_job *job, uint32_t index, double slab)
+/* Adds a clear shape. The rounding of the compensated sums is part of that of the facets. */
+static void sum_shape(total_run *run, uint32_t index, double slab)
 {
-    const lrcs_prepared *p = job->view->prepared;
+    const lrcs_prepared *p = run->view->prepared;
     const lrcs_part *part = &p->scene->part[index];
-    lrcsi_shape_terms terms = lrcsi_shape_terms_make(job->view, job->plan, index, slab);
-    lrcs_brdf brdf = lrcsi_plan_brdf(job->plan, lrcsi_prepared_material(p, part->first_facet));
-    lrcsi_sum_add(&job->sums.glint, terms.glint);
-    lrcsi_sum_add(&job->sums.diffuse, terms.diffuse);
-    lrcsi_sum_add(&job->sums.projected, part->solid ? terms.silhouette : 0);
-    job->sums.rounding += terms.rounding;
-    job->sums.visibility += terms.visibility;
+    lrcsi_shape_terms terms = lrcsi_shape_terms_make(run->view, run->plan, index, slab);
+    lrcs_brdf brdf = lrcsi_plan_brdf(run->plan, lrcsi_prepared_material(p, part->first_facet));
+    lrcsi_sum_add(&run->sums.glint, terms.glint);
+    lrcsi_sum_add(&run->sums.diffuse, terms.diffuse);
+    lrcsi_sum_add(&run->sums.projected, part->solid ? terms.silhouette : 0);
+    run->sums.rounding += terms.rounding;
+    run->sums.visibility += terms.visibility;
     if (terms.silhouette > 0) {
-        add_seen(&job->sums, &brdf);
+        add_seen(&run->sums, &brdf);
     }
-    if (job->records) {
-        share_out(job, part, &terms);
+    if (run->records) {
+        record_shape(run, part, &terms);
     }
 }
 
-/* Records, all but for sigma. */
-static void records_start(const total_job *job)
+/* --- the total -------------------------------------------------------------------------------- */
+
+/* Fills the records, except for sigma. */
+static void records_start(const total_run *run)
 {
-    const lrcs_prepared *p = job->view->prepared;
+    const lrcs_prepared *p = run->view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        job->records[f] = (lrcs_facet_record){0, 0, 0, 0, 0};
+        run->records[f] = (lrcs_facet_record){0, 0, 0, 0, 0};
         if (!p->skip[f]) {
-            lrcsi_incidence incidence = lrcsi_view_incidence(job->view, f);
-            lrcsi_visible visible = facet_visible(job, f, &incidence);
-            job->records[f].area_m2 = lrcsi_prepared_area(p, 0.5 * p->normal[f].length);
-            job->records[f].cos_theta = incidence.cos_theta;
-            job->records[f].visible_area_m2 = lrcsi_prepared_area(p, visible.area);
+            lrcsi_incidence incidence = lrcsi_view_incidence(run->view, f);
+            lrcsi_visible visible = facet_visible(run, f, &incidence);
+            run->records[f].area_m2 = lrcsi_prepared_area(p, 0.5 * p->normal[f].length);
+            run->records[f].cos_theta = incidence.cos_theta;
+            run->records[f].visible_area_m2 = lrcsi_prepared_area(p, visible.area);
         }
     }
+}
+
+/* Below the normal doubles the conversion may round by up to 2^-1075, and so may that of the values
+   that the bound holds for, at most two: 2^-1073 covers them. */
+double lrcsi_bound_area(const lrcs_prepared *p, double scaled)
+{
+    double area = lrcsi_prepared_area(p, scaled);
+    return scaled > 0 && area < DBL_MIN ? area + 0x1p-1073 : area;
+}
+
+/* Converts the sums to square metres. The error of the compensated sums is part of rounding. */
+static void total_finish(total_run *run)
+{
+    const lrcs_prepared *p = run->view->prepared;
+    const total_sums *sums = &run->sums;
+    lrcsi_total *total = &run->total;
+    double glint = lrcsi_sum_value(&sums->glint);
+    double diffuse = lrcsi_sum_value(&sums->diffuse);
+    double count = p->scene->facet_count;
+    double outward = 1 + 1e-9 + 2 * count * LRCSI_U;
+    total->glint = lrcsi_prepared_area(p, glint);
+    total->diffuse = lrcsi_prepared_area(p, diffuse);
+    total->projected = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->projected));
+    total->back_side = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->back_side));
+    total->visibility = lrcsi_bound_area(p, sums->visibility * outward);
+    total->tessellation =
+        sums->tessellation < 0 ? -1 : lrcsi_bound_area(p, sums->tessellation * outward);
+    double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
+    total->rounding = lrcsi_bound_area(p, (sums->rounding + adding) * outward);
+    double likely = lrcsi_length_flat(sums->likely, sums->bias);
+    total->likely = fmin(lrcsi_prepared_area(p, likely), total->visibility);
+    total->curvature = lrcsi_prepared_area(p, sums->curvature);
+    total->seen = sums->seen;
 }
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
-                             const lrcsi_proximity_band *margin, const lrcsi_clear *clear,
+                             const lrcsi_proximity_band *band, const lrcsi_clear *clear,
                              lrcs_facet_record *records)
 {
     const lrcs_prepared *p = view->prepared;
-    total_job job = {.view = view,
+    total_run run = {.view = view,
                      .plan = plan,
                      .visible = areas->visible,
                      .answer = areas->answer,
                      .curved = curved,
-                     .margin = margin,
+                     .band = band,
                      .clear = clear && clear->count > 0 ? clear : NULL,
                      .records = records};
     if (records) {
-        records_start(&job);
+        records_start(&run);
     }
     for (uint32_t i = 0; i < p->scene->material_count; i++) {
-        sum_material(&job, i);
+        sum_material(&run, i);
     }
-    for (uint32_t i = 0; job.clear && i < p->scene->part_count; i++) {
-        if (job.clear->part[i]) {
-            sum_shape(&job, i, job.clear->slab[i]);
+    for (uint32_t i = 0; run.clear && i < p->scene->part_count; i++) {
+        if (run.clear->part[i]) {
+            sum_shape(&run, i, run.clear->slab[i]);
         }
     }
     if (plan->method == LRCS_METHOD_CLOSED) {
-        job.sums.tessellation = 0;
-    } else if (p->curved && tessellation_known(&job)) {
-        sum_tessellation(&job);
+        run.sums.tessellation = 0;
+    } else if (p->curved && lrcsi_tessellation_known(p, plan)) {
+        sum_tessellation(&run);
     } else if (p->curved) {
-        job.sums.tessellation = -HUGE_VAL;
+        run.sums.tessellation = -HUGE_VAL;
     }
-    total_finish(&job);
-    return job.total;
+    total_finish(&run);
+    return run.total;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Eq. 2 summed: from visible areas to sigma, its parts, and what each cause adds to its bound. */
+/* The sum of Eq. 2: from visible areas to sigma, its parts, and what each cause adds to its
+   bound. */
 #ifndef LRCSI_TOTAL_H
 #define LRCSI_TOTAL_H
 
@@ -12,22 +13,23 @@
 typedef struct lrcsi_total {
     double glint, diffuse;
     double visibility, tessellation, rounding; /* bounds; tessellation negative: not known */
-    double likely;                             /* likely error of the sampled areas */
-    double curvature;                          /* estimate of the error of curved facets */
+    double likely;                             /* estimated error of the sampled areas */
+    double curvature;                          /* estimated error of facets with curved normals */
     double projected, back_side;
-    uint32_t back_sides, hidden, partial;
-    uint32_t seen; /* effects that some facet calls for which may be seen: GLINT, DIFFUSE bits */
+    uint32_t back_sides, hidden, partial; /* facets */
+    uint32_t seen; /* GLINT and DIFFUSE bits: the terms of facets that may be visible */
 } lrcsi_total;
 
-/* What one flat facet adds, scaled, with the 4 pi. */
+/* What one flat facet adds, scaled, with the factor 4 pi. */
 typedef struct lrcsi_facet_terms {
     double glint, diffuse;
-    double rounding; /* a bound: of glint + diffuse, for areas up to visible->high */
-    double per_area; /* glint + diffuse for each unit of visible area */
+    double rounding; /* bound on the rounding error of glint + diffuse, for any visible area up to
+                        visible->high */
+    double per_area; /* glint + diffuse per unit of visible area */
 } lrcsi_facet_terms;
 
-/* Given: a facet that reflects towards the laser, its incidence, what is visible of it; the patch
-   of the last facet (integrate/patch.h), or one with side = 0. */
+/* Given: a facet that reflects towards the laser, its incidence, its visible area; the patch of the
+   last facet (integrate/patch.h), or one with side = 0. */
 lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t facet, const lrcsi_incidence *incidence,
                                          const lrcsi_visible *visible, lrcsi_patch *patch);
@@ -35,30 +37,29 @@ lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_pla
 /* A scaled bound on areas or on sigma in square metres, rounded outward where it underflows. */
 double lrcsi_bound_area(const lrcs_prepared *p, double scaled);
 
-/* What a facet's terms may lose to underflow, scaled: some 30 operations, of 2^-1075 each, and
-   nothing that comes after makes any of them larger than its term. */
+/* A bound on what underflow takes from a facet's terms, scaled: some 30 operations lose at most
+   2^-1075 each, and no later operation enlarges a loss relative to its term. */
 #define LRCSI_FACET_UNDERFLOW 0x1p-1070
 
-/* The visible areas of facets: all, or nothing, of those whose answer[] is LRCSI_QUERY_VISIBLE or
-   LRCSI_QUERY_HIDDEN; visible[] has those of the others, and of all where answer is NULL. */
+/* The visible areas of facets. Where answer[] is LRCSI_QUERY_VISIBLE or LRCSI_QUERY_HIDDEN, all of
+   the facet is visible, or nothing; visible[] has the areas of the other facets, and of all facets
+   if answer is NULL. */
 typedef struct lrcsi_areas {
-    const lrcsi_visible *visible; /* NULL: by method facet, whose plan tells them */
+    const lrcsi_visible *visible; /* NULL: method facet, where the plan implies all areas */
     const unsigned char *answer;
 } lrcsi_areas;
 
-/* Given: the view, its plan, and the visible areas (answer NULL if shapes are curved); where the
-   plan does not know every front facet to be wholly visible, on the true shapes as on their meshes,
-   the proximity band about the true shapes (NULL: none was made).
-   Facets with curved normals come with their own sums in curved[facet_count]; NULL: all are flat.
-   Shapes that are clear (NULL: none is looked for) count by their closed forms in place of their
-   facets.
-   Returned: the total, summed material by material, each in facet order, then clear shapes in the
-   scene's order; records[facet_count] unless NULL: a clear shape's sigma is shared out among its
-   facets as these would reflect, or where none of them would, by their projected areas; of a shape
-   of which a sliver is lit but no facet faces the laser, no record has it. */
+/* Given: the view and its plan; the visible areas (answer NULL if shapes are curved); the results
+   of facets with curved normals, curved[facet_count] (NULL: all are flat); the proximity band
+   (NULL: none was made); the shapes that are evaluated by their closed forms instead of their
+   facets (NULL: none). Returned: the total. The sum is taken material by material, each in facet
+   order, and then over clear shapes in the scene's order. Unless NULL, records[facet_count]: the
+   sigma of a clear shape is divided among its facets in proportion to what they would reflect or,
+   if none of them would reflect, to their projected areas. If only a sliver of a shape is lit and
+   none of its facets faces the laser, its sigma is in no record. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
-                             const lrcsi_proximity_band *margin, const lrcsi_clear *clear,
+                             const lrcsi_proximity_band *band, const lrcsi_clear *clear,
                              lrcs_facet_record *records);
 
 #endif

@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* The material uncertainty of sigma. sigma = sum over materials of A G(s) + B D(m), so that all a
-   sample needs of the scene is G and D of each material near its own s and m.
-   Steps: 1. materials of one source are joined: they are off together. 2. First order: with v the
-   four derivatives times the four deviations and C the correlations, the variance is the sum over
-   sources of v' C v. 3. The sample: normal deviates with the correlations (C = L L'), clamped to
-   the domain; G and D by cubic Hermite interpolation between nodes; mean, deviation and quantiles.
- */
-#include "integrate/uncertainty.h"
+/* The material uncertainty of sigma: what the stated errors of A, B, s and m leave uncertain. sigma
+   is the sum over materials of A G(s) + B D(m), so that a sample needs nothing of the scene but the
+   responses G and D of each material near its own s and m. lrcs_uncertainty_run takes these steps:
+   1. The pose, as lrcs_sigma_run (lrcsi_sigma_stages).
+   2. The responses of all materials at the nodes of s and m (lrcsi_response_make): over the visible
+      areas of that pose or, with curved normals, from a pose for each node (run_node).
+   3. The derivatives of sigma, from the materials' own node.
+   4. Sources: materials with the same source have the same errors, and are joined (sources_make).
+   5. First order: with v the four derivatives times the four standard deviations and C the
+      correlations, the variance is the sum over sources of v' C v.
+   6. The sample: normal deviates with these correlations (C = L L'), clamped to the domain; G and D
+      by cubic Hermite interpolation between nodes; mean, standard deviation and quantiles. */
+#include <lrcs/uncertainty.h>
 
 #include <math.h>
 #include <string.h>
@@ -14,60 +19,66 @@
 #include "base/elementary.h"
 #include "base/range.h"
 #include "base/work.h"
+#include "integrate/sensitivity.h"
+#include "integrate/sigma.h"
 
-/* Nodes reach so many deviations to either side, and so do draws. */
+/* The nodes of each material's s and m; the middle one is its own. */
+#define NODES        17u
+#define NODES_CURVED 9u /* with curved normals, where each node takes a pose */
+/* Nodes and draws reach this many standard deviations to either side. */
 #define REACH 4.0
-/* The least s, as a share of the material's own: sigma changes little below. */
-#define DRAWN_SLOPE_LEAST 0.0625
-/* First order is reported up to this relative difference from the sample's deviation, and while the
-   sample's mean is off sigma by no more than this share of it. Smaller differences than three
-   standard errors of a sample are chance. */
-#define FIRST_ORDER_SERVES 0.05
-#define MEAN_SERVES        0.1
-#define CHANCE             3.0
-/* The quantiles of a normal distribution at -1 and 1 deviation. */
+/* The smallest s of nodes and draws, relative to the material's own: below it sigma changes
+   little. */
+#define SLOPE_MIN 0.0625
+/* First order is reported while its standard deviation differs by no more than this, relatively,
+   from that of the sample, and while the sample's mean differs from sigma by no more than this many
+   of its standard deviations. Differences below three standard errors count as chance. */
+#define DEVIATION_AGREES 0.05
+#define MEAN_AGREES      0.1
+#define STANDARD_ERRORS  3.0
+/* The probabilities of a normal deviate below -1 and below 1 standard deviation. */
 #define QUANTILE_LOW  0.15865525393145705
 #define QUANTILE_HIGH 0.84134474606854295
-/* Of each two uniform deviates pi / 4 serve; so many pairs never fail to give one. */
+/* The polar method accepts pi / 4 of all pairs: this many are never all rejected. */
 #define POLAR_TRIES 64
-/* Below this a response has no logarithm to interpolate. */
-#define RESPONSE_LEAST 1e-250
+/* Responses are interpolated in their logarithm unless one is smaller than this. */
+#define RESPONSE_MIN 1e-250
+#define DRAWS_MAX    (1u << 20)
 
-static void deviations(const lrcs_brdf_error *error, double out[4])
+/* The responses of one material at a node, m2 per unit of amplitude, and their derivatives. */
+typedef struct response_node {
+    double glint, diffuse, glint_s, diffuse_m;
+} response_node;
+
+lrcs_uncertainty_options lrcs_uncertainty_options_default(void)
 {
-    out[0] = error->A;
-    out[1] = error->B;
-    out[2] = error->s;
-    out[3] = error->m;
+    return (lrcs_uncertainty_options){4096, 1};
 }
 
-int lrcsi_uncertainty_stated(const lrcs_scene *scene)
+static int has_error(const lrcs_material *material)
 {
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lrcs_brdf_error *e = &scene->material[i].error;
-        if (e->A > 0 || e->B > 0 || e->s > 0 || e->m > 0) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-int lrcsi_uncertainty_bends(const lrcs_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        if (scene->material[i].error.s > 0 || scene->material[i].error.m > 0) {
-            return 1;
-        }
-    }
-    return 0;
+    const lrcs_brdf_error *e = &material->error;
+    return e->A > 0 || e->B > 0 || e->s > 0 || e->m > 0;
 }
 
 /* --- nodes ------------------------------------------------------------------------------------ */
 
-/* The ends of a parameter's nodes. */
-static double node_low(double value, double deviation, double least)
+/* How many nodes a sample needs. sigma is linear in A and B: if nothing else is uncertain, the
+   materials' own node suffices. */
+static uint32_t node_count(const lrcs_prepared *prepared, const lrcs_uncertainty_options *options)
 {
-    return lrcsi_most(least, value - REACH * deviation);
+    const lrcs_scene *scene = prepared->scene;
+    int nonlinear = 0;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        nonlinear |= scene->material[i].error.s > 0 || scene->material[i].error.m > 0;
+    }
+    return options->draws == 0 || !nonlinear ? 1 : prepared->smooth ? NODES_CURVED : NODES;
+}
+
+/* The first and the last node of a parameter. */
+static double node_low(double value, double deviation, double minimum)
+{
+    return lrcsi_most(minimum, value - REACH * deviation);
 }
 
 static double node_high(double value, double deviation)
@@ -75,8 +86,8 @@ static double node_high(double value, double deviation)
     return value + REACH * deviation;
 }
 
-/* Node k of `count`: two runs of equal steps, from the low end to the value and on to the high end.
- */
+/* Node k of `count`: equal steps from the first node to the value, and equal steps from there to
+   the last node. */
 static double node_at(double low, double value, double high, uint32_t k, uint32_t count)
 {
     uint32_t half = count / 2;
@@ -85,13 +96,14 @@ static double node_at(double low, double value, double high, uint32_t k, uint32_
                        : value + (high - value) * (k - half) / half;
 }
 
-lrcs_brdf lrcsi_uncertainty_node(const lrcs_material *material, uint32_t k, uint32_t count)
+/* s and m of a material at node k of `count`. */
+static lrcs_brdf node_brdf(const lrcs_material *material, uint32_t k, uint32_t count)
 {
     lrcs_brdf at = material->brdf;
     const lrcs_brdf_error *e = &material->error;
     if (count > 1) {
-        at.s = node_at(node_low(at.s, e->s, DRAWN_SLOPE_LEAST * at.s), at.s, node_high(at.s, e->s),
-                       k, count);
+        at.s =
+            node_at(node_low(at.s, e->s, SLOPE_MIN * at.s), at.s, node_high(at.s, e->s), k, count);
         at.m = node_at(node_low(at.m, e->m, 0), at.m, node_high(at.m, e->m), k, count);
     }
     return at;
@@ -99,18 +111,12 @@ lrcs_brdf lrcsi_uncertainty_node(const lrcs_material *material, uint32_t k, uint
 
 /* --- sources ---------------------------------------------------------------------------------- */
 
-/* The materials of one source, as one. */
+/* The materials of one source, joined. */
 typedef struct source {
     const lrcs_material *material; /* the first of them */
-    lrcsi_node *node;              /* [count]: their sum */
-    double root[4][4];             /* L, lower triangle */
+    response_node *node;           /* [count]: the sums of their responses */
+    double root[4][4];             /* L, lower triangular */
 } source;
-
-static int is_stated(const lrcs_material *material)
-{
-    const lrcs_brdf_error *e = &material->error;
-    return e->A > 0 || e->B > 0 || e->s > 0 || e->m > 0;
-}
 
 static void correlation_fill(const double c[6], double out[4][4])
 {
@@ -119,7 +125,8 @@ static void correlation_fill(const double c[6], double out[4][4])
     memcpy(out, full, sizeof full);
 }
 
-/* C = L L'; a pivot that is 0, or below by rounding, leaves its column 0. */
+/* The Cholesky factor L of C = L L'. If C is singular, so that a pivot is 0 but for rounding, the
+   column of that pivot is 0. */
 static void correlation_root(const double c[6], double root[4][4])
 {
     double a[4][4];
@@ -144,9 +151,10 @@ static void correlation_root(const double c[6], double root[4][4])
     }
 }
 
-/* The sources with errors; what a later material of a source adds joins the first one's nodes. */
-static uint32_t sources_make(const lrcs_scene *scene, const lrcsi_node *node, uint32_t count,
-                             lrcsi_node *room, source *list)
+/* Lists the sources with errors, and adds the responses of all materials of each. Returns how many
+   there are. */
+static uint32_t sources_make(const lrcs_scene *scene, const response_node *node, uint32_t count,
+                             response_node *memory, source *list)
 {
     uint32_t sources = 0;
     for (uint32_t i = 0; i < scene->material_count; i++) {
@@ -155,19 +163,19 @@ static uint32_t sources_make(const lrcs_scene *scene, const lrcsi_node *node, ui
         while (at < sources && !(m->source > 0 && list[at].material->source == m->source)) {
             at++;
         }
-        if (!is_stated(m)) {
+        if (!has_error(m)) {
             continue;
         }
         if (at == sources) {
             list[sources].material = m;
-            list[sources].node = room + (size_t)sources * count;
-            memset(list[sources].node, 0, count * sizeof *room);
+            list[sources].node = memory + (size_t)sources * count;
+            memset(list[sources].node, 0, count * sizeof *memory);
             correlation_root(m->error.correlation, list[sources].root);
             sources++;
         }
         for (uint32_t k = 0; k < count; k++) {
-            const lrcsi_node *from = &node[(size_t)k * scene->material_count + i];
-            lrcsi_node *to = &list[at].node[k];
+            const response_node *from = &node[(size_t)k * scene->material_count + i];
+            response_node *to = &list[at].node[k];
             to->glint += from->glint;
             to->diffuse += from->diffuse;
             to->glint_s += from->glint_s;
@@ -179,18 +187,17 @@ static uint32_t sources_make(const lrcs_scene *scene, const lrcsi_node *node, ui
 
 /* --- first order ------------------------------------------------------------------------------ */
 
+/* The variance v' C v of a source to first order. */
 static double source_variance(const source *one, uint32_t count)
 {
     const lrcs_brdf *brdf = &one->material->brdf;
-    const lrcsi_node *own = &one->node[count / 2];
-    double deviation[4];
+    const lrcs_brdf_error *e = &one->material->error;
+    const response_node *own = &one->node[count / 2];
     double c[4][4];
     double sum = 0;
-    deviations(&one->material->error, deviation);
-    correlation_fill(one->material->error.correlation, c);
-    const double v[4] = {own->glint * deviation[0], own->diffuse * deviation[1],
-                         brdf->A * own->glint_s * deviation[2],
-                         brdf->B * own->diffuse_m * deviation[3]};
+    correlation_fill(e->correlation, c);
+    const double v[4] = {own->glint * e->A, own->diffuse * e->B, brdf->A * own->glint_s * e->s,
+                         brdf->B * own->diffuse_m * e->m};
     for (int i = 0; i < 4; i++) {
         for (int j = 0; j < 4; j++) {
             sum += v[i] * c[i][j] * v[j];
@@ -227,7 +234,8 @@ static void random_normal(uint64_t *state, double out[2])
     }
 }
 
-/* The cubic through two values with their slopes, `step` apart, at share t of the step. */
+/* Cubic Hermite interpolation: f0 and f1 are values, g0 and g1 derivatives at the ends of an
+   interval of length `step`, and t in [0, 1] is the position in it. */
 static double hermite(double f0, double f1, double g0, double g1, double step, double t)
 {
     double a = step * g0 - (f1 - f0);
@@ -235,11 +243,11 @@ static double hermite(double f0, double f1, double g0, double g1, double step, d
     return f0 + t * (f1 - f0) + t * (1 - t) * ((1 - t) * a + t * b);
 }
 
-/* A response between two nodes: its logarithm by the cubic, for on the flank of a glint it varies
-   by orders of magnitude; the response itself where it underflows. */
+/* A response between two nodes. Its logarithm is interpolated, since on the flank of a glint it
+   varies by orders of magnitude; where it underflows, the response itself is. */
 static double interpolate(double f0, double f1, double g0, double g1, double step, double t)
 {
-    if (!(f0 > RESPONSE_LEAST) || !(f1 > RESPONSE_LEAST)) {
+    if (!(f0 > RESPONSE_MIN) || !(f1 > RESPONSE_MIN)) {
         return lrcsi_most(0, hermite(f0, f1, g0, g1, step, t));
     }
     double low = lrcsi_log(f0).hi;
@@ -247,30 +255,31 @@ static double interpolate(double f0, double f1, double g0, double g1, double ste
     return lrcsi_exp(hermite(low, high, g0 / f0, g1 / f1, step, t));
 }
 
-/* Of which interval of nodes, and at what share of it, is x? */
+/* The interval between nodes that contains x, clamped to the nodes, and the position t of x in
+   it. */
 static uint32_t interval_find(double low, double value, double high, uint32_t count, double x,
                               double *t)
 {
     uint32_t half = count / 2;
     double from = x < value ? low : value;
     double step = (x < value ? value - low : high - value) / half;
-    double place = step > 0 ? (x - from) / step : 0;
-    uint32_t k = place > 0 ? (uint32_t)lrcsi_least(place, half - 1) : 0;
-    *t = lrcsi_least(1, lrcsi_most(0, place - k));
+    double position = step > 0 ? (x - from) / step : 0;
+    uint32_t k = position > 0 ? (uint32_t)lrcsi_least(position, half - 1) : 0;
+    *t = lrcsi_least(1, lrcsi_most(0, position - k));
     return (x < value ? 0 : half) + k;
 }
 
-/* What a source's materials reflect with those numbers. */
+/* What the materials of a source reflect with the parameters `at`, m2. */
 static double source_sigma(const source *one, uint32_t count, const lrcs_brdf *at)
 {
     const lrcs_brdf *own = &one->material->brdf;
     const lrcs_brdf_error *e = &one->material->error;
-    const lrcsi_node *node = one->node;
+    const response_node *node = one->node;
     double glint = node[count / 2].glint;
     double diffuse = node[count / 2].diffuse;
     double t = 0;
     if (count > 1 && e->s > 0) {
-        double low = node_low(own->s, e->s, DRAWN_SLOPE_LEAST * own->s);
+        double low = node_low(own->s, e->s, SLOPE_MIN * own->s);
         double high = node_high(own->s, e->s);
         uint32_t k = interval_find(low, own->s, high, count, at->s, &t);
         double step =
@@ -290,29 +299,30 @@ static double source_sigma(const source *one, uint32_t count, const lrcs_brdf *a
     return at->A * glint + at->B * diffuse;
 }
 
-/* One draw of a source's numbers, in their domain. */
+/* One draw of a source's parameters, clamped to their domain. */
 static lrcs_brdf source_draw(const source *one, uint64_t *state)
 {
     const lrcs_brdf *own = &one->material->brdf;
     const lrcs_brdf_error *e = &one->material->error;
     double normal[4];
-    double off[4] = {0, 0, 0, 0};
+    double deviate[4] = {0, 0, 0, 0}; /* correlated, in standard deviations */
     random_normal(state, normal);
     random_normal(state, normal + 2);
     for (int i = 0; i < 4; i++) {
         for (int k = 0; k <= i; k++) {
-            off[i] += one->root[i][k] * normal[k];
+            deviate[i] += one->root[i][k] * normal[k];
         }
     }
     for (int i = 2; i < 4; i++) {
-        off[i] = lrcsi_least(REACH, lrcsi_most(-REACH, off[i]));
+        deviate[i] = lrcsi_least(REACH, lrcsi_most(-REACH, deviate[i]));
     }
-    return (lrcs_brdf){lrcsi_most(0, own->A + off[0] * e->A), lrcsi_most(0, own->B + off[1] * e->B),
-                       lrcsi_most(DRAWN_SLOPE_LEAST * own->s, own->s + off[2] * e->s),
-                       lrcsi_most(0, own->m + off[3] * e->m)};
+    return (lrcs_brdf){lrcsi_most(0, own->A + deviate[0] * e->A),
+                       lrcsi_most(0, own->B + deviate[1] * e->B),
+                       lrcsi_most(SLOPE_MIN * own->s, own->s + deviate[2] * e->s),
+                       lrcsi_most(0, own->m + deviate[3] * e->m)};
 }
 
-/* In place, by Shell's method with Ciura's gaps (2001), grown by 9/4. */
+/* Sorts in place by Shell's method, with Ciura's gaps (2001) continued by a factor of 9/4. */
 static void sort_ascending(double *x, uint32_t count)
 {
     static const uint32_t gap[] = {1,    4,    10,   23,    57,    132,    301,    701,
@@ -329,24 +339,25 @@ static void sort_ascending(double *x, uint32_t count)
     }
 }
 
-/* Linear between the order statistics. */
-static double quantile(const double *sorted, uint32_t count, double share)
+/* A quantile of the sample, by linear interpolation between the order statistics. */
+static double quantile(const double *sorted, uint32_t count, double probability)
 {
-    double place = share * (count - 1);
-    uint32_t k = (uint32_t)lrcsi_least(place, count - 2);
-    return sorted[k] + (place - k) * (sorted[k + 1] - sorted[k]);
+    double position = probability * (count - 1);
+    uint32_t k = (uint32_t)lrcsi_least(position, count - 2);
+    return sorted[k] + (position - k) * (sorted[k + 1] - sorted[k]);
 }
 
-/* Given: sigma, and what the sources reflect of it with their own numbers. */
+/* Draws the sample and summarises it.
+   Given: sigma, and the part of it, `own`, that the sources reflect with their own parameters. */
 static void sample_make(const source *list, uint32_t sources, uint32_t count, double sigma,
-                        double own, const lrcs_uncertainty_options *how, double *draw,
+                        double own, const lrcs_uncertainty_options *options, double *draw,
                         lrcs_uncertainty *uncertainty)
 {
     double fixed = lrcsi_most(0, sigma - own);
-    uint64_t state = how->seed;
+    uint64_t state = options->seed;
     lrcsi_sum sum = {0, 0};
     lrcsi_sum square = {0, 0};
-    for (uint32_t i = 0; i < how->draws; i++) {
+    for (uint32_t i = 0; i < options->draws; i++) {
         draw[i] = fixed;
         for (uint32_t k = 0; k < sources; k++) {
             lrcs_brdf at = source_draw(&list[k], &state);
@@ -354,47 +365,51 @@ static void sample_make(const source *list, uint32_t sources, uint32_t count, do
         }
         lrcsi_sum_add(&sum, draw[i]);
     }
-    double mean = lrcsi_sum_value(&sum) / how->draws;
-    for (uint32_t i = 0; i < how->draws; i++) {
+    double mean = lrcsi_sum_value(&sum) / options->draws;
+    for (uint32_t i = 0; i < options->draws; i++) {
         lrcsi_sum_add(&square, (draw[i] - mean) * (draw[i] - mean));
     }
-    sort_ascending(draw, how->draws);
-    uncertainty->draws = how->draws;
+    sort_ascending(draw, options->draws);
+    uncertainty->draws = options->draws;
     uncertainty->sample_mean_m2 = mean;
-    uncertainty->sample_m2 = sqrt(lrcsi_sum_value(&square) / (how->draws - 1));
-    double chance = CHANCE / sqrt(how->draws);
-    double apart = fabs(uncertainty->sample_m2 - uncertainty->first_order_m2);
+    uncertainty->sample_m2 = sqrt(lrcsi_sum_value(&square) / (options->draws - 1));
+    double chance = STANDARD_ERRORS / sqrt(options->draws);
+    double difference = fabs(uncertainty->sample_m2 - uncertainty->first_order_m2);
     double bias = fabs(mean - sigma);
-    if (apart > lrcsi_most(FIRST_ORDER_SERVES, chance / sqrt(2.0)) * uncertainty->sample_m2 ||
-        bias > lrcsi_most(MEAN_SERVES, chance) * uncertainty->sample_m2) {
+    if (difference > lrcsi_most(DEVIATION_AGREES, chance / sqrt(2.0)) * uncertainty->sample_m2 ||
+        bias > lrcsi_most(MEAN_AGREES, chance) * uncertainty->sample_m2) {
         uncertainty->sampled = 1;
         uncertainty->deviation_m2 = uncertainty->sample_m2;
-        uncertainty->low_m2 = quantile(draw, how->draws, QUANTILE_LOW);
-        uncertainty->high_m2 = quantile(draw, how->draws, QUANTILE_HIGH);
+        uncertainty->low_m2 = quantile(draw, options->draws, QUANTILE_LOW);
+        uncertainty->high_m2 = quantile(draw, options->draws, QUANTILE_HIGH);
     }
 }
 
-size_t lrcsi_uncertainty_need(const lrcs_scene *scene, const lrcs_uncertainty_options *how)
+/* --- first order and the sample --------------------------------------------------------------- */
+
+static size_t estimate_need(const lrcs_scene *scene, const lrcs_uncertainty_options *options)
 {
     size_t need = lrcsi_work_bytes(scene->material_count, sizeof(source));
     need = lrcsi_work_add(
-        need, lrcsi_work_bytes((size_t)scene->material_count * LRCSI_NODES, sizeof(lrcsi_node)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(how->draws, sizeof(double)));
+        need, lrcsi_work_bytes((size_t)scene->material_count * NODES, sizeof(response_node)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(options->draws, sizeof(double)));
 }
 
-int lrcsi_uncertainty_make(const lrcs_scene *scene, double sigma, const lrcsi_node *node,
-                           uint32_t count, const lrcs_uncertainty_options *how, lrcs_work *work,
-                           lrcs_uncertainty *uncertainty)
+/* Steps 4 to 6. Given: sigma, m2; node[count][material_count], in which the responses of terms that
+   the plan leaves out are 0. Status: LRCS_OK; LRCS_E_MEMORY. */
+static int estimate_make(const lrcs_scene *scene, double sigma, const response_node *node,
+                         uint32_t count, const lrcs_uncertainty_options *options, lrcs_work *work,
+                         lrcs_uncertainty *uncertainty)
 {
-    size_t mark = work->used;
     source *list = lrcsi_work_take(work, scene->material_count, sizeof *list);
-    lrcsi_node *room = lrcsi_work_take(work, (size_t)scene->material_count * count, sizeof *room);
-    double *draw = lrcsi_work_take(work, how->draws, sizeof *draw);
+    response_node *memory =
+        lrcsi_work_take(work, (size_t)scene->material_count * count, sizeof *memory);
+    double *draw = lrcsi_work_take(work, options->draws, sizeof *draw);
     lrcs_uncertainty out = {0, 0, 0, 0, 0, 0, -1, 0, 0};
-    if (!list || !room || !draw) {
+    if (!list || !memory || !draw) {
         return LRCS_E_MEMORY;
     }
-    uint32_t sources = sources_make(scene, node, count, room, list);
+    uint32_t sources = sources_make(scene, node, count, memory, list);
     double own = 0;
     double variance = 0;
     for (uint32_t k = 0; k < sources; k++) {
@@ -405,10 +420,174 @@ int lrcsi_uncertainty_make(const lrcs_scene *scene, double sigma, const lrcsi_no
     out.deviation_m2 = out.first_order_m2 = sqrt(variance);
     out.low_m2 = lrcsi_most(0, sigma - out.deviation_m2);
     out.high_m2 = sigma + out.deviation_m2;
-    if (sources > 0 && how->draws > 0) {
-        sample_make(list, sources, count, sigma, own, how, draw, &out);
+    if (sources > 0 && options->draws > 0) {
+        sample_make(list, sources, count, sigma, own, options, draw, &out);
     }
     *uncertainty = out;
-    work->used = mark;
     return LRCS_OK;
+}
+
+/* --- responses at the nodes ------------------------------------------------------------------- */
+
+/* Memory for the responses of all materials. */
+typedef struct response_memory {
+    response_node *node; /* [nodes][material_count] */
+    lrcs_brdf *brdf;     /* [material_count]: at the current node; the next two likewise */
+    lrcsi_response *response;
+    lrcs_material *material; /* the scene's materials with the parameters of the node */
+} response_memory;
+
+size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_options *options,
+                             const lrcs_uncertainty_options *how)
+{
+    size_t count = prepared->scene->material_count;
+    size_t need = lrcs_sigma_need(prepared, options);
+    need = lrcsi_work_add(need, lrcsi_work_bytes(count * NODES, sizeof(response_node)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcs_brdf)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcsi_response)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcs_material)));
+    return lrcsi_work_add(need, estimate_need(prepared->scene, how));
+}
+
+static int responses_take(lrcs_work *work, uint32_t nodes, uint32_t materials,
+                          response_memory *memory)
+{
+    memory->node = lrcsi_work_take(work, (size_t)nodes * materials, sizeof *memory->node);
+    memory->brdf = lrcsi_work_take(work, materials, sizeof *memory->brdf);
+    memory->response = lrcsi_work_take(work, materials, sizeof *memory->response);
+    memory->material = lrcsi_work_take(work, materials, sizeof *memory->material);
+    return memory->node && memory->brdf && memory->response && memory->material ? LRCS_OK
+                                                                                : LRCS_E_MEMORY;
+}
+
+/* The responses at node k, over the visible areas of a finished run. */
+static void node_fill(const lrcsi_sigma *run, const response_memory *memory, uint32_t k)
+{
+    const lrcs_prepared *p = run->view.prepared;
+    const lrcsi_areas areas = {run->visible, run->answer};
+    uint32_t count = p->scene->material_count;
+    lrcsi_response_make(&run->view, &run->plan, &areas, run->curved, &run->clear, memory->brdf,
+                        memory->response);
+    for (uint32_t i = 0; i < count; i++) {
+        const lrcsi_response *at = &memory->response[i];
+        memory->node[(size_t)k * count + i] =
+            (response_node){lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint)),
+                            lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse)),
+                            lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint_s)),
+                            lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse_m))};
+    }
+}
+
+/* The responses at node k of a scene with curved normals: a run of the pose with the parameters of
+   the node, and amplitudes of 1. */
+static int run_node(const lrcs_prepared *prepared, const lrcs_pose *pose,
+                    const lrcs_run_options *options, lrcs_work *work, const response_memory *memory,
+                    uint32_t k)
+{
+    size_t mark = work->used;
+    lrcs_scene scene = *prepared->scene;
+    lrcs_prepared other = *prepared;
+    lrcsi_sigma run = {.options = options, .work = work, .last = LRCSI_SIGMA_SUM, .moments = 1};
+    for (uint32_t i = 0; i < scene.material_count; i++) {
+        memory->material[i] = prepared->scene->material[i];
+        memory->material[i].brdf = memory->brdf[i];
+        memory->material[i].brdf.A = memory->brdf[i].s > 0 ? 1 : 0;
+        memory->material[i].brdf.B = 1;
+    }
+    scene.material = memory->material;
+    other.scene = &scene;
+    int status = lrcsi_sigma_stages(&run, &other, pose);
+    if (status == LRCS_OK) {
+        node_fill(&run, memory, k);
+    }
+    work->used = mark;
+    return status;
+}
+
+/* --- a pose ----------------------------------------------------------------------------------- */
+
+/* Are the options valid, and the errors of all materials? */
+static int uncertainty_check(const lrcs_scene *scene, const lrcs_run_options *options,
+                             const lrcs_uncertainty_options *how)
+{
+    if (how->draws == 1 || how->draws > DRAWS_MAX || lrcsi_sigma_check(options, NULL) != LRCS_OK) {
+        return LRCS_E_ARGUMENT;
+    }
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_material *m = &scene->material[i];
+        if (lrcs_brdf_error_check(&m->brdf, &m->error) != LRCS_OK) {
+            return LRCS_E_NUMBER;
+        }
+    }
+    return LRCS_OK;
+}
+
+/* The derivatives with respect to the parameters of one material, from its own node. */
+static lrcs_sensitivity sensitivity_of(const lrcs_brdf *brdf, const response_node *own)
+{
+    return (lrcs_sensitivity){own->glint, own->diffuse, brdf->A * own->glint_s,
+                              brdf->B * own->diffuse_m};
+}
+
+/* Status: LRCS_OK; LRCS_E_NUMBER if a derivative is not finite. */
+static int sensitivity_check(const lrcs_scene *scene, const response_node *own)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        lrcs_sensitivity d = sensitivity_of(&scene->material[i].brdf, &own[i]);
+        if (!isfinite(d.dA + d.dB + d.ds + d.dm)) {
+            return LRCS_E_NUMBER;
+        }
+    }
+    return LRCS_OK;
+}
+
+int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
+                         const lrcs_run_options *options, const lrcs_uncertainty_options *how,
+                         lrcs_work *work, lrcs_result *result, lrcs_sensitivity *sensitivity,
+                         lrcs_uncertainty *uncertainty)
+{
+    const lrcs_scene *scene = prepared->scene;
+    uint32_t nodes = node_count(prepared, how);
+    size_t mark = work->used;
+    response_memory memory;
+    lrcs_result answer;
+    lrcs_uncertainty estimate;
+    lrcsi_sigma run = {.options = options, .work = work, .last = LRCSI_SIGMA_SUM};
+    int status = uncertainty_check(scene, options, how);
+    if (status == LRCS_OK) {
+        status = responses_take(work, nodes, scene->material_count, &memory);
+    }
+    if (status != LRCS_OK) {
+        work->used = mark;
+        return status;
+    }
+    size_t start = work->used;
+    status = lrcsi_sigma_stages(&run, prepared, pose);
+    status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
+    for (uint32_t k = 0; k < nodes && status == LRCS_OK; k++) {
+        for (uint32_t i = 0; i < scene->material_count; i++) {
+            memory.brdf[i] = node_brdf(&scene->material[i], k, nodes);
+        }
+        if (prepared->smooth) {
+            work->used = start; /* the run of the pose is no longer needed */
+            status = run_node(prepared, pose, options, work, &memory, k);
+        } else {
+            node_fill(&run, &memory, k);
+        }
+    }
+    work->used = status == LRCS_OK ? start : work->used;
+    const response_node *own = memory.node + (size_t)(nodes / 2) * scene->material_count;
+    status = status == LRCS_OK ? sensitivity_check(scene, own) : status;
+    if (status == LRCS_OK) {
+        status = estimate_make(scene, answer.sigma_m2, memory.node, nodes, how, work, &estimate);
+    }
+    if (status == LRCS_OK) {
+        for (uint32_t i = 0; i < scene->material_count; i++) {
+            sensitivity[i] = sensitivity_of(&scene->material[i].brdf, &own[i]);
+        }
+        *result = answer;
+        *uncertainty = estimate;
+    }
+    work->used = mark;
+    return status;
 }

@@ -43,7 +43,6 @@
 
 #include "base/bits.h"
 
-#define FOUR_PI 12.566370614359172954
 
 #define SHADE_GLINT_UNITS 25.0
 #define SHADE_POWER_UNITS 18.0 /* m = 0, 1/2, 1, 2 */
@@ -88,8 +87,8 @@ static int in_range(double x, double low, double high)
 
 lrcsi_lobes lrcsi_lobes_make(const lrcs_brdf *brdf, int glint, int diffuse)
 {
-    lrcsi_lobes lobes = {.A = FOUR_PI * brdf->A,
-                         .B = FOUR_PI * brdf->B,
+    lrcsi_lobes lobes = {.A = LRCSI_FOUR_PI * brdf->A,
+                         .B = LRCSI_FOUR_PI * brdf->B,
                          .m = brdf->m,
                          .low = SHADE_GRAZING,
                          .high = 2,

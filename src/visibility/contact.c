@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A facet against the plane of another: on which side its corners lie, exactly, and where it passes
-   through, in doubles, with how far that may be off. Which facets touch is known
-   (mesh/intersection.h). */
+/* A facet and the plane of another: on which side its corners lie (exact), and where it intersects
+   the plane (in doubles, with error bounds). Which facets have contact is known from
+   mesh/intersection.h. */
 #include "visibility/contact.h"
 
 #include <math.h>
@@ -15,20 +15,20 @@
 #include "visibility/clip.h"
 #include "visibility/sample.h"
 
-/* How many times its error a height must be, so that where it is 0 is told to a double. */
-#define TOLD 0x1p53
+/* A height that is at least this many times its error gives intersections accurate to a double. */
+#define HEIGHT_SUFFICES 0x1p53
 
 /* The corners of a facet above the target's plane. */
 typedef struct contact_heights {
     double height[3]; /* along the plane's normal, times a positive constant */
-    lrcsi_dd fine[3]; /* the same to double-double */
+    lrcsi_dd fine[3]; /* the same in double-double */
     double off[3];    /* bounds on their errors */
     int above[3];     /* exact signs */
 } contact_heights;
 
-/* N . (x - a) for the target's plane, up where it is seen, in double-double: off by 32 u^2 |N|
-   |x - a| and N's own error. */
-static lrcsi_dd height_finely(const lrcsi_target *t, const double *x, double *off)
+/* N . (x - a) for the target's plane, positive on its visible side, in double-double. The error is
+   32 u^2 |N| |x - a|, and that of N. */
+static lrcsi_dd height_dd(const lrcsi_target *t, const double *x, double *off)
 {
     const lrcsi_normal *n = &t->view->prepared->normal[t->facet];
     const double *a = lrcsi_prepared_corner(t->view->prepared, t->facet, 0);
@@ -43,8 +43,8 @@ static lrcsi_dd height_finely(const lrcsi_target *t, const double *x, double *of
     return t->view->facing[t->facet] > 0 ? sum : lrcsi_dd_negate(sum);
 }
 
-/* 1 all corners of `other` lie in front of the facet's plane or on it, -1 behind, 0 neither or all
-   on it. */
+/* 1 if all corners of `other` lie in front of the facet's plane or on it, -1 if behind or on it; 0
+   otherwise, and if all lie on it. */
 static int contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other)
 {
     int front = 0;
@@ -63,8 +63,8 @@ int lrcsi_contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other)
     return side != 0 ? side : -contact_side(view, other, facet);
 }
 
-/* Where, in projection, side p q of one facet and side r s of another cross: 1 the latter is nearer
-   there, -1 farther; 0 if they do not cross, or meet. */
+/* Where side p q of one facet and side r s of another cross in projection: 1 if the latter is
+   nearer there, -1 if farther; 0 if they do not cross, or intersect. */
 static int sides_order(const lrcsi_view *view, const double *p, const double *q, const double *r,
                        const double *s)
 {
@@ -90,7 +90,7 @@ int lrcsi_contact_order(const lrcsi_view *view, uint32_t facet, uint32_t other)
     return order;
 }
 
-/* Does a facet cover a point in projection, its sides included? */
+/* Does a facet, including its sides, cover a point in projection? */
 static int covers_closed(const lrcsi_view *view, uint32_t facet, const double point[3])
 {
     int covers = 1;
@@ -102,7 +102,7 @@ static int covers_closed(const lrcsi_view *view, uint32_t facet, const double po
     return covers;
 }
 
-/* A corner on the other's plane tells nothing: they meet there. */
+/* A corner on the plane of the other facet decides nothing. */
 int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other)
 {
     int order = 0;
@@ -119,17 +119,18 @@ int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other)
     return order;
 }
 
-/* In double-double where that tells it to TOLD, else exactly; in a needle, of which others may be
-   2^88 times as long as it is wide, always. Returns its sign. */
+/* The height of a point, in double-double if that suffices, otherwise from the exact determinant;
+   in a needle always from the latter, because other facets may be 2^88 times as long as the needle
+   is wide. Returns the exact sign. */
 static int height_find(const lrcsi_target *t, const double *x, lrcsi_dd *height, double *off)
 {
     const lrcs_prepared *p = t->view->prepared;
-    int told = 0;
+    int accurate = 0;
     if (!t->needle) {
-        *height = height_finely(t, x, off);
-        told = fabs(height->hi) > TOLD * *off;
+        *height = height_dd(t, x, off);
+        accurate = fabs(height->hi) > HEIGHT_SUFFICES * *off;
     }
-    if (!told) {
+    if (!accurate) {
         lrcsi_dd up = lrcsi_exact_height(lrcsi_prepared_corner(p, t->facet, 0),
                                          lrcsi_prepared_corner(p, t->facet, 1),
                                          lrcsi_prepared_corner(p, t->facet, 2), x);
@@ -150,11 +151,11 @@ static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
     return h;
 }
 
-/* Where side k of the facet passes through the target's plane, its ends on both sides of it, and
-   how far that may be off. It lies at a share t = h / (h + h') of the side, from its nearer end,
-   which moves by (1 - t) / (h + h') of what h is off, and t / (h + h') of what h' is. Ends are off
-   by 10 u of their distance, so the point by as much of its own (that at t of the side counts as
-   at t between theirs), and its rounding is below 6 u of that. */
+/* The point at which side k of the facet, whose ends lie on different sides of the target's plane,
+   intersects that plane; returns its position error. It lies at parameter t = h / (h + h') of the
+   side, counted from the nearer end. An error of h moves t by (1 - t) / (h + h') times it, an error
+   of h' by t / (h + h') times it. The ends have errors of 10 u of their distances; the point then
+   has 10 u of the distance interpolated at t, and its rounding error is less than 6 u of that. */
 static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, double at[2],
                        double *reach)
 {
@@ -171,16 +172,17 @@ static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, 
     return 2 * (c->away[k] + c->away[next]) * (off / span);
 }
 
-/* May the segment be off by more than the facet, of the area told, is wide, about? */
-static int position_err_wide(const lrcsi_contact *c, double area)
+/* Is the position error larger than about the width of the facet?
+   Given: area, that of the facet. */
+static int position_err_exceeds_width(const lrcsi_contact *c, double area)
 {
     lrcsi_clip_polygon triangle;
     lrcsi_clip_triangle((const double(*)[2])c->corner, &triangle);
     return c->position_err > 0 && !(c->position_err * lrcsi_clip_perimeter(&triangle) < area);
 }
 
-/* Of the facet. Its corners are counted from a near one, so that this is no difference of far ones.
- */
+/* The area of the facet. Its corners are relative to a near one, so that far coordinates do not
+   cancel. */
 static double contact_area(const lrcsi_contact *c)
 {
     lrcsi_clip_polygon triangle;
@@ -188,54 +190,58 @@ static double contact_area(const lrcsi_contact *c)
     return lrcsi_clip_area(&triangle);
 }
 
-/* Walked counter-clockwise, the facet leaves its part above the plane in one place and enters it in
-   another: corners on the plane, or sides that pass through it (SIDE and their number). */
+/* Where the boundary of the facet, traversed counter-clockwise, crosses the target's plane:
+   crossing[0] on the way down, crossing[1] on the way up. A corner on the plane is given by its
+   index, a side that intersects it by SIDE plus its index. */
 #define SIDE 3
-static void contact_leaves(const contact_heights *h, int leaves[2])
+static void contact_crossings(const contact_heights *h, int crossing[2])
 {
-    leaves[0] = leaves[1] = 0;
+    crossing[0] = crossing[1] = 0;
     for (int k = 0; k < 3; k++) {
         int before = h->above[(k + 2) % 3];
         int at = h->above[k];
         int next = h->above[(k + 1) % 3];
         if (at * next < 0) {
-            leaves[at < 0] = SIDE + k;
+            crossing[at < 0] = SIDE + k;
         }
         if (at == 0 && (before > 0 || next < 0)) {
-            leaves[0] = k;
+            crossing[0] = k;
         }
         if (at == 0 && (before < 0 || next > 0)) {
-            leaves[1] = k;
+            crossing[1] = k;
         }
     }
 }
 
-/* Of what the segment has near the target. */
+/* The ends of the segment's part near the target. */
 static void contact_ends(const lrcsi_target *t, const contact_heights *h, lrcsi_contact *c)
 {
-    int leaves[2];
+    int crossing[2];
     double reach[2];
-    contact_leaves(h, leaves);
+    contact_crossings(h, crossing);
     for (int i = 0; i < 2; i++) {
-        if (leaves[i] >= SIDE) {
-            double position_err = side_cut(h, c, leaves[i] - SIDE, c->end[i], &reach[i]);
+        if (crossing[i] >= SIDE) {
+            double position_err = side_cut(h, c, crossing[i] - SIDE, c->end[i], &reach[i]);
             c->position_err = lrcsi_most(c->position_err, position_err);
         } else {
-            memcpy(c->end[i], c->corner[leaves[i]], sizeof c->end[i]);
-            reach[i] = c->away[leaves[i]];
+            memcpy(c->end[i], c->corner[crossing[i]], sizeof c->end[i]);
+            reach[i] = c->away[crossing[i]];
         }
     }
     c->reach = lrcsi_target_segment(t, c->end, reach);
 }
 
-/* The segment's ends, and the corner that it parts from the others, are off by 16 u of how far away
-   they are and the position error, e at most. Where that corner lies 4 e beyond its line, that
-   crosses both sides of the facet within a quarter of this beyond the ends, and parts the facet as
-   the segment does. Else all that it cuts off is as near to the line, or, where the segment is so
-   short that its line may turn anywhere, to the line from it to the corner: that is taken in then,
-   and what the rest does is all there is to tell. What is cut off lies along the line as far as the
-   corner, which may be far beyond the segment; of what it has within 4 diameters of the target, the
-   corner's own error moves no more than if it were there. */
+/* The kind of a contact along a segment. The segment's ends, and the single corner that the plane
+   separates from the other two, have errors of at most e: 16 u of their distances, and the position
+   error.
+   If that corner lies at least 4 e beyond the segment's line, the true line crosses the same two
+   sides of the facet, within e of the ends, and divides the facet as the segment does: LINE.
+   Otherwise the part of the facet that is cut off lies near the segment's line or, if the segment
+   is so short that the direction of its line is uncertain, near the line from the segment to the
+   corner. That distance is added to the position error, and the kind says where the rest of the
+   facet lies: FRONT or BEHIND. The part cut off extends along the line as far as the corner, which
+   may be far beyond the segment; within 4 diameters of the target, the corner's error moves it no
+   more than if the corner were there. */
 static int segment_kind(const lrcsi_target *t, const contact_heights *h, lrcsi_contact *c,
                         int above)
 {
@@ -247,7 +253,7 @@ static int segment_kind(const lrcsi_target *t, const contact_heights *h, lrcsi_c
                                   {c->end[1][0] - c->end[0][0], c->end[1][1] - c->end[0][1]}};
     double length = lrcsi_length_flat(line.to[0], line.to[1]);
     double beyond = length > 0 ? lone * lrcsi_clip_side(&line, p) / length : 0;
-    if (position_err_wide(c, contact_area(c))) {
+    if (position_err_exceeds_width(c, contact_area(c))) {
         return LRCSI_CONTACT_UNKNOWN;
     }
     if (beyond > 4 * off) {
@@ -266,14 +272,13 @@ static int segment_kind(const lrcsi_target *t, const contact_heights *h, lrcsi_c
 
 /* --- in a needle ------------------------------------------------------------------------------ */
 
-/* A facet in a needle's frame: its corners there, and the segment's ends. */
-typedef struct contact_finely {
+/* A facet in a needle's frame: its corners, and the segment's ends. */
+typedef struct contact_dd {
     lrcsi_dd corner[3][2];
     lrcsi_dd end[2][2];
-} contact_finely;
+} contact_dd;
 
-static void corners_finely(const lrcsi_target *t, uint32_t other, contact_finely *f,
-                           lrcsi_contact *c)
+static void corners_dd(const lrcsi_target *t, uint32_t other, contact_dd *f, lrcsi_contact *c)
 {
     for (int k = 0; k < 3; k++) {
         const double *x = lrcsi_target_own(t->view, other, k);
@@ -284,8 +289,8 @@ static void corners_finely(const lrcsi_target *t, uint32_t other, contact_finely
     }
 }
 
-/* As side_cut, the share rounded to double-double (visibility/needle.c). */
-static double side_cut_finely(const contact_heights *h, contact_finely *f, int k, lrcsi_dd at[2])
+/* As side_cut, with the parameter in double-double (errors: visibility/needle.c). */
+static double side_cut_dd(const contact_heights *h, contact_dd *f, int k, lrcsi_dd at[2])
 {
     int next = (k + 1) % 3;
     double span = fabs(h->height[k]) + fabs(h->height[next]);
@@ -300,36 +305,37 @@ static double side_cut_finely(const contact_heights *h, contact_finely *f, int k
     return 2 * length * (off / span);
 }
 
-static void ends_finely(const contact_heights *h, contact_finely *f, lrcsi_contact *c)
+static void ends_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c)
 {
-    int leaves[2];
-    contact_leaves(h, leaves);
+    int crossing[2];
+    contact_crossings(h, crossing);
     for (int i = 0; i < 2; i++) {
-        if (leaves[i] >= SIDE) {
-            double position_err = side_cut_finely(h, f, leaves[i] - SIDE, f->end[i]);
+        if (crossing[i] >= SIDE) {
+            double position_err = side_cut_dd(h, f, crossing[i] - SIDE, f->end[i]);
             c->position_err = lrcsi_most(c->position_err, position_err);
         } else {
-            memcpy(f->end[i], f->corner[leaves[i]], sizeof f->end[i]);
+            memcpy(f->end[i], f->corner[crossing[i]], sizeof f->end[i]);
         }
     }
 }
 
-/* Rounds the ends of a segment that no clipping will shorten, since it meets the facet. That may
-   turn its line anywhere: it is the rounded one that parts. 1 if it is so short. */
-static int ends_round(contact_finely *f)
+/* If the segment is so short that clipping will not shorten it, rounds its ends and returns 1. The
+   rounded segment then divides the facet: rounding may change the direction of its line. */
+static int ends_round(contact_dd *f)
 {
-    int brief = 1;
+    int is_short = 1;
     for (int i = 0; i < 2; i++) {
-        brief &= fabs(f->end[1][i].hi - f->end[0][i].hi) < 0.5;
+        is_short &= fabs(f->end[1][i].hi - f->end[0][i].hi) < 0.5;
     }
-    for (int i = 0; i < 4 && brief; i++) {
+    for (int i = 0; i < 4 && is_short; i++) {
         f->end[i / 2][i % 2] = (lrcsi_dd){lrcsi_dd_value(f->end[i / 2][i % 2]), 0};
     }
-    return brief;
+    return is_short;
 }
 
-/* Of the facet, which may be a needle too: as long as others are, and as narrow as this one. */
-static double area_finely(const contact_finely *f)
+/* The area of the facet, in double-double because it may be a needle too: long, and as narrow as
+   the target. */
+static double area_dd(const contact_dd *f)
 {
     lrcsi_dd side[2][2];
     for (int i = 0; i < 4; i++) {
@@ -339,16 +345,17 @@ static double area_finely(const contact_finely *f)
                                              lrcsi_dd_mul(side[0][1], side[1][0])));
 }
 
-/* As segment_kind, of a short segment; a long one is not clipped yet. Of that, ends and corner are
-   off by e: the line turns by 2 e over its length, and what the corner is beyond it is off by as
-   much of the way there, and 2 e. Where that is long, it counts: `turned`. */
-static int kind_finely(const contact_heights *h, contact_finely *f, lrcsi_contact *c, int above)
+/* As segment_kind. A long segment has not been clipped yet: with errors e of its ends and of the
+   corner, its direction has an error of 2 e over its length, and the corner's distance from its
+   line an error of 2 e plus that angle times the distance to the corner. `turned` is this second
+   term. */
+static int kind_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c, int above)
 {
     int lone = above == 1 ? 1 : -1;
     const lrcsi_dd *p = f->corner[h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2];
     lrcsi_dd to[2];
     lrcsi_dd way[2];
-    int brief = ends_round(f);
+    int is_short = ends_round(f);
     for (int i = 0; i < 2; i++) {
         to[i] = lrcsi_dd_sub(f->end[1][i], f->end[0][i]);
         way[i] = lrcsi_dd_sub(p[i], f->end[0][i]);
@@ -359,7 +366,7 @@ static int kind_finely(const contact_heights *h, contact_finely *f, lrcsi_contac
         lrcsi_dd_value(lrcsi_dd_sub(lrcsi_dd_mul(to[0], way[1]), lrcsi_dd_mul(to[1], way[0])));
     double beyond = length > 0 ? lone * side / length : 0;
     double far = lrcsi_length_flat(way[0].hi, way[1].hi);
-    double turned = brief ? 0 : 4 * far / length * (c->off + c->position_err);
+    double turned = is_short ? 0 : 4 * far / length * (c->off + c->position_err);
     int kind = LRCSI_CONTACT_LINE;
     if (!(beyond > 4 * off + turned)) {
         kind = lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
@@ -370,13 +377,13 @@ static int kind_finely(const contact_heights *h, contact_finely *f, lrcsi_contac
             memcpy(f->end[1], p, sizeof f->end[1]);
         }
     }
-    return position_err_wide(c, area_finely(f)) ? LRCSI_CONTACT_UNKNOWN : kind;
+    return position_err_exceeds_width(c, area_dd(f)) ? LRCSI_CONTACT_UNKNOWN : kind;
 }
 
-static int segment_finely(const contact_heights *h, contact_finely *f, lrcsi_contact *c, int above)
+static int segment_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c, int above)
 {
-    ends_finely(h, f, c);
-    int kind = kind_finely(h, f, c, above);
+    ends_dd(h, f, c);
+    int kind = kind_dd(h, f, c, above);
     lrcsi_dd part[2];
     lrcsi_needle_clip((const lrcsi_dd *)f->end[0], (const lrcsi_dd *)f->end[1], c->end, part);
     return kind;
@@ -387,10 +394,10 @@ static int segment_finely(const contact_heights *h, contact_finely *f, lrcsi_con
 int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
 {
     contact_heights h = heights_of(t, other);
-    contact_finely f = {0};
+    contact_dd f = {0};
     *c = (lrcsi_contact){.position_err = 0};
     if (t->needle) {
-        corners_finely(t, other, &f, c);
+        corners_dd(t, other, &f, c);
     }
     for (int k = 0; k < 3 && !t->needle; k++) {
         c->away[k] = lrcsi_target_place(t, lrcsi_target_own(t->view, other, k), c->corner[k]);
@@ -409,7 +416,7 @@ int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
         return LRCSI_CONTACT_POINT;
     }
     if (t->needle) {
-        return segment_finely(&h, &f, c, above);
+        return segment_dd(&h, &f, c, above);
     }
     contact_ends(t, &h, c);
     return segment_kind(t, &h, c, above);

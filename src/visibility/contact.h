@@ -1,45 +1,46 @@
 /* SPDX-License-Identifier: MIT */
-/* Where a facet that touches the inside of another meets its plane: a line in the other's frame (a
-   needle's own, where it is one), with how far that may be off, or all of the facet. */
+/* The intersection of a facet with the plane of another facet, the target, whose interior it
+   contacts: a segment in the target's frame (for a needle, barycentric coordinates) with its
+   position error, or the whole facet. Also, which of two facets is nearer. */
 #ifndef LRCSI_CONTACT_H
 #define LRCSI_CONTACT_H
 
 #include "visibility/target.h"
 
 enum lrcsi_contact_kind {
-    LRCSI_CONTACT_POINT,  /* in a point at most */
-    LRCSI_CONTACT_LINE,   /* in the segment told; what is left of it is in front */
-    LRCSI_CONTACT_FRONT,  /* in the segment told; all is in front but near its line, however far */
-    LRCSI_CONTACT_BEHIND, /* in the segment told; all is behind but near its line */
-    LRCSI_CONTACT_FLAT,   /* the two lie in one plane, exactly */
-    LRCSI_CONTACT_UNKNOWN /* in a segment, somewhere in the facet: it cannot be decided better */
+    LRCSI_CONTACT_POINT,  /* at most a point */
+    LRCSI_CONTACT_LINE,   /* a segment; the part of the facet to its left is in front */
+    LRCSI_CONTACT_FRONT,  /* a segment; the facet is in front, except near the segment's line */
+    LRCSI_CONTACT_BEHIND, /* a segment; the facet is behind, except near the segment's line */
+    LRCSI_CONTACT_FLAT,   /* both facets lie exactly in one plane */
+    LRCSI_CONTACT_UNKNOWN /* a segment somewhere in the facet: nothing better is known */
 };
 
-/* A facet in the target's frame, and where it meets the target's plane. */
+/* A facet in the target's frame, and its intersection with the target's plane. */
 typedef struct lrcsi_contact {
     double corner[3][2]; /* counter-clockwise; in a needle, rounded */
-    double away[3];      /* their distances, in space, from the target's first; in a needle 0 */
-    double end[2][2];    /* of the segment; in a needle, of what lies near it */
-    double reach;        /* how far away they are at most, likewise */
-    double position_err; /* how far they may be off, but for 16 u of that, */
-    double off;          /* or, in a needle, for this and rounding */
+    double away[3];      /* their distances, in space, from the target's origin; 0 in a needle */
+    double end[2][2];    /* of the segment; in a needle, of its part near the target */
+    double reach;        /* upper bound of the distances of the ends, as `away` */
+    double position_err; /* error of the ends, in addition to 16 u reach */
+    double off; /* in a needle: error of the corners; it and rounding add to position_err */
 } lrcsi_contact;
 
-/* A lrcsi_contact_kind; the ends and the position error are told of a segment only. */
+/* Returns a lrcsi_contact_kind; ends and position error are set only if there is a segment. */
 int lrcsi_contact_find(const lrcsi_target *target, uint32_t other, lrcsi_contact *contact);
 
-/* 1 if `other` is nearer wherever a line meets both, because one lies on one side of the other's
-   plane; -1 if it is farther; 0 if that does not tell. Exact. */
+/* 1 if `other` is nearer on every line of sight that meets both, because one facet lies on one side
+   of the plane of the other; -1 if it is farther; 0 if that does not decide. Exact. */
 int lrcsi_contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other);
 
-/* The same of two facets whose insides do not meet: then their order is the same wherever a line
-   meets both, so also where two of their sides cross. */
+/* The same for two facets whose interiors do not intersect: their order is the same on all lines of
+   sight that meet both, so also where two of their sides cross in the view. */
 int lrcsi_contact_order(const lrcsi_view *view, uint32_t facet, uint32_t other);
 
-/* The same by a corner of one within the other, or on its sides. What both cover of the view is a
-   convex polygon; each of its corners is a place where two sides cross, or such a corner. Unless
-   the two lie in one plane they differ in height at one of these at least: so if they overlap,
-   lrcsi_contact_order or this one tells. */
+/* The same from a corner of one facet that lies within the other or on its sides. The region that
+   both cover is a convex polygon; each of its corners is a crossing of two sides or such a corner.
+   Unless the facets lie in one plane, they differ in height at one of these: if they overlap,
+   lrcsi_contact_order or this function decides. */
 int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other);
 
 #endif

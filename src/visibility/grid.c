@@ -263,8 +263,8 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
     }
 }
 
-/* The cells that are wanted, a bit each, rows beginning with a word; bit NULL: all. Facets that
-   meet none of them are left out. */
+/* The cells whose lists will be read, one bit each; each row begins with a new word. bit NULL: all
+   cells. Facets that meet none of these cells are not listed. */
 typedef struct grid_want {
     uint32_t *bit;
     size_t words; /* of a row */
@@ -293,7 +293,7 @@ static void want_facet(const grid_want *want, lrcsi_cells cells)
     }
 }
 
-/* Is some of the cells wanted? */
+/* Will any of these cells be read? */
 static int want_meets(grid_want want, lrcsi_cells cells)
 {
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
@@ -307,17 +307,17 @@ static int want_meets(grid_want want, lrcsi_cells cells)
     return 0;
 }
 
-/* Finds the cells that are wanted. */
-static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes, const unsigned char *wanted,
-                     lrcs_work *work, grid_want *want)
+/* Marks the cells of the readers' boxes. */
+static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
+                     const lrcsi_grid_readers *readers, lrcs_work *work, grid_want *want)
 {
     *want = (grid_want){NULL, (grid->size + WANT_BITS - 1) / WANT_BITS};
-    if (!wanted) {
+    if (!readers) {
         return LRCS_OK;
     }
     want->bit = lrcsi_work_take_zero(work, want->words * grid->size, sizeof *want->bit);
     for (uint32_t f = 0; f < grid->view->prepared->scene->facet_count && want->bit; f++) {
-        if (wanted[f] != 0 && lrcsi_grid_casts(grid->view, f)) {
+        if ((readers->undecided[f] || readers->region[f] == f) && lrcsi_grid_casts(grid->view, f)) {
             lrcsi_boxes_open(boxes, f / LRCSI_RUN);
             want_facet(want, lrcsi_grid_cells(grid, &boxes->facet[f]));
         }
@@ -325,8 +325,8 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes, const uns
     return want->bit ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-/* Counts the facets of runs that stand where they are wanted, or files them. Returns how often they
-   are listed. */
+/* Counts the entries of all facets that meet cells to be read, or writes them. Returns the number
+   of entries. */
 static uint64_t grid_put_facets(lrcsi_grid *grid, const lrcsi_boxes *boxes, grid_want want)
 {
     uint64_t listed = 0;
@@ -355,8 +355,8 @@ static uint64_t grid_put_facets(lrcsi_grid *grid, const lrcsi_boxes *boxes, grid
     return listed;
 }
 
-int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes, const unsigned char *wanted,
-                      lrcs_work *work, lrcsi_grid *grid)
+int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
+                      const lrcsi_grid_readers *readers, lrcs_work *work, lrcsi_grid *grid)
 {
     size_t mark = work->used;
     const lrcsi_view *view = like->view;
@@ -365,12 +365,12 @@ int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes, const un
     grid_want want;
     g.box = boxes->facet;
     g.first = g.item = NULL;
-    int status = want_make(&g, boxes, wanted, work, &want);
+    int status = want_make(&g, boxes, readers, work, &want);
     status = status == LRCS_OK ? grid_start(&g, work) : status;
     while (status == LRCS_OK && grid_put_facets(&g, boxes, want) > most) {
         work->used = mark;
         grid_coarsen(&g);
-        status = want_make(&g, boxes, wanted, work, &want);
+        status = want_make(&g, boxes, readers, work, &want);
         status = status == LRCS_OK ? grid_start(&g, work) : status;
     }
     status = status == LRCS_OK ? grid_room(work, &g) : status;

@@ -80,11 +80,17 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes);
 /* Bytes at most for a grid of facets. */
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 
-/* A grid of the facets that can hide something, in as many cells as another grid, or in fewer: it
-   lists each LRCSI_GRID_FACET_CELLS times at most, on average. Cells that no facet touches with
-   wanted[facet] not 0 may list too few; wanted NULL: none does. It makes the boxes of all that it
-   lists, and of those wanted. Status as above. */
-int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes, const unsigned char *wanted,
-                      lrcs_work *work, lrcsi_grid *grid);
+/* The facets for which a grid is to be searched: undecided ones, and the first of each region. */
+typedef struct lrcsi_grid_readers {
+    const unsigned char *undecided; /* of each facet */
+    const uint32_t *region;         /* of each facet: the first facet of its region */
+} lrcsi_grid_readers;
+
+/* A grid of the facets that can hide something, in at most as many cells as another grid: it lists
+   each of them at most LRCSI_GRID_FACET_CELLS times on average. Lists are complete in the cells of
+   the readers' boxes; with readers NULL, in all cells. It makes the boxes of the readers and of all
+   facets that it lists. Status: as above. */
+int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
+                      const lrcsi_grid_readers *readers, lrcs_work *work, lrcsi_grid *grid);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A line of sight through a facet, against the facets listed in its grid cell. Which of two facets
-   is nearer is decided elsewhere (visibility/sample.h), but where all of one is. */
+/* The visibility of a facet along one line of sight, against the facets listed in the line's grid
+   cell. Which of two facets is nearer is decided by visibility/sample.h, unless their boxes already
+   show it. */
 #include "visibility/query.h"
 
 #include <math.h>
@@ -9,10 +10,12 @@
 #include "view/side.h"
 #include "visibility/sample.h"
 
-/* A point that the facet covers, on the facet but for rounding. Where the facet is so thin that
-   such points round outside, a corner: moved by an infinitesimal one way or the other, the line
-   through one of them enters the facet, whatever its shape (of the lines through the corners of a
-   triangle that are parallel to a given one, the middle one passes inside). Returns that sense. */
+/* A point whose line of sight passes through the interior of the facet; the point lies on the facet
+   up to rounding. If the facet is so thin that rounding moves such points outside, a corner is
+   used: the line through one of the corners enters the facet when moved by an infinitesimal in one
+   sense or the other, whatever the facet's shape (of three parallel lines through the corners of a
+   triangle, the middle one passes through the interior). Returns the sense, 1 or -1; 0 if no point
+   was found. */
 static int inside_point(const lrcsi_view *view, uint32_t facet, double point[3])
 {
     static const double weight[4][3] = {
@@ -42,20 +45,20 @@ static int inside_point(const lrcsi_view *view, uint32_t facet, double point[3])
     return 0;
 }
 
-/* A line of sight through the inside of a facet, and how far the search along it has come. */
+/* A line of sight through the interior of a facet, and the state of the search along it. */
 typedef struct query_line {
     const lrcsi_grid *grid;
     lrcsi_meter *meter;
     uint32_t facet;
     double point[3];
-    double x[3], x_err; /* the point in view coordinates, and how far each may be off */
-    lrcsi_view_box at;  /* the line in the view; in depth, all of the facet */
-    int sense;          /* of the infinitesimal by which it counts as moved */
+    double x[3], x_err; /* the point in view coordinates, and the error of each */
+    lrcsi_view_box at;  /* the line in the view; in depth, the whole facet */
+    int sense;          /* the sense of the infinitesimal by which it is moved */
     lrcsi_cells cells;
-    uint32_t y, item, end; /* the row of cells at hand, and its items yet to be looked at */
+    uint32_t y, item, end; /* the current row of cells, and its remaining items */
 } query_line;
 
-/* Stands the line in its grid cells; its point is known. */
+/* Finds the grid cells of the line through line->point. */
 static void line_place(query_line *line)
 {
     const lrcsi_view *view = line->grid->view;
@@ -69,7 +72,7 @@ static void line_place(query_line *line)
     line->y = line->cells.y0;
 }
 
-/* 0 if no point inside the facet was found. */
+/* Returns 0 if no point inside the facet was found. */
 static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet,
                       lrcsi_meter *meter)
 {
@@ -82,26 +85,26 @@ static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet
     return 1;
 }
 
-/* Does the line meet a facet? In plain doubles where they tell, which is nearly always: it stands
-   beside the facet where it is on the outer side of one of its sides. */
+/* Does the line meet a facet? Nearly always plain doubles decide: it does not if it lies on the
+   outer side of one of the facet's sides. */
 static int line_meets(const query_line *line, uint32_t facet)
 {
     const lrcsi_view *view = line->grid->view;
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    int sure = 1;
+    int inside = 1; /* proved in plain doubles */
     for (int k = 0; k < 3; k++) {
         lrcsi_view_side side = lrcsi_view_side_of(view, corner[k], corner[(k + 1) % 3]);
         int turn = view->facing[facet] * lrcsi_view_side_turn(&side, line->x, line->x_err);
         if (turn == -1) {
             return 0;
         }
-        sure &= turn == 1;
+        inside &= turn == 1;
     }
-    return sure || lrcsi_sample_covers_towards(view, facet, line->point, line->sense);
+    return inside || lrcsi_sample_covers_towards(view, facet, line->point, line->sense);
 }
 
-/* The next other facet that the line meets, not all of it behind the line's own, or LRCS_NONE; some
-   come more than once. None any more where the meter is spent. */
+/* The next other facet that the line meets and that is not entirely behind the line's own, or
+   LRCS_NONE; a facet may be returned more than once. LRCS_NONE too when the meter is spent. */
 static uint32_t line_next(query_line *line)
 {
     const lrcsi_grid *grid = line->grid;
@@ -167,8 +170,8 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
     return line_answer(&line);
 }
 
-/* Answers for the uniform facets from the first one of each region. Returns how many regions are
-   undecided by it. */
+/* One query for each region of uniform facets, at its first facet. Returns the number of regions
+   that remain undecided. */
 static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_meter *meter,
                               const lrcsi_grid *facets, unsigned char *answer)
 {
@@ -186,19 +189,18 @@ static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_
     return undecided;
 }
 
-/* The grid lists what only some facets ask for; where a region's first one gives no answer, which
-   hardly ever happens, all are listed and each of its facets asks for itself. */
+/* One query for the first facet of each region, with a grid that lists only what these and the
+   undecided facets need. If such a query is undecided, which is rare, a complete grid is made, and
+   each facet of that region has a query of its own. */
 int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter *meter,
                         lrcs_work *work, lrcsi_grid *facets, unsigned char *answer)
 {
     size_t mark = work->used;
     uint32_t count = classification->view->prepared->scene->facet_count;
     lrcsi_classify_regions(classification);
-    for (uint32_t f = 0; f < count; f++) { /* for now: which facets ask */
-        answer[f] = classification->undecided[f] || classification->region[f] == f;
-    }
+    const lrcsi_grid_readers readers = {classification->undecided, classification->region};
     int status =
-        lrcsi_grid_facets(&classification->grid, &classification->boxes, answer, work, facets);
+        lrcsi_grid_facets(&classification->grid, &classification->boxes, &readers, work, facets);
     if (status != LRCS_OK || query_regions(classification, meter, facets, answer) == 0) {
         return status;
     }
@@ -212,8 +214,8 @@ int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter 
     return status;
 }
 
-/* Does `other` touch the inside of the facet? Where the meter is spent, perhaps. */
-static int touched_by(const lrcs_prepared *p, uint32_t facet, uint32_t other, lrcsi_meter *meter)
+/* Is `other` in contact with the facet? Returns 1 too when the meter is spent. */
+static int in_contact(const lrcs_prepared *p, uint32_t facet, uint32_t other, lrcsi_meter *meter)
 {
     if (!lrcsi_meter_take(meter, lrcsi_intersection_of(&p->intersections, facet))) {
         return 1;
@@ -226,11 +228,11 @@ static int touched_by(const lrcs_prepared *p, uint32_t facet, uint32_t other, lr
     return 0;
 }
 
-/* Does none of the component's edges cross the facet, and none of its facets touch its interior?
-   Where the meter is spent, perhaps not. `all`: another component was found broken before, so that
-   all crossings are searched for at once. */
-static int component_unbroken(lrcsi_classification *classification, uint32_t component,
-                              uint32_t facet, int all, lrcsi_meter *meter)
+/* Does none of the component's event edges cross the facet, and none of its facets have contact
+   with it? Returns 0 too when the meter is spent. `all`: another component failed before; then all
+   crossings of the facet are searched for at once. */
+static int component_covers(lrcsi_classification *classification, uint32_t component,
+                            uint32_t facet, int all, lrcsi_meter *meter)
 {
     const lrcsi_intersections *contacts = &classification->view->prepared->intersections;
     if (all) {
@@ -258,19 +260,20 @@ int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid 
     if (!line_start(&line, facets, facet, meter)) {
         return 0;
     }
-    uint32_t broken = LRCS_NONE; /* the component last found so */
+    uint32_t failed = LRCS_NONE; /* the component that failed last */
     uint32_t other;
     while ((other = line_next(&line)) != LRCS_NONE) {
-        if (classification->component[other] == broken ||
-            touched_by(facets->view->prepared, other, facet, meter) || /* order perhaps a guess */
+        if (classification->component[other] == failed ||
+            in_contact(facets->view->prepared, other, facet,
+                       meter) || /* their order may be uncertain */
             line_nearer(&line, other) <= 0) {
             continue;
         }
-        if (component_unbroken(classification, classification->component[other], facet,
-                               broken != LRCS_NONE, meter)) {
+        if (component_covers(classification, classification->component[other], facet,
+                             failed != LRCS_NONE, meter)) {
             return 1;
         }
-        broken = classification->component[other];
+        failed = classification->component[other];
     }
     return 0;
 }

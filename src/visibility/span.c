@@ -1,48 +1,50 @@
 /* SPDX-License-Identifier: MIT */
-/* Where edge functions cross a row of pixels. It decides nothing where doubles cannot tell: whom a
-   sample near a side belongs to is asked of visibility/sample.h.
+/* Where edge functions cross a row of pixels. Whether a sample near a side is covered is not
+   decided here, but exactly by visibility/sample.h.
 
-   Over a pixel an edge function differs from its value at the centre by at most
-   bend = (|along| + |up|) / 2. So what is touched is bounded by where it passes -off - bend, what
-   may be covered, is sure and is whole by -off, off and off + bend. With `row` its value at the
-   row's left end, it passes a limit at (limit - row) / along, and pixel x has its centre at x +
-   1/2. As computed that is off by at most 4 u of its parts, which moves the value by at most 4 u
-   (|row| + |limit|) <= 10 u N h + off / 16 for a box of half perimeter h on N x N pixels: less than
-   off / 4, for off is at least 64 u N (h + 2), of which an edge function's own error takes 5 / 8
-   (visibility/raster.c). So limits of -off and off still err on the safe side.
+   Within a pixel an edge function differs from its value at the centre by at most bend = (|along| +
+   |up|) / 2. Therefore the limits of the four kinds of pixels are where it passes -off - bend
+   (touched), -off (may be covered), off (certainly covered) and off + bend (entirely covered). With
+   `row` its value at the left end of the row, it passes a limit at (limit - row) / along; pixel x
+   has its centre at x + 1/2.
 
-   Crossings are computed as cross_at + cross_up y instead: cross_at from at + up / 2 with three
-   roundings more, cross_up y with three, and their sum with one. With the limit that is at most 5 u
-   (|at| + |up| (N + 1)) + 2 u |limit| <= 10 u N (h + 2) + off / 16, which is the same. */
+   The computed position has an error of at most 4 u of its terms. This changes the value by at most
+   4 u (|row| + |limit|) <= 10 u N h + off / 16, for a box of half perimeter h on N x N pixels. That
+   is less than off / 4, because off is at least 64 u N (h + 2), and the edge function's own error
+   is at most 5/8 of it (visibility/raster.c). So the limits -off and off are still safe.
+
+   Crossings are computed as cross_at + cross_up y: cross_at from at + up / 2 with three more
+   roundings, cross_up y with three, and their sum with one. With the limit the error is at most 5 u
+   (|at| + |up| (N + 1)) + 2 u |limit| <= 10 u N (h + 2) + off / 16, the same bound. */
 #include "visibility/span.h"
 
 #include <math.h>
 
 #include "base/range.h"
 
-/* Where spans begin and end, fractions yet to be dropped; in the order of lrcsi_row. */
+/* Where spans begin and end, before rounding to whole pixels; in the order of lrcsi_row. */
 enum { TOUCHED, MAY, SURE, WHOLE, KINDS };
 typedef struct span_ends {
     double from[KINDS], to[KINDS];
 } span_ends;
 
-/* Of a number from 0 to below 2^32. */
+/* The ceiling of a number from 0 to below 2^32. */
 static inline uint32_t round_up(double x)
 {
     uint32_t down = (uint32_t)x;
     return down + (down < x);
 }
 
-/* Half of what an edge function changes over a pixel, in all. */
+/* The largest difference of an edge function within a pixel from its value at the centre. */
 static double side_bend(const lrcsi_edges *e, int k)
 {
     return 0.5 * (fabs(e->along[k]) + fabs(e->up[k]));
 }
 
-/* Ends are off by a fourth of the margin at most, in either coordinate, and so is every point
-   between them. Roundings move x as less than 4 u of the ends' x does and less than 4 u of y and of
-   the ends' y along the segment, which is less than another fourth. What would lie beyond an end is
-   cut off there. */
+/* The position error of the ends, and of every point between them, is at most a quarter of the
+   margin in either coordinate. Rounding errors of x are less than 4 u of the x of the ends, and
+   less than 4 u of y and of the y of the ends, along the segment: together less than another
+   quarter. Beyond the ends, the line is clamped to low and high. */
 lrcsi_segment lrcsi_span_segment(const double *a, const double *b, double margin)
 {
     double rise = b[1] - a[1];
@@ -77,7 +79,7 @@ void lrcsi_span_prepare(lrcsi_edges *edges)
         edges->cross_at[i] = i < 2 ? -HUGE_VAL : HUGE_VAL;
         edges->cross_up[i] = edges->cross_near[i] = edges->cross_far[i] = 0;
     }
-    for (int k = 0; k < 3; k++) { /* of three differences around a triangle two are alike at most */
+    for (int k = 0; k < 3; k++) { /* at most two sides bound a triangle on the same side */
         int right = edges->over[k] < 0;
         if (edges->over[k] == 0) {
             edges->level = 1;
@@ -91,8 +93,8 @@ void lrcsi_span_prepare(lrcsi_edges *edges)
     }
 }
 
-/* A side along the row: it tells of all its pixels at once. */
-static inline void ends_judge(span_ends *ends, const lrcsi_edges *e, int k, double row)
+/* A side parallel to the row decides for all its pixels at once. */
+static inline void ends_level(span_ends *ends, const lrcsi_edges *e, int k, double row)
 {
     double far = e->off + side_bend(e, k);
     ends->to[TOUCHED] = row < -far ? 0 : ends->to[TOUCHED];
@@ -101,7 +103,7 @@ static inline void ends_judge(span_ends *ends, const lrcsi_edges *e, int k, doub
     ends->to[WHOLE] = row > far ? ends->to[WHOLE] : 0;
 }
 
-/* Narrows the ends to one side of an edge. */
+/* Narrows the ends by one side of the facet. */
 static inline void ends_narrow(span_ends *ends, const lrcsi_edges *e, int k, double cy)
 {
     double row = e->at[k] + e->up[k] * cy;
@@ -117,7 +119,7 @@ static inline void ends_narrow(span_ends *ends, const lrcsi_edges *e, int k, dou
         ends->to[SURE] = lrcsi_least(ends->to[SURE], zero - e->near[k]);
         ends->to[WHOLE] = lrcsi_least(ends->to[WHOLE], zero - e->far[k]);
     } else {
-        ends_judge(ends, e, k, row);
+        ends_level(ends, e, k, row);
     }
 }
 
@@ -143,7 +145,8 @@ lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
     double x0 = edges->x0;
     double x1 = edges->x1;
     span_ends ends = {{edges->left, x0, x0, x0}, {edges->right, x1, x1, x1}};
-    ends_narrow(&ends, edges, 0, y + 0.5); /* no loop: so compilers keep the ends in registers */
+    ends_narrow(&ends, edges, 0,
+                y + 0.5); /* not a loop, so that compilers keep the ends in registers */
     ends_narrow(&ends, edges, 1, y + 0.5);
     ends_narrow(&ends, edges, 2, y + 0.5);
     lrcsi_row row;
@@ -154,8 +157,8 @@ lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
     return row;
 }
 
-/* A side along the row tells of all its pixels at once. */
-static void level_judge(const lrcsi_edges *e, uint32_t y, double may[2], double sure[2])
+/* The same, for samples only. */
+static void samples_level(const lrcsi_edges *e, uint32_t y, double may[2], double sure[2])
 {
     for (int k = 0; k < 3; k++) {
         if (e->over[k] == 0) {
@@ -180,7 +183,7 @@ lrcsi_samples lrcsi_span_samples(const lrcsi_edges *e, uint32_t y)
     double sure[2] = {lrcsi_most(x0, lrcsi_most(cross[0] + near[0], cross[1] + near[1])),
                       lrcsi_least(x1, lrcsi_least(cross[2] - near[2], cross[3] - near[3]))};
     if (e->level) {
-        level_judge(e, y, may, sure);
+        samples_level(e, y, may, sure);
     }
     lrcsi_samples samples;
     samples.may = span_of(round_up(lrcsi_least(may[0], x1)), (uint32_t)lrcsi_most(may[1], x0));
@@ -203,7 +206,7 @@ lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *e, uint32_t y)
                       .to = {lrcsi_least(e->right, lrcsi_least(to[0], to[1]))}};
     for (int k = 0; e->level && k < 3; k++) {
         if (e->over[k] == 0) {
-            ends_judge(&ends, e, k, e->at[k] + e->up[k] * (y + 0.5));
+            ends_level(&ends, e, k, e->at[k] + e->up[k] * (y + 0.5));
         }
     }
     return outer_span(&ends, TOUCHED, e->left, e->right);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which pixels of a row a facet may touch, and which it surely covers: found by where its sides
-   cross the row, so that slivers are walked along, not their boxes. */
+/* The pixels of a row that a facet may touch, and those that it certainly covers, from where its
+   sides cross the row. The cost for a sliver is in proportion to its length, not to its box. */
 #ifndef LRCSI_SPAN_H
 #define LRCSI_SPAN_H
 
@@ -11,22 +11,23 @@
 /* A facet's edge functions in pixel coordinates, positive inside: value = at + along x + up y. */
 typedef struct lrcsi_edges {
     double at[3], along[3], up[3];
-    double over[3];         /* 1 / along, 0 if the side runs along the rows */
-    double near[3], far[3]; /* half a pixel, and how far along a row a value changes by off, and by
-                               off and what it changes over half a pixel */
-    /* Where sides cross rows: side i at x = cross_at[i] + cross_up[i] y for the centres of row y. 0
-       and 1 bound the facet on the left, 2 and 3 on the right; one that there is not is at
-       infinity. cross_near and cross_far: their near and far. level: some side runs along the rows.
-     */
+    double over[3];         /* 1 / along, 0 if the side is parallel to the rows */
+    double near[3], far[3]; /* half a pixel, plus the distance along a row over which the value
+                               changes by `off` (near), or by `off` and its variation within a pixel
+                               (far) */
+    /* The crossings of sides and rows: for the centres of row y, side i is at x = cross_at[i] +
+       cross_up[i] y. Sides 0 and 1 bound the facet on the left, 2 and 3 on the right; a side that
+       does not exist is at infinity. cross_near, cross_far: near and far of that side. level: a
+       side is parallel to the rows. */
     double cross_at[4], cross_up[4], cross_near[4], cross_far[4];
     int level;
-    double position_err;     /* error bound of the corners' pixel coordinates and of samples' */
-    double off;              /* error bound of a value in pixels touched, with 3 / 8 to spare */
+    double position_err;     /* error bound of the pixel coordinates of corners and samples */
+    double off;              /* 8/5 of the error bound of a value in touched pixels */
     uint32_t x0, x1, y0, y1; /* pixels whose centres may be covered: x0 <= x < x1 */
     uint32_t left, right, bottom, top; /* pixels that may be touched: left <= x < right */
 } lrcsi_edges;
 
-/* Pixels x0 <= x < x1 of a row; none where they are equal. */
+/* Pixels x0 <= x < x1 of a row; none if x0 = x1. */
 typedef struct lrcsi_pixels {
     uint32_t x0, x1;
 } lrcsi_pixels;
@@ -36,27 +37,26 @@ static inline int lrcsi_span_has(lrcsi_pixels span, uint32_t x)
     return x >= span.x0 && x < span.x1;
 }
 
-/* A row of pixels. The last three lie one within the other. */
+/* The pixels of a row. `whole` lies within `sure`, and `sure` within `may`. */
 typedef struct lrcsi_row {
-    lrcsi_pixels touched; /* all that the facet may touch */
-    lrcsi_pixels may;     /* all whose centre it may cover */
-    lrcsi_pixels sure;    /* those whose centre it surely covers, */
-    lrcsi_pixels whole; /* and those of which it surely covers all: none is missing but by less than
-                         the error of an edge function */
+    lrcsi_pixels touched; /* those that the facet may touch */
+    lrcsi_pixels may;     /* those whose centre it may cover */
+    lrcsi_pixels sure;    /* those whose centre it certainly covers */
+    lrcsi_pixels whole;   /* those that it certainly covers entirely; a pixel is missing only if it
+                               is covered by less than the error of an edge function */
 } lrcsi_row;
 
-/* A segment to be followed from row to row: all x that it may have in row y lie from from + slope y
-   to to + slope y, and from low to high. */
+/* A segment to be followed from row to row. In row y its x lies between from + slope y and to +
+   slope y, and between low and high. */
 typedef struct lrcsi_segment {
     double slope, from, to, low, high;
 } lrcsi_segment;
 
-/* The segment a -> b; its ends are off by at most a fourth of `margin`, and the margin is at least
-   128 u of their coordinates. */
+/* The segment a -> b. The position error of its ends is at most a quarter of `margin`, and `margin`
+   is at least 128 u of their coordinates. */
 lrcsi_segment lrcsi_span_segment(const double *a, const double *b, double margin);
 
-/* Narrows *x0 and *x1, pixels of row y, to x0 <= x < x1 for those that the segment may touch; none
-   are left where x0 >= x1. */
+/* Narrows x0 <= x < x1, pixels of row y, to those that the segment may touch; none if x0 >= x1. */
 static inline void lrcsi_span_follow(const lrcsi_segment *s, uint32_t y, uint32_t *x0, uint32_t *x1)
 {
     double from = lrcsi_most(s->low, lrcsi_least(s->high, s->from + s->slope * y));
@@ -65,18 +65,18 @@ static inline void lrcsi_span_follow(const lrcsi_segment *s, uint32_t y, uint32_
     *x1 = to < *x1 ? (uint32_t)lrcsi_most(to + 1, 0) : *x1;
 }
 
-/* Fills in over, near, far and the crossings of edges whose other numbers are known. */
+/* Computes over, near, far and the crossings of edges whose other members are set. */
 void lrcsi_span_prepare(lrcsi_edges *edges);
 
 lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y);
 
-/* What is covered of a row, alone: half of the work. */
+/* Only which centres of a row are covered: half the cost. */
 typedef struct lrcsi_samples {
     lrcsi_pixels may, sure; /* as in lrcsi_row */
 } lrcsi_samples;
 lrcsi_samples lrcsi_span_samples(const lrcsi_edges *edges, uint32_t y);
 
-/* What is touched of a row, alone: a third of the work. */
+/* Only which pixels of a row are touched: a third of the cost. */
 lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *edges, uint32_t y);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "check.h"
 
-static void names_are_told_apart_by_bytes_and_tag(void **state)
+static void names_differ_by_bytes_and_tag(void **state)
 {
     (void)state;
     unsigned char area[1024];
@@ -82,7 +82,7 @@ static void more_names_than_memory_can_hold_need_all_of_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_are_told_apart_by_bytes_and_tag),
+        cmocka_unit_test(names_differ_by_bytes_and_tag),
         cmocka_unit_test(a_second_put_replaces_the_value),
         cmocka_unit_test(an_index_of_nothing_finds_nothing),
         cmocka_unit_test(a_full_index_finds_every_name),

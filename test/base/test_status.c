@@ -56,7 +56,7 @@ static void excerpts_are_cut_to_fit(void **state)
     }
 }
 
-static void numbers_are_told_in_full(void **state)
+static void numbers_are_printed_in_full(void **state)
 {
     (void)state;
     lrcs_where where;
@@ -66,7 +66,7 @@ static void numbers_are_told_in_full(void **state)
     assert_string_equal(where.found, "0");
 }
 
-static void who_does_not_ask_where_is_told_the_status(void **state)
+static void without_a_place_the_status_is_still_returned(void **state)
 {
     (void)state;
     assert_int_equal(lrcsi_where_text(NULL, LRCS_E_NAME, 0, 0, "", "", "x", 1), LRCS_E_NAME);
@@ -80,8 +80,8 @@ int main(void)
         cmocka_unit_test(any_other_number_has_a_sentence_too),
         cmocka_unit_test(what_cannot_be_printed_is_escaped),
         cmocka_unit_test(excerpts_are_cut_to_fit),
-        cmocka_unit_test(numbers_are_told_in_full),
-        cmocka_unit_test(who_does_not_ask_where_is_told_the_status),
+        cmocka_unit_test(numbers_are_printed_in_full),
+        cmocka_unit_test(without_a_place_the_status_is_still_returned),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

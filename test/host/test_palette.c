@@ -46,7 +46,7 @@ static double least_difference(uint32_t count)
     return least;
 }
 
-static void colours_of_materials_are_told_apart(void **state)
+static void colours_of_materials_are_distinct(void **state)
 {
     (void)state;
     assert_true(least_difference(7) > 25.0);
@@ -68,7 +68,7 @@ static void more_materials_do_not_change_the_colours_of_the_first(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(colours_of_materials_are_told_apart),
+        cmocka_unit_test(colours_of_materials_are_distinct),
         cmocka_unit_test(more_materials_do_not_change_the_colours_of_the_first),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -189,7 +189,7 @@ static void pose_whose_matrix_is_rounded_to_floats_does_no_harm(void **state)
     assert_true(r[1].bound_m2 < 1e-11 * r[1].sigma_m2);
 }
 
-static void thread_that_rounds_upward_is_told(void **state)
+static void a_thread_that_rounds_upward_is_refused(void **state)
 {
     (void)state;
     const lrcs_prepared *prepared = NULL;
@@ -319,7 +319,7 @@ int main(void)
         cmocka_unit_test(pose_that_is_none_is_refused),
         cmocka_unit_test(pose_of_another_attitude_or_hand_is_refused),
         cmocka_unit_test(pose_whose_matrix_is_rounded_to_floats_does_no_harm),
-        cmocka_unit_test(thread_that_rounds_upward_is_told),
+        cmocka_unit_test(a_thread_that_rounds_upward_is_refused),
         cmocka_unit_test(tolerance_not_met_is_a_flag_not_a_failure),
         cmocka_unit_test(parts_add_up),
         cmocka_unit_test(picture_shows_what_is_where),

@@ -20,10 +20,10 @@ static lrcsi_cubature start(const lrcs_brdf *brdf, const double normal[3][3], do
     static unsigned char room[1 << 16];
     lrcs_work work = lrcs_work_make(room, lrcsi_cubature_need());
     assert_true(lrcsi_cubature_need() <= sizeof room);
-    lrcsi_cubature_cell *waiting = lrcsi_cubature_cells(&work);
-    assert_non_null(waiting);
-    lrcsi_cubature sum = lrcsi_cubature_make(brdf, normal, tolerance, waiting);
-    sum.whole = 1;
+    lrcsi_cubature_cell *stack = lrcsi_cubature_stack(&work);
+    assert_non_null(stack);
+    lrcsi_cubature sum = lrcsi_cubature_make(brdf, normal, tolerance, stack);
+    sum.area = 1;
     sum.position_err = 0x1p-44;
     return sum;
 }
@@ -109,11 +109,11 @@ static void beside_others_the_error_is_larger_and_within_its_estimate(void **sta
         lrcs_brdf brdf = {1, 0.25, v->s, v->m};
         double want = v->glint + 0.25 * v->diffuse;
         lrcsi_cubature sum = start(&brdf, v->normal, 1e-6);
-        sum.had = pow(10, (double)(i % 8)) * want;
+        sum.reference = pow(10, (double)(i % 8)) * want;
         lrcsi_cubature_add(&sum, v->normal, 1);
         double got = lrcsi_sum_value(&sum.glint) + lrcsi_sum_value(&sum.diffuse);
         check_abs(got, want, sum.estimate + sum.rounding + 1e-12 * want);
-        check_most(sum.estimate, 3e-6 * (want + sum.had));
+        check_most(sum.estimate, 3e-6 * (want + sum.reference));
         looser = fmax(looser, want > 0 ? sum.estimate / want : 0);
     }
     assert_true(looser > 1e-3);
@@ -135,7 +135,7 @@ static void a_dark_edge_is_within_its_estimate(void **state)
         const double normal[3][3] = {{1, 0, 0}, {1, 0, z}, {1, 0, z}};
         lrcs_brdf brdf = {0, 1, 0.2, edge[i % 4].m};
         lrcsi_cubature sum = start(&brdf, normal, 1e-5);
-        sum.had = ldexp(edge[i % 4].want, i / 4 * 2 - 4);
+        sum.reference = ldexp(edge[i % 4].want, i / 4 * 2 - 4);
         lrcsi_cubature_add(&sum, normal, 1);
         check_abs(lrcsi_sum_value(&sum.diffuse), edge[i % 4].want, sum.estimate + sum.rounding);
     }
@@ -216,8 +216,8 @@ static void without_steps_what_is_left_is_within_its_bound(void **state)
         lrcsi_cubature_add(&sum, (const double(*)[3])normal, 1);
         double want = v->glint + 0.25 * v->diffuse;
         double got = lrcsi_sum_value(&sum.glint) + lrcsi_sum_value(&sum.diffuse);
-        check_most(sum.estimate, 1e-4 * (want + got + sum.left));
-        check_abs(got, want, sum.left + sum.rounding + sum.estimate + 1e-12 * want);
+        check_most(sum.estimate, 1e-4 * (want + got + sum.unresolved));
+        check_abs(got, want, sum.unresolved + sum.rounding + sum.estimate + 1e-12 * want);
     }
 }
 
@@ -256,7 +256,8 @@ static void the_most_is_above_every_value_and_near_the_largest(void **state)
                             (64 - a - b) * v->normal[2][k]) /
                            64;
                 }
-                check_most(value_at(&brdf, n), (1 + 1e-12) * (sum.most.glint + sum.most.diffuse));
+                check_most(value_at(&brdf, n),
+                           (1 + 1e-12) * (sum.upper_bound.glint + sum.upper_bound.diffuse));
             }
         }
     }

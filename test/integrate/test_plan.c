@@ -123,7 +123,7 @@ static void two_sidedness_matters_only_where_backs_can_be_seen(void **state)
     assert_int_equal(r.notices, 0);
 }
 
-static void articulation_is_told_from_the_parts(void **state)
+static void articulation_follows_from_the_parts(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -229,7 +229,7 @@ int main(void)
         cmocka_unit_test(terms_follow_the_materials_that_are_seen),
         cmocka_unit_test(terms_are_independent),
         cmocka_unit_test(two_sidedness_matters_only_where_backs_can_be_seen),
-        cmocka_unit_test(articulation_is_told_from_the_parts),
+        cmocka_unit_test(articulation_follows_from_the_parts),
         cmocka_unit_test(what_is_left_out_changes_nothing),
         cmocka_unit_test(nearly_convex_bodies_keep_their_shadows),
         cmocka_unit_test(nearly_closed_bodies_keep_their_back_faces),

@@ -722,7 +722,7 @@ static void of_equal_material_names_the_first_is_bound(void **state)
     assert_int_equal(mesh.facet_material[1], 1);
 }
 
-static void many_materials_are_told_apart(void **state)
+static void many_materials_are_distinguished(void **state)
 {
     (void)state;
     char name[16];
@@ -1005,7 +1005,7 @@ int main(void)
         cmocka_unit_test(a_face_taken_from_an_undefined_material_overlaps_only),
         cmocka_unit_test(a_group_naming_no_face_of_the_mesh_is_refused),
         cmocka_unit_test(of_equal_material_names_the_first_is_bound),
-        cmocka_unit_test(many_materials_are_told_apart),
+        cmocka_unit_test(many_materials_are_distinguished),
         cmocka_unit_test(byte_colours_beat_linear_ones_beat_floats),
         cmocka_unit_test(float_colours_are_clamped_and_rounded),
         cmocka_unit_test(numbers_of_materials_must_be_finite),

@@ -229,7 +229,7 @@ static void the_tree_misses_no_contact(void **state)
 }
 
 /* Facets between few vertices: most share corners with many others, and many cross. */
-static void facets_about_common_corners_are_told_apart_exactly(void **state)
+static void facets_around_common_corners_are_classified_exactly(void **state)
 {
     (void)state;
     static unsigned char skip[MOST];
@@ -323,7 +323,7 @@ static void folded_neighbours_in_one_plane_touch(void **state)
 
 /* Sides that lie along part of another's, in another plane; not that which both have, nor one that
    is met in a point. */
-static void sides_that_run_along_others_are_told(void **state)
+static void sides_along_other_sides_are_found(void **state)
 {
     (void)state;
     const lrcs_point v[9] = {{{0, 0, 0}}, {{4, 0, 0}}, {{0, 4, 0}}, {{1, 0, 0}}, {{3, 0, 0}},
@@ -406,12 +406,12 @@ int main(void)
         cmocka_unit_test(pairs_agree_with_rational_clipping),
         cmocka_unit_test(affine_images_keep_their_contacts),
         cmocka_unit_test(the_tree_misses_no_contact),
-        cmocka_unit_test(facets_about_common_corners_are_told_apart_exactly),
+        cmocka_unit_test(facets_around_common_corners_are_classified_exactly),
         cmocka_unit_test(neighbours_on_a_closed_surface_do_not_touch),
         cmocka_unit_test(a_strut_touches_the_plate_and_not_the_other_way),
         cmocka_unit_test(a_plate_one_ulp_above_another_does_not_touch),
         cmocka_unit_test(folded_neighbours_in_one_plane_touch),
-        cmocka_unit_test(sides_that_run_along_others_are_told),
+        cmocka_unit_test(sides_along_other_sides_are_found),
         cmocka_unit_test(an_empty_list_and_a_skipped_one_have_no_contacts),
         cmocka_unit_test(starved_searches_fail_clean),
     };

@@ -272,7 +272,7 @@ static void names_that_are_not_utf8_are_latin1_and_noticed(void **state)
     close_case(&c);
 }
 
-static void many_names_are_told_apart(void **state)
+static void many_names_are_distinguished(void **state)
 {
     (void)state;
     enum { MANY = 3000 };
@@ -618,7 +618,7 @@ int main(void)
         cmocka_unit_test(a_group_without_name_is_the_unnamed_part),
         cmocka_unit_test(names_keep_inner_blanks_and_lose_outer_ones),
         cmocka_unit_test(names_that_are_not_utf8_are_latin1_and_noticed),
-        cmocka_unit_test(many_names_are_told_apart),
+        cmocka_unit_test(many_names_are_distinguished),
         cmocka_unit_test(smoothing_groups_become_bits),
         cmocka_unit_test(the_first_material_file_is_remembered),
         cmocka_unit_test(all_line_endings_are_read),

@@ -201,7 +201,7 @@ static void a_round_cap_of_normals_errs_by_less_than_its_bound(void **state)
     check_most(tightest, 1.01); /* about the normal of a small cap nothing is given away */
 }
 
-static void a_flat_patch_never_strays(void **state)
+static void a_flat_patch_has_no_deviation(void **state)
 {
     (void)state;
     const lrcs_curvature flat = {0.0, 0.0, 0.0, 0.0};
@@ -243,7 +243,7 @@ static void no_corner_of_the_domain_gives_nan_or_less_than_zero(void **state)
     }
 }
 
-static void a_finer_patch_strays_less(void **state)
+static void a_finer_patch_deviates_less(void **state)
 {
     (void)state;
     const lrcs_brdf brdf = {1.0, 0.25, 0.2, 0.5};
@@ -309,7 +309,7 @@ static void each_number_of_a_curvature_counts_for_itself(void **state)
 }
 
 /* Where tan^2 overflows the facet itself reflects nothing, its patch may. */
-static void a_patch_about_edge_on_strays_by_what_it_reflects(void **state)
+static void a_patch_nearly_edge_on_deviates_by_what_it_reflects(void **state)
 {
     (void)state;
     lrcs_brdf brdf = {1, 0.25, 0.2, 0.5};
@@ -328,13 +328,13 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(facets_err_by_less_than_their_bound),
         cmocka_unit_test(a_round_cap_of_normals_errs_by_less_than_its_bound),
-        cmocka_unit_test(a_flat_patch_never_strays),
+        cmocka_unit_test(a_flat_patch_has_no_deviation),
         cmocka_unit_test(a_patch_wholly_turned_away_has_no_error),
         cmocka_unit_test(no_corner_of_the_domain_gives_nan_or_less_than_zero),
-        cmocka_unit_test(a_finer_patch_strays_less),
+        cmocka_unit_test(a_finer_patch_deviates_less),
         cmocka_unit_test(the_most_of_f_r_cos_is_its_largest_value_over_the_range),
         cmocka_unit_test(each_number_of_a_curvature_counts_for_itself),
-        cmocka_unit_test(a_patch_about_edge_on_strays_by_what_it_reflects),
+        cmocka_unit_test(a_patch_nearly_edge_on_deviates_by_what_it_reflects),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -234,7 +234,7 @@ static void fully_transparent_surfaces_are_omitted_unless_kept(void **state)
     }
 }
 
-static void parts_wear_the_recipes_materials_before_the_librarys(void **state)
+static void materials_of_the_recipe_take_precedence_over_the_library(void **state)
 {
     (void)state;
     lrcs_recipe_material gold = {
@@ -299,7 +299,7 @@ int main(void)
         cmocka_unit_test(a_name_changes_a_scene_files_material_wherever_it_is_put_on),
         cmocka_unit_test(the_two_sided_flag_stays_unless_a_binding_sets_it),
         cmocka_unit_test(fully_transparent_surfaces_are_omitted_unless_kept),
-        cmocka_unit_test(parts_wear_the_recipes_materials_before_the_librarys),
+        cmocka_unit_test(materials_of_the_recipe_take_precedence_over_the_library),
         cmocka_unit_test(the_slow_binder_agrees_with_the_indexed_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -191,7 +191,7 @@ static void materials_stand_once_for_each_surface_and_each_worn_one(void **state
     free(area);
 }
 
-static void a_binding_that_matches_nothing_is_told(void **state)
+static void a_binding_that_matches_nothing_is_reported(void **state)
 {
     (void)state;
     lrcs_mesh mesh = tetra();
@@ -552,7 +552,7 @@ int main(void)
         cmocka_unit_test(facets_keep_the_order_of_parts_and_files),
         cmocka_unit_test(mirrored_parts_stay_outward),
         cmocka_unit_test(materials_stand_once_for_each_surface_and_each_worn_one),
-        cmocka_unit_test(a_binding_that_matches_nothing_is_told),
+        cmocka_unit_test(a_binding_that_matches_nothing_is_reported),
         cmocka_unit_test(shapes_say_what_they_are),
         cmocka_unit_test(a_cones_length_follows_its_half_angle),
         cmocka_unit_test(misplacement_bounds_what_rounding_does),

@@ -155,7 +155,7 @@ static int prepare_status(void)
     return status;
 }
 
-static void door_refuses_what_a_built_scene_never_holds(void **state)
+static void prepare_refuses_scenes_that_build_never_makes(void **state)
 {
     (void)state;
     static const double wrong[] = {NAN, INFINITY, -INFINITY, 1.0000001e100, -1e308};
@@ -206,7 +206,7 @@ int main(void)
         cmocka_unit_test(normals_of_slivers_agree_with_exact_integers),
         cmocka_unit_test(sliver_of_aspect_1e80_keeps_its_incidence),
         cmocka_unit_test(tiny_facet_in_a_large_scene_keeps_its_area),
-        cmocka_unit_test(door_refuses_what_a_built_scene_never_holds),
+        cmocka_unit_test(prepare_refuses_scenes_that_build_never_makes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -268,7 +268,7 @@ static const refusal refusals[] = {
      LRCS_E_NAME, 10},
 };
 
-static void what_is_wrong_is_told_with_its_line(void **state)
+static void errors_name_their_line(void **state)
 {
     (void)state;
     for (size_t i = 0; i < ROWS(refusals); i++) {
@@ -283,7 +283,7 @@ static void what_is_wrong_is_told_with_its_line(void **state)
     }
 }
 
-static void the_first_error_in_the_file_is_the_one_told(void **state)
+static void the_first_error_in_the_file_is_reported(void **state)
 {
     (void)state;
     lrcs_where where;
@@ -445,7 +445,7 @@ static void the_example_file_is_a_scene(void **state)
     free(area);
 }
 
-static void a_reader_that_does_not_ask_where_is_told_what(void **state)
+static void the_position_of_an_error_is_optional(void **state)
 {
     (void)state;
     for (size_t i = 0; i < ROWS(refusals); i++) {
@@ -480,8 +480,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_rich_file_comes_to_its_recipe),
         cmocka_unit_test(maps_and_materials_resolve_to_numbers),
-        cmocka_unit_test(what_is_wrong_is_told_with_its_line),
-        cmocka_unit_test(the_first_error_in_the_file_is_the_one_told),
+        cmocka_unit_test(errors_name_their_line),
+        cmocka_unit_test(the_first_error_in_the_file_is_reported),
         cmocka_unit_test(every_unknown_key_is_refused_in_every_table),
         cmocka_unit_test(a_recipe_takes_no_more_than_its_need),
         cmocka_unit_test(many_parts_fit_their_need),
@@ -489,7 +489,7 @@ int main(void)
         cmocka_unit_test(every_prefix_is_read_or_refused),
         cmocka_unit_test(flipped_bytes_are_read_or_refused),
         cmocka_unit_test(the_example_file_is_a_scene),
-        cmocka_unit_test(a_reader_that_does_not_ask_where_is_told_what),
+        cmocka_unit_test(the_position_of_an_error_is_optional),
         cmocka_unit_test(a_body_is_whole_unless_only_its_wall_is_wanted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

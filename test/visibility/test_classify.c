@@ -32,7 +32,7 @@ static uint32_t square(double x, double y, double z, double size)
                        (const double[3]){0, size, 0});
 }
 
-static void body_alone_is_uncontested(void **state)
+static void a_body_alone_has_no_undecided_facets(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -75,7 +75,7 @@ static void winding_that_changes_makes_no_events(void **state)
 
 /* A square of side 1 over the lower right half of a square of side 4, whose diagonal runs from
    (0, 0) to (4, 4): its four rims cross facet 0 and none crosses facet 1. */
-static void rims_in_front_contest_what_they_cross(void **state)
+static void boundary_edges_in_front_make_facets_that_they_cross_undecided(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -119,7 +119,7 @@ static void crossings_are_searched_for_once(void **state)
 /* A rim that projects exactly onto another plate's rim, or only touches it, crosses nothing. */
 /* A slope over which a level edge passes underneath, lower than all of it; but far to the left,
    where the slope is no more, the edge is above the slope's plane. */
-static void rims_behind_all_of_a_facet_do_not_contest_it(void **state)
+static void boundary_edges_behind_a_facet_do_not_make_it_undecided(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -137,7 +137,7 @@ static void rims_behind_all_of_a_facet_do_not_contest_it(void **state)
     assert_true(classification.undecided[1]);
 }
 
-static void rims_along_rims_contest_nothing(void **state)
+static void boundary_edges_along_boundary_edges_make_nothing_undecided(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -152,7 +152,7 @@ static void rims_along_rims_contest_nothing(void **state)
     assert_int_equal(lrcsi_query_facet(&facets, 8, NULL), LRCSI_QUERY_HIDDEN);
 }
 
-static void piercing_and_overlapping_facets_contest_each_other(void **state)
+static void piercing_and_overlapping_facets_make_each_other_undecided(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -351,11 +351,12 @@ static int lists_agree(const lrcsi_grid *some, const lrcsi_grid *all, size_t cel
     return 1;
 }
 
-/* The cells of those that are wanted list the same as ever, and the grid is smaller. */
-static void grids_serve_those_that_ask(void **state)
+/* The cells of the readers have complete lists, and the grid is smaller. */
+static void grids_have_complete_lists_where_they_are_read(void **state)
 {
     (void)state;
-    static unsigned char wanted[SCENE_FACETS];
+    static unsigned char reads[SCENE_FACETS];
+    static uint32_t region[SCENE_FACETS]; /* no facet is the first of its region */
     scene_start(&scene);
     scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 20);
     scene_box(&scene, (const double[3]){-3, -0.1, -0.1}, (const double[3]){3, 0.1, 0.2});
@@ -363,11 +364,13 @@ static void grids_serve_those_that_ask(void **state)
     for (uint32_t every = 1; every < 200; every += 66) {
         lrcsi_grid some;
         for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-            wanted[f] = f % every == 0;
+            reads[f] = f % every == 0;
+            region[f] = LRCS_NONE;
         }
+        const lrcsi_grid_readers readers = {reads, region};
         lrcs_work after = work;
         assert_int_equal(
-            lrcsi_grid_facets(&classification.grid, &classification.boxes, wanted, &after, &some),
+            lrcsi_grid_facets(&classification.grid, &classification.boxes, &readers, &after, &some),
             LRCS_OK);
         size_t cells = (size_t)some.size * some.size;
         assert_true(every == 1 || some.first[cells] < facets.first[cells]);
@@ -401,7 +404,7 @@ static void events_stand_in_order_of_depth(void **state)
 
 /* Triangles in a stack, each crossed by edges of all above it, of which most look as if they might:
    asking each about every edge in front of it took 15 million steps for 1,000. */
-static void stacked_facets_are_told_in_linear_time(void **state)
+static void stacked_facets_are_classified_in_linear_time(void **state)
 {
     (void)state;
     scene_start(&scene);
@@ -452,23 +455,23 @@ static void needles_about_a_tip_are_decided(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(body_alone_is_uncontested),
+        cmocka_unit_test(a_body_alone_has_no_undecided_facets),
         cmocka_unit_test(winding_that_changes_makes_no_events),
-        cmocka_unit_test(rims_in_front_contest_what_they_cross),
+        cmocka_unit_test(boundary_edges_in_front_make_facets_that_they_cross_undecided),
         cmocka_unit_test(crossings_are_searched_for_once),
-        cmocka_unit_test(rims_behind_all_of_a_facet_do_not_contest_it),
-        cmocka_unit_test(rims_along_rims_contest_nothing),
-        cmocka_unit_test(piercing_and_overlapping_facets_contest_each_other),
+        cmocka_unit_test(boundary_edges_behind_a_facet_do_not_make_it_undecided),
+        cmocka_unit_test(boundary_edges_along_boundary_edges_make_nothing_undecided),
+        cmocka_unit_test(piercing_and_overlapping_facets_make_each_other_undecided),
         cmocka_unit_test(uniform_neighbours_form_regions),
         cmocka_unit_test(a_rim_along_a_shared_edge_parts_regions),
         cmocka_unit_test(a_plane_through_a_shared_edge_parts_regions),
         cmocka_unit_test(components_end_at_contours),
         cmocka_unit_test(whole_components_screen_and_others_do_not),
         cmocka_unit_test(events_stand_in_order_of_depth),
-        cmocka_unit_test(stacked_facets_are_told_in_linear_time),
+        cmocka_unit_test(stacked_facets_are_classified_in_linear_time),
         cmocka_unit_test(needles_about_a_tip_are_decided),
         cmocka_unit_test(grids_list_every_item_wherever_it_stands),
-        cmocka_unit_test(grids_serve_those_that_ask),
+        cmocka_unit_test(grids_have_complete_lists_where_they_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,7 +55,7 @@ static void what_is_in_front_lies_left_of_a_contact(void **state)
     }
 }
 
-static void order_is_told_by_either_plane_or_where_sides_cross(void **state)
+static void order_follows_from_either_plane_or_from_crossing_sides(void **state)
 {
     (void)state;
     look((const double[3]){1, 1, 1}, (const double[3]){2, 1, 1}, (const double[3]){1, 2, 0});
@@ -76,7 +76,7 @@ static void order_is_told_by_either_plane_or_where_sides_cross(void **state)
 /* The corner (-1,1,1) of facet 0 lies on a side of facet 1, which is above it elsewhere: over its
    corner at the origin, and over a side. No sides cross in the view. All that, turned four times.
  */
-static void order_is_told_by_a_corner_on_a_side(void **state)
+static void order_follows_from_a_corner_on_a_side(void **state)
 {
     (void)state;
     static const double corner[6][3] = {{0, 0, 0},   {0, 8, 0}, {-1, 1, 1},
@@ -106,8 +106,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_contact_is_as_the_heights_say),
         cmocka_unit_test(what_is_in_front_lies_left_of_a_contact),
-        cmocka_unit_test(order_is_told_by_either_plane_or_where_sides_cross),
-        cmocka_unit_test(order_is_told_by_a_corner_on_a_side),
+        cmocka_unit_test(order_follows_from_either_plane_or_from_crossing_sides),
+        cmocka_unit_test(order_follows_from_a_corner_on_a_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -242,13 +242,13 @@ static void grids_are_made_coarser_for_large_facets(void **state)
 }
 
 /* In so many bytes, and unharmed where they are too few. */
-static int facets_in(const lrcsi_classification *classification, const unsigned char *wanted,
+static int facets_in(const lrcsi_classification *classification, const lrcsi_grid_readers *readers,
                      size_t size)
 {
     lrcsi_grid grid;
     lrcs_work work = lrcs_work_make(little, size);
     int status =
-        lrcsi_grid_facets(&classification->grid, &classification->boxes, wanted, &work, &grid);
+        lrcsi_grid_facets(&classification->grid, &classification->boxes, readers, &work, &grid);
     assert_int_equal(status, work.peak <= size ? LRCS_OK : LRCS_E_MEMORY);
     assert_true(status == LRCS_OK || work.used == 0);
     return status;
@@ -258,7 +258,9 @@ static void grids_of_facets_fit_into_what_they_ask_for(void **state)
 {
     (void)state;
     static unsigned char all[512];
+    static uint32_t region[512];
     memset(all, 1, sizeof all);
+    const lrcsi_grid_readers readers = {all, region};
     for (uint32_t count = 1; count <= 512; count = 3 * count / 2 + 1) {
         lrcs_work work;
         shards(count);
@@ -267,16 +269,16 @@ static void grids_of_facets_fit_into_what_they_ask_for(void **state)
         assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
         size_t need = lrcsi_grid_facets_need(view.prepared);
         size_t fits = 0;
-        while (facets_in(&classification, all, fits) != LRCS_OK) {
+        while (facets_in(&classification, &readers, fits) != LRCS_OK) {
             fits += count < 20 ? 1 : 97;
         }
         assert_true(fits <= need);
-        assert_int_equal(facets_in(&classification, all, need), LRCS_OK);
+        assert_int_equal(facets_in(&classification, &readers, need), LRCS_OK);
         assert_int_equal(facets_in(&classification, NULL, need), LRCS_OK);
     }
 }
 
-static void contests_fit_into_what_they_ask_for(void **state)
+static void classifications_fit_into_what_they_ask_for(void **state)
 {
     (void)state;
     for (uint32_t count = 1; count <= 512; count = 3 * count / 2 + 1) {
@@ -306,7 +308,7 @@ int main(void)
         cmocka_unit_test(boxes_of_runs_hold_their_facets),
         cmocka_unit_test(grids_are_made_coarser_for_large_facets),
         cmocka_unit_test(grids_of_facets_fit_into_what_they_ask_for),
-        cmocka_unit_test(contests_fit_into_what_they_ask_for),
+        cmocka_unit_test(classifications_fit_into_what_they_ask_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

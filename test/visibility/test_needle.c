@@ -97,7 +97,7 @@ static void segments_are_clipped_to_what_is_near(void **state)
 }
 
 /* A line through (1/4, 1/4) along u: on it nothing is sure; 2^-40 of the width beside it all is. */
-static void sides_are_told_within_the_width(void **state)
+static void sides_are_decided_within_the_width_of_a_needle(void **state)
 {
     (void)state;
     double from[3];
@@ -145,7 +145,7 @@ int main(void)
         cmocka_unit_test(only_what_double_double_tells_is_a_needle),
         cmocka_unit_test(shares_are_exact_however_thin),
         cmocka_unit_test(segments_are_clipped_to_what_is_near),
-        cmocka_unit_test(sides_are_told_within_the_width),
+        cmocka_unit_test(sides_are_decided_within_the_width_of_a_needle),
         cmocka_unit_test(lines_have_the_sign_of_the_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

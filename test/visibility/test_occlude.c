@@ -84,7 +84,7 @@ static void hidden_and_edge_on_facets_have_no_pieces(void **state)
 }
 
 /* A grid of plates, many more than a cell takes: each hides what it covers. */
-static void pieces_of_a_contested_facet_have_the_area_told(void **state)
+static void pieces_of_an_undecided_facet_add_up_to_its_area(void **state)
 {
     (void)state;
     uint32_t pieces;
@@ -218,7 +218,7 @@ static void the_edge_of_a_facet_seen_edge_on_ends_its_surface(void **state)
 /* Facet 1 passes through a corner of facet 0 with a side, and lies above it although the plane of
    either parts the other's corners; no two of their sides cross in the view. Facet 0 is as wide as
    1 and as long as told. */
-static void order_is_told_by_corners_on_sides_of_a_needle_too(void **state)
+static void order_follows_from_corners_on_sides_of_a_needle_too(void **state)
 {
     (void)state;
     for (int n = 3; n <= 45; n += 6) {
@@ -423,12 +423,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whole_facet_is_its_own_triangle),
         cmocka_unit_test(hidden_and_edge_on_facets_have_no_pieces),
-        cmocka_unit_test(pieces_of_a_contested_facet_have_the_area_told),
+        cmocka_unit_test(pieces_of_an_undecided_facet_add_up_to_its_area),
         cmocka_unit_test(facet_in_front_hides_its_shadow),
         cmocka_unit_test(piercing_facet_hides_only_what_its_upper_part_covers),
         cmocka_unit_test(facets_behind_beside_or_in_contact_hide_nothing),
         cmocka_unit_test(the_edge_of_a_facet_seen_edge_on_ends_its_surface),
-        cmocka_unit_test(order_is_told_by_corners_on_sides_of_a_needle_too),
+        cmocka_unit_test(order_follows_from_corners_on_sides_of_a_needle_too),
         cmocka_unit_test(a_fin_through_a_plate_when_both_are_seen_edge_on),
         cmocka_unit_test(front_skin_hides_a_back_in_its_plane),
         cmocka_unit_test(shallow_cuts_own_up_to_their_position_err),

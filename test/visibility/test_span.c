@@ -114,7 +114,7 @@ static void spans_are_those_of_whole_numbers(void **state)
     assert_true(found > 10000);
 }
 
-static void sides_along_the_rows_are_told_by_the_row(void **state)
+static void sides_along_the_rows_are_decided_for_the_whole_row(void **state)
 {
     (void)state;
     static const int flat[3][2] = {{0, 80}, {512, 80}, {256, 400}};
@@ -214,7 +214,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spans_are_those_of_whole_numbers),
-        cmocka_unit_test(sides_along_the_rows_are_told_by_the_row),
+        cmocka_unit_test(sides_along_the_rows_are_decided_for_the_whole_row),
         cmocka_unit_test(what_is_within_the_error_is_not_sure),
         cmocka_unit_test(segments_are_followed_through_the_pixels_they_meet),
     };

@@ -55,8 +55,8 @@ static void facets_move(const compare_case *one, const lrcs_scene *from, lrcs_sc
 /* The records of a case if of coplanar facets the wrong one is seen: backs before fronts, then the
    last before the first. Depths of one plane that differ by rounding make this mistake in some
    pixels. The true records must be there already. 0 or CLI_FAILED with the message printed. */
-static int skins_run(const compare_kit *kit, const compare_case *one,
-                     const lrcs_run_options *options, lrcs_facet_record *records)
+static int run_wrong_coplanar(const compare_kit *kit, const compare_case *one,
+                              const lrcs_run_options *options, lrcs_facet_record *records)
 {
     const lrcs_scene *from = &kit->scene[one->scene].host.scene;
     lrcs_host_scene moved;
@@ -109,8 +109,8 @@ static int records_own(const compare_kit *kit, const compare_case *one,
     lrcs_pose pose = one->pose;
     options.method = LRCS_METHOD_EXACT;
     options.without = mistake->without;
-    if (mistake->skins) {
-        return skins_run(kit, one, &options, own);
+    if (mistake->wrong_coplanar) {
+        return run_wrong_coplanar(kit, one, &options, own);
     }
     if (mistake->turn && cli_mistake_turn(mistake, one, &pose) != LRCS_OK) {
         pose = one->pose;
@@ -131,7 +131,7 @@ static int view_make(const compare_kit *kit, compare_case *one, const compare_mi
     if (code == 0 && one->peak == 0.0) {
         one->peak = view_peak(view);
     }
-    if (code != 0 || (!mistake->turn && !mistake->without && !mistake->skins)) {
+    if (code != 0 || (!mistake->turn && !mistake->without && !mistake->wrong_coplanar)) {
         return code;
     }
     *own = calloc((size_t)view->scene->host.scene.facet_count + 1, sizeof **own);

@@ -276,8 +276,8 @@ typedef struct compare_mistake {
     int axes[3]; /* of turn: for x, y, z of s_hat, the component that is used, 1 .. 3, negative to
                     mirror it */
     int corners; /* 3 if the facet is the mean of the values at its corners */
-    uint32_t without; /* effects that are left out, lrcs_run_options.without */
-    int skins;        /* 1 if of coplanar facets the wrong one is seen */
+    uint32_t without;   /* effects that are left out, lrcs_run_options.without */
+    int wrong_coplanar; /* 1 if of coplanar facets the wrong one is seen */
 } compare_mistake;
 
 /* The catalogue, terminated by a NULL name; the first entry is no mistake. */

@@ -199,10 +199,10 @@ static search_score mistake_score(const compare_search *search, double factor)
         double expected = factor * search->answer[search->failings + i];
         touched += case_touched(search, search->passing[i], expected) ? search->weight : 0.0;
     }
-    uint32_t told = score.explained - mute;
-    double precise = touched > 0.0 ? told / touched : 0.0;
-    int striking = removed >= (1.0 - 0.5 * STRIKING) * told;
-    if (told > 0 && (told >= ENOUGH || striking) && precise >= PRECISE) {
+    uint32_t conclusive = score.explained - mute;
+    double precise = touched > 0.0 ? conclusive / touched : 0.0;
+    int striking = removed >= (1.0 - 0.5 * STRIKING) * conclusive;
+    if (conclusive > 0 && (conclusive >= ENOUGH || striking) && precise >= PRECISE) {
         score.score = precise * removed / (search->failings - mute);
     }
     return score;

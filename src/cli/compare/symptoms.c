@@ -52,7 +52,8 @@ static double way_moved(const compare_job *job, const compare_case *one, double 
 
 /* ---- findings ---- */
 
-static int case_near(const compare_job *job, const compare_case *one, double sigma_m2)
+/* Is sigma_m2 within the allowed deviation of the case's true value? */
+static int answer_matches(const compare_job *job, const compare_case *one, double sigma_m2)
 {
     return fabs(sigma_m2 - one->sigma_m2) <= cli_compare_allowed(one, job->grade, job->pixels);
 }
@@ -70,7 +71,8 @@ static void format_say(compare_search *search, const char *name, const char *tex
 {
     for (uint32_t i = 0; i < search->failings; i++) {
         const compare_case *one = search->failing[i];
-        search->holds[i] = (unsigned char)case_near(search->job, one, way(search->job, one, at));
+        search->holds[i] =
+            (unsigned char)answer_matches(search->job, one, way(search->job, one, at));
     }
     compare_finding *finding =
         holds_most(search) ? cli_search_find(search, name, "%s", text) : NULL;
@@ -79,7 +81,7 @@ static void format_say(compare_search *search, const char *name, const char *tex
             &search->job->kit.list[i]; /* an invalid number may become a valid one */
         if (one->given && !isfinite(one->theirs_m2) && one->explained == 0 &&
             cli_compare_failed(search->job, one) &&
-            case_near(search->job, one, way(search->job, one, at))) {
+            answer_matches(search->job, one, way(search->job, one, at))) {
             one->explained = (int)search->job->findings;
             finding->explained++;
         }
@@ -276,7 +278,7 @@ static void depth_say(compare_search *search)
    coplanar facets is seen: 1, 0, or -1 on failure. */
 static int case_fights(const compare_search *search, compare_case *one)
 {
-    static const compare_mistake wrong = {.name = "skins", .text = "", .skins = 1};
+    static const compare_mistake wrong = {.name = "skins", .text = "", .wrong_coplanar = 1};
     const compare_job *job = search->job;
     double allowed = cli_compare_allowed(one, job->grade, job->pixels);
     double other = 0.0;

@@ -116,16 +116,17 @@ static void map_section(FILE *out, const report_job *job)
 static void most_cell(FILE *out, const cli_shares *shares, const shares_row *row, uint32_t count,
                       const char *nameless)
 {
-    double told = 0.0;
+    double named_share = 0.0;
     uint32_t i = 0;
     fputs("<td class=\"why\">", out);
-    for (; i < count && i < NAMED_MOST && told < NAMED_ENOUGH && row[i].sigma_m2 > 0.0; i++) {
+    for (; i < count && i < NAMED_MOST && named_share < NAMED_ENOUGH && row[i].sigma_m2 > 0.0;
+         i++) {
         double share = cli_share_of(shares, row[i].sigma_m2);
         fputs(i > 0 ? ", " : "", out);
         cli_page_name(out, row[i].name, nameless);
         fputs("\xc2\xa0", out);
         cli_page_percent(out, share);
-        told += share;
+        named_share += share;
     }
     shares_row others = cli_shares_others(row, i, count);
     if (others.sigma_m2 > 0.0) {

@@ -123,11 +123,11 @@ static void numbers_print(const sweep_plan *plan, uint32_t rank, uint64_t row,
 /* The number of rows of a list that are named: until their share suffices, at most NAMED_MOST. */
 static uint32_t rows_named(const cli_shares *shares, const shares_row *row, uint32_t count)
 {
-    double told = 0.0;
+    double named_share = 0.0;
     uint32_t named = 0;
-    while (named < count && named < NAMED_MOST && told < NAMED_ENOUGH &&
+    while (named < count && named < NAMED_MOST && named_share < NAMED_ENOUGH &&
            row[named].sigma_m2 > 0.0) {
-        told += cli_share_of(shares, row[named++].sigma_m2);
+        named_share += cli_share_of(shares, row[named++].sigma_m2);
     }
     return named;
 }

@@ -72,7 +72,7 @@ static int head_options(const cli_args *args, const sweep_plan *plan,
    depend on where the files are stored; and the command-line options that changed it. */
 static int head_scene(const cli_args *args, const lrcs_host_scene *scene, sweep_head *head)
 {
-    static const char *const told[] = {"unit", "material", "two-sided", "keep-transparent", NULL};
+    static const char *const names[] = {"unit", "material", "two-sided", "keep-transparent", NULL};
     char text[CLI_FILE_TEXT];
     head_add(head, "normals", lrcs_normals_text(scene->scene.normals));
     head_add(head, "title", cli_base_name(cli_scene_title(args, scene)));
@@ -85,7 +85,7 @@ static int head_scene(const cli_args *args, const lrcs_host_scene *scene, sweep_
             break; /* the scene's hash stands for all of them */
         }
     }
-    return head_given(args, told, head);
+    return head_given(args, names, head);
 }
 
 int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_options *options,
