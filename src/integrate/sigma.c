@@ -186,7 +186,6 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
 {
     const lrcsi_view *view = &run->view;
     const lrcs_prepared *p = view->prepared;
-    int backs_unseen = p->solid && view->backs_cast;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         lrcsi_visible *visible = &run->visible[f];
         int front = view->facing[f] > 0;
@@ -201,9 +200,7 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
             }
             *visible = known;
         }
-        if (backs_unseen && view->facing[f] < 0) {
-            visible->low = 0;
-        }
+        *visible = lrcsi_visible_proved(view, f, *visible);
         if (front && run->clear.count > 0 && run->clear.part[p->scene->facet_part[f]]) {
             double projected = lrcsi_view_projected(view, f);
             *visible = (lrcsi_visible){projected, projected, projected, 0, 0};
