@@ -1,11 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs run --time-budget: the most accurate answer that can be computed in a given time. Settings
-   are run one after another, in the order of the time that they are expected to take. How long a
-   setting takes is not known in advance, so a separate process runs them and reports every answer;
-   when the time is up, the best of all answers counts, whenever it came, and the running setting is
-   stopped. So no setting that comes before it would have been better. This file decides which
-   settings are tried; each is an ordinary run, which the same options reproduce. */
+/* lrcs run --time-budget: the most accurate answer that can be computed in a given time. How long a
+   setting takes is not known in advance. So separate processes run three sequences of settings, in
+   each of which a setting takes at least as long as the one before it, and one process at a time
+   runs, in turns (turns.h). When the time is up, the best of all answers counts, whenever it came.
+
+   Claim: no setting that takes less time than the one that is returned would have been better, but
+   for the length of a turn. A raster that is returned: by turns.h all settings of all sequences
+   that take less have been completed. A tolerance or clipping that is returned: those that take
+   less are before it, and a raster cannot be better, because it has the error of the same mesh and
+   that of its samples besides. The exception is a tolerance that was answered by a raster, or whose
+   bound says little: then the claim holds for rasters that take less than a fourth of its time.
+
+   This file decides which settings are tried; each is an ordinary run, which the same options
+   reproduce. */
 #include "cli/run/run.h"
+#include "cli/run/turns.h"
 
 #include <errno.h>
 #include <math.h>
@@ -13,6 +22,7 @@
 #include <signal.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 /* A bound above this share of sigma says little: beyond it a likely error decides. */
@@ -22,17 +32,21 @@
 #define RUNGS     23
 #define RUNG_NONE (-1) /* for scenes that no tolerance changes */
 
-/* The rasters that are tried, in order of cost; those accepted by estimate evaluate only
-   samples. */
-static const struct {
-    uint32_t size;
-    int accept;
-} rasters[] = {
-    {256, LRCS_ACCEPT_ESTIMATE}, {1024, LRCS_ACCEPT_ESTIMATE}, {64, LRCS_ACCEPT_BOUND},
-    {128, LRCS_ACCEPT_BOUND},    {256, LRCS_ACCEPT_BOUND},     {512, LRCS_ACCEPT_BOUND},
-    {1024, LRCS_ACCEPT_BOUND},   {2048, LRCS_ACCEPT_BOUND},    {4096, LRCS_ACCEPT_BOUND}};
+/* The sequences: tolerances by the method that suffices (if no tolerance changes anything, clipping
+   instead); rasters accepted by estimate, which evaluate only samples; rasters with bounds. The
+   work of a tolerance grows with its digits, that of a raster with its size. Few sizes, because
+   part of the work of a raster does not depend on its size. */
+enum budget_chain { CHAIN_SOUGHT, CHAIN_ESTIMATES, CHAIN_RASTERS, CHAINS };
 
-#define RASTERS (sizeof rasters / sizeof rasters[0])
+static const uint32_t estimates_size[] = {256, 1024, 0};
+static const uint32_t rasters_size[] = {256, 1024, 4096, 0};
+
+/* The least time of a turn, s: on a busy machine it may take some milliseconds until a process that
+   is continued runs. */
+#define TURN_LEAST 5e-3
+
+/* The weight of tolerances: rasters delay one by at most 5/8 of its time, and a turn of each. */
+#define SOUGHT_WEIGHT 4.0
 
 /* An answer on its way to the parent process. Its reasons are constant texts, at the same address
    in both processes. */
@@ -45,11 +59,22 @@ typedef struct budget_answer {
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
-/* The process that runs settings, and the pipe of its answers. */
+/* A process that runs a sequence of settings, and the pipe of its answers. */
 typedef struct budget_runner {
     pid_t process;
     int end; /* read end of its pipe; negative if the process has ended */
 } budget_runner;
+
+/* All of them, and a process that ends them if this one ends before it could. At first only that of
+   the tolerances is started, which often needs a single turn. */
+typedef struct budget_runners {
+    budget_runner one[CHAINS];
+    run_sequence sequence[CHAINS];
+    int running; /* the one that is not stopped, or -1 */
+    int started; /* 1 if all have been started */
+    pid_t guard;
+    int alive; /* write end of the pipe that the guard reads until its end; negative if none */
+} budget_runners;
 
 static const char *rung_text(int rung, char text[16])
 {
@@ -71,13 +96,16 @@ static double rung_tolerance(int rung)
 
 /* ---- settings ---- */
 
-/* Runs one setting. Status: as lrcs_host_scene_run. */
+/* Runs one setting; its time is that of the processor, because the process may be stopped in
+   between. Status: as lrcs_host_scene_run. */
 static int setting_run(run_job *job, int rung, int sought, budget_answer *answer,
                        lrcs_host_error *error)
 {
     memset(answer, 0, sizeof *answer);
+    clock_t begun = clock();
     int status = lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &answer->result, NULL,
-                                     NULL, &answer->seconds_pose, error);
+                                     NULL, NULL, error);
+    answer->seconds_pose = (double)(clock() - begun) / CLOCKS_PER_SEC;
     answer->rung = rung;
     answer->named = job->options.method != LRCS_METHOD_AUTO;
     answer->sought = sought;
@@ -87,13 +115,12 @@ static int setting_run(run_job *job, int rung, int sought, budget_answer *answer
     return status;
 }
 
-/* The same in the runner, which reports the answer; 0, or -1 if it failed or the pipe is closed. */
-static int setting_report(run_job *job, int rung, int sought, int answers, double *seconds)
+/* The same in a runner, which reports the answer; 0, or -1 if it failed or the pipe is closed. */
+static int setting_report(run_job *job, int rung, int sought, int answers)
 {
     budget_answer answer;
-    int status = setting_run(job, rung, sought, &answer, NULL);
-    *seconds = answer.seconds_pose;
-    return status == LRCS_OK && write(answers, &answer, sizeof answer) == (ssize_t)sizeof answer
+    return setting_run(job, rung, sought, &answer, NULL) == LRCS_OK &&
+                   write(answers, &answer, sizeof answer) == (ssize_t)sizeof answer
                ? 0
                : -1;
 }
@@ -117,51 +144,51 @@ static int rung_scene(run_job *job, int rung)
     return rung < RUNGS && lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? rung : RUNGS;
 }
 
-/* Runs settings in the order of their expected times: rasters, and tolerances by the method that
-   suffices; if no tolerance changes anything, clipping instead. The first tolerance is expected to
-   take as long as the scene took to prepare, and rasters come before it as long as they take less.
-   The time of the next raster is expected to grow in proportion to its pixels per row, because part
-   of the time depends on the facets. Once a tolerance has an answer, rasters of the same mesh
-   cannot improve it. */
-static void settings_run(run_job *job, int rung, int answers)
+static void rasters_run(run_job *job, const uint32_t *size, int accept, int rung, int answers)
+{
+    int over = 0;
+    job->options.method = LRCS_METHOD_ZBUFFER;
+    job->options.accept = accept;
+    for (; *size && over == 0; size++) {
+        job->options.resolution = *size;
+        over = setting_report(job, rung, 0, answers);
+    }
+}
+
+static void tolerances_run(run_job *job, int rung, int answers)
 {
     const int last = rung == RUNG_NONE ? RUNG_NONE : RUNGS - 1;
     const int shapes = cli_has_curved_shapes(&job->scene.scene);
-    const double prepare = job->scene.seconds_prepare;
-    double expected = 0.0; /* time of the next raster */
-    double seconds;
     int over = 0;
-    job->options.method = LRCS_METHOD_ZBUFFER;
-    for (size_t i = 0; i < RASTERS && over == 0 && expected <= prepare; i++) {
-        job->options.resolution = rasters[i].size;
-        job->options.accept = rasters[i].accept;
-        over = setting_report(job, rung, 0, answers, &seconds);
-        double times = i + 1 < RASTERS ? (double)rasters[i + 1].size / rasters[i].size : 1.0;
-        expected = seconds * fmax(times, 1.0);
-    }
     job->options.method = rung == RUNG_NONE ? LRCS_METHOD_EXACT : LRCS_METHOD_AUTO;
-    job->options.resolution = 0;
-    job->options.accept = LRCS_ACCEPT_BOUND;
     while (over == 0 && rung <= last) {
         job->options.tolerance = rung_tolerance(rung);
-        over = setting_report(job, rung, 1, answers, &seconds);
+        over = setting_report(job, rung, 1, answers);
         rung = shapes ? rung_scene(job, rung + 1) : rung + 1;
     }
 }
 
-/* Starts the process; if that fails, it counts as ended. */
-static void runner_start(run_job *job, int rung, budget_runner *runner)
+/* Starts a process; if that fails, its sequence is over. */
+static void runner_start(run_job *job, int chain, int rung, budget_runners *all)
 {
+    budget_runner *runner = &all->one[chain];
     int end[2];
-    *runner = (budget_runner){.end = -1};
+    all->sequence[chain].over = 1;
     if (pipe(end) != 0) {
         return;
     }
+    fflush(NULL); /* otherwise both processes would write the buffered output */
     runner->process = fork();
     if (runner->process == 0) {
         signal(SIGINT, SIG_DFL); /* the parent reports what remains after a Ctrl-C */
         close(end[0]);
-        settings_run(job, rung, end[1]);
+        if (chain == CHAIN_SOUGHT) {
+            tolerances_run(job, rung, end[1]);
+        } else if (chain == CHAIN_RASTERS) {
+            rasters_run(job, rasters_size, LRCS_ACCEPT_BOUND, rung, end[1]);
+        } else {
+            rasters_run(job, estimates_size, LRCS_ACCEPT_ESTIMATE, rung, end[1]);
+        }
         _exit(0);
     }
     close(end[1]);
@@ -170,17 +197,89 @@ static void runner_start(run_job *job, int rung, budget_runner *runner)
         return;
     }
     runner->end = end[0];
+    all->sequence[chain].over = 0;
+}
+
+/* Starts the process that waits for the end of this one and then ends the runners: a stopped
+   process would otherwise remain for ever. */
+static void guard_start(budget_runners *all)
+{
+    int end[2];
+    all->alive = -1;
+    all->guard = pipe(end) == 0 ? fork() : -1;
+    if (all->guard == 0) {
+        char byte;
+        signal(SIGINT, SIG_IGN);
+        signal(SIGHUP, SIG_IGN);
+        signal(SIGTERM, SIG_IGN);
+        close(end[1]);
+        while (read(end[0], &byte, 1) < 0 && errno == EINTR) {
+        }
+        for (int i = 0; i < CHAINS; i++) {
+            if (all->one[i].end >= 0) {
+                kill(all->one[i].process, SIGKILL);
+            }
+        }
+        _exit(0);
+    }
+    if (all->guard > 0) {
+        close(end[0]);
+        all->alive = end[1];
+    }
+}
+
+static void runners_start(run_job *job, int rung, budget_runners *all)
+{
+    memset(all, 0, sizeof *all);
+    all->alive = -1;
+    for (int i = 0; i < CHAINS; i++) {
+        all->one[i].end = -1;
+        all->sequence[i].weight = i == CHAIN_SOUGHT ? SOUGHT_WEIGHT : 1.0;
+    }
+    runner_start(job, CHAIN_SOUGHT, rung, all);
+    all->running = CHAIN_SOUGHT;
+}
+
+/* Starts the others, stopped until their first turn. */
+static void others_start(run_job *job, int rung, budget_runners *all)
+{
+    for (int i = 0; i < CHAINS; i++) {
+        if (i != CHAIN_SOUGHT) {
+            runner_start(job, i, rung, all);
+        }
+        if (i != CHAIN_SOUGHT && all->one[i].end >= 0) {
+            kill(all->one[i].process, SIGSTOP);
+        }
+    }
+    guard_start(all);
+    all->started = 1;
 }
 
 /* ---- in the parent ---- */
 
-static void runner_stop(budget_runner *runner)
+static void runner_stop(budget_runners *all, int i)
 {
+    budget_runner *runner = &all->one[i];
     if (runner->end >= 0) {
         close(runner->end);
         kill(runner->process, SIGKILL);
         waitpid(runner->process, NULL, 0);
         runner->end = -1;
+    }
+    all->sequence[i].over = 1;
+    all->running = all->running == i ? -1 : all->running;
+}
+
+/* Ends all processes; the guard first, so that it does not end one that no longer is theirs. */
+static void runners_stop(budget_runners *all)
+{
+    if (all->alive >= 0) {
+        kill(all->guard, SIGKILL);
+        waitpid(all->guard, NULL, 0);
+        close(all->alive);
+    }
+    for (int i = 0; i < CHAINS; i++) {
+        runner_stop(all, i);
     }
 }
 
@@ -217,22 +316,59 @@ static int time_left(const run_budget *budget)
     return left > 1e9 ? 1000000000 : left > 0.0 ? (int)ceil(left) : 0;
 }
 
-/* Receives answers until the time is up, no more are to come, or one meets the tolerance asked
-   for. */
-static void runner_watch(run_job *job, const budget_runner *runner, budget_answer *best)
+/* Receives an answer of a runner, and ends the runner if it has none left. An answer that is not
+   from a raster and whose bound says something ends the rasters, none of which can be better. 1 if
+   an answer came. */
+static int answer_take(budget_runners *all, int i, budget_answer *best)
 {
-    while (!cli_run_meets(&best->result, job->asked)) {
-        struct pollfd wait = {.fd = runner->end, .events = POLLIN};
-        int ready = poll(&wait, 1, time_left(&job->budget));
-        if (ready < 0 && errno == EINTR) {
-            continue; /* interrupted by the signal of the watch */
+    budget_answer answer;
+    if (read(all->one[i].end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
+        runner_stop(all, i);
+        return 0;
+    }
+    if (i == CHAIN_SOUGHT && answer.result.method != LRCS_METHOD_ZBUFFER &&
+        answer_error(&answer) <= BOUND_TELLS * answer.result.sigma_m2) {
+        runner_stop(all, CHAIN_ESTIMATES);
+        runner_stop(all, CHAIN_RASTERS);
+    }
+    if (answer_beats(&answer, best)) {
+        *best = answer;
+    }
+    return 1;
+}
+
+/* Gives turns until the time is up, no more answers are to come, or one meets the tolerance asked
+   for. */
+static void runners_watch(run_job *job, int rung, budget_runners *all, budget_answer *best)
+{
+    int turn;
+    while (!cli_run_meets(&best->result, job->asked) && time_left(&job->budget) > 0 &&
+           (turn = cli_turn_next(all->sequence, CHAINS)) >= 0) {
+        if (turn != all->running) {
+            if (!all->started) {
+                others_start(job, rung, all);
+                continue; /* one that could not be started is over */
+            }
+            if (all->running >= 0) {
+                kill(all->one[all->running].process, SIGSTOP);
+            }
+            kill(all->one[turn].process, SIGCONT);
+            all->running = turn;
         }
-        budget_answer answer;
-        if (ready <= 0 || read(runner->end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
+        struct pollfd wait = {.fd = all->one[turn].end, .events = POLLIN};
+        double begun = cli_seconds();
+        double length = ceil(1e3 * cli_turn_length(&all->sequence[turn], TURN_LEAST));
+        int ready = poll(&wait, 1, (int)fmin(length, time_left(&job->budget)));
+        if (ready < 0 && errno != EINTR) { /* EINTR: the signal of the watch */
             break;
         }
-        if (answer_beats(&answer, best)) {
-            *best = answer;
+        int came = ready > 0 && answer_take(all, turn, best);
+        cli_turn_took(&all->sequence[turn], cli_seconds() - begun, came);
+    }
+    for (int i = 0; i < CHAINS; i++) { /* those that came at the end of a turn */
+        struct pollfd wait = {.fd = all->one[i].end, .events = POLLIN};
+        if (all->one[i].end >= 0 && poll(&wait, 1, 0) > 0) {
+            answer_take(all, i, best);
         }
     }
 }
@@ -316,7 +452,7 @@ int cli_run_budget(run_job *job)
 {
     lrcs_host_error error;
     budget_answer best;
-    budget_runner runner;
+    budget_runners all;
     int scales =
         cli_has_curved_shapes(&job->scene.scene) || job->scene.scene.normals != LRCS_NORMALS_FLAT;
     int rung = scales ? 0 : RUNG_NONE;
@@ -329,12 +465,9 @@ int cli_run_budget(run_job *job)
         return cli_failed(&error);
     }
     job->options.method = LRCS_METHOD_AUTO;
-    fflush(NULL); /* otherwise both processes would write the buffered output */
-    runner_start(job, rung, &runner);
-    if (runner.end >= 0) {
-        runner_watch(job, &runner, &best);
-    }
+    runners_start(job, rung, &all);
+    runners_watch(job, rung, &all, &best);
     job->budget.spent_ms = 1e3 * (cli_seconds() - job->budget.start);
-    runner_stop(&runner);
+    runners_stop(&all);
     return budget_settle(job, &best);
 }
