@@ -438,7 +438,7 @@ static int run_previews(lrcsi_sigma *run)
         if (!any && ns >= 4 * abandoned_ns && lrcsi_cost_clip(&cost, undecided) <= ns) {
             int outcome = run_clip_within(run, &cost, ns);
             if (outcome == CLIP_DONE) {
-                run->plan.reason = "clipping is reckoned to cost less than a raster";
+                run->plan.reason = "clipping is estimated to cost less than a raster";
                 return LRCS_OK;
             }
             abandoned_ns = outcome == CLIP_ABANDONED ? ns : abandoned_ns;
@@ -452,7 +452,7 @@ static int run_previews(lrcsi_sigma *run)
     }
     if (!any) {
         run->plan.reason = abandoned_ns > 0 ? "clipping was begun, and took longer than a raster"
-                                            : "a raster is reckoned to cost less than clipping";
+                                            : "a raster is estimated to cost less than clipping";
     }
     return status;
 }
@@ -474,7 +474,7 @@ static int run_shadowed(lrcsi_sigma *run)
         run->plan.previews = 0;
         if (options->accept == LRCS_ACCEPT_ESTIMATE) {
             run->plan.method = LRCS_METHOD_EXACT;
-            run->plan.reason = "few facets, or curved ones: a raster saves little of clipping";
+            run->plan.reason = "few facets, or curved ones: a raster would save little time";
         }
     }
     if (status == LRCS_OK && run->last > LRCSI_SIGMA_VIEW && !run_samples_only(run)) {
