@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* If there are more bins than this, the table shows only the strongest; --csv and --json contain
-   all of them. */
+/* If there are more rows than this, bins and those that only a pulse reaches, the table shows only
+   the strongest; --csv and --json contain all of them. */
 #define TABLE_ROWS 40u
 
 static double total_sigma(const profile_job *job)
@@ -189,7 +189,7 @@ static void rows_print(const profile_job *job)
         for (uint32_t i = 0; i < TABLE_ROWS / 2; i++) {
             row_print(job, &sorted[i]);
         }
-        printf("  the strongest %lu of %lu bins; --csv and --json give all\n",
+        printf("  the strongest %lu of %lu rows; --csv and --json give all\n",
                (unsigned long)(TABLE_ROWS / 2), (unsigned long)job->rows);
     }
     free(sorted);
