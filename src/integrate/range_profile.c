@@ -91,7 +91,7 @@ typedef struct profile_run {
     int64_t first;       /* the number of bin[0] */
     uint32_t count;
     bin_sums *bin;
-    uint32_t begin, end; /* all bins i with begin <= i < end, and no others, may hold something */
+    uint32_t begin, end;      /* only bins begin <= i < end may hold something */
     lrcsi_sum glint, diffuse; /* of all bins */
     double bound, additions, range_err, estimate;
     lrcsi_curve_options curve_options; /* its stack is NULL if all normals are flat */
@@ -466,13 +466,10 @@ static double pieces_add(profile_run *run, const profile_facet *f, uint32_t face
             triangle_add(run, f, incidence->projected, f->range, normal, corner_err);
         }
     }
-    lrcsi_visible visible = lrcsi_occlude_close(o);
+    lrcsi_visible visible = lrcsi_visible_proved(run->view, facet, lrcsi_occlude_close(o));
     if (o->undecided) {
         const lrcsi_target *target = &o->alone.target;
         area_err += 20 * LRCSI_U * target->reach * target->perimeter + o->alone.bent;
-    }
-    if (run->prepared->solid && run->view->facing[facet] < 0) {
-        visible.low = 0;
     }
     if (run->visible) {
         run->visible[facet] = visible;
