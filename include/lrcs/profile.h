@@ -9,7 +9,7 @@
 /* Range is measured along the line of sight, in metres: it is 0 at the origin of the body frame
    and grows away from the laser, -s_hat . x for a point x. */
 
-/* The most bins of a profile, and the largest number that one may have. */
+/* The largest count of bins of a profile, and the largest number k of a bin. */
 #define LRCS_PROFILE_BINS  1048576u
 #define LRCS_PROFILE_INDEX 1099511627776.0
 
@@ -17,8 +17,8 @@
 typedef struct lrcs_profile_bin {
     double sigma_glint_m2, sigma_diffuse_m2;
     double bound_m2;     /* proved: of their sum */
-    double variation_m2; /* proved: of what anything that weighs sigma by range within the bin, by
-                            1 at most, is off by: no less than bound_m2 */
+    double variation_m2; /* proved: of the error of sigma weighted by any function of range, of
+                            absolute value 1 at most, within the bin; at least bound_m2 */
     double curvature_estimate_m2; /* ESTIMATE, not proved: the error of the integral over curved
                                      normals, which no bound includes; 0 without such */
     double moment_m3; /* integral over the bin of range - (k + 0.5) bin_m, times d(sigma) */
@@ -37,7 +37,7 @@ typedef struct lrcs_profile {
                                      lrcs_result */
     int tessellation_known; /* 0: the bounds refer to the facets, not to the curved shapes that they
                                stand for: lrcs_result.budget */
-    double range_err_m;     /* proved: no point's range is off by more within its bin */
+    double range_err_m;     /* proved: bound on the error of the range of a point within its bin */
 } lrcs_profile;
 
 /* Bytes of work area, an upper bound for ordinary scenes. Where it does not suffice,
@@ -60,10 +60,10 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m);
    over range is piecewise linear; a bin's sigma is its integral, in closed form. On a facet with
    curved normals it is integrated by cubature over the visible parts in each bin, whose error is in
    curvature_estimate_m2. Range is that of the flat facets.
-   3. A facet normal to the line of sight has one range, and counts wholly in one bin: at a bin's
-   edge in the farther one. Is it so close to an edge that its side cannot be decided, the bounds of
-   both bins hold all of it. For a line of sight along an axis of the body frame all sides are told
-   exactly; else what is within 2^-94 of the scene's size is not. */
+   3. A facet normal to the line of sight has one range, and counts entirely in one bin: at the edge
+   of two bins, in the farther one. If it is too close to an edge for its side to be decided, the
+   bounds of both bins include all of it. For a line of sight along an axis of the body frame every
+   side is decided exactly; otherwise not within 2^-94 of the scene's size. */
 int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, double bin_m,
                      lrcs_work *work, lrcs_profile *profile);
 
@@ -72,9 +72,10 @@ int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, doubl
    Given: profile; fwhm_m, m, > 0; range_m.
    Returned: density_m, m^2 per m; bound_m, proved; estimate_m, an ESTIMATE of what the integral
    over curved normals adds to that error, 0 without such. Status: LRCS_OK; LRCS_E_ARGUMENT (the
-   width); LRCS_E_NUMBER (not finite). Work: O(bins). Notes: 1. A bin counts by its sigma and its
-   moment; what it holds beyond them is in the bound: about (bin_m / fwhm_m)^2 of the density. With
-   bins of fwhm_m / 100 that is 1e-4 of it. */
+   width); LRCS_E_NUMBER (not finite). Work: O(bins).
+   Notes: 1. Of each bin, sigma and its moment are used; the bound includes the effect of all higher
+   moments: about (bin_m / fwhm_m)^2 of the density, which is 1e-4 of it for bins of fwhm_m / 100.
+ */
 int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_m,
                        double *density_m, double *bound_m, double *estimate_m);
 

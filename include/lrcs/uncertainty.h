@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What sigma owes to its materials: its derivatives, and the uncertainty that the errors of A, B, s
-   and m leave in it. This is separate from lrcs_result.bound_m2, which never includes it: the bound
+/* How sigma depends on its materials: its derivatives, and the uncertainty that the errors of A, B,
+   s and m cause. This is separate from lrcs_result.bound_m2, which never includes it: the bound
    refers to the materials as given. */
 #ifndef LRCS_UNCERTAINTY_H
 #define LRCS_UNCERTAINTY_H
@@ -53,21 +53,20 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
    are those of sigma, and rounding adds less than 1e-12 of the sum of their terms without signs. So
    are those of curved normals, up to the error of the cubature (curvature_estimate_m2). Those of
    shapes by their closed forms (LRCS_METHOD_CLOSED) in s and m are differences of order 8 of the
-   closed form, good to about 1e-9 of
-   themselves and 1e-11 of the term. An effect left out (lrcs_run_options.without) has
-   derivative 0. ds and dm are 0 if A or B is 0; at s = 0 dA
-   and ds are 0, the limit from above.
-   2. First order: the square root of g' C g, summed over sources (lrcs_material.source): the
-   materials of one source are off together, those of different sources independently.
+   closed form, good to about 1e-9 of themselves and 1e-11 of the term. An effect left out
+   (lrcs_run_options.without) has derivative 0. ds is 0 if A is 0, and dm if B is 0; at s = 0 dA and
+   ds are 0, the limit from above.
+   2. First order: the square root of the sum of g' C g over sources (lrcs_material.source), with g
+   the derivatives and C the covariance: materials of one source have the same errors, those of
+   different sources have independent ones.
    3. The sample draws each source's four numbers from the normal distribution with its covariance.
    Draws outside the domain are moved to its edge: A, B and m to 0, s to a sixteenth of its value;
    and draws further than 4 standard deviations in s or m to 4. It is reported, in place of the
    first order, where the two standard deviations differ by more than 5 % of the sample's, or its
-   mean is more than a tenth of that off sigma (and both by more than three standard errors of the
-   sample): sigma is then not linear in the parameters over their errors. The same seed gives the
-   same sample on every machine. sigma at drawn s and m is interpolated between 17 nodes (9 with
-   curved normals) by
-   cubics in its logarithm, with the exact slopes. */
+   mean differs from sigma by more than a tenth of that (and both by more than three standard errors
+   of the sample): sigma is then not linear in the parameters over their errors. The same seed gives
+   the same sample on every machine. sigma at drawn s and m is interpolated between 17 nodes (9 with
+   curved normals) by cubics in its logarithm, with the exact slopes. */
 int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                          const lrcs_run_options *options, const lrcs_uncertainty_options *how,
                          lrcs_work *work, lrcs_result *result, lrcs_sensitivity *sensitivity,
@@ -77,8 +76,8 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
    frame's x and y axes (right-handed; rotation about z, the line of sight, changes nothing). */
 typedef struct lrcs_attitude_slope {
     double per_deg_m2[2];
-    double bound_m2[2];    /* proved, for the difference quotient: what the bounds of its two poses
-                              leave open */
+    double bound_m2[2];    /* proved, for the difference quotient: from the bounds of its two
+                              poses */
     double estimate_m2[2]; /* estimate of how far the quotient is from the derivative: its
                               difference from that of twice the step. Large at a kink of sigma */
 } lrcs_attitude_slope;

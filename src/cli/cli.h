@@ -293,6 +293,16 @@ void cli_watch_end(void);
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
 void cli_notices_json(const lrcs_host_notices *notices, lrcs_host_json *json);
 
+/* Writes several items of JSON. The format is a sketch of them: blanks separate items, each is a
+   value or key=value. A value is %s (a text; NULL: null), %g (a number; not finite: null), %u or
+   %llu (a count), %d (a condition: true or false), null, or one of { } [ ], which open and close
+   objects and arrays, also across calls. "{\n" and "[\n" open those with an item on each line.
+   The compiler checks the arguments as those of printf. */
+__attribute__((format(printf, 2, 3))) void cli_json(lrcs_host_json *json, const char *format, ...);
+
+/* The flags of a result as the array "flags". */
+void cli_flags_json(lrcs_host_json *json, uint32_t flags);
+
 /* Writes an array of numbers in one line. */
 void cli_numbers_json(lrcs_host_json *json, const char *key, const double *value, uint32_t count);
 

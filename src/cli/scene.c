@@ -348,11 +348,15 @@ static void scene_put(const scene_job *job, FILE *out)
     objects_put(job, out);
     fputs(
         "\n# Materials: f_r = A / cos^6 exp(-tan^2 / s^2) + B cos^m, A and B in 1/sr. Names of the "
-        "library,\n# which is illustrative:",
+        "library,\n# illustrative but for those with a published reflectance (*):",
         out);
     const lrcs_brdf_entry *entry;
     for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
-        fprintf(out, "%s %s", i == 0 ? "" : i % 6 == 5 ? ",\n#" : ",", entry->name);
+        fprintf(out, "%s %s%s",
+                i == 0       ? ""
+                : i % 6 == 5 ? ",\n#"
+                             : ",",
+                entry->name, entry->source ? "*" : "");
     }
     putc('\n', out);
     for (uint32_t i = 0; i < scene->material_count; i++) {

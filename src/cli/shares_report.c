@@ -80,37 +80,28 @@ static void rows_json(const cli_shares *shares, const char *key, const shares_ro
 {
     lrcs_host_json_begin(json, key, LRCS_HOST_ARRAY);
     for (uint32_t i = 0; i < count; i++) {
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(json, "name", row[i].name);
-        lrcs_host_json_number(json, "sigma_m2", row[i].sigma_m2);
-        lrcs_host_json_number(json, "share", cli_share_of(shares, row[i].sigma_m2));
-        lrcs_host_json_number(json, "sigma_glint_m2", row[i].glint_m2);
-        lrcs_host_json_number(json, "sigma_diffuse_m2", row[i].diffuse_m2);
-        lrcs_host_json_count(json, "facets", row[i].facets);
-        lrcs_host_json_end(json);
+        cli_json(json,
+                 "{name=%s sigma_m2=%g share=%g sigma_glint_m2=%g sigma_diffuse_m2=%g facets=%u}",
+                 row[i].name, row[i].sigma_m2, cli_share_of(shares, row[i].sigma_m2),
+                 row[i].glint_m2, row[i].diffuse_m2, row[i].facets);
     }
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
 }
 
 void cli_shares_json(const cli_shares *shares, lrcs_host_json *json)
 {
-    lrcs_host_json_begin(json, "shares", LRCS_HOST_OBJECT);
+    cli_json(json, "shares={\n");
     rows_json(shares, "parts", shares->part, shares->parts, json);
     rows_json(shares, "materials", shares->material, shares->materials, json);
-    lrcs_host_json_begin(json, "facets", LRCS_HOST_ARRAY);
+    cli_json(json, "facets=[\n");
     for (uint32_t i = 0; i < shares->facets; i++) {
         const shares_facet *facet = &shares->facet[i];
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_count(json, "facet", facet->facet);
-        lrcs_host_json_text(json, "part", facet->part);
-        lrcs_host_json_text(json, "material", facet->material);
-        lrcs_host_json_number(json, "theta_deg", facet->theta_deg);
-        lrcs_host_json_number(json, "visible_area_m2", facet->visible_area_m2);
-        lrcs_host_json_number(json, "sigma_m2", facet->sigma_m2);
-        lrcs_host_json_number(json, "sigma_glint_m2", facet->glint_m2);
-        lrcs_host_json_number(json, "share", cli_share_of(shares, facet->sigma_m2));
-        lrcs_host_json_end(json);
+        cli_json(json,
+                 "{facet=%u part=%s material=%s theta_deg=%g visible_area_m2=%g sigma_m2=%g "
+                 "sigma_glint_m2=%g share=%g}",
+                 facet->facet, facet->part, facet->material, facet->theta_deg,
+                 facet->visible_area_m2, facet->sigma_m2, facet->glint_m2,
+                 cli_share_of(shares, facet->sigma_m2));
     }
-    lrcs_host_json_end(json);
-    lrcs_host_json_end(json);
+    cli_json(json, "]}");
 }

@@ -74,21 +74,13 @@ static void case_row(const verify_case *one)
 
 static void case_json(const verify_case *one, lrcs_host_json *json)
 {
-    lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_text(json, "shape", one->shape);
-    lrcs_host_json_number(json, "aspect_deg", one->aspect_deg);
-    lrcs_host_json_begin(json, "material", LRCS_HOST_ROW_OBJECT);
+    cli_json(json, "{shape=%s aspect_deg=%g material={", one->shape, one->aspect_deg);
     cli_brdf_json(one->brdf, json);
-    lrcs_host_json_end(json);
-    lrcs_host_json_number(json, "engine_m2", one->engine);
-    lrcs_host_json_number(json, "closed_form_m2", one->closed);
-    lrcs_host_json_number(json, "relative_error",
-                          one->closed != 0.0 ? (one->engine - one->closed) / one->closed
-                                             : (double)NAN);
-    lrcs_host_json_number(json, "bound_m2", one->bound);
-    lrcs_host_json_number(json, "seconds", one->seconds);
-    lrcs_host_json_bool(json, "ok", one->good);
-    lrcs_host_json_end(json);
+    cli_json(json,
+             "} engine_m2=%g closed_form_m2=%g relative_error=%g bound_m2=%g seconds=%g ok=%d}",
+             one->engine, one->closed,
+             one->closed != 0.0 ? (one->engine - one->closed) / one->closed : (double)NAN,
+             one->bound, one->seconds, one->good);
 }
 
 /* One shape in one material, prepared. */
@@ -167,20 +159,6 @@ static int shape_verify(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcs_hos
     return status == LRCS_OK ? CLI_DONE : cli_failed(&error);
 }
 
-static void tally_print(const verify_tally *tally, lrcs_host_json *json)
-{
-    if (json) {
-        lrcs_host_json_end(json);
-        lrcs_host_json_count(json, "count", tally->count);
-        lrcs_host_json_count(json, "failed", tally->failed);
-        lrcs_host_json_number(json, "worst_error_over_bound", tally->worst);
-        lrcs_host_json_end(json);
-        return;
-    }
-    printf("%u of %u cases within their bound; the worst error is %.2g of its bound; %.3g s\n",
-           tally->count - tally->failed, tally->count, tally->worst, tally->seconds);
-}
-
 static int verify_command(const cli_args *args)
 {
     lrcs_host_json writer = lrcs_host_json_make(stdout);
@@ -189,9 +167,9 @@ static int verify_command(const cli_args *args)
     /* rows already show the progress */
     cli_watch_stage(isatty(STDOUT_FILENO) ? NULL : "cases", NULL);
     if (json) {
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_OBJECT);
+        cli_json(json, "{\n");
         cli_version_json(json);
-        lrcs_host_json_begin(json, "cases", LRCS_HOST_ARRAY);
+        cli_json(json, "cases=[\n");
     } else {
         printf("%-10s %6s  %-14s %15s %15s %10s %9s %9s\n", "shape", "aspect", "A,B,s,m",
                "engine m2", "closed form m2", "rel error", "bound m2", "time ms");
@@ -207,7 +185,13 @@ static int verify_command(const cli_args *args)
         }
     }
     cli_watch_end();
-    tally_print(&tally, json);
+    if (json) {
+        cli_json(json, "] count=%u failed=%u worst_error_over_bound=%g}", tally.count, tally.failed,
+                 tally.worst);
+    } else {
+        printf("%u of %u cases within their bound; the worst error is %.2g of its bound; %.3g s\n",
+               tally.count - tally.failed, tally.count, tally.worst, tally.seconds);
+    }
     return tally.failed == 0 ? CLI_DONE : CLI_FAILED;
 }
 

@@ -103,7 +103,7 @@ static double node_position_err(const lrcsi_cubature *sum, double u, double d, c
 }
 
 /* f_r cos at one normal. Rounding: lrcsi_reflect's own, and a square root and a product; tan^2 is
-   good to 6 u, which is at bound 2 u in theta and part of the position error. */
+   good to 6 u, which is at most 2 u in theta and part of the position error. */
 static cube_value node_value(const lrcsi_cubature *sum, const double n[3])
 {
     cube_value at = {0, 0, 0, 0, 0, 0};
@@ -331,17 +331,16 @@ static void cube_cut(const cube_cell *cell, const double level[CORNERS], int sig
             corner_add(part, cell->normal[i], cell->at[i], cell->weight[i]);
         }
         if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
-            double share = here / (here - there);
+            double t = here / (here - there); /* where the level is 0 */
             double normal[3];
             double at[2];
             for (int k = 0; k < 3; k++) {
-                normal[k] = cell->normal[i][k] + share * (cell->normal[j][k] - cell->normal[i][k]);
+                normal[k] = cell->normal[i][k] + t * (cell->normal[j][k] - cell->normal[i][k]);
             }
             for (int k = 0; k < 2; k++) {
-                at[k] = cell->at[i][k] + share * (cell->at[j][k] - cell->at[i][k]);
+                at[k] = cell->at[i][k] + t * (cell->at[j][k] - cell->at[i][k]);
             }
-            corner_add(part, normal, at,
-                       cell->weight[i] + share * (cell->weight[j] - cell->weight[i]));
+            corner_add(part, normal, at, cell->weight[i] + t * (cell->weight[j] - cell->weight[i]));
         }
     }
 }
@@ -356,12 +355,21 @@ static void cube_finish(cube_cell *cell)
     cube_measure(cell);
 }
 
-/* The gradient, over positions, of the component of the normals along `chord`, up to a positive
-   factor: that of the largest triangle of the fan. */
-static void cube_gradient(const cube_cell *cell, const double chord[3], double gradient[2])
+/* The levels at corners whose zero line halves a cell; returns 0 if no level is negative, as where
+   all normals are the same. They are linear in position, so that areas add up whatever rounding
+   does to normals. The line is midway across the direction in which normals turn most or, if the
+   cell has all the corners it may have, a diagonal. That direction is the gradient g, over
+   positions and up to a positive factor, of the component of the normals along their longest chord:
+   in the largest triangle of the fan. */
+static int cube_levels(const cube_cell *cell, double level[CORNERS])
 {
+    int from = 0;
+    int to = 0;
+    int below = 0;
+    double chord[3] = {0, 0, 0};
+    double g[2] = {0, 0};
     double largest = 0;
-    gradient[0] = gradient[1] = 0;
+    cube_chord(cell, &from, &to, chord);
     for (int i = 1; i + 1 < cell->count; i++) {
         const double *u = cell->at[i];
         const double *v = cell->at[i + 1];
@@ -373,25 +381,10 @@ static void cube_gradient(const cube_cell *cell, const double chord[3], double g
         }
         if (u[0] * v[1] - u[1] * v[0] > largest) {
             largest = u[0] * v[1] - u[1] * v[0];
-            gradient[0] = gu * v[1] - gv * u[1];
-            gradient[1] = gv * u[0] - gu * v[0];
+            g[0] = gu * v[1] - gv * u[1];
+            g[1] = gv * u[0] - gu * v[0];
         }
     }
-}
-
-/* The levels at corners whose zero line halves a cell; returns 0 if no level is negative, as where
-   all normals are the same. They are linear in position, so that areas add up whatever rounding
-   does to normals. The line is midway across the direction in which normals turn most or, if the
-   cell has all the corners it may have, a diagonal. */
-static int cube_levels(const cube_cell *cell, double level[CORNERS])
-{
-    int from = 0;
-    int to = 0;
-    int below = 0;
-    double chord[3] = {0, 0, 0};
-    double g[2];
-    cube_chord(cell, &from, &to, chord);
-    cube_gradient(cell, chord, g);
     const double *p = cell->at[CORNERS / 2];
     for (int i = 0; i < cell->count; i++) {
         const double *at = cell->at[i];

@@ -198,14 +198,6 @@ double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcs
     return NORMAL_ERR + 200 * LRCSI_U * target->reach / height;
 }
 
-/* Back sides that are proved never to be seen, but were searched for, may show nothing. */
-static lrcsi_visible facet_area_proved(const lrcsi_view *view, uint32_t facet,
-                                       lrcsi_visible visible)
-{
-    visible.low = view->prepared->solid && view->facing[facet] < 0 ? 0 : visible.low;
-    return visible;
-}
-
 /* The contribution of a facet with curved normals that o has opened, from its pieces; closes it. */
 static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occluding *o,
                                       lrcsi_visible *visible)
@@ -218,7 +210,7 @@ static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occl
                               o->alone.piece.count);
     }
     area_err += o->alone.bent;
-    *visible = facet_area_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
+    *visible = lrcsi_visible_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = integral_part(integral, 1);
     part.visibility = LRCSI_FOUR_PI * (lrcsi_curve_upper_bound(integral) *
                                            (visible->high - visible->low + area_err) +
@@ -253,7 +245,7 @@ int lrcsi_curve_from_pieces(lrcsi_classification *classification,
                 lrcsi_curve_context_add(&context, curved[f].glint + curved[f].diffuse);
                 continue;
             }
-            visible[f] = facet_area_proved(view, f, lrcsi_occlude_area(&o));
+            visible[f] = lrcsi_visible_proved(view, f, lrcsi_occlude_area(&o));
         }
         if (applies) {
             curved[f] = curve_from_area(&integral, &visible[f]);

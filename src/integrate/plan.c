@@ -128,7 +128,7 @@ static lrcs_effect shadowing_effect(const lrcs_prepared *p, const lrcsi_plan *pl
         return (lrcs_effect){1, "on request, though proved convex and alone"};
     }
     if (plan->unshadowed) {
-        return (lrcs_effect){1, p->solid ? "convex: fronts hide backs, looked for on request"
+        return (lrcs_effect){1, p->solid ? "convex: fronts hide backs, searched on request"
                                          : "an open convex surface: fronts hide backs"};
     }
     return (lrcs_effect){1, "not proved convex and alone"};

@@ -186,7 +186,6 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
 {
     const lrcsi_view *view = &run->view;
     const lrcs_prepared *p = view->prepared;
-    int backs_unseen = p->solid && view->backs_cast;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         lrcsi_visible *visible = &run->visible[f];
         int front = view->facing[f] > 0;
@@ -201,9 +200,7 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
             }
             *visible = known;
         }
-        if (backs_unseen && view->facing[f] < 0) {
-            visible->low = 0;
-        }
+        *visible = lrcsi_visible_proved(view, f, *visible);
         if (front && run->clear.count > 0 && run->clear.part[p->scene->facet_part[f]]) {
             double projected = lrcsi_view_projected(view, f);
             *visible = (lrcsi_visible){projected, projected, projected, 0, 0};
@@ -441,7 +438,7 @@ static int run_previews(lrcsi_sigma *run)
         if (!any && ns >= 4 * abandoned_ns && lrcsi_cost_clip(&cost, undecided) <= ns) {
             int outcome = run_clip_within(run, &cost, ns);
             if (outcome == CLIP_DONE) {
-                run->plan.reason = "clipping is reckoned to cost less than a raster";
+                run->plan.reason = "clipping is estimated to cost less than a raster";
                 return LRCS_OK;
             }
             abandoned_ns = outcome == CLIP_ABANDONED ? ns : abandoned_ns;
@@ -455,7 +452,7 @@ static int run_previews(lrcsi_sigma *run)
     }
     if (!any) {
         run->plan.reason = abandoned_ns > 0 ? "clipping was begun, and took longer than a raster"
-                                            : "a raster is reckoned to cost less than clipping";
+                                            : "a raster is estimated to cost less than clipping";
     }
     return status;
 }
@@ -477,7 +474,7 @@ static int run_shadowed(lrcsi_sigma *run)
         run->plan.previews = 0;
         if (options->accept == LRCS_ACCEPT_ESTIMATE) {
             run->plan.method = LRCS_METHOD_EXACT;
-            run->plan.reason = "few facets, or curved ones: a raster saves little of clipping";
+            run->plan.reason = "few facets, or curved ones: a raster would save little time";
         }
     }
     if (status == LRCS_OK && run->last > LRCSI_SIGMA_VIEW && !run_samples_only(run)) {

@@ -36,7 +36,14 @@
         }                                                                                          \
     }
 
-/* Without a source: chosen, not measured. A smooth-walled microfacet surface (Beckmann) of mirror
+/* Measurements of spacecraft materials that are known and not here, because what could be read of
+   them has no values at a mono-static geometry with an uncertainty: Neu and Dummer, AIAA Journal
+   7(3), 1969; Hubbs et al., Applied Optics 21, 3323, 1982 (10.6 and 118 um); Fletcher et al., NASA
+   TP-3649, 1997 (visible light); Bowers et al., AMOS 2011 (350 to 2500 nm); Fankhauser, Tyson and
+   Askari, Astronomical Journal 166, 59, 2023 (fits to measured chassis and solar array, bistatic,
+   without an uncertainty).
+
+   Without a source: chosen, not measured. A smooth-walled microfacet surface (Beckmann) of mirror
    reflectance R has A = R / (4 pi s^2) at the mono-station geometry, and a Lambert surface of
    reflectance rho has B = rho / pi: R + rho <= 1 in every entry, R and rho as in its line. */
 static const lrcs_brdf_entry brdf_library[] = {

@@ -70,14 +70,14 @@ void lrcsi_span_prepare(lrcsi_edges *edges)
     for (int k = 0; k < 3; k++) {
         double over = fabs(edges->along[k]) > 0x1p-1000 ? 1 / edges->along[k] : 0;
         edges->over[k] = over;
-        edges->near[k] = 0.5 + edges->off * fabs(over);
-        edges->far[k] = 0.5 + (edges->off + side_bend(edges, k)) * fabs(over);
+        edges->sample_offset[k] = 0.5 + edges->off * fabs(over);
+        edges->pixel_offset[k] = 0.5 + (edges->off + side_bend(edges, k)) * fabs(over);
     }
     int sides[2] = {0, 0};
     edges->level = 0;
     for (int i = 0; i < 4; i++) {
         edges->cross_at[i] = i < 2 ? -HUGE_VAL : HUGE_VAL;
-        edges->cross_up[i] = edges->cross_near[i] = edges->cross_far[i] = 0;
+        edges->cross_up[i] = edges->cross_sample_offset[i] = edges->cross_pixel_offset[i] = 0;
     }
     for (int k = 0; k < 3; k++) { /* at most two sides bound a triangle on the same side */
         int right = edges->over[k] < 0;
@@ -87,8 +87,8 @@ void lrcsi_span_prepare(lrcsi_edges *edges)
             int i = 2 * right + sides[right]++;
             edges->cross_at[i] = -(edges->at[k] + 0.5 * edges->up[k]) * edges->over[k];
             edges->cross_up[i] = -edges->up[k] * edges->over[k];
-            edges->cross_near[i] = edges->near[k];
-            edges->cross_far[i] = edges->far[k];
+            edges->cross_sample_offset[i] = edges->sample_offset[k];
+            edges->cross_pixel_offset[i] = edges->pixel_offset[k];
         }
     }
 }
@@ -109,15 +109,15 @@ static inline void ends_narrow(span_ends *ends, const lrcsi_edges *e, int k, dou
     double row = e->at[k] + e->up[k] * cy;
     double zero = -row * e->over[k];
     if (e->over[k] > 0) {
-        ends->from[TOUCHED] = lrcsi_most(ends->from[TOUCHED], zero - e->far[k]);
-        ends->from[MAY] = lrcsi_most(ends->from[MAY], zero - e->near[k]);
-        ends->from[SURE] = lrcsi_most(ends->from[SURE], zero + e->near[k]);
-        ends->from[WHOLE] = lrcsi_most(ends->from[WHOLE], zero + e->far[k]);
+        ends->from[TOUCHED] = lrcsi_most(ends->from[TOUCHED], zero - e->pixel_offset[k]);
+        ends->from[MAY] = lrcsi_most(ends->from[MAY], zero - e->sample_offset[k]);
+        ends->from[SURE] = lrcsi_most(ends->from[SURE], zero + e->sample_offset[k]);
+        ends->from[WHOLE] = lrcsi_most(ends->from[WHOLE], zero + e->pixel_offset[k]);
     } else if (e->over[k] < 0) {
-        ends->to[TOUCHED] = lrcsi_least(ends->to[TOUCHED], zero + e->far[k]);
-        ends->to[MAY] = lrcsi_least(ends->to[MAY], zero + e->near[k]);
-        ends->to[SURE] = lrcsi_least(ends->to[SURE], zero - e->near[k]);
-        ends->to[WHOLE] = lrcsi_least(ends->to[WHOLE], zero - e->far[k]);
+        ends->to[TOUCHED] = lrcsi_least(ends->to[TOUCHED], zero + e->pixel_offset[k]);
+        ends->to[MAY] = lrcsi_least(ends->to[MAY], zero + e->sample_offset[k]);
+        ends->to[SURE] = lrcsi_least(ends->to[SURE], zero - e->sample_offset[k]);
+        ends->to[WHOLE] = lrcsi_least(ends->to[WHOLE], zero - e->pixel_offset[k]);
     } else {
         ends_level(ends, e, k, row);
     }
@@ -177,11 +177,11 @@ lrcsi_samples lrcsi_span_samples(const lrcsi_edges *e, uint32_t y)
     for (int i = 0; i < 4; i++) {
         cross[i] = e->cross_at[i] + e->cross_up[i] * y;
     }
-    const double *near = e->cross_near;
-    double may[2] = {lrcsi_most(x0, lrcsi_most(cross[0] - near[0], cross[1] - near[1])),
-                     lrcsi_least(x1, lrcsi_least(cross[2] + near[2], cross[3] + near[3]))};
-    double sure[2] = {lrcsi_most(x0, lrcsi_most(cross[0] + near[0], cross[1] + near[1])),
-                      lrcsi_least(x1, lrcsi_least(cross[2] - near[2], cross[3] - near[3]))};
+    const double *offset = e->cross_sample_offset;
+    double may[2] = {lrcsi_most(x0, lrcsi_most(cross[0] - offset[0], cross[1] - offset[1])),
+                     lrcsi_least(x1, lrcsi_least(cross[2] + offset[2], cross[3] + offset[3]))};
+    double sure[2] = {lrcsi_most(x0, lrcsi_most(cross[0] + offset[0], cross[1] + offset[1])),
+                      lrcsi_least(x1, lrcsi_least(cross[2] - offset[2], cross[3] - offset[3]))};
     if (e->level) {
         samples_level(e, y, may, sure);
     }
@@ -199,8 +199,8 @@ lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *e, uint32_t y)
     double from[2];
     double to[2];
     for (int i = 0; i < 2; i++) {
-        from[i] = e->cross_at[i] + e->cross_up[i] * y - e->cross_far[i];
-        to[i] = e->cross_at[2 + i] + e->cross_up[2 + i] * y + e->cross_far[2 + i];
+        from[i] = e->cross_at[i] + e->cross_up[i] * y - e->cross_pixel_offset[i];
+        to[i] = e->cross_at[2 + i] + e->cross_up[2 + i] * y + e->cross_pixel_offset[2 + i];
     }
     span_ends ends = {.from = {lrcsi_most(e->left, lrcsi_most(from[0], from[1]))},
                       .to = {lrcsi_least(e->right, lrcsi_least(to[0], to[1]))}};

@@ -11,15 +11,16 @@
 /* A facet's edge functions in pixel coordinates, positive inside: value = at + along x + up y. */
 typedef struct lrcsi_edges {
     double at[3], along[3], up[3];
-    double over[3];         /* 1 / along, 0 if the side is parallel to the rows */
-    double near[3], far[3]; /* half a pixel, plus the distance along a row over which the value
-                               changes by `off` (near), or by `off` and its variation within a pixel
-                               (far) */
+    double over[3]; /* 1 / along, 0 if the side is parallel to the rows */
+    /* Half a pixel, plus the distance along a row over which the value changes by `off`
+       (sample_offset: beyond it a sample is decided), or by `off` and its variation within a pixel
+       (pixel_offset: beyond it a whole pixel is). */
+    double sample_offset[3], pixel_offset[3];
     /* The crossings of sides and rows: for the centres of row y, side i is at x = cross_at[i] +
        cross_up[i] y. Sides 0 and 1 bound the facet on the left, 2 and 3 on the right; a side that
-       does not exist is at infinity. cross_near, cross_far: near and far of that side. level: a
-       side is parallel to the rows. */
-    double cross_at[4], cross_up[4], cross_near[4], cross_far[4];
+       does not exist is at infinity. The offsets are those of that side. level: a side is parallel
+       to the rows. */
+    double cross_at[4], cross_up[4], cross_sample_offset[4], cross_pixel_offset[4];
     int level;
     double position_err;     /* error bound of the pixel coordinates of corners and samples */
     double off;              /* 8/5 of the error bound of a value in touched pixels */

@@ -9,13 +9,23 @@
 #include "visibility/raster.h"
 #include "visibility/visible_area.h"
 
-/* A facet that nothing is known to hide: all of it is visible, certainly so for |cos(theta)| >
-   graze; below it the area is an upper bound (low is 0). graze = 1 makes every facet so. */
+/* The area of a facet that nothing is known to hide: all of it is visible. This is proved for
+   |cos(theta)| > grazing_cos; otherwise the area is an upper bound (low is 0), as for every facet
+   if grazing_cos is 1. */
 static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_incidence *incidence,
                                                      double grazing_cos)
 {
     double low = fabs(incidence->cos_theta) > grazing_cos ? incidence->projected : 0;
     return (lrcsi_visible){incidence->projected, low, incidence->projected, 0, 0};
+}
+
+/* A visible area, with what is proved about back sides: in a scene that is closed and outward they
+   are never visible, and a search for them that does not find them hidden proves nothing else. */
+static inline lrcsi_visible lrcsi_visible_proved(const lrcsi_view *view, uint32_t facet,
+                                                 lrcsi_visible visible)
+{
+    visible.low = view->prepared->solid && view->facing[facet] < 0 ? 0 : visible.low;
+    return visible;
 }
 
 /* All or nothing of each facet, by its lrcsi_query_answer; visible[facet] stays as it is where that

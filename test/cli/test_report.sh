@@ -13,7 +13,7 @@ cd "$scratch" || exit 1
 {
     pair_scene
     printf '[[part]]\nname = "<b onclick=\\"x\\">&lt;\357\277\277 \\u0007"\nfile = "hostile.obj"\n'
-    printf '[[part]]\nname = "tank"\nshape = "sphere"\nradius = 0.5\ntranslate = [0, 0, 3]\n'
+    printf '[[part]]\nname = "tank"\nshape = "cylinder"\nradius = 0.5\nlength = 1\ntranslate = [0, 0, 3]\n'
 } >"hostile<i>'&.toml"
 scene="hostile<i>'&.toml"
 at="--azel 50,40 --tolerance 0.01"
@@ -46,7 +46,6 @@ printf '[[part]]\nname = "p"\nshape = "plate"\nsize = [1, 1]\n' >dark.toml
 run report dark.toml --azel 0,0 --material 0,0,0.2,0 $quick -o dark.html
 same a_page_of_nothing_is_written "$rc" 0
 plates_scene >plates.toml
-# shellcheck disable=SC2086
 # shellcheck disable=SC2086
 run report box.toml $quick --azel 10,50 --material 1,0.25+-0.05,0.2,0.5 -o error.html
 deviation=$("$tool" run box.toml --azel 10,50 --material 1,0.25+-0.05,0.2,0.5 --json 2>/dev/null | sed -n 's/.*"material_uncertainty": {.*"deviation_m2": \([0-9.e-]*\).*/\1/p')

@@ -18,6 +18,9 @@ same nothing_goes_to_stdout "$out" ""
 run report demo --explore --map-step 30 -o - 
 same a_page_goes_to_stdout "$rc $(printf '%s\n' "$out" | grep -c '^<!DOCTYPE html>')" "0 1"
 run sweep 'scene<b>.toml' --az 0:360:15 --el -90:90:15 --tolerance 0.01 -o map.csv
+box_scene >box.toml
+run report box.toml --material 1+-0.2,0.25+-0.05,0.2,0.5 --explore --map-step 30 -o errors.html
+run sweep box.toml --material 1+-0.2,0.25+-0.05,0.2,0.5 --az 0:360:30 --el -90:90:30 -o errors.csv
 run report 'scene<b>.toml' --explore --seconds 0.05 -o soon.html
 same time_alone_decides_the_step "$rc" 0
 if [ -d "$models" ]; then
@@ -42,6 +45,14 @@ def numbers(key, kind): raw = base64.b64decode(data[key]); return struct.unpack(
 sigma, bound = numbers("sigma", "d"), numbers("bound", "d")
 rows = [r for r in csv.DictReader(l for l in open("map.csv") if not l.startswith("#"))]
 check("the_map_is_that_of_the_sweep", list(sigma) == [float(r["sigma_m2"]) for r in rows] and list(bound) == [float(r["bound_m2"]) for r in rows] and len(sigma) == 25 * 13)
+given = data
+data = json.loads(re.search(r'id="data">(.*?)</script>', open("errors.html", encoding="utf-8").read(), re.S).group(1))
+low, high = numbers("low", "d"), numbers("high", "d")
+errors = [r for r in csv.DictReader(l for l in open("errors.csv") if not l.startswith("#"))]
+close = lambda a, b: abs(a - b) <= 1e-12 * abs(b)  # of rows of one direction the first is run
+check("bands_of_materials_are_those_of_the_sweep", len(low) == 13 * 7 and all(close(a, float(r["material_low_m2"])) and close(b, float(r["material_high_m2"])) for a, b, r in zip(low, high, errors) if abs(float(r["el_deg"])) < 90 and float(r["az_deg"]) < 360))
+data = given
+check("without_errors_there_are_none", "low" not in data and data["open"] == 1)
 points, facets, material = numbers("points", "f"), numbers("facets", "I"), numbers("material", "I")
 check("every_facet_is_drawn", len(material) == 26 and len(facets) == 78 and max(facets) * 3 + 2 < len(points) and max(material) < len(data["materials"]))
 try:
@@ -130,6 +141,9 @@ browse frame.html >dom
 same nothing_is_said_on_the_console_in_use "$(grep CONSOLE log | grep -vc willReadFrequently)" 0 # which the test does
 browse page.html >alone
 same nothing_is_said_on_the_console "$(grep -c CONSOLE log) $(grep -c 'id="readout"' alone)" "0 1"
+same under_illustrative_materials_the_bound_says_so "$(grep -c 'for its materials, which are illustrative or assumed, at azimuth' alone)" 1
+browse errors.html >banded
+same the_errors_of_materials_are_read_off "$(grep -c 'm² (68 %), at azimuth' banded) $(grep -c 'id="readout".*illustrative' banded)" "1 0"
 python3 - <<'END' || not_ok the_python_ends_well
 import csv, html, json, re
 from tap import check

@@ -92,6 +92,7 @@ same names_suggest_materials "$(grep -A2 'name = "SOLAR' a.toml | grep -c '^# li
 same colours_are_told "$(grep -c 'colour #FFCC00' a.toml)" 1
 same objects_are_told "$(grep -c '8 facets  wing "left"' a.toml)" 1
 same the_library_is_told_as_a_guess "$(grep -c '^like = "solar-cell"   # GUESS: .* illustrative' a.toml)" 1
+same published_entries_of_the_library_are_marked "$(sed -n "/Names of the library/,/ideal-glint/p" a.toml | tr " " "\n" | grep -c "^paint-.*[*],")" 3
 same glass_is_told "$(grep -c 'fully transparent: left out' a.toml) $(grep -c '^keep_transparent = true' d.toml)" "1 1"
 
 # An edited file: what is no longer called assumed is given, other assumed numbers are told as such.

@@ -146,16 +146,23 @@ failure a_folder_that_is_not_there "none/x.csv: cannot write: No such file or di
 [ -e /dev/full ] && { "$tool" sweep $what >/dev/full 2>full.txt; same a_full_disk_exits_1 "$?" 1; }
 
 # ---- a real stop ----
+# timeout passes signals on, and undoes that the shell ignores SIGINT in the background.
 endless='box.toml --az 0:360:0.00001'
+lines() { if [ -e "$1" ]; then wc -l <"$1"; else echo 0; fi; }
 if command -v timeout >/dev/null; then
     for signal in INT TERM; do
+        before=$(lines cut.csv.partial)
         # shellcheck disable=SC2086
-        timeout -s $signal 2 "$tool" sweep $endless -o cut.csv --jobs 2 --resume 2>stop.txt
+        timeout -s KILL 60 "$tool" sweep $endless -o cut.csv --jobs 2 --resume 2>stop.txt &
+        first=$!
+        while kill -0 $first 2>/dev/null && [ "$(lines cut.csv.partial)" -lt $((before + 2000)) ]; do sleep 0.02; done
+        kill -s $signal $first
+        wait $first
         same "sig${signal}_says_how_to_go_on" "$(grep -c 'cut.csv.partial holds .* --resume goes on' stop.txt)" 1
         same "sig${signal}_leaves_no_file" "$([ -e cut.csv ] && echo there)" ""
         rows=$(grep -c '^[0-9]' cut.csv.partial)
         same "sig${signal}_leaves_whole_rows" "$(tail -c 1 cut.csv.partial | od -An -c | tr -d ' ') $(grep -vc '^#\|^index\|^[0-9]*,[^,]*,0,[^,]*,[^,]*,[^,]*,[^,]*,[^,]*,[a-z_]*$' cut.csv.partial)" '\n 0'
-        same "sig${signal}_leaves_rows_in_order" "$(grep '^[0-9]' cut.csv.partial | awk -F, '$1 != NR - 1' | wc -l | tr -d ' ') $((rows > 0))" "0 1"
+        same "sig${signal}_leaves_rows_in_order" "$(grep '^[0-9]' cut.csv.partial | awk -F, '$1 != NR - 1' | wc -l | tr -d ' ') $((rows > before))" "0 1"
     done
     # the rows of two stops are those of one sweep
     last=$(grep '^[0-9]' cut.csv.partial | sed -n 300p | cut -d, -f2)

@@ -144,7 +144,7 @@ static void clipping_goes_first_where_few_facets_are_undecided(void **state)
     assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL), LRCS_OK);
     assert_int_equal(r.method, LRCS_METHOD_EXACT);
     assert_int_equal(r.flags, 0);
-    assert_string_equal(r.method_reason, "clipping is reckoned to cost less than a raster");
+    assert_string_equal(r.method_reason, "clipping is estimated to cost less than a raster");
 }
 
 int main(void)

@@ -582,6 +582,33 @@ static void widths_and_numbers_of_bins_have_limits(void **state)
                      LRCS_E_ARGUMENT);
     assert_int_equal(lrcs_profile_pulse(&profile, 1, NAN, &density, &bound, &estimate),
                      LRCS_E_NUMBER);
+    assert_int_equal(lrcs_profile_pulse(&profile, 1e-308, 0, &density, &bound, &estimate),
+                     LRCS_E_ARGUMENT); /* its deviation is not a normal number */
+    assert_int_equal(lrcs_profile_pulse(&profile, (double)INFINITY, 0, &density, &bound, &estimate),
+                     LRCS_OK);
+    check_same(density, 0);
+}
+
+static void nothing_has_no_bins(void **state)
+{
+    (void)state;
+    const double direction[3] = {3, 0, 4};
+    scene_start(&scene);
+    profile_make(direction, 0.1);
+    assert_int_equal(profile.count, 0);
+    check_same(profile.sigma_glint_m2 + profile.sigma_diffuse_m2, 0);
+    check_same(profile.bound_m2, 0);
+}
+
+/* A scene of 2^-900 m is computed at another scale, in which bins of 1e200 m are too wide. */
+static void bins_too_wide_for_the_scale_of_the_scene_are_refused(void **state)
+{
+    (void)state;
+    const double direction[3] = {3, 0, 4};
+    const double still[3] = {0, 0, 0};
+    plate_at(0);
+    scene_move(&scene, 0x1p-900, still);
+    assert_int_equal(profile_try(direction, 1e200), LRCS_E_ARGUMENT);
 }
 
 static const lrcs_prepared *hungry;
@@ -651,6 +678,8 @@ int main(void)
         cmocka_unit_test(a_pulse_on_a_tilted_plate_is_a_difference_of_error_functions),
         cmocka_unit_test(a_pulse_on_a_flat_plate_is_the_pulse),
         cmocka_unit_test(widths_and_numbers_of_bins_have_limits),
+        cmocka_unit_test(nothing_has_no_bins),
+        cmocka_unit_test(bins_too_wide_for_the_scale_of_the_scene_are_refused),
         cmocka_unit_test(the_work_area_grows_until_it_suffices),
         cmocka_unit_test(a_scene_scaled_by_a_power_of_two_has_the_same_profile)};
     return cmocka_run_group_tests(tests, NULL, NULL);

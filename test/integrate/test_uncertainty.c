@@ -4,6 +4,7 @@
    linear functions. */
 #include "curved.h"
 #include "scenes.h"
+#include "starve.h"
 
 #define ROWS(a) (sizeof(a) / sizeof(a)[0])
 
@@ -510,6 +511,38 @@ static void the_need_serves_and_less_leaves_outputs_alone(void **state)
     assert_int_equal(try_run(prepared, direction, LRCS_METHOD_AUTO, &one, &work, &got),
                      LRCS_E_ARGUMENT);
     assert_memory_equal(&got, &before, sizeof got);
+    const lrcs_uncertainty_options many = {(1u << 20) + 1, 1};
+    assert_int_equal(try_run(prepared, direction, LRCS_METHOD_AUTO, &many, &work, &got),
+                     LRCS_E_ARGUMENT);
+    assert_int_equal(try_run(prepared, direction, -1, &how, &work, &got), LRCS_E_ARGUMENT);
+    scene.material[0].error.s = -1;
+    assert_int_equal(try_run(prepared, direction, LRCS_METHOD_AUTO, &how, &work, &got),
+                     LRCS_E_NUMBER);
+    assert_memory_equal(&got, &before, sizeof got);
+}
+
+static outcome hungry;
+static const lrcs_prepared *hungry_scene;
+static const lrcs_uncertainty_options hungry_how = {64, 1};
+
+static int run_hungry(lrcs_work *work)
+{
+    static const double direction[3] = {-0.7, 0.3, 0.6};
+    return try_run(hungry_scene, direction, LRCS_METHOD_FACET, &hungry_how, work, &hungry);
+}
+
+static void the_work_area_grows_until_it_suffices(void **state)
+{
+    (void)state;
+    lrcs_run_options options = lrcs_run_options_default();
+    options.method = LRCS_METHOD_FACET;
+    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
+    shadowed_scene();
+    scene.material[0].error = (lrcs_brdf_error){.A = 0.5, .s = 0.1};
+    hungry_scene = scene_prepare(&scene, &work);
+    starve(STARVED("lrcs_uncertainty_run",
+                   lrcs_uncertainty_need(hungry_scene, &options, &hungry_how), run_hungry, hungry,
+                   0));
 }
 
 /* --- attitude -----------------------------------------------------------------------------------
@@ -542,6 +575,29 @@ static void attitude_slopes_of_a_plate(void **state)
     assert_true(pose.R[0][2] < 0 && slope.per_deg_m2[1] > 0);
 }
 
+static void attitude_slopes_want_a_run_that_succeeds(void **state)
+{
+    (void)state;
+    const lrcs_run_options options = lrcs_run_options_default();
+    const lrcs_pose nowhere = {.direction = {NAN, 0, 1}};
+    lrcs_attitude_slope slope;
+    memset(&slope, 0x5a, sizeof slope);
+    const lrcs_attitude_slope before = slope;
+    double direction[3];
+    lrcs_pose pose;
+    aspect(40, direction);
+    assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
+    shadowed_scene();
+    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    work = lrcs_work_make(run_area, sizeof run_area);
+    assert_true(lrcs_attitude_slope_run(prepared, &nowhere, &options, &work, &slope) < 0);
+    work = lrcs_work_make(run_area, 64);
+    assert_int_equal(lrcs_attitude_slope_run(prepared, &pose, &options, &work, &slope),
+                     LRCS_E_MEMORY);
+    assert_memory_equal(&slope, &before, sizeof slope);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -560,6 +616,8 @@ int main(void)
         cmocka_unit_test(full_correlation_is_one_deviate),
         cmocka_unit_test(errors_outside_their_range_are_refused),
         cmocka_unit_test(the_need_serves_and_less_leaves_outputs_alone),
+        cmocka_unit_test(the_work_area_grows_until_it_suffices),
+        cmocka_unit_test(attitude_slopes_want_a_run_that_succeeds),
         cmocka_unit_test(attitude_slopes_of_a_plate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -162,6 +162,7 @@ static void maps_and_materials_resolve_to_numbers(void **state)
 
 /* A part that is complete but for its last line, which the case adds. */
 #define BOX   "[[part]]\nname = \"a\"\nshape = \"box\"\nsize = [1, 2, 3]\n"
+#define OWN   "[[material]]\nname = \"w\"\nA=1\nB=1\ns=1\nm=1\n"
 #define DISC  "[[part]]\nname = \"b\"\nshape = \"disc\"\nradius = 1\n"
 #define MODEL "[[part]]\nname = \"m\"\nfile = \"m.obj\"\n"
 #define WHITE "[[material]]\nname = \"w\"\nA = 0\nB = 0.1\ns = 0\nm = 1\n"
@@ -253,6 +254,14 @@ static const refusal refusals[] = {
     {DISC "[[material]]\nname = \"w\"\nA = 1\nB = nan\ns = 0\nm = 1\n", LRCS_E_NUMBER, 8},
     {DISC "[[material]]\nname = \"w\"\nA = \"1\"\n", LRCS_E_ARGUMENT, 7},
     {DISC "[[material]]\nname = \"w\"\nS = 1\n", LRCS_E_NAME, 7},
+    {DISC OWN "A_error = -1\n", LRCS_E_NUMBER, 11},
+    {DISC OWN "m_error = nan\n", LRCS_E_NUMBER, 11},
+    {DISC OWN "B_error = inf\n", LRCS_E_NUMBER, 11},
+    {DISC OWN "correlation = [0, 0, 2, 0, 0, 0]\n", LRCS_E_NUMBER, 11},
+    {DISC OWN "correlation = [0.9, 0.9, 0, -0.9, 0, 0]\n", LRCS_E_NUMBER, 11},
+    {DISC OWN "correlation = [0, 0, 0]\n", LRCS_E_ARGUMENT, 11},
+    {DISC "[[material]]\nname = \"w\"\nA = 0\nB = 1\ns = 0\nm = 1\ns_error = 0.1\n",
+     LRCS_E_ARGUMENT, 5},
     {DISC "[[map]]\nmaterial = \"solar-cell\"\n", LRCS_E_NAME, 5},
     {DISC "[[map]]\nname = \"x\"\n", LRCS_E_NAME, 5},
     {DISC "[[map]]\nname = \"x\"\nmaterial = \"none such\"\n", LRCS_E_NAME, 7},
@@ -458,6 +467,33 @@ static void the_position_of_an_error_is_optional(void **state)
     }
 }
 
+static void errors_of_materials_are_read(void **state)
+{
+    (void)state;
+    static const char text[] =
+        DISC OWN "A_error = 0.1\nB_error = 0.02\ns_error = 0.03\nm_error = 0\n"
+                 "correlation = [0.5, -0.25, 0, 0.125, 0, 0]\nassumed = true\n"
+                 "[[material]]\nname = \"x\"\nlike = \"solar-cell\"\n";
+    void *area;
+    lrcs_recipe recipe;
+    assert_int_equal(read_text(text, sizeof text - 1, &area, &recipe, NULL), LRCS_OK);
+    assert_int_equal(recipe.material_count, 2);
+    const lrcs_brdf_error *error = &recipe.material[0].error;
+    check_same(error->A, 0.1);
+    check_same(error->B, 0.02);
+    check_same(error->s, 0.03);
+    check_same(error->m, 0);
+    static const double correlation[6] = {0.5, -0.25, 0, 0.125, 0, 0};
+    for (int i = 0; i < 6; i++) {
+        check_same(error->correlation[i], correlation[i]);
+    }
+    assert_true(recipe.material[0].assumed);
+    assert_false(recipe.material[1].assumed);
+    const lrcs_brdf_error library = lrcs_brdf_find("solar-cell")->error;
+    assert_memory_equal(&recipe.material[1].error, &library, sizeof library);
+    free(area);
+}
+
 static void a_body_is_whole_unless_only_its_wall_is_wanted(void **state)
 {
     (void)state;
@@ -490,6 +526,7 @@ int main(void)
         cmocka_unit_test(flipped_bytes_are_read_or_refused),
         cmocka_unit_test(the_example_file_is_a_scene),
         cmocka_unit_test(the_position_of_an_error_is_optional),
+        cmocka_unit_test(errors_of_materials_are_read),
         cmocka_unit_test(a_body_is_whole_unless_only_its_wall_is_wanted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

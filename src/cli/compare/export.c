@@ -4,115 +4,64 @@
 
 #include <math.h>
 
-static void finding_json(lrcs_host_json *json, const compare_finding *finding)
-{
-    lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_text(json, "name", finding->name);
-    lrcs_host_json_text(json, "text", finding->text);
-    lrcs_host_json_number(json, "factor", finding->factor);
-    lrcs_host_json_count(json, "explains", finding->explained);
-    lrcs_host_json_number(json, "leaves", finding->rest);
-    lrcs_host_json_end(json);
-}
-
-static void place_json(lrcs_host_json *json, const compare_job *job, const compare_case *one)
-{
-    lrcs_host_json_text(json, "scene", job->kit.scene[one->scene].name);
-    lrcs_host_json_text(json, "attitude", one->attitude);
-}
-
 static void case_json(lrcs_host_json *json, const compare_job *job, const compare_case *one)
 {
     int finding = one->explained;
-    lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-    place_json(json, job, one);
-    lrcs_host_json_count(json, "tier", (uint64_t)one->tier);
-    lrcs_host_json_number(json, "sigma_m2", one->sigma_m2);
-    lrcs_host_json_number(json, "theirs_m2", one->given ? one->theirs_m2 : (double)NAN);
-    lrcs_host_json_number(json, "allowed_m2", cli_compare_allowed(one, job->grade, job->pixels));
-    lrcs_host_json_text(json, "class", cli_compare_grade(one->grade));
-    lrcs_host_json_bool(json, "passed", !cli_compare_failed(job, one));
-    lrcs_host_json_text(json, "finding", finding > 0 ? job->finding[finding - 1].name : NULL);
-    lrcs_host_json_end(json);
+    cli_json(json, "{scene=%s attitude=%s tier=%u sigma_m2=%g theirs_m2=%g allowed_m2=%g",
+             job->kit.scene[one->scene].name, one->attitude, one->tier, one->sigma_m2,
+             one->given ? one->theirs_m2 : (double)NAN,
+             cli_compare_allowed(one, job->grade, job->pixels));
+    cli_json(json, "class=%s passed=%d finding=%s}", cli_compare_grade(one->grade),
+             !cli_compare_failed(job, one), finding > 0 ? job->finding[finding - 1].name : NULL);
 }
 
-static void facet_json(lrcs_host_json *json, const compare_job *job, const compare_facet *off)
-{
-    lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-    place_json(json, job, off->one);
-    lrcs_host_json_count(json, "facet", off->facet);
-    lrcs_host_json_text(json, "way", cli_compare_facet_way(off->way));
-    lrcs_host_json_number(json, "visible_area_m2", off->truth_m2);
-    lrcs_host_json_number(json, "theirs_m2", off->theirs_m2);
-    lrcs_host_json_number(json, "sigma_m2", off->sigma_m2);
-    lrcs_host_json_end(json);
-}
-
+/* How many facets or images differ, and in which way: those that do. */
 static void way_json(lrcs_host_json *json, const char *text, uint32_t count)
 {
     if (count > 0) {
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(json, "text", text);
-        lrcs_host_json_count(json, "count", count);
-        lrcs_host_json_end(json);
+        cli_json(json, "{text=%s count=%u}", text, count);
     }
 }
 
 static void facets_json(lrcs_host_json *json, const compare_job *job)
 {
     const compare_facets *facets = &job->by_facet;
-    lrcs_host_json_begin(json, "facets", LRCS_HOST_OBJECT);
-    lrcs_host_json_count(json, "cases", facets->cases);
-    lrcs_host_json_begin(json, "differ", LRCS_HOST_ARRAY);
+    cli_json(json, "facets={\ncases=%u differ=[\n", facets->cases);
     for (int way = 0; way < FACET_WAYS; way++) {
         way_json(json, cli_compare_facet_way(way), facets->way[way]);
     }
-    lrcs_host_json_end(json);
-    lrcs_host_json_text(json, "cos_theta", cli_compare_cosines(facets));
-    lrcs_host_json_number(json, "cos_theta_off",
-                          facets->cosines > 0 ? facets->cosine_most : (double)NAN);
-    lrcs_host_json_begin(json, "worst", LRCS_HOST_ARRAY);
+    cli_json(json, "] cos_theta=%s cos_theta_off=%g worst=[\n", cli_compare_cosines(facets),
+             facets->cosines > 0 ? facets->cosine_most : (double)NAN);
     for (uint32_t i = 0; i < facets->worsts; i++) {
-        facet_json(json, job, &facets->worst[i]);
+        const compare_facet *off = &facets->worst[i];
+        cli_json(json, "{scene=%s attitude=%s facet=%u way=%s",
+                 job->kit.scene[off->one->scene].name, off->one->attitude, off->facet,
+                 cli_compare_facet_way(off->way));
+        cli_json(json, "visible_area_m2=%g theirs_m2=%g sigma_m2=%g}", off->truth_m2,
+                 off->theirs_m2, off->sigma_m2);
     }
-    lrcs_host_json_end(json);
-    lrcs_host_json_end(json);
-}
-
-static void image_json(lrcs_host_json *json, const compare_job *job, const compare_image *image)
-{
-    lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-    place_json(json, job, image->one);
-    lrcs_host_json_number(json, "agree", image->agree);
-    lrcs_host_json_begin(json, "lost", LRCS_HOST_ARRAY);
-    for (uint32_t n = 0; n < COMPARE_TOP && image->lost[n] > 0; n++) {
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_count(json, "facet", image->facet[n]);
-        lrcs_host_json_count(json, "pixels", image->lost[n]);
-        lrcs_host_json_end(json);
-    }
-    lrcs_host_json_end(json);
-    lrcs_host_json_end(json);
+    cli_json(json, "]}");
 }
 
 static void items_json(lrcs_host_json *json, const compare_job *job)
 {
     const compare_items *items = &job->by_item;
-    lrcs_host_json_begin(json, "items", LRCS_HOST_OBJECT);
-    lrcs_host_json_count(json, "asked", items->images);
-    lrcs_host_json_count(json, "given", items->handed);
-    lrcs_host_json_count(json, "differ", items->differ);
-    lrcs_host_json_begin(json, "ways", LRCS_HOST_ARRAY);
+    cli_json(json, "items={\nasked=%u given=%u differ=%u ways=[\n", items->images, items->handed,
+             items->differ);
     for (size_t way = 0; way < COMPARE_IMAGE_WAYS; way++) {
         way_json(json, cli_compare_image_way(way), items->way[way]);
     }
-    lrcs_host_json_end(json);
-    lrcs_host_json_begin(json, "worst", LRCS_HOST_ARRAY);
+    cli_json(json, "] worst=[\n");
     for (uint32_t i = 0; i < items->named; i++) {
-        image_json(json, job, &items->image[i]);
+        const compare_image *image = &items->image[i];
+        cli_json(json, "{scene=%s attitude=%s agree=%g lost=[\n",
+                 job->kit.scene[image->one->scene].name, image->one->attitude, image->agree);
+        for (uint32_t n = 0; n < COMPARE_TOP && image->lost[n] > 0; n++) {
+            cli_json(json, "{facet=%u pixels=%u}", image->facet[n], image->lost[n]);
+        }
+        cli_json(json, "]}");
     }
-    lrcs_host_json_end(json);
-    lrcs_host_json_end(json);
+    cli_json(json, "]}");
 }
 
 int cli_compare_json(FILE *out, const void *context, lrcs_host_error *error)
@@ -120,37 +69,32 @@ int cli_compare_json(FILE *out, const void *context, lrcs_host_error *error)
     const compare_job *job = context;
     lrcs_host_json json = lrcs_host_json_make(out);
     (void)error;
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    cli_json(&json, "{\n");
     cli_version_json(&json);
-    lrcs_host_json_bool(&json, "passed", cli_compare_passed(job));
-    lrcs_host_json_count(&json, "tier", job->tier);
-    lrcs_host_json_text(&json, "class", cli_compare_grade(job->grade));
-    lrcs_host_json_count(&json, "pixels", job->pixels);
-    lrcs_host_json_count(&json, "asked", job->asked);
-    lrcs_host_json_count(&json, "given", job->given);
-    lrcs_host_json_count(&json, "failed", job->failed);
-    lrcs_host_json_count(&json, "not_numbers", job->not_numbers);
-    lrcs_host_json_count(&json, "negatives", job->negatives);
-    lrcs_host_json_count(&json, "unexplained", job->unexplained);
-    lrcs_host_json_begin(&json, "findings", LRCS_HOST_ARRAY);
+    cli_json(&json, "passed=%d tier=%u class=%s pixels=%u asked=%u given=%u failed=%u",
+             cli_compare_passed(job), job->tier, cli_compare_grade(job->grade), job->pixels,
+             job->asked, job->given, job->failed);
+    cli_json(&json, "not_numbers=%u negatives=%u unexplained=%u findings=[\n", job->not_numbers,
+             job->negatives, job->unexplained);
     for (uint32_t i = 0; i < job->findings; i++) {
-        finding_json(&json, &job->finding[i]);
+        const compare_finding *finding = &job->finding[i];
+        cli_json(&json, "{name=%s text=%s factor=%g explains=%u leaves=%g}", finding->name,
+                 finding->text, finding->factor, finding->explained, finding->rest);
     }
-    lrcs_host_json_end(&json);
+    cli_json(&json, "]");
     if (job->facets) {
         facets_json(&json, job);
     }
     if (job->items) {
         items_json(&json, job);
     }
-    lrcs_host_json_begin(&json, "cases", LRCS_HOST_ARRAY);
+    cli_json(&json, "cases=[\n");
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         if (cli_compare_asked(job, &job->kit.list[i])) {
             case_json(&json, job, &job->kit.list[i]);
         }
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_end(&json);
+    cli_json(&json, "]}");
     return LRCS_OK;
 }
 

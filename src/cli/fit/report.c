@@ -251,82 +251,48 @@ void cli_fit_csv(const fit_job *job, FILE *out)
 
 /* ---- JSON ---- */
 
-static void parameter_json(const lrcs_fit *fit, int p, lrcs_host_json *json)
-{
-    const lrcs_fit_parameter *one = &fit->parameter[p];
-    report_statement statement = statement_make(fit, p);
-    lrcs_host_json_begin(json, report_name[p], LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_number(json, "value", one->value);
-    lrcs_host_json_number(json, "std_error", one->error);
-    lrcs_host_json_number(json, "low", one->low);
-    lrcs_host_json_number(json, "high", one->high);
-    lrcs_host_json_bool(json, "determined", one->verdict == LRCS_FIT_DETERMINED);
-    lrcs_host_json_text(json, "statement", statement.text);
-    lrcs_host_json_end(json);
-}
-
-static void correlation_json(const lrcs_fit *fit, lrcs_host_json *json)
-{
-    lrcs_host_json_begin(json, "correlation", LRCS_HOST_ARRAY);
-    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
-        cli_numbers_json(json, NULL, fit->correlation[p], LRCS_FIT_PARAMETERS);
-    }
-    lrcs_host_json_end(json);
-}
-
-static void outliers_json(const fit_material *material, lrcs_host_json *json)
-{
-    lrcs_host_json_begin(json, "outlier_lines", LRCS_HOST_ROW_ARRAY);
-    for (uint32_t i = 0; i < material->count; i++) {
-        if (material->point[i].outlier) {
-            lrcs_host_json_count(json, NULL, material->line[i]);
-        }
-    }
-    lrcs_host_json_end(json);
-}
-
 static void material_json(const fit_material *material, lrcs_host_json *json)
 {
     const lrcs_fit *fit = &material->fit;
     static const char *const noise[] = {"absolute", "relative", "given", "weighted"};
     int given = material->noise == LRCS_FIT_GIVEN;
-    lrcs_host_json_begin(json, NULL, LRCS_HOST_OBJECT);
-    lrcs_host_json_text(json, "material", material->name);
-    lrcs_host_json_begin(json, "parameters", LRCS_HOST_OBJECT);
+    cli_json(json, "{\nmaterial=%s parameters={\n", material->name);
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
-        parameter_json(fit, p, json);
+        const lrcs_fit_parameter *one = &fit->parameter[p];
+        report_statement statement = statement_make(fit, p);
+        lrcs_host_json_begin(json, report_name[p], LRCS_HOST_ROW_OBJECT);
+        cli_json(json, "value=%g std_error=%g low=%g high=%g determined=%d statement=%s}",
+                 one->value, one->error, one->low, one->high, one->verdict == LRCS_FIT_DETERMINED,
+                 statement.text);
     }
-    lrcs_host_json_end(json);
-    lrcs_host_json_bool(json, "all_determined", cli_fit_open(fit) == 0);
-    correlation_json(fit, json);
-    lrcs_host_json_count(json, "readings", material->count);
-    lrcs_host_json_count(json, "kept", fit->kept);
-    outliers_json(material, json);
-    lrcs_host_json_number(json, "least_deg", fit->least_deg);
-    lrcs_host_json_number(json, "most_deg", fit->most_deg);
-    lrcs_host_json_number(json, "rms_per_sr", fit->rms);
-    lrcs_host_json_text(json, "errors", noise[material->noise]);
-    lrcs_host_json_number(json, "noise", fit->noise);
-    lrcs_host_json_number(json, "reduced_chi2", given ? fit->noise * fit->noise : (double)NAN);
-    lrcs_host_json_end(json);
+    cli_json(json, "} all_determined=%d correlation=[\n", cli_fit_open(fit) == 0);
+    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+        cli_numbers_json(json, NULL, fit->correlation[p], LRCS_FIT_PARAMETERS);
+    }
+    cli_json(json, "] readings=%u kept=%u outlier_lines=[", material->count, fit->kept);
+    for (uint32_t i = 0; i < material->count; i++) {
+        if (material->point[i].outlier) {
+            lrcs_host_json_count(json, NULL, material->line[i]);
+        }
+    }
+    cli_json(json, "] least_deg=%g most_deg=%g rms_per_sr=%g errors=%s noise=%g reduced_chi2=%g}",
+             fit->least_deg, fit->most_deg, fit->rms, noise[material->noise], fit->noise,
+             given ? fit->noise * fit->noise : (double)NAN);
 }
 
 void cli_fit_json(const fit_job *job)
 {
     lrcs_host_json json = lrcs_host_json_make(stdout);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    cli_json(&json, "{\n");
     cli_version_json(&json);
     cli_operand_json(job->args, &json);
-    lrcs_host_json_number(&json, "unit_per_sr", job->options.unit);
-    lrcs_host_json_bool(&json, "cosine", job->options.cosine);
-    lrcs_host_json_begin(&json, "fits", LRCS_HOST_ARRAY);
+    cli_json(&json, "unit_per_sr=%g cosine=%d fits=[\n", job->options.unit, job->options.cosine);
     for (uint32_t i = 0; i < job->materials; i++) {
         material_json(&job->material[i], &json);
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_begin(&json, "notices", LRCS_HOST_ARRAY);
+    cli_json(&json, "] notices=[\n");
     cli_notices_json(&job->readings.notices, &json);
-    lrcs_host_json_end(&json);
+    cli_json(&json, "]");
     cli_options_json(job->args, &json);
-    lrcs_host_json_end(&json);
+    cli_json(&json, "}");
 }

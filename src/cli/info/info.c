@@ -29,97 +29,59 @@ static const cli_option info_options[] = {
 
 /* ---- JSON ---- */
 
-static void json_materials(const cli_info *info, lrcs_host_json *json)
-{
-    lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; i < info->scene.scene.material_count; i++) {
-        const lrcs_material *material = &info->scene.scene.material[i];
-        char colour[8];
-        if (!cli_info_shows(info, i)) {
-            continue;
-        }
-        snprintf(colour, sizeof colour, "#%02X%02X%02X", material->rgb[0], material->rgb[1],
-                 material->rgb[2]);
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(json, "name", material->name);
-        lrcs_host_json_text(json, "colour", material->has_colour ? colour : NULL);
-        lrcs_host_json_count(json, "facets", info->material[i].facets);
-        lrcs_host_json_number(json, "area_m2", cli_sum_value(&info->material[i].area));
-        lrcs_host_json_begin(json, "brdf", LRCS_HOST_ROW_OBJECT);
-        cli_brdf_json(&material->brdf, json);
-        lrcs_host_json_end(json);
-        lrcs_host_json_end(json);
-    }
-    lrcs_host_json_end(json);
-}
-
-static void json_glint(const cli_info *info, lrcs_host_json *json)
-{
-    const lrcs_scene *scene = &info->scene.scene;
-    lrcs_host_json_begin(json, "glint", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; i < info->glint_count; i++) {
-        const lrcs_host_glint *glint = &info->glint[i];
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(json, "part", scene->part[glint->part].name);
-        lrcs_host_json_text(json, "material", scene->material[glint->material].name);
-        lrcs_host_json_number(json, "s", glint->s);
-        lrcs_host_json_number(json, "turn_estimate_deg", glint->turn * CLI_DEGREES);
-        lrcs_host_json_number(json, "relative_error_estimate", glint->error);
-        lrcs_host_json_number(json, "facets_around_for_1e-2", glint->around_1_percent);
-        lrcs_host_json_number(json, "facets_around_for_1e-3", glint->around_01_percent);
-        lrcs_host_json_end(json);
-    }
-    lrcs_host_json_end(json);
-}
-
-static void json_notices(const cli_info *info, lrcs_host_json *json)
-{
-    const lrcs_host_notices *notices = &info->scene.notices;
-    char text[INFO_NOTICE_SIZE];
-    lrcs_host_json_begin(json, "notices", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; i < notices->count; i++) {
-        lrcs_host_json_text(json, NULL, notices->text[i]);
-    }
-    for (int i = 0; i < INFO_NOTICES; i++) {
-        const char *notice = cli_info_notice(info, i, text);
-        if (notice) {
-            lrcs_host_json_text(json, NULL, notice);
-        }
-    }
-    lrcs_host_json_end(json);
-}
-
 static void info_json(const cli_args *args, const cli_info *info)
 {
     const lrcs_scene *scene = &info->scene.scene;
     const lrcs_mesh_report *report = &info->report;
+    char text[INFO_NOTICE_SIZE];
     lrcs_host_json json = lrcs_host_json_make(stdout);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    cli_json(&json, "{\n");
     cli_version_json(&json);
     cli_files_json(&info->scene, &json);
-    lrcs_host_json_text(&json, "unit", cli_value(args, "unit"));
-    lrcs_host_json_count(&json, "parts", info->parts);
-    lrcs_host_json_count(&json, "vertices", scene->vertex_count);
-    lrcs_host_json_count(&json, "facets", scene->facet_count);
-    lrcs_host_json_number(&json, "area_m2", report->area);
-    lrcs_host_json_number(&json, "volume_m3", report->volume);
+    cli_json(&json, "unit=%s parts=%u vertices=%u facets=%u area_m2=%g volume_m3=%g",
+             cli_value(args, "unit"), info->parts, scene->vertex_count, scene->facet_count,
+             report->area, report->volume);
     cli_numbers_json(&json, "box_min_m", report->box_min, 3);
     cli_numbers_json(&json, "box_max_m", report->box_max, 3);
-    lrcs_host_json_bool(&json, "closed", report->closed);
-    lrcs_host_json_bool(&json, "convex", report->convex);
-    json_materials(info, &json);
-    lrcs_host_json_begin(&json, "defects", LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_count(&json, "degenerate", report->degenerate);
-    lrcs_host_json_count(&json, "duplicate", report->duplicate);
-    lrcs_host_json_count(&json, "opposite_pairs", report->opposite_pairs);
-    lrcs_host_json_count(&json, "boundary_edges", report->boundary_edges);
-    lrcs_host_json_count(&json, "nonmanifold_edges", report->nonmanifold_edges);
-    lrcs_host_json_end(&json);
-    json_glint(info, &json);
-    json_notices(info, &json);
-    lrcs_host_json_text(&json, "title", cli_scene_title(args, &info->scene));
+    cli_json(&json, "closed=%d convex=%d", report->closed, report->convex);
+    cli_json(&json, "materials=[\n");
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_material *material = &scene->material[i];
+        if (!cli_info_shows(info, i)) {
+            continue;
+        }
+        snprintf(text, sizeof text, "#%02X%02X%02X", material->rgb[0], material->rgb[1],
+                 material->rgb[2]);
+        cli_json(&json, "{name=%s colour=%s facets=%u area_m2=%g brdf={", material->name,
+                 material->has_colour ? text : NULL, info->material[i].facets,
+                 cli_sum_value(&info->material[i].area));
+        cli_brdf_json(&material->brdf, &json);
+        cli_json(&json, "}}");
+    }
+    cli_json(&json,
+             "] defects={degenerate=%u duplicate=%u opposite_pairs=%u boundary_edges=%u "
+             "nonmanifold_edges=%u} glint=[\n",
+             report->degenerate, report->duplicate, report->opposite_pairs, report->boundary_edges,
+             report->nonmanifold_edges);
+    for (uint32_t i = 0; i < info->glint_count; i++) {
+        const lrcs_host_glint *glint = &info->glint[i];
+        cli_json(&json, "{part=%s material=%s s=%g turn_estimate_deg=%g relative_error_estimate=%g",
+                 scene->part[glint->part].name, scene->material[glint->material].name, glint->s,
+                 glint->turn * CLI_DEGREES, glint->error);
+        cli_json(&json, "facets_around_for_1e-2=%g facets_around_for_1e-3=%g}",
+                 glint->around_1_percent, glint->around_01_percent);
+    }
+    cli_json(&json, "] notices=[\n");
+    cli_notices_json(&info->scene.notices, &json);
+    for (int i = 0; i < INFO_NOTICES; i++) {
+        const char *notice = cli_info_notice(info, i, text);
+        if (notice) {
+            lrcs_host_json_text(&json, NULL, notice);
+        }
+    }
+    cli_json(&json, "] title=%s", cli_scene_title(args, &info->scene));
     cli_options_json(args, &json);
-    lrcs_host_json_end(&json);
+    cli_json(&json, "}");
 }
 
 /* ---- the table ---- */

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* If there are more bins than this, the table shows only the strongest; --csv and --json contain
-   all of them. */
+/* If there are more rows than this, bins and those that only a pulse reaches, the table shows only
+   the strongest; --csv and --json contain all of them. */
 #define TABLE_ROWS 40u
 
 static double total_sigma(const profile_job *job)
@@ -82,70 +82,58 @@ void cli_profile_csv(const profile_job *job, FILE *out)
 static void json_head(const profile_job *job, lrcs_host_json *json)
 {
     const lrcs_profile *p = &job->profile.list;
-    double s_hat[3];
-    cli_pose_unit(&job->pose, s_hat);
     cli_version_json(json);
     cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
-    lrcs_host_json_text(json, "unit", cli_value(job->args, "unit"));
+    cli_json(json, "unit=%s", cli_value(job->args, "unit"));
     cli_direction_json(&job->pose, json);
-    lrcs_host_json_number(json, "bin_m", job->bin_m);
-    lrcs_host_json_number(json, "pulse_fwhm_m", job->fwhm_m > 0.0 ? job->fwhm_m : (double)NAN);
-    lrcs_host_json_number(json, "sigma_m2", total_sigma(job));
-    lrcs_host_json_number(json, "sigma_glint_m2", p->sigma_glint_m2);
-    lrcs_host_json_number(json, "sigma_diffuse_m2", p->sigma_diffuse_m2);
-    lrcs_host_json_number(json, "bound_m2", p->bound_m2);
-    lrcs_host_json_text(json, "normals", lrcs_normals_text(job->scene.scene.normals));
-    lrcs_host_json_number(json, "curvature_estimate_m2",
-                          is_curved(job) ? p->curvature_estimate_m2 : (double)NAN);
-    lrcs_host_json_text(json, "bound_refers_to",
-                        p->tessellation_known
-                            ? "the facets of models, and true curved shapes"
-                            : "the facets, also those that stand for curved shapes");
-    lrcs_host_json_begin(json, "tolerance", LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_number(json, "asked", job->asked > 0.0 ? job->asked : (double)NAN);
+    cli_json(
+        json,
+        "bin_m=%g pulse_fwhm_m=%g sigma_m2=%g sigma_glint_m2=%g sigma_diffuse_m2=%g bound_m2=%g "
+        "normals=%s curvature_estimate_m2=%g bound_refers_to=%s",
+        job->bin_m, job->fwhm_m > 0.0 ? job->fwhm_m : (double)NAN, total_sigma(job),
+        p->sigma_glint_m2, p->sigma_diffuse_m2, p->bound_m2,
+        lrcs_normals_text(job->scene.scene.normals),
+        is_curved(job) ? p->curvature_estimate_m2 : (double)NAN,
+        p->tessellation_known ? "the facets of models, and true curved shapes"
+                              : "the facets, also those that stand for curved shapes");
     if (job->asked > 0.0) {
-        lrcs_host_json_bool(json, "met", job->met);
+        cli_json(json, "tolerance={asked=%g met=%d}", job->asked, job->met);
     } else {
-        lrcs_host_json_text(json, "met", NULL);
+        cli_json(json, "tolerance={asked=null met=null}");
     }
-    lrcs_host_json_end(json);
-    lrcs_host_json_begin(json, "notices", LRCS_HOST_ARRAY);
+    cli_json(json, "notices=[\n");
     cli_notices_json(&job->scene.notices, json);
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
 }
 
 void cli_profile_json(const profile_job *job)
 {
     lrcs_host_json json = lrcs_host_json_make(stdout);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    cli_json(&json, "{\n");
     json_head(job, &json);
     cli_provenance_json(job->args, &job->scene, &json);
-    lrcs_host_json_begin(&json, "bins", LRCS_HOST_ARRAY);
+    cli_json(&json, "bins=[\n");
     for (uint32_t i = 0; i < job->rows; i++) {
         const profile_row *row = &job->row[i];
-        lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_number(&json, "near_m", row->near_m);
-        lrcs_host_json_number(&json, "far_m", row->far_m);
-        lrcs_host_json_number(&json, "sigma_m2", cli_profile_sigma(&row->bin));
-        lrcs_host_json_number(&json, "bound_m2", row->bin.bound_m2);
-        lrcs_host_json_number(&json, "sigma_glint_m2", row->bin.sigma_glint_m2);
-        lrcs_host_json_number(&json, "sigma_diffuse_m2", row->bin.sigma_diffuse_m2);
-        lrcs_host_json_number(&json, "density_m", cli_profile_sigma(&row->bin) / job->bin_m);
+        cli_json(&json,
+                 "{near_m=%g far_m=%g sigma_m2=%g bound_m2=%g sigma_glint_m2=%g "
+                 "sigma_diffuse_m2=%g density_m=%g",
+                 row->near_m, row->far_m, cli_profile_sigma(&row->bin), row->bin.bound_m2,
+                 row->bin.sigma_glint_m2, row->bin.sigma_diffuse_m2,
+                 cli_profile_sigma(&row->bin) / job->bin_m);
         if (is_curved(job)) {
-            lrcs_host_json_number(&json, "curvature_estimate_m2", row->bin.curvature_estimate_m2);
+            cli_json(&json, "curvature_estimate_m2=%g", row->bin.curvature_estimate_m2);
         }
         if (job->fwhm_m > 0.0) {
-            lrcs_host_json_number(&json, "pulse_m", row->pulse_m);
-            lrcs_host_json_number(&json, "pulse_bound_m", row->pulse_bound_m);
+            cli_json(&json, "pulse_m=%g pulse_bound_m=%g", row->pulse_m, row->pulse_bound_m);
         }
         if (job->fwhm_m > 0.0 && is_curved(job)) {
-            lrcs_host_json_number(&json, "pulse_estimate_m", row->pulse_estimate_m);
+            cli_json(&json, "pulse_estimate_m=%g", row->pulse_estimate_m);
         }
-        lrcs_host_json_end(&json);
+        cli_json(&json, "}");
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_end(&json);
+    cli_json(&json, "]}");
 }
 
 /* ---- the table ---- */
@@ -189,7 +177,7 @@ static void rows_print(const profile_job *job)
         for (uint32_t i = 0; i < TABLE_ROWS / 2; i++) {
             row_print(job, &sorted[i]);
         }
-        printf("  the strongest %lu of %lu bins; --csv and --json give all\n",
+        printf("  the strongest %lu of %lu rows; --csv and --json give all\n",
                (unsigned long)(TABLE_ROWS / 2), (unsigned long)job->rows);
     }
     free(sorted);

@@ -191,7 +191,8 @@ static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
     double most[3];
     double side = 0.0;
     double radius = 0.0;
-    double *value = malloc(2 * map->plan.rows * sizeof *value);
+    uint64_t rows = map->plan.rows;
+    double *value = malloc(4 * rows * sizeof *value); /* sigma, bound, low and high end */
     lrcs_host_scene_box(scene, least, most);
     for (int k = 0; k < 3; k++) {
         side = fmax(side, most[k] - least[k]);
@@ -201,9 +202,10 @@ static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
         free(value);
         return CLI_FAILED;
     }
-    for (uint64_t i = 0; i < map->plan.rows; i++) {
-        value[i] = map->row[i][0];
-        value[map->plan.rows + i] = map->row[i][1];
+    for (uint64_t i = 0; i < rows; i++) {
+        for (uint64_t k = 0; k < (map->band ? 4u : 2u); k++) {
+            value[k * rows + i] = k < 2 ? map->row[i][k] : map->band[i][k - 2];
+        }
     }
     fputs("<script type=\"application/json\" id=\"data\">{", out);
     cli_number_put(out, "\"start\":[", atan2(d[1], d[0]) * CLI_DEGREES);
@@ -216,8 +218,13 @@ static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
     axis_put(out, "az", 0.0, job->map_step, map->plan.axis[0].range.count);
     axis_put(out, "el", -90.0, job->map_step, map->plan.axis[1].range.count);
     materials_put(out, scene);
-    words_put(out, "sigma", value, map->plan.rows, 8);
-    words_put(out, "bound", value + map->plan.rows, map->plan.rows, 8);
+    fprintf(out, ",\n\"open\":%d", map->plot.open != 0);
+    words_put(out, "sigma", value, rows, 8);
+    words_put(out, "bound", value + rows, rows, 8);
+    if (map->band) {
+        words_put(out, "low", value + 2 * rows, rows, 8);
+        words_put(out, "high", value + 3 * rows, rows, 8);
+    }
     words_put(out, "points", mesh->point, (size_t)3 * mesh->points, 4);
     words_put(out, "facets", mesh->facet, (size_t)3 * mesh->facets, 4);
     words_put(out, "material", mesh->material, mesh->facets, 4);

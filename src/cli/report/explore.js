@@ -17,6 +17,7 @@
     return list.buffer;
   }
   const sigma = new Float64Array(bytes(data.sigma)), bound = new Float64Array(bytes(data.bound));
+  const band = data.low ? [new Float64Array(bytes(data.low)), new Float64Array(bytes(data.high))] : null;
   const point = new Float32Array(bytes(data.points)), corner = new Uint32Array(bytes(data.facets));
   const material = new Uint32Array(bytes(data.material)), seen = new Float32Array(point.length);
 
@@ -189,9 +190,12 @@
   function say() {
     const at = nearest(), s = sigma[at.row], b = bound[at.row];
     const angle = (x) => String(Math.round(100 * x) / 100).replace("-", "\u2212");
+    const known = (data.open ? " for its materials, which are illustrative or assumed" : "") +
+      (band ? `; by the errors of its materials ${Number(band[0][at.row].toPrecision(3))} to ` +
+        `${Number(band[1][at.row].toPrecision(3))} m\u00b2 (68 %)` : "");
     where.textContent = `Laser at azimuth ${angle(turn(view.az))}\u00b0, elevation ${angle(view.el)}\u00b0.`;
     out.textContent = `\u03c3 = ${Number(s.toPrecision(6))} m\u00b2` +
-      (s > 0 ? ` (${angle(dbsm(s))} dBsm)` : "") + `, proved to within ${upper(b)} m\u00b2, at azimuth ` +
+      (s > 0 ? ` (${angle(dbsm(s))} dBsm)` : "") + `, proved to within ${upper(b)} m\u00b2${known}, at azimuth ` +
       `${angle(at.az)}\u00b0, elevation ${angle(at.el)}\u00b0, the nearest direction of the map.`;
     out.dataset.row = at.row;
     out.dataset.sigma = s;

@@ -3,6 +3,7 @@
    state errors. It is not part of the bound. */
 #include "cli/run/run.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #define DRAWS_MOST 1048576.0
@@ -58,65 +59,40 @@ static int is_assigned(const lrcs_scene *scene, uint32_t material)
 
 /* ---- as JSON ---- */
 
-static void uncertainty_json(const run_job *job, lrcs_host_json *json)
-{
-    const lrcs_uncertainty *u = &job->uncertainty;
-    lrcs_host_json_begin(json, "material_uncertainty", LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_number(json, "deviation_m2", u->deviation_m2);
-    lrcs_host_json_number(json, "low_m2", u->low_m2);
-    lrcs_host_json_number(json, "high_m2", u->high_m2);
-    lrcs_host_json_text(json, "by", u->sampled ? "sample" : "first_order");
-    lrcs_host_json_number(json, "first_order_m2", u->first_order_m2);
-    if (u->draws > 0) {
-        lrcs_host_json_number(json, "sample_m2", u->sample_m2);
-        lrcs_host_json_number(json, "sample_mean_m2", u->sample_mean_m2);
-    } else {
-        lrcs_host_json_text(json, "sample_m2", NULL);
-        lrcs_host_json_text(json, "sample_mean_m2", NULL);
-    }
-    lrcs_host_json_count(json, "draws", u->draws);
-    lrcs_host_json_count(json, "seed", job->sampling.seed);
-    lrcs_host_json_end(json);
-}
-
 static void sensitivity_json(const run_job *job, lrcs_host_json *json)
 {
-    static const char *const axis[2] = {"about_x", "about_y"};
     const lrcs_scene *scene = &job->scene.scene;
-    lrcs_host_json_begin(json, "sensitivity", LRCS_HOST_OBJECT);
-    lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
+    cli_json(json, "sensitivity={\nmaterials=[\n");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_sensitivity *d = &job->sensitivity[i];
-        if (!is_assigned(scene, i)) {
-            continue;
+        if (is_assigned(scene, i)) {
+            cli_json(json, "{name=%s dA_m2_sr=%g dB_m2_sr=%g ds_m2=%g dm_m2=%g}",
+                     scene->material[i].name, d->dA, d->dB, d->ds, d->dm);
         }
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(json, "name", scene->material[i].name);
-        lrcs_host_json_number(json, "dA_m2_sr", d->dA);
-        lrcs_host_json_number(json, "dB_m2_sr", d->dB);
-        lrcs_host_json_number(json, "ds_m2", d->ds);
-        lrcs_host_json_number(json, "dm_m2", d->dm);
-        lrcs_host_json_end(json);
     }
-    lrcs_host_json_end(json);
-    lrcs_host_json_begin(json, "attitude", LRCS_HOST_OBJECT);
+    cli_json(json, "] attitude={\n");
     for (int i = 0; i < 2; i++) {
-        lrcs_host_json_begin(json, axis[i], LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_number(json, "m2_per_deg", job->attitude.per_deg_m2[i]);
-        lrcs_host_json_number(json, "bound_m2_per_deg", job->attitude.bound_m2[i]);
-        lrcs_host_json_number(json, "estimate_m2_per_deg", job->attitude.estimate_m2[i]);
-        lrcs_host_json_end(json);
+        lrcs_host_json_begin(json, i == 0 ? "about_x" : "about_y", LRCS_HOST_ROW_OBJECT);
+        cli_json(json, "m2_per_deg=%g bound_m2_per_deg=%g estimate_m2_per_deg=%g}",
+                 job->attitude.per_deg_m2[i], job->attitude.bound_m2[i],
+                 job->attitude.estimate_m2[i]);
     }
-    lrcs_host_json_end(json);
-    lrcs_host_json_end(json);
+    cli_json(json, "}}");
 }
 
 void cli_run_materials_json(const run_job *job, lrcs_host_json *json)
 {
-    if (job->uncertainty.stated) {
-        uncertainty_json(job, json);
+    const lrcs_uncertainty *u = &job->uncertainty;
+    if (u->stated) {
+        double none = (double)NAN;
+        cli_json(json, "material_uncertainty={deviation_m2=%g low_m2=%g high_m2=%g by=%s",
+                 u->deviation_m2, u->low_m2, u->high_m2, u->sampled ? "sample" : "first_order");
+        cli_json(json, "first_order_m2=%g sample_m2=%g sample_mean_m2=%g draws=%u seed=%llu}",
+                 u->first_order_m2, u->draws > 0 ? u->sample_m2 : none,
+                 u->draws > 0 ? u->sample_mean_m2 : none, u->draws,
+                 (unsigned long long)job->sampling.seed);
     } else {
-        lrcs_host_json_text(json, "material_uncertainty", NULL);
+        cli_json(json, "material_uncertainty=null");
     }
     if (job->sensitivity_asked) {
         sensitivity_json(job, json);

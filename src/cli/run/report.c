@@ -32,9 +32,9 @@ static void notices_say(const run_job *job, lrcs_host_json *json)
 }
 
 /* A negative number means not known. */
-static void known_number(lrcs_host_json *json, const char *key, double value)
+static double known(double value)
 {
-    lrcs_host_json_number(json, key, value >= 0.0 ? value : (double)NAN);
+    return value >= 0.0 ? value : (double)NAN;
 }
 
 static void json_head(const run_job *job, lrcs_host_json *json)
@@ -43,96 +43,65 @@ static void json_head(const run_job *job, lrcs_host_json *json)
     cli_version_json(json);
     cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
-    lrcs_host_json_text(json, "unit", cli_value(job->args, "unit"));
-    lrcs_host_json_number(json, "sigma_m2", result->sigma_m2);
-    lrcs_host_json_number(json, "sigma_dbsm",
-                          result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN);
-    lrcs_host_json_begin(json, "tolerance", LRCS_HOST_ROW_OBJECT);
-    if (job->asked > 0.0) {
-        lrcs_host_json_number(json, "asked", job->asked);
-        if (result->flags & LRCS_FLAG_ACCEPTED_UNJUDGED) {
-            lrcs_host_json_text(json, "met", NULL);
-        } else {
-            lrcs_host_json_bool(json, "met", job->met);
-        }
-        lrcs_host_json_text(json, "accepted_by", cli_accepted_by(result->flags));
+    cli_json(json, "unit=%s sigma_m2=%g sigma_dbsm=%g tolerance={", cli_value(job->args, "unit"),
+             result->sigma_m2, result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN);
+    if (!(job->asked > 0.0)) {
+        cli_json(json, "asked=null met=null accepted_by=null}");
+    } else if (result->flags & LRCS_FLAG_ACCEPTED_UNJUDGED) {
+        cli_json(json, "asked=%g met=null accepted_by=%s}", job->asked,
+                 cli_accepted_by(result->flags));
     } else {
-        lrcs_host_json_text(json, "asked", NULL);
-        lrcs_host_json_text(json, "met", NULL);
-        lrcs_host_json_text(json, "accepted_by", NULL);
+        cli_json(json, "asked=%g met=%d accepted_by=%s}", job->asked, job->met,
+                 cli_accepted_by(result->flags));
     }
-    lrcs_host_json_end(json);
     if (job->budget.asked_ms > 0.0) {
-        lrcs_host_json_begin(json, "time_budget", LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_number(json, "asked_ms", job->budget.asked_ms);
-        lrcs_host_json_number(json, "spent_ms", job->budget.spent_ms);
-        lrcs_host_json_text(json, "same_as", job->budget.same);
-        lrcs_host_json_end(json);
+        cli_json(json, "time_budget={asked_ms=%g spent_ms=%g same_as=%s}", job->budget.asked_ms,
+                 job->budget.spent_ms, job->budget.same);
     }
     if (job->options.steps != 0) {
-        lrcs_host_json_begin(json, "steps", LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_count(json, "asked", job->options.steps);
-        lrcs_host_json_count(json, "taken", result->steps);
-        lrcs_host_json_end(json);
+        cli_json(json, "steps={asked=%llu taken=%llu}", (unsigned long long)job->options.steps,
+                 (unsigned long long)result->steps);
     }
     if (job->emulation.asked) {
         cli_run_emulation_json(job, json);
     }
-    if (result->resolution != 0) {
-        lrcs_host_json_count(json, "resolution", result->resolution);
-    } else {
-        lrcs_host_json_text(json, "resolution", NULL);
-    }
-    lrcs_host_json_text(json, "normals", lrcs_normals_text(job->scene.scene.normals));
-    known_number(json, "estimate_m2", result->estimate_m2);
-    known_number(json, "curvature_estimate_m2", result->curvature_estimate_m2);
-    lrcs_host_json_begin(json, "notices", LRCS_HOST_ARRAY);
+    cli_json(json, result->resolution != 0 ? "resolution=%u" : "resolution=null",
+             result->resolution);
+    cli_json(json, "normals=%s estimate_m2=%g curvature_estimate_m2=%g notices=[\n",
+             lrcs_normals_text(job->scene.scene.normals), known(result->estimate_m2),
+             known(result->curvature_estimate_m2));
     notices_say(job, json);
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
 }
 
 static void json_effects(const run_job *job, lrcs_host_json *json)
 {
     const lrcs_result *result = &job->result;
-    lrcs_host_json_begin(json, "effects", LRCS_HOST_ARRAY);
+    cli_json(json, "effects=[\n");
     for (int i = 0; i < LRCS_EFFECTS; i++) {
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(json, "name", lrcs_effect_text(i));
-        lrcs_host_json_bool(json, "on", result->effect[i].on);
-        lrcs_host_json_text(json, "reason", result->effect[i].reason);
+        cli_json(json, "{name=%s on=%d reason=%s", lrcs_effect_text(i), result->effect[i].on,
+                 result->effect[i].reason);
         if (job->explain) {
             cli_run_explain_json(job, i, json);
         }
-        lrcs_host_json_end(json);
+        cli_json(json, "}");
     }
-    lrcs_host_json_end(json);
-    lrcs_host_json_begin(json, "flags", LRCS_HOST_ROW_ARRAY);
-    for (uint32_t bits = result->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
-        if (bits & 1u) {
-            lrcs_host_json_text(json, NULL, lrcs_flag_text((int)bit));
-        }
-    }
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
+    cli_flags_json(json, result->flags);
 }
 
 static void json_tail(const run_job *job, lrcs_host_json *json)
 {
     const lrcs_result *result = &job->result;
-    lrcs_host_json_begin(json, "facets", LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_count(json, "total", result->facets_total);
-    lrcs_host_json_count(json, "front", result->facets_front);
-    lrcs_host_json_count(json, "hidden", result->facets_hidden);
-    lrcs_host_json_count(json, "partial", result->facets_partial);
-    lrcs_host_json_end(json);
+    cli_json(json, "facets={total=%u front=%u hidden=%u partial=%u}", result->facets_total,
+             result->facets_front, result->facets_hidden, result->facets_partial);
     cli_direction_json(&job->pose, json);
-    lrcs_host_json_begin(json, "seconds", LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_number(json, "load", job->scene.seconds_load);
-    lrcs_host_json_number(json, "prepare", job->scene.seconds_prepare);
-    lrcs_host_json_number(json, "pose", job->seconds);
+    cli_json(json, "seconds={load=%g prepare=%g pose=%g", job->scene.seconds_load,
+             job->scene.seconds_prepare, job->seconds);
     if (job->explain) {
         cli_run_explain_stages_json(job, json);
     }
-    lrcs_host_json_end(json);
+    cli_json(json, "}");
 }
 
 static void json_box(const run_job *job, lrcs_host_json *json)
@@ -205,20 +174,16 @@ void cli_run_json(const run_job *job)
 {
     const lrcs_result *result = &job->result;
     lrcs_host_json json = lrcs_host_json_make(stdout);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    cli_json(&json, "{\n");
     json_head(job, &json);
-    lrcs_host_json_number(&json, "sigma_glint_m2", result->sigma_glint_m2);
-    lrcs_host_json_number(&json, "sigma_diffuse_m2", result->sigma_diffuse_m2);
-    lrcs_host_json_number(&json, "bound_m2", result->bound_m2);
-    lrcs_host_json_begin(&json, "budget_m2", LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_number(&json, "visibility", result->budget.visibility_m2);
-    known_number(&json, "tessellation", result->budget.tessellation_m2);
-    lrcs_host_json_number(&json, "rounding", result->budget.rounding_m2);
-    lrcs_host_json_end(&json);
+    cli_json(&json, "sigma_glint_m2=%g sigma_diffuse_m2=%g bound_m2=%g", result->sigma_glint_m2,
+             result->sigma_diffuse_m2, result->bound_m2);
+    cli_json(&json, "budget_m2={visibility=%g tessellation=%g rounding=%g}",
+             result->budget.visibility_m2, known(result->budget.tessellation_m2),
+             result->budget.rounding_m2);
     cli_run_materials_json(job, &json);
-    lrcs_host_json_number(&json, "projected_area_m2", result->projected_area_m2);
-    lrcs_host_json_text(&json, "method", lrcs_method_text(result->method));
-    lrcs_host_json_text(&json, "method_reason", result->method_reason);
+    cli_json(&json, "projected_area_m2=%g method=%s method_reason=%s", result->projected_area_m2,
+             lrcs_method_text(result->method), result->method_reason);
     json_effects(job, &json);
     json_tail(job, &json);
     json_box(job, &json);
@@ -227,7 +192,7 @@ void cli_run_json(const run_job *job)
     if (job->shares_asked) {
         cli_shares_json(&job->shares, &json);
     }
-    lrcs_host_json_end(&json);
+    cli_json(&json, "}");
 }
 
 void cli_run_table(const run_job *job)

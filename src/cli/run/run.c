@@ -19,7 +19,7 @@ static const char run_help[] =
     "Computes sigma (m2) of SCENE: a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
     "\n" CLI_POSE_HELP "\n"
     "options\n" CLI_ACCURACY_HELP "  --time-budget MS      in place of these: the best answer that "
-                                  "MS milliseconds buy, loading and\n"
+    "MS milliseconds buy, loading and\n"
     "                        preparing included: by its bound, or by its likely error where "
     "bounds\n"
     "                        say little; no setting that takes less time would have been better.\n"

@@ -53,22 +53,17 @@ int cli_run_open(run_job *job)
 void cli_run_open_json(const run_job *job, lrcs_host_json *json)
 {
     const run_open *open = &job->open;
-    lrcs_host_json_begin(json, "back_sides", LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_number(json, "area_m2", open->back_area_m2);
-    lrcs_host_json_number(json, "share_of_silhouette", open->back_share);
-    lrcs_host_json_number(json, "sigma_two_sided_m2", open->back_sigma_m2);
-    lrcs_host_json_end(json);
-    lrcs_host_json_begin(json, "coarse_glint", LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_count(json, "parts", open->coarse);
-    lrcs_host_json_number(json, "sigma_glint_m2", open->glint.glint_m2);
-    lrcs_host_json_number(json, "error_estimate_m2", open->glint.error_m2);
+    cli_json(json,
+             "back_sides={area_m2=%g share_of_silhouette=%g sigma_two_sided_m2=%g} "
+             "coarse_glint={parts=%u sigma_glint_m2=%g error_estimate_m2=%g",
+             open->back_area_m2, open->back_share, open->back_sigma_m2, open->coarse,
+             open->glint.glint_m2, open->glint.error_m2);
     if (job->records || open->coarse == 0) {
-        lrcs_host_json_bool(json, "one_facet_dominates",
-                            cli_glint_dominates(&open->glint, job->result.sigma_m2));
+        cli_json(json, "one_facet_dominates=%d}",
+                 cli_glint_dominates(&open->glint, job->result.sigma_m2));
     } else {
-        lrcs_host_json_text(json, "one_facet_dominates", NULL); /* not known */
+        cli_json(json, "one_facet_dominates=null}"); /* not known */
     }
-    lrcs_host_json_end(json);
 }
 
 /* ---- in words ---- */

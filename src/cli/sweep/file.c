@@ -84,12 +84,12 @@ void cli_file_take(sweep_file *file, const sweep_row *row)
 {
     cli_tally_add(&file->tally, row);
     if (file->row) {
-        file->row[row->index][0] = row->sigma_m2;
-        file->row[row->index][1] = row->bound_m2;
+        file->row[row->index][0] = row->field[FIELD_SIGMA];
+        file->row[row->index][1] = row->field[FIELD_BOUND];
     }
     if (file->band) {
-        file->band[row->index][0] = row->extra[EXTRA_LOW];
-        file->band[row->index][1] = row->extra[EXTRA_HIGH];
+        file->band[row->index][0] = row->field[FIELD_LOW];
+        file->band[row->index][1] = row->field[FIELD_HIGH];
     }
     file->next++;
 }

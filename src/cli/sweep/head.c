@@ -102,14 +102,14 @@ int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_o
     if (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK || head->dimensions == 0) {
         head->shape[head->dimensions++] = plan->kind == SWEEP_FIXED ? 1 : plan->poses;
     }
-    if (plan->extras.materials) { /* before all texts from users: readers search for it */
+    if (plan->fields.materials) { /* before all texts from users: readers search for it */
         lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
         char text[64];
         snprintf(text, sizeof text, "%lu draws seed %lu", (unsigned long)how.draws,
                  (unsigned long)how.seed);
         head_add(head, SWEEP_UNCERTAINTY, text);
     }
-    if (plan->extras.glint) {
+    if (plan->fields.glint) {
         head_add(head, SWEEP_COARSE_GLINT, "estimated");
     }
     int code = head_options(args, plan, options, head);

@@ -35,8 +35,8 @@ static void npy_head(FILE *out, const sweep_text *text)
 
 static void npy_row(FILE *out, const sweep_text *text, const sweep_row *row)
 {
-    npy_double(out, row->sigma_m2);
-    npy_double(out, row->bound_m2);
+    npy_double(out, row->field[FIELD_SIGMA]);
+    npy_double(out, row->field[FIELD_BOUND]);
     if (text->flagged) {
         npy_double(out, row->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE ? 1.0
                         : row->flags & LRCS_FLAG_ACCEPTED_UNJUDGED  ? 2.0
@@ -157,7 +157,9 @@ int cli_map_open(const char *path, sweep_map *map)
 void cli_map_row(const sweep_map *map, uint64_t index, sweep_row *row)
 {
     const unsigned char *at = map->value + index * 8 * map->numbers;
-    *row = (sweep_row){.index = index, .sigma_m2 = double_at(at), .bound_m2 = double_at(at + 8)};
+    *row = (sweep_row){.index = index,
+                       .field[FIELD_SIGMA] = double_at(at),
+                       .field[FIELD_BOUND] = double_at(at + 8)};
 }
 
 void cli_map_close(sweep_map *map)

@@ -184,11 +184,11 @@ static void data_take(void *context, const sweep_row *row)
         return;
     }
     cli_tally_add(&data->tally, row);
-    data->row[row->index][0] = row->sigma_m2;
-    data->row[row->index][1] = row->bound_m2;
+    data->row[row->index][0] = row->field[FIELD_SIGMA];
+    data->row[row->index][1] = row->field[FIELD_BOUND];
     if (data->band) {
-        data->band[row->index][0] = row->extra[EXTRA_LOW];
-        data->band[row->index][1] = row->extra[EXTRA_HIGH];
+        data->band[row->index][0] = row->field[FIELD_LOW];
+        data->band[row->index][1] = row->field[FIELD_HIGH];
     }
     uint64_t poses = data->plan.track.row ? data->plan.track.count : 0;
     for (int k = 0; k < 4 && row->index < poses; k++) {
@@ -308,7 +308,7 @@ int cli_data_read(const char *path, const cli_command *command, sweep_data *data
     }
     data->words = malloc(data->text.head_size + 1);
     data->row = calloc(data->text.rows, sizeof *data->row);
-    int banded = data->text.extras.materials && !cli_extension(data->path, ".npy");
+    int banded = data->text.fields.materials && !cli_extension(data->path, ".npy");
     data->band = banded ? calloc(data->text.rows, sizeof *data->band) : NULL;
     if (!data->words || !data->row || (banded && !data->band)) {
         return cli_out_of_memory();

@@ -7,45 +7,36 @@
 #include <math.h>
 #include <string.h>
 
-const char *const cli_extra_name[SWEEP_EXTRAS] = {"material_deviation_m2",   "material_low_m2",
-                                                  "material_high_m2",        "material_sampled",
-                                                  "glint_error_estimate_m2", "one_facet_dominates"};
+const char *const cli_field_name[SWEEP_FIELDS] = {"sigma_m2",           "sigma_dbsm",
+                                                  "bound_m2",           "sigma_glint_m2",
+                                                  "sigma_diffuse_m2",   "material_deviation_m2",
+                                                  "material_low_m2",    "material_high_m2",
+                                                  "material_sampled",   "glint_error_estimate_m2",
+                                                  "one_facet_dominates"};
 
-const char *const cli_row_field[SWEEP_FIELDS] = {"sigma_m2",       "sigma_dbsm",       "bound_m2",
-                                                 "sigma_glint_m2", "sigma_diffuse_m2", "flags"};
-
-/* The numbers of a row up to its extras; sigma = 0 has no dBsm. */
-static void row_numbers(const sweep_row *row, double number[FIELD_FLAGS])
+sweep_fields cli_fields_make(int materials, int glint)
 {
-    number[FIELD_SIGMA] = row->sigma_m2;
-    number[FIELD_DBSM] = row->sigma_m2 > 0.0 ? cli_dbsm(row->sigma_m2) : (double)NAN;
-    number[FIELD_BOUND] = row->bound_m2;
-    number[FIELD_GLINT] = row->sigma_glint_m2;
-    number[FIELD_DIFFUSE] = row->sigma_diffuse_m2;
-}
-
-sweep_extras cli_extras_make(int materials, int glint)
-{
-    sweep_extras extras = {.materials = materials, .glint = glint};
-    for (int kind = 0; kind < SWEEP_EXTRAS; kind++) {
-        if (kind < EXTRA_GLINT_ERROR ? materials : glint) {
-            extras.kind[extras.count++] = kind;
+    sweep_fields fields = {.materials = materials, .glint = glint};
+    for (int kind = 0; kind < SWEEP_FIELDS; kind++) {
+        if (kind < FIELD_DEVIATION || (kind < FIELD_GLINT_ERROR ? materials : glint)) {
+            fields.kind[fields.count++] = kind;
         }
     }
-    return extras;
+    return fields;
 }
 
 void cli_tally_add(sweep_tally *tally, const sweep_row *row)
 {
-    double off = row->sigma_m2 - tally->mean;
+    double sigma = row->field[FIELD_SIGMA];
+    double off = sigma - tally->mean;
     tally->rows++;
     tally->mean += off / (double)tally->rows; /* B. P. Welford, Technometrics 4 (1962) 419 */
-    tally->square += off * (row->sigma_m2 - tally->mean);
-    tally->bound += row->bound_m2;
+    tally->square += off * (sigma - tally->mean);
+    tally->bound += row->field[FIELD_BOUND];
     tally->missed += (row->flags & LRCS_FLAG_TOLERANCE_NOT_MET) != 0;
     tally->estimated += (row->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE) != 0;
     tally->unjudged += (row->flags & LRCS_FLAG_ACCEPTED_UNJUDGED) != 0;
-    tally->dominated += row->extra[EXTRA_DOMINATED] > 0.0;
+    tally->dominated += row->field[FIELD_DOMINATED] > 0.0;
     tally->starved += (row->flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
 }
 
@@ -99,11 +90,8 @@ static void csv_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
         putc(',', out);
         csv_field(out, plan->column[i]);
     }
-    for (int i = 0; i < FIELD_FLAGS; i++) {
-        fprintf(out, ",%s", cli_row_field[i]);
-    }
-    for (uint32_t i = 0; i < plan->extras.count; i++) {
-        fprintf(out, ",%s", cli_extra_name[plan->extras.kind[i]]);
+    for (uint32_t i = 0; i < plan->fields.count; i++) {
+        fprintf(out, ",%s", cli_field_name[plan->fields.kind[i]]);
     }
     fputs(",flags\n", out);
 }
@@ -111,17 +99,12 @@ static void csv_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
 static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 {
     const char *before = ",";
-    double number[FIELD_FLAGS];
-    row_numbers(row, number);
     fprintf(out, "%llu", (unsigned long long)row->index);
     for (uint32_t i = 0; i < plan->columns; i++) {
         number_put(out, ",", row->value[i]);
     }
-    for (int i = 0; i < FIELD_FLAGS; i++) {
-        number_put(out, ",", number[i]);
-    }
-    for (uint32_t i = 0; i < plan->extras.count; i++) {
-        number_put(out, ",", row->extra[plan->extras.kind[i]]);
+    for (uint32_t i = 0; i < plan->fields.count; i++) {
+        number_put(out, ",", row->field[plan->fields.kind[i]]);
     }
     for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
         if (bits & 1u) {
@@ -137,52 +120,37 @@ static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 static void jsonl_head(FILE *out, const sweep_head *head, const sweep_plan *plan)
 {
     lrcs_host_json json = lrcs_host_json_make(out);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_text(&json, "lrcs", "sweep");
+    cli_json(&json, "{lrcs=%s", "sweep");
     cli_version_json(&json);
     cli_hash_json(head->scene_hash, &json);
-    lrcs_host_json_count(&json, "rows", head->rows);
-    lrcs_host_json_begin(&json, "shape", LRCS_HOST_ROW_ARRAY);
+    cli_json(&json, "rows=%llu shape=[", (unsigned long long)head->rows);
     for (uint32_t i = 0; i < head->dimensions; i++) {
         lrcs_host_json_count(&json, NULL, head->shape[i]);
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_begin(&json, "columns", LRCS_HOST_ROW_ARRAY);
+    cli_json(&json, "] columns=[");
     for (uint32_t i = 0; i < plan->columns; i++) {
         lrcs_host_json_text(&json, NULL, plan->column[i]);
     }
-    lrcs_host_json_end(&json);
+    cli_json(&json, "]");
     for (uint32_t i = 0; i < head->options; i++) {
         lrcs_host_json_text(&json, head->option[i].key, head->option[i].text);
     }
-    lrcs_host_json_end(&json);
+    cli_json(&json, "}");
 }
 
 static void jsonl_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
 {
-    double number[FIELD_FLAGS];
-    row_numbers(row, number);
     lrcs_host_json json = lrcs_host_json_make(out);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_count(&json, "index", row->index);
+    cli_json(&json, "{index=%llu", (unsigned long long)row->index);
     for (uint32_t i = 0; i < plan->columns; i++) {
         lrcs_host_json_number(&json, plan->column[i], row->value[i]);
     }
-    for (int i = 0; i < FIELD_FLAGS; i++) {
-        lrcs_host_json_number(&json, cli_row_field[i], number[i]);
+    for (uint32_t i = 0; i < plan->fields.count; i++) {
+        int kind = plan->fields.kind[i];
+        lrcs_host_json_number(&json, cli_field_name[kind], row->field[kind]);
     }
-    for (uint32_t i = 0; i < plan->extras.count; i++) {
-        int kind = plan->extras.kind[i];
-        lrcs_host_json_number(&json, cli_extra_name[kind], row->extra[kind]);
-    }
-    lrcs_host_json_begin(&json, "flags", LRCS_HOST_ROW_ARRAY);
-    for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
-        if (bits & 1u) {
-            lrcs_host_json_text(&json, NULL, lrcs_flag_text((int)bit));
-        }
-    }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_end(&json);
+    cli_flags_json(&json, row->flags);
+    cli_json(&json, "}");
 }
 
 /* ---- either ---- */
@@ -210,11 +178,8 @@ void cli_rows_mean(FILE *out, int format, const sweep_tally *tally)
     double bound = tally->bound / (double)tally->rows;
     if (format == SWEEP_JSONL) {
         lrcs_host_json json = lrcs_host_json_make(out);
-        lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_number(&json, "mean_sigma_m2", tally->mean);
-        lrcs_host_json_number(&json, "standard_error_m2", cli_tally_error(tally));
-        lrcs_host_json_number(&json, "mean_bound_m2", bound);
-        lrcs_host_json_end(&json);
+        cli_json(&json, "{mean_sigma_m2=%g standard_error_m2=%g mean_bound_m2=%g}", tally->mean,
+                 cli_tally_error(tally), bound);
         return;
     }
     number_put(out, "# mean_sigma_m2=", tally->mean);

@@ -168,7 +168,7 @@ static void mean_make(sweep_stats *stats)
     sweep_tally tally = {0};
     for (uint64_t i = 0; i < stats->rows; i++) {
         const stats_row *row = &stats->row[i];
-        const sweep_row one = {.sigma_m2 = row->sigma, .bound_m2 = row->bound};
+        const sweep_row one = {.field[FIELD_SIGMA] = row->sigma, .field[FIELD_BOUND] = row->bound};
         cli_sum_add(&mean, row->weight * row->sigma);
         cli_sum_add(&bound, row->weight * row->bound);
         cli_sum_add(&total, row->weight);

@@ -133,19 +133,16 @@ static void stats_print(FILE *out, const sweep_stats *stats)
 static void band_json(lrcs_host_json *json, double low, double high)
 {
     if (high >= 0.0) {
-        lrcs_host_json_number(json, "material_low", low);
-        lrcs_host_json_number(json, "material_high", high);
+        cli_json(json, "material_low=%g material_high=%g", low, high);
     }
 }
 
 static void value_json(lrcs_host_json *json, const char *key, const stats_value *value)
 {
     lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_number(json, "value", value->value);
-    lrcs_host_json_number(json, "least", value->least);
-    lrcs_host_json_number(json, "most", value->most);
+    cli_json(json, "value=%g least=%g most=%g", value->value, value->least, value->most);
     band_json(json, value->low, value->high);
-    lrcs_host_json_end(json);
+    cli_json(json, "}");
 }
 
 static void row_json(lrcs_host_json *json, const char *key, const sweep_stats *stats,
@@ -154,14 +151,13 @@ static void row_json(lrcs_host_json *json, const char *key, const sweep_stats *s
     double value[SWEEP_COLUMNS];
     cli_plan_values(stats->plan, row->index, value);
     lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_number(json, "sigma_m2", row->sigma);
-    lrcs_host_json_number(json, "bound_m2", row->bound);
+    cli_json(json, "sigma_m2=%g bound_m2=%g", row->sigma, row->bound);
     band_json(json, row->low, row->high);
-    lrcs_host_json_count(json, "index", row->index);
+    cli_json(json, "index=%llu", (unsigned long long)row->index);
     for (uint32_t i = 0; i < stats->plan->columns; i++) {
         lrcs_host_json_number(json, stats->plan->column[i], value[i]);
     }
-    lrcs_host_json_end(json);
+    cli_json(json, "}");
 }
 
 static int stats_json(FILE *out, const void *context, lrcs_host_error *error)
@@ -170,39 +166,31 @@ static int stats_json(FILE *out, const void *context, lrcs_host_error *error)
     const sweep_head *head = stats->head;
     (void)error;
     lrcs_host_json json = lrcs_host_json_make(out);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
-    lrcs_host_json_text(&json, "lrcs", "statistics");
+    cli_json(&json, "{\nlrcs=%s", "statistics");
     cli_version_json(&json);
     cli_hash_json(head->scene_hash, &json);
-    lrcs_host_json_count(&json, "rows", stats->rows);
-    lrcs_host_json_text(&json, "weights", stats->weights);
+    cli_json(&json, "rows=%llu weights=%s", (unsigned long long)stats->rows, stats->weights);
     value_json(&json, "mean_m2", &stats->mean);
-    lrcs_host_json_number(&json, "standard_error_m2", stats->standard_error);
+    cli_json(&json, "standard_error_m2=%g", stats->standard_error);
     row_json(&json, "least", stats, &stats->row[0]);
     row_json(&json, "most", stats, &stats->row[stats->rows - 1]);
-    lrcs_host_json_begin(&json, "percentiles", LRCS_HOST_ARRAY);
+    cli_json(&json, "percentiles=[\n");
     for (int k = 0; k < STATS_PERCENTS; k++) {
-        lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_count(&json, "percent", (uint64_t)cli_stats_percent[k]);
+        cli_json(&json, "{percent=%u", cli_stats_percent[k]);
         value_json(&json, "sigma_m2", &stats->percentile[k]);
-        lrcs_host_json_end(&json);
+        cli_json(&json, "}");
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_begin(&json, "cdf", LRCS_HOST_ARRAY);
+    cli_json(&json, "] cdf=[\n");
     for (uint32_t i = 0; i <= stats->bins && stats->bins > 0; i++) {
-        lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_number(&json, "sigma_dbsm", stats->edge_dbsm[i]);
-        lrcs_host_json_number(&json, "sigma_m2", stats->edge_m2[i]);
+        cli_json(&json, "{sigma_dbsm=%g sigma_m2=%g", stats->edge_dbsm[i], stats->edge_m2[i]);
         value_json(&json, "share", &stats->cdf[i]);
-        lrcs_host_json_end(&json);
+        cli_json(&json, "}");
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_begin(&json, "sweep", LRCS_HOST_OBJECT);
+    cli_json(&json, "] sweep={\n");
     for (uint32_t i = 0; i < head->options; i++) {
         lrcs_host_json_text(&json, head->option[i].key, head->option[i].text);
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_end(&json);
+    cli_json(&json, "}}");
     return LRCS_OK;
 }
 

@@ -3,6 +3,7 @@
 #include "cli/sweep/sweep.h"
 #include "cli/info/info.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -204,21 +205,23 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
     sweep_job *job = context;
     (void)pose;
     sweep_row row = {.index = index,
-                     .sigma_m2 = result->sigma_m2,
-                     .bound_m2 = result->bound_m2,
-                     .sigma_glint_m2 = result->sigma_glint_m2,
-                     .sigma_diffuse_m2 = result->sigma_diffuse_m2,
+                     .field[FIELD_SIGMA] = result->sigma_m2,
+                     .field[FIELD_DBSM] =
+                         result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN,
+                     .field[FIELD_BOUND] = result->bound_m2,
+                     .field[FIELD_GLINT] = result->sigma_glint_m2,
+                     .field[FIELD_DIFFUSE] = result->sigma_diffuse_m2,
                      .flags = cli_flags_in_force(job->args, &job->options, result->flags)};
     cli_plan_values(&job->plan, index, row.value);
     if (uncertainty) {
-        row.extra[EXTRA_DEVIATION] = uncertainty->deviation_m2;
-        row.extra[EXTRA_LOW] = uncertainty->low_m2;
-        row.extra[EXTRA_HIGH] = uncertainty->high_m2;
-        row.extra[EXTRA_SAMPLED] = uncertainty->sampled;
+        row.field[FIELD_DEVIATION] = uncertainty->deviation_m2;
+        row.field[FIELD_LOW] = uncertainty->low_m2;
+        row.field[FIELD_HIGH] = uncertainty->high_m2;
+        row.field[FIELD_SAMPLED] = uncertainty->sampled;
     }
     if (glint) {
-        row.extra[EXTRA_GLINT_ERROR] = glint->error_m2;
-        row.extra[EXTRA_DOMINATED] = cli_glint_dominates(glint, result->sigma_m2);
+        row.field[FIELD_GLINT_ERROR] = glint->error_m2;
+        row.field[FIELD_DOMINATED] = cli_glint_dominates(glint, result->sigma_m2);
     }
     job->notices |= result->notices;
     int status = cli_file_put(&job->file, &job->plan, &row, error);
@@ -243,8 +246,8 @@ static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
                              .pose = job_pose,
                              .scene = scene ? NULL : job_scene,
                              .take = job_take,
-                             .uncertainty = job->plan.extras.materials ? &how : NULL,
-                             .glint = job->plan.extras.glint ? job->coarse : NULL,
+                             .uncertainty = job->plan.fields.materials ? &how : NULL,
+                             .glint = job->plan.fields.glint ? job->coarse : NULL,
                              .glint_count = job->coarse_count,
                              .context = job,
                              .cancel = &sweep_stop};
@@ -348,7 +351,7 @@ static int job_room(sweep_job *job)
             return cli_out_of_memory();
         }
     }
-    if ((job->plot.asked || job->stats) && job->plan.extras.materials) {
+    if ((job->plot.asked || job->stats) && job->plan.fields.materials) {
         job->band = calloc(job->plan.rows, sizeof *job->band);
         if (!job->band) {
             return cli_out_of_memory();
@@ -440,8 +443,8 @@ static int sweep_command(const cli_args *args)
     }
     if (code == 0) {
         coarse_say(job);
-        job->plan.extras =
-            cli_extras_make(cli_errors_stated(&job->scene.scene), job->coarse_count > 0);
+        job->plan.fields =
+            cli_fields_make(cli_errors_stated(&job->scene.scene), job->coarse_count > 0);
         job->plot.head = &job->head;
         job->plot.open = cli_materials_open(&job->scene.scene);
         job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));

@@ -45,29 +45,34 @@ typedef struct sweep_track {
 /* 0, CLI_FAILED or CLI_USAGE with the message printed. */
 int cli_track_read(const char *path, sweep_track *track);
 
-/* ---- extra columns ---- */
+/* ---- the quantities of a row ---- */
 
-/* Columns before the flags that only some sweeps have: the uncertainty, if materials state errors;
-   the glint, if curved parts are too coarse for it. */
-enum sweep_extra {
-    EXTRA_DEVIATION, /* of the material uncertainty, m2 */
-    EXTRA_LOW,       /* lower and upper end of its interval, m2 */
-    EXTRA_HIGH,
-    EXTRA_SAMPLED,     /* 1 if they are from a sample, else 0 */
-    EXTRA_GLINT_ERROR, /* estimated error of the glint of coarse facets, m2 */
-    EXTRA_DOMINATED,   /* 1 if the glint of one coarse facet makes most of sigma, else 0 */
-    SWEEP_EXTRAS
+/* In the order of their columns, which precede the flags. Only some sweeps have the uncertainty (if
+   materials state errors) and the error of the glint (if curved parts are too coarse for it). */
+enum sweep_field {
+    FIELD_SIGMA,
+    FIELD_DBSM, /* NAN if sigma is 0 */
+    FIELD_BOUND,
+    FIELD_GLINT,
+    FIELD_DIFFUSE,
+    FIELD_DEVIATION, /* of the material uncertainty, m2 */
+    FIELD_LOW,       /* lower and upper end of its interval, m2 */
+    FIELD_HIGH,
+    FIELD_SAMPLED,     /* 1 if they are from a sample, else 0 */
+    FIELD_GLINT_ERROR, /* estimated error of the glint of coarse facets, m2 */
+    FIELD_DOMINATED,   /* 1 if the glint of one coarse facet makes most of sigma, else 0 */
+    SWEEP_FIELDS
 };
+extern const char *const cli_field_name[SWEEP_FIELDS];
 
-/* Those that a sweep has, in their order. */
-typedef struct sweep_extras {
-    int materials, glint; /* 1 if a sweep has those of this group */
+/* Those that a sweep has. */
+typedef struct sweep_fields {
+    int materials, glint; /* 1 if it has those of this group */
     uint32_t count;
-    int kind[SWEEP_EXTRAS];
-} sweep_extras;
+    int kind[SWEEP_FIELDS];
+} sweep_fields;
 
-sweep_extras cli_extras_make(int materials, int glint);
-extern const char *const cli_extra_name[SWEEP_EXTRAS];
+sweep_fields cli_fields_make(int materials, int glint);
 
 /* The keys in the first lines which state that rows have them. */
 #define SWEEP_UNCERTAINTY  "uncertainty"
@@ -105,7 +110,7 @@ typedef struct sweep_plan {
     uint64_t poses;      /* number of poses of each scene */
     uint64_t rows;       /* number of rows of all scenes */
     uint64_t first, end; /* the rows of this shard */
-    sweep_extras extras;
+    sweep_fields fields;
     uint32_t columns; /* number of values of a row */
     const char *column[SWEEP_COLUMNS];
 } sweep_plan;
@@ -151,22 +156,9 @@ enum sweep_format { SWEEP_CSV, SWEEP_JSONL, SWEEP_NPY };
 typedef struct sweep_row {
     uint64_t index;
     double value[SWEEP_COLUMNS];
-    double sigma_m2, bound_m2, sigma_glint_m2, sigma_diffuse_m2;
-    double extra[SWEEP_EXTRAS]; /* by kind; 0 where the sweep has none */
+    double field[SWEEP_FIELDS]; /* 0 where the sweep has none */
     uint32_t flags;
 } sweep_row;
-
-/* The fields of a row after its values, in their order; the extras precede the flags. */
-enum sweep_field {
-    FIELD_SIGMA,
-    FIELD_DBSM,
-    FIELD_BOUND,
-    FIELD_GLINT,
-    FIELD_DIFFUSE,
-    FIELD_FLAGS,
-    SWEEP_FIELDS
-};
-extern const char *const cli_row_field[SWEEP_FIELDS];
 
 /* The content of the first line: nothing in it depends on the machine, the number of threads or the
    shard. */
@@ -223,7 +215,7 @@ typedef struct sweep_text {
     uint64_t shape[SWEEP_AXES + 1];
     uint32_t dimensions;
     uint32_t columns; /* number of values of a row */
-    sweep_extras extras;
+    sweep_fields fields;
     int has_mean; /* one --sphere */
     int flagged; /* 1 if rows may be accepted without a proof: a map of them contains their flags */
     char fault[200]; /* what is wrong with the line at `at` */

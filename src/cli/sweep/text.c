@@ -12,17 +12,6 @@
 
 /* ---- the head ---- */
 
-/* The first lines as a string, to search for keys; NULL if out of memory. */
-static char *head_copy(const sweep_text *text)
-{
-    char *copy = malloc(text->head_size + 1);
-    if (copy) {
-        memcpy(copy, text->head, text->head_size);
-        copy[text->head_size] = '\0';
-    }
-    return copy;
-}
-
 /* The text after a key; rows and shape precede everything that a user wrote. */
 static const char *head_value(const char *head, const char *csv, const char *json)
 {
@@ -53,7 +42,7 @@ static int head_shape(const char *at, sweep_text *text)
 
 /* The number of names between index and sigma_m2: in the second line, where commas in quotes do not
    separate, or in the list of the first line. */
-static uint32_t head_columns(const char *head, uint32_t extras)
+static uint32_t head_columns(const char *head, uint32_t fields)
 {
     const char *at = head[0] == '#' ? strchr(head, '\n') + 1 : strstr(head, "\"columns\": [");
     uint32_t count = 0;
@@ -63,7 +52,7 @@ static uint32_t head_columns(const char *head, uint32_t extras)
             quoted ^= *at == '"';
             count += *at == ',' && !quoted;
         }
-        return count > SWEEP_FIELDS + extras ? count - SWEEP_FIELDS - extras : 0;
+        return count > fields + 1 ? count - fields - 1 : 0; /* the flags are one more */
     }
     for (at = at ? strchr(at, '[') + 1 : ""; *at && (*at != ']' || quoted); at++) {
         int escaped = *at == '\\' && at[1] != '\0';
@@ -82,10 +71,10 @@ static int head_read(const char *head, sweep_text *text)
     text->rows = rows ? strtoull(rows, NULL, 10) : 0;
     text->has_mean = sphere && strtoull(sphere, NULL, 10) == text->rows;
     text->flagged = head_value(head, "; accept=", "\"accept\": \"") != NULL;
-    text->extras = cli_extras_make(
+    text->fields = cli_fields_make(
         head_value(head, "; " SWEEP_UNCERTAINTY "=", "\"" SWEEP_UNCERTAINTY "\": \"") != NULL,
         head_value(head, "; " SWEEP_COARSE_GLINT "=", "\"" SWEEP_COARSE_GLINT "\": \"") != NULL);
-    text->columns = head_columns(head, text->extras.count);
+    text->columns = head_columns(head, text->fields.count);
     return rows && shape && text->rows > 0 && text->columns > 0 && text->columns <= SWEEP_COLUMNS
                ? head_shape(shape, text)
                : -1;
@@ -110,21 +99,13 @@ int cli_text_open(const char *bytes, size_t size, sweep_text *text)
                          .at = at + 1,
                          .end = end,
                          .line = is_csv ? 3 : 2};
-    char *head = head_copy(text);
+    char *head = strndup(text->head, text->head_size); /* a string, to search for keys */
     int fault = head ? head_read(head, text) : -1;
     free(head);
     return fault;
 }
 
 /* ---- rows ---- */
-
-/* The name of field i: sigma and its parts, then extras, then flags. */
-static const char *field_key(uint32_t i, const sweep_extras *extras)
-{
-    return i < FIELD_FLAGS                   ? cli_row_field[i]
-           : i < FIELD_FLAGS + extras->count ? cli_extra_name[extras->kind[i - FIELD_FLAGS]]
-                                             : cli_row_field[FIELD_FLAGS];
-}
 
 static int text_refuse(sweep_text *text, const char *name, const char *found, const char *expected)
 {
@@ -175,7 +156,7 @@ static uint32_t csv_split(char *line, const char **field, uint32_t room)
    of fields must be the known ones; those of values are the names that the user chose, in the order
    of the head. */
 static uint32_t jsonl_split(char *line, const char **field, uint32_t room, uint32_t columns,
-                            const sweep_extras *extras)
+                            const sweep_fields *fields)
 {
     uint32_t count = 0;
     char *at = line;
@@ -186,11 +167,12 @@ static uint32_t jsonl_split(char *line, const char **field, uint32_t room, uint3
         for (at += *at == '"'; *at && *at != '"'; at++) {
             at += *at == '\\' && at[1] != '\0';
         }
-        const char *want = count == 0         ? "index"
-                           : count <= columns ? NULL
-                           : count <= columns + SWEEP_FIELDS + extras->count
-                               ? field_key(count - columns - 1, extras)
-                               : "";
+        uint32_t i = count - columns - 1; /* of the fields, which end with the flags */
+        const char *want = count == 0           ? "index"
+                           : count <= columns   ? NULL
+                           : i < fields->count  ? cli_field_name[fields->kind[i]]
+                           : i == fields->count ? "flags"
+                                                : "";
         if (strncmp(at, "\": ", 3) != 0 || (want && (strlen(want) != (size_t)(at - key) ||
                                                      memcmp(want, key, strlen(want)) != 0))) {
             return 0;
@@ -252,97 +234,102 @@ static int values_read(sweep_text *text, const sweep_plan *plan, const char *con
     return 0;
 }
 
-/* Reads the extras, all of them finite and not negative, and yes or no as 1 or 0. To first order
-   the interval of the material uncertainty ends one deviation below sigma, but not below 0, and one
-   above. The error of a glint is at most that glint. */
-static int extras_read(sweep_text *text, const char *const *field, double sigma, double glint,
-                       sweep_row *row)
+/* Reads the fields from `first` to before `end`: numbers of at least 0 (dBsm may be negative, or
+   none), of which yes or no is 1 or 0. */
+static int numbers_read(sweep_text *text, const char *const *field, uint32_t first, uint32_t end,
+                        sweep_row *row)
 {
-    double *e = row->extra;
-    const char *of[SWEEP_EXTRAS] = {NULL};
-    memset(row->extra, 0, sizeof row->extra);
-    for (uint32_t i = 0; i < text->extras.count; i++) {
-        int kind = text->extras.kind[i];
-        int flag = kind == EXTRA_SAMPLED || kind == EXTRA_DOMINATED;
-        of[kind] = field[i];
-        if (field_number(text, field[i], &e[kind]) != 0 || !(e[kind] >= 0.0) ||
-            !isfinite(e[kind])) {
-            return text_refuse(text, cli_extra_name[kind], field[i],
-                               "a finite number of at least 0");
+    for (uint32_t i = first; i < end; i++) {
+        int kind = text->fields.kind[i];
+        int extra = kind >= FIELD_DEVIATION; /* of some sweeps only */
+        double *value = &row->field[kind];
+        if (field_number(text, field[i], value) != 0 || (kind != FIELD_DBSM && !(*value >= 0.0)) ||
+            (extra && !isfinite(*value))) {
+            return text_refuse(text, cli_field_name[kind], field[i],
+                               kind == FIELD_DBSM ? "a number"
+                               : extra            ? "a finite number of at least 0"
+                                                  : "a number of at least 0");
         }
-        if (flag && e[kind] != 0.0 && e[kind] != 1.0) {
-            return text_refuse(text, cli_extra_name[kind], field[i], "0 or 1");
+        if ((kind == FIELD_SAMPLED || kind == FIELD_DOMINATED) && *value != 0.0 && *value != 1.0) {
+            return text_refuse(text, cli_field_name[kind], field[i], "0 or 1");
         }
     }
-    double deviation = e[EXTRA_DEVIATION];
+    return 0;
+}
+
+/* Checks the fields that only some sweeps have. To first order the interval of the material
+   uncertainty ends one deviation below sigma, but not below 0, and one above. The error of a glint
+   is at most that glint. */
+static int extras_check(sweep_text *text, const char *const *field, const sweep_row *row)
+{
+    const double *f = row->field;
+    double sigma = f[FIELD_SIGMA];
+    double deviation = f[FIELD_DEVIATION];
     double low = fmax(0.0, sigma - deviation);
-    int plain = text->extras.materials && e[EXTRA_SAMPLED] == 0.0;
-    if (!(e[EXTRA_LOW] <= e[EXTRA_HIGH]) ||
-        (plain && !(fabs(e[EXTRA_LOW] - low) <= 1e-9 * (sigma + deviation)))) {
-        return text_refuse(text, cli_extra_name[EXTRA_LOW], of[EXTRA_LOW],
-                           plain ? "sigma less a deviation" : "at most material_high_m2");
+    int plain = text->fields.materials && f[FIELD_SAMPLED] == 0.0;
+    int fault = FIELD_SIGMA; /* none */
+    const char *expected = NULL;
+    if (!(f[FIELD_LOW] <= f[FIELD_HIGH]) ||
+        (plain && !(fabs(f[FIELD_LOW] - low) <= 1e-9 * (sigma + deviation)))) {
+        fault = FIELD_LOW;
+        expected = plain ? "sigma less a deviation" : "at most material_high_m2";
+    } else if (plain && !about_equal(f[FIELD_HIGH], sigma + deviation, 1e-9)) {
+        fault = FIELD_HIGH;
+        expected = "sigma and a deviation";
+    } else if (!(f[FIELD_GLINT_ERROR] <= (1.0 + 1e-9) * f[FIELD_GLINT])) {
+        fault = FIELD_GLINT_ERROR;
+        expected = "at most sigma_glint_m2";
     }
-    if (plain && !about_equal(e[EXTRA_HIGH], sigma + deviation, 1e-9)) {
-        return text_refuse(text, cli_extra_name[EXTRA_HIGH], of[EXTRA_HIGH],
-                           "sigma and a deviation");
-    }
-    if (!(e[EXTRA_GLINT_ERROR] <= (1.0 + 1e-9) * glint)) {
-        return text_refuse(text, cli_extra_name[EXTRA_GLINT_ERROR], of[EXTRA_GLINT_ERROR],
-                           "at most sigma_glint_m2");
+    for (uint32_t i = 0; i < text->fields.count && expected; i++) {
+        if (text->fields.kind[i] == fault) {
+            return text_refuse(text, cli_field_name[fault], field[i], expected);
+        }
     }
     return 0;
 }
 
 static int fields_read(sweep_text *text, const char *const *field, sweep_row *row)
 {
-    double number[FIELD_FLAGS];
-    for (int i = 0; i < FIELD_FLAGS; i++) {
-        int none = field_number(text, field[i], &number[i]) != 0;
-        if (none || (i != FIELD_DBSM && !(number[i] >= 0.0))) {
-            return text_refuse(text, cli_row_field[i], field[i],
-                               i == FIELD_DBSM ? "a number" : "a number of at least 0");
-        }
+    memset(row->field, 0, sizeof row->field);
+    if (numbers_read(text, field, 0, FIELD_DEVIATION, row) != 0) {
+        return -1;
     }
-    double sigma = number[FIELD_SIGMA];
+    double sigma = row->field[FIELD_SIGMA];
     double dbsm = sigma > 0.0 ? cli_dbsm(sigma) : (double)NAN;
-    if (sigma > 0.0 ? !(fabs(number[FIELD_DBSM] - dbsm) <= 1e-12 * (1.0 + fabs(dbsm)))
-                    : !isnan(number[FIELD_DBSM])) {
+    if (sigma > 0.0 ? !(fabs(row->field[FIELD_DBSM] - dbsm) <= 1e-12 * (1.0 + fabs(dbsm)))
+                    : !isnan(row->field[FIELD_DBSM])) {
         char expected[LRCS_HOST_NUMBER_SIZE + 16];
         lrcs_host_number_text(dbsm, expected);
         return text_refuse(text, "sigma_dbsm", field[FIELD_DBSM],
                            sigma > 0.0 ? expected : "none, for a sigma of 0");
     }
     /* both are separate sums and are rounded */
-    if (!about_equal(number[FIELD_GLINT] + number[FIELD_DIFFUSE], sigma, 1e-9)) {
+    if (!about_equal(row->field[FIELD_GLINT] + row->field[FIELD_DIFFUSE], sigma, 1e-9)) {
         return text_refuse(text, "sigma_glint_m2 and sigma_diffuse_m2", field[FIELD_GLINT],
                            "what adds up to sigma_m2");
     }
-    if (extras_read(text, field + FIELD_FLAGS, sigma, number[FIELD_GLINT], row) != 0) {
+    if (numbers_read(text, field, FIELD_DEVIATION, text->fields.count, row) != 0 ||
+        extras_check(text, field, row) != 0) {
         return -1;
     }
-    const char *flags = field[FIELD_FLAGS + text->extras.count];
-    if (flags_read(flags, &row->flags) != 0) {
-        return text_refuse(text, "flags", flags, "names of flags");
-    }
-    row->sigma_m2 = sigma;
-    row->bound_m2 = number[FIELD_BOUND];
-    row->sigma_glint_m2 = number[FIELD_GLINT];
-    row->sigma_diffuse_m2 = number[FIELD_DIFFUSE];
-    return 0;
+    const char *flags = field[text->fields.count];
+    return flags_read(flags, &row->flags) == 0
+               ? 0
+               : text_refuse(text, "flags", flags, "names of flags");
 }
 
 /* Reads a row from a copy of a complete line. */
 static int row_read(sweep_text *text, const sweep_plan *plan, char *line, sweep_row *row)
 {
-    const char *field[1 + SWEEP_COLUMNS + SWEEP_FIELDS + SWEEP_EXTRAS];
+    const char *field[2 + SWEEP_COLUMNS + SWEEP_FIELDS];
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
         field[i] = "";
     }
-    const uint32_t room = 1 + text->columns + SWEEP_FIELDS + text->extras.count;
+    const uint32_t room = 2 + text->columns + text->fields.count; /* with index and flags */
     char begun[41];
     snprintf(begun, sizeof begun, "%.40s", line);
     uint32_t count = text->format == SWEEP_JSONL
-                         ? jsonl_split(line, field, room, text->columns, &text->extras)
+                         ? jsonl_split(line, field, room, text->columns, &text->fields)
                          : csv_split(line, field, room);
     if (count != room) {
         char expected[60];

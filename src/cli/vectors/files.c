@@ -93,56 +93,33 @@ static int stl_write(FILE *out, const void *context, lrcs_host_error *error)
     return LRCS_OK;
 }
 
-static void materials_json(lrcs_host_json *json)
-{
-    lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; cli_vectors_materials[i].name; i++) {
-        const vectors_material *material = &cli_vectors_materials[i];
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(json, "name", material->name);
-        cli_brdf_json(&material->brdf, json);
-        lrcs_host_json_bool(json, "two_sided", material->two_sided);
-        lrcs_host_json_end(json);
-    }
-    lrcs_host_json_end(json);
-}
-
-static void mesh_json(lrcs_host_json *json, const vectors_mesh *mesh)
-{
-    lrcs_host_json_begin(json, "vertices_m", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; i < mesh->vertices; i++) {
-        cli_numbers_json(json, NULL, mesh->vertex[i].x, 3);
-    }
-    lrcs_host_json_end(json);
-    lrcs_host_json_begin(json, "facets", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; i < mesh->facets; i++) {
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_ARRAY);
-        for (int k = 0; k < 3; k++) {
-            lrcs_host_json_count(json, NULL, mesh->facet[i].corner[k]);
-        }
-        lrcs_host_json_end(json);
-    }
-    lrcs_host_json_end(json);
-    lrcs_host_json_begin(json, "facet_material", LRCS_HOST_ROW_ARRAY);
-    for (uint32_t i = 0; i < mesh->facets; i++) {
-        lrcs_host_json_count(json, NULL, mesh->material[i]);
-    }
-    lrcs_host_json_end(json);
-}
-
 static int json_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const files_scene *file = context;
+    const vectors_mesh *mesh = file->mesh;
     lrcs_host_json json = lrcs_host_json_make(out);
     (void)error;
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
-    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(&json, "name", file->scene->name);
-    lrcs_host_json_count(&json, "tier", (uint64_t)file->scene->tier);
-    lrcs_host_json_text(&json, "about", file->scene->about);
-    materials_json(&json);
-    mesh_json(&json, file->mesh);
-    lrcs_host_json_end(&json);
+    cli_json(&json, "{\nschema=%u name=%s tier=%u about=%s materials=[\n", CLI_SCHEMA,
+             file->scene->name, file->scene->tier, file->scene->about);
+    for (const vectors_material *one = cli_vectors_materials; one->name; one++) {
+        cli_json(&json, "{name=%s", one->name);
+        cli_brdf_json(&one->brdf, &json);
+        cli_json(&json, "two_sided=%d}", one->two_sided);
+    }
+    cli_json(&json, "] vertices_m=[\n");
+    for (uint32_t i = 0; i < mesh->vertices; i++) {
+        cli_numbers_json(&json, NULL, mesh->vertex[i].x, 3);
+    }
+    cli_json(&json, "] facets=[\n");
+    for (uint32_t i = 0; i < mesh->facets; i++) {
+        const uint32_t *v = mesh->facet[i].corner;
+        cli_json(&json, "[%u %u %u]", v[0], v[1], v[2]);
+    }
+    cli_json(&json, "] facet_material=[");
+    for (uint32_t i = 0; i < mesh->facets; i++) {
+        lrcs_host_json_count(&json, NULL, mesh->material[i]);
+    }
+    cli_json(&json, "]}");
     return LRCS_OK;
 }
 

@@ -92,10 +92,8 @@ static void case_json(lrcs_host_json *json, const vectors_job *job, const vector
 {
     const double *value[CASE_NUMBERS];
     case_values(one, value);
-    lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_text(json, "scene", one->scene->name);
-    lrcs_host_json_text(json, "attitude", one->attitude->name);
-    lrcs_host_json_count(json, "tier", (uint64_t)one->scene->tier);
+    cli_json(json, "{scene=%s attitude=%s tier=%u", one->scene->name, one->attitude->name,
+             one->scene->tier);
     for (int k = 0; k < CASE_NUMBERS; k++) {
         if (case_numbers[k].count == 1) {
             lrcs_host_json_number(json, case_numbers[k].key, *value[k]);
@@ -103,66 +101,35 @@ static void case_json(lrcs_host_json *json, const vectors_job *job, const vector
             cli_numbers_json(json, case_numbers[k].key, value[k], (uint32_t)case_numbers[k].count);
         }
     }
-    lrcs_host_json_count(json, "image", one->image ? job->resolution : 0);
-    lrcs_host_json_end(json);
+    cli_json(json, "image=%u}", one->image ? job->resolution : 0);
 }
 
 /* ---- kit.json ---- */
-
-static void tiers_json(lrcs_host_json *json)
-{
-    lrcs_host_json_begin(json, "tiers", LRCS_HOST_ARRAY);
-    for (int i = 0; i < KIT_TIERS; i++) {
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_count(json, "tier", (uint64_t)i + 1);
-        lrcs_host_json_text(json, "about", tier_text[i]);
-        lrcs_host_json_end(json);
-    }
-    lrcs_host_json_end(json);
-}
-
-static void materials_list(lrcs_host_json *json)
-{
-    lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; cli_vectors_materials[i].name; i++) {
-        const vectors_material *material = &cli_vectors_materials[i];
-        const double brdf[4] = {material->brdf.A, material->brdf.B, material->brdf.s,
-                                material->brdf.m};
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(json, "name", material->name);
-        cli_numbers_json(json, "A_B_s_m", brdf, 4);
-        lrcs_host_json_bool(json, "two_sided", material->two_sided);
-        lrcs_host_json_end(json);
-    }
-    lrcs_host_json_end(json);
-}
 
 static int kit_write(FILE *out, const void *context, lrcs_host_error *error)
 {
     const vectors_job *job = context;
     lrcs_host_json json = lrcs_host_json_make(out);
     (void)error;
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
-    lrcs_host_json_count(&json, "schema", CLI_SCHEMA);
-    lrcs_host_json_count(&json, "kit", KIT_VERSION);
-    lrcs_host_json_text(&json, "lrcs", lrcs_version());
-    tiers_json(&json);
-    materials_list(&json);
-    lrcs_host_json_begin(&json, "scenes", LRCS_HOST_ARRAY);
-    for (uint32_t i = 0; cli_vectors_scenes[i].name; i++) {
-        lrcs_host_json_begin(&json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(&json, "name", cli_vectors_scenes[i].name);
-        lrcs_host_json_count(&json, "tier", (uint64_t)cli_vectors_scenes[i].tier);
-        lrcs_host_json_text(&json, "about", cli_vectors_scenes[i].about);
-        lrcs_host_json_end(&json);
+    cli_json(&json, "{\nschema=%u kit=%u lrcs=%s tiers=[\n", CLI_SCHEMA, KIT_VERSION,
+             lrcs_version());
+    for (int i = 0; i < KIT_TIERS; i++) {
+        cli_json(&json, "{tier=%u about=%s}", i + 1, tier_text[i]);
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_begin(&json, "cases", LRCS_HOST_ARRAY);
+    cli_json(&json, "] materials=[\n");
+    for (const vectors_material *one = cli_vectors_materials; one->name; one++) {
+        cli_json(&json, "{name=%s A_B_s_m=[%g %g %g %g] two_sided=%d}", one->name, one->brdf.A,
+                 one->brdf.B, one->brdf.s, one->brdf.m, one->two_sided);
+    }
+    cli_json(&json, "] scenes=[\n");
+    for (const vectors_scene *one = cli_vectors_scenes; one->name; one++) {
+        cli_json(&json, "{name=%s tier=%u about=%s}", one->name, one->tier, one->about);
+    }
+    cli_json(&json, "] cases=[\n");
     for (uint32_t i = 0; i < job->cases; i++) {
         case_json(&json, job, &job->list[i]);
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_end(&json);
+    cli_json(&json, "]}");
     return LRCS_OK;
 }
 
