@@ -342,7 +342,8 @@ static void part_add_smooth(profile_run *run, const profile_facet *f, const prof
     bin_add_smooth(run, f, bin, scale * last, range[1], (const double(*)[3])(normal + 1));
 }
 
-/* (3): the edges of bins within range_err of the triangle. */
+/* Adds part (3) of the error: at each edge within range_err of the triangle, the fraction of its
+   area that may lie on the other side. */
 static void edges_charge(profile_run *run, const profile_facet *f, const profile_triangle *t,
                          double range_err)
 {
@@ -548,8 +549,14 @@ static double reach_of(const profile_run *run, uint32_t facet, const profile_fac
     return ldexp(reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) + 8 * LRCSI_U * f->range_max;
 }
 
-/* (5) of one facet, in the bins that it or its partner reaches into. The difference of two numbers
-   >= 0 is at most the larger one; weights that depend on range may turn it into their sum. */
+/* Adds part (5) of the error for one facet:
+   1. the bins that the facet or its partner reaches into, enlarged by the reach;
+   2. the error of the whole patches, which is that of the sum of all bins, and of a bin that
+   contains both facets;
+   3. for each bin the smaller of two bounds: from the deviation of sigma on the patch and the area
+      that may be in the bin on only one of facet and patch; or from the larger of the two values,
+      because the difference of two numbers >= 0 is at most the larger one. Weights that depend on
+      range may turn that difference into the sum, at most twice the larger one. */
 static void tessellation_charge(profile_run *run, uint32_t facet)
 {
     profile_facet f;

@@ -5,7 +5,7 @@
    so that dg/ds = g 2 u / s^3 and dd/dm = -d log(1 + u) / 2. Limits: as s -> 0, g and dg/ds vanish
    except at u = 0, and count as 0 at s = 0; as u -> infinity all four vanish.
    Visible areas do not depend on materials.
-   Called: lrcsi_view_incidence, lrcsi_reflect; lrcsi_shape_response. */
+   Called: lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make; lrcsi_shape_response_make. */
 #include "integrate/sensitivity.h"
 
 #include <math.h>

@@ -161,9 +161,8 @@ uint32_t lrcsi_binder_library_source(const lrcs_brdf_entry *entry)
 static void assign_brdf(lrcs_material *material, const lrcs_brdf *brdf,
                         const lrcs_brdf_error *error, uint32_t source, int two_sided, int assumed)
 {
-    static const lrcs_brdf_error exact = {0, 0, 0, 0, {0, 0, 0, 0, 0, 0}};
     material->brdf = *brdf;
-    material->error = error ? *error : exact;
+    material->error = *error;
     material->source = source;
     material->bound = !assumed;
     if (two_sided >= 0) {

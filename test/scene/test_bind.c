@@ -99,6 +99,10 @@ static void a_parts_material_beats_the_map_and_yields_to_the_command_line(void *
     make_recipe(binding, 5, &recipe);
     material = bind(&recipe, 0, &skin, NULL);
     check_who(&material, BY_NAME);
+    assert_int_equal(material.source, 1 + recipe.material_count + 4); /* the fifth binding */
+    binding[4].source = 77;
+    material = bind(&recipe, 0, &skin, NULL);
+    assert_int_equal(material.source, 77);
     material = bind(&recipe, 0, NULL, NULL); /* facets that the model gives no material */
     check_who(&material, BY_PART);
     assert_string_equal(material.name, "own");

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Scenes from recipes: geometry, order, materials, what holds by construction, refusals. */
-#include <lrcs/read.h>
-#include <lrcs/scene.h>
+#include <lrcs/lrcs.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -252,6 +251,49 @@ static void shapes_say_what_they_are(void **state)
                          want[i].kind == LRCS_SHAPE_CYLINDER ? 0 : want[i].solid);
         free(area);
     }
+}
+
+/* A matrix that is far from every rotation may stretch patches by anything. */
+static void nothing_is_known_of_a_ball_placed_by_no_rotation(void **state)
+{
+    (void)state;
+    lrcs_recipe_part part = shape_part(LRCS_SHAPE_SPHERE, 1, 0, 0);
+    lrcs_recipe recipe = {.part = &part, .part_count = 1};
+    lrcs_scene scene;
+    void *area;
+    part.place.rotate[0][1] = 2.0;
+    assert_int_equal(build_scene(&recipe, NULL, &area, &scene, NULL), LRCS_OK);
+    assert_int_equal(scene.part[0].curvature_known, 0);
+    assert_int_equal(scene.part[0].rigid, 0);
+    static unsigned char bytes[1u << 26];
+    lrcs_work work = lrcs_work_make(bytes, sizeof bytes);
+    const lrcs_prepared *prepared;
+    lrcs_pose pose;
+    lrcs_result result;
+    lrcs_run_options run = lrcs_run_options_default();
+    assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
+    assert_int_equal(lrcs_pose_from_azel(20, 30, &pose), LRCS_OK);
+    for (run.method = LRCS_METHOD_FACET; run.method <= LRCS_METHOD_EXACT; run.method++) {
+        assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &work, &result, NULL, NULL),
+                         LRCS_OK);
+        assert_true((result.notices & LRCS_NOTICE_TESSELLATION_UNKNOWN) != 0);
+        assert_true(result.sigma_m2 > 0 && result.budget.tessellation_m2 < 0);
+    }
+    free(area);
+}
+
+/* The divisions that serve a closed form are more than may be. */
+static void a_lone_ball_keeps_to_the_most_facets(void **state)
+{
+    (void)state;
+    lrcs_recipe_part part = shape_part(LRCS_SHAPE_SPHERE, 1, 0, 0);
+    lrcs_recipe recipe = {.part = &part, .part_count = 1};
+    const lrcs_build_options options = {1e-4, 64, LRCS_NORMALS_FLAT, 0};
+    static unsigned char bytes[1u << 16];
+    lrcs_work work = lrcs_work_make(bytes, sizeof bytes);
+    lrcs_scene scene;
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &scene, NULL), LRCS_OK);
+    assert_true(scene.facet_count > 16 && scene.facet_count <= 64);
 }
 
 static void a_cones_length_follows_its_half_angle(void **state)
@@ -554,6 +596,8 @@ int main(void)
         cmocka_unit_test(materials_stand_once_for_each_surface_and_each_worn_one),
         cmocka_unit_test(a_binding_that_matches_nothing_is_reported),
         cmocka_unit_test(shapes_say_what_they_are),
+        cmocka_unit_test(nothing_is_known_of_a_ball_placed_by_no_rotation),
+        cmocka_unit_test(a_lone_ball_keeps_to_the_most_facets),
         cmocka_unit_test(a_cones_length_follows_its_half_angle),
         cmocka_unit_test(misplacement_bounds_what_rounding_does),
         cmocka_unit_test(unfit_scenes_are_refused_with_the_parts_name),

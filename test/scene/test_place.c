@@ -220,6 +220,9 @@ static void a_shape_that_is_changed_has_no_axes(void **state)
     lrcsi_placer_stretch(&placer, &most, &ratio);
     check_rel(most, 4.0, 1e-5);
     check_rel(ratio, 4.0, 1e-5);
+    place.scale[1] = -4.0; /* now the first differs */
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
+    assert_int_equal(lrcsi_placer_axes(&placer, &axes), 0);
     place = lrcs_place_default();
     place.rotate[0][1] = 0.1; /* singular values 1.0512, 1 and 0.9512 */
     assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* lrcs run --time-budget: the most accurate answer that can be computed in a given time. How long a
-   setting takes is not known in advance. So separate processes run three sequences of settings, in
-   each of which a setting takes at least as long as the one before it, and one process at a time
-   runs, in turns (turns.h). When the time is up, the best of all answers counts, whenever it came.
+   setting takes is not known in advance. So two processes run two sequences of settings, in each of
+   which a setting takes at least as long as the one before it; one process at a time runs, in turns
+   (turns.h). When the time is up, the best of all answers counts, whenever it came.
 
    Claim: no setting that takes less time than the one that is returned would have been better, but
-   for the length of a turn. A raster that is returned: by turns.h all settings of all sequences
+   for the length of a turn. A raster that is returned: by turns.h all settings of both sequences
    that take less have been completed. A tolerance or clipping that is returned: those that take
    less are before it, and a raster cannot be better, because it has the error of the same mesh and
    that of its samples besides. The exception is a tolerance that was answered by a raster, or whose
-   bound says little: then the claim holds for rasters that take less than a fourth of its time.
+   bound says little: then the claim holds for rasters that take less than half of its time.
 
    This file decides which settings are tried; each is an ordinary run, which the same options
    reproduce. */
@@ -33,20 +33,27 @@
 #define RUNG_NONE (-1) /* for scenes that no tolerance changes */
 
 /* The sequences: tolerances by the method that suffices (if no tolerance changes anything, clipping
-   instead); rasters accepted by estimate, which evaluate only samples; rasters with bounds. The
-   work of a tolerance grows with its digits, that of a raster with its size. Few sizes, because
-   part of the work of a raster does not depend on its size. */
-enum budget_chain { CHAIN_SOUGHT, CHAIN_ESTIMATES, CHAIN_RASTERS, CHAINS };
+   instead), whose work grows with their digits; and rasters. */
+enum budget_chain { CHAIN_SOUGHT, CHAIN_RASTERS, CHAINS };
 
-static const uint32_t estimates_size[] = {256, 1024, 0};
-static const uint32_t rasters_size[] = {256, 1024, 4096, 0};
+/* The rasters. One that is accepted by estimate evaluates only its samples, which is a part of the
+   work of one with a bound. */
+static const struct {
+    uint32_t size;
+    int accept;
+} rasters[] = {{256, LRCS_ACCEPT_ESTIMATE},
+               {1024, LRCS_ACCEPT_ESTIMATE},
+               {1024, LRCS_ACCEPT_BOUND},
+               {4096, LRCS_ACCEPT_BOUND}};
+
+#define RASTERS (sizeof rasters / sizeof rasters[0])
 
 /* The least time of a turn, s: on a busy machine it may take some milliseconds until a process that
    is continued runs. */
 #define TURN_LEAST 5e-3
 
-/* The weight of tolerances: rasters delay one by at most 5/8 of its time, and a turn of each. */
-#define SOUGHT_WEIGHT 4.0
+/* The weights: each raster delays a tolerance by at most 5/8 of its time, and a turn. */
+static const double chain_weight[CHAINS] = {2.0, 1.0};
 
 /* An answer on its way to the parent process. Its reasons are constant texts, at the same address
    in both processes. */
@@ -144,13 +151,13 @@ static int rung_scene(run_job *job, int rung)
     return rung < RUNGS && lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? rung : RUNGS;
 }
 
-static void rasters_run(run_job *job, const uint32_t *size, int accept, int rung, int answers)
+static void rasters_run(run_job *job, int rung, int answers)
 {
     int over = 0;
     job->options.method = LRCS_METHOD_ZBUFFER;
-    job->options.accept = accept;
-    for (; *size && over == 0; size++) {
-        job->options.resolution = *size;
+    for (size_t i = 0; i < RASTERS && over == 0; i++) {
+        job->options.resolution = rasters[i].size;
+        job->options.accept = rasters[i].accept;
         over = setting_report(job, rung, 0, answers);
     }
 }
@@ -184,10 +191,8 @@ static void runner_start(run_job *job, int chain, int rung, budget_runners *all)
         close(end[0]);
         if (chain == CHAIN_SOUGHT) {
             tolerances_run(job, rung, end[1]);
-        } else if (chain == CHAIN_RASTERS) {
-            rasters_run(job, rasters_size, LRCS_ACCEPT_BOUND, rung, end[1]);
         } else {
-            rasters_run(job, estimates_size, LRCS_ACCEPT_ESTIMATE, rung, end[1]);
+            rasters_run(job, rung, end[1]);
         }
         _exit(0);
     }
@@ -234,22 +239,18 @@ static void runners_start(run_job *job, int rung, budget_runners *all)
     all->alive = -1;
     for (int i = 0; i < CHAINS; i++) {
         all->one[i].end = -1;
-        all->sequence[i].weight = i == CHAIN_SOUGHT ? SOUGHT_WEIGHT : 1.0;
+        all->sequence[i].weight = chain_weight[i];
     }
     runner_start(job, CHAIN_SOUGHT, rung, all);
     all->running = CHAIN_SOUGHT;
 }
 
-/* Starts the others, stopped until their first turn. */
-static void others_start(run_job *job, int rung, budget_runners *all)
+/* Starts the process of the rasters, stopped until its first turn. */
+static void rasters_start(run_job *job, int rung, budget_runners *all)
 {
-    for (int i = 0; i < CHAINS; i++) {
-        if (i != CHAIN_SOUGHT) {
-            runner_start(job, i, rung, all);
-        }
-        if (i != CHAIN_SOUGHT && all->one[i].end >= 0) {
-            kill(all->one[i].process, SIGSTOP);
-        }
+    runner_start(job, CHAIN_RASTERS, rung, all);
+    if (all->one[CHAIN_RASTERS].end >= 0) {
+        kill(all->one[CHAIN_RASTERS].process, SIGSTOP);
     }
     guard_start(all);
     all->started = 1;
@@ -328,7 +329,6 @@ static int answer_take(budget_runners *all, int i, budget_answer *best)
     }
     if (i == CHAIN_SOUGHT && answer.result.method != LRCS_METHOD_ZBUFFER &&
         answer_error(&answer) <= BOUND_TELLS * answer.result.sigma_m2) {
-        runner_stop(all, CHAIN_ESTIMATES);
         runner_stop(all, CHAIN_RASTERS);
     }
     if (answer_beats(&answer, best)) {
@@ -346,7 +346,7 @@ static void runners_watch(run_job *job, int rung, budget_runners *all, budget_an
            (turn = cli_turn_next(all->sequence, CHAINS)) >= 0) {
         if (turn != all->running) {
             if (!all->started) {
-                others_start(job, rung, all);
+                rasters_start(job, rung, all);
                 continue; /* one that could not be started is over */
             }
             if (all->running >= 0) {
