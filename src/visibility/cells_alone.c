@@ -1,22 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* One facet, f, in cells that begin as its triangle. Here only f is asked about, so that less must
-   be known than of the cells of a block (visibility/cells.c).
+/* The visible area and pieces of one facet, f, by cells that begin as its triangle. Only the
+   visibility of f is decided, so that less must be known than in the cells of a block
+   (visibility/cells.c).
 
-   Listed are the facets that may be in front of f. The segments are what may change whether f is
-   seen: the event edges that cross its inside nearer than it, found exactly
-   (visibility/classify.h), its contacts, and the sides of facets in its plane that hide it. A
-   sample tells which facets are in front of f at a place P of a cell; x is any point of the cell.
-     (1) Nothing is in front of f at P, and no segment is left in the cell: then f is seen in all of
-   it, since on the way from P to x nothing changes.
-     (2) A facet is in front of f at P, and no segment is left at which its component ends (all
-   facets joined by edges that are no events, visibility/classify.h) or meets f: then the component
-   goes on along the way from P to x, and stays in front of f, since to pass behind it would have to
-   touch it. So f is hidden in all of the cell, whatever else the cell may show. Else the cell is
-   cut along a segment: of the component that has the fewest left.
+   The candidates are the facets that may be in front of f. The segments are all lines at which the
+   visibility of f can change: the event edges that cross the interior of f and are nearer than f,
+   found exactly (visibility/classify.h); the contacts of f; and the sides of facets in the plane of
+   f that hide it. A sample finds which facets are in front of f at a point P of a cell. Let x be
+   any other point of the cell.
+     (1) If nothing is in front of f at P, and no segment is left in the cell, all of the cell is
+   visible: nothing changes on the way from P to x.
+     (2) If a facet is in front of f at P, consider its component: all facets joined to it by edges
+   that are not events (visibility/classify.h). If no segment is left at which the component ends or
+   meets f, the component continues on the way from P to x, and stays in front of f, because it
+   would have to touch f to pass behind it. So f is hidden in all of the cell.
+     (3) Otherwise the cell is cut along a segment of the component that has the fewest segments
+   left.
 
-   A facet that touches f and is behind it but for a strip no wider than its error still is in front
-   of f there. The strip may reach far along the line of the contact, and end at event edges, which
-   are segments like others; and near that line it is not decided whether the facet is in front.
+   A facet that touches f may be behind f except in a strip no wider than its error. Within that
+   strip it counts as in front of f. The strip can be long; it ends at event edges, which are
+   segments like all others. Near the line of the contact it remains undecided whether the facet is
+   in front.
 
    Error. Lines, strips and cells are those of visibility/cells_charge.c, in coordinates from a
    corner of f. The ends of segments are off by 10 u of their distance R from there, or what matters
@@ -24,10 +28,11 @@
    by 9 u R more: 32 u R holds both. What is said holds in f's triangle as it is computed: that
    differs from f's by its sides' length times their error.
 
-   A needle in the view may be no wider than all this. It is done in the frame of its shares
-   (visibility/needle.h), where it is as wide as long: its corners are exact but for the
-   frame's position error, segments come clipped to a box that reaches 3 at most, and sides of other
-   facets are told in double-double. Areas are counted in units of twice its projection. */
+   A needle may be narrower than these errors. It is divided in barycentric coordinates instead
+   (visibility/needle.h), in which it is as wide as it is long: its corners are exact except for the
+   frame's position error, segments are clipped to a box with coordinates of at most 3, and the side
+   of another facet on which a point lies is computed in double-double. Areas are then in units of
+   twice the projected area of f. */
 #include "visibility/cells_alone.h"
 
 #include <math.h>
@@ -45,22 +50,24 @@
 #include "visibility/contact.h"
 #include "visibility/sample.h"
 
-/* Cells that a facet may be cut into: so many, and so many a segment. */
+/* Limit on the cells of a facet: a constant, and so many for each segment. */
 #define PARTS_MOST      4096u
 #define PARTS_A_SEGMENT 256u
-/* A facet that reaches so many times as far as its nearest corner is away and f reaches. */
+/* A candidate is far-reaching if its farthest corner is more than this many times as far away as
+   its nearest corner and the reach of f together. */
 #define FAR_FACET 64
-/* A cell without place for a sample whose area is more than so many margins wide is only odd in
-   shape: it is halved. */
+/* A cell without room for a sample is halved if its area exceeds this many margins times its
+   perimeter: it is then of an unfavourable shape, not narrow. */
 #define NARROW 64
 
-/* A facet against f: one of these, or the number of the segment in which they meet. */
+/* The depth order of a facet against f: one of these, or the number of the segment in which the two
+   intersect. */
 enum alone_order {
-    ORDER_NEW = 0x7ffffff0, /* not looked at yet */
+    ORDER_NEW = 0x7ffffff0, /* not computed yet */
     ORDER_FRONT,            /* nearer, wherever a line meets both */
     ORDER_BEHIND,           /* farther */
-    ORDER_APART,            /* a side of f has all of it beyond: no candidate */
-    ORDER_UNKNOWN           /* they touch, in a line that is not known */
+    ORDER_APART,            /* it lies beyond a side of f: not a candidate */
+    ORDER_UNKNOWN           /* they touch, along a line that could not be computed */
 };
 
 /* --- what a facet begins with ----------------------------------------------------------------- */
@@ -130,9 +137,10 @@ static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side si
     }
 }
 
-/* How a facet stands to f if their insides do not meet in space: by their planes; in one plane by
-   the rules of precedence; else by where their sides cross, and by their corners. This decides for
-   any two that overlap in the view (visibility/contact.h). */
+/* The depth order of a facet whose interior does not intersect that of f: from their planes; if
+   they are coplanar, from the rules of precedence; otherwise from where their sides cross, and from
+   their corners. This decides for any two facets that overlap in the view (visibility/contact.h).
+ */
 static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
@@ -150,7 +158,7 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
     return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_UNKNOWN;
 }
 
-/* Does one side of f have all of another facet beyond it? */
+/* Does another facet lie entirely beyond one side of f? */
 static int facet_apart(const lrcsi_alone *a, const lrcsi_view_side own[3], uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
@@ -167,7 +175,7 @@ static int facet_apart(const lrcsi_alone *a, const lrcsi_view_side own[3], uint3
     return apart;
 }
 
-/* Lists what may be in front of f. 0 if the meter is spent. */
+/* Lists the candidates. 0 if the meter is spent. */
 static int alone_facets(lrcsi_alone *a)
 {
     const lrcsi_grid *grid = &a->grid;
@@ -220,7 +228,7 @@ static void segment_ends(lrcsi_cells_segment *e, const double (*end)[2])
     e->line_off = e->off;
 }
 
-/* Is neither of an edge's facets in front of f, wherever that is? */
+/* Is neither of an edge's facets in front of f anywhere? */
 static int edge_idle(lrcsi_alone *a, const uint32_t owner[2])
 {
     int idle = 1;
@@ -262,7 +270,7 @@ static int alone_edge(lrcsi_alone *a, uint32_t edge)
     return 1;
 }
 
-/* What a facet that touches f brings along. 0 if there is no room. */
+/* The depth order of a facet that touches f, and the segments due to it. 0 if there is no room. */
 static int alone_contact(lrcsi_alone *a, uint32_t other)
 {
     lrcsi_cells_work *c = &a->cells;
@@ -298,7 +306,7 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
     return 1;
 }
 
-/* 0 if there is no room, or the meter is spent. */
+/* Lists the segments. 0 if there is no room, or the meter is spent. */
 static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
@@ -320,15 +328,15 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
     return lrcsi_meter_take(c->view->meter, (uint64_t)a->count + cell->segments);
 }
 
-/* Nothing is known of so much of it: it counts as half visible. */
+/* Leaves an area undecided: it counts as half visible. */
 static void facet_leave(lrcsi_alone *a, double area)
 {
     a->uncertainty[0] += 0.5 * area;
     a->uncertainty[1] += 0.5 * area;
 }
 
-/* f's record, its triangle as a cell, and the error of its rim. 0 if rounding may have turned
-   the triangle over. */
+/* Makes the record of f, the first cell, and the error along the sides of f. 0 if rounding may have
+   reversed the triangle's orientation. */
 static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
@@ -387,9 +395,9 @@ static int component_ends(const lrcsi_alone *a, const lrcsi_cells_segment *e, ui
                       : lrcsi_cells_segment_of(a->cells.view->prepared, e, of, component);
 }
 
-/* Of a cell's segments, or of those at which a component ends where one is told, that whose line
-   passes nearest to a place: what is on its sides is then about as much. Returns how many there
-   are. */
+/* Chooses, of a cell's segments, the one whose line passes nearest to a point, so that both parts
+   are of similar size. Given a component, only segments at which it ends count. Returns how many
+   there are to choose from. */
 static uint32_t cell_choose(const lrcsi_alone *a, const lrcsi_cells_cell *cell, const double at[2],
                             uint32_t component, const lrcsi_cells_segment **best)
 {
@@ -410,22 +418,23 @@ static uint32_t cell_choose(const lrcsi_alone *a, const lrcsi_cells_cell *cell, 
 
 /* --- samples ---------------------------------------------------------------------------------- */
 
-/* A place is asked as it stands in the frame, where it is clear of all sides; or as a point in
-   space nearby, exactly; or as it stands, rounded. */
+/* How a sample is decided: with error bounds, at its point in the frame; exactly, at a nearby point
+   in space; or by the signs of rounded values, which is only a guess. */
 enum alone_way { WAY_PLACED, WAY_EXACT, WAY_GUESSED };
 
-/* A place in a cell at which to ask. */
+/* A sample in a cell. */
 typedef struct alone_place {
     double at[2], clear;
-    int way; /* how it is asked, as below */
+    int way; /* an alone_way */
     double point[3];
-    double off;                     /* by which the point may be elsewhere in the frame */
+    double off;                     /* the error of `at` as the position of `point` */
     lrcsi_view_box box;             /* in the view; its depth does not count */
     const lrcsi_cells_segment *cut; /* found: a segment of the component that ends at the */
     uint32_t ends;                  /* fewest, and how many these are */
 } alone_place;
 
-/* The point is put there by f's corners' shares, its coordinates rounded. */
+/* Finds the sample's point in space from its barycentric coordinates; its coordinates are
+   rounded. */
 static void place_lift(const lrcsi_alone *a, alone_place *place)
 {
     const lrcs_prepared *p = a->cells.view->prepared;
@@ -546,8 +555,8 @@ static int place_front(const lrcsi_alone *a, const alone_place *place, uint32_t 
     return order == ORDER_FRONT ? 1 : order == ORDER_BEHIND ? -1 : 0;
 }
 
-/* Is f hidden at a place? 1 by the component told in the place, 0 no, -1 that cannot be decided. Of
-   a component that ends nowhere in the cell no more need be known. */
+/* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided. If it is hidden, the place holds
+   the component with the fewest segments in the cell; a component with none ends the search. */
 static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                      alone_place *place)
 {
@@ -578,8 +587,8 @@ static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
     return answer;
 }
 
-/* Asks at a place in the cell, or at another; 1, 0, or -1 as above. Where that is not told, a guess
-   of it goes to *guess. */
+/* Takes samples in the cell until one is decided: 1, 0, or -1 as above. If none is decided, *guess
+   is set. */
 static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                      alone_place *place, int *guess)
 {
@@ -616,7 +625,8 @@ static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
 
 /* --- one cell --------------------------------------------------------------------------------- */
 
-/* The cell as a piece. In a needle its corners are rounded to the frame of the view axes. */
+/* Returns the cell as a visible piece. The corners of a needle's piece are rounded to the frame
+   along the view's axes. */
 static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
 {
     lrcsi_cells_found *area = &a->area;
@@ -632,7 +642,7 @@ static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_
                                                (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]);
 }
 
-/* Cuts a cell along a segment, or halves one without that is only odd in shape. 0 if that is not
+/* Cuts a cell along a segment. Without a segment, halves it if it is not narrow. 0 if that is not
    possible. */
 static int cell_divide(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                        const lrcsi_cells_segment *cut)
@@ -643,7 +653,7 @@ static int cell_divide(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi
                      lrcsi_cells_halve(&a->cells, cell, s);
 }
 
-/* Does one cell: 1 if it has shown a piece. Else it is hidden, cut, or cannot be decided. */
+/* Processes one cell. Returns 1 if it is a visible piece; else it is hidden, cut, or undecided. */
 static int cell_do(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
@@ -659,7 +669,8 @@ static int cell_do(lrcsi_alone *a, lrcsi_cells_cell *cell)
         place.ends = cell_choose(a, cell, place.at, LRCS_NONE, &place.cut);
     }
 
-    /* 2. Where no segment is left that matters, all of the cell is as it is there. */
+    /* 2. If no segment is left that matters, the whole cell is visible or hidden as the sample is.
+     */
     if (hidden >= 0 && place.ends == 0) {
         a->area.uncertainty +=
             cell->uncertainty + lrcsi_cells_thin(cell, &s, place.clear, cell->struck, alone_off(a));
@@ -670,7 +681,7 @@ static int cell_do(lrcsi_alone *a, lrcsi_cells_cell *cell)
         return !hidden;
     }
 
-    /* 3. Else it is cut. */
+    /* 3. Otherwise it is cut. */
     if (!cell_divide(a, cell, &s, place.cut)) {
         int seen = hidden < 0 ? !guess : !hidden;
         a->uncertainty[seen] += lrcsi_clip_area(&cell->shape);
@@ -724,7 +735,7 @@ static uint32_t sides_room(const lrcs_prepared *p)
     return p->scene->facet_count < SIDES_MOST ? p->scene->facet_count : SIDES_MOST;
 }
 
-/* Each of the events may cross a facet, and each of its contacts may bring three sides along. */
+/* Each event may cross a facet, and each of its contacts may add the three sides of a facet. */
 static size_t segments_most(const lrcs_prepared *p, size_t events)
 {
     size_t most = 0;

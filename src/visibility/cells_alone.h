@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What is visible of one facet: cells of the view plane that begin as its triangle. As an area with
-   bounds, and as disjoint convex pieces. */
+/* What is visible of one facet, f, as an area with bounds and as disjoint convex pieces, by cells
+   of the view plane. The first cell is the facet's triangle. */
 #ifndef LRCSI_CELLS_ALONE_H
 #define LRCSI_CELLS_ALONE_H
 
@@ -8,7 +8,7 @@
 #include "visibility/target.h"
 #include "visibility/visible.h"
 
-/* A line, the distance from it being a x + b y + c, and how far that may be off. */
+/* A line: the distance from it is a x + b y + c, with an error of at most `clear`. */
 typedef struct lrcsi_alone_side {
     double line[3], clear;
 } lrcsi_alone_side;
@@ -16,39 +16,41 @@ typedef struct lrcsi_alone_side {
 typedef struct lrcsi_alone {
     lrcsi_classification *classification;
     lrcsi_grid grid;             /* of facets */
-    lrcsi_cells_work cells;      /* of one facet, in its frame: the one at hand, f; of that */
-    lrcsi_cells_facet shape;     /* its sides, */
-    lrcsi_cells_found area;      /* what is found, */
-    unsigned char open;          /* 1, */
-    uint32_t number;             /* and 0, its number in `cells` */
-    uint32_t *candidate;         /* facets that may hide it, */
-    uint32_t count;              /* so many */
+    lrcsi_cells_work cells;      /* data that cells share, here with f as the only facet */
+    lrcsi_cells_facet shape;     /* f in its frame */
+    lrcsi_cells_found area;      /* the areas of f found so far */
+    unsigned char open;          /* cells.open: 1 */
+    uint32_t number;             /* cells.facets: 0, the number of f there */
+    uint32_t *candidate;         /* facets that may hide f */
+    uint32_t count;              /* of candidates */
     lrcsi_alone_side (*side)[3]; /* sides of the first side_room candidates */
     uint32_t side_room;
     uint32_t *met;   /* facet: the search that last met it */
-    uint32_t *order; /* facet that was met: how they stand to each other */
+    uint32_t *order; /* facet that was met: its depth order against f (cells_alone.c) */
     uint32_t facet;
-    lrcsi_target target;      /* its frame */
-    lrcsi_target frame;       /* the same in which it is divided */
-    lrcsi_needle needle;      /* that of a needle */
+    lrcsi_target target;      /* the frame of f along the axes of the view */
+    lrcsi_target frame;       /* the frame of the cells: the same, or that of a needle */
+    lrcsi_needle needle;      /* used if f is a needle */
     lrcsi_clip_polygon piece; /* the piece last found */
-    uint64_t parts;           /* that it may yet be cut into */
-    double rim;               /* area within the error of its sides */
-    double bent;              /* by which the area of a needle's pieces may be wrong beside */
-    double uncertainty[2];    /* area that could not be decided: hidden, visible by a guess */
-    int hidden;               /* some of it is */
+    uint64_t parts;           /* the number of cells that may still be processed */
+    double rim;               /* area within the error of the sides of f */
+    double bent;              /* additional error of the area of a needle's pieces */
+    double uncertainty[2];    /* undecided area: [0] probably hidden, [1] probably visible */
+    int hidden;               /* 1 if some of f is hidden */
 } lrcsi_alone;
 
 /* Bytes at most. */
 size_t lrcsi_alone_need(const lrcs_prepared *prepared);
 
-/* What serves all facets of a view; it stays in the work area. Given: a grid of facets that lists
-   all that stand where any facet does which is to be opened. Status: LRCS_OK; LRCS_E_MEMORY. */
+/* Makes the data for all facets of a view; they stay in the work area. Given: a grid of facets
+   whose lists are complete in the cells of every facet that will be opened. Status: LRCS_OK;
+   LRCS_E_MEMORY. */
 int lrcsi_alone_make(lrcsi_classification *classification, const lrcsi_grid *grid, lrcs_work *work,
                      lrcsi_alone *a);
 
-/* Readies a facet that casts. Each `next` that returns 1 then leaves one more of the pieces of what
-   is visible in a->piece, in the frame of a->target; `close` tells the area. */
+/* One facet that can hide others (visibility/boxes.h), piece by piece: call open, then next until
+   it returns 0, then close. Each `next` that returns 1 leaves one piece of the visible region in
+   a->piece, in the frame of a->target; `close` returns the area. */
 void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet);
 int lrcsi_alone_next(lrcsi_alone *a);
 lrcsi_visible lrcsi_alone_close(lrcsi_alone *a);

@@ -24,6 +24,7 @@
 #include "base/dd.h"
 #include "base/range.h"
 #include "visibility/contact.h"
+#include "visibility/event.h"
 #include "visibility/grid.h"
 #include "visibility/sample.h"
 
@@ -285,31 +286,16 @@ int lrcsi_cells_apart(const lrcsi_view *view, uint32_t facet)
     return 0;
 }
 
-/* Across an irregular edge: the other of two facets on opposite sides of it (as edge_kind_of in
-   visibility/event.c). */
-static uint32_t irregular_neighbour(const lrcsi_view *view, uint32_t facet, uint32_t edge)
-{
-    const lrcsi_topology *t = &view->prepared->topology;
-    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
-    uint32_t other = LRCS_NONE;
-    uint32_t count = 0;
-    int left = 0;
-    for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
-        if (lrcsi_grid_casts(view, use[i].facet)) {
-            other = use[i].facet != facet ? use[i].facet : other;
-            count++;
-            left += use[i].forward ? view->facing[use[i].facet] : -view->facing[use[i].facet];
-        }
-    }
-    return count == 2 && left == 0 ? other : LRCS_NONE;
-}
-
 uint32_t lrcsi_cells_joined(const lrcsi_view *view, uint32_t facet, int k)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t other = p->across.facet[facet].corner[k];
     if (other == facet) {
-        return irregular_neighbour(view, facet, p->topology.facet_edge[facet].corner[k]);
+        uint32_t pair[2];
+        uint32_t edge = p->topology.facet_edge[facet].corner[k]; /* irregular */
+        return lrcsi_edge_kind_of(view, edge, pair) != LRCSI_EDGE_JOINS ? LRCS_NONE
+               : pair[0] == facet                                       ? pair[1]
+                                                                        : pair[0];
     }
     return other < p->scene->facet_count && lrcsi_grid_casts(view, other) &&
                    view->facing[other] == view->facing[facet]

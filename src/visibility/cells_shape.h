@@ -16,29 +16,29 @@ static inline double lrcsi_line_at(const double line[3], double x, double y)
     return line[0] * x + line[1] * y + line[2];
 }
 
-/* Lines that a cell lies on the inner side of, one along each side of it. */
+/* Half-planes that contain a cell, one along each of its sides. */
 typedef struct lrcsi_cells_sides {
     double line[LRCSI_CLIP_SIDES][3];
-    double moved[LRCSI_CLIP_SIDES]; /* how far out */
+    double moved[LRCSI_CLIP_SIDES]; /* how far each line was moved outward */
     double length[LRCSI_CLIP_SIDES];
     uint32_t count;
     double low[2], high[2];
     double perimeter;
-    double g; /* what was given for places near the cell */
+    double g; /* statements about the cell hold for all points within this distance of it */
 } lrcsi_cells_sides;
 
-/* Makes them for a cell, of which is said what holds of places within `g` of it. */
+/* Makes them for a cell. */
 void lrcsi_cells_sides_make(const lrcsi_clip_polygon *p, double g, lrcsi_cells_sides *s);
 
-/* How a line passes the corners of a cell: the least and the most distance. */
+/* The least and the largest signed distance of a cell's corners from a line. */
 void lrcsi_line_range(const lrcsi_clip_polygon *shape, const double line[3], double range[2]);
 
-/* The same of a box around it: the range is as wide or wider. */
+/* The same for a box: if it contains the cell, its range contains that of the cell. */
 void lrcsi_box_range(const double low[2], const double high[2], const double line[3],
                      double range[2]);
 
-/* What of a segment is in a cell, or near it: between two shares of its length; at the border, how
-   far from there places are undecided. */
+/* The part of a segment in a cell or near it, between two fractions of its length; for a segment at
+   the border, the width of the strip around it that is undecided. */
 typedef struct lrcsi_cells_part {
     double from, to, strip;
 } lrcsi_cells_part;
@@ -58,8 +58,8 @@ enum lrcsi_cells_place {
     LRCSI_CELLS_MEETS   /* neither is sure */
 };
 
-/* How a segment from p to q, known to w, on a line that is known to line_w, stands to a cell: a
-   lrcsi_cells_place; the part is told where it is not away. */
+/* The position of a segment relative to a cell: a lrcsi_cells_place. Given: the ends p and q with
+   the error w, and their line with the error line_w. The part is returned unless it is away. */
 int lrcsi_cells_place_of(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
                          const double p[2], const double q[2], const double line[3], double w,
                          double line_w, lrcsi_cells_part *part);
@@ -67,11 +67,11 @@ int lrcsi_cells_place_of(const lrcsi_clip_polygon *shape, const lrcsi_cells_side
 /* A lower bound of how far inside the cell a point lies (as lrcsi_clip_clear). */
 double lrcsi_cells_sides_clear(const lrcsi_cells_sides *s, const double at[2]);
 
-/* Keeps what lies left of a line. */
+/* Keeps the part to the left of a line. */
 void lrcsi_cells_shape_clip(lrcsi_clip_polygon *shape, const double line[3]);
 
-/* Divides a shape along a line, into what lies left of it and what lies right of it. Returned: how
-   far the new corners are from the sides that they cut, at most. */
+/* Divides a shape along a line into the part to its left and the part to its right. Returns an
+   upper bound of the distance of the new corners from the sides that they are on. */
 double lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape, const double line[3],
                                 lrcsi_clip_polygon *left, lrcsi_clip_polygon *right);
 

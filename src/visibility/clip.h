@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Convex polygons in a facet's frame of the view plane: split by a line, and measured. */
+/* Convex polygons in a facet's frame of the view plane, measured. They are cut in
+   visibility/cells_shape.h. */
 #ifndef LRCSI_CLIP_H
 #define LRCSI_CLIP_H
 
@@ -26,11 +27,6 @@ void lrcsi_clip_box(const lrcsi_clip_polygon *polygon, double low[2], double hig
 
 /* The perimeter of the bounding box: an upper bound of that of the polygon. */
 double lrcsi_clip_perimeter(const lrcsi_clip_polygon *polygon);
-
-/* Splits a polygon into the parts to the left and to the right of the line. A part with fewer than
-   three corners is empty. Returns 0 if a part would have too many corners. */
-int lrcsi_clip_split(const lrcsi_clip_polygon *from, const lrcsi_clip_line *line,
-                     lrcsi_clip_polygon *left, lrcsi_clip_polygon *right);
 
 /* The area of a counter-clockwise triangle within the unit square at `low`. With corners at most C
    away from the square along either axis, the error is less than 16 u (C + 1) + 10 u: within the

@@ -11,14 +11,12 @@
 
 /* --- one edge --------------------------------------------------------------------------------- */
 
-enum edge_kind { EDGE_UNUSED, EDGE_JOINS, EDGE_EVENT };
-
-/* The kind of an edge; if it joins two facets, they are returned in pair. In projection a facet
+/* In projection a facet
    lies to the left of its side if it faces the laser, otherwise to the right. Two facets lie on
    opposite sides of an edge if and only if they traverse it in opposite directions and face the
    same way, or in the same direction and face opposite ways (as where the winding of a surface
    changes). */
-static int edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2])
+int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2])
 {
     const lrcsi_topology *t = &view->prepared->topology;
     const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
@@ -31,7 +29,9 @@ static int edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2])
             left += use[i].forward ? view->facing[use[i].facet] : -view->facing[use[i].facet];
         }
     }
-    return count == 0 ? EDGE_UNUSED : count == 2 && left == 0 ? EDGE_JOINS : EDGE_EVENT;
+    return count == 0                ? LRCSI_EDGE_UNUSED
+           : count == 2 && left == 0 ? LRCSI_EDGE_JOINS
+                                     : LRCSI_EDGE_EVENT;
 }
 
 /* --- all edges -------------------------------------------------------------------------------- */
@@ -86,7 +86,7 @@ static void mark_irregular(const lrcsi_view *view, uint32_t *mark)
     const lrcsi_across *across = &view->prepared->across;
     for (uint32_t i = 0; i < across->irregular_count; i++) {
         uint32_t pair[2];
-        if (edge_kind_of(view, across->irregular[i], pair) == EDGE_EVENT) {
+        if (lrcsi_edge_kind_of(view, across->irregular[i], pair) == LRCSI_EDGE_EVENT) {
             mark_edge_event(mark, across->irregular[i]);
         }
     }
@@ -134,45 +134,56 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
 
 /* --- groups ----------------------------------------------------------------------------------- */
 
+/* Joins the facets of a run among themselves. */
+static void join_within(const lrcs_prepared *p, const signed char *joinable, uint32_t start,
+                        uint32_t end, uint32_t *group)
+{
+    int alike = run_alike(joinable, start, end);
+    for (uint32_t f = start; f < end; f++) {
+        group[f] = alike ? start + p->runs.first[f] : f;
+        for (int k = 0; k < 3 && !alike && joinable[f] != 0; k++) {
+            uint32_t other = p->across.facet[f].corner[k];
+            if (other >= start && other < f && joinable[other] == joinable[f]) {
+                lrcsi_join(group, other, f);
+            }
+        }
+    }
+}
+
+/* Run by run: each is joined within and then to earlier runs, while its facets are in the cache.
+   The groups do not depend on the order. Nothing is joined in a run without joinable facets. */
 void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t count = p->scene->facet_count;
-    for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
+    uint32_t last[2] = {0, 0}; /* the groups joined last: two runs mostly share many sides */
+    for (uint32_t r = 0; r < p->runs.count; r++) {
+        uint32_t start = r * LRCSI_RUN;
         uint32_t end = lrcsi_run_end(start, count);
-        if (run_alike(joinable, start, end) && joinable[start] != 0) {
+        if (joinable[start] == 0 && run_alike(joinable, start, end)) {
             for (uint32_t f = start; f < end; f++) {
-                group[f] = start + p->runs.first[f];
+                group[f] = f;
             }
             continue;
         }
-        for (uint32_t f = start; f < end; f++) {
-            group[f] = f;
-            for (int k = 0; k < 3 && joinable[f] != 0; k++) {
-                uint32_t other = p->across.facet[f].corner[k];
-                if (other >= start && other < f && joinable[other] == joinable[f]) {
-                    lrcsi_join(group, other, f);
+        join_within(p, joinable, start, end, group);
+        for (uint32_t i = p->runs.run[r].first_side; i < p->runs.run[r + 1].first_side; i++) {
+            const lrcsi_run_side *side = &p->runs.side[i];
+            if (side->other < side->facet && joinable[side->facet] != 0 &&
+                joinable[side->other] == joinable[side->facet]) {
+                uint32_t a = group[side->other];
+                uint32_t b = group[side->facet];
+                if (a != b && (a != last[0] || b != last[1])) {
+                    lrcsi_join(group, a, b);
+                    last[0] = a;
+                    last[1] = b;
                 }
-            }
-        }
-    }
-    const lrcsi_run_side *side = p->runs.side;
-    uint32_t last[2] = {0, 0}; /* the groups joined last: two runs mostly share many sides */
-    for (uint32_t i = p->runs.run[p->runs.count].first_side; i > 0; i--, side++) {
-        if (side->other < side->facet && joinable[side->facet] != 0 &&
-            joinable[side->other] == joinable[side->facet]) {
-            uint32_t a = group[side->other];
-            uint32_t b = group[side->facet];
-            if (a != b && (a != last[0] || b != last[1])) {
-                lrcsi_join(group, a, b);
-                last[0] = a;
-                last[1] = b;
             }
         }
     }
     for (uint32_t i = 0; i < p->across.irregular_count; i++) {
         uint32_t pair[2];
-        if (edge_kind_of(view, p->across.irregular[i], pair) == EDGE_JOINS &&
+        if (lrcsi_edge_kind_of(view, p->across.irregular[i], pair) == LRCSI_EDGE_JOINS &&
             joinable[pair[0]] != 0 && joinable[pair[1]] != 0) {
             lrcsi_join(group, pair[0], pair[1]);
         }

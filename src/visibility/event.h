@@ -12,6 +12,15 @@ typedef struct lrcsi_events {
     uint32_t count;
 } lrcsi_events;
 
+enum lrcsi_edge_kind {
+    LRCSI_EDGE_UNUSED, /* none of its facets can hide anything */
+    LRCSI_EDGE_JOINS,  /* exactly two can, on opposite sides of it in projection */
+    LRCSI_EDGE_EVENT
+};
+
+/* The kind of an edge, of any number of facets; if it joins two, they are returned in pair. */
+int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2]);
+
 size_t lrcsi_events_need(const lrcs_prepared *prepared);
 
 /* Given: cast[facet], the direction in which it faces (1 or -1) if it can hide something, otherwise

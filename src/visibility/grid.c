@@ -31,8 +31,9 @@ size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t side = grid_side(facets);
     size_t words = (side + WANT_BITS - 1) / WANT_BITS;
-    return lrcsi_work_add(lrcsi_work_bytes(words * side, sizeof(uint32_t)),
-                          lrcsi_grid_need(facets, LRCSI_GRID_FACET_CELLS * facets));
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(words * side, sizeof(uint32_t)),
+                                 lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_grid_need(facets, LRCSI_GRID_FACET_CELLS * facets));
 }
 
 /* The window: what the view's own has in common with the projection of the box around the bulk. No
@@ -316,8 +317,12 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
         return LRCS_OK;
     }
     want->bit = lrcsi_work_take_zero(work, want->words * grid->size, sizeof *want->bit);
-    for (uint32_t f = 0; f < grid->view->prepared->scene->facet_count && want->bit; f++) {
-        if ((readers->undecided[f] || readers->region[f] == f) && lrcsi_grid_casts(grid->view, f)) {
+    uint32_t count = grid->view->prepared->scene->facet_count;
+    for (uint32_t f = 0; f < count && want->bit; f++) {
+        if (boxes->state[f / LRCSI_RUN] == LRCSI_BOXES_NONE) {
+            f = lrcsi_run_end(f, count) - 1;
+        } else if ((readers->undecided[f] || readers->region[f] == f) &&
+                   lrcsi_grid_casts(grid->view, f)) {
             lrcsi_boxes_open(boxes, f / LRCSI_RUN);
             want_facet(want, lrcsi_grid_cells(grid, &boxes->facet[f]));
         }
@@ -325,13 +330,16 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
     return want->bit ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-/* Counts the entries of all facets that meet cells to be read, or writes them. Returns the number
-   of entries. */
-static uint64_t grid_put_facets(lrcsi_grid *grid, const lrcsi_boxes *boxes, grid_want want)
+/* Lists the facets that meet cells to be read, in order, and makes their boxes. Status: LRCS_OK;
+   LRCS_E_MEMORY. */
+static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, grid_want want,
+                         lrcs_work *work, uint32_t **facet, uint32_t *selected)
 {
-    uint64_t listed = 0;
     uint32_t count = grid->view->prepared->scene->facet_count;
-    for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
+    size_t mark = work->used;
+    uint32_t *list = lrcsi_work_take(work, count, sizeof *list);
+    uint32_t listed = 0;
+    for (uint32_t start = 0; start < count && list; start += LRCSI_RUN) {
         uint32_t run = start / LRCSI_RUN;
         if (boxes->state[run] == LRCSI_BOXES_NONE ||
             (want.bit && !want_meets(want, lrcsi_grid_cells(grid, &boxes->run[run])))) {
@@ -340,21 +348,37 @@ static uint64_t grid_put_facets(lrcsi_grid *grid, const lrcsi_boxes *boxes, grid
         lrcsi_boxes_open(boxes, run);
         uint32_t end = lrcsi_run_end(start, count);
         for (uint32_t f = start; f < end; f++) {
-            if (!lrcsi_grid_casts(grid->view, f)) {
-                continue;
+            if (lrcsi_grid_casts(grid->view, f) &&
+                (!want.bit || want_meets(want, lrcsi_grid_cells(grid, &boxes->facet[f])))) {
+                list[listed++] = f;
             }
-            lrcsi_cells cells = lrcsi_grid_cells(grid, &boxes->facet[f]);
-            if (want.bit && !want_meets(want, cells)) {
-                continue;
-            }
-            for (uint32_t y = cells.y0; y < cells.y1; y++) {
-                listed += grid_put(grid, y, cells.x0, cells.x1, f);
-            }
+        }
+    }
+    if (!list) {
+        return LRCS_E_MEMORY;
+    }
+    work->used = mark; /* the list is already stored here */
+    *facet = lrcsi_work_take(work, listed, sizeof *list);
+    *selected = listed;
+    return LRCS_OK;
+}
+
+/* Counts the entries of the selected facets, or writes them. Returns the number of entries. */
+static uint64_t facets_put(lrcsi_grid *grid, const uint32_t *facet, uint32_t selected)
+{
+    uint64_t listed = 0;
+    for (uint32_t i = 0; i < selected; i++) {
+        lrcsi_cells cells = lrcsi_grid_cells(grid, &grid->box[facet[i]]);
+        for (uint32_t y = cells.y0; y < cells.y1; y++) {
+            listed += grid_put(grid, y, cells.x0, cells.x1, facet[i]);
         }
     }
     return listed;
 }
 
+/* 1. Mark the cells that will be read. 2. Select the facets that meet them. 3. Count the facets of
+   each cell; if there are too many entries, make the cells larger and start again. 4. Fill the
+   lists. */
 int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
                       const lrcsi_grid_readers *readers, lrcs_work *work, lrcsi_grid *grid)
 {
@@ -363,22 +387,28 @@ int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
     uint64_t most = LRCSI_GRID_FACET_CELLS * ((uint64_t)view->front + view->back);
     lrcsi_grid g = *like;
     grid_want want;
+    uint32_t *facet = NULL;
+    uint32_t selected = 0;
+    int status;
     g.box = boxes->facet;
     g.first = g.item = NULL;
-    int status = want_make(&g, boxes, readers, work, &want);
-    status = status == LRCS_OK ? grid_start(&g, work) : status;
-    while (status == LRCS_OK && grid_put_facets(&g, boxes, want) > most) {
+    for (;;) {
+        status = want_make(&g, boxes, readers, work, &want);
+        status =
+            status == LRCS_OK ? facets_select(&g, boxes, want, work, &facet, &selected) : status;
+        status = status == LRCS_OK ? grid_start(&g, work) : status;
+        if (status != LRCS_OK || facets_put(&g, facet, selected) <= most) {
+            break;
+        }
         work->used = mark;
         grid_coarsen(&g);
-        status = want_make(&g, boxes, readers, work, &want);
-        status = status == LRCS_OK ? grid_start(&g, work) : status;
     }
     status = status == LRCS_OK ? grid_room(work, &g) : status;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    grid_put_facets(&g, boxes, want);
+    facets_put(&g, facet, selected);
     grid_finish(&g);
     *grid = g;
     return LRCS_OK;

@@ -176,10 +176,13 @@ static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_
                               const lrcsi_grid *facets, unsigned char *answer)
 {
     uint32_t undecided = 0;
-    for (uint32_t f = 0; f < classification->view->prepared->scene->facet_count; f++) {
+    uint32_t count = classification->view->prepared->scene->facet_count;
+    memset(answer, LRCSI_QUERY_HIDDEN, count);
+    for (uint32_t f = 0; f < count; f++) {
         uint32_t first = classification->region[f];
-        answer[f] = LRCSI_QUERY_HIDDEN;
-        if (first != f) {
+        if (classification->boxes.state[f / LRCSI_RUN] == LRCSI_BOXES_NONE) {
+            f = lrcsi_run_end(f, count) - 1; /* no facet of the run is visible */
+        } else if (first != f) {
             answer[f] = answer[first];
         } else if (lrcsi_grid_casts(classification->view, f) && !classification->undecided[f]) {
             answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);

@@ -85,12 +85,12 @@ same files_are_those_of_the_settings_named "$(cmp budget.csv again.csv && wc -l 
 # children PID: those that have not ended.
 children() { ps -A -o pid=,ppid=,stat= | awk -v p="$1" '$2 == p && $3 !~ /^Z/ { print $1 }'; }
 # many large facets that intersect each other: clipping takes seconds
-awk 'BEGIN { n = 1; for (i = 0; i < 4000; i++) { for (k = 0; k < 3; k++) {
+awk 'BEGIN { n = 1; for (i = 0; i < 1500; i++) { for (k = 0; k < 3; k++) {
     for (j = 0; j < 3; j++) { n = (n * 1103 + 12345) % 1000003; c[j] = n / 1000003 }
     print "v", c[0], c[1], c[2] } print "f -3 -2 -1" } }' >dense.obj
 "$tool" run dense.obj --azel 20,30 --time-budget 600000 --json >/dev/null 2>&1 &
 started=$!
-left=100
+left=300
 while [ "$(children $started | wc -l)" -lt 3 ] && [ $left -gt 0 ]; do
     sleep 0.1
     left=$((left - 1))
@@ -99,7 +99,7 @@ all=$(children $started)
 same two_sequences_and_their_guard_run "$(printf '%s\n' "$all" | wc -l | tr -d ' ')" 3
 kill -KILL $started
 wait $started 2>/dev/null
-left=100
+left=300
 while [ "$(ps -A -o pid=,stat= | awk -v all="$(echo $all)" 'BEGIN { n = split(all, list, " "); for (i = 1; i <= n; i++) is[list[i]] = 1 } is[$1] && $2 !~ /^Z/' | wc -l)" -gt 0 ] && [ $left -gt 0 ]; do
     sleep 0.1
     left=$((left - 1))

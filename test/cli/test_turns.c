@@ -97,7 +97,8 @@ static void a_weight_lets_a_sequence_go_ahead_by_that_factor(void **state)
     }
 }
 
-/* Two settings of weight 1 delay one of weight w by 5/4 of 2 / w of its cost, and a turn of each. */
+/* Two settings of weight 1 delay one of weight w by 5/4 of 2 / w of its cost, and a turn of each.
+ */
 static void a_weight_limits_what_others_delay(void **state)
 {
     (void)state;

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "scenes.h"
+#include "visibility/cells_shape.h"
 
 static lrcsi_clip_polygon triangle(double x, double y)
 {
@@ -18,11 +19,14 @@ static lrcsi_clip_polygon triangle(double x, double y)
 static void check_split(double at_x, double at_y, double to_x, double to_y, double left_area,
                         double right_area)
 {
-    const lrcsi_clip_line line = {{at_x, at_y}, {to_x, to_y}};
+    const double from[2] = {at_x, at_y};
+    const double to[2] = {at_x + to_x, at_y + to_y};
+    double line[3];
     lrcsi_clip_polygon p = triangle(8, 8);
     lrcsi_clip_polygon left;
     lrcsi_clip_polygon right;
-    assert_true(lrcsi_clip_split(&p, &line, &left, &right));
+    lrcsi_line_through(from, to, line);
+    lrcsi_cells_shape_divide(&p, line, &left, &right);
     check_same(left.count < 3 ? 0 : lrcsi_clip_area(&left), left_area);
     check_same(right.count < 3 ? 0 : lrcsi_clip_area(&right), right_area);
 }
@@ -38,23 +42,20 @@ static void a_line_splits_what_it_crosses(void **state)
     check_split(8, 0, -1, 1, 32, 0); /* along the hypotenuse */
 }
 
-/* A square whose corners are cut off again and again, by ever less. */
-static void a_piece_of_too_many_corners_is_not_split(void **state)
+static void both_parts_have_the_corners_of_the_cut(void **state)
 {
     (void)state;
-    lrcsi_clip_polygon round = {.count = LRCSI_CLIP_SIDES};
+    enum { SIDES = LRCSI_CLIP_SIDES - 2 };
+    lrcsi_clip_polygon round = {.count = SIDES};
     lrcsi_clip_polygon left;
     lrcsi_clip_polygon right;
-    for (uint32_t i = 0; i < LRCSI_CLIP_SIDES; i++) {
-        round.corner[i][0] = cos(6.283185307179586 * (i + 0.5) / LRCSI_CLIP_SIDES);
-        round.corner[i][1] = sin(6.283185307179586 * (i + 0.5) / LRCSI_CLIP_SIDES);
+    for (uint32_t i = 0; i < SIDES; i++) {
+        round.corner[i][0] = cos(6.283185307179586 * (i + 0.5) / SIDES);
+        round.corner[i][1] = sin(6.283185307179586 * (i + 0.5) / SIDES);
     }
-    const lrcsi_clip_line tip = {{0.9999, 0}, {0, 1}}; /* within the rightmost side's corners */
-    round.corner[0][0] = 1.001;
-    assert_true(lrcsi_clip_split(&round, &tip, &left, &right) == 0);
-    const lrcsi_clip_line middle = {{0, 0}, {0, 1}};
-    assert_true(lrcsi_clip_split(&round, &middle, &left, &right));
-    assert_true(left.count + right.count == LRCSI_CLIP_SIDES + 4);
+    const double middle[3] = {1, 0, -0.01};
+    lrcsi_cells_shape_divide(&round, middle, &left, &right);
+    assert_true(left.count + right.count == SIDES + 4);
 }
 
 static void a_box_shows_its_part_of_a_triangle(void **state)
@@ -69,16 +70,14 @@ static void a_box_shows_its_part_of_a_triangle(void **state)
 /* The same, by cutting along the sides of the square. */
 static double area_cut(const double corner[3][2], const double low[2])
 {
-    const lrcsi_clip_line side[4] = {{{low[0], low[1]}, {1, 0}},
-                                     {{low[0] + 1, low[1]}, {0, 1}},
-                                     {{low[0] + 1, low[1] + 1}, {-1, 0}},
-                                     {{low[0], low[1] + 1}, {0, -1}}};
+    const double side[4][3] = {
+        {0, 1, -low[1]}, {-1, 0, low[0] + 1}, {0, -1, low[1] + 1}, {1, 0, -low[0]}};
     lrcsi_clip_polygon inside;
     lrcsi_clip_polygon left;
     lrcsi_clip_polygon right;
     lrcsi_clip_triangle(corner, &inside);
     for (int k = 0; k < 4; k++) {
-        lrcsi_clip_split(&inside, &side[k], &left, &right);
+        lrcsi_cells_shape_divide(&inside, side[k], &left, &right);
         if (left.count < 3) {
             return 0;
         }
@@ -132,7 +131,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_line_splits_what_it_crosses),
-        cmocka_unit_test(a_piece_of_too_many_corners_is_not_split),
+        cmocka_unit_test(both_parts_have_the_corners_of_the_cut),
         cmocka_unit_test(a_box_shows_its_part_of_a_triangle),
         cmocka_unit_test(parts_are_those_of_cutting_and_add_up),
     };

@@ -6,6 +6,43 @@
 
 #include "base/range.h"
 
+static void polygon_add(lrcsi_clip_polygon *polygon, double x, double y)
+{
+    if (polygon->count < LRCSI_CLIP_SIDES) {
+        polygon->corner[polygon->count][0] = x;
+        polygon->corner[polygon->count][1] = y;
+    }
+    polygon->count++;
+}
+
+int ref_clip_split(const lrcsi_clip_polygon *from, const lrcsi_clip_line *line,
+                   lrcsi_clip_polygon *left, lrcsi_clip_polygon *right)
+{
+    left->count = right->count = 0;
+    const double *p = from->corner[from->count - 1];
+    double side = lrcsi_clip_side(line, p);
+    for (uint32_t i = 0; i < from->count; i++) {
+        const double *q = from->corner[i];
+        double next = lrcsi_clip_side(line, q);
+        if ((side < 0 && next > 0) || (side > 0 && next < 0)) {
+            double t = side / (side - next);
+            double x = p[0] + t * (q[0] - p[0]);
+            double y = p[1] + t * (q[1] - p[1]);
+            polygon_add(left, x, y);
+            polygon_add(right, x, y);
+        }
+        if (next >= 0) {
+            polygon_add(left, q[0], q[1]);
+        }
+        if (next <= 0) {
+            polygon_add(right, q[0], q[1]);
+        }
+        p = q;
+        side = next;
+    }
+    return left->count <= LRCSI_CLIP_SIDES && right->count <= LRCSI_CLIP_SIDES;
+}
+
 /* At least the length of a line's direction, and at most 1.42 times that. */
 static double line_length(const lrcsi_clip_line *line)
 {

@@ -9,6 +9,11 @@
 /* The line that halves a piece across the longer side of its box. */
 lrcsi_clip_line ref_clip_halving(const lrcsi_clip_polygon *polygon);
 
+/* Splits a polygon into the parts to the left and to the right of the line. A part with fewer than
+   three corners is empty. Returns 0 if a part would have too many corners. */
+int ref_clip_split(const lrcsi_clip_polygon *from, const lrcsi_clip_line *line,
+                   lrcsi_clip_polygon *left, lrcsi_clip_polygon *right);
+
 enum ref_clip_place {
     REF_CLIP_APART,  /* no point of the segment within the width of the piece */
     REF_CLIP_BESIDE, /* all of the piece on one side of the segment's line, as computed */

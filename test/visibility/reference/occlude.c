@@ -188,7 +188,7 @@ static int cell_split(ref_occluding *o, const ref_occlude_cell *cell, const lrcs
     lrcsi_clip_polygon left;
     lrcsi_clip_polygon right;
     if (o->cells == 0 || o->top + 2 > MOST_WAITING ||
-        !lrcsi_clip_split(&cell->shape, line, &left, &right)) {
+        !ref_clip_split(&cell->shape, line, &left, &right)) {
         return 0;
     }
     int on_left = lrcsi_clip_side(line, cell->at) > 0;
