@@ -336,10 +336,18 @@ int cli_picture_write(FILE *out, const lrcs_host_picture *picture, const lrcs_im
 typedef int cli_writer(FILE *out, const void *context, lrcs_host_error *error);
 int cli_output_write(const char *path, cli_writer *write, const void *context);
 
-/* Writes a chart to an open file, as PNG or SVG; and to a file of its own, by its extension: 0 or
-   CLI_FAILED with the message printed. */
-int cli_chart_put(FILE *out, const lrcs_host_chart *chart, int png, lrcs_host_error *error);
-int cli_chart_write(const char *path, const lrcs_host_chart *chart);
+/* The same for a writer of text, which cannot fail. */
+int cli_text_write(const char *path, cli_text_writer *write, const void *context);
+
+/* Draws a chart on an open file, as PNG or SVG. Such a writer draws a file, by its extension; or
+   every file that a repeatable option names. 0 or CLI_FAILED with the message printed. */
+typedef int cli_chart_writer(FILE *out, const void *context, int png, lrcs_host_error *error);
+int cli_chart_write(const char *path, cli_chart_writer *draw, const void *context);
+int cli_charts_write(const cli_args *args, const char *option, cli_chart_writer *draw,
+                     const void *context);
+
+/* The chart writer whose context is an lrcs_host_chart. */
+cli_chart_writer cli_chart_put;
 
 /* The range of picture sizes, in pixels. */
 #define CLI_PICTURE_LEAST   16.0

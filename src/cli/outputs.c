@@ -129,26 +129,60 @@ int cli_output_write(const char *path, cli_writer *write, const void *context)
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
-int cli_chart_put(FILE *out, const lrcs_host_chart *chart, int png, lrcs_host_error *error)
+typedef struct text_output {
+    cli_text_writer *write;
+    const void *context;
+} text_output;
+
+static int text_put(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const text_output *text = context;
+    (void)error;
+    text->write(out, text->context);
+    return LRCS_OK;
+}
+
+int cli_text_write(const char *path, cli_text_writer *write, const void *context)
+{
+    const text_output text = {write, context};
+    return cli_output_write(path, text_put, &text);
+}
+
+typedef struct chart_output {
+    cli_chart_writer *draw;
+    const void *context;
+    int png;
+} chart_output;
+
+static int chart_draw(FILE *out, const void *context, lrcs_host_error *error)
+{
+    const chart_output *chart = context;
+    return chart->draw(out, chart->context, chart->png, error);
+}
+
+int cli_chart_write(const char *path, cli_chart_writer *draw, const void *context)
+{
+    const chart_output chart = {draw, context, cli_extension(path, ".png")};
+    return cli_output_write(path, chart_draw, &chart);
+}
+
+int cli_charts_write(const cli_args *args, const char *option, cli_chart_writer *draw,
+                     const void *context)
+{
+    int code = 0;
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        if (strcmp(args->given[i].name, option) == 0) {
+            code = cli_chart_write(args->given[i].value, draw, context);
+        }
+    }
+    return code;
+}
+
+int cli_chart_put(FILE *out, const void *chart, int png, lrcs_host_error *error)
 {
     if (png) {
         return lrcs_host_chart_png(out, chart, error);
     }
     lrcs_host_chart_svg(out, chart);
     return LRCS_OK;
-}
-
-static int chart_png(FILE *out, const void *chart, lrcs_host_error *error)
-{
-    return cli_chart_put(out, chart, 1, error);
-}
-
-static int chart_svg(FILE *out, const void *chart, lrcs_host_error *error)
-{
-    return cli_chart_put(out, chart, 0, error);
-}
-
-int cli_chart_write(const char *path, const lrcs_host_chart *chart)
-{
-    return cli_output_write(path, cli_extension(path, ".png") ? chart_png : chart_svg, chart);
 }

@@ -132,8 +132,8 @@ static int compare_report(const compare_job *job)
 {
     const char *json = cli_value(job->args, "json");
     const char *junit = cli_value(job->args, "junit");
-    int code = json ? cli_output_write(json, cli_compare_json, job) : 0;
-    code = code == 0 && junit ? cli_output_write(junit, cli_compare_junit, job) : code;
+    int code = json ? cli_text_write(json, cli_compare_json, job) : 0;
+    code = code == 0 && junit ? cli_text_write(junit, cli_compare_junit, job) : code;
     if (code == 0 && !(json && strcmp(json, "-") == 0) && !(junit && strcmp(junit, "-") == 0)) {
         cli_compare_table(job);
     }

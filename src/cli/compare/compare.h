@@ -350,7 +350,7 @@ const char *cli_compare_cosines(const compare_facets *facets);
 /* ---- what is written ---- */
 
 void cli_compare_table(const compare_job *job);
-int cli_compare_json(FILE *out, const void *job, lrcs_host_error *error);
-int cli_compare_junit(FILE *out, const void *job, lrcs_host_error *error);
+cli_text_writer cli_compare_json; /* the context is the job */
+cli_text_writer cli_compare_junit;
 
 #endif

@@ -64,11 +64,10 @@ static void items_json(lrcs_host_json *json, const compare_job *job)
     cli_json(json, "]}");
 }
 
-int cli_compare_json(FILE *out, const void *context, lrcs_host_error *error)
+void cli_compare_json(FILE *out, const void *context)
 {
     const compare_job *job = context;
     lrcs_host_json json = lrcs_host_json_make(out);
-    (void)error;
     cli_json(&json, "{\n");
     cli_version_json(&json);
     cli_json(&json, "passed=%d tier=%u class=%s pixels=%u asked=%u given=%u failed=%u",
@@ -95,7 +94,6 @@ int cli_compare_json(FILE *out, const void *context, lrcs_host_error *error)
         }
     }
     cli_json(&json, "]}");
-    return LRCS_OK;
 }
 
 /* Text inside an attribute. It needs no escapes: names of a kit are letters, digits and '-', and
@@ -143,10 +141,9 @@ static void tier_junit(FILE *out, const compare_job *job, int tier)
     fputs("</testsuite>\n", out);
 }
 
-int cli_compare_junit(FILE *out, const void *context, lrcs_host_error *error)
+void cli_compare_junit(FILE *out, const void *context)
 {
     const compare_job *job = context;
-    (void)error;
     fprintf(out,
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"%lu\" "
             "failures=\"%lu\">\n",
@@ -163,5 +160,4 @@ int cli_compare_junit(FILE *out, const void *context, lrcs_host_error *error)
         fputs("\"/></testcase>\n</testsuite>\n", out);
     }
     fputs("</testsuites>\n", out);
-    return LRCS_OK;
 }

@@ -32,23 +32,6 @@ static int material_read(const compare_table *table, compare_kit *kit)
     return 0;
 }
 
-static int materials_read(const char *path, compare_kit *kit)
-{
-    static const char *const name[] = {"material", "A", "B", "s", "m", "two_sided"};
-    compare_table table;
-    int code = cli_table_open(path, name, 6, 6, &table);
-    kit->binding = calloc(table.lines + 1, sizeof *kit->binding);
-    kit->material = calloc(table.lines + 1, sizeof *kit->material);
-    if (code == 0 && (!kit->binding || !kit->material)) {
-        code = cli_out_of_memory();
-    }
-    while (cli_table_next(&table, &code)) {
-        code = material_read(&table, kit);
-    }
-    cli_table_close(&table);
-    return code;
-}
-
 /* ---- cases ---- */
 
 enum {
@@ -124,17 +107,29 @@ static int case_read(const compare_table *table, compare_kit *kit)
     return 0;
 }
 
-static int cases_read(const char *path, compare_kit *kit)
+/* Reads a table of the kit: room for a material or a case on every line, then line by line. */
+static int kit_table(const char *folder, int materials, compare_kit *kit)
 {
+    static const char *const names[] = {"material", "A", "B", "s", "m", "two_sided"};
+    char path[KIT_PATH];
     compare_table table;
-    int code = cli_table_open(path, case_names, CASE_COLUMNS, CASE_COLUMNS, &table);
-    kit->list = calloc(table.lines + 1, sizeof *kit->list);
-    kit->scene = calloc(table.lines + 1, sizeof *kit->scene);
-    if (code == 0 && (!kit->list || !kit->scene)) {
-        code = cli_out_of_memory();
+    int columns = materials ? 6 : CASE_COLUMNS;
+    if (cli_kit_path(path, "%s/%s", folder, materials ? KIT_MATERIALS_FILE : KIT_CASES_FILE) != 0) {
+        return CLI_FAILED;
     }
+    int code = cli_table_open(path, materials ? names : case_names, columns, columns, &table);
+    size_t room = table.lines + 1;
+    if (materials) {
+        kit->binding = calloc(room, sizeof *kit->binding);
+        kit->material = calloc(room, sizeof *kit->material);
+    } else {
+        kit->list = calloc(room, sizeof *kit->list);
+        kit->scene = calloc(room, sizeof *kit->scene);
+    }
+    int full = materials ? kit->binding && kit->material : kit->list && kit->scene;
+    code = code == 0 && !full ? cli_out_of_memory() : code;
     while (cli_table_next(&table, &code)) {
-        code = case_read(&table, kit);
+        code = materials ? material_read(&table, kit) : case_read(&table, kit);
     }
     cli_table_close(&table);
     return code;
@@ -152,9 +147,8 @@ int cli_compare_kit(const char *folder, compare_kit *kit)
         fprintf(stderr, "lrcs: %s: not a kit's folder (lrcs vectors DIR makes one)\n", folder);
         return CLI_FAILED;
     }
-    int code = cases_read(path, kit);
-    code = code ? code : cli_kit_path(path, "%s/" KIT_MATERIALS_FILE, folder);
-    return code ? code : materials_read(path, kit);
+    int code = kit_table(folder, 0, kit);
+    return code ? code : kit_table(folder, 1, kit);
 }
 
 void cli_compare_kit_free(compare_kit *kit)

@@ -154,8 +154,9 @@ static void chart_words(const converge_job *job, char title[256], char note[256]
              job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
 }
 
-int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_error *error)
+int cli_converge_chart(FILE *out, const void *context, int png, lrcs_host_error *error)
 {
+    const converge_job *job = context;
     chart_curves all = {.count = 0};
     char title[256];
     char note[256];

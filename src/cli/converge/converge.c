@@ -53,38 +53,15 @@ static int converge_read(converge_job *job)
 
 /* ---- files ---- */
 
-static int svg_write(FILE *out, const void *job, lrcs_host_error *error)
-{
-    return cli_converge_chart(job, 0, out, error);
-}
-
-static int png_write(FILE *out, const void *job, lrcs_host_error *error)
-{
-    return cli_converge_chart(job, 1, out, error);
-}
-
-static int csv_write(FILE *out, const void *job, lrcs_host_error *error)
-{
-    (void)error;
-    cli_converge_csv(job, out);
-    return LRCS_OK;
-}
-
 static int files_write(const converge_job *job)
 {
     const cli_args *args = job->args;
-    int code = job->csv ? cli_output_write(job->csv, csv_write, job) : 0;
+    int code = job->csv ? cli_text_write(job->csv, cli_converge_csv, job) : 0;
     if (code == 0 && job->csv) {
         code = cli_provenance_beside(args, job->csv, &cli_converge_finest(job)->scene, &job->pose,
                                      job->about);
     }
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        if (strcmp(args->given[i].name, "plot") == 0) {
-            const char *path = args->given[i].value;
-            code = cli_output_write(path, cli_extension(path, ".png") ? png_write : svg_write, job);
-        }
-    }
-    return code;
+    return code ? code : cli_charts_write(args, "plot", cli_converge_chart, job);
 }
 
 /* ---- the command ---- */

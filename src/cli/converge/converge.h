@@ -102,13 +102,13 @@ converge_sentence cli_converge_sentence(const converge_job *job);
 /* The reports: the table or JSON on stdout, both with the summary sentence; CSV; a chart. */
 void cli_converge_table(const converge_job *job);
 void cli_converge_json(const converge_job *job);
-void cli_converge_csv(const converge_job *job, FILE *out);
+cli_text_writer cli_converge_csv; /* its context is the job */
 
 /* What it was made from: the first line of the table without "# ". The context is the job. */
-void cli_converge_about(FILE *out, const void *context);
+cli_text_writer cli_converge_about;
 
 /* The chart, from the title, about, the pose's direction, the truth, the settings and the digits of
-   their meshes. */
-int cli_converge_chart(const converge_job *job, int png, FILE *out, lrcs_host_error *error);
+   their meshes. The context is the job. */
+cli_chart_writer cli_converge_chart;
 
 #endif

@@ -209,8 +209,9 @@ void cli_converge_about(FILE *out, const void *context)
             job->truth.text);
 }
 
-void cli_converge_csv(const converge_job *job, FILE *out)
+void cli_converge_csv(FILE *out, const void *context)
 {
+    const converge_job *job = context;
     fputs("setting,method", out);
     for (int k = 0; k < NUMBERS; k++) {
         fprintf(out, ",%s", number_name[k]);

@@ -196,7 +196,7 @@ static int chart_draw(const fit_job *job, int residuals, const char *path,
     }
     char *about = cli_provenance_text(job->args, NULL);
     chart.about = about;
-    int code = cli_chart_write(path, &chart);
+    int code = cli_chart_write(path, cli_chart_put, &chart);
     free(about);
     return code;
 }

@@ -272,13 +272,6 @@ static int readings_check(fit_job *job)
 
 /* ---- the command ---- */
 
-static int csv_write(FILE *out, const void *context, lrcs_host_error *error)
-{
-    (void)error;
-    cli_fit_csv(context, out);
-    return LRCS_OK;
-}
-
 static void warnings_print(const fit_material *material)
 {
     int warnings = lrcs_brdf_check(&material->fit.brdf);
@@ -295,7 +288,7 @@ static int fit_report(const fit_job *job)
     const cli_args *args = job->args;
     const char *csv = cli_value(args, "csv");
     int code = CLI_DONE;
-    int failed = csv ? cli_output_write(csv, csv_write, job) : 0;
+    int failed = csv ? cli_text_write(csv, cli_fit_csv, job) : 0;
     for (int i = 0; i < args->given_count && !failed; i++) {
         const cli_given *given = &args->given[i];
         if (is_chart(given)) {

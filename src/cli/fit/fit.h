@@ -33,7 +33,7 @@ int cli_fit_open(const lrcs_fit *fit);
    are written to a file: 0 or CLI_FAILED with the message printed. */
 void cli_fit_table(const fit_job *job);
 void cli_fit_json(const fit_job *job);
-void cli_fit_csv(const fit_job *job, FILE *out);
+cli_text_writer cli_fit_csv; /* its context is the job */
 int cli_fit_chart(const fit_job *job, int residuals, const char *path);
 
 #endif

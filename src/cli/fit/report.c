@@ -229,8 +229,9 @@ static void csv_name(FILE *out, const char *name)
     fputs(quote ? "\"" : "", out);
 }
 
-void cli_fit_csv(const fit_job *job, FILE *out)
+void cli_fit_csv(FILE *out, const void *context)
 {
+    const fit_job *job = context;
     fputs("material,line,angle_deg,value,fitted,residual,standard,outlier\n", out);
     for (uint32_t i = 0; i < job->materials; i++) {
         const fit_material *material = &job->material[i];

@@ -297,18 +297,11 @@ static int converge_read(table_job *job, lrcs_host_error *error)
 
 /* ---- the drawing ---- */
 
-static int svg_write(FILE *out, const void *context, lrcs_host_error *error)
+static int table_chart(FILE *out, const void *context, int png, lrcs_host_error *error)
 {
     const table_job *job = context;
-    return job->kind == TABLE_CONVERGE ? cli_converge_chart(&job->converge, 0, out, error)
-                                       : cli_profile_chart(&job->profile, 0, out, error);
-}
-
-static int png_write(FILE *out, const void *context, lrcs_host_error *error)
-{
-    const table_job *job = context;
-    return job->kind == TABLE_CONVERGE ? cli_converge_chart(&job->converge, 1, out, error)
-                                       : cli_profile_chart(&job->profile, 1, out, error);
+    return job->kind == TABLE_CONVERGE ? cli_converge_chart(out, &job->converge, png, error)
+                                       : cli_profile_chart(out, &job->profile, png, error);
 }
 
 /* Reads the whole table, from the names of its columns. */
@@ -348,12 +341,7 @@ int cli_table_draw(const cli_args *args, const char *path, int kind)
     job->path = path;
     job->kind = kind;
     int code = job_read(job, &error) == LRCS_OK ? 0 : cli_failed(&error);
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        const char *out = args->given[i].value;
-        if (strcmp(args->given[i].name, "o") == 0) {
-            code = cli_output_write(out, cli_extension(out, ".png") ? png_write : svg_write, job);
-        }
-    }
+    code = code ? code : cli_charts_write(args, "o", table_chart, job);
     free(job->text);
     free(job->profile.row);
     lrcs_host_file_free(&job->file);

@@ -86,8 +86,9 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
     return cli_chart_put(out, &chart, png, error);
 }
 
-int cli_profile_chart(const profile_job *job, int png, FILE *out, lrcs_host_error *error)
+int cli_profile_chart(FILE *out, const void *context, int png, lrcs_host_error *error)
 {
+    const profile_job *job = context;
     size_t room = 2 * (size_t)job->rows + 2;
     double *number = malloc(4 * room * sizeof *number);
     if (!number) {

@@ -174,32 +174,10 @@ static int profile_run(profile_job *job)
 
 /* ---- the command ---- */
 
-static int csv_write(FILE *out, const void *context, lrcs_host_error *error)
-{
-    (void)error;
-    cli_profile_csv(context, out);
-    return LRCS_OK;
-}
-
-static int svg_write(FILE *out, const void *context, lrcs_host_error *error)
-{
-    return cli_profile_chart(context, 0, out, error);
-}
-
-static int png_write(FILE *out, const void *context, lrcs_host_error *error)
-{
-    return cli_profile_chart(context, 1, out, error);
-}
-
 static int outputs_write(const profile_job *job)
 {
-    int code = job->csv ? cli_output_write(job->csv, csv_write, job) : 0;
-    for (int i = 0; i < job->args->given_count && code == 0; i++) {
-        const char *path = job->args->given[i].value;
-        if (strcmp(job->args->given[i].name, "plot") == 0) {
-            code = cli_output_write(path, cli_extension(path, ".png") ? png_write : svg_write, job);
-        }
-    }
+    int code = job->csv ? cli_text_write(job->csv, cli_profile_csv, job) : 0;
+    code = code ? code : cli_charts_write(job->args, "plot", cli_profile_chart, job);
     if (code != 0) {
         return code;
     }

@@ -36,12 +36,13 @@ double cli_profile_sigma(const lrcs_profile_bin *bin);
 /* The tables on stdout, and CSV and chart as files. */
 void cli_profile_table(const profile_job *job);
 void cli_profile_json(const profile_job *job);
-void cli_profile_csv(const profile_job *job, FILE *out);
+cli_text_writer cli_profile_csv; /* its context is the job */
 
 /* What it was made from: the first line of the table without "# ". The context is the job. */
-void cli_profile_about(FILE *out, const void *context);
+cli_text_writer cli_profile_about;
 
-/* The chart, from the title, about, rows, sigma of the list, bin_m and fwhm_m. */
-int cli_profile_chart(const profile_job *job, int png, FILE *out, lrcs_host_error *error);
+/* The chart, from the title, about, rows, sigma of the list, bin_m and fwhm_m. The
+   context is the job. */
+cli_chart_writer cli_profile_chart;
 
 #endif

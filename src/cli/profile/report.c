@@ -44,8 +44,9 @@ void cli_profile_about(FILE *out, const void *context)
     fputs(job->open ? "; materials=illustrative or assumed" : "", out);
 }
 
-void cli_profile_csv(const profile_job *job, FILE *out)
+void cli_profile_csv(FILE *out, const void *context)
 {
+    const profile_job *job = context;
     fputs("# ", out);
     cli_profile_about(out, job);
     fputs("\nnear_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m", out);

@@ -140,7 +140,7 @@ static int report_compare(report_job *job)
         if (!out) {
             return CLI_FAILED;
         }
-        cli_converge_chart(compare, 0, out, &error);
+        cli_converge_chart(out, compare, 0, &error);
         code = cli_report_bytes_end(out);
     }
     return code;

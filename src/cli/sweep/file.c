@@ -20,6 +20,86 @@ static int path_refuse(const char *path, const char *what)
     return CLI_FAILED;
 }
 
+/* ---- the lock ---- */
+
+/* Only one sweep at a time writes a file. The lock is a POSIX lock (fcntl) on FILE.lock, which
+   names its holder; it ends with its process, so that a file left by a crash locks nothing. If the
+   file system does not support locks, there is none. */
+
+/* Reports the holder of the lock by the text that it wrote, "process PID on HOST". */
+static void lock_refuse(const sweep_file *file, int descriptor)
+{
+    char holder[300];
+    ssize_t size = pread(descriptor, holder, sizeof holder - 1, 0);
+    holder[size > 0 ? size : 0] = '\0';
+    holder[strcspn(holder, "\n")] = '\0';
+    fprintf(stderr, "lrcs: %s: is being written by %s: wait for its end, or stop it\n", file->path,
+            holder[0] ? holder : "another process");
+}
+
+/* 1 if locked; 0 if another process holds the lock; negative if locking failed, with the reason in
+   errno. */
+static int lock_try(int descriptor)
+{
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    if (fcntl(descriptor, F_SETLK, &whole) == 0) {
+        return 1;
+    }
+    return errno == EACCES || errno == EAGAIN ? 0 : -1;
+}
+
+/* 1 if the path still names the file that was opened; its last holder may have removed it. */
+static int lock_is_there(const sweep_file *file, int descriptor)
+{
+    struct stat held;
+    struct stat named;
+    return fstat(descriptor, &held) == 0 && stat(file->lock_path, &named) == 0 &&
+           held.st_dev == named.st_dev && held.st_ino == named.st_ino;
+}
+
+static void lock_drop(sweep_file *file)
+{
+    if (file->lock >= 0) {
+        unlink(file->lock_path); /* before another process can hold it */
+        close(file->lock);
+    }
+    file->lock = -1;
+}
+
+/* Locks FILE.lock: 0, or CLI_FAILED with a message that names the holder if another process holds
+   it. */
+static int lock_take(sweep_file *file)
+{
+    char holder[300];
+    char host[256] = "";
+    for (;;) {
+        int descriptor = open(file->lock_path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (descriptor < 0) {
+            return path_refuse(file->lock_path, "write");
+        }
+        int locked = lock_try(descriptor);
+        if (locked > 0 && !lock_is_there(file, descriptor)) {
+            close(descriptor);
+            continue;
+        }
+        if (locked == 0) {
+            lock_refuse(file, descriptor);
+            close(descriptor);
+            return CLI_FAILED;
+        }
+        file->lock = descriptor;
+        break;
+    }
+    gethostname(host, sizeof host - 1);
+    int size = snprintf(holder, sizeof holder, "process %ld on %s\n", (long)getpid(), host);
+    if (ftruncate(file->lock, 0) != 0 || pwrite(file->lock, holder, (size_t)size, 0) != size) {
+        int code = path_refuse(file->lock_path, "write");
+        lock_drop(file);
+        return code;
+    }
+    return 0;
+}
+
 /* ---- options ---- */
 
 int cli_file_read(const cli_args *args, sweep_file *file)
@@ -70,7 +150,7 @@ void cli_file_free(sweep_file *file)
         close(file->descriptor);
     }
     if (file->path) {
-        cli_lock_drop(file);
+        lock_drop(file);
     }
     free(file->waiting);
     free(file->path);
@@ -159,18 +239,6 @@ static int waiting_flush(sweep_file *file, int last, lrcs_host_error *error)
 }
 
 /* ---- what is there already ---- */
-
-/* The head as it would be written, for comparison; the caller frees it. NULL if out of memory. */
-static char *head_bytes(int format, const sweep_head *head, const sweep_plan *plan, size_t *size)
-{
-    char *bytes = NULL;
-    FILE *out = open_memstream(&bytes, size);
-    if (!out) {
-        return NULL;
-    }
-    cli_rows_head(out, format, head, plan);
-    return fclose(out) == 0 ? bytes : NULL;
-}
 
 /* Recovers the rows of a file that begins with the right head. Returns 0 if they end properly, in a
    checksum or in a truncated line; file->size and file->sum are then set to match; 1, without a
@@ -318,10 +386,13 @@ int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head
         cli_rows_head(file->stream, file->format, head, plan);
         return 0;
     }
-    code = code ? code : cli_lock_take(file);
+    code = code ? code : lock_take(file);
     for (int i = 0; i < 2 && code == 0; i++) {
-        text[i] = head_bytes(i == 1 ? SWEEP_JSONL : SWEEP_CSV, head, plan, &size[i]);
-        code = text[i] ? 0 : cli_out_of_memory();
+        FILE *out = open_memstream(&text[i], &size[i]);
+        if (out) {
+            cli_rows_head(out, i == 1 ? SWEEP_JSONL : SWEEP_CSV, head, plan);
+        }
+        code = out && fclose(out) == 0 ? 0 : cli_out_of_memory();
     }
     int format = file->format == SWEEP_JSONL;
     if (code != 0 || !text[0] || !text[1]) {

@@ -397,7 +397,6 @@ typedef struct plot_sheet {
     uint32_t count; /* number of sweeps */
     plot_values values[PLOT_CURVES];
     char title[256], note[512], x_name[192], y_name[192], about[4000];
-    int png;
 } plot_sheet;
 
 /* The name of a curve: its sweep, its value along y, or both. */
@@ -411,7 +410,7 @@ static void curve_name(const sweep_plot *plot, double y, char name[400])
              plot->name && value[0] ? ", " : "", value);
 }
 
-static int sheet_curves(FILE *out, const plot_sheet *sheet, lrcs_host_error *error)
+static int sheet_curves(FILE *out, const plot_sheet *sheet, int png, lrcs_host_error *error)
 {
     static const int colour[PLOT_CURVES] = {LRCS_HOST_BLUE,   LRCS_HOST_VERMILION, LRCS_HOST_GREEN,
                                             LRCS_HOST_PURPLE, LRCS_HOST_SKY_BLUE,  LRCS_HOST_ORANGE,
@@ -448,10 +447,10 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, lrcs_host_error *err
                                    .about = plot->head ? sheet->about : NULL,
                                    .series = series,
                                    .series_count = curves};
-    return cli_chart_put(out, &chart, sheet->png, error);
+    return cli_chart_put(out, &chart, png, error);
 }
 
-static int sheet_map(FILE *out, const plot_sheet *sheet, lrcs_host_error *error)
+static int sheet_map(FILE *out, const plot_sheet *sheet, int png, lrcs_host_error *error)
 {
     const sweep_plot *plot = sheet->plot;
     const lrcs_host_map map = {.title = sheet->title,
@@ -470,17 +469,18 @@ static int sheet_map(FILE *out, const plot_sheet *sheet, lrcs_host_error *error)
                                .mollweide = plot->mollweide,
                                .about = plot->head ? sheet->about : NULL,
                                .cells = plot->plan->kind == SWEEP_SPHERE};
-    if (sheet->png) {
+    if (png) {
         return lrcs_host_map_png(out, &map, error);
     }
     lrcs_host_map_svg(out, &map);
     return LRCS_OK;
 }
 
-static int sheet_write(FILE *out, const void *context, lrcs_host_error *error)
+static int sheet_write(FILE *out, const void *context, int png, lrcs_host_error *error)
 {
     const plot_sheet *sheet = context;
-    return sheet->plot->map ? sheet_map(out, sheet, error) : sheet_curves(out, sheet, error);
+    return sheet->plot->map ? sheet_map(out, sheet, png, error)
+                            : sheet_curves(out, sheet, png, error);
 }
 
 /* The values along both axes in ascending order, as a map needs them, and sigma in that order:
@@ -562,7 +562,7 @@ int cli_plot_svg(FILE *out, const sweep_plot *plot)
     plot_sheet sheet;
     int code = sheet_make(plot, 1, &sheet);
     if (code == 0) {
-        sheet_write(out, &sheet, NULL);
+        sheet_write(out, &sheet, 0, NULL);
     }
     sheet_free(&sheet);
     return code;
@@ -572,13 +572,7 @@ int cli_plot_write(const cli_args *args, const sweep_plot *plot, uint32_t count)
 {
     plot_sheet sheet;
     int code = sheet_make(plot, count, &sheet);
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        const char *path = args->given[i].value;
-        if (is_plot(plot, &args->given[i])) {
-            sheet.png = cli_extension(path, ".png");
-            code = cli_output_write(path, sheet_write, &sheet);
-        }
-    }
+    code = code ? code : cli_charts_write(args, plot->option, sheet_write, &sheet);
     sheet_free(&sheet);
     return code;
 }

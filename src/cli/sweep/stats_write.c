@@ -160,11 +160,10 @@ static void row_json(lrcs_host_json *json, const char *key, const sweep_stats *s
     cli_json(json, "}");
 }
 
-static int stats_json(FILE *out, const void *context, lrcs_host_error *error)
+static void stats_json(FILE *out, const void *context)
 {
     const sweep_stats *stats = context;
     const sweep_head *head = stats->head;
-    (void)error;
     lrcs_host_json json = lrcs_host_json_make(out);
     cli_json(&json, "{\nlrcs=%s", "statistics");
     cli_version_json(&json);
@@ -191,16 +190,14 @@ static int stats_json(FILE *out, const void *context, lrcs_host_error *error)
         lrcs_host_json_text(&json, head->option[i].key, head->option[i].text);
     }
     cli_json(&json, "}}");
-    return LRCS_OK;
 }
 
 /* ---- CSV ---- */
 
 /* The histogram: one row for each bin; the first row is for everything below. */
-static int stats_csv(FILE *out, const void *context, lrcs_host_error *error)
+static void stats_csv(FILE *out, const void *context)
 {
     const sweep_stats *stats = context;
-    (void)error;
     fprintf(out, "# lrcs %s statistics; scene_hash=%016llx; rows=%llu; weights=%s", lrcs_version(),
             (unsigned long long)stats->head->scene_hash, (unsigned long long)stats->rows,
             stats->weights);
@@ -223,7 +220,6 @@ static int stats_csv(FILE *out, const void *context, lrcs_host_error *error)
         }
         putc('\n', out);
     }
-    return LRCS_OK;
 }
 
 /* ---- the chart ---- */
@@ -234,10 +230,9 @@ typedef struct stats_chart {
     uint32_t count;
     double bin_x[2 * STATS_BINS + 2], bin_y[2 * STATS_BINS + 2]; /* the histogram's outline */
     double fullest;
-    int png;
 } stats_chart;
 
-static int chart_write(FILE *out, const void *context, lrcs_host_error *error)
+static int chart_write(FILE *out, const void *context, int png, lrcs_host_error *error)
 {
     const stats_chart *from = context;
     const sweep_stats *stats = from->stats;
@@ -287,7 +282,7 @@ static int chart_write(FILE *out, const void *context, lrcs_host_error *error)
                                    .y_from_0 = 1,
                                    .series = series,
                                    .series_count = count};
-    return cli_chart_put(out, &chart, from->png, error);
+    return cli_chart_put(out, &chart, png, error);
 }
 
 /* The cumulative distribution as steps at the rows from the first edge on (if there are many rows,
@@ -333,7 +328,7 @@ static int chart_make(const sweep_stats *stats, stats_chart *chart)
 static int file_write(const char *path, const sweep_stats *stats)
 {
     if (cli_extension(path, ".json") || cli_extension(path, ".csv")) {
-        return cli_output_write(path, cli_extension(path, ".csv") ? stats_csv : stats_json, stats);
+        return cli_text_write(path, cli_extension(path, ".csv") ? stats_csv : stats_json, stats);
     }
     stats_chart chart;
     int code = chart_make(stats, &chart);
@@ -341,8 +336,7 @@ static int file_write(const char *path, const sweep_stats *stats)
         fprintf(stderr, "lrcs: %s: nothing to draw: sigma of every row is 0\n", path);
         code = CLI_FAILED;
     }
-    chart.png = cli_extension(path, ".png");
-    code = code ? code : cli_output_write(path, chart_write, &chart);
+    code = code ? code : cli_chart_write(path, chart_write, &chart);
     free(chart.x);
     return code;
 }

@@ -316,11 +316,6 @@ void cli_file_take(sweep_file *file, const sweep_row *row);
 int cli_map_recover(sweep_file *file, const sweep_plan *plan, const char *const head[2],
                     const size_t head_size[2]);
 
-/* Locks FILE.lock: 0, or CLI_FAILED with a message that names the holder if another process holds
-   it. */
-int cli_lock_take(sweep_file *file);
-void cli_lock_drop(sweep_file *file);
-
 /* ---- a sweep read back ---- */
 
 /* A whole sweep from its file: plan, first lines, sigma and bound of every row. */
