@@ -16,9 +16,9 @@
 enum { LEAF_LANES = LRCSI_TREE_LANES };
 
 /* A leaf whose box intersects more others than this is also compared by slabs, and if slabs left
-   out BLOCKS_APART blocks, the next leaf is from its first block on. Slabs are filled only after as
-   many more intersections as there are leaves, which is what filling them costs. */
-enum { MANY_LEAVES = 16, BLOCKS_APART = 8 };
+   out BLOCKS_APART blocks, the next leaf is from its first block on. Slabs are filled only after
+   FILL_COST times as many more intersections as there are leaves. */
+enum { MANY_LEAVES = 16, BLOCKS_APART = 8, FILL_COST = 8 };
 
 /* A contact as it is found: `other` meets the interior of `facet`. They are taken from the work
    area in blocks that follow one another without gaps. */
@@ -268,7 +268,7 @@ static int join_leaf(contact_search *search, uint32_t leaf)
     uint32_t other;
     for (int met = 0; status == LRCS_OK && (other = lrcsi_tree_next(&walk)) != LRCS_NONE; met++) {
         search->crowded += met >= MANY_LEAVES;
-        if (!tree->has_slabs && search->crowded > tree->blocks[0]) {
+        if (!tree->has_slabs && search->crowded > (uint64_t)FILL_COST * tree->blocks[0]) {
             lrcsi_tree_fill_slabs(search->vertex, search->facet, tree);
         }
         if (tree->has_slabs && met == MANY_LEAVES && walk.leaf == LRCS_NONE) {
