@@ -16,7 +16,7 @@ static int engine_scene(lrcs_recipe_part *part, uint32_t parts, const lrcs_brdf 
         .part = part, .binding = &binding, .part_count = parts, .binding_count = 1};
     lrcs_build_options build = lrcs_build_options_default();
     build.tolerance = ENGINE_TOLERANCE;
-    build.facets_only = 1;
+    build.facets_only = LRCS_FACETS_TOTAL;
     int status = lrcs_host_scene_make(&recipe, &build, scene, error);
     return status == LRCS_OK ? lrcs_host_scene_prepare(scene, error) : status;
 }

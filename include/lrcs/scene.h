@@ -87,6 +87,14 @@ enum lrcs_normals {
 const char *lrcs_normals_text(int normals);
 int lrcs_normals_find(const char *name);
 
+/* What the facets of a shape that is alone in its scene are for. */
+enum lrcs_facets_only {
+    LRCS_FACETS_BASE = 0, /* pictures and records, if method auto can use the shape's closed form
+                             from every direction: a few hundred facets */
+    LRCS_FACETS_TOTAL,    /* runs that request a method: sigma as a whole meets the tolerance */
+    LRCS_FACETS_LOCAL /* range profiles: every part of the surface does, to about the tolerance */
+};
+
 /* How shapes are tessellated; the material comes from the recipe. */
 typedef struct lrcs_build_options {
     double tolerance;    /* relative, > 0, for a shape alone; among other parts, small shapes may be
@@ -97,10 +105,7 @@ typedef struct lrcs_build_options {
                             tessellated for ten times the tolerance, at least 1e-4 */
     uint32_t max_facets; /* limit for one shape */
     int normals;         /* lrcs_normals */
-    int facets_only;     /* 1: the facets of a shape alone meet the tolerance too, for runs that
-                            request a method. 0: where method auto can use its closed form from
-                            every direction, it gets only a few hundred facets, for pictures and
-                            records */
+    int facets_only;     /* lrcs_facets_only */
 } lrcs_build_options;
 
 lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21, flat, 0 */

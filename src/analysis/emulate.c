@@ -13,7 +13,6 @@
 #include "base/work.h"
 #include "integrate/image.h"
 
-
 static const char *const precision_name[] = {"float64", "float32"};
 
 const char *lrcs_precision_text(int precision)
@@ -189,8 +188,8 @@ static void records_fill(const lrcsi_gpu *gpu, const gpu_shade *shade, lrcs_face
         records[f].visible_area_m2 = pixels_area(gpu, pixels);
         if (pixels > 0) { /* shades of facets without pixels may be infinite */
             records[f].sigma_glint_m2 = pixels_area(gpu, LRCSI_FOUR_PI * pixels * shade[f].glint);
-            records[f].sigma_m2 =
-                records[f].sigma_glint_m2 + pixels_area(gpu, LRCSI_FOUR_PI * pixels * shade[f].diffuse);
+            records[f].sigma_m2 = records[f].sigma_glint_m2 +
+                                  pixels_area(gpu, LRCSI_FOUR_PI * pixels * shade[f].diffuse);
         }
     }
 }

@@ -131,7 +131,7 @@ static int image_read(image_job *job)
     code = code ? code : cli_accuracy_read(args, &job->options);
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->options.tolerance;
-    job->load.build.facets_only = 1;
+    job->load.build.facets_only = LRCS_FACETS_TOTAL;
     return code ? code : cli_normals_read(args, &job->load);
 }
 

@@ -95,7 +95,7 @@ static int shape_scene(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcs_host
     lrcs_recipe recipe = {.part = &part, .binding = &binding, .part_count = 1, .binding_count = 1};
     lrcs_build_options build = lrcs_build_options_default();
     build.tolerance = VERIFY_TOLERANCE;
-    build.facets_only = 1;
+    build.facets_only = LRCS_FACETS_TOTAL;
     int status = lrcs_host_scene_make(&recipe, &build, scene, error);
     return status == LRCS_OK ? lrcs_host_scene_prepare(scene, error) : status;
 }

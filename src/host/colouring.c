@@ -15,7 +15,7 @@
 #define SCALE_TEXTS   9.0
 #define DEGREES       (180.0 / LRCSI_PI)
 #define COLOUR_PLAIN  0xc8c8c8u /* facets without a colour of their own, shaded */
-#define VISIBLE_SLOPE   1e-9      /* a slope that no colour shows */
+#define VISIBLE_SLOPE 1e-9      /* a slope that no colour shows */
 #define CREASE_COSINE 0.05      /* cosines that differ by more show an edge */
 
 static const char *const colouring_names[] = {"sigma", "theta",    "range",

@@ -43,7 +43,6 @@
 
 #include "base/bits.h"
 
-
 #define SHADE_GLINT_UNITS 25.0
 #define SHADE_POWER_UNITS 18.0 /* m = 0, 1/2, 1, 2 */
 #define SHADE_ANY_UNITS   12.0 /* other m */

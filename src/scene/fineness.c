@@ -154,7 +154,8 @@ static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_
 }
 
 /* Divisions of a shape alone whose facets stand for patches: as coarse as the tolerance allows.
-   Returns 0 if these facets would need to be finer than those without patches. */
+   Returns 0 if that does not suffice, or if these facets would need to be finer than those without
+   patches. */
 static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                         const lrcs_brdf *brdf, lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
@@ -162,7 +163,8 @@ static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *
     double tolerance = fmin(fineness->tolerance, 1.0);
     double corners = is_round ? cbrt(ALONE_ROUND / tolerance) : sqrt(ALONE_STRAIGHT / tolerance);
     corners = fmax(corners, brdf->A > 0.0 ? ALONE_PER_SLOPE / brdf->s : 0.0);
-    if (!(corners < 1e6) || (brdf->B > 0.0 && brdf->m > ALONE_EXPONENT_MOST)) {
+    if (fineness->facets_only == LRCS_FACETS_LOCAL || !(corners < 1e6) ||
+        (brdf->B > 0.0 && brdf->m > ALONE_EXPONENT_MOST)) {
         return 0;
     }
     divisions->around = 4 * (uint32_t)(fmax(corners, ALONE_LEAST) / 4.0 + 1.0);

@@ -30,7 +30,7 @@ static int mesh_read(converge_job *job, int digits)
     converge_mesh *mesh = &job->mesh[job->meshes];
     mesh->digits = digits;
     job->load.build.tolerance = pow(10.0, -digits);
-    job->load.build.facets_only = 1; /* the cost of facets is measured */
+    job->load.build.facets_only = LRCS_FACETS_TOTAL; /* the cost of facets is measured */
     int code = cli_scene_read(job->args, &job->load, &mesh->scene);
     if (code != 0) {
         lrcs_host_scene_free(&mesh->scene);

@@ -89,7 +89,7 @@ static int options_read(profile_job *job)
     code = code ? code : cli_scene_options_read(args, &job->load);
     code = code ? code : cli_normals_read(args, &job->load);
     job->load.build.tolerance = options.tolerance;
-    job->load.build.facets_only = 1;
+    job->load.build.facets_only = LRCS_FACETS_LOCAL;
     job->asked = cli_value(args, "tolerance") ? options.tolerance : 0.0;
     return code;
 }
