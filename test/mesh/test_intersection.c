@@ -228,6 +228,33 @@ static void the_tree_misses_no_contact(void **state)
     }
 }
 
+/* Long slivers along one diagonal, and some facets across: the boxes of all leaves intersect, so
+   that the search fills slabs, which most of them are apart by. */
+static void slabs_of_crowded_leaves_miss_no_contact(void **state)
+{
+    (void)state;
+    enum { SLIVERS = 1200, ACROSS = 40 };
+    static unsigned char skip[MOST];
+    make_soup(SLIVERS + ACROSS, 0.0, skip);
+    for (uint32_t f = 0; f < SLIVERS; f++) {
+        const double at[3] = {10.0 * next_number(), 10.0 * next_number(), 10.0 * next_number()};
+        for (uint32_t c = 0; c < 3; c++) {
+            for (int k = 0; k < 3; k++) {
+                double off = 0.02 * next_number();
+                vertex[3 * f + c].x[k] = at[k] + (c == 0 ? -100.0 : 100.0) + off;
+            }
+        }
+        skip[f] = (unsigned char)lrcsi_exact_collinear(vertex[3 * f].x, vertex[3 * f + 1].x,
+                                                       vertex[3 * f + 2].x);
+    }
+    for (uint32_t i = 3 * SLIVERS; i < 3 * (SLIVERS + ACROSS); i++) {
+        for (int k = 0; k < 3; k++) {
+            vertex[i].x[k] = 20.0 * next_number() - 5.0;
+        }
+    }
+    assert_true(check_against_all_pairs(3 * (SLIVERS + ACROSS), SLIVERS + ACROSS, skip) > 100);
+}
+
 /* Facets between few vertices: most share corners with many others, and many cross. */
 static void facets_around_common_corners_are_classified_exactly(void **state)
 {
@@ -406,6 +433,7 @@ int main(void)
         cmocka_unit_test(pairs_agree_with_rational_clipping),
         cmocka_unit_test(affine_images_keep_their_contacts),
         cmocka_unit_test(the_tree_misses_no_contact),
+        cmocka_unit_test(slabs_of_crowded_leaves_miss_no_contact),
         cmocka_unit_test(facets_around_common_corners_are_classified_exactly),
         cmocka_unit_test(neighbours_on_a_closed_surface_do_not_touch),
         cmocka_unit_test(a_strut_touches_the_plate_and_not_the_other_way),
