@@ -189,6 +189,23 @@ static uint64_t count_entries(const lrcs_prepared *p)
     return count;
 }
 
+/* What `rim` says of a facet, from that of the facet for which it was computed: sides of the two
+   correspond if they are the same edge, for the order of corners differs. */
+static unsigned char rim_of(const lrcs_prepared *p, uint32_t facet, uint32_t of)
+{
+    const uint32_t *edge = p->topology.facet_edge[facet].corner;
+    const uint32_t *edge_of = p->topology.facet_edge[of].corner;
+    unsigned rim = p->intersections.rim[of] & 1u;
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++) {
+            if (edge[k] == edge_of[i] && lrcsi_intersection_along(&p->intersections, of, i)) {
+                rim |= 2u << k;
+            }
+        }
+    }
+    return (unsigned char)rim;
+}
+
 /* In place, from the end: no entry moves down, and the list of the first of a pair has not moved
    when the second, which comes after it, gets a copy. */
 static void spread_entries(lrcs_prepared *p, uint32_t count)
@@ -205,7 +222,7 @@ static void spread_entries(lrcs_prepared *p, uint32_t count)
             }
             t->entry[--to] = touch;
         }
-        t->rim[f] = t->rim[of];
+        t->rim[f] = rim_of(p, f, of);
         t->first[f + 1] = count;
         count = to;
     }

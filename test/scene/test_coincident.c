@@ -120,6 +120,34 @@ static void any_number_of_copies_is_the_work_of_one(void **state)
     }
 }
 
+/* Sides of two faces of a panel that are the same edge have the same mark, wherever their corners
+   begin; the panel's side from (0, 0) to (1, 0) overlaps a longer side of another facet. */
+static void both_faces_of_a_panel_mark_the_same_sides(void **state)
+{
+    (void)state;
+    for (uint32_t turn = 0; turn < 9; turn++) {
+        lrcs_work work;
+        scene_start(&scene);
+        add_copy(turn % 3, 0);
+        scene_triangle(&scene, (const double[3]){-1, 0, 0}, (const double[3]){2, 0, 0},
+                       (const double[3]){0, 0, 1});
+        add_copy(turn / 3, 1);
+        const lrcs_prepared *p = scene_prepare(&scene, &work);
+        assert_int_equal(p->opposite[2], 0);
+        uint32_t marked = 0;
+        for (uint32_t f = 0; f < 3; f += 2) {
+            for (int k = 0; k < 3; k++) {
+                const uint32_t *corner = scene.facet[f].corner;
+                int level = scene.vertex[corner[k]].x[1] == 0 &&
+                            scene.vertex[corner[(k + 1) % 3]].x[1] == 0;
+                assert_int_equal(lrcsi_intersection_along(&p->intersections, f, k), level);
+                marked += level != 0;
+            }
+        }
+        assert_int_equal(marked, 2);
+    }
+}
+
 /* A sphere's facets and a mesh's in one place: the true sphere bulges, and may hide the mesh. */
 static void facets_of_curved_shapes_are_no_copies(void **state)
 {
@@ -340,6 +368,7 @@ static void twins_have_the_contacts_of_both_sides(void **state)
     (void)state;
     uint64_t seed = 41;
     uint32_t met = 0;
+    uint32_t marked = 0;
     for (uint32_t i = 0; i < 20; i++) {
         lrcs_work work;
         random_bodies(&seed);
@@ -360,12 +389,22 @@ static void twins_have_the_contacts_of_both_sides(void **state)
                 met += listed;
             }
             if (p->opposite && p->opposite[f] != LRCS_NONE) {
-                assert_int_equal(p->intersections.rim[f], p->intersections.rim[p->opposite[f]]);
+                uint32_t o = p->opposite[f];
+                assert_int_equal(p->intersections.rim[f] != 0, p->intersections.rim[o] != 0);
+                for (int k = 0; k < 9; k++) { /* sides that are the same edge have the same mark */
+                    if (p->topology.facet_edge[f].corner[k / 3] ==
+                        p->topology.facet_edge[o].corner[k % 3]) {
+                        assert_int_equal(lrcsi_intersection_along(&p->intersections, f, k / 3),
+                                         lrcsi_intersection_along(&p->intersections, o, k % 3));
+                        marked += lrcsi_intersection_along(&p->intersections, f, k / 3) != 0;
+                    }
+                }
                 assert_int_equal(p->opposite[p->opposite[f]], f);
             }
         }
     }
     assert_true(met > 500);
+    assert_true(marked > 0);
 }
 
 int main(void)
@@ -374,6 +413,7 @@ int main(void)
         cmocka_unit_test(one_is_seen_as_the_tie_is_decided_by_every_method),
         cmocka_unit_test(copies_are_recorded_as_hidden_facets),
         cmocka_unit_test(any_number_of_copies_is_the_work_of_one),
+        cmocka_unit_test(both_faces_of_a_panel_mark_the_same_sides),
         cmocka_unit_test(facets_of_curved_shapes_are_no_copies),
         cmocka_unit_test(twins_are_seen_as_the_side_that_faces_the_laser),
         cmocka_unit_test(twins_cost_what_one_of_them_costs),

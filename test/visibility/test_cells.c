@@ -130,6 +130,43 @@ static void surfaces_that_change_order_along_a_fold_of_both(void **state)
     }
 }
 
+/* Two folds of panels along one line, their common sides of different lengths: the fold of 0 and 1
+   is nearer on the right of the line, that of 2 and 3 on its left. Every panel is stored as two
+   faces, which begin at different corners. Symptom: the marks of the sides along the line were
+   those of the other face's sides, and a fold was taken to be nearer on both sides of the line. */
+static void folds_of_panels_that_change_order_along_a_line(void **state)
+{
+    (void)state;
+    static const double at[7][3] = {{-1.5, 1.5, 1}, {-1.5, -1.5, -1}, {-1, 1, 0}, {-1, -1, 0},
+                                    {-1, 0.5, 0},   {0, 0, -1},       {0, 0, 1}};
+    static const uint32_t panel[4][3] = {{3, 6, 4}, {1, 3, 4}, {2, 3, 5}, {0, 3, 2}};
+    static const double truth[4] = {1, 2.0 / 3, 0.25, 1};
+    for (uint32_t turn = 0; turn < 162; turn++) {
+        scene_start(&scene);
+        for (int i = 0; i < 7; i++) {
+            point(at[i][0], at[i][1], at[i][2]);
+        }
+        for (uint32_t i = 0; i < 4; i++) {
+            uint32_t k = (turn + i * (turn / 9)) % 3;
+            uint32_t j = turn / 3 % 3;
+            uint32_t back = turn / 81;
+            const uint32_t *c = panel[i];
+            for (uint32_t face = 0; face < 2; face++) {
+                if (face == back) {
+                    scene_facet(&scene, c[k], c[(k + 1) % 3], c[(k + 2) % 3]);
+                } else {
+                    scene_facet(&scene, c[(j + 2) % 3], c[(j + 1) % 3], c[j]);
+                }
+            }
+        }
+        agree((const double[3]){0, 0, 1});
+        for (uint32_t i = 0; i < 4; i++) {
+            uint32_t front = 2 * i + (view.facing[2 * i] < 0);
+            check_abs(share(front), truth[i], 1e-12);
+        }
+    }
+}
+
 /* A square twice, its facets 0 and 3 on one diagonal, 1 and 2 on the other: 0 wins, 3 loses. */
 static void square_stored_twice_with_both_diagonals(void **state)
 {
@@ -380,6 +417,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(surfaces_that_change_order_along_a_fold_of_both),
+        cmocka_unit_test(folds_of_panels_that_change_order_along_a_line),
         cmocka_unit_test(square_stored_twice_with_both_diagonals),
         cmocka_unit_test(plates_that_pierce_each_other),
         cmocka_unit_test(ramp_that_passes_behind_itself),
