@@ -37,6 +37,7 @@
 #define ALONE_STRAIGHT      20.0
 #define ALONE_ROUND         300.0
 #define ALONE_LEAST         64.0
+#define ALONE_MOST          1e6
 #define ALONE_PER_SLOPE     1.6
 #define ALONE_EXPONENT_MOST 50.0
 
@@ -161,13 +162,17 @@ static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *
 {
     int is_round = shape_is_round(&part->shape);
     double tolerance = fmin(fineness->tolerance, 1.0);
-    double corners = is_round ? cbrt(ALONE_ROUND / tolerance) : sqrt(ALONE_STRAIGHT / tolerance);
-    corners = fmax(corners, brdf->A > 0.0 ? ALONE_PER_SLOPE / brdf->s : 0.0);
-    if (fineness->facets_only == LRCS_FACETS_LOCAL || !(corners < 1e6) ||
+    double corners = fmax(ALONE_LEAST, brdf->A > 0.0 ? ALONE_PER_SLOPE / brdf->s : 0.0);
+    corners = is_round ? corners : fmax(corners, sqrt(ALONE_STRAIGHT / tolerance));
+    while (is_round && corners < ALONE_MOST &&
+           corners * corners * corners * tolerance < ALONE_ROUND) {
+        corners += 4.0;
+    }
+    if (fineness->facets_only == LRCS_FACETS_LOCAL || !(corners < ALONE_MOST) ||
         (brdf->B > 0.0 && brdf->m > ALONE_EXPONENT_MOST)) {
         return 0;
     }
-    divisions->around = 4 * (uint32_t)(fmax(corners, ALONE_LEAST) / 4.0 + 1.0);
+    divisions->around = 4 * (uint32_t)(corners / 4.0 + 1.0);
     divisions->along = is_round ? divisions->around / 4 : 1;
     *counts = lrcsi_tessellate_counts(&part->shape, divisions);
     return counts->facets <= fineness->max_facets;
