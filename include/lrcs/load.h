@@ -19,6 +19,10 @@ typedef struct lrcs_host_options {
 
 lrcs_host_options lrcs_host_options_default(void);
 
+/* A division (lrcs_build_options) with which curved shapes have a few hundred facets. Poses that
+   need more are run at finer divisions: lrcs_host_scene_division, lrcs_host_sweep.refine. */
+#define LRCS_HOST_DIVISION 1e-2
+
 /* A regular file that a scene was read from: its name, the FNV-1a hash of its bytes, and its device
    and inode number. */
 typedef struct lrcs_host_input {
@@ -57,6 +61,8 @@ typedef struct lrcs_host_scene {
     double seconds_stage[LRCS_HOST_PREPARE_STAGES]; /* of seconds_prepare, in the last attempt,
                                                        whose work area sufficed */
     void *blocks;                                   /* memory owned */
+    struct lrcsi_host_levels *levels; /* finer divisions; NULL: it was read without a division, or
+                                         no part is curved among others */
 } lrcs_host_scene;
 
 /* Loads a scene: a model file (3DS, OBJ with its MTL, STL), a scene file, or "demo", which is
@@ -111,6 +117,15 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         const lrcs_run_options *options, lrcs_result *result,
                         lrcs_facet_record *records, lrcs_image *image, double *seconds,
                         lrcs_host_error *error);
+
+/* The division with which a pose meets its tolerance, or the finest that there is, for a prepared
+   scene that was read with one: its own, unless the curved shapes' facets make the pose miss it.
+   The time is that of all runs needed to find it, and of building and preparing their scenes.
+   Returned: division (0: the scene has none); seconds unless NULL.
+   Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_sigma_run. */
+int lrcs_host_scene_division(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                             const lrcs_run_options *options, double *division, double *seconds,
+                             lrcs_host_error *error);
 
 /* lrcs_uncertainty_run and lrcs_attitude_slope_run with memory from the heap.
    Returned: result; sensitivity[material_count]; uncertainty; and slope.

@@ -6,6 +6,7 @@
 #include "host/input.h"
 #include "host/model.h"
 #include "host/notes.h"
+#include "host/refine.h"
 #include "host/sides.h"
 
 #include <limits.h>
@@ -336,6 +337,7 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
         lrcs_host_scene_free(scene);
         return status;
     }
+    scene->levels = lrcsi_host_levels_make(scene, &options->build);
     scene_material_notes(scene);
     lrcsi_host_scene_notes(scene);
     scene->seconds_load = lrcsi_host_seconds() - start;
