@@ -20,8 +20,10 @@ typedef struct lrcs_host_options {
 lrcs_host_options lrcs_host_options_default(void);
 
 /* A division (lrcs_build_options) with which curved shapes have a few hundred facets. Poses that
-   need more are run at finer divisions: lrcs_host_scene_division, lrcs_host_sweep.refine. */
+   need more are run at finer divisions: lrcs_host_scene_division, lrcs_host_sweep.refine. And a
+   limit for the facets of one shape then: preparing so many takes about a quarter of a second. */
 #define LRCS_HOST_DIVISION 1e-2
+#define LRCS_HOST_FACETS   (UINT32_C(1) << 18)
 
 /* A regular file that a scene was read from: its name, the FNV-1a hash of its bytes, and its device
    and inode number. */
@@ -81,14 +83,15 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
                          lrcs_host_error *error);
 
 /* Builds a scene from a recipe that has only shapes. Only the recipe's strings must outlive the
-   scene; scene->recipe stays empty. Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_scene_build. */
+   scene; scene->recipe stays empty, or is a copy if the options have a division. Status: LRCS_OK;
+   LRCS_E_SYSTEM; as lrcs_scene_build. */
 int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
                          lrcs_host_scene *scene, lrcs_host_error *error);
 
 /* Builds a variant of a scene. The recipe has the parts of base->recipe, in their order and with
    their models; parts are two-sided where those of base are. Everything else may differ: places,
    joints, shapes, materials. `base` and the recipe's strings must outlive the scene; scene->recipe
-   stays empty.
+   stays empty, or is a copy if the options have a division.
    Status: as lrcs_host_scene_make. */
 int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
                          const lrcs_build_options *build, lrcs_host_scene *scene,

@@ -16,8 +16,6 @@
 #define AIM 0.8
 /* Level k has the scene's own division over 2^k. */
 #define LEVELS 32u
-/* The most facets of one shape: preparing so many takes about a quarter of a second. */
-#define FACETS_MOST (UINT32_C(1) << 18)
 
 struct lrcsi_host_levels {
     pthread_mutex_t lock;
@@ -39,7 +37,6 @@ struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
     }
     if (levels) {
         levels->build = *build;
-        levels->build.max_facets = FACETS_MOST;
         levels->finest = LEVELS - 1;
         if (pthread_mutex_init(&levels->lock, NULL) != 0) {
             free(levels);

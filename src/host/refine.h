@@ -5,8 +5,9 @@
 
 #include <lrcs/load.h>
 
-/* For a scene read with a division: what is kept of its finer divisions, all of them yet to be
-   built. NULL if no part is curved, or if there is no memory. */
+/* For a scene built with a division, whose recipe and models last as long as it: what is kept of
+   its finer divisions, all of them yet to be built. NULL if no part is curved, or if there is no
+   memory. */
 struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
                                                  const lrcs_build_options *build);
 void lrcsi_host_levels_free(struct lrcsi_host_levels *levels);

@@ -95,7 +95,10 @@ static int options_read(run_job *job)
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->asked = job->options.tolerance;
     job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
-    job->load.build.division = cli_value(args, "time-budget") ? 0.0 : LRCS_HOST_DIVISION;
+    if (!cli_value(args, "time-budget")) {
+        job->load.build.division = LRCS_HOST_DIVISION;
+        job->load.build.max_facets = LRCS_HOST_FACETS;
+    }
     code = code ? code : cli_run_budget_read(job);
     code = code ? code : cli_run_emulation_read(job);
     code = code ? code : cli_run_materials_read(job);

@@ -159,9 +159,8 @@ static int job_read(sweep_job *job)
     }
     job->load.build.tolerance = job->options.tolerance;
     job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
-    if (code == 0 && job->plan.scene_axes == 0 && job->plan.track.joints == 0) {
-        job->load.build.division = LRCS_HOST_DIVISION;
-    }
+    job->load.build.division = LRCS_HOST_DIVISION;
+    job->load.build.max_facets = LRCS_HOST_FACETS;
     if (code == 0 && job->file.npy && cli_value(args, "shard")) {
         return cli_usage(args->command,
                          "--shard writes .csv or .jsonl; lrcs merge makes the .npy of them");
