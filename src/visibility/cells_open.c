@@ -105,7 +105,6 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *
             low[k] = lrcsi_least(low[k], corner[i][k] - off);
             high[k] = lrcsi_most(high[k], corner[i][k] + off);
         }
-        side[i] = lrcsi_strip_segment_make(corner[i], corner[(i + 1) % corners], 1, rounding);
     }
     for (int k = 0; k < 2; k++) {
         c->least[k] = lrcsi_least(c->least[k], low[k]);
@@ -114,6 +113,9 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *
     block_range(c, low[0], high[0], 0, &x[0], &x[1]);
     block_range(c, low[1], high[1], 1, &y[0], &y[1]);
     int several = y[1] - y[0] > 1 && x[1] - x[0] > 1; /* rows and columns */
+    for (int i = 0; several && i < corners; i++) {
+        side[i] = lrcsi_strip_segment_make(corner[i], corner[(i + 1) % corners], 1, rounding);
+    }
     for (uint32_t row = y[0]; row < y[1]; row++) {
         double from = several ? HUGE_VAL : low[0];
         double to = several ? -HUGE_VAL : high[0];

@@ -7,7 +7,6 @@
 
 #include "base/range.h"
 #include "base/work.h"
-#include "view/strip.h"
 
 /* Cells along a side at most. */
 #define MOST_CELLS 2048
@@ -117,28 +116,24 @@ static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1,
     return x1 - x0;
 }
 
-/* An edge in the units of boxes. What is computed of it: points at t, rows and the t at which the
-   segment enters one, each off by less than 8 u of coordinates between the segment's and the
-   window's; and boxes are rounded by 2^-24 of the latter. */
-static lrcsi_strip_segment segment_make(const lrcsi_grid *grid, uint32_t edge)
-{
-    const lrcsi_view *view = grid->view;
-    const lrcsi_edge *e = &view->prepared->topology.edge[edge];
-    double window = fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side;
-    return lrcsi_strip_segment_make(view->point[e->low].x, view->point[e->high].x, view->scale,
-                                    0x1p-23 * window);
-}
-
-/* The cells of a row that the segment may touch; rows on the border reach on without end. */
-static lrcsi_cells segment_row(const lrcsi_grid *grid, const lrcsi_strip_segment *s, uint32_t y)
+lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *side, int sides,
+                           uint32_t y)
 {
     double bottom = y > 0 ? grid->low[1] + y / grid->scale : -HUGE_VAL;
     double top = y + 1 < grid->size ? grid->low[1] + (y + 1) / grid->scale : HUGE_VAL;
-    double x[2];
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    for (int i = 0; i < sides; i++) {
+        double x[2];
+        if (lrcsi_strip_range(&side[i], bottom, top, x)) {
+            low = lrcsi_least(low, x[0]);
+            high = lrcsi_most(high, x[1]);
+        }
+    }
     lrcsi_cells cells = {0, 0, (uint16_t)y, (uint16_t)(y + 1)};
-    if (lrcsi_strip_range(s, bottom, top, x)) {
-        cells.x0 = lrcsi_grid_cell(grid, x[0], 0);
-        cells.x1 = (uint16_t)(lrcsi_grid_cell(grid, x[1], 0) + 1);
+    if (low <= high) {
+        cells.x0 = lrcsi_grid_cell(grid, low, 0);
+        cells.x1 = (uint16_t)(lrcsi_grid_cell(grid, high, 0) + 1);
     }
     return cells;
 }
@@ -153,10 +148,12 @@ static uint32_t grid_put_edge(lrcsi_grid *grid, uint32_t edge, uint32_t item)
     if (cells.y1 - cells.y0 == 1) {
         return grid_put(grid, cells.y0, cells.x0, cells.x1, item);
     }
-    lrcsi_strip_segment segment = segment_make(grid, edge);
+    const lrcs_point *point = grid->view->point;
+    lrcsi_strip_segment segment = lrcsi_strip_segment_make(
+        point[e->low].x, point[e->high].x, grid->view->scale, lrcsi_grid_rounding(grid));
     uint32_t count = 0;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        lrcsi_cells row = segment_row(grid, &segment, y);
+        lrcsi_cells row = lrcsi_grid_row(grid, &segment, 1, y);
         count += grid_put(grid, y, row.x0, row.x1, item);
     }
     return count;
