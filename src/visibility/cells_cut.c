@@ -64,8 +64,8 @@ static void facet_range(const lrcsi_cells_facet *f, const double line[3], double
     range[1] = lrcsi_most(a, lrcsi_most(b, d));
 }
 
-/* Is all of a cell beyond one side of a facet? Ends at the first corner after which no side can have
-   all of them beyond it. */
+/* Is all of a cell beyond one side of a facet? Ends at the first corner after which no side can
+   have all of them beyond it. */
 static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape, double w)
 {
     double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
