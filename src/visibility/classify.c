@@ -387,7 +387,7 @@ static void facet_decide(lrcsi_classification *c, uint32_t f)
          crossings_find(c, f, LRCS_NONE, 1, &steps, c->view->meter) > 0) ||
         steps == 0 || lrcsi_meter_spent(c->view->meter);
     c->undecided_count += c->undecided[f];
-    if (c->undecided[f] || c->along || c->view->prepared->intersections.rim[f]) {
+    if (c->undecided[f] || c->along || c->view->prepared->intersections.met[f]) {
         c->joinable[f] = 0;
     }
 }
