@@ -18,6 +18,11 @@
    are left: an edge that joins one of them with a dropped one is behind a cover, and a component
    that is nearest at P and has no contact with that cover is behind it nowhere.
      (4) Where no facet covers P, and no event crosses the cell, no facet is seen in it.
+     (5) Facets that are hidden everywhere need not be listed. Let K be as in (2), of listed facets,
+   with no event or contact of listed facets in front of it, and let y be the first point on the way
+   at which K is no longer nearest of all facets. A facet that is nearest just beyond y is visible
+   there, so it is listed. It begins at y at an edge, or comes forward through K at a contact. The
+   edge is an event: a facet that ended there would have been in front of K before y.
    A contact is where two facets meet in space other than along a common edge or in a point: across
    segments of the inside of one (mesh/intersection.h), along parts of edges of both (the facets are
    then marked as rims), or in one plane. All edges of rims and of facets with another in their
