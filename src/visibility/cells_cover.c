@@ -189,7 +189,6 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         whole &= (c->kind[facet] & LRCSI_CELLS_VAGUE) == 0 &&
                  (facet == best || (c->met[facet] >> 1) != c->look);
         for (int k = 0; k < 3; k++) {
-            double range[2];
             lrcsi_cells_part part;
             uint32_t next = f->next[k];
             if (next != LRCS_NONE && c->joined[next] == c->look) {
@@ -201,16 +200,13 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             if (lrcsi_cells_box_away(s, p, q, w)) {
                 continue;
             }
-            double line[3];
-            memcpy(line, f->side[k], sizeof line);
+            double thin_line[3];
+            const double *line = f->side[k];
             if (f->thin) {
-                lrcsi_line_through(p, q, line);
+                lrcsi_line_through(p, q, thin_line);
+                line = thin_line;
             }
-            lrcsi_box_range(s->low, s->high, line, range);
-            if (range[0] > w || range[1] < -w) {
-                continue;
-            }
-            int place = lrcsi_cells_place_of(&cell->shape, s, p, q, line, w, line_w, &part);
+            int place = lrcsi_cells_place_near(&cell->shape, s, p, q, line, w, line_w, &part);
             if (place == LRCSI_CELLS_AWAY) {
                 continue;
             }
