@@ -178,15 +178,16 @@ static lrcsi_pair_facet facet_of_lane(const contact_search *search, const search
 }
 
 /* Tests the facet in a lane of leaf `own` against those in `lanes` of another leaf, which may be
-   the same: if their boxes intersect and they are not in a common ring. */
+   the same: unless they are in a common ring, which most neighbours are, or their boxes are
+   disjoint. */
 static int join_lanes(contact_search *search, uint32_t own, uint32_t lane, uint32_t leaf,
                       unsigned lanes)
 {
     const lrcsi_tree *tree = &search->tree;
-    lrcsi_box box = lrcsi_tree_box(&tree->block[0][own], lane);
-    lanes &= lrcsi_tree_meets(&tree->block[0][leaf], &box);
+    lanes &= ~lanes_in_ring(&search->leaf[own], lane, &search->leaf[leaf]);
     if (lanes != 0) {
-        lanes &= ~lanes_in_ring(&search->leaf[own], lane, &search->leaf[leaf]);
+        lrcsi_box box = lrcsi_tree_box(&tree->block[0][own], lane);
+        lanes &= lrcsi_tree_meets(&tree->block[0][leaf], &box);
     }
     if (lanes == 0) {
         return LRCS_OK;

@@ -39,17 +39,24 @@ lrcsi_slice lrcsi_slice_start(const double a[3], const double b[3], const double
 
 void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[3], double most)
 {
+    double height[3 + LRCSI_SLICE_CUTS];
+    int beyond = 0;
+    for (int i = 0; i < slice->count; i++) {
+        height[i] = slice_height(slice->x[i], n, origin) - most;
+        beyond += height[i] > 0;
+    }
+    if (beyond == 0 || beyond == slice->count) {
+        slice->count = beyond == 0 ? slice->count : 0;
+        return;
+    }
     lrcsi_slice left = {.count = 0};
     for (int i = 0; i < slice->count; i++) {
-        const double *p = slice->x[i];
-        const double *q = slice->x[i + 1 < slice->count ? i + 1 : 0];
-        double hp = slice_height(p, n, origin) - most;
-        double hq = slice_height(q, n, origin) - most;
-        if (hp <= 0) {
-            slice_add(&left, p, p, 0);
+        int next = i + 1 < slice->count ? i + 1 : 0;
+        if (height[i] <= 0) {
+            slice_add(&left, slice->x[i], slice->x[i], 0);
         }
-        if ((hp < 0 && hq > 0) || (hp > 0 && hq < 0)) {
-            slice_add(&left, p, q, hp / (hp - hq));
+        if ((height[i] < 0 && height[next] > 0) || (height[i] > 0 && height[next] < 0)) {
+            slice_add(&left, slice->x[i], slice->x[next], height[i] / (height[i] - height[next]));
         }
     }
     *slice = left;

@@ -7,6 +7,7 @@
 #include <lrcs/mesh.h>
 
 #include "base/bits.h"
+#include "base/range.h"
 
 /* Boxes per block, and the largest number of levels (for 2^32 facets). */
 enum { LRCSI_TREE_LANES = 8, LRCSI_TREE_LEVELS = 11 };
@@ -65,7 +66,19 @@ typedef struct lrcsi_tree_walk {
     unsigned mask[LRCSI_TREE_LEVELS];
 } lrcsi_tree_walk;
 
-lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet *facet);
+/* The box around a facet. */
+static inline lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet *facet)
+{
+    const double *a = vertex[facet->corner[0]].x;
+    const double *b = vertex[facet->corner[1]].x;
+    const double *c = vertex[facet->corner[2]].x;
+    lrcsi_box box;
+    for (int k = 0; k < 3; k++) {
+        box.low[k] = lrcsi_least(lrcsi_least(a[k], b[k]), c[k]);
+        box.high[k] = lrcsi_most(lrcsi_most(a[k], b[k]), c[k]);
+    }
+    return box;
+}
 
 /* A lane's box. */
 static inline lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t lane)

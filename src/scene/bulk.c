@@ -68,8 +68,8 @@ static void sample_centre(bulk_sample *s, double median[3])
 
 /* The radius of the bulk about the median; 0 if the bulk is all. The cost of a uniform grid with as
    many cells as vertices, n, is about n (r / r')^2 if it extends to r and half of the vertices are
-   within r'. If c vertices are left out, they fall into border cells, about sqrt(n) cells on four
-   sides, and cost (c / 2)^2 / sqrt(n) more. Chooses the c of least cost. */
+   within r'. If c vertices are left out, they fall into border cells, all into a single one if they
+   are close together, and cost up to c^2 more. Chooses the c of least cost. */
 static double bulk_radius(const bulk_sample *s, double whole, uint32_t vertices)
 {
     double sorted[SAMPLE];
@@ -82,7 +82,7 @@ static double bulk_radius(const bulk_sample *s, double whole, uint32_t vertices)
     for (uint32_t out = 0; out < s->count / 2 && half > 0; out++) {
         double reach = sorted[s->count - 1 - out] / half;
         double share = (double)out / s->count;
-        double cost = reach * reach + 0.25 * share * share * sqrt(vertices);
+        double cost = reach * reach + share * share * vertices;
         if (cost < least) {
             least = cost;
             radius = sorted[s->count - 1 - out];

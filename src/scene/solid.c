@@ -33,19 +33,18 @@ int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
 }
 
 /* Six times the signed volume of a facet's tetrahedron about `o`, and a bound on its rounding: each
-   difference, product and sum has a relative error of u, all below |a| |b| |c|. */
+   difference, product and sum has a relative error of u, all below |a| |b| |c|, which the sums of
+   their components' magnitudes bound without square roots. */
 static double tetrahedron(const lrcs_prepared *p, uint32_t facet, const double *o, double *error)
 {
     double v[3][3];
     double size = 1;
     for (int corner = 0; corner < 3; corner++) {
         const double *x = lrcsi_prepared_corner(p, facet, corner);
-        double square = 0;
         for (int k = 0; k < 3; k++) {
             v[corner][k] = x[k] - o[k];
-            square += v[corner][k] * v[corner][k];
         }
-        size *= sqrt(square);
+        size *= fabs(v[corner][0]) + fabs(v[corner][1]) + fabs(v[corner][2]);
     }
     double det = v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) +
                  v[0][1] * (v[1][2] * v[2][0] - v[1][0] * v[2][2]) +

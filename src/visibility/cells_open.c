@@ -10,8 +10,10 @@
 #include "base/constant.h"
 #include "base/range.h"
 #include "base/work.h"
+#include "view/strip.h"
 #include "visibility/contact.h"
 #include "visibility/grid.h"
+#include "visibility/query.h"
 
 /* Limit on the entries of all blocks: so many for each facet, and a constant. */
 #define ENTRIES_A_FACET 16u
@@ -22,19 +24,31 @@ static uint64_t block_entries(const lrcs_prepared *p)
     return ENTRIES_LEAST + (uint64_t)ENTRIES_A_FACET * p->scene->facet_count;
 }
 
-/* Blocks are squares that fill the window of the scene's bulk, with BLOCK cells of the
-   classification's grid along a side. A ring of blocks around them holds what is outside. */
+/* Blocks are squares with BLOCK cells of the classification's grid along a side, or twice, four
+   times as many and so on if their lists would be too long otherwise. They fill the window of the
+   scene's bulk or, if there may be as many blocks as that takes, the whole view. A ring of blocks
+   around them holds what is outside. */
 #define BLOCK 4u
 
-static void blocks_place(lrcsi_cells_grid *c)
+/* The most blocks, the ring included. */
+static size_t blocks_most(const lrcs_prepared *p)
+{
+    return 2 * (size_t)p->scene->facet_count + 64;
+}
+
+static void blocks_place(lrcsi_cells_grid *c, uint32_t cells)
 {
     const lrcsi_grid *grid = &c->classification->grid;
-    uint32_t size = (grid->size + BLOCK - 1) / BLOCK;
-    c->side = size + 2;
-    c->size = grid->scale > 0 ? BLOCK / (grid->scale * c->classification->view->scale) : 1;
+    const lrcsi_view *view = c->classification->view;
+    double cell = grid->scale > 0 ? 1 / (grid->scale * view->scale) : 1;
+    double window = grid->size * cell;
+    double across = ceil(view->side / (BLOCK * cell)) + 2;
+    int whole = view->side > window && across * across <= (double)blocks_most(view->prepared);
+    c->size = cells * cell;
+    c->side = (uint32_t)ceil((whole ? view->side : window) / c->size) + 2;
     for (int k = 0; k < 2; k++) {
-        c->low[k] = grid->low[k] / c->classification->view->scale;
-        c->high[k] = c->low[k] + size * c->size;
+        c->low[k] = whole ? view->low[k] : grid->low[k] / view->scale;
+        c->high[k] = c->low[k] + (c->side - 2) * c->size;
         c->least[k] = c->low[k];
         c->most[k] = c->high[k];
     }
@@ -74,56 +88,76 @@ static void block_put(lrcsi_cells_lists *b, size_t row, uint32_t x0, uint32_t x1
     }
 }
 
-static void blocks_put_facet(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t facet)
+/* A polygon of at most three corners, row by row: in the blocks that it may touch in that row. What
+   it has in common with a row reaches as far in x as its sides do in that row. What is computed of
+   a side is off by less than 8 u of coordinates between the side's and the window's. */
+static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *const corner[3],
+                       int corners, uint32_t item)
 {
-    const uint32_t *corner = c->classification->view->prepared->scene->facet[facet].corner;
-    double low[3];
-    double high[3];
+    double rounding = 64 * LRCSI_U * (fabs(c->low[0]) + fabs(c->low[1]) + c->side * c->size);
+    double low[2] = {HUGE_VAL, HUGE_VAL};
+    double high[2] = {-HUGE_VAL, -HUGE_VAL};
+    lrcsi_strip_segment side[3];
     uint32_t x[2];
     uint32_t y[2];
-    lrcsi_view_bounds(c->classification->view, corner, 3, low, high);
+    for (int i = 0; i < corners; i++) {
+        double off = 4 * lrcsi_view_off(corner[i]);
+        for (int k = 0; k < 2; k++) {
+            low[k] = lrcsi_least(low[k], corner[i][k] - off);
+            high[k] = lrcsi_most(high[k], corner[i][k] + off);
+        }
+    }
     for (int k = 0; k < 2; k++) {
         c->least[k] = lrcsi_least(c->least[k], low[k]);
         c->most[k] = lrcsi_most(c->most[k], high[k]);
     }
     block_range(c, low[0], high[0], 0, &x[0], &x[1]);
     block_range(c, low[1], high[1], 1, &y[0], &y[1]);
+    int several = y[1] - y[0] > 1 && x[1] - x[0] > 1; /* rows and columns */
+    for (int i = 0; several && i < corners; i++) {
+        side[i] = lrcsi_strip_segment_make(corner[i], corner[(i + 1) % corners], 1, rounding);
+    }
     for (uint32_t row = y[0]; row < y[1]; row++) {
-        block_put(b, (size_t)row * c->side, x[0], x[1], facet);
+        double from = several ? HUGE_VAL : low[0];
+        double to = several ? -HUGE_VAL : high[0];
+        double bottom = row > 0 ? block_edge(c, row, 1) - rounding : -HUGE_VAL;
+        double top = row + 1 < c->side ? block_edge(c, row + 1, 1) + rounding : HUGE_VAL;
+        for (int i = 0; several && i < corners; i++) {
+            double range[2];
+            if (lrcsi_strip_range(&side[i], bottom, top, range)) {
+                from = lrcsi_least(from, range[0]);
+                to = lrcsi_most(to, range[1]);
+            }
+        }
+        if (from <= to) {
+            block_range(c, from, to, 0, &x[0], &x[1]);
+            block_put(b, (size_t)row * c->side, x[0], x[1], item);
+        }
     }
 }
 
-/* An edge, row by row: in the blocks that the edge may touch in that row, its error included
-   twice. */
+static void blocks_put_facet(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t facet)
+{
+    const lrcsi_view *view = c->classification->view;
+    const uint32_t *vertex = view->prepared->scene->facet[facet].corner;
+    const double *const corner[3] = {view->point[vertex[0]].x, view->point[vertex[1]].x,
+                                     view->point[vertex[2]].x};
+    blocks_put(c, b, corner, 3, facet);
+}
+
 static void blocks_put_edge(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t event)
 {
-    const lrcsi_edge *e =
-        &c->classification->view->prepared->topology.edge[c->classification->events.edge[event]];
-    const double *p = c->classification->view->point[e->low].x;
-    const double *q = c->classification->view->point[e->high].x;
-    double off = 4 * lrcsi_most(lrcsi_view_off(p), lrcsi_view_off(q));
-    uint32_t y[2];
-    block_range(c, lrcsi_least(p[1], q[1]) - off, lrcsi_most(p[1], q[1]) + off, 1, &y[0], &y[1]);
-    for (uint32_t row = y[0]; row < y[1]; row++) {
-        double from = lrcsi_least(p[0], q[0]);
-        double to = lrcsi_most(p[0], q[0]);
-        double rise = q[1] - p[1];
-        if (y[1] - y[0] > 1 && fabs(rise) > 64 * off) {
-            double slope = (q[0] - p[0]) / rise;
-            double near = off + 64 * LRCSI_U * (fabs(c->low[1]) + c->side * c->size);
-            double low = row > 0 ? block_edge(c, row, 1) - near : -HUGE_VAL;
-            double high = row + 1 < c->side ? block_edge(c, row + 1, 1) + near : HUGE_VAL;
-            low = lrcsi_most(low, lrcsi_least(p[1], q[1]));
-            high = lrcsi_least(high, lrcsi_most(p[1], q[1]));
-            double a = p[0] + slope * (low - p[1]);
-            double z = p[0] + slope * (high - p[1]);
-            from = lrcsi_most(from, lrcsi_least(a, z) - fabs(slope) * off);
-            to = lrcsi_least(to, lrcsi_most(a, z) + fabs(slope) * off);
-        }
-        uint32_t x[2];
-        block_range(c, from - off, to + off, 0, &x[0], &x[1]);
-        block_put(b, (size_t)row * c->side, x[0], x[1], event);
-    }
+    const lrcsi_view *view = c->classification->view;
+    const lrcsi_edge *e = &view->prepared->topology.edge[c->classification->events.edge[event]];
+    const double *const corner[3] = {view->point[e->low].x, view->point[e->high].x, NULL};
+    blocks_put(c, b, corner, 2, event);
+}
+
+/* Is a facet proved to be hidden everywhere? */
+static int facet_hidden(const lrcsi_cells_grid *c, uint32_t facet)
+{
+    return c->answer && !c->classification->undecided[facet] &&
+           c->answer[facet] == LRCSI_QUERY_HIDDEN;
 }
 
 /* Lists the facets that can hide others, or the events: counts them, then lists them. 0 if memory
@@ -142,7 +176,7 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
         for (uint32_t i = 0; i < items; i++) {
             if (events) {
                 blocks_put_edge(c, b, i);
-            } else if (lrcsi_grid_casts(c->classification->view, i)) {
+            } else if (lrcsi_grid_casts(c->classification->view, i) && !facet_hidden(c, i)) {
                 blocks_put_facet(c, b, i);
             }
         }
@@ -201,20 +235,26 @@ double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y
 
 size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared)
 {
-    size_t blocks = 2 * (size_t)prepared->scene->facet_count +
-                    64; /* at most half as many along a side as the grid has, and 2 */
-    size_t need = 2 * lrcsi_work_bytes(blocks, sizeof(uint32_t));
+    size_t need = 2 * lrcsi_work_bytes(blocks_most(prepared) + 1, sizeof(uint32_t));
     return lrcsi_work_add(need,
                           2 * lrcsi_work_bytes((size_t)block_entries(prepared), sizeof(uint32_t)));
 }
 
-int lrcsi_cells_grid_make(const lrcsi_classification *classification, lrcs_work *work,
-                          lrcsi_cells_grid *c)
+int lrcsi_cells_grid_make(const lrcsi_classification *classification, const unsigned char *answer,
+                          lrcs_work *work, lrcsi_cells_grid *c)
 {
-    *c = (lrcsi_cells_grid){.classification = classification};
-    blocks_place(c);
-    return classification->view->side <= 2 * c->side * c->size &&
-           blocks_make(c, &c->facets, 0, work) && blocks_make(c, &c->events, 1, work);
+    size_t mark = work->used;
+    int made = 0;
+    *c = (lrcsi_cells_grid){.classification = classification, .answer = answer};
+    for (uint32_t cells = BLOCK; !made; cells *= 2) {
+        blocks_place(c, cells);
+        made = blocks_make(c, &c->facets, 0, work) && blocks_make(c, &c->events, 1, work);
+        work->used = made ? work->used : mark;
+        if (!made && c->side <= 3) {
+            return 0;
+        }
+    }
+    return 1;
 }
 
 /* --- the cell of a block ------------------------------------------------------------------------
@@ -385,6 +425,19 @@ static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cel
     }
 }
 
+/* Is a facet of an edge listed in the block? If not, all of them are hidden, or not near it. */
+static int edge_listed(const lrcsi_cells_work *c, uint32_t edge)
+{
+    const lrcsi_topology *t = &c->view->prepared->topology;
+    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
+    for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
+        if (c->listed[use[i].facet] == c->look) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* Its segments likewise. 0 if there is no room. */
 static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
@@ -395,7 +448,8 @@ static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *ce
         }
     }
     for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
-        if (!open_edge(c, c->grid.classification->events.edge[b->item[i]])) {
+        uint32_t edge = c->grid.classification->events.edge[b->item[i]];
+        if (edge_listed(c, edge) && !open_edge(c, edge)) {
             return 0;
         }
     }

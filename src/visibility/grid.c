@@ -116,72 +116,24 @@ static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1,
     return x1 - x0;
 }
 
-/* A segment in the units of boxes, from its end nearer to the origin: that of the exact one at the
-   share t of its length is off by at most off + t grow. */
-typedef struct grid_segment {
-    double from[2], to[2]; /* from + t to */
-    double off, grow;
-} grid_segment;
-
-/* Ends are off by a fourth of what is stated here. The rest is for what is computed of it: points
-   at t, rows and the t at which the segment enters one, each off by less than 8 u of coordinates
-   between the segment's and the window's; and boxes are rounded by 2^-24 of the latter. */
-static grid_segment segment_make(const lrcsi_grid *grid, uint32_t edge)
+lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *side, int sides,
+                           uint32_t y)
 {
-    const lrcsi_view *view = grid->view;
-    const lrcsi_edge *e = &view->prepared->topology.edge[edge];
-    const double *a = view->point[e->low].x;
-    const double *b = view->point[e->high].x;
-    if (lrcsi_view_off(a) > lrcsi_view_off(b)) {
-        const double *nearer = b;
-        b = a;
-        a = nearer;
-    }
-    double window = fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side;
-    double off = 4 * lrcsi_view_off(a);
-    double far = 4 * lrcsi_view_off(b);
-    return (grid_segment){{a[0] * view->scale, a[1] * view->scale},
-                          {(b[0] - a[0]) * view->scale, (b[1] - a[1]) * view->scale},
-                          off * view->scale + 0x1p-23 * window,
-                          (far - off) * view->scale};
-}
-
-/* Narrows the range of t to where value + t slope is not negative. */
-static void range_narrow(double value, double slope, double range[2])
-{
-    if (slope > 0) {
-        range[0] = lrcsi_most(range[0], -value / slope);
-    } else if (slope < 0) {
-        range[1] = lrcsi_least(range[1], -value / slope);
-    } else if (value < 0) {
-        range[1] = -1;
-    }
-}
-
-/* The cells of a row that the segment may touch; rows on the border reach on without end. Both what
-   it is off and where it is are linear in t, so that limits are met at the ends of a range. */
-static lrcsi_cells segment_row(const lrcsi_grid *grid, const grid_segment *s, uint32_t y)
-{
-    double t[2] = {0, 1};
-    if (y > 0) {
-        double bottom = grid->low[1] + y / grid->scale;
-        range_narrow(s->from[1] + s->off - bottom, s->to[1] + s->grow, t);
-    }
-    if (y + 1 < grid->size) {
-        double top = grid->low[1] + (y + 1) / grid->scale;
-        range_narrow(top - s->from[1] + s->off, s->grow - s->to[1], t);
+    double bottom = y > 0 ? grid->low[1] + y / grid->scale : -HUGE_VAL;
+    double top = y + 1 < grid->size ? grid->low[1] + (y + 1) / grid->scale : HUGE_VAL;
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    for (int i = 0; i < sides; i++) {
+        double x[2];
+        if (lrcsi_strip_range(&side[i], bottom, top, x)) {
+            low = lrcsi_least(low, x[0]);
+            high = lrcsi_most(high, x[1]);
+        }
     }
     lrcsi_cells cells = {0, 0, (uint16_t)y, (uint16_t)(y + 1)};
-    if (t[0] <= t[1]) {
-        double left[2];
-        double right[2];
-        for (int i = 0; i < 2; i++) {
-            double off = s->off + t[i] * s->grow;
-            left[i] = s->from[0] + t[i] * s->to[0] - off;
-            right[i] = s->from[0] + t[i] * s->to[0] + off;
-        }
-        cells.x0 = lrcsi_grid_cell(grid, lrcsi_least(left[0], left[1]), 0);
-        cells.x1 = (uint16_t)(lrcsi_grid_cell(grid, lrcsi_most(right[0], right[1]), 0) + 1);
+    if (low <= high) {
+        cells.x0 = lrcsi_grid_cell(grid, low, 0);
+        cells.x1 = (uint16_t)(lrcsi_grid_cell(grid, high, 0) + 1);
     }
     return cells;
 }
@@ -196,10 +148,12 @@ static uint32_t grid_put_edge(lrcsi_grid *grid, uint32_t edge, uint32_t item)
     if (cells.y1 - cells.y0 == 1) {
         return grid_put(grid, cells.y0, cells.x0, cells.x1, item);
     }
-    grid_segment segment = segment_make(grid, edge);
+    const lrcs_point *point = grid->view->point;
+    lrcsi_strip_segment segment = lrcsi_strip_segment_make(
+        point[e->low].x, point[e->high].x, grid->view->scale, lrcsi_grid_rounding(grid));
     uint32_t count = 0;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        lrcsi_cells row = segment_row(grid, &segment, y);
+        lrcsi_cells row = lrcsi_grid_row(grid, &segment, 1, y);
         count += grid_put(grid, y, row.x0, row.x1, item);
     }
     return count;

@@ -8,6 +8,7 @@
 #define LRCSI_GRID_H
 
 #include "base/range.h"
+#include "view/strip.h"
 #include "visibility/boxes.h"
 
 typedef struct lrcsi_grid {
@@ -42,6 +43,20 @@ static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_v
                          .x1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[0], 0) + 1),
                          .y0 = lrcsi_grid_cell(grid, (double)box->low[1], 1),
                          .y1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[1], 1) + 1)};
+}
+
+/* The cells of row y that a polygon with these sides, in the units of boxes, may touch; rows and
+   columns on the border reach on without end. Empty (x0 == x1) if there are none. */
+lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *side, int sides,
+                           uint32_t y);
+
+/* What the sides' errors must allow for besides their own: the rounding of what is computed of
+   them, points at t, rows and the t at which the segment enters one, each off by less than 8 u of
+   coordinates between the segment's and the window's; and boxes are rounded by 2^-24 of the latter.
+ */
+static inline double lrcsi_grid_rounding(const lrcsi_grid *grid)
+{
+    return 0x1p-23 * (fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side);
 }
 
 /* Do the cells list any item? A row's cells lie one behind the other. */

@@ -204,55 +204,91 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
     return count == 1 && facing;
 }
 
-/* How near an event must come to matter to a facet; 0 if it cannot. */
+/* How near an event must come to matter to a facet, unless it is behind; 0 if it cannot. */
 static double event_slack(const band_job *job, uint32_t facet, uint32_t event)
 {
     const lrcs_prepared *p = job->view->prepared;
-    const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
     uint32_t part = band_part(job, facet);
     if (job->part[event] == part) {
+        const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
         int inside = job->view->facing[facet] < 0 && !lrcsi_proximity_closed(p, part);
         return inside && own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
     }
-    double slack = lrcsi_proximity_slack(p, part, job->part[event]);
-    return slack > 0 && edge_behind(job, facet, edge, slack) ? 0 : slack;
+    return lrcsi_proximity_slack(p, part, job->part[event]);
 }
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* Adds the shares of area and of rows near events that the box may hold; all of both where the
-   meter is spent. */
-static void add_events(band_job *job, uint32_t facet, const double low[3], const double high[3])
+/* Where events near a facet are: a box, and the facet's sides, whose errors include how near that
+   is, for the rows of the grid. */
+typedef struct band_walk {
+    double low[3], high[3];
+    lrcsi_strip_segment side[3];
+} band_walk;
+
+static band_walk walk_make(const band_job *job, uint32_t facet)
+{
+    const lrcsi_view *view = job->view;
+    const lrcs_prepared *p = view->prepared;
+    const uint32_t *corner = p->scene->facet[facet].corner;
+    double near =
+        2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.most) + LRCSI_PROXIMITY_ERR;
+    double rounding = lrcsi_grid_rounding(&job->grid) + near * view->scale;
+    double wide = near + facet_off(job, facet);
+    band_walk walk;
+    lrcsi_view_bounds(view, corner, 3, walk.low, walk.high);
+    for (int k = 0; k < 3; k++) {
+        const double *from = view->point[corner[k]].x;
+        const double *to = view->point[corner[(k + 1) % 3]].x;
+        walk.low[k] -= wide;
+        walk.high[k] += wide;
+        walk.side[k] = lrcsi_strip_segment_make(from, to, view->scale, rounding);
+    }
+    return walk;
+}
+
+/* Adds the shares of area and of rows near an event. */
+static void add_event(band_job *job, uint32_t facet, uint32_t event)
 {
     const lrcs_prepared *p = job->view->prepared;
-    const lrcsi_edge *edge = p->topology.edge;
+    const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
+    double slack = event_slack(job, facet, event);
+    if (!(slack > 0)) {
+        return;
+    }
+    lrcsi_slice slice = edge_slice(job, facet, edge, slack);
+    if (slice.count == 0 ||
+        (job->part[event] != band_part(job, facet) && edge_behind(job, facet, edge, slack))) {
+        return;
+    }
     const uint32_t *vertex = p->scene->facet[facet].corner;
     const double *const corner[3] = {job->view->point[vertex[0]].x, job->view->point[vertex[1]].x,
                                      job->view->point[vertex[2]].x};
-    double whole = 0.5 * p->normal[facet].length;
-    double longest = lrcsi_proximity_longest(p, facet);
-    lrcsi_view_box box = lrcsi_view_box_round(job->view, low, high);
-    lrcsi_cells cells = lrcsi_grid_cells(&job->grid, &box);
-    double *share = &job->share[facet];
+    job->share[facet] +=
+        lrcsi_slice_share(&slice, 0.5 * p->normal[facet].length, lrcsi_proximity_longest(p, facet));
+    job->rows[facet] += lrcsi_proximity_rows(p, facet, corner, &slice);
+}
+
+/* Adds the shares of all events near a facet; all of it where the meter is spent. */
+static void add_events(band_job *job, uint32_t facet, const band_walk *walk)
+{
+    const lrcsi_grid *grid = &job->grid;
+    lrcsi_view_box box = lrcsi_view_box_round(job->view, walk->low, walk->high);
+    lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
+    int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        uint32_t i = job->grid.first[(size_t)y * job->grid.size + cells.x0];
-        uint32_t end = job->grid.first[(size_t)y * job->grid.size + cells.x1];
+        lrcsi_cells row = several ? lrcsi_grid_row(grid, walk->side, 3, y) : cells;
+        uint32_t i = grid->first[(size_t)y * grid->size + row.x0];
+        uint32_t end = grid->first[(size_t)y * grid->size + row.x1];
         if (!lrcsi_meter_take(job->view->meter, (uint64_t)1 + end - i)) {
-            *share = 1;
+            job->share[facet] = 1;
             return;
         }
-        for (; i < end && *share < 1; i++) {
-            uint32_t event = job->grid.item[i];
-            if (job->seen[event] == facet + 1) {
-                continue;
-            }
-            job->seen[event] = facet + 1;
-            double slack = event_slack(job, facet, event);
-            if (slack > 0) {
-                lrcsi_slice slice = edge_slice(job, facet, &edge[job->edge[event]], slack);
-                *share += lrcsi_slice_share(&slice, whole, longest);
-                job->rows[facet] +=
-                    slice.count != 0 ? lrcsi_proximity_rows(p, facet, corner, &slice) : 0;
+        for (; i < end && job->share[facet] < 1; i++) {
+            uint32_t event = grid->item[i];
+            if (job->seen[event] != facet + 1) {
+                job->seen[event] = facet + 1;
+                add_event(job, facet, event);
             }
         }
     }
@@ -270,19 +306,12 @@ static void facet_share(band_job *job, uint32_t facet)
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     double reach = p->proximity.reach[band_part(job, facet)];
-    double wide = 2 * (reach + p->proximity.most) + facet_off(job, facet) + LRCSI_PROXIMITY_ERR;
-    double low[3];
-    double high[3];
-    lrcsi_view_bounds(view, p->scene->facet[facet].corner, 3, low, high);
-    for (int k = 0; k < 3; k++) {
-        low[k] -= wide;
-        high[k] += wide;
-    }
-    if (reach == 0 && (low[0] > job->high[0] || low[1] > job->high[1] || high[0] < job->low[0] ||
-                       high[1] < job->low[1])) {
+    band_walk walk = walk_make(job, facet);
+    if (reach == 0 && (walk.low[0] > job->high[0] || walk.low[1] > job->high[1] ||
+                       walk.high[0] < job->low[0] || walk.high[1] < job->low[1])) {
         return;
     }
-    add_events(job, facet, low, high);
+    add_events(job, facet, &walk);
     if (reach > 0 &&
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
             p->proximity.grazing_cos[band_part(job, facet)] + COS_MARGIN * COS_MARGIN) {

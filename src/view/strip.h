@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: MIT */
+/* How far a segment of the view plane reaches in x within a range of y, where its ends are known
+   with errors that may differ by many orders of magnitude. */
+#ifndef LRCSI_STRIP_H
+#define LRCSI_STRIP_H
+
+#include "base/range.h"
+#include "view/view.h"
+
+/* The point from + t to, 0 <= t <= 1, is off by at most off + t grow. */
+typedef struct lrcsi_strip_segment {
+    double from[2], to[2];
+    double off, grow;
+} lrcsi_strip_segment;
+
+/* The segment between two points of the view, in units of 1 / scale. It begins at the point with
+   the smaller error; errors are taken four times, and `rounding` is added: what is left of that has
+   to cover the rounding of everything that is computed of it. */
+static inline lrcsi_strip_segment lrcsi_strip_segment_make(const double a[3], const double b[3],
+                                                           double scale, double rounding)
+{
+    int ordered = lrcsi_view_off(a) <= lrcsi_view_off(b);
+    const double *near = ordered ? a : b;
+    const double *far = ordered ? b : a;
+    double off = 4 * lrcsi_view_off(near);
+    return (lrcsi_strip_segment){{near[0] * scale, near[1] * scale},
+                                 {(far[0] - near[0]) * scale, (far[1] - near[1]) * scale},
+                                 off * scale + rounding,
+                                 (4 * lrcsi_view_off(far) - off) * scale};
+}
+
+/* Narrows the range of t to where value + t slope is not negative. */
+static inline void lrcsi_strip_narrow(double value, double slope, double range[2])
+{
+    if (slope > 0) {
+        range[0] = lrcsi_most(range[0], -value / slope);
+    } else if (slope < 0) {
+        range[1] = lrcsi_least(range[1], -value / slope);
+    } else if (value < 0) {
+        range[1] = -1;
+    }
+}
+
+/* The range of x of the points that may have low <= y <= high; 0 if there are none. Where a point
+   is and what it is off are both linear in t, so that limits are met at the ends of a range. */
+static inline int lrcsi_strip_range(const lrcsi_strip_segment *s, double low, double high,
+                                    double x[2])
+{
+    double t[2] = {0, 1};
+    if (low > -HUGE_VAL) {
+        lrcsi_strip_narrow(s->from[1] + s->off - low, s->to[1] + s->grow, t);
+    }
+    if (high < HUGE_VAL) {
+        lrcsi_strip_narrow(high - s->from[1] + s->off, s->grow - s->to[1], t);
+    }
+    if (!(t[0] <= t[1])) {
+        return 0;
+    }
+    x[0] = HUGE_VAL;
+    x[1] = -HUGE_VAL;
+    for (int i = 0; i < 2; i++) {
+        double at = s->from[0] + t[i] * s->to[0];
+        double off = s->off + t[i] * s->grow;
+        x[0] = lrcsi_least(x[0], at - off);
+        x[1] = lrcsi_most(x[1], at + off);
+    }
+    return 1;
+}
+
+#endif
