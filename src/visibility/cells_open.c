@@ -292,7 +292,7 @@ static int open_edge(lrcsi_cells_work *c, uint32_t edge)
 static int continues(const lrcsi_cells_work *c, uint32_t facet)
 {
     return (c->kind[facet] & LRCSI_CELLS_APART) == 0 &&
-           c->view->prepared->intersections.rim[facet] <= 1;
+           c->view->prepared->intersections.met[facet] <= 1;
 }
 
 /* Edges that are no events of the view count as events here if one of their two facets meets others

@@ -201,7 +201,7 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
             if (boxes->state[f / LRCSI_RUN] != LRCSI_BOXES_FACETS) {
                 f += LRCSI_RUN - 1;
             } else if (lrcsi_grid_casts(grid->view, f)) {
-                filled += cells_count(lrcsi_grid_cells(grid, &boxes->facet[f]));
+                filled += cells_count(lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
                 facets++;
             }
         }
@@ -272,7 +272,7 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
         } else if ((readers->undecided[f] || readers->region[f] == f) &&
                    lrcsi_grid_casts(grid->view, f)) {
             lrcsi_boxes_open(boxes, f / LRCSI_RUN);
-            want_facet(want, lrcsi_grid_cells(grid, &boxes->facet[f]));
+            want_facet(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
         }
     }
     return want->bit ? LRCS_OK : LRCS_E_MEMORY;
@@ -297,7 +297,8 @@ static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, grid_
         uint32_t end = lrcsi_run_end(start, count);
         for (uint32_t f = start; f < end; f++) {
             if (lrcsi_grid_casts(grid->view, f) &&
-                (!want.bit || want_meets(want, lrcsi_grid_cells(grid, &boxes->facet[f])))) {
+                (!want.bit ||
+                 want_meets(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f))))) {
                 list[listed++] = f;
             }
         }
@@ -316,7 +317,7 @@ static uint64_t facets_put(lrcsi_grid *grid, const uint32_t *facet, uint32_t sel
 {
     uint64_t listed = 0;
     for (uint32_t i = 0; i < selected; i++) {
-        lrcsi_cells cells = lrcsi_grid_cells(grid, &grid->box[facet[i]]);
+        lrcsi_cells cells = lrcsi_grid_cells(grid, lrcsi_boxes_facet(&grid->boxes, facet[i]));
         for (uint32_t y = cells.y0; y < cells.y1; y++) {
             listed += grid_put(grid, y, cells.x0, cells.x1, facet[i]);
         }
@@ -338,7 +339,7 @@ int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
     uint32_t *facet = NULL;
     uint32_t selected = 0;
     int status;
-    g.box = boxes->facet;
+    g.boxes = *boxes;
     g.first = g.item = NULL;
     for (;;) {
         status = want_make(&g, boxes, readers, work, &want);

@@ -13,8 +13,8 @@
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
-    const lrcsi_view_box *box; /* facet -> its box, if it casts; NULL: the items are no facets */
-    double low[2];             /* of the window, in the units of boxes */
+    lrcsi_boxes boxes; /* of facets, if these are the items */
+    double low[2];     /* of the window, in the units of boxes */
     double side;
     uint32_t size;   /* cells along each side */
     double scale;    /* cells per unit */
