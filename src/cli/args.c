@@ -23,27 +23,40 @@ int cli_usage(const cli_command *command, const char *format, ...)
     return CLI_USAGE;
 }
 
-int cli_out_of_memory(void)
+int cli_fail(const char *format, ...)
 {
+    va_list list;
     cli_watch_end();
-    fprintf(stderr, "lrcs: out of memory\n");
+    fputs("lrcs: ", stderr);
+    va_start(list, format);
+    vfprintf(stderr, format, list);
+    va_end(list);
+    fputc('\n', stderr);
     return CLI_FAILED;
 }
 
 int cli_failed(const lrcs_host_error *error)
 {
-    cli_watch_end();
-    fprintf(stderr, "lrcs: %s\n", error->text);
-    return CLI_FAILED;
+    return cli_fail("%s", error->text);
+}
+
+int cli_out_of_memory(void)
+{
+    return cli_fail("out of memory");
+}
+
+int cli_expected(const cli_args *args, const char *name, const char *what)
+{
+    return cli_usage(args->command, "%s%s: expected %s, found '%s'", cli_dashes(name), name, what,
+                     cli_value(args, name));
 }
 
 int cli_finish(int code)
 {
     errno = 0;
     if (fflush(stdout) != 0 || ferror(stdout)) {
-        fprintf(stderr, "lrcs: standard output: cannot write: %s\n",
-                errno ? strerror(errno) : "an earlier write failed");
-        return CLI_FAILED;
+        return cli_fail("standard output: cannot write: %s",
+                        errno ? strerror(errno) : "an earlier write failed");
     }
     return code;
 }
@@ -168,13 +181,9 @@ const char *cli_value(const cli_args *args, const char *name)
 int cli_number(const cli_args *args, const char *name, double *value)
 {
     const char *text = cli_value(args, name);
-    if (!text) {
-        return 0;
-    }
-    if (lrcs_host_number_read(text, strlen(text), value) != LRCS_OK) {
-        return cli_usage(args->command, "--%s: expected a finite number, found '%s'", name, text);
-    }
-    return 0;
+    return text && lrcs_host_number_read(text, strlen(text), value) != LRCS_OK
+               ? cli_expected(args, name, "a finite number")
+               : 0;
 }
 
 int cli_whole(const cli_args *args, const char *name, double least, double most, uint32_t *value)
@@ -183,13 +192,29 @@ int cli_whole(const cli_args *args, const char *name, double least, double most,
     int code = cli_number(args, name, &number);
     if (code == 0 && cli_value(args, name)) {
         if (!(number >= least && number <= most) || number != floor(number)) {
-            return cli_usage(args->command,
-                             "--%s: expected a whole number %.0f .. %.0f, found '%s'", name, least,
-                             most, cli_value(args, name));
+            char what[80];
+            snprintf(what, sizeof what, "a whole number %.0f .. %.0f", least, most);
+            return cli_expected(args, name, what);
         }
         *value = (uint32_t)number;
     }
     return code;
+}
+
+int cli_choice(const cli_args *args, const char *name, const char *words, int *place)
+{
+    const char *text = cli_value(args, name);
+    const char *at = words;
+    for (int i = 0; text && *at; i++) {
+        size_t size = strcspn(at, ", ");
+        if (strlen(text) == size && strncmp(at, text, size) == 0) {
+            *place = i;
+            return 0;
+        }
+        at += size + strspn(at + size, ", ");
+        at += strncmp(at, "or ", 3) == 0 ? 3 : 0;
+    }
+    return text ? cli_expected(args, name, words) : 0;
 }
 
 int cli_list(const char *text, double *value, int count)

@@ -123,6 +123,10 @@ int cli_number(const cli_args *args, const char *name, double *value);
 /* The same for a whole number from `least` to `most`. */
 int cli_whole(const cli_args *args, const char *name, double least, double most, uint32_t *value);
 
+/* Reads an option with one of several words, "a, b or c": its place among them, unchanged if the
+   option was not given. 0 or CLI_USAGE. */
+int cli_choice(const cli_args *args, const char *name, const char *words, int *place);
+
 /* Reads exactly `count` numbers separated by commas; 0, or -1. */
 int cli_list(const char *text, double *value, int count);
 
@@ -134,7 +138,11 @@ const char *cli_nearest(const char *text, const char *best, const char *candidat
 __attribute__((format(printf, 2, 3))) int cli_usage(const cli_command *command, const char *format,
                                                     ...);
 
-/* Prints "lrcs: TEXT" on stderr for an error or lack of memory. Returns CLI_FAILED. */
+/* The same for the value of an option: "--NAME: expected WHAT, found 'VALUE'". */
+int cli_expected(const cli_args *args, const char *name, const char *what);
+
+/* Prints "lrcs: TEXT" on stderr, also for an error or lack of memory. Returns CLI_FAILED. */
+__attribute__((format(printf, 1, 2))) int cli_fail(const char *format, ...);
 int cli_failed(const lrcs_host_error *error);
 int cli_out_of_memory(void);
 
@@ -268,6 +276,9 @@ void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
 
 /* A number after some text, with all digits needed to read it back. */
 void cli_number_put(FILE *out, const char *before, double value);
+
+/* The same for a text as a field of CSV: in quotes if it contains one of the special characters. */
+void cli_csv_text(FILE *out, const char *before, const char *text, const char *special);
 
 /* Prints text on stdout, padded with blanks to `width`; control characters are printed as '?'. */
 void cli_column(const char *text, int width);

@@ -14,8 +14,7 @@ int cli_kit_path(char path[KIT_PATH], const char *format, ...)
     int size = vsnprintf(path, KIT_PATH, format, list);
     va_end(list);
     if (size < 0 || (unsigned)size >= KIT_PATH) {
-        fprintf(stderr, "lrcs: a path of more than %u bytes\n", KIT_PATH);
-        return CLI_FAILED;
+        return cli_fail("a path of more than %u bytes", KIT_PATH);
     }
     return 0;
 }

@@ -33,8 +33,7 @@ typedef struct merge_shard {
 
 static int shard_refuse(const merge_shard *shard, const char *what)
 {
-    fprintf(stderr, "lrcs: %s: %s\n", shard->path, what);
-    return CLI_FAILED;
+    return cli_fail("%s: %s", shard->path, what);
 }
 
 static int shard_read(merge_shard *shard, const merge_shard *first)
@@ -76,9 +75,8 @@ static int shards_check(const merge_shard *shard, int count)
         next += shard[i].rows;
     }
     if (next != shard[0].text.rows) {
-        fprintf(stderr, "lrcs: row %llu of %llu is in none of the files\n",
-                (unsigned long long)next, (unsigned long long)shard[0].text.rows);
-        return CLI_FAILED;
+        return cli_fail("row %llu of %llu is in none of the files", (unsigned long long)next,
+                        (unsigned long long)shard[0].text.rows);
     }
     return 0;
 }

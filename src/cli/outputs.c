@@ -35,8 +35,7 @@ static int output_place(const char *path)
     } else if ((there && !S_ISREG(about.st_mode)) || access(folder, W_OK | X_OK) == 0) {
         return 0; /* a device is written directly */
     }
-    fprintf(stderr, "lrcs: %s: cannot write: %s\n", path, strerror(errno));
-    return CLI_FAILED;
+    return cli_fail("%s: cannot write: %s", path, strerror(errno));
 }
 
 static int option_kind(const cli_command *command, const char *name)

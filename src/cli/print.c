@@ -45,6 +45,16 @@ void cli_number_put(FILE *out, const char *before, double value)
     fprintf(out, "%s%s", before, text);
 }
 
+void cli_csv_text(FILE *out, const char *before, const char *text, const char *special)
+{
+    const char *quote = strpbrk(text, special) ? "\"" : "";
+    fprintf(out, "%s%s", before, quote);
+    for (; *text; text++) {
+        fputs(*text == '"' ? "\"\"" : (char[]){*text, '\0'}, out);
+    }
+    fputs(quote, out);
+}
+
 /* The width is counted in code points: every byte except the continuation bytes of UTF-8. */
 void cli_column_to(FILE *out, const char *text, int width)
 {

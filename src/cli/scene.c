@@ -430,10 +430,8 @@ static int scene_check(const scene_job *job)
     int status = lrcs_recipe_read(job->text, job->size, &work, &recipe, &where);
     free(bytes);
     if (status != LRCS_OK) {
-        fprintf(stderr,
-                "lrcs: %s: cannot be written as a scene file: %s, found '%s', expected %s\n",
-                job->args->operand, where.item, where.found, where.expected);
-        return CLI_FAILED;
+        return cli_fail("%s: cannot be written as a scene file: %s, found '%s', expected %s",
+                        job->args->operand, where.item, where.found, where.expected);
     }
     return 0;
 }

@@ -224,11 +224,9 @@ static int shape_command(const cli_args *args)
     }
     status = lrcs_closed_eval(&shape, &brdf, &aspect, &closed);
     if (status != LRCS_OK) {
-        fprintf(stderr,
-                "lrcs: %s: %s: lengths are 0 or 1e-150 .. 1e100 m, s about 1e-100 .. 1e100, and "
-                "sigma is within the range of doubles\n",
-                args->operand, lrcs_status_text(status));
-        return CLI_FAILED;
+        return cli_fail("%s: %s: lengths are 0 or 1e-150 .. 1e100 m, s about 1e-100 .. 1e100, and "
+                        "sigma is within the range of doubles",
+                        args->operand, lrcs_status_text(status));
     }
     if (!material) {
         fprintf(stderr, "notice: no --material: A=1, B=0.25, s=0.2, m=0.5\n");

@@ -122,16 +122,17 @@ static int weld_points(const lrcs_point *vertex, uint32_t count, lrcs_work *work
     return status;
 }
 
-/* Marks the degenerate facets; returns the number of others. */
+/* Marks the degenerate facets, and lets no facet have edges yet; returns the number of others. */
 static uint32_t mark_degenerate(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t count,
-                                unsigned char *degenerate)
+                                lrcsi_topology *t)
 {
     uint32_t proper = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t *c = facet[i].corner;
-        degenerate[i] =
-            (unsigned char)lrcsi_exact_collinear(vertex[c[0]].x, vertex[c[1]].x, vertex[c[2]].x);
-        proper += !degenerate[i];
+        int degenerate = lrcsi_exact_collinear(vertex[c[0]].x, vertex[c[1]].x, vertex[c[2]].x);
+        t->degenerate[i] = (unsigned char)degenerate;
+        t->facet_edge[i] = (lrcs_facet){{LRCS_NONE, LRCS_NONE, LRCS_NONE}};
+        proper += !degenerate;
     }
     return proper;
 }
@@ -184,10 +185,9 @@ static void sort_uses(lrcsi_edge_use *use, size_t n)
     }
 }
 
-/* Fills use[] in the order of edges, each with its side and its upper end. Returned: the number of
-   edges. `place` has vertex_count + 1. */
-static uint32_t group_sides(const lrcsi_topology *t, uint32_t vertex_count, const lrcs_facet *facet,
-                            uint32_t facet_count, uint32_t *place)
+/* Fills use[], edge[] and facet_edge[]. `place` has vertex_count + 1 items. */
+static void build_edges(lrcsi_topology *t, uint32_t vertex_count, const lrcs_facet *facet,
+                        uint32_t facet_count, uint32_t *place)
 {
     /* 1. Counts the sides whose lower end is at each vertex; then computes the index where they
        begin. */
@@ -213,38 +213,26 @@ static uint32_t group_sides(const lrcsi_topology *t, uint32_t vertex_count, cons
             t->use[place[low]++] = (lrcsi_edge_use){SIDES * f + k, at[k] ^ other ^ low};
         }
     }
-    /* 3. Sorts the sides of each vertex by their upper ends. */
-    uint32_t edges = 0;
+    /* 3. Sorts the sides of each vertex by their upper ends: those with the same one are an edge.
+       Their entries then become facets and directions. */
     uint32_t begin = 0;
+    t->edge_count = 0;
     for (uint32_t v = 0; v < vertex_count; v++) {
         sort_uses(t->use + begin, place[v] - begin);
+        lrcsi_edge *edge = NULL;
         for (uint32_t i = begin; i < place[v]; i++) {
-            edges += i == begin || t->use[i].forward != t->use[i - 1].forward;
+            uint32_t f = t->use[i].facet / SIDES;
+            uint32_t k = t->use[i].facet % SIDES;
+            uint32_t high = t->use[i].forward;
+            if (!edge || edge->high != high) {
+                edge = &t->edge[t->edge_count++];
+                *edge = (lrcsi_edge){v, high, i, 0};
+            }
+            edge->uses++;
+            t->facet_edge[f].corner[k] = t->edge_count - 1;
+            t->use[i] = (lrcsi_edge_use){f, t->weld[facet[f].corner[k]] == v};
         }
         begin = place[v];
-    }
-    return edges;
-}
-
-/* Fills edge[] and facet_edge[], and turns sides into facets and directions. */
-static void fill_edges(const lrcsi_topology *t, const lrcs_facet *facet, uint32_t sides)
-{
-    lrcsi_edge edge = {LRCS_NONE, LRCS_NONE, 0, 0};
-    uint32_t n = 0;
-    for (uint32_t i = 0; i < sides; i++) {
-        uint32_t f = t->use[i].facet / SIDES;
-        uint32_t k = t->use[i].facet % SIDES;
-        uint32_t high = t->use[i].forward;
-        uint32_t from = t->weld[facet[f].corner[k]];
-        uint32_t low = from != high ? from : t->weld[facet[f].corner[k == 2 ? 0 : k + 1]];
-        if (edge.low != low || edge.high != high) {
-            edge = (lrcsi_edge){low, high, i, 0};
-            n++;
-        }
-        edge.uses++;
-        t->edge[n - 1] = edge;
-        t->facet_edge[f].corner[k] = n - 1;
-        t->use[i] = (lrcsi_edge_use){f, from == low};
     }
 }
 
@@ -256,44 +244,9 @@ size_t lrcsi_topology_need(uint32_t vertex_count, uint32_t facet_count)
     stays = lrcsi_work_add(stays, lrcsi_work_bytes(facet_count, sizeof(lrcs_facet)));
     stays = lrcsi_work_add(stays, lrcsi_work_bytes(sides, sizeof(lrcsi_edge_use)));
     size_t weld = weld_scratch(vertex_count);
-    size_t group = lrcsi_work_bytes((size_t)vertex_count + 1, sizeof(uint32_t));
-    size_t edges = lrcsi_work_bytes(sides, sizeof(lrcsi_edge));
-    size_t most = weld > group ? weld : group;
-    return lrcsi_work_add(stays, most > edges ? most : edges);
-}
-
-/* lrcsi_topology_make without the release on failure. */
-static int topology_build(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
-                          uint32_t facet_count, lrcs_work *work, lrcsi_topology *t)
-{
-    t->weld = lrcsi_work_take(work, vertex_count, sizeof *t->weld);
-    t->degenerate = lrcsi_work_take(work, facet_count, sizeof *t->degenerate);
-    t->facet_edge = lrcsi_work_take(work, facet_count, sizeof *t->facet_edge);
-    if (!t->weld || !t->degenerate || !t->facet_edge) {
-        return LRCS_E_MEMORY;
-    }
-    int status = weld_points(vertex, vertex_count, work, t->weld);
-    if (status != LRCS_OK) {
-        return status;
-    }
-    uint32_t sides = SIDES * mark_degenerate(vertex, facet, facet_count, t->degenerate);
-    for (uint32_t f = 0; f < facet_count; f++) {
-        t->facet_edge[f] = (lrcs_facet){{LRCS_NONE, LRCS_NONE, LRCS_NONE}};
-    }
-    t->use = lrcsi_work_take(work, sides, sizeof *t->use);
-    size_t end = work->used;
-    uint32_t *place = lrcsi_work_take(work, (size_t)vertex_count + 1, sizeof *place);
-    if (!t->use || !place) {
-        return LRCS_E_MEMORY;
-    }
-    t->edge_count = group_sides(t, vertex_count, facet, facet_count, place);
-    work->used = end;
-    t->edge = lrcsi_work_take(work, t->edge_count, sizeof *t->edge);
-    if (!t->edge) {
-        return LRCS_E_MEMORY;
-    }
-    fill_edges(t, facet, sides);
-    return LRCS_OK;
+    size_t edges = lrcsi_work_add(lrcsi_work_bytes(sides, sizeof(lrcsi_edge)),
+                                  lrcsi_work_bytes((size_t)vertex_count + 1, sizeof(uint32_t)));
+    return lrcsi_work_add(stays, weld > edges ? weld : edges);
 }
 
 int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
@@ -303,12 +256,31 @@ int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const l
         return LRCS_E_LIMIT;
     }
     size_t mark = work->used;
-    lrcsi_topology made;
-    int status = topology_build(vertex, vertex_count, facet, facet_count, work, &made);
+    lrcsi_topology t = {0};
+    t.weld = lrcsi_work_take(work, vertex_count, sizeof *t.weld);
+    t.degenerate = lrcsi_work_take(work, facet_count, sizeof *t.degenerate);
+    t.facet_edge = lrcsi_work_take(work, facet_count, sizeof *t.facet_edge);
+    int status = t.weld && t.degenerate && t.facet_edge
+                     ? weld_points(vertex, vertex_count, work, t.weld)
+                     : LRCS_E_MEMORY;
+    if (status == LRCS_OK) {
+        uint32_t sides = SIDES * mark_degenerate(vertex, facet, facet_count, &t);
+        t.use = lrcsi_work_take(work, sides, sizeof *t.use);
+        size_t end = work->used;
+        t.edge = lrcsi_work_take(work, sides, sizeof *t.edge); /* there are at most as many */
+        uint32_t *place = lrcsi_work_take(work, (size_t)vertex_count + 1, sizeof *place);
+        if (t.use && t.edge && place) {
+            build_edges(&t, vertex_count, facet, facet_count, place);
+            work->used = end; /* the edges are already stored here */
+            t.edge = lrcsi_work_take(work, t.edge_count, sizeof *t.edge);
+        } else {
+            status = LRCS_E_MEMORY;
+        }
+    }
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    *topology = made;
+    *topology = t;
     return LRCS_OK;
 }

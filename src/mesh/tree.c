@@ -65,21 +65,6 @@ static void grow_box(lrcsi_box *box, const double low[3], const double high[3])
     }
 }
 
-lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet *facet)
-{
-    const double *a = vertex[facet->corner[0]].x;
-    const double *b = vertex[facet->corner[1]].x;
-    const double *c = vertex[facet->corner[2]].x;
-    lrcsi_box box;
-    for (int k = 0; k < 3; k++) {
-        double low = a[k] < b[k] ? a[k] : b[k];
-        double high = a[k] < b[k] ? b[k] : a[k];
-        box.low[k] = c[k] < low ? c[k] : low;
-        box.high[k] = c[k] > high ? c[k] : high;
-    }
-    return box;
-}
-
 /* ---- the order ---- */
 
 /* The lowest 21 bits, with two zero bits inserted before each. */
@@ -98,6 +83,7 @@ typedef struct tree_sort {
     const lrcs_point *vertex;
     const lrcs_facet *facet;
     const uint32_t *apex; /* or NULL */
+    lrcs_point *centre;   /* of those at the same places of order[] */
     uint32_t *order, *order_spare;
     uint64_t *key, *key_spare;
 } tree_sort;
@@ -125,8 +111,8 @@ static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t f
 {
     lrcsi_box all = empty_box();
     for (uint32_t i = first; i < end; i++) {
-        lrcs_point centre = facet_centre(s, apex, i);
-        grow_box(&all, centre.x, centre.x);
+        s->centre[i] = facet_centre(s, apex, i);
+        grow_box(&all, s->centre[i].x, s->centre[i].x);
     }
     double side = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -141,10 +127,9 @@ static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t f
     }
     const double scale = (double)((UINT64_C(1) << bits) - 1) / side;
     for (uint32_t i = first; i < end; i++) {
-        lrcs_point centre = facet_centre(s, apex, i);
         uint64_t key = 0;
         for (int k = 0; k < 3; k++) {
-            double cell = (centre.x[k] - all.low[k]) * scale; /* 0 .. cells, and rounding */
+            double cell = (s->centre[i].x[k] - all.low[k]) * scale; /* 0 .. cells, and rounding */
             key |= spread_bits((uint64_t)cell) << k;
         }
         s->key[i] = key;
@@ -268,6 +253,7 @@ size_t lrcsi_tree_need(uint32_t facet_count)
 {
     size_t scratch = lrcsi_work_add(2 * lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
                                     lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
+    scratch = lrcsi_work_add(scratch, lrcsi_work_bytes(facet_count, sizeof(lrcs_point)));
     size_t boxes = 0;
     uint32_t below = facet_count;
     for (int l = 0; l < LRCSI_TREE_LEVELS; l++) {
@@ -294,9 +280,10 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
     s.key = lrcsi_work_take(work, facet_count, sizeof *s.key);
     s.key_spare = lrcsi_work_take(work, facet_count, sizeof *s.key_spare);
     s.order_spare = lrcsi_work_take(work, facet_count, sizeof *s.order_spare);
+    s.centre = lrcsi_work_take(work, facet_count, sizeof *s.centre);
     work->used = stays;
     int status = LRCS_E_MEMORY;
-    if (s.order && s.key && s.key_spare && s.order_spare) {
+    if (s.order && s.key && s.key_spare && s.order_spare && s.centre) {
         for (uint32_t f = 0; f < facet_count; f++) {
             if (!skip || !skip[f]) {
                 made.order[made.count++] = f;
@@ -596,8 +583,10 @@ lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf)
 {
     lrcsi_tree_walk walk = {.tree = tree, .last = 1, .level = 1, .leaf = LRCS_NONE};
     uint32_t at = leaf;
-    walk.box = block_box(&tree->block[0][leaf]);
     walk.without = tree->label[0][leaf];
+    if (tree->levels > 1) {
+        walk.box = lrcsi_tree_box(&tree->block[1][leaf / TREE_LANES], leaf % TREE_LANES);
+    }
     for (int level = 1; level < tree->levels; level++) {
         unsigned after = ~0u << 1 << at % TREE_LANES;
         at /= TREE_LANES;
@@ -607,7 +596,7 @@ lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf)
     return walk;
 }
 
-void lrcsi_tree_narrow(lrcsi_tree_walk *w, uint32_t leaf)
+void lrcsi_tree_narrow_by_slabs(lrcsi_tree_walk *w, uint32_t leaf)
 {
     w->leaf = leaf;
     for (int level = w->level; level < w->tree->levels; level++) {
@@ -615,9 +604,9 @@ void lrcsi_tree_narrow(lrcsi_tree_walk *w, uint32_t leaf)
     }
 }
 
-void lrcsi_tree_narrow_fan(lrcsi_tree_walk *w, uint32_t leaf)
+void lrcsi_tree_narrow_by_cones(lrcsi_tree_walk *w, uint32_t leaf)
 {
-    w->fan = w->tree->label[0][leaf];
+    w->apex = w->tree->label[0][leaf];
     w->cone = &w->tree->cone[0][leaf];
 }
 
@@ -635,7 +624,7 @@ uint32_t lrcsi_tree_next(lrcsi_tree_walk *w)
         if (level > 0 && w->without != LRCS_NONE && tree->label[level - 1][child] == w->without) {
             continue;
         }
-        if (level > 0 && w->cone && tree->label[level - 1][child] == w->fan &&
+        if (level > 0 && w->cone && tree->label[level - 1][child] == w->apex &&
             cones_are_apart(w->cone, &tree->cone[level - 1][child])) {
             continue;
         }

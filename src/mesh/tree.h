@@ -7,6 +7,7 @@
 #include <lrcs/mesh.h>
 
 #include "base/bits.h"
+#include "base/range.h"
 
 /* Boxes per block, and the largest number of levels (for 2^32 facets). */
 enum { LRCSI_TREE_LANES = 8, LRCSI_TREE_LEVELS = 11 };
@@ -60,12 +61,24 @@ typedef struct lrcsi_tree_walk {
     uint32_t leaf;               /* the leaf whose slab is compared too, or LRCS_NONE */
     uint32_t apart;              /* number of blocks that slabs have left out */
     const lrcsi_tree_cone *cone; /* the leaf's cone if cones are compared too, else NULL; */
-    uint32_t fan;                /* then the leaf's label */
+    uint32_t apex;               /* then the leaf's label, the vertex of the cones */
     uint32_t at[LRCSI_TREE_LEVELS];
     unsigned mask[LRCSI_TREE_LEVELS];
 } lrcsi_tree_walk;
 
-lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet *facet);
+/* The box around a facet. */
+static inline lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet *facet)
+{
+    const double *a = vertex[facet->corner[0]].x;
+    const double *b = vertex[facet->corner[1]].x;
+    const double *c = vertex[facet->corner[2]].x;
+    lrcsi_box box;
+    for (int k = 0; k < 3; k++) {
+        box.low[k] = lrcsi_least(lrcsi_least(a[k], b[k]), c[k]);
+        box.high[k] = lrcsi_most(lrcsi_most(a[k], b[k]), c[k]);
+    }
+    return box;
+}
 
 /* A lane's box. */
 static inline lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t lane)
@@ -129,19 +142,19 @@ lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcsi_box *box, 
    boxes intersect occurs once, except some pairs of one label. */
 lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf);
 
-/* Fills the slabs of a tree, from the vertices and facets that it was made from. Then narrow leaves
-   out of a leaf's traversal the blocks that slabs separate from the leaf; this pays for leaves
-   whose boxes intersect many others. */
+/* Fills the slabs of a tree, from the vertices and facets that it was made from. Then
+   narrow_by_slabs leaves out of a leaf's traversal the blocks that slabs separate from the leaf;
+   this pays for leaves whose boxes intersect many others. */
 void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree);
-void lrcsi_tree_narrow(lrcsi_tree_walk *walk, uint32_t leaf);
+void lrcsi_tree_narrow_by_slabs(lrcsi_tree_walk *walk, uint32_t leaf);
 
-/* Fills the cones of blocks that have a vertex as label, unless proved[label]. Then narrow_fan
+/* Fills the cones of blocks that have a vertex as label, unless proved[label]. Then narrow_by_cones
    leaves out of the traversal of a leaf with such a label the blocks of the same label whose facets
    are proved to meet those of the leaf in that vertex only. This serves fans whose ring is not
    proved (mesh/ring.h): all their boxes intersect. */
 void lrcsi_tree_fill_cones(const lrcs_point *vertex, const lrcs_facet *facet,
                            const unsigned char *proved, lrcsi_tree *tree);
-void lrcsi_tree_narrow_fan(lrcsi_tree_walk *walk, uint32_t leaf);
+void lrcsi_tree_narrow_by_cones(lrcsi_tree_walk *walk, uint32_t leaf);
 
 /* The next place or block, or LRCS_NONE at the end. */
 uint32_t lrcsi_tree_next(lrcsi_tree_walk *walk);

@@ -13,6 +13,7 @@
 #include "view/strip.h"
 #include "visibility/contact.h"
 #include "visibility/grid.h"
+#include "visibility/query.h"
 
 /* Limit on the entries of all blocks: so many for each facet, and a constant. */
 #define ENTRIES_A_FACET 16u
@@ -75,18 +76,6 @@ static void block_range(const lrcsi_cells_grid *c, double low, double high, int 
     *to = block_of(c, high + near, k) + 1;
 }
 
-/* Counts an item in blocks x0 <= x < x1 of a row, or lists it there. */
-static void block_put(lrcsi_cells_lists *b, size_t row, uint32_t x0, uint32_t x1, uint32_t item)
-{
-    for (size_t i = row + x0; i < row + x1; i++) {
-        if (b->item) {
-            b->item[b->first[i]++] = item;
-        } else {
-            b->first[i + 1]++;
-        }
-    }
-}
-
 /* A polygon of at most three corners, row by row: in the blocks that it may touch in that row. What
    it has in common with a row reaches as far in x as its sides do in that row. What is computed of
    a side is off by less than 8 u of coordinates between the side's and the window's. */
@@ -130,7 +119,7 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *
         }
         if (from <= to) {
             block_range(c, from, to, 0, &x[0], &x[1]);
-            block_put(b, (size_t)row * c->side, x[0], x[1], item);
+            lrcsi_lists_put(b->first + (size_t)row * c->side, b->item, x[0], x[1], item);
         }
     }
 }
@@ -152,6 +141,13 @@ static void blocks_put_edge(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t 
     blocks_put(c, b, corner, 2, event);
 }
 
+/* Is a facet proved to be hidden everywhere? */
+static int facet_hidden(const lrcsi_cells_grid *c, uint32_t facet)
+{
+    return c->answer && !c->classification->undecided[facet] &&
+           c->answer[facet] == LRCSI_QUERY_HIDDEN;
+}
+
 /* Lists the facets that can hide others, or the events: counts them, then lists them. 0 if memory
    does not suffice, or the lists are too long. */
 static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lrcs_work *work)
@@ -168,29 +164,17 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
         for (uint32_t i = 0; i < items; i++) {
             if (events) {
                 blocks_put_edge(c, b, i);
-            } else if (lrcsi_grid_casts(c->classification->view, i)) {
+            } else if (lrcsi_grid_casts(c->classification->view, i) && !facet_hidden(c, i)) {
                 blocks_put_facet(c, b, i);
             }
         }
-        if (pass == 0) {
-            uint64_t total = 0;
-            for (size_t k = 0; k < count; k++) {
-                total += b->first[k + 1];
-                b->first[k + 1] = (uint32_t)total;
-                if (total > block_entries(c->classification->view->prepared)) {
-                    return 0;
-                }
-            }
-            b->item = lrcsi_work_take(work, (size_t)total, sizeof *b->item);
-            if (!b->item) {
-                return 0;
-            }
+        if (pass == 0 &&
+            lrcsi_lists_room(b->first, count, block_entries(c->classification->view->prepared),
+                             work, &b->item) != LRCS_OK) {
+            return 0;
         }
     }
-    for (size_t k = count; k > 0; k--) {
-        b->first[k] = b->first[k - 1];
-    }
-    b->first[0] = 0;
+    lrcsi_lists_finish(b->first, count);
     return 1;
 }
 
@@ -232,12 +216,12 @@ size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared)
                           2 * lrcsi_work_bytes((size_t)block_entries(prepared), sizeof(uint32_t)));
 }
 
-int lrcsi_cells_grid_make(const lrcsi_classification *classification, lrcs_work *work,
-                          lrcsi_cells_grid *c)
+int lrcsi_cells_grid_make(const lrcsi_classification *classification, const unsigned char *answer,
+                          lrcs_work *work, lrcsi_cells_grid *c)
 {
     size_t mark = work->used;
     int made = 0;
-    *c = (lrcsi_cells_grid){.classification = classification};
+    *c = (lrcsi_cells_grid){.classification = classification, .answer = answer};
     for (uint32_t cells = BLOCK; !made; cells *= 2) {
         blocks_place(c, cells);
         made = blocks_make(c, &c->facets, 0, work) && blocks_make(c, &c->events, 1, work);
@@ -308,7 +292,7 @@ static int open_edge(lrcsi_cells_work *c, uint32_t edge)
 static int continues(const lrcsi_cells_work *c, uint32_t facet)
 {
     return (c->kind[facet] & LRCSI_CELLS_APART) == 0 &&
-           c->view->prepared->intersections.rim[facet] <= 1;
+           c->view->prepared->intersections.met[facet] <= 1;
 }
 
 /* Edges that are no events of the view count as events here if one of their two facets meets others
@@ -417,6 +401,19 @@ static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cel
     }
 }
 
+/* Is a facet of an edge listed in the block? If not, all of them are hidden, or not near it. */
+static int edge_listed(const lrcsi_cells_work *c, uint32_t edge)
+{
+    const lrcsi_topology *t = &c->view->prepared->topology;
+    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
+    for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
+        if (c->listed[use[i].facet] == c->look) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* Its segments likewise. 0 if there is no room. */
 static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
@@ -427,7 +424,8 @@ static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *ce
         }
     }
     for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
-        if (!open_edge(c, c->grid.classification->events.edge[b->item[i]])) {
+        uint32_t edge = c->grid.classification->events.edge[b->item[i]];
+        if (edge_listed(c, edge) && !open_edge(c, edge)) {
             return 0;
         }
     }

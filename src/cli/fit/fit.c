@@ -208,15 +208,13 @@ static int material_fit(const fit_job *job, fit_material *material)
                                   : noise_choose(job, material, &work);
     free(bytes);
     if (status == LRCS_E_EMPTY && material->count < LRCS_FIT_READINGS) {
-        fprintf(stderr, "lrcs: %s: %s: found %lu readings, expected %u or more\n",
-                job->args->operand, material->name, (unsigned long)material->count,
-                LRCS_FIT_READINGS);
-        return CLI_FAILED;
+        return cli_fail("%s: %s: found %lu readings, expected %u or more", job->args->operand,
+                        material->name, (unsigned long)material->count, LRCS_FIT_READINGS);
     }
     if (status != LRCS_OK) {
-        fprintf(stderr, "lrcs: %s: %s: %s\n", job->args->operand, material->name,
-                status == LRCS_E_EMPTY ? "no reading is above 0" : lrcs_status_text(status));
-        return CLI_FAILED;
+        return cli_fail("%s: %s: %s", job->args->operand, material->name,
+                        status == LRCS_E_EMPTY ? "no reading is above 0"
+                                               : lrcs_status_text(status));
     }
     return 0;
 }

@@ -217,18 +217,6 @@ void cli_fit_table(const fit_job *job)
 
 /* ---- CSV ---- */
 
-/* A text field, quoted only if necessary. */
-static void csv_name(FILE *out, const char *name)
-{
-    int quote = strpbrk(name, ",;\"\r\n") != NULL;
-    fputs(quote ? "\"" : "", out);
-    for (; *name; name++) {
-        fputs(*name == '"' ? "\"" : "", out);
-        putc(*name, out);
-    }
-    fputs(quote ? "\"" : "", out);
-}
-
 void cli_fit_csv(FILE *out, const void *context)
 {
     const fit_job *job = context;
@@ -240,7 +228,7 @@ void cli_fit_csv(FILE *out, const void *context)
             const lrcs_fit_point *point = &material->point[k];
             const double value[] = {reading->angle_deg, reading->value, point->fitted,
                                     point->residual, point->standard};
-            csv_name(out, material->name);
+            cli_csv_text(out, "", material->name, ",;\"\r\n");
             fprintf(out, ",%lu", (unsigned long)material->line[k]);
             for (size_t c = 0; c < sizeof value / sizeof value[0]; c++) {
                 cli_number_put(out, ",", value[c]);

@@ -69,10 +69,9 @@ static int info_look(const char *operand, const lrcs_host_scene *base, cli_info 
     lrcs_host_error error;
     int status = mesh_examine(info);
     if (status != LRCS_OK || materials_count(info) != 0) {
-        fprintf(stderr, "lrcs: %s: %s\n", operand,
-                status == LRCS_OK || status == LRCS_E_MEMORY ? "out of memory"
-                                                             : lrcs_status_text(status));
-        return CLI_FAILED;
+        return cli_fail("%s: %s", operand,
+                        status == LRCS_OK || status == LRCS_E_MEMORY ? "out of memory"
+                                                                     : lrcs_status_text(status));
     }
     if (lrcs_host_glint_check(&info->scene.scene, &info->glint, &info->glint_count, &error) !=
         LRCS_OK) {

@@ -16,8 +16,7 @@
 
 static int path_refuse(const char *path, const char *what)
 {
-    fprintf(stderr, "lrcs: %s: cannot %s: %s\n", path, what, strerror(errno));
-    return CLI_FAILED;
+    return cli_fail("%s: cannot %s: %s", path, what, strerror(errno));
 }
 
 /* ---- the lock ---- */
@@ -264,10 +263,9 @@ static int rows_recover(sweep_file *file, const char *path, const sweep_plan *pl
             return 1; /* of another shard */
         }
         if (row.index != file->next) {
-            fprintf(stderr, "lrcs: %s: line %llu: found row %llu, expected row %llu\n", path,
-                    (unsigned long long)text.line - 1, (unsigned long long)row.index,
-                    (unsigned long long)file->next);
-            return CLI_FAILED;
+            return cli_fail("%s: line %llu: found row %llu, expected row %llu", path,
+                            (unsigned long long)text.line - 1, (unsigned long long)row.index,
+                            (unsigned long long)file->next);
         }
         cli_file_take(file, &row);
         good = line + size;
@@ -300,11 +298,9 @@ static int partial_continue(sweep_file *file, const sweep_plan *plan, const char
     int code = torn ? 0 : rows_recover(file, file->partial, plan, &there, head, head_size, &summed);
     lrcs_host_file_free(&there);
     if (code == 1) {
-        fprintf(stderr,
-                "lrcs: %s: is of another sweep (scene, options, shard or version): remove it, or "
-                "give the same\n",
-                file->partial);
-        return CLI_FAILED;
+        return cli_fail("%s: is of another sweep (scene, options, shard or version): remove it, or "
+                        "give the same",
+                        file->partial);
     }
     if (code != 0) {
         return code;
@@ -339,17 +335,15 @@ static int whole_recover(sweep_file *file, const sweep_plan *plan, const char *c
         lrcs_host_file_free(&there);
     }
     if (code == 1) {
-        fprintf(stderr,
-                "lrcs: %s: is not of this sweep (scene, options, shard or version)%s: --resume "
-                "replaces no whole file: remove it, or give another name\n",
-                file->path, file->npy ? ", or is not what its .head says" : "");
-        return CLI_FAILED;
+        return cli_fail("%s: is not of this sweep (scene, options, shard or version)%s: --resume "
+                        "replaces no whole file: remove it, or give another name",
+                        file->path, file->npy ? ", or is not what its .head says" : "");
     }
     if (code == 0 && (!summed || file->next != plan->end)) {
-        fprintf(stderr, "lrcs: %s: is damaged: it holds %llu of %llu rows%s: remove it\n",
-                file->path, (unsigned long long)(file->next - plan->first),
-                (unsigned long long)(plan->end - plan->first), summed ? "" : " and no checksum");
-        return CLI_FAILED;
+        return cli_fail("%s: is damaged: it holds %llu of %llu rows%s: remove it", file->path,
+                        (unsigned long long)(file->next - plan->first),
+                        (unsigned long long)(plan->end - plan->first),
+                        summed ? "" : " and no checksum");
     }
     return code;
 }
@@ -483,11 +477,10 @@ static int partial_close(sweep_file *file, const sweep_plan *plan, int all)
         return path_refuse(file->partial, "write");
     }
     if (!ours) {
-        fprintf(stderr,
-                "lrcs: %s: was changed or removed by another program while it was written: it does "
-                "not become %s\n",
-                file->partial, file->path);
-        return CLI_FAILED;
+        return cli_fail(
+            "%s: was changed or removed by another program while it was written: it does "
+            "not become %s",
+            file->partial, file->path);
     }
     if (!all) {
         return 0;

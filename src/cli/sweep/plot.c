@@ -396,7 +396,8 @@ typedef struct plot_sheet {
     const sweep_plot *plot;
     uint32_t count; /* number of sweeps */
     plot_values values[PLOT_CURVES];
-    char title[256], note[512], x_name[192], y_name[192], about[4000];
+    char title[256], note[512], x_name[192], y_name[192];
+    char *about; /* what the sweeps were made from, for the file; owned */
 } plot_sheet;
 
 /* The name of a curve: its sweep, its value along y, or both. */
@@ -444,7 +445,7 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, int png, lrcs_host_e
                                    .x_deg = is_angle(&plot->x),
                                    .y_from_0 = !plot->dbsm && plot->plan->kind != SWEEP_TRACK,
                                    .polar = plot->polar,
-                                   .about = plot->head ? sheet->about : NULL,
+                                   .about = sheet->about,
                                    .series = series,
                                    .series_count = curves};
     return cli_chart_put(out, &chart, png, error);
@@ -467,7 +468,7 @@ static int sheet_map(FILE *out, const plot_sheet *sheet, int png, lrcs_host_erro
                                .x_deg = is_angle(&plot->x),
                                .y_deg = is_angle(&plot->y),
                                .mollweide = plot->mollweide,
-                               .about = plot->head ? sheet->about : NULL,
+                               .about = sheet->about,
                                .cells = plot->plan->kind == SWEEP_SPHERE};
     if (png) {
         return lrcs_host_map_png(out, &map, error);
@@ -525,14 +526,16 @@ static void sheet_free(plot_sheet *sheet)
     for (uint32_t k = 0; k < sheet->count; k++) {
         free(sheet->values[k].x);
     }
+    free(sheet->about);
 }
 
-/* Writes what the sweeps were made from, for the file. */
-static void plot_about(const sweep_plot *plots, uint32_t count, char *text, size_t size)
+static void about_put(FILE *out, const void *context)
 {
-    size_t used = (size_t)snprintf(text, size, "lrcs %s sweep", lrcs_version());
-    for (uint32_t k = 0; k < count; k++) {
-        used = plots[k].head ? cli_head_about(plots[k].head, text, size, used) : used;
+    const plot_sheet *sheet = context;
+    fprintf(out, "lrcs %s sweep", lrcs_version());
+    for (uint32_t k = 0; k < sheet->count; k++) {
+        fprintf(out, "; scene_hash=%016llx", (unsigned long long)sheet->plot[k].head->scene_hash);
+        cli_head_put(out, sheet->plot[k].head);
     }
 }
 
@@ -551,7 +554,7 @@ static int sheet_make(const sweep_plot *plot, uint32_t count, plot_sheet *sheet)
     snprintf(sheet->title, sizeof sheet->title, "Laser radar cross-section%s%.200s",
              alike ? " of " : "", alike ? plot->title : "");
     code = code ? code : plot_note(plot, count, sheet->note);
-    plot_about(plot, count, sheet->about, sizeof sheet->about);
+    sheet->about = plot->head ? cli_text_of(about_put, sheet) : NULL;
     time_title(plot, &plot->x, sheet->x_name);
     time_title(plot, &plot->y, sheet->y_name);
     return code;

@@ -173,9 +173,9 @@ typedef struct sweep_head {
     uint32_t options;
 } sweep_head;
 
-/* What rows were made from, in one line for pictures, after `used` characters of the text; returns
-   the number of characters used then, which may exceed the size. */
-size_t cli_head_about(const sweep_head *head, char *text, size_t size, size_t used);
+/* Writes "; key=text" for each option; the text of a key, or NULL. */
+void cli_head_put(FILE *out, const sweep_head *head);
+const char *cli_head_text(const sweep_head *head, const char *key);
 
 /* 0 or CLI_USAGE. */
 int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_options *options,
@@ -341,9 +341,6 @@ typedef struct sweep_data {
 int cli_data_read(const char *path, const cli_command *command, sweep_data *data);
 void cli_data_free(sweep_data *data);
 
-/* The text of a key in the first lines, or NULL. */
-const char *cli_head_text(const sweep_head *head, const char *key);
-
 /* ---- plots ---- */
 
 /* One of the quantities that vary. */
@@ -419,10 +416,12 @@ typedef struct stats_row {
 } stats_row;
 
 /* A number with the interval that contains it for every sigma within the bounds of the rows, and
-   the band of its material uncertainty (NAN if no material has an error): that of stats.c. */
+   the band of its material uncertainty (NAN if no material has an error): that of stats.c. The
+   same names stand for the rows that it is taken from: sigma, sigma at one end of its bound, or at
+   one end of its material band. */
+enum stats_end { END_LEAST, END_VALUE, END_MOST, END_LOW, END_HIGH, STATS_ENDS };
 typedef struct stats_value {
-    double least, value, most;
-    double low, high;
+    double at[STATS_ENDS];
 } stats_value;
 
 /* The distribution of sigma over the rows. Shares are of the weight of all rows. */
@@ -439,10 +438,9 @@ typedef struct sweep_stats {
     stats_value percentile[STATS_PERCENTS];
     uint32_t bins; /* of equal width in dB; bin i is (edge[i], edge[i + 1]] */
     double edge_dbsm[STATS_BINS + 1], edge_m2[STATS_BINS + 1];
-    stats_value cdf[STATS_BINS + 1]; /* the share of rows with sigma of at most edge_m2 */
+    double cdf[STATS_ENDS][STATS_BINS + 1]; /* share of rows with sigma of at most edge_m2 */
+    double share[STATS_BINS], fullest;      /* of each bin, and the largest */
 } sweep_stats;
-
-extern const int cli_stats_percent[STATS_PERCENTS];
 
 /* --stats and --stats-file: whether statistics are asked for; checks the files' names. 0 or
    CLI_USAGE. */

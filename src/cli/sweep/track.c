@@ -33,9 +33,8 @@ typedef struct track_reader {
 
 static int track_fault(const track_reader *reader, const char *what)
 {
-    fprintf(stderr, "lrcs: %s: line %llu: %s\n", reader->table.path,
-            (unsigned long long)reader->table.line, what);
-    return CLI_FAILED;
+    return cli_fail("%s: line %llu: %s", reader->table.path, (unsigned long long)reader->table.line,
+                    what);
 }
 
 static const track_name *name_find(const lrcs_host_field *field)
