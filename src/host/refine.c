@@ -14,13 +14,13 @@
 /* The tessellation's part of a bound is about proportional to the division. This share of what the
    tolerance leaves for it is aimed at. */
 #define AIM 0.8
-/* Level k has the scene's own division over 2^k. */
-#define LEVELS 32u
+/* The number of divisions: level k has the scene's own over 2^k. */
+#define DIVISIONS 32u
 
 struct lrcsi_host_levels {
     pthread_mutex_t lock;
     lrcs_build_options build;
-    lrcs_host_scene *scene[LEVELS]; /* NULL: not built yet */
+    lrcs_host_scene *scene[DIVISIONS]; /* NULL: not built yet */
     uint32_t finest;                /* levels beyond this have failed */
 };
 
@@ -37,7 +37,7 @@ struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
     }
     if (levels) {
         levels->build = *build;
-        levels->finest = LEVELS - 1;
+        levels->finest = DIVISIONS - 1;
         if (pthread_mutex_init(&levels->lock, NULL) != 0) {
             free(levels);
             return NULL;
@@ -51,7 +51,7 @@ void lrcsi_host_levels_free(struct lrcsi_host_levels *levels)
     if (!levels) {
         return;
     }
-    for (uint32_t i = 0; i < LEVELS; i++) {
+    for (uint32_t i = 0; i < DIVISIONS; i++) {
         if (levels->scene[i]) {
             lrcs_host_scene_free(levels->scene[i]);
             free(levels->scene[i]);
@@ -79,7 +79,7 @@ static uint32_t halvings(const lrcs_run_options *options, const lrcs_result *res
     if (!(result->flags & LRCS_FLAG_TOLERANCE_NOT_MET) || !(left > 0.0)) {
         return 0;
     }
-    for (; tessellation > left && count < LEVELS; count++) {
+    for (; tessellation > left && count < DIVISIONS; count++) {
         tessellation /= 2.0;
     }
     return count;
