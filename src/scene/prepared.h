@@ -7,7 +7,7 @@
 #ifndef LRCSI_PREPARED_H
 #define LRCSI_PREPARED_H
 
-#include <lrcs/run.h>
+#include <lrcs/prepare.h>
 
 #include <math.h>
 
