@@ -185,6 +185,13 @@ int cli_brdf_read(const cli_command *command, const char *text, const char *opti
 int cli_brdf_error_read(const cli_command *command, const char *text, const char *option,
                         lrcs_brdf *brdf, lrcs_brdf_error *error);
 
+/* Prints a notice for each warning about a BRDF, as of a material of that name. */
+void cli_brdf_warnings_print(const char *name, const lrcs_brdf *brdf);
+
+/* A colour as "#RRGGBB"; returns the text. */
+#define CLI_COLOUR_TEXT 8
+const char *cli_colour_text(const unsigned char rgb[3], char text[CLI_COLOUR_TEXT]);
+
 /* Reads the scene options shared by run and info: --material (repeatable), --unit,
    --keep-transparent. The caller frees the bindings' array and names (cli_scene_options_free). */
 int cli_scene_options_read(const cli_args *args, lrcs_host_options *options);
@@ -299,6 +306,17 @@ void cli_watch_clear(void); /* call before a line is printed to stderr; the watc
 void cli_watch_count(uint64_t done, uint64_t total);
 lrcs_progress *cli_watch_run(void);
 void cli_watch_end(void);
+
+/* A progress bar with the remaining time, on stderr if that is a terminal. */
+typedef struct cli_progress {
+    int on;
+    uint64_t first, total;
+    double begun, shown; /* s */
+} cli_progress;
+
+cli_progress cli_progress_make(uint64_t first, uint64_t total);
+void cli_progress_show(cli_progress *progress, uint64_t done);
+void cli_progress_clear(const cli_progress *progress);
 
 /* Prints "notice: ..." for each notice, on `out`; or as the items of an open array. */
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);

@@ -32,11 +32,15 @@ const char *cli_material_source(const lrcs_material *material)
     return "given";
 }
 
+static int error_stated(const lrcs_brdf_error *e)
+{
+    return e->A > 0.0 || e->B > 0.0 || e->s > 0.0 || e->m > 0.0;
+}
+
 int cli_errors_stated(const lrcs_scene *scene)
 {
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lrcs_brdf_error *e = &scene->material[i].error;
-        if (e->A > 0.0 || e->B > 0.0 || e->s > 0.0 || e->m > 0.0) {
+        if (error_stated(&scene->material[i].error)) {
             return 1;
         }
     }
@@ -141,8 +145,7 @@ void cli_table_head(FILE *out, const cli_args *args, const char *title,
 
 void cli_version_json(lrcs_host_json *json)
 {
-    lrcs_host_json_count(json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(json, "version", lrcs_version());
+    cli_json(json, "schema=%u version=%s", CLI_SCHEMA, lrcs_version());
 }
 
 void cli_hash_json(uint64_t hash, lrcs_host_json *json)
@@ -152,30 +155,29 @@ void cli_hash_json(uint64_t hash, lrcs_host_json *json)
     lrcs_host_json_text(json, "scene_hash", text);
 }
 
+/* A file as an item of an open array (key NULL) or as a member. */
 static void file_json(const char *key, const char *name, uint64_t hash, lrcs_host_json *json)
 {
     char text[32];
     snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)hash);
     lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_text(json, "name", name);
-    lrcs_host_json_text(json, "hash", text);
-    lrcs_host_json_end(json);
+    cli_json(json, "name=%s hash=%s}", name, text);
 }
 
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json)
 {
-    lrcs_host_json_begin(json, "files", LRCS_HOST_ARRAY);
+    cli_json(json, "files=[\n");
     for (const lrcs_host_input *input = scene->input; input; input = input->next) {
         file_json(NULL, input->path, input->hash, json);
     }
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
 }
 
 void cli_operand_json(const cli_args *args, lrcs_host_json *json)
 {
-    lrcs_host_json_begin(json, "files", LRCS_HOST_ARRAY);
+    cli_json(json, "files=[\n");
     file_json(NULL, args->operand, file_hash(args->operand), json);
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
 }
 
 void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json)
@@ -187,64 +189,54 @@ void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json)
 
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json)
 {
-    lrcs_host_json_number(json, "A", brdf->A);
-    lrcs_host_json_number(json, "B", brdf->B);
-    lrcs_host_json_number(json, "s", brdf->s);
-    lrcs_host_json_number(json, "m", brdf->m);
+    cli_json(json, "A=%g B=%g s=%g m=%g", brdf->A, brdf->B, brdf->s, brdf->m);
 }
 
 void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json)
 {
-    if (!(error->A > 0.0 || error->B > 0.0 || error->s > 0.0 || error->m > 0.0)) {
-        return;
+    if (error_stated(error)) {
+        cli_json(json, "A_error=%g B_error=%g s_error=%g m_error=%g", error->A, error->B, error->s,
+                 error->m);
+        cli_numbers_json(json, "correlation", error->correlation, 6);
     }
-    lrcs_host_json_number(json, "A_error", error->A);
-    lrcs_host_json_number(json, "B_error", error->B);
-    lrcs_host_json_number(json, "s_error", error->s);
-    lrcs_host_json_number(json, "m_error", error->m);
-    cli_numbers_json(json, "correlation", error->correlation, 6);
 }
 
 static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
 {
-    lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
+    cli_json(json, "materials=[\n");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *material = &scene->material[i];
         uint32_t facets = 0;
         for (uint32_t f = 0; f < scene->facet_count; f++) {
             facets += scene->facet_material[f] == i;
         }
-        if (facets == 0 || material->omitted) {
-            continue;
+        if (facets > 0 && !material->omitted) {
+            cli_json(json, "{name=%s", material->name);
+            cli_brdf_json(&material->brdf, json);
+            cli_brdf_error_json(&material->error, json);
+            cli_json(json, "two_sided=%d source=%s facets=%u}", material->two_sided,
+                     cli_material_source(material), facets);
         }
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(json, "name", material->name);
-        cli_brdf_json(&material->brdf, json);
-        cli_brdf_error_json(&material->error, json);
-        lrcs_host_json_bool(json, "two_sided", material->two_sided);
-        lrcs_host_json_text(json, "source", cli_material_source(material));
-        lrcs_host_json_count(json, "facets", facets);
-        lrcs_host_json_end(json);
     }
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
 }
 
 void cli_options_json(const cli_args *args, lrcs_host_json *json)
 {
     char word[1200];
-    lrcs_host_json_begin(json, "options", LRCS_HOST_ROW_ARRAY);
+    cli_json(json, "options=[");
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *given = &args->given[i];
         snprintf(word, sizeof word, "%s%s%s%s", cli_dashes(given->name), given->name,
                  given->value ? "=" : "", given->value ? given->value : "");
         lrcs_host_json_text(json, NULL, word);
     }
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
 }
 
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json)
 {
-    lrcs_host_json_text(json, "title", cli_scene_title(args, scene));
+    cli_json(json, "title=%s", cli_scene_title(args, scene));
     materials_json(&scene->scene, json);
     cli_options_json(args, json);
 }
@@ -264,17 +256,16 @@ static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
     const beside *from = context;
     (void)error;
     lrcs_host_json json = lrcs_host_json_make(out);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
-    lrcs_host_json_text(&json, "lrcs", from->args->command->name);
+    cli_json(&json, "{\nlrcs=%s", from->args->command->name);
     cli_version_json(&json);
     file_json("file", cli_base_name(from->path), file_hash(from->path), &json);
     if (from->about) {
-        lrcs_host_json_text(&json, CLI_ABOUT, from->about);
+        cli_json(&json, CLI_ABOUT "=%s", from->about);
     }
     if (from->scene) {
         cli_hash_json(lrcs_scene_hash(&from->scene->scene), &json);
         cli_files_json(from->scene, &json);
-        lrcs_host_json_text(&json, "unit", cli_value(from->args, "unit"));
+        cli_json(&json, "unit=%s", cli_value(from->args, "unit"));
     } else {
         cli_operand_json(from->args, &json);
     }
@@ -286,7 +277,7 @@ static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
     } else {
         cli_options_json(from->args, &json);
     }
-    lrcs_host_json_end(&json);
+    cli_json(&json, "}");
     return LRCS_OK;
 }
 

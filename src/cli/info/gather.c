@@ -25,33 +25,10 @@ double cli_facet_area(const lrcs_scene *scene, uint32_t facet)
     return 0.5 * hypot(hypot(n[0], n[1]), n[2]);
 }
 
-static int materials_count(cli_info *info)
+/* Gathers the properties of a scene that was built from what `base` was read from. */
+static int info_look(const char *operand, const lrcs_host_scene *base, cli_info *info)
 {
-    const lrcs_scene *scene = &info->scene.scene;
-    info->material = calloc((size_t)scene->material_count + 1, sizeof *info->material);
-    if (!info->material) {
-        return -1;
-    }
-    for (uint32_t i = 0; i < scene->facet_count; i++) {
-        info_material *material = &info->material[scene->facet_material[i]];
-        material->facets++;
-        cli_sum_add(&material->area, cli_facet_area(scene, i));
-    }
-    return 0;
-}
-
-/* The number of parts as files and shapes define them. */
-static uint32_t parts_count(const lrcs_host_scene *scene)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < scene->recipe.part_count; i++) {
-        count += scene->recipe.part[i].file ? scene->model[i].part_count : 1;
-    }
-    return count;
-}
-
-static int mesh_examine(cli_info *info)
-{
+    lrcs_host_error error;
     const lrcs_scene *scene = &info->scene.scene;
     size_t need = lrcs_mesh_check_need(scene->vertex_count, scene->facet_count);
     void *bytes = malloc(need);
@@ -60,25 +37,23 @@ static int mesh_examine(cli_info *info)
                                          scene->facet_count, &work, &info->report)
                        : LRCS_E_MEMORY;
     free(bytes);
-    return status;
-}
-
-/* Gathers the properties of a scene that was built from what `base` was read from. */
-static int info_look(const char *operand, const lrcs_host_scene *base, cli_info *info)
-{
-    lrcs_host_error error;
-    int status = mesh_examine(info);
-    if (status != LRCS_OK || materials_count(info) != 0) {
+    info->material = calloc((size_t)scene->material_count + 1, sizeof *info->material);
+    if (status != LRCS_OK || !info->material) {
         return cli_fail("%s: %s", operand,
                         status == LRCS_OK || status == LRCS_E_MEMORY ? "out of memory"
                                                                      : lrcs_status_text(status));
     }
-    if (lrcs_host_glint_check(&info->scene.scene, &info->glint, &info->glint_count, &error) !=
-        LRCS_OK) {
-        return cli_failed(&error);
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        info_material *material = &info->material[scene->facet_material[i]];
+        material->facets++;
+        cli_sum_add(&material->area, cli_facet_area(scene, i));
     }
-    info->parts = parts_count(base);
-    return 0;
+    for (uint32_t i = 0; i < base->recipe.part_count; i++) {
+        info->parts += base->recipe.part[i].file ? base->model[i].part_count : 1;
+    }
+    return lrcs_host_glint_check(scene, &info->glint, &info->glint_count, &error) == LRCS_OK
+               ? 0
+               : cli_failed(&error);
 }
 
 int cli_info_read(const cli_args *args, const lrcs_host_options *options, cli_info *info)

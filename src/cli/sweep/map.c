@@ -33,18 +33,6 @@ static void npy_head(FILE *out, const sweep_text *text)
             whole - 11 - used, "");
 }
 
-static void npy_row(FILE *out, const sweep_text *text, const sweep_row *row)
-{
-    npy_double(out, row->field[FIELD_SIGMA]);
-    npy_double(out, row->field[FIELD_BOUND]);
-    if (text->flagged) {
-        npy_double(out, row->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE ? 1.0
-                        : row->flags & LRCS_FLAG_ACCEPTED_UNJUDGED  ? 2.0
-                        : row->flags & LRCS_FLAG_TOLERANCE_NOT_MET  ? -1.0
-                                                                    : 0.0);
-    }
-}
-
 /* ---- the head beside it ---- */
 
 static void map_sum(FILE *out, const lrcs_host_file *map, const sweep_tally *tally)
@@ -73,7 +61,14 @@ int cli_map_write(const char *path, const sweep_text *text, sweep_next *next, vo
     npy_head(map.stream, text);
     while ((more = next(context, &row)) == 1) {
         cli_tally_add(&tally, &row);
-        npy_row(map.stream, text, &row);
+        npy_double(map.stream, row.field[FIELD_SIGMA]);
+        npy_double(map.stream, row.field[FIELD_BOUND]);
+        if (text->flagged) {
+            npy_double(map.stream, row.flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE ? 1.0
+                                   : row.flags & LRCS_FLAG_ACCEPTED_UNJUDGED  ? 2.0
+                                   : row.flags & LRCS_FLAG_TOLERANCE_NOT_MET  ? -1.0
+                                                                              : 0.0);
+        }
     }
     int status = more == 0 ? LRCS_OK : LRCS_E_SYNTAX;
     /* 2. Its checksum and its head; a device or standard output has none. */

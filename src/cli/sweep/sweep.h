@@ -455,17 +455,4 @@ void cli_stats_free(sweep_stats *stats);
 /* Writes the table for people, if --stats is given, and every --stats-file. 0 or CLI_FAILED. */
 int cli_stats_write(const cli_args *args, FILE *out, const sweep_stats *stats);
 
-/* ---- progress ---- */
-
-/* A progress bar with the remaining time, on stderr if that is a terminal. */
-typedef struct sweep_progress {
-    int on;
-    uint64_t first, total;
-    double begun, shown; /* s */
-} sweep_progress;
-
-sweep_progress cli_progress_make(uint64_t first, uint64_t total);
-void cli_progress_show(sweep_progress *progress, uint64_t done);
-void cli_progress_clear(const sweep_progress *progress);
-
 #endif
