@@ -335,10 +335,6 @@ void cli_flags_json(lrcs_host_json *json, uint32_t flags);
 /* Writes an array of numbers in one line. */
 void cli_numbers_json(lrcs_host_json *json, const char *key, const double *value, uint32_t count);
 
-/* Prints on stdout the manual page, and the completion for bash. */
-void cli_manual_page(const cli_command *const *command, size_t count, const char *overview);
-void cli_manual_completion(const cli_command *const *command, size_t count);
-
 /* 1 if a path ends with the extension, in upper or lower case, and has a character before it. */
 int cli_extension(const char *path, const char *extension);
 

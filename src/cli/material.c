@@ -149,34 +149,26 @@ static int binding_read(const cli_command *command, const char *text, lrcs_bindi
     return cli_brdf_error_read(command, value, "--material", &binding->brdf, &binding->error);
 }
 
-static int unit_read(const cli_args *args, double *unit_m)
+int cli_scene_options_read(const cli_args *args, lrcs_host_options *options)
 {
     static const struct {
         const char *name;
         double m;
     } unit[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}, {"ft", 0.3048}};
     const char *text = cli_value(args, "unit");
-    if (!text) {
-        return 0;
-    }
-    for (size_t i = 0; i < sizeof unit / sizeof unit[0]; i++) {
-        if (strcmp(text, unit[i].name) == 0) {
-            *unit_m = unit[i].m;
-            return 0;
-        }
-    }
-    if (lrcs_host_number_read(text, strlen(text), unit_m) != LRCS_OK || !(*unit_m > 0.0)) {
-        return cli_expected(args, "unit", "mm, cm, m, in, ft or metres per unit (> 0)");
-    }
-    return 0;
-}
-
-int cli_scene_options_read(const cli_args *args, lrcs_host_options *options)
-{
+    int code = 0;
     *options = lrcs_host_options_default();
     options->keep_transparent = cli_value(args, "keep-transparent") != NULL;
     options->two_sided = cli_value(args, "two-sided");
-    int code = unit_read(args, &options->unit_m);
+    int known = text == NULL;
+    for (size_t i = 0; i < sizeof unit / sizeof unit[0] && !known; i++) {
+        known = strcmp(text, unit[i].name) == 0;
+        options->unit_m = known ? unit[i].m : options->unit_m;
+    }
+    if (!known && (lrcs_host_number_read(text, strlen(text), &options->unit_m) != LRCS_OK ||
+                   !(options->unit_m > 0.0))) {
+        code = cli_expected(args, "unit", "mm, cm, m, in, ft or metres per unit (> 0)");
+    }
     lrcs_binding *all = calloc((size_t)args->given_count + 1, sizeof *all);
     options->binding = all;
     if (!all) {

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* What a result was made from, as outputs state it: the scene's title, its files with their hashes,
-   the unit, the assigned materials and the origin of their numbers, the options given. */
+   the unit, the assigned materials and the origin of their numbers, the options given. Also the
+   first line of a table, "lrcs VERSION COMMAND; key=text; ..", read back. */
 #include "cli/cli.h"
 
+#include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -93,20 +96,6 @@ void cli_line_put(FILE *out, const char *before, const char *text)
     }
 }
 
-/* The options given, except files to write: a result does not depend on where it is written. */
-static void options_put(FILE *out, const cli_args *args)
-{
-    const char *before = "; options=";
-    for (int i = 0; i < args->given_count; i++) {
-        const cli_given *given = &args->given[i];
-        if (!cli_is_output(args->command, given->name)) {
-            fprintf(out, "%s%s%s", before, cli_dashes(given->name), given->name);
-            cli_line_put(out, given->value ? "=" : "", given->value ? given->value : "");
-            before = " ";
-        }
-    }
-}
-
 void cli_file_text(const char *path, uint64_t hash, char text[CLI_FILE_TEXT])
 {
     snprintf(text, CLI_FILE_TEXT, "%.300s fnv1a:%016llx", cli_base_name(path),
@@ -122,7 +111,16 @@ static void source_put(FILE *out, const cli_args *args, const char *title,
         fprintf(out, "; scene_hash=%016llx", (unsigned long long)lrcs_scene_hash(&scene->scene));
         cli_line_put(out, "; title=", cli_base_name(title));
     }
-    options_put(out, args);
+    const char *before =
+        "; options="; /* not files: a result does not depend on where it is written */
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        if (!cli_is_output(args->command, given->name)) {
+            fprintf(out, "%s%s%s", before, cli_dashes(given->name), given->name);
+            cli_line_put(out, given->value ? "=" : "", given->value ? given->value : "");
+            before = " ";
+        }
+    }
     if (!scene) {
         cli_file_text(args->operand, file_hash(args->operand), text);
         cli_line_put(out, "; file=", text);
@@ -344,4 +342,58 @@ char *cli_text_of(cli_text_writer *write, const void *context)
         }
     }
     return text;
+}
+
+/* ---- read back ---- */
+
+/* A text may contain "; " too: it ends where the next "; key=" begins. */
+char *cli_key_next(const char *line)
+{
+    char *at = strstr(line, "; ");
+    for (; at; at = strstr(at + 1, "; ")) {
+        size_t size = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz0123456789_-");
+        if (size > 0 && at[2 + size] == '=') {
+            break;
+        }
+    }
+    return at;
+}
+
+int cli_key_text(const char *line, const char *key, char *text, size_t size)
+{
+    size_t length = strlen(key);
+    for (const char *at = cli_key_next(line); at; at = cli_key_next(at + 2)) {
+        if (strncmp(at + 2, key, length) == 0 && at[2 + length] == '=') {
+            const char *begin = at + 3 + length;
+            const char *end = cli_key_next(begin);
+            int whole = (int)(end ? end - begin : (ptrdiff_t)strlen(begin));
+            snprintf(text, size, "%.*s", whole, begin);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+double cli_key_number(const char *line, const char *key)
+{
+    char text[64];
+    double value;
+    return cli_key_text(line, key, text, sizeof text) &&
+                   lrcs_host_number_read(text, strlen(text), &value) == LRCS_OK
+               ? value
+               : (double)NAN;
+}
+
+char *cli_json_unquote(char *at)
+{
+    char *to = at;
+    for (; *at && *at != '"'; at++) {
+        if (*at == '\\' && at[1]) {
+            at++;
+        }
+        *to++ = *at;
+    }
+    char *next = *at ? at + 1 : at;
+    *to = '\0';
+    return next;
 }

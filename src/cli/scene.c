@@ -327,27 +327,6 @@ static void scene_put(const scene_job *job, FILE *out)
 
 /* ---- the command ---- */
 
-/* Materials of the same name have the same mapping: colours cannot distinguish them. 0 or
-   CLI_USAGE. */
-static int names_check(const scene_job *job)
-{
-    const lrcs_scene *scene = &job->scene.scene;
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lrcs_material *one = &scene->material[i];
-        for (uint32_t k = 0; k < i; k++) {
-            const lrcs_material *other = &scene->material[k];
-            if (strcmp(one->name, other->name) == 0 &&
-                memcmp(&one->brdf, &other->brdf, sizeof one->brdf) != 0) {
-                return cli_usage(job->args->command,
-                                 "--material: two materials are named '%s', which a scene file "
-                                 "cannot give different numbers",
-                                 one->name);
-            }
-        }
-    }
-    return 0;
-}
-
 static int scene_read(scene_job *job)
 {
     const cli_args *args = job->args;
@@ -369,6 +348,20 @@ static int scene_read(scene_job *job)
                          "expected a model, found a scene file: '%s' can be edited as "
                          "it is",
                          args->operand);
+    }
+    /* materials of the same name have the same mapping: colours cannot distinguish them */
+    const lrcs_scene *scene = &job->scene.scene;
+    for (uint32_t i = 0; code == 0 && i < scene->material_count; i++) {
+        const lrcs_material *one = &scene->material[i];
+        for (uint32_t k = 0; k < i; k++) {
+            if (strcmp(one->name, scene->material[k].name) == 0 &&
+                memcmp(&one->brdf, &scene->material[k].brdf, sizeof one->brdf) != 0) {
+                return cli_usage(args->command,
+                                 "--material: two materials are named '%s', which a scene file "
+                                 "cannot give different numbers",
+                                 one->name);
+            }
+        }
     }
     return code;
 }
@@ -420,7 +413,6 @@ static int scene_command(const cli_args *args)
     memset(&job, 0, sizeof job);
     job.args = args;
     int code = scene_read(&job);
-    code = code ? code : names_check(&job);
     code = code ? code : scene_make(&job);
     code = code ? code : cli_text_write(job.path, text_write, &job);
     cli_watch_end();

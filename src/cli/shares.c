@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* Adds up the contributions of single facets to sigma, by part, by material and for the brightest
    facets. This file decides what a part is (a shape, a model, or each object of a model that has
-   several) and which materials are treated as one (same name, same numbers); shares_report.c prints
-   the lists. */
+   several) and which materials are treated as one (same name, same numbers). It prints a table of
+   the largest, and writes all as JSON. */
 #include "cli/shares.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define NAME_WIDTH 24
 
 /* Sums of one row, before sorting. */
 typedef struct shares_tally {
@@ -294,4 +296,104 @@ shares_row cli_shares_others(const shares_row *row, uint32_t from, uint32_t coun
     }
     row_fill(&others, &tally);
     return others;
+}
+
+/* ---- the table ---- */
+
+/* Prints a share in percent; "-" if it is not defined. */
+static void percent_cell(double share)
+{
+    if (isfinite(share)) {
+        printf(" %7.2f %%", 100.0 * share);
+    } else {
+        printf(" %9s", "-");
+    }
+}
+
+static void row_line(const cli_shares *shares, const shares_row *row)
+{
+    printf(" %12.6g", row->sigma_m2);
+    percent_cell(cli_share_of(shares, row->sigma_m2));
+    printf(" %12.4g %12.4g\n", row->glint_m2, row->diffuse_m2);
+}
+
+static void rows_table(const cli_shares *shares, const char *what, const shares_row *row,
+                       uint32_t count)
+{
+    uint32_t shown = cli_shares_shown(row, count);
+    printf("  %-*s %12s %9s %12s %12s\n", NAME_WIDTH, what, "sigma m2", "share", "glint m2",
+           "diffuse m2");
+    for (uint32_t i = 0; i < shown; i++) {
+        printf("  ");
+        cli_column(row[i].name[0] ? row[i].name : "(no name)", NAME_WIDTH);
+        row_line(shares, &row[i]);
+    }
+    if (shown < count) {
+        char text[32];
+        shares_row others = cli_shares_others(row, shown, count);
+        snprintf(text, sizeof text, "%lu other%s", (unsigned long)(count - shown),
+                 count - shown > 1 ? "s" : "");
+        printf("  %-*s", NAME_WIDTH, text);
+        row_line(shares, &others);
+    }
+}
+
+static void facets_table(const cli_shares *shares)
+{
+    if (shares->facets == 0) {
+        return;
+    }
+    printf("  %-10s %-*s %-20s %9s %12s %12s %9s\n", "facet", NAME_WIDTH, "part", "material",
+           "theta deg", "visible m2", "sigma m2", "share");
+    for (uint32_t i = 0; i < shares->facets; i++) {
+        const shares_facet *facet = &shares->facet[i];
+        printf("  %-10lu ", (unsigned long)facet->facet);
+        cli_column(facet->part, NAME_WIDTH);
+        putchar(' ');
+        cli_column(facet->material[0] ? facet->material : "(default)", 20);
+        printf(" %9.3f %12.4g %12.6g", facet->theta_deg, facet->visible_area_m2, facet->sigma_m2);
+        percent_cell(cli_share_of(shares, facet->sigma_m2));
+        putchar('\n');
+    }
+}
+
+void cli_shares_table(const cli_shares *shares)
+{
+    printf("shares       who makes sigma; the brightest first\n");
+    rows_table(shares, "part", shares->part, shares->parts);
+    rows_table(shares, "material", shares->material, shares->materials);
+    facets_table(shares);
+}
+
+/* ---- JSON ---- */
+
+static void rows_json(const cli_shares *shares, const char *key, const shares_row *row,
+                      uint32_t count, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, key, LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < count; i++) {
+        cli_json(json,
+                 "{name=%s sigma_m2=%g share=%g sigma_glint_m2=%g sigma_diffuse_m2=%g facets=%u}",
+                 row[i].name, row[i].sigma_m2, cli_share_of(shares, row[i].sigma_m2),
+                 row[i].glint_m2, row[i].diffuse_m2, row[i].facets);
+    }
+    cli_json(json, "]");
+}
+
+void cli_shares_json(const cli_shares *shares, lrcs_host_json *json)
+{
+    cli_json(json, "shares={\n");
+    rows_json(shares, "parts", shares->part, shares->parts, json);
+    rows_json(shares, "materials", shares->material, shares->materials, json);
+    cli_json(json, "facets=[\n");
+    for (uint32_t i = 0; i < shares->facets; i++) {
+        const shares_facet *facet = &shares->facet[i];
+        cli_json(json,
+                 "{facet=%u part=%s material=%s theta_deg=%g visible_area_m2=%g sigma_m2=%g "
+                 "sigma_glint_m2=%g share=%g}",
+                 facet->facet, facet->part, facet->material, facet->theta_deg,
+                 facet->visible_area_m2, facet->sigma_m2, facet->glint_m2,
+                 cli_share_of(shares, facet->sigma_m2));
+    }
+    cli_json(json, "]}");
 }

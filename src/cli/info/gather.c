@@ -130,37 +130,14 @@ int cli_info_shows(const cli_info *info, uint32_t material)
 
 /* ---- what the mesh itself gives notice of ---- */
 
-static const char *notice_normals(const lrcs_scene *scene)
-{
-    for (uint32_t k = 0; k < scene->part_count; k++) {
-        const lrcs_part *part = &scene->part[k];
-        if (part->kind < 0 && !part->smoothed && part->facet_count > 0) {
-            return "a model has no smoothing groups or vertex normals: whether its facets stand "
-                   "for curves is not known";
-        }
-    }
-    return NULL;
-}
-
-static const char *notice_glint(const cli_info *info, char text[INFO_NOTICE_SIZE])
-{
-    uint32_t poor = 0;
-    for (uint32_t k = 0; k < info->glint_count; k++) {
-        poor += info->glint[k].error > LRCS_HOST_GLINT_COARSE;
-    }
-    snprintf(text, INFO_NOTICE_SIZE,
-             "glint: %lu of %lu curved parts are too coarse for their material's slope "
-             "(estimated error above 1 %%); lrcs run --normals auto curves them",
-             (unsigned long)poor, (unsigned long)info->glint_count);
-    return poor > 0 ? text : NULL;
-}
-
 const char *cli_info_notice(const cli_info *info, int i, char text[INFO_NOTICE_SIZE])
 {
     const lrcs_mesh_report *report = &info->report;
+    const lrcs_scene *scene = &info->scene.scene;
+    uint32_t poor = 0;
     switch (i) {
     case 0:
-        return report->closed || info->scene.scene.facet_count == 0
+        return report->closed || scene->facet_count == 0
                    ? NULL
                    : "the mesh is not closed: its back sides may show, and its volume has no "
                      "meaning";
@@ -169,8 +146,22 @@ const char *cli_info_notice(const cli_info *info, int i, char text[INFO_NOTICE_S
                    ? "the mesh is closed but inverted (negative volume): its fronts face inwards"
                    : NULL;
     case 2:
-        return notice_normals(&info->scene.scene);
+        for (uint32_t k = 0; k < scene->part_count; k++) {
+            const lrcs_part *part = &scene->part[k];
+            if (part->kind < 0 && !part->smoothed && part->facet_count > 0) {
+                return "a model has no smoothing groups or vertex normals: whether its facets "
+                       "stand for curves is not known";
+            }
+        }
+        return NULL;
     default:
-        return notice_glint(info, text);
+        for (uint32_t k = 0; k < info->glint_count; k++) {
+            poor += info->glint[k].error > LRCS_HOST_GLINT_COARSE;
+        }
+        snprintf(text, INFO_NOTICE_SIZE,
+                 "glint: %lu of %lu curved parts are too coarse for their material's slope "
+                 "(estimated error above 1 %%); lrcs run --normals auto curves them",
+                 (unsigned long)poor, (unsigned long)info->glint_count);
+        return poor > 0 ? text : NULL;
     }
 }

@@ -268,18 +268,6 @@ static int column_width(const sweep_plan *plan, uint32_t column)
     return size > VALUE_WIDTH ? size : VALUE_WIDTH;
 }
 
-static void head_print(const sweep_plan *plan)
-{
-    printf("brightest attitudes: rows that outshine all their neighbours\n%4s %10s", "#", "index");
-    for (uint32_t i = 0; i < plan->columns; i++) {
-        printf(" ");
-        int pad = column_width(plan, i) - (int)strlen(plan->column[i]);
-        printf("%*s", pad, "");
-        cli_column(plan->column[i], 0);
-    }
-    printf(" %12s %9s %9s %8s\n", "sigma m2", "dBsm", "bound m2", "glint");
-}
-
 static void numbers_print(const sweep_plan *plan, uint32_t rank, uint64_t row,
                           const double sigma[2], const cli_shares *shares)
 {
@@ -322,31 +310,30 @@ static void rows_print(const cli_shares *shares, const char *what, const shares_
     putchar('\n');
 }
 
-/* 1 if a facet of a coarse curved part glints along its own normal and makes most of sigma. */
-static int is_facet_normal(const cli_shares *shares, const lrcs_host_glint *coarse, uint32_t count)
+/* Also says if a facet of a coarse curved part glints along its own normal and makes most of
+   sigma. */
+static void facets_print(const cli_shares *shares, const lrcs_host_glint *coarse, uint32_t count)
 {
     const shares_facet *facet = &shares->facet[0];
-    for (uint32_t i = 0; i < count && shares->facets > 0; i++) {
-        if (facet->scene_part == coarse[i].part && facet->scene_material == coarse[i].material &&
-            tan(facet->theta_deg / CLI_DEGREES) < coarse[i].s &&
-            2.0 * facet->glint_m2 > facet->sigma_m2) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-static void facets_print(const cli_shares *shares)
-{
+    int normal = 0;
     printf("     %-10s", "facets");
     for (uint32_t i = 0; i < shares->facets && i < NAMED_MOST; i++) {
-        const shares_facet *facet = &shares->facet[i];
-        printf("%s%lu of ", i == 0 ? "" : ", ", (unsigned long)facet->facet);
-        cli_column(facet->part, 0);
-        printf(" at %.2f deg %.1f %%", facet->theta_deg,
-               100.0 * cli_share_of(shares, facet->sigma_m2));
+        printf("%s%lu of ", i == 0 ? "" : ", ", (unsigned long)facet[i].facet);
+        cli_column(facet[i].part, 0);
+        printf(" at %.2f deg %.1f %%", facet[i].theta_deg,
+               100.0 * cli_share_of(shares, facet[i].sigma_m2));
     }
     putchar('\n');
+    for (uint32_t i = 0; i < count && shares->facets > 0; i++) {
+        normal |= facet->scene_part == coarse[i].part &&
+                  facet->scene_material == coarse[i].material &&
+                  tan(facet->theta_deg / CLI_DEGREES) < coarse[i].s &&
+                  2.0 * facet->glint_m2 > facet->sigma_m2;
+    }
+    if (normal) {
+        puts("     note      the normal of a facet of a curved part: flat facets glint here, the "
+             "body may not");
+    }
 }
 
 int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t most,
@@ -360,7 +347,12 @@ int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t
     }
     uint32_t count = cli_peaks_find(plan, row, most, peak);
     int code = 0;
-    head_print(plan);
+    printf("brightest attitudes: rows that outshine all their neighbours\n%4s %10s", "#", "index");
+    for (uint32_t i = 0; i < plan->columns; i++) {
+        printf(" %*s", column_width(plan, i) - (int)strlen(plan->column[i]), "");
+        cli_column(plan->column[i], 0);
+    }
+    printf(" %12s %9s %9s %8s\n", "sigma m2", "dBsm", "bound m2", "glint");
     for (uint32_t i = 0; i < count && code == 0; i++) {
         cli_shares shares;
         code = cli_row_shares(plan, peak[i], base, options, build, &shares);
@@ -368,12 +360,7 @@ int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t
             numbers_print(plan, i, peak[i], row[peak[i]], &shares);
             rows_print(&shares, "parts", shares.part, shares.parts, "(no name)");
             rows_print(&shares, "materials", shares.material, shares.materials, "(default)");
-            facets_print(&shares);
-            if (is_facet_normal(&shares, coarse, coarse_count)) {
-                puts("     note      the normal of a facet of a curved part: flat facets glint "
-                     "here, "
-                     "the body may not");
-            }
+            facets_print(&shares, coarse, coarse_count);
         }
         cli_shares_free(&shares);
     }

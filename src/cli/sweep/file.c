@@ -103,8 +103,7 @@ int cli_file_read(const cli_args *args, sweep_file *file)
         found = cli_extension(path, extension[i]) ? i : found;
     }
     if (found < 0) {
-        return cli_usage(args->command, "-o: expected FILE.csv, FILE.jsonl or FILE.npy, found '%s'",
-                         path);
+        return cli_expected(args, "o", "FILE.csv, FILE.jsonl or FILE.npy");
     }
     file->npy = found == SWEEP_NPY;
     file->format = found == SWEEP_JSONL ? SWEEP_JSONL : SWEEP_CSV;

@@ -188,17 +188,15 @@ static int euler_axes(const cli_args *args, sweep_plan *plan)
         memcpy(plan->sequence, text, 3);
     }
     if (lrcs_pose_from_euler(plan->sequence, none, &pose) != LRCS_OK) {
-        return cli_usage(args->command,
-                         "--euler: expected SEQ:a,b,c with SEQ three of XYZ (intrinsic) or of xyz "
-                         "(extrinsic), neighbours different, found '%s'",
-                         text);
+        return cli_expected(args, "euler",
+                            "SEQ:a,b,c with SEQ three of XYZ (intrinsic) or of xyz (extrinsic), "
+                            "neighbours different");
     }
     const char *at = text + 4;
     for (int i = 0; i < 3 && code == 0; i++) {
         size_t size = strcspn(at, ",");
         if ((at[size] == '\0') != (i == 2)) {
-            return cli_usage(args->command, "--euler: expected three angles or ranges, found '%s'",
-                             text);
+            return cli_expected(args, "euler", "three angles or ranges");
         }
         code = cli_axis_add(args, plan, "euler", name[i], at, size);
         at += size + 1;
@@ -221,10 +219,8 @@ static int rotate_axes(const cli_args *args, sweep_plan *plan)
         plan->about[axis[0] - 'x'] = 1.0;
     } else if (cli_list(axis, plan->about, 3) != 0 ||
                lrcs_host_pose_turn(&pose, plan->about, 0.0, &pose) != LRCS_OK) {
-        return cli_usage(args->command,
-                         "--rotate: expected x, y, z or an axis u,v,w of the body, then "
-                         ":A:B:STEP in degrees, found '%s'",
-                         text);
+        return cli_expected(args, "rotate",
+                            "x, y, z or an axis u,v,w of the body, then :A:B:STEP in degrees");
     }
     const char *range = text[size] ? text + size + 1 : text + size;
     int code = cli_pose_read(args, &plan->base);
@@ -308,8 +304,7 @@ static int shard_read(const cli_args *args, sweep_plan *plan)
         lrcs_host_number_read(text + size + 1, strlen(text + size + 1), &part[1]) != LRCS_OK ||
         !(part[0] >= 1.0 && part[0] <= part[1] && part[1] <= 1e6) ||
         part[0] != (double)(uint32_t)part[0] || part[1] != (double)(uint32_t)part[1]) {
-        return cli_usage(args->command, "--shard: expected K/N, 1 <= K <= N <= 1000000, found '%s'",
-                         text);
+        return cli_expected(args, "shard", "K/N, 1 <= K <= N <= 1000000");
     }
     uint64_t shards = (uint64_t)part[1];
     uint64_t k = (uint64_t)part[0];

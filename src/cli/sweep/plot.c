@@ -79,18 +79,6 @@ static uint32_t varying_list(const sweep_plan *plan, plot_axis axis[SWEEP_AXES +
     return count;
 }
 
-/* 1 if the times of a track ascend: the axes of a map must ascend. Ranges do so, or are
-   reversed. */
-static int track_ascends(const sweep_plan *plan)
-{
-    for (uint64_t i = 1; plan->kind == SWEEP_TRACK && i < plan->track.count; i++) {
-        if (!(plan->track.row[i][0] > plan->track.row[i - 1][0])) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 /* Curves run along the axis with more values (if equal, the faster one); a map's second axis is the
    slower one. */
 static void plot_choose(const plot_axis *axis, uint32_t count, sweep_plot *plot)
@@ -180,7 +168,11 @@ static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *
         return cli_usage(args->command, "--polar: curves turn with an angle, found '%s'",
                          plot->x.name);
     }
-    if (plot->map && !track_ascends(plan)) {
+    int ascends = 1; /* the axes of a map must ascend; ranges do so, or are reversed */
+    for (uint64_t i = 1; plan->kind == SWEEP_TRACK && i < plan->track.count; i++) {
+        ascends &= plan->track.row[i][0] > plan->track.row[i - 1][0];
+    }
+    if (plot->map && !ascends) {
         return cli_usage(args->command, "--plot: a map wants poses whose time ascends");
     }
     if (plot->mollweide && !mollweide_fits(plan, plot)) {
