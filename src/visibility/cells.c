@@ -369,8 +369,8 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
 
 /* Allocates the arrays of a view, and lists its facets and events in blocks. 0 if the memory does
    not suffice. */
-static int cells_make(const lrcsi_classification *classification, lrcs_work *work,
-                      lrcsi_cells_work *c)
+static int cells_make(const lrcsi_classification *classification, const unsigned char *answer,
+                      lrcs_work *work, lrcsi_cells_work *c)
 {
     const lrcs_prepared *p = c->view->prepared;
     uint32_t count = p->scene->facet_count;
@@ -389,7 +389,7 @@ static int cells_make(const lrcsi_classification *classification, lrcs_work *wor
     c->stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c->stack);
     if (!c->found || !c->kind || !c->facet || !c->area || !c->listed || !c->met || !c->joined ||
         !c->frame.point || !c->component || !c->hit || !c->facets || !c->border || !c->stack ||
-        !lrcsi_cells_grid_make(classification, work, &c->grid)) {
+        !lrcsi_cells_grid_make(classification, answer, work, &c->grid)) {
         return 0;
     }
     for (uint32_t f = 0; f < count; f++) {
@@ -405,14 +405,14 @@ static int cells_make(const lrcsi_classification *classification, lrcs_work *wor
 }
 
 void lrcsi_cells_areas(const lrcsi_classification *classification, lrcs_work *work,
-                       unsigned char *open, lrcsi_visible *visible)
+                       const unsigned char *answer, unsigned char *open, lrcsi_visible *visible)
 {
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;
     size_t peak = work->peak; /* restored if memory does not suffice: it is no failure then */
     lrcsi_cells_work c = {.view = view, .frame = {.view = view}, .open = open};
     c.trifle = 0x1p-10 * ACCURACY_OF_SCENE * extent_of(view->prepared) * extent_of(view->prepared);
-    if (!view->prepared->convex && cells_make(classification, work, &c)) {
+    if (!view->prepared->convex && cells_make(classification, answer, work, &c)) {
         for (uint32_t y = 0; y < c.grid.side; y++) {
             lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, y, c.grid.side);
             for (uint32_t x = 0; x < c.grid.side; x++) {

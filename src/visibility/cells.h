@@ -9,12 +9,14 @@
 /* Bytes at most. */
 size_t lrcsi_cells_need(const lrcs_prepared *prepared);
 
-/* Visible areas of the facets with open[facet] not 0, which must cast (visibility/grid.h). Where an
+/* Visible areas of the facets with open[facet] not 0, which must cast (visibility/grid.h).
+   answer: of lrcsi_query_uniform; facets that it proves to be hidden are left out. NULL: none is
+   known to be hidden. Where an
    area is found to 1e-12 of the facet's projected area and 1e-15 of the square of the scene's
    extent, it goes to visible[facet] and open[facet] becomes 0; facets that stay open are to be
    clipped one by one. None is found where memory does not suffice; only some where the view's meter
    is spent. Nothing stays in the work area. */
 void lrcsi_cells_areas(const lrcsi_classification *classification, lrcs_work *work,
-                       unsigned char *open, lrcsi_visible *visible);
+                       const unsigned char *answer, unsigned char *open, lrcsi_visible *visible);
 
 #endif

@@ -18,6 +18,11 @@
    are left: an edge that joins one of them with a dropped one is behind a cover, and a component
    that is nearest at P and has no contact with that cover is behind it nowhere.
      (4) Where no facet covers P, and no event crosses the cell, no facet is seen in it.
+     (5) Facets that are hidden everywhere need not be listed. Let K be as in (2), of listed facets,
+   with no event or contact of listed facets in front of it, and let y be the first point on the way
+   at which K is no longer nearest of all facets. A facet that is nearest just beyond y is visible
+   there, so it is listed. It begins at y at an edge, or comes forward through K at a contact. The
+   edge is an event: a facet that ended there would have been in front of K before y.
    A contact is where two facets meet in space other than along a common edge or in a point: across
    segments of the inside of one (mesh/intersection.h), along parts of edges of both (the facets are
    then marked as rims), or in one plane. All edges of rims and of facets with another in their
@@ -184,7 +189,6 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         whole &= (c->kind[facet] & LRCSI_CELLS_VAGUE) == 0 &&
                  (facet == best || (c->met[facet] >> 1) != c->look);
         for (int k = 0; k < 3; k++) {
-            double range[2];
             lrcsi_cells_part part;
             uint32_t next = f->next[k];
             if (next != LRCS_NONE && c->joined[next] == c->look) {
@@ -196,16 +200,13 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             if (lrcsi_cells_box_away(s, p, q, w)) {
                 continue;
             }
-            double line[3];
-            memcpy(line, f->side[k], sizeof line);
+            double thin_line[3];
+            const double *line = f->side[k];
             if (f->thin) {
-                lrcsi_line_through(p, q, line);
+                lrcsi_line_through(p, q, thin_line);
+                line = thin_line;
             }
-            lrcsi_box_range(s->low, s->high, line, range);
-            if (range[0] > w || range[1] < -w) {
-                continue;
-            }
-            int place = lrcsi_cells_place_of(&cell->shape, s, p, q, line, w, line_w, &part);
+            int place = lrcsi_cells_place_near(&cell->shape, s, p, q, line, w, line_w, &part);
             if (place == LRCSI_CELLS_AWAY) {
                 continue;
             }

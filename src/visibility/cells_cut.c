@@ -64,8 +64,8 @@ static void facet_range(const lrcsi_cells_facet *f, const double line[3], double
     range[1] = lrcsi_most(a, lrcsi_most(b, d));
 }
 
-/* Does one side of a facet have all of a cell beyond it? Without branches but for the loop, as it
-   is asked so often and answered either way. */
+/* Is all of a cell beyond one side of a facet? Ends at the first corner after which no side can
+   have all of them beyond it. */
 static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape, double w)
 {
     double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -75,8 +75,11 @@ static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *sh
         most[0] = lrcsi_most(most[0], lrcsi_line_at(f->side[0], x, y));
         most[1] = lrcsi_most(most[1], lrcsi_line_at(f->side[1], x, y));
         most[2] = lrcsi_most(most[2], lrcsi_line_at(f->side[2], x, y));
+        if (!(lrcsi_least(most[0], lrcsi_least(most[1], most[2])) < -w)) {
+            return 0;
+        }
     }
-    return lrcsi_least(most[0], lrcsi_least(most[1], most[2])) < -w;
+    return 1;
 }
 
 /* Divides the facets of a cell: those that may come near the left part first, those that come near

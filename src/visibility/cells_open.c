@@ -13,6 +13,7 @@
 #include "view/strip.h"
 #include "visibility/contact.h"
 #include "visibility/grid.h"
+#include "visibility/query.h"
 
 /* Limit on the entries of all blocks: so many for each facet, and a constant. */
 #define ENTRIES_A_FACET 16u
@@ -152,6 +153,13 @@ static void blocks_put_edge(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t 
     blocks_put(c, b, corner, 2, event);
 }
 
+/* Is a facet proved to be hidden everywhere? */
+static int facet_hidden(const lrcsi_cells_grid *c, uint32_t facet)
+{
+    return c->answer && !c->classification->undecided[facet] &&
+           c->answer[facet] == LRCSI_QUERY_HIDDEN;
+}
+
 /* Lists the facets that can hide others, or the events: counts them, then lists them. 0 if memory
    does not suffice, or the lists are too long. */
 static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lrcs_work *work)
@@ -168,7 +176,7 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
         for (uint32_t i = 0; i < items; i++) {
             if (events) {
                 blocks_put_edge(c, b, i);
-            } else if (lrcsi_grid_casts(c->classification->view, i)) {
+            } else if (lrcsi_grid_casts(c->classification->view, i) && !facet_hidden(c, i)) {
                 blocks_put_facet(c, b, i);
             }
         }
@@ -232,12 +240,12 @@ size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared)
                           2 * lrcsi_work_bytes((size_t)block_entries(prepared), sizeof(uint32_t)));
 }
 
-int lrcsi_cells_grid_make(const lrcsi_classification *classification, lrcs_work *work,
-                          lrcsi_cells_grid *c)
+int lrcsi_cells_grid_make(const lrcsi_classification *classification, const unsigned char *answer,
+                          lrcs_work *work, lrcsi_cells_grid *c)
 {
     size_t mark = work->used;
     int made = 0;
-    *c = (lrcsi_cells_grid){.classification = classification};
+    *c = (lrcsi_cells_grid){.classification = classification, .answer = answer};
     for (uint32_t cells = BLOCK; !made; cells *= 2) {
         blocks_place(c, cells);
         made = blocks_make(c, &c->facets, 0, work) && blocks_make(c, &c->events, 1, work);
@@ -417,6 +425,19 @@ static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cel
     }
 }
 
+/* Is a facet of an edge listed in the block? If not, all of them are hidden, or not near it. */
+static int edge_listed(const lrcsi_cells_work *c, uint32_t edge)
+{
+    const lrcsi_topology *t = &c->view->prepared->topology;
+    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
+    for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
+        if (c->listed[use[i].facet] == c->look) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* Its segments likewise. 0 if there is no room. */
 static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
@@ -427,7 +448,8 @@ static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *ce
         }
     }
     for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
-        if (!open_edge(c, c->grid.classification->events.edge[b->item[i]])) {
+        uint32_t edge = c->grid.classification->events.edge[b->item[i]];
+        if (edge_listed(c, edge) && !open_edge(c, edge)) {
             return 0;
         }
     }

@@ -9,11 +9,12 @@
 /* Bytes at most. */
 size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared);
 
-/* Places the blocks, and lists in each the facets that can hide others and the events. 0 if memory
+/* Places the blocks, and lists in each the events and the facets that can hide others, except those
+   that are proved to be hidden (visibility/cells_cover.c). 0 if memory
    does not suffice, if the lists are too long, or if much of the view is outside the bulk of the
    scene: the blocks there are so large that little would be decided. */
-int lrcsi_cells_grid_make(const lrcsi_classification *classification, lrcs_work *work,
-                          lrcsi_cells_grid *c);
+int lrcsi_cells_grid_make(const lrcsi_classification *classification, const unsigned char *answer,
+                          lrcs_work *work, lrcsi_cells_grid *c);
 
 /* The square of a block, from its middle; returns the largest coordinate. */
 double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y,

@@ -61,13 +61,10 @@ void lrcsi_box_range(const double low[2], const double high[2], const double lin
     range[1] = middle + half;
 }
 
-int lrcsi_cells_place_of(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
-                         const double p[2], const double q[2], const double line[3], double w,
-                         double line_w, lrcsi_cells_part *part)
+int lrcsi_cells_place_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
+                           const double p[2], const double q[2], const double line[3], double w,
+                           double line_w, lrcsi_cells_part *part)
 {
-    if (lrcsi_cells_box_away(s, p, q, w)) {
-        return LRCSI_CELLS_AWAY;
-    }
     double range[2];
     lrcsi_line_range(shape, line, range);
     double deep = lrcsi_least(range[1], -range[0]);

@@ -60,9 +60,19 @@ enum lrcsi_cells_place {
 
 /* The position of a segment relative to a cell: a lrcsi_cells_place. Given: the ends p and q with
    the error w, and their line with the error line_w. The part is returned unless it is away. */
-int lrcsi_cells_place_of(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
-                         const double p[2], const double q[2], const double line[3], double w,
-                         double line_w, lrcsi_cells_part *part);
+int lrcsi_cells_place_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
+                           const double p[2], const double q[2], const double line[3], double w,
+                           double line_w, lrcsi_cells_part *part);
+
+/* The same; boxes are compared first. */
+static inline int lrcsi_cells_place_of(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
+                                       const double p[2], const double q[2], const double line[3],
+                                       double w, double line_w, lrcsi_cells_part *part)
+{
+    return lrcsi_cells_box_away(s, p, q, w)
+               ? LRCSI_CELLS_AWAY
+               : lrcsi_cells_place_near(shape, s, p, q, line, w, line_w, part);
+}
 
 /* A lower bound of how far inside the cell a point lies (as lrcsi_clip_clear). */
 double lrcsi_cells_sides_clear(const lrcsi_cells_sides *s, const double at[2]);

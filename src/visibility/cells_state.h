@@ -17,6 +17,7 @@ typedef struct lrcsi_cells_lists {
 
 typedef struct lrcsi_cells_grid {
     const lrcsi_classification *classification;
+    const unsigned char *answer; /* of uniform facets (visibility/query.h), or NULL */
     uint32_t side;            /* blocks along a side, with a ring of blocks for what is outside */
     double low[2], high[2];   /* of the blocks within the ring */
     double least[2], most[2]; /* of these and of all facets, with the errors of their corners */

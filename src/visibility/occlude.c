@@ -117,7 +117,7 @@ static int occlude_undecided(lrcsi_occluding *o, lrcs_work *work, unsigned char 
     uint32_t count = p->scene->facet_count;
     if (classification->undecided_count >= CELLS_LEAST &&
         classification->undecided_count >= count / CELLS_SHARE && cells_serve(p)) {
-        lrcsi_cells_areas(classification, work, open, visible);
+        lrcsi_cells_areas(classification, work, o->uniform, open, visible);
     }
     if (!memchr(open, 1, count)) {
         return LRCS_OK;

@@ -321,7 +321,7 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
             check_bounds(c, &view, f, &alone, 0);
         }
     }
-    lrcsi_cells_areas(&classification, &work, open, together);
+    lrcsi_cells_areas(&classification, &work, o.uniform, open, together);
     for (uint32_t f = 0; f < c->scene.facet_count; f++) {
         if (lrcsi_grid_casts(&view, f) && !open[f]) {
             check_bounds(c, &view, f, &together[f], 1);

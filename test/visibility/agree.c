@@ -101,7 +101,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
         open[f] = lrcsi_grid_casts(&view, f) != 0;
     }
     double start = now_ms();
-    lrcsi_cells_areas(&classification, work, open, found);
+    lrcsi_cells_areas(&classification, work, NULL, open, found);
     sums->together.ms += now_ms() - start;
     must(ref_occlude_make(&classification, work, &o));
     must(lrcsi_alone_make(&classification, &o.cover.facets, work, &a));

@@ -33,7 +33,7 @@ static uint32_t ask(uint32_t *left)
         open[f] = lrcsi_grid_casts(&view, f) != 0;
         asked += open[f];
     }
-    lrcsi_cells_areas(&classification, &work, open, found);
+    lrcsi_cells_areas(&classification, &work, NULL, open, found);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         *left += open[f];
     }
