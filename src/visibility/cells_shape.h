@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The convex polygon of a cell: lines along its sides, how lines, boxes and segments stand to it,
-   and how it is divided along a line (visibility/cells.c). */
+/* The convex polygon of a cell: the lines along its sides, the position of other lines, boxes and
+   segments relative to it, and its division along a line (visibility/cells.c). */
 #ifndef LRCSI_CELLS_SHAPE_H
 #define LRCSI_CELLS_SHAPE_H
 
@@ -8,7 +8,7 @@
 #include "visibility/clip.h"
 
 /* The line through two points: a x + b y + c is the distance from it, positive on the left. Returns
-   how far they are apart, but for 4 u of it. */
+   the distance of the points, with a relative error of 4 u. */
 double lrcsi_line_through(const double *p, const double *q, double line[3]);
 
 static inline double lrcsi_line_at(const double line[3], double x, double y)

@@ -121,25 +121,19 @@ void cli_report_again(FILE *out, const report_job *job)
     report_bytes lines = {NULL, 0};
     cli_page_section(out, "again", "How to make it again");
     fputs("<dl class=\"facts\">\n", out);
-    cli_page_fact(out, "Version");
-    cli_page_say(out, "lrcs %s", lrcs_version());
-    cli_page_fact_end(out);
-    cli_page_fact(out, "Scene hash");
-    fprintf(out, "<code id=\"scene_hash\">%016llx</code>",
+    cli_page_fact(out, "Version", "lrcs %s", lrcs_version());
+    fprintf(out,
+            "<div><dt>Scene hash</dt><dd><code id=\"scene_hash\">%016llx</code></dd></div>\n"
+            "</dl>\n<p>The first line makes this page again, the others what stands on it, one by "
+            "one.</p>\n",
             (unsigned long long)lrcs_scene_hash(&job->scene.scene));
-    cli_page_fact_end(out);
-    fputs("</dl>\n<p>The first line makes this page again, the others what stands on it, one by "
-          "one.</p>\n",
-          out);
     FILE *text = cli_report_bytes_begin(&lines);
     if (text) {
         lines_write(text, job);
         if (cli_report_bytes_end(text) == 0) {
-            fputs("<pre tabindex=\"0\"><code>", out);
-            cli_page_text(out, lines.bytes);
-            fputs("</code></pre>\n", out);
+            cli_page(out, "<pre tabindex=\"0\"><code>%s</code></pre>\n", lines.bytes);
         }
     }
     free(lines.bytes);
-    cli_page_section_end(out);
+    fputs("</section>\n", out);
 }
