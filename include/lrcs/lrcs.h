@@ -5,8 +5,10 @@
 
 #include <lrcs/brdf.h>
 #include <lrcs/mesh.h>
+#include <lrcs/options.h>
 #include <lrcs/polygon.h>
 #include <lrcs/pose.h>
+#include <lrcs/prepare.h>
 #include <lrcs/profile.h>
 #include <lrcs/read.h>
 #include <lrcs/recipe.h>

@@ -4,7 +4,8 @@
 #ifndef LRCS_POLYGON_H
 #define LRCS_POLYGON_H
 
-#include <lrcs/run.h>
+#include <lrcs/pose.h>
+#include <lrcs/prepare.h>
 
 /* A corner of a ring. */
 typedef struct lrcs_ring_point {

@@ -4,7 +4,8 @@
 #ifndef LRCS_PROFILE_H
 #define LRCS_PROFILE_H
 
-#include <lrcs/run.h>
+#include <lrcs/pose.h>
+#include <lrcs/prepare.h>
 
 /* Range is measured along the line of sight, in metres: it is 0 at the origin of the body frame
    and grows away from the laser, -s_hat . x for a point x. */

@@ -3,6 +3,8 @@
 #ifndef LRCSI_IMAGE_H
 #define LRCSI_IMAGE_H
 
+#include <lrcs/run.h>
+
 #include "view/view.h"
 
 /* The largest number of pixels along a side, of rasters as well: 2^28 pixels in all. */

@@ -5,6 +5,8 @@
 #ifndef LRCSI_PLAN_H
 #define LRCSI_PLAN_H
 
+#include <lrcs/run.h>
+
 #include "view/clear.h"
 
 /* A term of the BRDF. */

@@ -77,27 +77,20 @@ static int tds_read_faces(const lrcsi_tds_walk *walk, const tds_trimesh *mesh)
     return LRCS_OK;
 }
 
-/* Reads the head of a material group: its name and count, followed by that many faces. */
-static int tds_read_group_head(const lrcsi_tds_walk *walk, lrcsi_tds_chunk *chunk, lrcsi_span *name,
-                               size_t *count)
-{
-    int status = lrcsi_tds_name(walk, chunk, name, "material group name");
-    if (status == LRCS_OK) {
-        status = lrcsi_tds_check(walk, chunk, 1, 2, "material group count");
-    }
-    if (status != LRCS_OK) {
-        return status;
-    }
-    *count = lrcsi_bytes_u16(walk->bytes + chunk->at);
-    chunk->at += 2;
-    return lrcsi_tds_check(walk, chunk, *count, 2, "material group");
-}
-
+/* A material group: the material's name, a count, and that many faces. */
 static int tds_read_group(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const tds_trimesh *mesh)
 {
     lrcsi_span name;
-    size_t count;
-    int status = tds_read_group_head(walk, &chunk, &name, &count);
+    size_t count = 0;
+    int status = lrcsi_tds_name(walk, &chunk, &name, "material group name");
+    if (status == LRCS_OK) {
+        status = lrcsi_tds_check(walk, &chunk, 1, 2, "material group count");
+    }
+    if (status == LRCS_OK) {
+        count = lrcsi_bytes_u16(walk->bytes + chunk.at);
+        chunk.at += 2;
+        status = lrcsi_tds_check(walk, &chunk, count, 2, "material group");
+    }
     if (status != LRCS_OK) {
         return status;
     }
@@ -212,7 +205,8 @@ static int tds_find_lists(lrcsi_tds_walk *walk, lrcsi_tds_chunk parent, tds_trim
     return next;
 }
 
-static void tds_settle_materials(lrcsi_tds_walk *walk, const tds_trimesh *mesh)
+/* Facets whose group names an undefined material have no material. */
+static void tds_clear_undefined(lrcsi_tds_walk *walk, const tds_trimesh *mesh)
 {
     for (size_t i = 0; walk->mesh && i < mesh->face_count; i++) {
         uint32_t *slot = walk->mesh->facet_material + mesh->first_facet + i;
@@ -239,7 +233,7 @@ int lrcsi_tds_read_trimesh(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const ch
     if (status != LRCS_OK) {
         return status;
     }
-    tds_settle_materials(walk, &mesh);
+    tds_clear_undefined(walk, &mesh);
     if (walk->mesh) {
         walk->mesh->part[walk->counts.parts] = name;
     }

@@ -19,7 +19,7 @@
 #include "mesh/same.h"
 #include "mesh/topology.h"
 
-/* The state of the check of a mesh. */
+/* The mesh to be measured. */
 typedef struct measured_mesh {
     const lrcs_point *vertex;
     const lrcs_facet *facet;
@@ -170,6 +170,8 @@ static int count_duplicates(const measured_mesh *m, const lrcsi_topology *t, lrc
     return status;
 }
 
+/* Counts the welded points that facets have as corners, and the degenerate facets, whose corners do
+   not count. */
 static int count_used_points(const measured_mesh *m, const lrcsi_topology *t, uint32_t vertex_count,
                              lrcs_work *work, lrcs_mesh_report *report)
 {
@@ -188,19 +190,6 @@ static int count_used_points(const measured_mesh *m, const lrcsi_topology *t, ui
         }
     }
     return LRCS_OK;
-}
-
-static void measure_mesh(const measured_mesh *m, const unsigned char *degenerate,
-                         lrcs_mesh_report *report)
-{
-    double centre[3];
-    measure_box(m, report->box_min, report->box_max);
-    for (int k = 0; k < 3; k++) {
-        centre[k] = 0.5 * report->box_min[k] + 0.5 * report->box_max[k];
-    }
-    double scale = box_scale(report->box_min, report->box_max);
-    report->area = measure_area(m, degenerate, scale);
-    report->volume = measure_volume(m, degenerate, centre, scale);
 }
 
 size_t lrcs_mesh_check_need(uint32_t vertex_count, uint32_t facet_count)
@@ -233,7 +222,14 @@ int lrcs_mesh_check(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_
     }
     if (status == LRCS_OK) {
         count_edge_uses(&t, &made);
-        measure_mesh(&m, t.degenerate, &made);
+        measure_box(&m, made.box_min, made.box_max);
+        double scale = box_scale(made.box_min, made.box_max);
+        double centre[3];
+        for (int k = 0; k < 3; k++) {
+            centre[k] = 0.5 * made.box_min[k] + 0.5 * made.box_max[k];
+        }
+        made.area = measure_area(&m, t.degenerate, scale);
+        made.volume = measure_volume(&m, t.degenerate, centre, scale);
         *report = made;
     }
     work->used = mark;

@@ -15,9 +15,10 @@
 
 enum { LEAF_LANES = LRCSI_TREE_LANES };
 
-/* A leaf whose box intersects more others than this is also compared by slabs, and if slabs left
-   out BLOCKS_APART blocks, the next leaf is from its first block on. Slabs are filled only after
-   FILL_COST times as many more intersections as there are leaves. */
+/* When leaves are also compared by slabs. If the box of a leaf intersects more than MANY_LEAVES
+   others, the rest of them are compared by slabs too; if slabs then separate at least BLOCKS_APART
+   blocks from it, the next leaf is compared by slabs from the start. The slabs of the tree are
+   filled once such leaves have intersected FILL_COST times as many others as there are leaves. */
 enum { MANY_LEAVES = 16, BLOCKS_APART = 8, FILL_COST = 8 };
 
 /* A contact as it is found: `other` meets the interior of `facet`. They are taken from the work
@@ -42,8 +43,8 @@ typedef struct contact_search {
     unsigned char *proved; /* welded vertex: 1 if its ring is proved */
     lrcsi_tree tree;
     search_leaf *leaf;
-    uint64_t crowded;     /* intersections of leaves that intersect many others */
-    int slabs_pay;        /* they did so for the last leaf */
+    uint64_t crowded;     /* leaves that were met beyond the first MANY_LEAVES of a leaf, in all */
+    int slabs_pay;        /* slabs separated at least BLOCKS_APART blocks from the last leaf */
     found_contact *found; /* above the tree in the work area */
     uint32_t count;
     lrcs_work *work;
@@ -131,8 +132,8 @@ static int pair_store(contact_search *search, uint32_t facet, const lrcsi_pair_f
     int status = LRCS_OK;
     unsigned sides[2];
     sides_along(f, t, sides);
-    intersections->rim[facet] |= result->rim[0] ? (unsigned char)(1 | sides[0] << 1) : 0;
-    intersections->rim[other] |= result->rim[1] ? (unsigned char)(1 | sides[1] << 1) : 0;
+    intersections->met[facet] |= result->met[0] ? (unsigned char)(1 | sides[0] << 1) : 0;
+    intersections->met[other] |= result->met[1] ? (unsigned char)(1 | sides[1] << 1) : 0;
     if (result->kind[0] != LRCSI_INTERSECTION_NONE) {
         status = append_found(search, (found_contact){facet, other, (uint32_t)result->kind[0]});
     }
@@ -261,10 +262,10 @@ static int join_leaf(contact_search *search, uint32_t leaf)
         walk.without = LRCS_NONE;
     }
     if (apex != LRCS_NONE && !in_ring) {
-        lrcsi_tree_narrow_fan(&walk, leaf);
+        lrcsi_tree_narrow_by_cones(&walk, leaf);
     }
     if (search->slabs_pay) {
-        lrcsi_tree_narrow(&walk, leaf);
+        lrcsi_tree_narrow_by_slabs(&walk, leaf);
     }
     uint32_t other;
     for (int met = 0; status == LRCS_OK && (other = lrcsi_tree_next(&walk)) != LRCS_NONE; met++) {
@@ -273,7 +274,7 @@ static int join_leaf(contact_search *search, uint32_t leaf)
             lrcsi_tree_fill_slabs(search->vertex, search->facet, tree);
         }
         if (tree->has_slabs && met == MANY_LEAVES && walk.leaf == LRCS_NONE) {
-            lrcsi_tree_narrow(&walk, leaf);
+            lrcsi_tree_narrow_by_slabs(&walk, leaf);
         }
         status = join_leaves(search, leaf, other);
     }
@@ -403,11 +404,11 @@ int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
     size_t start = work->used;
     lrcsi_intersections t = {0};
     t.first = lrcsi_work_take_zero(work, (size_t)facet_count + 1, sizeof *t.first);
-    t.rim = lrcsi_work_take_zero(work, facet_count, 1);
+    t.met = lrcsi_work_take_zero(work, facet_count, 1);
     size_t mark = work->used;
     contact_search search = {
         .vertex = vertex, .facet = facet, .piece = piece, .work = work, .intersections = &t};
-    int status = t.first && t.rim
+    int status = t.first && t.met
                      ? search_prepare(&search, vertex_count, facet_count, topology, skip)
                      : LRCS_E_MEMORY;
     for (uint32_t leaf = 0; status == LRCS_OK && leaf < search.tree.blocks[0]; leaf++) {

@@ -20,9 +20,9 @@ typedef struct lrcsi_intersections {
     uint32_t *first; /* facet_count + 1: entries of facet i are entry[first[i] .. first[i+1]) */
     lrcsi_intersection *entry; /* by facet, then by other */
     uint32_t count;
-    unsigned char *rim; /* facet: not 0 if another facet meets it elsewhere than in common corners
-                       and along common sides; then also a bit for each of its sides
-                       (lrcsi_intersection_along) */
+    unsigned char *met; /* facet: not 0 if another facet meets it, its sides included, elsewhere
+                           than in common corners and along common sides; then also a bit for each
+                           of its sides (lrcsi_intersection_along) */
     int self; /* 1: a facet meets the interior or a side of another one of its own piece; 0 if not,
                  or if pieces are not given */
 } lrcsi_intersections;
@@ -39,7 +39,7 @@ static inline uint32_t lrcsi_intersection_of(const lrcsi_intersections *intersec
 static inline int lrcsi_intersection_along(const lrcsi_intersections *intersections, uint32_t facet,
                                            int k)
 {
-    return (intersections->rim[facet] >> (k + 1) & 1) != 0;
+    return (intersections->met[facet] >> (k + 1) & 1) != 0;
 }
 
 /* Finds all contacts. Facets marked in `skip` (degenerate, omitted) have none. `piece`, unless

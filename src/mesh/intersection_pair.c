@@ -254,8 +254,8 @@ static void meet_flat(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t,
             (lrcsi_pair_result){{LRCSI_INTERSECTION_COPLANAR, LRCSI_INTERSECTION_COPLANAR}, {1, 1}};
         return;
     }
-    result->rim[0] = of_f >= 0 && flat_side_is_met(f, t, of_f);
-    result->rim[1] = of_t >= 0 && flat_side_is_met(t, f, of_t);
+    result->met[0] = of_f >= 0 && flat_side_is_met(f, t, of_f);
+    result->met[1] = of_t >= 0 && flat_side_is_met(t, f, of_t);
 }
 
 /* Two facets f[0] and f[1] whose planes intersect. of[i][k]: the side of the other's plane on which
@@ -354,7 +354,7 @@ static void meet_across(pair_crossing *c, lrcsi_pair_result *result)
     }
     for (int i = 0; i < 2; i++) { /* what f[i] does to the other */
         result->kind[i] = meets[i] ? LRCSI_INTERSECTION_CROSS : LRCSI_INTERSECTION_NONE;
-        result->rim[i] =
+        result->met[i] =
             meets[i] || side_is_met(c, i, 0) || side_is_met(c, i, 1) || side_is_met(c, i, 2);
     }
 }
@@ -399,7 +399,7 @@ int lrcsi_pair_meet(const lrcsi_pair_facet *f, lrcsi_pair_facet *t, lrcsi_pair_r
             {{UNSURE, UNSURE, UNSURE}, {UNSURE, UNSURE, UNSURE}, {UNSURE, UNSURE, UNSURE}}};
         meet_across(&c, result);
     }
-    return result->rim[0] || result->rim[1];
+    return result->met[0] || result->met[1];
 }
 
 int lrcsi_intersection_pair(const lrcs_point *vertex, lrcs_facet facet, lrcs_facet other)

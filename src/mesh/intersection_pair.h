@@ -21,11 +21,11 @@ typedef struct lrcsi_pair_facet {
 } lrcsi_pair_facet;
 
 /* How the facets F and T meet: index 0 is about F, which T meets, index 1 about T, which F meets.
-   kind: a lrcsi_intersection_kind. rim: 1 if the facet is met elsewhere than in its corners and
+   kind: a lrcsi_intersection_kind. met: 1 if the facet is met elsewhere than in its corners and
    along sides that both have. */
 typedef struct lrcsi_pair_result {
     int kind[2];
-    int rim[2];
+    int met[2];
 } lrcsi_pair_result;
 
 void lrcsi_pair_plane(lrcsi_pair_facet *f);

@@ -20,7 +20,7 @@ static int is_newline(char c)
 }
 
 /* Skips the line ending at `at`, unless the bytes end there. */
-static void pass_newline(lrcsi_lines *lines)
+static void skip_newline(lrcsi_lines *lines)
 {
     if (lines->at < lines->end) {
         int cr_lf = lines->end - lines->at > 1 && lines->at[0] == '\r' && lines->at[1] == '\n';
@@ -54,7 +54,7 @@ int lrcsi_lines_done(lrcsi_lines *lines)
     for (;;) {
         if (at_continuation(lines)) {
             lines->at++;
-            pass_newline(lines);
+            skip_newline(lines);
         } else if (lines->at < lines->end && is_blank(*lines->at)) {
             lines->at++;
         } else {
@@ -71,7 +71,7 @@ int lrcsi_lines_next(lrcsi_lines *lines)
     while (lines->at < lines->end && !is_newline(*lines->at)) {
         lines->at++; /* a comment */
     }
-    pass_newline(lines);
+    skip_newline(lines);
     return lines->at < lines->end;
 }
 

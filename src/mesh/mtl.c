@@ -42,6 +42,7 @@ static int name_matches(const char *bytes, size_t size, const char *name)
     return *name == '\0';
 }
 
+/* "newmtl name": finds the material that the following statements describe. */
 static void enter_definition(mtl_walk *w)
 {
     const char *name = NULL;

@@ -47,6 +47,7 @@ static int obj_fail(obj_walk *w, int status, const char *item, const char *expec
     return lrcsi_lines_fail(&w->lines, status, item, expected, w->where);
 }
 
+/* Reads the name that an `o`, `g` or `usemtl` statement gives to later facets. */
 static void set_name(obj_walk *w, obj_name *name)
 {
     name->size = lrcsi_lines_name(&w->lines, &name->bytes);
@@ -178,7 +179,8 @@ static int parse_corner(const char *word, size_t size, int64_t index[3])
 
 /* Converts an index in the file to one in a list that has `count` items so far. Returns 0 if there
    is no such item. */
-static int resolve(int64_t index, uint32_t count, uint32_t limit, uint32_t *most, uint32_t *place)
+static int resolve_index(int64_t index, uint32_t count, uint32_t limit, uint32_t *most,
+                         uint32_t *place)
 {
     if (index == 0 || index > limit || -index > (int64_t)count) {
         return 0;
@@ -188,6 +190,7 @@ static int resolve(int64_t index, uint32_t count, uint32_t limit, uint32_t *most
     return 1;
 }
 
+/* Reports an index of an item that does not exist. */
 static int refuse_index(obj_walk *w, const lrcsi_lines *from, int64_t index, const char *item)
 {
     w->lines = *from;
@@ -196,6 +199,7 @@ static int refuse_index(obj_walk *w, const lrcsi_lines *from, int64_t index, con
                               : "an index from 1 to the number of its kind");
 }
 
+/* A corner of a face: the indices of its vertex and, if it has one, its normal. */
 static int read_corner(obj_walk *w, uint32_t *corner, uint32_t *normal)
 {
     lrcsi_lines from = w->lines;
@@ -206,12 +210,12 @@ static int read_corner(obj_walk *w, uint32_t *corner, uint32_t *normal)
         w->lines = from;
         return obj_fail(w, LRCS_E_SYNTAX, "face corner", "v, v/t, v//n or v/t/n");
     }
-    if (!resolve(index[0], w->counts.vertices, w->vertex_limit, &w->vertex_most, corner)) {
+    if (!resolve_index(index[0], w->counts.vertices, w->vertex_limit, &w->vertex_most, corner)) {
         return refuse_index(w, &from, index[0], "face corner");
     }
     *normal = LRCS_NONE;
     if (index[2] != NO_INDEX &&
-        !resolve(index[2], w->counts.normals, w->normal_limit, &w->normal_most, normal)) {
+        !resolve_index(index[2], w->counts.normals, w->normal_limit, &w->normal_most, normal)) {
         return refuse_index(w, &from, index[2], "normal of a face corner");
     }
     return LRCS_OK;

@@ -15,11 +15,13 @@
 /* Rounding of the two ends of an extent. */
 #define EXTENT_MARGIN 0x1p-40
 
+/* (x - origin) . n */
 static double slice_height(const double x[3], const double n[3], const double origin[3])
 {
     return n[0] * (x[0] - origin[0]) + n[1] * (x[1] - origin[1]) + n[2] * (x[2] - origin[2]);
 }
 
+/* Adds the corner p + t (q - p). */
 static void slice_add(lrcsi_slice *slice, const double p[3], const double q[3], double t)
 {
     for (int k = 0; k < 3; k++) {
@@ -92,8 +94,8 @@ double lrcsi_slice_share(const lrcsi_slice *slice, double whole, double longest)
 
 /* With e = q - p and h the altitude of o, the height of x is (x - p) . h / (h . h). Coordinates are
    below 1 and accurate to 2^-48, so that e, h and x - p are accurate to 2^-46; h . e is 0 to within
-   2^-46
-   (|e| + |o - p|), and x - p has at most |e| + |o - p| along e: EXTENT_MARGIN covers all of it. */
+   2^-46 (|e| + |o - p|), and the component of x - p along e is at most |e| + |o - p|: EXTENT_MARGIN
+   covers all of it. */
 double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const double p[3],
                           const double q[3])
 {

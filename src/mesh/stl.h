@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The STL reader's parts: distinguishing the two kinds, the text kind, and the sink that both
-   fill. */
+/* What the two files of the STL reader share: how the binary and the text kind are distinguished,
+   the reader of text, and the function by which both add facets. */
 #ifndef LRCSI_STL_H
 #define LRCSI_STL_H
 

@@ -249,34 +249,6 @@ size_t lrcsi_topology_need(uint32_t vertex_count, uint32_t facet_count)
     return lrcsi_work_add(stays, weld > edges ? weld : edges);
 }
 
-/* lrcsi_topology_make without the release on failure. */
-static int topology_build(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
-                          uint32_t facet_count, lrcs_work *work, lrcsi_topology *t)
-{
-    t->weld = lrcsi_work_take(work, vertex_count, sizeof *t->weld);
-    t->degenerate = lrcsi_work_take(work, facet_count, sizeof *t->degenerate);
-    t->facet_edge = lrcsi_work_take(work, facet_count, sizeof *t->facet_edge);
-    if (!t->weld || !t->degenerate || !t->facet_edge) {
-        return LRCS_E_MEMORY;
-    }
-    int status = weld_points(vertex, vertex_count, work, t->weld);
-    if (status != LRCS_OK) {
-        return status;
-    }
-    uint32_t sides = SIDES * mark_degenerate(vertex, facet, facet_count, t);
-    t->use = lrcsi_work_take(work, sides, sizeof *t->use);
-    size_t end = work->used;
-    t->edge = lrcsi_work_take(work, sides, sizeof *t->edge); /* at most as many as sides */
-    uint32_t *place = lrcsi_work_take(work, (size_t)vertex_count + 1, sizeof *place);
-    if (!t->use || !t->edge || !place) {
-        return LRCS_E_MEMORY;
-    }
-    build_edges(t, vertex_count, facet, facet_count, place);
-    work->used = end; /* the edges are already stored here */
-    t->edge = lrcsi_work_take(work, t->edge_count, sizeof *t->edge);
-    return LRCS_OK;
-}
-
 int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                         uint32_t facet_count, lrcs_work *work, lrcsi_topology *topology)
 {
@@ -284,12 +256,31 @@ int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const l
         return LRCS_E_LIMIT;
     }
     size_t mark = work->used;
-    lrcsi_topology made;
-    int status = topology_build(vertex, vertex_count, facet, facet_count, work, &made);
+    lrcsi_topology t = {0};
+    t.weld = lrcsi_work_take(work, vertex_count, sizeof *t.weld);
+    t.degenerate = lrcsi_work_take(work, facet_count, sizeof *t.degenerate);
+    t.facet_edge = lrcsi_work_take(work, facet_count, sizeof *t.facet_edge);
+    int status = t.weld && t.degenerate && t.facet_edge
+                     ? weld_points(vertex, vertex_count, work, t.weld)
+                     : LRCS_E_MEMORY;
+    if (status == LRCS_OK) {
+        uint32_t sides = SIDES * mark_degenerate(vertex, facet, facet_count, &t);
+        t.use = lrcsi_work_take(work, sides, sizeof *t.use);
+        size_t end = work->used;
+        t.edge = lrcsi_work_take(work, sides, sizeof *t.edge); /* there are at most as many */
+        uint32_t *place = lrcsi_work_take(work, (size_t)vertex_count + 1, sizeof *place);
+        if (t.use && t.edge && place) {
+            build_edges(&t, vertex_count, facet, facet_count, place);
+            work->used = end; /* the edges are already stored here */
+            t.edge = lrcsi_work_take(work, t.edge_count, sizeof *t.edge);
+        } else {
+            status = LRCS_E_MEMORY;
+        }
+    }
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    *topology = made;
+    *topology = t;
     return LRCS_OK;
 }

@@ -596,7 +596,7 @@ lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf)
     return walk;
 }
 
-void lrcsi_tree_narrow(lrcsi_tree_walk *w, uint32_t leaf)
+void lrcsi_tree_narrow_by_slabs(lrcsi_tree_walk *w, uint32_t leaf)
 {
     w->leaf = leaf;
     for (int level = w->level; level < w->tree->levels; level++) {
@@ -604,9 +604,9 @@ void lrcsi_tree_narrow(lrcsi_tree_walk *w, uint32_t leaf)
     }
 }
 
-void lrcsi_tree_narrow_fan(lrcsi_tree_walk *w, uint32_t leaf)
+void lrcsi_tree_narrow_by_cones(lrcsi_tree_walk *w, uint32_t leaf)
 {
-    w->fan = w->tree->label[0][leaf];
+    w->apex = w->tree->label[0][leaf];
     w->cone = &w->tree->cone[0][leaf];
 }
 
@@ -624,7 +624,7 @@ uint32_t lrcsi_tree_next(lrcsi_tree_walk *w)
         if (level > 0 && w->without != LRCS_NONE && tree->label[level - 1][child] == w->without) {
             continue;
         }
-        if (level > 0 && w->cone && tree->label[level - 1][child] == w->fan &&
+        if (level > 0 && w->cone && tree->label[level - 1][child] == w->apex &&
             cones_are_apart(w->cone, &tree->cone[level - 1][child])) {
             continue;
         }

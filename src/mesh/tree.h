@@ -61,7 +61,7 @@ typedef struct lrcsi_tree_walk {
     uint32_t leaf;               /* the leaf whose slab is compared too, or LRCS_NONE */
     uint32_t apart;              /* number of blocks that slabs have left out */
     const lrcsi_tree_cone *cone; /* the leaf's cone if cones are compared too, else NULL; */
-    uint32_t fan;                /* then the leaf's label */
+    uint32_t apex;               /* then the leaf's label, the vertex of the cones */
     uint32_t at[LRCSI_TREE_LEVELS];
     unsigned mask[LRCSI_TREE_LEVELS];
 } lrcsi_tree_walk;
@@ -142,19 +142,19 @@ lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcsi_box *box, 
    boxes intersect occurs once, except some pairs of one label. */
 lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf);
 
-/* Fills the slabs of a tree, from the vertices and facets that it was made from. Then narrow leaves
-   out of a leaf's traversal the blocks that slabs separate from the leaf; this pays for leaves
-   whose boxes intersect many others. */
+/* Fills the slabs of a tree, from the vertices and facets that it was made from. Then
+   narrow_by_slabs leaves out of a leaf's traversal the blocks that slabs separate from the leaf;
+   this pays for leaves whose boxes intersect many others. */
 void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree);
-void lrcsi_tree_narrow(lrcsi_tree_walk *walk, uint32_t leaf);
+void lrcsi_tree_narrow_by_slabs(lrcsi_tree_walk *walk, uint32_t leaf);
 
-/* Fills the cones of blocks that have a vertex as label, unless proved[label]. Then narrow_fan
+/* Fills the cones of blocks that have a vertex as label, unless proved[label]. Then narrow_by_cones
    leaves out of the traversal of a leaf with such a label the blocks of the same label whose facets
    are proved to meet those of the leaf in that vertex only. This serves fans whose ring is not
    proved (mesh/ring.h): all their boxes intersect. */
 void lrcsi_tree_fill_cones(const lrcs_point *vertex, const lrcs_facet *facet,
                            const unsigned char *proved, lrcsi_tree *tree);
-void lrcsi_tree_narrow_fan(lrcsi_tree_walk *walk, uint32_t leaf);
+void lrcsi_tree_narrow_by_cones(lrcsi_tree_walk *walk, uint32_t leaf);
 
 /* The next place or block, or LRCS_NONE at the end. */
 uint32_t lrcsi_tree_next(lrcsi_tree_walk *walk);

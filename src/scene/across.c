@@ -43,6 +43,7 @@ static across_edge across_edge_of(const across_job *job, uint32_t edge)
     return all;
 }
 
+/* Stores which facet lies across the side of a facet on an edge. */
 static void across_set(const across_job *job, lrcsi_across *a, uint32_t facet, uint32_t edge,
                        uint32_t other)
 {
@@ -61,11 +62,11 @@ static int across_set_pairs(const across_job *job, lrcsi_across *a, uint32_t edg
         return 0;
     }
     for (int i = 0; i < 4; i++) {
-        int held = 0;
+        int paired = 0;
         for (int j = 0; j < 4; j++) {
-            held |= job->opposite[use[i].facet] == use[j].facet;
+            paired |= job->opposite[use[i].facet] == use[j].facet;
         }
-        if (!held) {
+        if (!paired) {
             return 0;
         }
     }

@@ -5,10 +5,11 @@
 #include "base/length.h"
 #include "base/work.h"
 
-/* Normals side by side, on their way to unit length. */
+/* Some facets' normals, to be scaled to unit length. */
 typedef struct batch_normals {
     double high[3][LRCSI_LANES], low[3][LRCSI_LANES];
-    double length[LRCSI_LANES], back[LRCSI_LANES];
+    double length[LRCSI_LANES];
+    double half[LRCSI_LANES]; /* the factor from the length to the facet's area */
 } batch_normals;
 
 /* Normals of up to LRCSI_LANES facets; if squares of small components would lose bits, all are
@@ -24,7 +25,7 @@ static void normals_gather(const lrcs_prepared *p, const uint32_t *facet, uint32
             n->low[k][i] = from->low[k] * scale;
         }
         n->length[i] = from->length * scale;
-        n->back[i] = 0.5 / scale;
+        n->half[i] = 0.5 / scale;
     }
 }
 
@@ -39,7 +40,7 @@ static void normals_finish(const batch_normals *restrict n, double *restrict x, 
         x[i] = lrcsi_inverse_times(&inverse, high[0], low[0]).hi;
         y[i] = lrcsi_inverse_times(&inverse, high[1], low[1]).hi;
         z[i] = lrcsi_inverse_times(&inverse, high[2], low[2]).hi;
-        area[i] = inverse.length * n->back[i];
+        area[i] = inverse.length * n->half[i];
     }
 }
 
@@ -71,8 +72,9 @@ size_t lrcsi_batches_need(const lrcs_scene *scene)
     return need;
 }
 
-/* first[i + 1] counts material i - 1, then becomes its first place, then, as places are taken, the
-   next: in the end that of material i. */
+/* A counting sort by material. first[i + 2] counts the facets of material i; the sums make
+   first[i + 1] its first place; each facet that takes a place advances it, so that in the end
+   first[i] is the first place of material i. */
 int lrcsi_batches_make(lrcs_prepared *p, lrcs_work *work)
 {
     lrcsi_batches *b = &p->batches;

@@ -45,7 +45,7 @@ lrcsi_binder lrcsi_binder_plain(const lrcs_recipe *recipe)
 }
 
 /* The index of the last binding of a kind and key, or of the recipe's material of a name. */
-static uint32_t find(const lrcsi_binder *binder, int tag, const void *bytes, size_t size)
+static uint32_t find_index(const lrcsi_binder *binder, int tag, const void *bytes, size_t size)
 {
     if (binder->indexed) {
         return lrcsi_index_find(&binder->names, (uint32_t)tag, bytes, size);
@@ -73,7 +73,7 @@ static uint32_t find(const lrcsi_binder *binder, int tag, const void *bytes, siz
 static const lrcs_binding *find_binding(const lrcsi_binder *binder, int kind, const void *bytes,
                                         size_t size)
 {
-    uint32_t i = find(binder, kind, bytes, size);
+    uint32_t i = find_index(binder, kind, bytes, size);
     if (i == LRCS_NONE) {
         return NULL;
     }
@@ -137,7 +137,7 @@ int lrcsi_binder_assigned(const lrcsi_binder *binder, const lrcs_recipe_part *pa
         *assigned = (uint32_t)part->material_index;
         return LRCS_OK;
     }
-    *assigned = find(binder, TAG_RECIPE, part->material, strlen(part->material));
+    *assigned = find_index(binder, TAG_RECIPE, part->material, strlen(part->material));
     const lrcs_brdf_entry *entry;
     for (uint32_t i = 0; *assigned == LRCS_NONE && (entry = lrcs_brdf_library(i)) != NULL; i++) {
         if (strcmp(entry->name, part->material) == 0) {
@@ -170,15 +170,16 @@ static void assign_brdf(lrcs_material *material, const lrcs_brdf *brdf,
     }
 }
 
-static void dress_by_library(const lrcs_brdf_entry *entry, lrcs_material *material)
+/* Assigns the BRDF of a material of the library. */
+static void assign_by_library(const lrcs_brdf_entry *entry, lrcs_material *material)
 {
     assign_brdf(material, &entry->brdf, &entry->error, lrcsi_binder_library_source(entry), -1, 0);
 }
 
-/* The recipe's materials are sources 1, 2, ...; the bindings follow, except those that have their
-   own source. */
-static void dress_by(const lrcsi_binder *binder, const lrcs_binding *binding,
-                     lrcs_material *material)
+/* Assigns the BRDF of a binding. The recipe's materials are sources 1, 2, ...; the bindings follow,
+   except those that have their own source. */
+static void assign_by_binding(const lrcsi_binder *binder, const lrcs_binding *binding,
+                              lrcs_material *material)
 {
     const lrcs_recipe *recipe = binder->recipe;
     uint32_t own = 1 + recipe->material_count + (uint32_t)(binding - recipe->binding);
@@ -192,10 +193,12 @@ static void override_named(const lrcsi_binder *binder, const char *name, lrcs_ma
 {
     const lrcs_binding *binding = name ? find_named(binder, LRCS_BIND_NAME, name) : NULL;
     if (binding) {
-        dress_by(binder, binding, material);
+        assign_by_binding(binder, binding, material);
     }
 }
 
+/* Assigns the material that a scene file assigns to a whole part: one of the recipe or of the
+   library. */
 static void assign_material(const lrcsi_binder *binder, uint32_t assigned, lrcs_material *material)
 {
     const lrcs_recipe *recipe = binder->recipe;
@@ -208,24 +211,26 @@ static void assign_material(const lrcsi_binder *binder, uint32_t assigned, lrcs_
     } else {
         const lrcs_brdf_entry *entry = lrcs_brdf_library(assigned - recipe->material_count);
         name = entry->name;
-        dress_by_library(entry, material);
+        assign_by_library(entry, material);
     }
     override_named(binder, name, material);
     material->name = material->name ? material->name : name;
 }
 
 /* Applies a map of a scene file, or a default. */
-static void apply(const lrcsi_binder *binder, const lrcs_binding *binding, lrcs_material *material)
+static void apply_binding(const lrcsi_binder *binder, const lrcs_binding *binding,
+                          lrcs_material *material)
 {
-    dress_by(binder, binding, material);
+    assign_by_binding(binder, binding, material);
     override_named(binder, binding->material, material);
 }
 
+/* Applies the default of the recipe; if there is none, lrcs_brdf_default. */
 static void apply_default(const lrcsi_binder *binder, lrcs_material *material)
 {
     const lrcs_binding *binding = find_named(binder, LRCS_BIND_DEFAULT, "");
     if (binding) {
-        apply(binder, binding, material);
+        apply_binding(binder, binding, material);
     } else {
         material->brdf = lrcs_brdf_default();
     }
@@ -255,9 +260,9 @@ static void apply_map(const lrcsi_binder *binder, const lrcs_surface *surface,
     }
     const lrcs_brdf_entry *entry = lrcs_brdf_find(surface->name);
     if (map) {
-        apply(binder, map, material);
+        apply_binding(binder, map, material);
     } else if (entry) {
-        dress_by_library(entry, material);
+        assign_by_library(entry, material);
     } else {
         apply_default(binder, material);
     }
@@ -281,7 +286,7 @@ lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t assigned
         !binder->recipe->keep_transparent && surface->transparency >= TRANSPARENCY_OMITTED;
     if (name || colour) {
         const lrcs_binding *binding = name ? name : colour;
-        dress_by(binder, binding, &material);
+        assign_by_binding(binder, binding, &material);
     } else if (assigned != LRCS_NONE) {
         assign_material(binder, assigned, &material);
     } else {
@@ -298,7 +303,7 @@ uint32_t lrcsi_binder_unmatched(const lrcsi_binder *binder)
         if (binding->kind == LRCS_BIND_NAME || binding->kind == LRCS_BIND_COLOUR) {
             size_t size;
             const void *key = key_of(binding, &size);
-            if (!binder->matched[find(binder, binding->kind, key, size)]) {
+            if (!binder->matched[find_index(binder, binding->kind, key, size)]) {
                 return i;
             }
         }

@@ -189,21 +189,21 @@ static uint64_t count_entries(const lrcs_prepared *p)
     return count;
 }
 
-/* What `rim` says of a facet, from that of the facet for which it was computed: sides of the two
+/* What `met` says of a facet, from that of the facet for which it was computed: sides of the two
    correspond if they are the same edge, for the order of corners differs. */
-static unsigned char rim_of(const lrcs_prepared *p, uint32_t facet, uint32_t of)
+static unsigned char met_of(const lrcs_prepared *p, uint32_t facet, uint32_t of)
 {
     const uint32_t *edge = p->topology.facet_edge[facet].corner;
     const uint32_t *edge_of = p->topology.facet_edge[of].corner;
-    unsigned rim = p->intersections.rim[of] & 1u;
+    unsigned met = p->intersections.met[of] & 1u;
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < 3; i++) {
             if (edge[k] == edge_of[i] && lrcsi_intersection_along(&p->intersections, of, i)) {
-                rim |= 2u << k;
+                met |= 2u << k;
             }
         }
     }
-    return (unsigned char)rim;
+    return (unsigned char)met;
 }
 
 /* In place, from the end: no entry moves down, and the list of the first of a pair has not moved
@@ -215,14 +215,14 @@ static void spread_entries(lrcs_prepared *p, uint32_t count)
         uint32_t of = first_of_pair(p, f);
         uint32_t to = count;
         for (uint32_t i = t->first[of + 1]; i-- > t->first[of];) {
-            lrcsi_intersection touch = t->entry[i];
-            uint32_t opposite = p->opposite[touch.other];
+            lrcsi_intersection contact = t->entry[i];
+            uint32_t opposite = p->opposite[contact.other];
             if (opposite != LRCS_NONE) {
-                t->entry[--to] = (lrcsi_intersection){opposite, touch.kind};
+                t->entry[--to] = (lrcsi_intersection){opposite, contact.kind};
             }
-            t->entry[--to] = touch;
+            t->entry[--to] = contact;
         }
-        t->rim[f] = rim_of(p, f, of);
+        t->met[f] = met_of(p, f, of);
         t->first[f + 1] = count;
         count = to;
     }

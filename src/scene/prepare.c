@@ -124,7 +124,7 @@ static void lanes_cross(cross_lanes *n)
 
 /* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| is computed
    within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
-static void normal_take(lrcs_prepared *prepared, uint32_t facet, const cross_lanes *lanes, int at)
+static void store_normal(lrcs_prepared *prepared, uint32_t facet, const cross_lanes *lanes, int at)
 {
     lrcsi_normal *n = &prepared->normal[facet];
     const double p[3] = {lanes->p[0][at], lanes->p[1][at], lanes->p[2][at]};
@@ -145,7 +145,8 @@ static void normal_take(lrcs_prepared *prepared, uint32_t facet, const cross_lan
     }
 }
 
-static void normals_fill(lrcs_prepared *p)
+/* The normals of all facets. */
+static void compute_normals(lrcs_prepared *p)
 {
     uint32_t count = p->scene->facet_count;
     cross_lanes lanes;
@@ -160,14 +161,14 @@ static void normals_fill(lrcs_prepared *p)
         }
         lanes_cross(&lanes);
         for (uint32_t at = 0; at < CROSS_LANES && first + at < count; at++) {
-            normal_take(p, first + at, &lanes, (int)at);
+            store_normal(p, first + at, &lanes, (int)at);
         }
     }
 }
 
 /* Which facets are live, their corners, and what their materials and parts require. A facet that
    rounding left without area still makes its part count as curved. */
-static void live_find(lrcs_prepared *p)
+static void find_live(lrcs_prepared *p)
 {
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         const lrcs_material *material = lrcsi_prepared_material(p, f);
@@ -190,7 +191,7 @@ static void live_find(lrcs_prepared *p)
 }
 
 /* The box around the live facets, and that around most vertices. */
-static void box_find(lrcs_prepared *p)
+static void find_box(lrcs_prepared *p)
 {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -233,27 +234,27 @@ static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
     if (!p->skip || !p->redundant || !p->referenced) {
         return LRCS_E_MEMORY;
     }
-    live_find(p);
-    box_find(p);
+    find_live(p);
+    find_box(p);
     int status = lrcsi_coincident_mark(p, work);
     return status == LRCS_OK ? lrcsi_across_make(&p->topology, scene->facet_count, p->redundant,
                                                  p->opposite, work, &p->across)
                              : status;
 }
 
-/* The facets of a body that is convex by construction meet each other only in their rims, up to the
-   rounding that grazing_cos allows for, so no search is needed; how they meet there is left open.
- */
+/* The facets of a body that is convex by construction meet each other only in their boundaries, up
+   to the rounding that grazing_cos allows for, so no search is needed. How they meet there is not
+   decided: all facets are marked in `met`. */
 static int contacts_of_convex(lrcs_prepared *p, lrcs_work *work)
 {
     lrcsi_intersections *t = &p->intersections;
     size_t facets = p->scene->facet_count;
     t->first = lrcsi_work_take_zero(work, facets + 1, sizeof *t->first);
-    t->rim = lrcsi_work_take(work, facets, 1);
-    if (!t->first || !t->rim) {
+    t->met = lrcsi_work_take(work, facets, 1);
+    if (!t->first || !t->met) {
         return LRCS_E_MEMORY;
     }
-    memset(t->rim, 1, facets);
+    memset(t->met, 1, facets);
     return LRCS_OK;
 }
 
@@ -264,7 +265,7 @@ static int contacts_of_convex(lrcs_prepared *p, lrcs_work *work)
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 {
     uint32_t facets = p->scene->facet_count;
-    p->convex = lrcsi_convex_made(p, &p->solid);
+    p->convex = lrcsi_convex_by_construction(p, &p->solid);
     if (p->convex) {
         return contacts_of_convex(p, work);
     }
@@ -299,7 +300,7 @@ static int prepare_normals(lrcs_prepared *p, lrcs_work *work)
     if (!p->normal) {
         return LRCS_E_MEMORY;
     }
-    normals_fill(p);
+    compute_normals(p);
     return lrcsi_batches_make(p, work);
 }
 

@@ -7,7 +7,7 @@
 #ifndef LRCSI_PREPARED_H
 #define LRCSI_PREPARED_H
 
-#include <lrcs/run.h>
+#include <lrcs/prepare.h>
 
 #include <math.h>
 
@@ -79,7 +79,7 @@ typedef struct lrcsi_proximity {
 typedef struct lrcsi_run {
     double low[3], high[3]; /* the box around its facets, except those always redundant */
     uint32_t first_side;
-    int has_contacts; /* some facet has a contact or is marked in rim (mesh/intersection.h) */
+    int has_contacts; /* some facet has a contact or is marked in `met` (mesh/intersection.h) */
 } lrcsi_run;
 
 /* A side of a facet of a run across which (scene/across.h) there is a facet of another run that

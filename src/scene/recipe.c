@@ -73,6 +73,7 @@ static int count_tables(const char *text, size_t size, lrcs_where *where, uint32
     return LRCS_OK;
 }
 
+/* The keys at the top of the file. */
 static int finish_top(recipe_reader *reader)
 {
     const lrcsi_draft *draft = &reader->draft;
@@ -168,6 +169,7 @@ static int read_brdf_error(const lrcsi_draft *draft, const lrcs_brdf *brdf, lrcs
                : status;
 }
 
+/* A [[material]]. */
 static int finish_material(recipe_reader *reader)
 {
     const lrcsi_draft *draft = &reader->draft;
@@ -202,6 +204,7 @@ static int read_colour(const char *text, unsigned char rgb[3])
     return LRCS_OK;
 }
 
+/* A [[map]]: from a surface of a model, by name or colour, to a material. */
 static int finish_map(recipe_reader *reader)
 {
     const lrcsi_draft *draft = &reader->draft;
@@ -227,6 +230,7 @@ static int finish_map(recipe_reader *reader)
     return LRCS_OK;
 }
 
+/* Interprets the table that has just ended. */
 static int finish_table(recipe_reader *reader)
 {
     switch (reader->draft.table) {
@@ -243,17 +247,6 @@ static int finish_table(recipe_reader *reader)
     }
 }
 
-static int open_table(recipe_reader *reader, const lrcsi_toml_event *header)
-{
-    int table = lrcsi_draft_table(&reader->draft, header);
-    if (table < 0) {
-        return table;
-    }
-    int status = table == LRCSI_TABLE_JOINT ? LRCS_OK : finish_table(reader);
-    lrcsi_draft_open(&reader->draft, table, header);
-    return status;
-}
-
 /* The second pass: every table into the arrays that the first one sized. */
 static int read_tables(recipe_reader *reader)
 {
@@ -267,8 +260,17 @@ static int read_tables(recipe_reader *reader)
         if (event.kind == LRCSI_TOML_END) {
             return finish_table(reader);
         }
-        status = event.kind == LRCSI_TOML_KEY ? lrcsi_draft_add(&reader->draft, &event)
-                                              : open_table(reader, &event);
+        if (event.kind == LRCSI_TOML_KEY) {
+            status = lrcsi_draft_add(&reader->draft, &event);
+        } else { /* a header: it ends the table before, unless it goes on with a part's joint */
+            int table = lrcsi_draft_table(&reader->draft, &event);
+            status = table < 0                    ? table
+                     : table == LRCSI_TABLE_JOINT ? LRCS_OK
+                                                  : finish_table(reader);
+            if (status == LRCS_OK) {
+                lrcsi_draft_open(&reader->draft, table, &event);
+            }
+        }
         if (status != LRCS_OK) {
             return status;
         }
@@ -295,6 +297,7 @@ static int enter_name(lrcsi_index *names, uint32_t tag, const void *bytes, size_
     return LRCS_OK;
 }
 
+/* Enters all names of parts, materials and maps, each of which must be unique. */
 static int enter_names(const recipe_reader *reader, lrcsi_index *names)
 {
     const lrcs_recipe *recipe = &reader->recipe;
@@ -399,14 +402,6 @@ static int resolve_names(recipe_reader *reader, lrcs_work *work)
     return status;
 }
 
-static int take_arrays(lrcs_work *work, const uint32_t count[3], lrcs_recipe *recipe)
-{
-    recipe->part = lrcsi_work_take(work, count[0], sizeof *recipe->part);
-    recipe->material = lrcsi_work_take(work, count[1], sizeof *recipe->material);
-    recipe->binding = lrcsi_work_take(work, (size_t)count[2] + 1, sizeof *recipe->binding);
-    return recipe->part && recipe->material && recipe->binding ? LRCS_OK : LRCS_E_MEMORY;
-}
-
 static int read_recipe(recipe_reader *reader, const char *text, size_t size, lrcs_work *work,
                        lrcs_where *where)
 {
@@ -415,14 +410,18 @@ static int read_recipe(recipe_reader *reader, const char *text, size_t size, lrc
     if (status != LRCS_OK) {
         return status;
     }
-    if (take_arrays(work, count, &reader->recipe) != LRCS_OK) {
+    lrcs_recipe *recipe = &reader->recipe;
+    recipe->part = lrcsi_work_take(work, count[0], sizeof *recipe->part);
+    recipe->material = lrcsi_work_take(work, count[1], sizeof *recipe->material);
+    recipe->binding = lrcsi_work_take(work, (size_t)count[2] + 1, sizeof *recipe->binding);
+    if (!recipe->part || !recipe->material || !recipe->binding) {
         return out_of_memory(where);
     }
     status = lrcsi_toml_start(&reader->toml, text, size, work, where);
     if (status == LRCS_OK) {
         status = read_tables(reader);
     }
-    if (status == LRCS_OK && reader->recipe.part_count == 0) {
+    if (status == LRCS_OK && recipe->part_count == 0) {
         return lrcsi_where_text(where, LRCS_E_EMPTY, size, reader->toml.line, "scene file",
                                 "a [[part]]", "end of file", 11);
     }

@@ -70,7 +70,7 @@ int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
         int has_contacts = 0;
         for (uint32_t f = start; f < end; f++) {
             has_contacts |=
-                lrcsi_intersection_of(&p->intersections, f) != 0 || p->intersections.rim[f];
+                lrcsi_intersection_of(&p->intersections, f) != 0 || p->intersections.met[f];
             const double *a = lrcsi_prepared_corner(p, f, 0);
             const double *b = lrcsi_prepared_corner(p, f, 1);
             const double *c = lrcsi_prepared_corner(p, f, 2);

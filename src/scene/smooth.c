@@ -105,7 +105,8 @@ static int side_of(const smooth_job *job, uint32_t facet, uint32_t k, uint32_t b
     return make_unit(v);
 }
 
-static void find_units(smooth_job *job)
+/* The unit normals of all facets. */
+static void compute_facet_normals(smooth_job *job)
 {
     for (uint32_t f = 0; f < job->mesh->facet_count; f++) {
         double u[3];
@@ -122,7 +123,7 @@ static void find_units(smooth_job *job)
 /* --- smoothing groups ------------------------------------------------------------------------- */
 
 /* Lists the corners of every vertex. */
-static void file_corners(smooth_job *job)
+static void list_corners(smooth_job *job)
 {
     uint32_t vertices = job->mesh->vertex_count;
     uint32_t corners = 3 * job->mesh->facet_count; /* lrcsi_smooth_run ensures it */
@@ -243,8 +244,8 @@ static int facet_normals(const smooth_job *job, uint32_t facet, lrcs_point n[3])
 }
 
 /* Does the glint require curved normals? The turn is the largest angle between two of them. */
-static int is_called_for(const smooth_job *job, uint32_t facet, const lrcs_point n[3],
-                         const lrcs_build_options *options)
+static int glint_needs_normals(const smooth_job *job, uint32_t facet, const lrcs_point n[3],
+                               const lrcs_build_options *options)
 {
     const lrcs_scene *scene = job->scene;
     const lrcs_brdf *brdf = &scene->material[scene->facet_material[job->first + facet]].brdf;
@@ -258,6 +259,7 @@ static int is_called_for(const smooth_job *job, uint32_t facet, const lrcs_point
     return brdf->A > 0.0 && turn > 0.0 && lrcsi_comb_error(turn, brdf->s) > options->tolerance;
 }
 
+/* Do all corners that have a normal have one that exists? Status: LRCS_OK; LRCS_E_INDEX. */
 static int check_normals(const lrcs_mesh *mesh)
 {
     for (uint32_t f = 0; mesh->facet_normal && f < mesh->facet_count; f++) {
@@ -326,14 +328,14 @@ int lrcsi_smooth_run(const lrcs_mesh *mesh, const lrcsi_placer *placer,
     int status =
         job.unit && job.in_mean && job.corner && job.start ? check_normals(mesh) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        find_units(&job);
-        file_corners(&job);
+        compute_facet_normals(&job);
+        list_corners(&job);
         for (uint32_t v = 0; v < mesh->vertex_count; v++) {
             vertex_means(&job, v);
         }
         for (uint32_t f = 0; f < mesh->facet_count; f++) {
             lrcs_point *n = &scene->corner_normal[3 * ((size_t)job.first + f)];
-            if (!facet_normals(&job, f, n) || !is_called_for(&job, f, n, options)) {
+            if (!facet_normals(&job, f, n) || !glint_needs_normals(&job, f, n, options)) {
                 memset(n, 0, 3 * sizeof *n);
             }
         }

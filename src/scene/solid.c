@@ -12,7 +12,8 @@
 
 /* --- pieces: facets joined by edges ----------------------------------------------------------- */
 
-/* Across each side of a live facet there is one other, unless the edge is irregular or a rim. */
+/* Across each side of a live facet there is one other, unless the edge is irregular or a boundary
+   edge. */
 int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
 {
     uint32_t count = p->scene->facet_count;
@@ -91,7 +92,7 @@ int lrcsi_solid_outward(const lrcs_prepared *p, const uint32_t *piece, lrcs_work
 /* --- convexity -------------------------------------------------------------------------------- */
 
 /* The only part with live facets, or LRCS_NONE if there is no such part. */
-static uint32_t lone_part(const lrcs_prepared *p)
+static uint32_t only_part(const lrcs_prepared *p)
 {
     uint32_t part = LRCS_NONE;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -150,9 +151,9 @@ static double misplaced_by(const lrcs_prepared *p, const lrcs_part *part)
     return ldexp(part->misplaced, -p->exponent) + 4 * LRCSI_U;
 }
 
-int lrcsi_convex_made(const lrcs_prepared *p, int *solid)
+int lrcsi_convex_by_construction(const lrcs_prepared *p, int *solid)
 {
-    uint32_t index = lone_part(p);
+    uint32_t index = only_part(p);
     if (index == LRCS_NONE) {
         return 0;
     }
@@ -174,7 +175,7 @@ int lrcsi_convex_made(const lrcs_prepared *p, int *solid)
    the margin. */
 double lrcsi_convex_grazing(const lrcs_prepared *p)
 {
-    const lrcs_part *part = &p->scene->part[lone_part(p)];
+    const lrcs_part *part = &p->scene->part[only_part(p)];
     double off = misplaced_by(p, part);
     double dent = 0;
     double altitude = 0;

@@ -26,7 +26,7 @@ int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *piece, lr
 /* 1 if all live facets belong to one part that the library tessellated, which lies on a convex
    surface, outward, and one-sided or closed (then also *solid): convex by construction. A body
    thinner than 1e6 roundings is refused. */
-int lrcsi_convex_made(const lrcs_prepared *prepared, int *solid);
+int lrcsi_convex_by_construction(const lrcs_prepared *prepared, int *solid);
 
 /* Given such a scene with its normals. Rounding, and on doubly curved bodies the choice of
    diagonals, may have left dents; a front facet with cos(theta) above the returned value is

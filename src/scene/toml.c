@@ -38,6 +38,8 @@ static int toml_peek(const lrcsi_toml *toml, char c)
     return toml->at < toml->end && *toml->at == c;
 }
 
+/* Reports that reading stopped at `at`, and quotes the rest of the line from there. Returns
+   `status`. */
 static int toml_stop(const lrcsi_toml *toml, int status, const char *at, const char *item,
                      const char *expected)
 {
@@ -59,7 +61,8 @@ static int toml_stop(const lrcsi_toml *toml, int status, const char *at, const c
     return lrcsi_where_text(toml->where, status, offset, toml->line, item, expected, at, size);
 }
 
-static void toml_blanks(lrcsi_toml *toml)
+/* Skips spaces and tabs. */
+static void skip_blanks(lrcsi_toml *toml)
 {
     while (toml_peek(toml, ' ') || toml_peek(toml, '\t')) {
         toml->at++;
@@ -88,17 +91,19 @@ static int skip_line_end(lrcsi_toml *toml)
     return 1;
 }
 
-static void toml_lines(lrcsi_toml *toml)
+/* Skips blanks, comments and line ends. */
+static void skip_lines(lrcsi_toml *toml)
 {
     do {
-        toml_blanks(toml);
+        skip_blanks(toml);
         skip_comment(toml);
     } while (skip_line_end(toml));
 }
 
-static int toml_line_end(lrcsi_toml *toml, const char *item)
+/* Skips the rest of the line, which must be blank or a comment. */
+static int expect_line_end(lrcsi_toml *toml, const char *item)
 {
-    toml_blanks(toml);
+    skip_blanks(toml);
     skip_comment(toml);
     if (toml->at < toml->end && !skip_line_end(toml)) {
         return toml_stop(toml, LRCS_E_SYNTAX, toml->at, item, "the end of the line");
@@ -182,7 +187,9 @@ static int read_escape(lrcsi_toml *toml, char out[4], size_t *count)
     return LRCS_OK;
 }
 
-static int toml_quoted(lrcsi_toml *toml, char *out, size_t room, size_t *size)
+/* A string in quotes, at toml->at: its unescaped bytes, as many as there is room for in `out`, and
+   their number. */
+static int read_quoted(lrcsi_toml *toml, char *out, size_t room, size_t *size)
 {
     const char *begin = toml->at;
     char quote = *begin;
@@ -219,7 +226,7 @@ static int read_string(lrcsi_toml *toml, lrcsi_toml_event *event)
 {
     const char *begin = toml->at;
     size_t size = 0;
-    int status = toml_quoted(toml, NULL, 0, &size);
+    int status = read_quoted(toml, NULL, 0, &size);
     event->type = LRCSI_TOML_STRING;
     if (status != LRCS_OK || !toml->work) {
         return status;
@@ -229,7 +236,7 @@ static int read_string(lrcsi_toml *toml, lrcsi_toml_event *event)
         return toml_stop(toml, LRCS_E_MEMORY, begin, "string", "more work area");
     }
     toml->at = begin;
-    status = toml_quoted(toml, text, size, &size);
+    status = read_quoted(toml, text, size, &size);
     text[size] = '\0';
     event->text = text;
     return status;
@@ -239,7 +246,7 @@ static int read_string(lrcsi_toml *toml, lrcsi_toml_event *event)
 
 /* Reads a digit, then digits that single underscores may separate. Returns the end, or NULL if
    there is no digit. */
-static const char *pass_digits(const char *at, const char *end)
+static const char *skip_digits(const char *at, const char *end)
 {
     if (at == end || *at < '0' || *at > '9') {
         return NULL;
@@ -260,17 +267,17 @@ static int is_number(const char *at, const char *end, int *integer)
         at++;
     }
     const char *first = at;
-    at = pass_digits(at, end);
+    at = skip_digits(at, end);
     if (!at || (*first == '0' && at != first + 1)) {
         return 0;
     }
     *integer = at == end;
     if (at < end && *at == '.') {
-        at = pass_digits(at + 1, end);
+        at = skip_digits(at + 1, end);
     }
     if (at && at < end && (*at == 'e' || *at == 'E')) {
         at++;
-        at = pass_digits(at < end && (*at == '+' || *at == '-') ? at + 1 : at, end);
+        at = skip_digits(at < end && (*at == '+' || *at == '-') ? at + 1 : at, end);
     }
     return at == end;
 }
@@ -366,7 +373,7 @@ static int read_array(lrcsi_toml *toml, lrcsi_toml_event *event)
 {
     event->type = LRCSI_TOML_ARRAY;
     toml->at++;
-    for (toml_lines(toml); !toml_peek(toml, ']'); toml_lines(toml)) {
+    for (skip_lines(toml); !toml_peek(toml, ']'); skip_lines(toml)) {
         int type = LRCSI_TOML_ARRAY;
         double number = 0.0;
         if (toml->at < toml->end && !strchr("\"'[{", *toml->at)) {
@@ -386,7 +393,7 @@ static int read_array(lrcsi_toml *toml, lrcsi_toml_event *event)
             event->number[event->count] = number;
         }
         event->count++;
-        toml_lines(toml);
+        skip_lines(toml);
         if (toml_peek(toml, ',')) {
             toml->at++;
         } else if (!toml_peek(toml, ']')) {
@@ -397,7 +404,7 @@ static int read_array(lrcsi_toml *toml, lrcsi_toml_event *event)
     return LRCS_OK;
 }
 
-static int toml_value(lrcsi_toml *toml, lrcsi_toml_event *event)
+static int read_value(lrcsi_toml *toml, lrcsi_toml_event *event)
 {
     char c = '\0';
     if (toml->at < toml->end) {
@@ -428,7 +435,7 @@ static int is_bare_byte(char c)
 static int read_name(lrcsi_toml *toml, const char *item, lrcsi_toml_name *name)
 {
     if (toml_peek(toml, '"') || toml_peek(toml, '\'')) {
-        return toml_quoted(toml, name->text, sizeof name->text, &name->size);
+        return read_quoted(toml, name->text, sizeof name->text, &name->size);
     }
     const char *begin = toml->at;
     while (toml->at < toml->end && is_bare_byte(*toml->at)) {
@@ -455,13 +462,13 @@ static int read_header(lrcsi_toml *toml, lrcsi_toml_event *event)
             return toml_stop(toml, LRCS_E_UNSUPPORTED, event->raw, "table header",
                              "at most two names (deeper tables are not in the subset)");
         }
-        toml_blanks(toml);
+        skip_blanks(toml);
         int status = read_name(toml, "table header", &event->name[event->name_count]);
         if (status != LRCS_OK) {
             return status;
         }
         event->name_count++;
-        toml_blanks(toml);
+        skip_blanks(toml);
         more = toml_peek(toml, '.');
         toml->at += more;
     }
@@ -471,9 +478,10 @@ static int read_header(lrcsi_toml *toml, lrcsi_toml_event *event)
         }
     }
     event->raw_size = (size_t)(toml->at - event->raw);
-    return toml_line_end(toml, "table header");
+    return expect_line_end(toml, "table header");
 }
 
+/* A key and its value. */
 static int read_pair(lrcsi_toml *toml, lrcsi_toml_event *event)
 {
     event->kind = LRCSI_TOML_KEY;
@@ -483,7 +491,7 @@ static int read_pair(lrcsi_toml *toml, lrcsi_toml_event *event)
         return status;
     }
     event->raw_size = (size_t)(toml->at - event->raw);
-    toml_blanks(toml);
+    skip_blanks(toml);
     if (toml_peek(toml, '.')) {
         return toml_stop(toml, LRCS_E_UNSUPPORTED, event->raw, "key",
                          "a single name (dotted keys are not in the subset)");
@@ -492,19 +500,19 @@ static int read_pair(lrcsi_toml *toml, lrcsi_toml_event *event)
         return toml_stop(toml, LRCS_E_SYNTAX, toml->at, "key", "= and a value");
     }
     toml->at++;
-    toml_blanks(toml);
+    skip_blanks(toml);
     event->value_raw = toml->at;
-    status = toml_value(toml, event);
+    status = read_value(toml, event);
     if (status != LRCS_OK) {
         return status;
     }
     event->value_size = (size_t)(toml->at - event->value_raw);
-    return toml_line_end(toml, "value");
+    return expect_line_end(toml, "value");
 }
 
 int lrcsi_toml_next(lrcsi_toml *toml, lrcsi_toml_event *event)
 {
-    toml_lines(toml);
+    skip_lines(toml);
     memset(event, 0, sizeof *event);
     event->line = toml->line;
     event->raw = toml->at;

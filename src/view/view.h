@@ -8,6 +8,9 @@
 
 #include <math.h>
 
+#include <lrcs/options.h>
+#include <lrcs/pose.h>
+
 #include "base/constant.h"
 #include "base/meter.h"
 #include "base/range.h"

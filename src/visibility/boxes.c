@@ -12,7 +12,8 @@ size_t lrcsi_boxes_need(const lrcs_prepared *prepared)
     size_t runs = prepared->runs.count;
     size_t need = lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(lrcsi_view_box)),
                                  lrcsi_work_bytes(runs, sizeof(lrcsi_view_box)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(runs, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(runs, 1));
+    return lrcsi_work_add(need, lrcsi_work_bytes(runs + 1, sizeof(uint32_t)));
 }
 
 /* A point of the box is m + d, with |d_k| <= h_k. The position of m in the view has an error of at
@@ -47,12 +48,15 @@ int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work 
     const lrcs_prepared *p = view->prepared;
     uint32_t count = p->scene->facet_count;
     *boxes = (lrcsi_boxes){.view = view};
-    boxes->facet = lrcsi_work_take(work, count, sizeof *boxes->facet);
     boxes->run = lrcsi_work_take(work, p->runs.count, sizeof *boxes->run);
     boxes->state = lrcsi_work_take_zero(work, p->runs.count, 1);
-    if (!boxes->facet || !boxes->run || !boxes->state) {
+    boxes->start = lrcsi_work_take(work, (size_t)p->runs.count + 1, sizeof *boxes->start);
+    boxes->facet = lrcsi_work_take(work, count, sizeof *boxes->facet);
+    if (!boxes->run || !boxes->state || !boxes->start || !boxes->facet) {
         return LRCS_E_MEMORY;
     }
+    boxes->opened = &boxes->start[p->runs.count];
+    *boxes->opened = 0;
     for (uint32_t r = 0; r < p->runs.count; r++) {
         uint32_t end = lrcsi_run_end(r * LRCSI_RUN, count);
         int any = 0;
@@ -71,12 +75,16 @@ void lrcsi_boxes_open(const lrcsi_boxes *boxes, uint32_t run)
 {
     const lrcs_scene *scene = boxes->view->prepared->scene;
     if (boxes->state[run] == LRCSI_BOXES_RUN) {
-        uint32_t end = lrcsi_run_end(run * LRCSI_RUN, scene->facet_count);
-        for (uint32_t f = run * LRCSI_RUN; f < end; f++) {
+        uint32_t first = run * LRCSI_RUN;
+        uint32_t end = lrcsi_run_end(first, scene->facet_count);
+        lrcsi_view_box *box = &boxes->facet[*boxes->opened];
+        for (uint32_t f = first; f < end; f++) {
             if (lrcsi_grid_casts(boxes->view, f)) {
-                boxes->facet[f] = lrcsi_view_box_of(boxes->view, scene->facet[f].corner, 3);
+                box[f - first] = lrcsi_view_box_of(boxes->view, scene->facet[f].corner, 3);
             }
         }
+        boxes->start[run] = *boxes->opened;
+        *boxes->opened += end - first;
         boxes->state[run] = LRCSI_BOXES_FACETS;
     }
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Boxes in the view of the facets that can hide something. One box for each run (scene/runs.h) is
    made at once; the boxes of its facets only when they are needed, since the run's box usually
-   suffices. */
+   suffices. They are stored in the order in which runs are opened, so that memory is written only
+   for those. */
 #ifndef LRCSI_BOXES_H
 #define LRCSI_BOXES_H
 
@@ -15,10 +16,18 @@ enum lrcsi_boxes_state {
 
 typedef struct lrcsi_boxes {
     const lrcsi_view *view;
-    lrcsi_view_box *facet;
     lrcsi_view_box *run;
     unsigned char *state; /* run: a lrcsi_boxes_state */
+    uint32_t *start;      /* run, if opened: the index in facet[] of the box of its first facet */
+    uint32_t *opened;     /* the number of facets of opened runs */
+    lrcsi_view_box *facet;
 } lrcsi_boxes;
+
+/* The box of a facet that can hide something, whose run is opened. */
+static inline const lrcsi_view_box *lrcsi_boxes_facet(const lrcsi_boxes *boxes, uint32_t facet)
+{
+    return &boxes->facet[boxes->start[facet / LRCSI_RUN] + facet % LRCSI_RUN];
+}
 
 /* Can a facet hide anything, and be visible? Not if it is redundant in this view. */
 static inline int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)

@@ -180,7 +180,7 @@ static int alone_facets(lrcsi_alone *a)
 {
     const lrcsi_grid *grid = &a->grid;
     lrcsi_cells_work *c = &a->cells;
-    lrcsi_view_box box = grid->box[a->facet];
+    lrcsi_view_box box = *lrcsi_boxes_facet(&grid->boxes, a->facet);
     lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
     const uint32_t *corner = c->view->prepared->scene->facet[a->facet].corner;
     lrcsi_view_side side[3];
@@ -198,7 +198,7 @@ static int alone_facets(lrcsi_alone *a)
         }
         for (; i < end; i++) {
             uint32_t other = grid->item[i];
-            const lrcsi_view_box *its = &grid->box[other];
+            const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
             if (a->met[other] == c->look || lrcsi_view_box_beside(its, &box) ||
                 lrcsi_view_box_behind(its, &box)) {
                 continue;
@@ -504,7 +504,7 @@ static int place_covered(lrcsi_alone *a, const alone_place *place, uint32_t cand
 {
     const double *at = place->at;
     uint32_t other = a->candidate[candidate];
-    if (lrcsi_view_box_beside(&place->box, &a->grid.box[other])) {
+    if (lrcsi_view_box_beside(&place->box, lrcsi_boxes_facet(&a->grid.boxes, other))) {
         return -1;
     }
     if (a->order[other] == ORDER_NEW) {

@@ -1,38 +1,42 @@
 /* SPDX-License-Identifier: MIT */
-/* How much area is undecided along segments that are not asked about any more, and whose.
+/* The area that stays undecided along segments removed from the lists, and the facets that it is
+   charged to.
 
-   Cells. A cut puts new corners beside the sides that it cuts, by no more than is measured where it
-   is made (lrcsi_cells_shape_divide); the two parts of a cell then miss no point of it by more. The
-   sum of that over all cuts on the way to a cell is its `drift`. So a point of the block belongs to
-   a cell that is no farther from it than its drift; what is said of a cell holds for points so near
-   to it. A facet that is seen in a cell has its area there off by no more than the drift times the
-   perimeter of what it has there: at each cut it is two triangles upon the cut sides, as high as
-   the drift grows by then.
+   Cells. A cut adds corners near the sides that it cuts; their distance from these sides is
+   measured (lrcsi_cells_shape_divide). The two parts of a cell together miss no point of it by more
+   than that. The sum over all cuts from the block to a cell is the cell's `drift`: every point of
+   the block belongs to a cell that is no farther from it than its drift, and what is stated about a
+   cell holds for all points within its drift. So the area of a facet that is visible in a cell has
+   an error of at most the drift times the perimeter of its part there: each cut adds or removes two
+   triangles along the sides that it cuts, as high as the drift grows by that cut.
 
-   Strips. Let w be the error of what is asked about (`off`, `line_off`: visibility/cells_facet.c),
-   16 u times the largest coordinate of the block, and the drift. A segment that is computed to be
-   farther than w from the cell does not come near it. One that is nowhere deeper than w within the
-   cell (LRCSI_CELLS_BORDER) has its part in the cell within 2 w of the line along a side of the
-   cell, or of its own line with the cell on one side. The sample P is clear of these by c. So the
-   way from P to x crosses the segment only if x lies within 2 w of that line, and no farther along
-   it from the segment than 2 w / c of the cell's diameter, which is below CELLS_FAR w where c is
-   above LRCSI_CELLS_THIN of the perimeter. That area is undecided; it is charged to the facets of
-   the list, as much of it as they have, when the segment is struck from the list; all cells that
-   come of the cell are then rid of it. In a thin cell the strips of all that were struck run along
-   the whole of it.
+   Strips. Let w be the sum of the segment's error (`off`, `line_off`: visibility/cells_facet.c), 16
+   u times the largest coordinate of the block, and the drift. If the computed distance of a segment
+   from the cell exceeds w, the segment does not meet the cell. If the segment is nowhere deeper
+   than w within the cell (LRCSI_CELLS_BORDER), its part in the cell lies within 2 w of the line
+   along a side of the cell; or within 2 w of its own line, with the cell on one side of that. Let c
+   be the distance of the sample P from these lines. The path from P to x then crosses the segment
+   only if x lies within 2 w of that line, and no farther along it from the segment than 2 w / c
+   times the cell's diameter. That is below CELLS_FAR w if c exceeds LRCSI_CELLS_THIN times the
+   perimeter. The area of this strip is undecided. It is charged to the facets of the list, to each
+   as much as it has of the strip, when the segment is removed from the list; the cells cut from
+   this one then need not consider the segment. In a thin cell the strips of all segments removed
+   are taken to run along the whole cell.
 
-   What a facet has of a strip is no longer than the facet is within the strip. Its corners are off
-   by `off`, lines by w: it is looked for in a strip wider by more than both. Where a side enters
-   and leaves that is off by less than 4 u of its length, for it counts as a whole where it rises by
-   less than the strip's width; CELLS_FAR w on either end is far more.
+   The part of a facet in a strip is no longer than the facet is within the strip. The facet's
+   corners have the error `off`, the line w; so the facet is intersected with a strip that is wider
+   by more than both. The points where a side of the facet enters and leaves that strip have an
+   error below 4 u of the side's length, since a side that rises by less than the strip's width
+   counts as a whole; CELLS_FAR w at either end is far more.
 
-   A cell is cut along the line of a segment as computed. The true line is within `line_off` and 6 u
-   b of it, b the largest coordinate of the block. The new corners are within 6 u b of it, and what
-   belongs to one of the parts is as near to that as its drift is, which is the cell's and at most 4
-   u b. So P is on one side of the true line, and x is on the other only within `line_off`, 12 u b
-   and the cell's drift of it: w, here. A facet F lies on one side of its own edge. So where the
-   cell is cut along that, F is in no doubt on its own side: neither P nor any point of F is beyond
-   the edge. What F has on the other side is nearer to the line than w. */
+   Cuts. A cell is cut along the computed line of a segment. The true line is within `line_off` + 6
+   u b of it, where b is the largest coordinate of the block. The new corners are within 6 u b of
+   the computed line, and a point that belongs to one of the parts is within that part's drift of
+   it, which exceeds the cell's by at most 4 u b. So P is on one side of the true line, and x can be
+   on the other side only if it is within w of it, w being `line_off` + 12 u b + the cell's drift
+   here. If the cell is cut along an edge of facet F, F lies on one side of the true line. On that
+   side F is certain: neither P nor any point of F is beyond the edge. What F has on the other side
+   is within w of the line. */
 #include "visibility/cells_charge.h"
 
 #include <math.h>
@@ -44,7 +48,7 @@
 /* A cell that is no wider than so many strips may be charged whole. */
 #define SLIVER 8
 
-/* How far a facet goes along a line, from `start`. */
+/* The interval that a facet covers along a line, measured from `start`. */
 static inline void corners_along(const lrcsi_cells_facet *f, const double line[3],
                                  const double start[2], double along[2])
 {
@@ -56,8 +60,8 @@ static inline void corners_along(const lrcsi_cells_facet *f, const double line[3
     along[1] = lrcsi_most(a, lrcsi_most(b, d)) - from;
 }
 
-/* The same where it is within `near` of it; along[0] >
-   along[1] where it is nowhere. Sides that are almost parallel count as a whole. */
+/* The same for the part of the facet within `near` of the line; along[0] > along[1] if there is
+   none. Sides almost parallel to the line count as a whole. */
 static void facet_along(const lrcsi_cells_facet *f, const double line[3], const double start[2],
                         double near, double along[2])
 {

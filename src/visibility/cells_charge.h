@@ -1,25 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* Area undecided along segments, charged to the facets that it may belong to (visibility/cells.c).
- */
+/* The area that stays undecided along segments, charged to the facets that it may belong to
+   (visibility/cells.c). */
 #ifndef LRCSI_CELLS_CHARGE_H
 #define LRCSI_CELLS_CHARGE_H
 
 #include "visibility/cells_state.h"
 
-/* The clearance of a sample in a cell that is not thin, of the perimeter. */
+/* A cell is thin if the distance of its sample from the border is below this part of the cell's
+   perimeter. */
 #define LRCSI_CELLS_THIN 0x1p-32
 
-/* The strip along a segment at which a cell is cut, so wide on both sides. Distances along it from
-   its first end. */
+/* The strip along a segment at which a cell is cut: its width on either side, and its ends as
+   distances from the segment's first end. */
 typedef struct lrcsi_cells_strip {
     const lrcsi_cells_segment *along; /* or NULL: then there is none */
     double width, from, to;
     double g; /* of the cell that is cut */
 } lrcsi_cells_strip;
 
-/* Charges what a segment at the border puts undecided to the facets that come near: no more than
-   the strip has along the length of the facet. What is next to nothing goes to all of them, later.
- */
+/* Charges the undecided area of a segment at the border to the facets near it: to each no more than
+   the area of the strip along the facet's length. A negligible area is charged to all facets of the
+   list later. */
 void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
                                const lrcsi_cells_sides *s, const lrcsi_cells_border *e);
 
@@ -28,12 +29,13 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
 void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, double low, double high,
                             const lrcsi_cells_strip *strip);
 
-/* What strips beyond the ends of so many segments, whose lines are off by at most `off`, may cost
-   in a cell whose sample is near to a side: it is thin. Any facet in it may be off by that. */
+/* The undecided area in a thin cell, to be charged to every facet in it: that of the strips of so
+   many segments, whose lines have errors of at most `off`, along the whole cell. 0 if the cell is
+   not thin. */
 double lrcsi_cells_thin(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s, double clear,
                         uint32_t segments, double off);
 
-/* Charges all of a cell that has no room for a sample, where it is a sliver; 0 if it is none. */
+/* Charges the whole area of a cell that has no room for a sample, if it is a sliver. 0 if not. */
 int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                            const lrcsi_cells_sides *s);
 

@@ -1,33 +1,39 @@
 /* SPDX-License-Identifier: MIT */
-/* One cell: what a sample sees, the surface component around it, and what is behind that.
+/* One cell: which surface component is nearest at a sample, whether it covers the cell, and what is
+   behind it.
 
-   Why this is right. All statements are about the cell but for some strips; x is any point of it,
-   in general position, and the way from P to x is straight.
-     (1) Let K be a set of facets such that any edge of theirs that crosses the cell is no event,
-   and joins two facets of K. Then as many facets of K cover x as cover P: on the way from P to x
-   their number does not change, since where one ends the next begins. So if just one facet of K
-   surely covers P and the others surely do not, K covers the cell once. How K was found does not
-   matter.
-     (2) Let K cover the cell once, let no contact between a facet of K and another cross the cell,
-   and let K be nearest at P. The number of surfaces in front of K is 0 at P, and changes on the way
-   only at an event edge in front of K: at an edge that joins two facets one ends and one begins. So
-   where no event is in front of K, all of K is seen in the cell, and nothing else.
-     (3) Let K be as in (2), but perhaps not nearest at P, and with events in front of it. What is
-   behind K at one place of the cell is behind it wherever it is in the cell, for the two meet
-   nowhere in it. It may be dropped there: at no point is it nearest. (2) holds for the facets that
-   are left: an edge that joins one of them with a dropped one is behind a cover, and a component
-   that is nearest at P and has no contact with that cover is behind it nowhere.
-     (4) Where no facet covers P, and no event crosses the cell, no facet is seen in it.
-     (5) Facets that are hidden everywhere need not be listed. Let K be as in (2), of listed facets,
-   with no event or contact of listed facets in front of it, and let y be the first point on the way
-   at which K is no longer nearest of all facets. A facet that is nearest just beyond y is visible
-   there, so it is listed. It begins at y at an edge, or comes forward through K at a contact. The
-   edge is an event: a facet that ended there would have been in front of K before y.
-   A contact is where two facets meet in space other than along a common edge or in a point: across
-   segments of the inside of one (mesh/intersection.h), along parts of edges of both (the facets are
-   then marked as rims), or in one plane. All edges of rims and of facets with another in their
-   plane count as events, so that no component goes on across them. Facets of which a contact is not
-   known tell nothing (`vague`). Contacts in points do not matter: ways in general position miss
+   Proof. P is the sample. x is any other point of the cell in general position. "The path" is the
+   straight line from P to x. Everything said here excludes the strips that
+   visibility/cells_charge.c accounts for.
+     (1) Let K be a set of facets with this property: each of its edges that crosses the cell is no
+   event edge, and joins two facets of K. Then K covers x as many times as it covers P: along the
+   path this number cannot change, because where one facet of K ends the next begins. So if exactly
+   one facet of K surely covers P, and the others surely do not, K covers the cell once. It does not
+   matter how K was found.
+     (2) Let K cover the cell once and be nearest at P, and let no contact between a facet of K and
+   another facet cross the cell. The number of surfaces in front of K is 0 at P. Along the path it
+   can change only at an event edge in front of K: at any other edge one facet ends and the next
+   begins. So if there is no event edge in front of K, all of K is visible in the cell, and nothing
+   else is.
+     (3) Let K be as in (2), except that it may not be nearest at P, and that there may be event
+   edges in front of it. A facet that is behind K at one place of the cell is behind K wherever it
+   is in the cell, because the two do not meet there. So it can be removed from the cell's list: it
+   is nearest nowhere. (2) remains true of the facets that are left: an edge that joins one of them
+   with a removed facet is behind K; and a component that is nearest at P, and has no contact with
+   K, is nowhere behind K.
+     (4) If no facet covers P, and no event edge crosses the cell, no facet is visible in it.
+     (5) Facets that are hidden everywhere need not be listed. Let K be as in (2), considering only
+   listed facets, and let y be the first point of the path at which K is no longer the nearest of
+   all facets. A facet that is nearest just beyond y is visible there, so it is listed. It begins at
+   y at an edge, or passes through K there at a contact; both are excluded. The edge is an event
+   edge, since a facet that ended there would have been in front of K before y.
+
+   A contact is where two facets meet in space other than along a common edge or in a point: along a
+   segment in the interior of one (mesh/intersection.h), along parts of edges of both (the facets
+   are then marked as rims), or in a common plane. All edges of rims, and of facets that have
+   another facet in their plane, count as event edges, so that no component continues across them. A
+   facet with a contact that could not be computed (LRCSI_CELLS_VAGUE) is never part of a component
+   that covers a cell. Contacts in points do not matter: paths to points in general position miss
    them. */
 #include "visibility/cells_cover.h"
 
@@ -36,8 +42,8 @@
 
 #include "base/range.h"
 
-/* A component of more facets is left at the first event that crosses the cell. In one of so few all
-   are found, so that the cell may be cut at that which divides it best. */
+/* The search of a component of more facets than this ends at the first event edge that crosses the
+   cell. In a smaller one all are found, and the cell is cut along the one that divides it best. */
 #define COMPONENT_FEW 8u
 
 /* The facet nearest to the laser at a place; all others that may cover it are then surely behind.
@@ -91,7 +97,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         if (order == 0) {
             return LRCSI_CELLS_UNSURE;
         }
-        if (order > 0) { /* those before it are asked again */
+        if (order > 0) { /* the earlier ones are compared with it again */
             *best = other;
             most = lrcsi_least(most, range[0]);
             changes++;
@@ -101,8 +107,9 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     return LRCSI_CELLS_FOUND;
 }
 
-/* Corner i weighs 1, 1 + 0.2 i, 1 + 1.5 / (1 + i): no two weigh the same but in the first place, or
-   samples in cells that look alike from two corners would all lie on a line between facets. */
+/* The weight of corner i is 1 in the first sample, 1 + 0.2 i in the second, 1 + 1.5 / (1 + i) in
+   the third. With equal weights, all samples in a symmetric cell could be on its axis, and so on an
+   edge between facets. */
 void lrcsi_cells_sample_point(const lrcsi_cells_cell *cell, int number, double at[2])
 {
     double sum = 0;
@@ -189,7 +196,6 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         whole &= (c->kind[facet] & LRCSI_CELLS_VAGUE) == 0 &&
                  (facet == best || (c->met[facet] >> 1) != c->look);
         for (int k = 0; k < 3; k++) {
-            double range[2];
             lrcsi_cells_part part;
             uint32_t next = f->next[k];
             if (next != LRCS_NONE && c->joined[next] == c->look) {
@@ -201,16 +207,13 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             if (lrcsi_cells_box_away(s, p, q, w)) {
                 continue;
             }
-            double line[3];
-            memcpy(line, f->side[k], sizeof line);
+            double thin_line[3];
+            const double *line = f->side[k];
             if (f->thin) {
-                lrcsi_line_through(p, q, line);
+                lrcsi_line_through(p, q, thin_line);
+                line = thin_line;
             }
-            lrcsi_box_range(s->low, s->high, line, range);
-            if (range[0] > w || range[1] < -w) {
-                continue;
-            }
-            int place = lrcsi_cells_place_of(&cell->shape, s, p, q, line, w, line_w, &part);
+            int place = lrcsi_cells_place_near(&cell->shape, s, p, q, line, w, line_w, &part);
             if (place == LRCSI_CELLS_AWAY) {
                 continue;
             }
@@ -259,7 +262,7 @@ int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
     return lrcsi_cells_segment_of(c->view->prepared, e, c->joined, c->look);
 }
 
-/* Is none of the facets of an edge in the list any more, or one of a contact? */
+/* Is no facet of an edge in the list any more, or not both facets of a contact? */
 static int segment_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
 {
     if (e->contact) {
@@ -269,8 +272,9 @@ static int segment_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
     return !lrcsi_cells_segment_of(c->view->prepared, e, c->listed, c->look);
 }
 
-/* Is the part of an edge in the cell behind the component, which covers the cell? Where one facet
-   is all of it, its plane tells; else a point of the edge over one of its facets. */
+/* Is the part of an edge in the cell behind the component, which covers the cell? If the component
+   is one facet, both ends of the part are compared with its plane; else one point of the part is
+   compared with the facet that covers it. */
 static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, const lrcsi_cells_segment *e, double w,
                           double low)

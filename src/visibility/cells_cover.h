@@ -1,30 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* What a sample in a cell sees, whether the surface component around it covers the cell, and what
-   is behind it (visibility/cells.c). */
+/* The facet nearest at a sample in a cell, whether its surface component covers the cell, and what
+   is behind that (visibility/cells.c). */
 #ifndef LRCSI_CELLS_COVER_H
 #define LRCSI_CELLS_COVER_H
 
 #include "visibility/cells_state.h"
 
-/* Samples that may be tried in a cell, and where. */
+/* How many samples are tried in a cell, and where they are. */
 #define LRCSI_CELLS_TRIES 3
 void lrcsi_cells_sample_point(const lrcsi_cells_cell *cell, int number, double at[2]);
 
 enum { LRCSI_CELLS_UNSURE, LRCSI_CELLS_NONE, LRCSI_CELLS_FOUND };
 
-/* Asks a sample well inside of a cell; where it cannot be decided, another. Returns its answer, the
-   facet found, nearest to the laser with all others surely behind, where the last sample lies, and
-   how far inside. */
+/* Takes samples well inside a cell until one is decided. Returns UNSURE if none is; NONE if no
+   facet covers it; FOUND and the facet nearest to the laser, all others being surely behind it.
+   Also returned: the position of the last sample, and its distance from the border. */
 int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                      uint32_t *best, double at[2], double *clear);
 
-/* The nearest facet at the sample that covers the cell alone, and that no contact crosses there;
-   LRCS_NONE if there is none. */
+/* Of the single facets that cover the cell and are crossed by no contact there, the one nearest at
+   the sample; LRCS_NONE if there is none. */
 uint32_t lrcsi_cells_screen(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                             const lrcsi_cells_sides *s, const double at[2]);
 
-/* Follows the surface around a facet through the cell. 1 if it covers the cell once, unless
-   events or contacts in the list cross it; its edges at the border of the cell are noted. */
+/* Finds the component around a facet within the cell. 1 if it covers the cell once, provided that
+   no event edge or contact of the list crosses it; its edges at the border of the cell are
+   recorded.
+ */
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, uint32_t best);
 
@@ -35,12 +37,12 @@ int lrcsi_cells_segment_of(const lrcs_prepared *prepared, const lrcsi_cells_segm
 /* Is any facet of a segment in the component? */
 int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e);
 
-/* The component is one facet, that covers the cell. */
+/* Makes the component a single facet, which covers the cell. */
 void lrcsi_cells_component_of(lrcsi_cells_work *c, uint32_t facet);
 
-/* Drops facets behind the component, which covers the cell, and the edges behind it. Given: the
-   sample, where others may be nearer than the component, which is one facet then; NULL if none
-   is. */
+/* Removes the facets and edges behind the component, which covers the cell, from the cell's lists.
+   Given: the sample if other facets may be nearer there than the component, which is then a single
+   facet; else NULL. */
 void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                       const double *at, double uncertainty);
 

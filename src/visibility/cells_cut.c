@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Cells are cut: their lists are divided in place, what may come near the left part first, what can
-   come near the right part alone last. Which line to cut along is decided elsewhere. */
+/* Cutting a cell along a line. Its lists are divided in place: first the entries that may be near
+   the left part, last those that can be near the right part only. The line is chosen by the
+   caller. */
 #include "visibility/cells_cut.h"
 
 #include <math.h>
@@ -13,8 +14,8 @@
 /* Corners above which a cell is halved. */
 #define MANY_CORNERS 20u
 
-/* Does a segment that met the cell which this one was cut from meet it too? If not, its own line or
-   that of the cut parts them. */
+/* A segment met the cell that this one was cut from. Does it meet this one too? If not, either its
+   own line or that of the cut separates them. */
 static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment *e, double w)
 {
     if (!(cell->sign * lrcsi_line_at(cell->cut, e->end[0][0], e->end[0][1]) > w) &&
@@ -54,7 +55,7 @@ void lrcsi_cells_strike(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi
     cell->segments = kept;
 }
 
-/* How far the corners of a facet lie from a line: the least and the most. */
+/* The least and the greatest signed distance of a facet's corners from a line. */
 static void facet_range(const lrcsi_cells_facet *f, const double line[3], double range[2])
 {
     double a = lrcsi_line_at(line, f->x[0], f->y[0]);
@@ -64,8 +65,8 @@ static void facet_range(const lrcsi_cells_facet *f, const double line[3], double
     range[1] = lrcsi_most(a, lrcsi_most(b, d));
 }
 
-/* Does one side of a facet have all of a cell beyond it? Without branches but for the loop, as it
-   is asked so often and answered either way. */
+/* Is all of a cell beyond one side of a facet? Ends at the first corner after which no side can
+   have all of them beyond it. */
 static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape, double w)
 {
     double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -75,12 +76,15 @@ static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *sh
         most[0] = lrcsi_most(most[0], lrcsi_line_at(f->side[0], x, y));
         most[1] = lrcsi_most(most[1], lrcsi_line_at(f->side[1], x, y));
         most[2] = lrcsi_most(most[2], lrcsi_line_at(f->side[2], x, y));
+        if (!(lrcsi_least(most[0], lrcsi_least(most[1], most[2])) < -w)) {
+            return 0;
+        }
     }
-    return lrcsi_least(most[0], lrcsi_least(most[1], most[2])) < -w;
+    return 1;
 }
 
-/* Divides the facets of a cell: those that may come near the left part first, those that come near
-   the right part alone last. */
+/* Divides the facets of a cell: first those that may be near the left part, last those that are
+   near the right part only. */
 static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                        const lrcsi_cells_strip *strip, lrcsi_cells_cell *left,
                        lrcsi_cells_cell *right)
@@ -113,7 +117,7 @@ static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     right->both[0] = end;
 }
 
-/* Divides its segments likewise, but for the one at which it is cut. */
+/* Divides its segments in the same way, except for the one along which it is cut. */
 static void cut_segments(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, uint32_t struck,
                          lrcsi_cells_cell *left, lrcsi_cells_cell *right)
 {
@@ -139,7 +143,7 @@ static void cut_segments(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, uint
     right->both[1] = end;
 }
 
-/* Finds what belongs to a cell that has waited. */
+/* Selects the entries of a cell that has waited. */
 static void cell_settle(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 {
     double g = lrcsi_cells_reach(c, cell);

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* Facets and segments in view coordinates, and their errors. It does not know of cells but their
-   sides.
+/* Facets and segments in view coordinates, and their errors.
 
-   Error. b is the largest coordinate of the block. A vertex is known to double-double: off by 256
-   u^2 of its distance from the origin. From the middle of the block it is rounded once, by u of
-   where it then is, and a sum of products that tells how far it is from a line by 5 u of that:
-   `off`. The line through two vertices is off by less where it matters. Its direction is turned by
-   at most 2 u, and its distance from the middle of the block, which is computed in double-double,
-   is off by 2 u of itself but for a factor that a, b and c share: both cost 5.7 u b in the block,
-   and evaluating it there 2.9 u b. That is less than 16 u b, which all cells allow for
-   (visibility/cells_charge.c); `line_off` is what comes of the vertices.
+   Positions. b is the largest coordinate of the block. A vertex is computed in double-double, with
+   an error of 256 u^2 of its distance from the origin. Its position relative to the middle of the
+   block is then rounded once, by u of itself, and a sum of products that gives its distance from a
+   line has an error of 5 u of that: together `off`. The line through two vertices has a smaller
+   error near the block. Its direction has an error of 2 u. Its distance from the middle of the
+   block is computed in double-double, with a relative error of 2 u, apart from a factor that a, b
+   and c have in common. Both cost 5.7 u b within the block, and evaluating the line there 2.9 u b.
+   That is less than 16 u b, which all cells allow for (visibility/cells_charge.c); `line_off` is
+   the rest, due to the errors of the vertices.
 
-   Heights. In a facet of height H above each side, a place within w of it has barycentric
-   coordinates off by w / H; with the facet's slope at most G, twice what it is as computed, its z
-   there is off by e + G (w + 8 u l^2 / H), l its longest side, the second for the slope's own
-   error, and is never beyond the z of its corners. Where H < 8 w only these count. */
+   Heights. Let H be the least height of a facet. A place within w of the facet has barycentric
+   coordinates with an error of w / H. Let G be twice the computed slope of the facet, an upper
+   bound of the true one. Then z at that place has an error of e + G (w + 8 u l^2 / H), where l is
+   the longest side; the last term is due to the error of the slope itself. Besides, z is always
+   between the least and the greatest z of the corners. If H < 8 w, only that is used. */
 #include "visibility/cells_facet.h"
 
 #include <math.h>
@@ -118,15 +119,16 @@ static int longest_side(const lrcsi_cells_facet *f)
     return f->length[2] > f->length[k] ? 2 : k;
 }
 
-/* Its least height, as computed: negative where rounding has turned it over. */
+/* Its least height, as computed: negative if rounding has reversed its orientation. */
 static double facet_least(const lrcsi_cells_facet *f)
 {
     int k = (longest_side(f) + 2) % 3;
     return lrcsi_line_at(f->side[longest_side(f)], f->x[k], f->y[k]);
 }
 
-/* A facet so narrow that it may have been turned over: its sides are replaced by those of the band
-   about its longest side that has all of it. It covers nothing surely, and is not decided. */
+/* A facet so narrow that rounding may have reversed its orientation. Its sides are replaced by
+   those of a band along its longest side that contains it. It surely covers no sample, and its area
+   is left undecided. */
 static void facet_flatten(lrcsi_cells_facet *f)
 {
     double wide = fabs(facet_least(f)) + 4 * f->off;
@@ -140,7 +142,8 @@ static void facet_flatten(lrcsi_cells_facet *f)
     }
 }
 
-/* The plane and its error, as told above; HUGE_VAL if it is so narrow that only corners tell. */
+/* The plane and its error (see Heights above); HUGE_VAL if the facet is so narrow that only the
+   heights of its corners are used. */
 static void facet_slope(lrcsi_cells_facet *f, const double z[3])
 {
     const double dx[2] = {f->x[1] - f->x[0], f->x[2] - f->x[0]};

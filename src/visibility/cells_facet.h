@@ -70,7 +70,7 @@ void lrcsi_cells_frame_make(lrcsi_cells_frame *c);
 /* A vertex from the middle of the block at hand. */
 const lrcsi_cells_point *lrcsi_cells_vertex(lrcsi_cells_frame *c, uint32_t vertex);
 
-/* The line through two of them. Returns how far they are apart, but for 4 u of it. */
+/* The line through two of them. Returns their distance, with a relative error of 4 u. */
 double lrcsi_cells_line(const lrcsi_cells_point *p, const lrcsi_cells_point *q, double line[3]);
 
 /* Makes the record of a facet for the block at hand. */
@@ -80,12 +80,11 @@ void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_fa
 int lrcsi_cells_facet_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape,
                            const double low[2], const double high[2], double g);
 
-/* What is known of z of a facet at a place that it may cover. */
+/* Bounds of a facet's z at a place that it may cover. */
 void lrcsi_cells_facet_height(const lrcsi_cells_facet *f, const double at[2], double g,
                               double range[2]);
 
-/* What a plane's z is at least (sign -1), or at most (1), at places of the facet in the box of the
-   cell. */
+/* A lower bound (sign -1) or an upper bound (1) of a facet's z in the box of the cell. */
 double lrcsi_cells_facet_limit(const lrcsi_cells_facet *f, const lrcsi_cells_sides *s, int sign);
 
 /* Which of two facets that surely cover a place is nearer there, exactly: 1 the second, -1 the

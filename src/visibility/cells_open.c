@@ -76,18 +76,6 @@ static void block_range(const lrcsi_cells_grid *c, double low, double high, int 
     *to = block_of(c, high + near, k) + 1;
 }
 
-/* Counts an item in blocks x0 <= x < x1 of a row, or lists it there. */
-static void block_put(lrcsi_cells_lists *b, size_t row, uint32_t x0, uint32_t x1, uint32_t item)
-{
-    for (size_t i = row + x0; i < row + x1; i++) {
-        if (b->item) {
-            b->item[b->first[i]++] = item;
-        } else {
-            b->first[i + 1]++;
-        }
-    }
-}
-
 /* A polygon of at most three corners, row by row: in the blocks that it may touch in that row. What
    it has in common with a row reaches as far in x as its sides do in that row. What is computed of
    a side is off by less than 8 u of coordinates between the side's and the window's. */
@@ -131,7 +119,7 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *
         }
         if (from <= to) {
             block_range(c, from, to, 0, &x[0], &x[1]);
-            block_put(b, (size_t)row * c->side, x[0], x[1], item);
+            lrcsi_lists_put(b->first + (size_t)row * c->side, b->item, x[0], x[1], item);
         }
     }
 }
@@ -180,25 +168,13 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
                 blocks_put_facet(c, b, i);
             }
         }
-        if (pass == 0) {
-            uint64_t total = 0;
-            for (size_t k = 0; k < count; k++) {
-                total += b->first[k + 1];
-                b->first[k + 1] = (uint32_t)total;
-                if (total > block_entries(c->classification->view->prepared)) {
-                    return 0;
-                }
-            }
-            b->item = lrcsi_work_take(work, (size_t)total, sizeof *b->item);
-            if (!b->item) {
-                return 0;
-            }
+        if (pass == 0 &&
+            lrcsi_lists_room(b->first, count, block_entries(c->classification->view->prepared),
+                             work, &b->item) != LRCS_OK) {
+            return 0;
         }
     }
-    for (size_t k = count; k > 0; k--) {
-        b->first[k] = b->first[k - 1];
-    }
-    b->first[0] = 0;
+    lrcsi_lists_finish(b->first, count);
     return 1;
 }
 
@@ -316,7 +292,7 @@ static int open_edge(lrcsi_cells_work *c, uint32_t edge)
 static int continues(const lrcsi_cells_work *c, uint32_t facet)
 {
     return (c->kind[facet] & LRCSI_CELLS_APART) == 0 &&
-           c->view->prepared->intersections.rim[facet] <= 1;
+           c->view->prepared->intersections.met[facet] <= 1;
 }
 
 /* Edges that are no events of the view count as events here if one of their two facets meets others

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* How lines and segments stand to the convex polygon of a cell, in plain doubles. It does not know
-   what the lines are of, nor what errors they have: it is told how wide they are. */
+/* The position of lines and segments relative to the convex polygon of a cell, in plain doubles.
+   Their errors are given by the caller. */
 #include "visibility/cells_shape.h"
 
 #include <math.h>
@@ -61,13 +61,10 @@ void lrcsi_box_range(const double low[2], const double high[2], const double lin
     range[1] = middle + half;
 }
 
-int lrcsi_cells_place_of(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
-                         const double p[2], const double q[2], const double line[3], double w,
-                         double line_w, lrcsi_cells_part *part)
+int lrcsi_cells_place_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
+                           const double p[2], const double q[2], const double line[3], double w,
+                           double line_w, lrcsi_cells_part *part)
 {
-    if (lrcsi_cells_box_away(s, p, q, w)) {
-        return LRCSI_CELLS_AWAY;
-    }
     double range[2];
     lrcsi_line_range(shape, line, range);
     double deep = lrcsi_least(range[1], -range[0]);
@@ -140,9 +137,9 @@ void lrcsi_cells_shape_clip(lrcsi_clip_polygon *shape, const double line[3])
     memcpy(shape->corner, out.corner, out.count * sizeof out.corner[0]);
 }
 
-/* How far a corner, computed at a share t of a side that goes by (x, y), is from the line of the
-   side: each coordinate is off by u of itself and 2 u of what was added, but for none where nothing
-   was; only what is across the side counts. */
+/* The distance from the line of a side to a corner that was computed on it: at the fraction t of
+   the side, which is the vector (x, y). The error of each coordinate is u of itself and 2 u of what
+   was added, or 0 if nothing was; only the component across the side counts. */
 static double corner_drift(double x, double y, double t, const double corner[2])
 {
     x = fabs(x);

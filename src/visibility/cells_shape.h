@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The convex polygon of a cell: lines along its sides, how lines, boxes and segments stand to it,
-   and how it is divided along a line (visibility/cells.c). */
+/* The convex polygon of a cell: the lines along its sides, the position of other lines, boxes and
+   segments relative to it, and its division along a line (visibility/cells.c). */
 #ifndef LRCSI_CELLS_SHAPE_H
 #define LRCSI_CELLS_SHAPE_H
 
@@ -8,7 +8,7 @@
 #include "visibility/clip.h"
 
 /* The line through two points: a x + b y + c is the distance from it, positive on the left. Returns
-   how far they are apart, but for 4 u of it. */
+   the distance of the points, with a relative error of 4 u. */
 double lrcsi_line_through(const double *p, const double *q, double line[3]);
 
 static inline double lrcsi_line_at(const double line[3], double x, double y)
@@ -60,9 +60,19 @@ enum lrcsi_cells_place {
 
 /* The position of a segment relative to a cell: a lrcsi_cells_place. Given: the ends p and q with
    the error w, and their line with the error line_w. The part is returned unless it is away. */
-int lrcsi_cells_place_of(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
-                         const double p[2], const double q[2], const double line[3], double w,
-                         double line_w, lrcsi_cells_part *part);
+int lrcsi_cells_place_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
+                           const double p[2], const double q[2], const double line[3], double w,
+                           double line_w, lrcsi_cells_part *part);
+
+/* The same; boxes are compared first. */
+static inline int lrcsi_cells_place_of(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
+                                       const double p[2], const double q[2], const double line[3],
+                                       double w, double line_w, lrcsi_cells_part *part)
+{
+    return lrcsi_cells_box_away(s, p, q, w)
+               ? LRCSI_CELLS_AWAY
+               : lrcsi_cells_place_near(shape, s, p, q, line, w, line_w, part);
+}
 
 /* A lower bound of how far inside the cell a point lies (as lrcsi_clip_clear). */
 double lrcsi_cells_sides_clear(const lrcsi_cells_sides *s, const double at[2]);

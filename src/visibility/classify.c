@@ -174,7 +174,7 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
     const lrcsi_view *view = classification->view;
     const lrcsi_grid *grid = &classification->grid;
     crossing_ask ask = {.corner = NULL}; /* made when it is first needed */
-    const lrcsi_view_box box = classification->boxes.facet[facet];
+    const lrcsi_view_box box = *lrcsi_boxes_facet(&classification->boxes, facet);
     const lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
     const uint32_t allowed = steps_allowed(meter, *steps);
     const uint32_t asked = ++classification->asked;
@@ -381,12 +381,13 @@ static void facet_decide(lrcsi_classification *c, uint32_t f)
 {
     uint32_t steps = MOST_LISTED;
     c->along = 0;
-    c->undecided[f] = intersection_divides(c->view, f) ||
-                      (lrcsi_grid_any(&c->grid, lrcsi_grid_cells(&c->grid, &c->boxes.facet[f])) &&
-                       crossings_find(c, f, LRCS_NONE, 1, &steps, c->view->meter) > 0) ||
-                      steps == 0 || lrcsi_meter_spent(c->view->meter);
+    c->undecided[f] =
+        intersection_divides(c->view, f) ||
+        (lrcsi_grid_any(&c->grid, lrcsi_grid_cells(&c->grid, lrcsi_boxes_facet(&c->boxes, f))) &&
+         crossings_find(c, f, LRCS_NONE, 1, &steps, c->view->meter) > 0) ||
+        steps == 0 || lrcsi_meter_spent(c->view->meter);
     c->undecided_count += c->undecided[f];
-    if (c->undecided[f] || c->along || c->view->prepared->intersections.rim[f]) {
+    if (c->undecided[f] || c->along || c->view->prepared->intersections.met[f]) {
         c->joinable[f] = 0;
     }
 }

@@ -4,6 +4,7 @@
 #include "visibility/grid.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/range.h"
 #include "base/work.h"
@@ -77,42 +78,35 @@ static int grid_start(lrcsi_grid *grid, lrcs_work *work)
     return grid->first ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-/* first[c + 1] holds the count of cell c; makes it the end of cell c's items, and takes room for
-   them. Filling then moves first[c] .. up; grid_finish moves them back. */
-static int grid_room(lrcs_work *work, lrcsi_grid *grid)
+int lrcsi_lists_room(uint32_t *first, size_t lists, uint64_t most, lrcs_work *work, uint32_t **item)
 {
-    size_t cells = grid_count(grid);
     uint64_t total = 0;
-    for (size_t c = 0; c <= cells; c++) {
-        total += grid->first[c];
-        if (total >= LRCS_NONE) {
+    for (size_t i = 0; i <= lists; i++) {
+        total += first[i];
+        if (total > most) {
             return LRCS_E_LIMIT;
         }
-        grid->first[c] = (uint32_t)total;
+        first[i] = (uint32_t)total;
     }
-    grid->item = lrcsi_work_take(work, (size_t)total, sizeof *grid->item);
-    return grid->item ? LRCS_OK : LRCS_E_MEMORY;
+    *item = lrcsi_work_take(work, (size_t)total, sizeof **item);
+    return *item ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-static void grid_finish(lrcsi_grid *grid)
+void lrcsi_lists_finish(uint32_t *first, size_t lists)
 {
-    for (size_t c = grid_count(grid); c > 0; c--) {
-        grid->first[c] = grid->first[c - 1];
-    }
-    grid->first[0] = 0;
+    memmove(first + 1, first, lists * sizeof *first);
+    first[0] = 0;
 }
 
-/* Counts (item NULL) or files an item in a row of cells. Returns how many they are. */
+static int grid_room(lrcs_work *work, lrcsi_grid *grid)
+{
+    return lrcsi_lists_room(grid->first, grid_count(grid), LRCS_NONE - 1, work, &grid->item);
+}
+
+/* Counts or lists an item in a row of cells. Returns how many they are. */
 static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1, uint32_t item)
 {
-    uint32_t *first = grid->first + (size_t)y * grid->size;
-    for (uint32_t x = x0; x < x1; x++) {
-        if (grid->item) {
-            grid->item[first[x]++] = item;
-        } else {
-            first[x + 1]++;
-        }
-    }
+    lrcsi_lists_put(grid->first + (size_t)y * grid->size, grid->item, x0, x1, item);
     return x1 - x0;
 }
 
@@ -184,7 +178,7 @@ int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_w
     status = status == LRCS_OK ? grid_room(work, grid) : status;
     if (status == LRCS_OK) {
         grid_put_edges(grid, edge, count, most);
-        grid_finish(grid);
+        lrcsi_lists_finish(grid->first, grid_count(grid));
     }
     return status;
 }
@@ -207,7 +201,7 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
             if (boxes->state[f / LRCSI_RUN] != LRCSI_BOXES_FACETS) {
                 f += LRCSI_RUN - 1;
             } else if (lrcsi_grid_casts(grid->view, f)) {
-                filled += cells_count(lrcsi_grid_cells(grid, &boxes->facet[f]));
+                filled += cells_count(lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
                 facets++;
             }
         }
@@ -278,7 +272,7 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
         } else if ((readers->undecided[f] || readers->region[f] == f) &&
                    lrcsi_grid_casts(grid->view, f)) {
             lrcsi_boxes_open(boxes, f / LRCSI_RUN);
-            want_facet(want, lrcsi_grid_cells(grid, &boxes->facet[f]));
+            want_facet(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
         }
     }
     return want->bit ? LRCS_OK : LRCS_E_MEMORY;
@@ -303,7 +297,8 @@ static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, grid_
         uint32_t end = lrcsi_run_end(start, count);
         for (uint32_t f = start; f < end; f++) {
             if (lrcsi_grid_casts(grid->view, f) &&
-                (!want.bit || want_meets(want, lrcsi_grid_cells(grid, &boxes->facet[f])))) {
+                (!want.bit ||
+                 want_meets(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f))))) {
                 list[listed++] = f;
             }
         }
@@ -322,7 +317,7 @@ static uint64_t facets_put(lrcsi_grid *grid, const uint32_t *facet, uint32_t sel
 {
     uint64_t listed = 0;
     for (uint32_t i = 0; i < selected; i++) {
-        lrcsi_cells cells = lrcsi_grid_cells(grid, &grid->box[facet[i]]);
+        lrcsi_cells cells = lrcsi_grid_cells(grid, lrcsi_boxes_facet(&grid->boxes, facet[i]));
         for (uint32_t y = cells.y0; y < cells.y1; y++) {
             listed += grid_put(grid, y, cells.x0, cells.x1, facet[i]);
         }
@@ -344,7 +339,7 @@ int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
     uint32_t *facet = NULL;
     uint32_t selected = 0;
     int status;
-    g.box = boxes->facet;
+    g.boxes = *boxes;
     g.first = g.item = NULL;
     for (;;) {
         status = want_make(&g, boxes, readers, work, &want);
@@ -363,7 +358,7 @@ int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
         return status;
     }
     facets_put(&g, facet, selected);
-    grid_finish(&g);
+    lrcsi_lists_finish(g.first, grid_count(&g));
     *grid = g;
     return LRCS_OK;
 }

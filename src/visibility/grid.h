@@ -13,8 +13,8 @@
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
-    const lrcsi_view_box *box; /* facet -> its box, if it casts; NULL: the items are no facets */
-    double low[2];             /* of the window, in the units of boxes */
+    lrcsi_boxes boxes; /* of facets, if these are the items */
+    double low[2];     /* of the window, in the units of boxes */
     double side;
     uint32_t size;   /* cells along each side */
     double scale;    /* cells per unit */
@@ -22,6 +22,29 @@ typedef struct lrcsi_grid {
     uint32_t *first; /* size * size + 1 */
     uint32_t *item;  /* those of cell c: item[first[c] .. first[c + 1]) */
 } lrcsi_grid;
+
+/* Lists of items, made in two passes over the items. `first` begins as lists + 1 zeros.
+   1. lrcsi_lists_put with item NULL counts: list i in first[i + 1].
+   2. lrcsi_lists_room allocates the items. Status: LRCS_OK; LRCS_E_LIMIT, more than `most`;
+      LRCS_E_MEMORY.
+   3. lrcsi_lists_put with the items fills the lists; lrcsi_lists_finish makes first[i] the start of
+      list i again. */
+int lrcsi_lists_room(uint32_t *first, size_t lists, uint64_t most, lrcs_work *work,
+                     uint32_t **item);
+void lrcsi_lists_finish(uint32_t *first, size_t lists);
+
+/* Counts or adds a value in each of the lists from <= i < to. */
+static inline void lrcsi_lists_put(uint32_t *first, uint32_t *item, size_t from, size_t to,
+                                   uint32_t value)
+{
+    for (size_t i = from; i < to; i++) {
+        if (item) {
+            item[first[i]++] = value;
+        } else {
+            first[i + 1]++;
+        }
+    }
+}
 
 /* A rectangle of cells: x0 <= x < x1, y0 <= y < y1. */
 typedef struct lrcsi_cells {

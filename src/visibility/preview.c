@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Drawing every facet into one item buffer, then counting. It decides exactly who owns a sample:
-   floats and doubles where their error bounds allow, which is nearly always, else
-   visibility/sample.h. How far areas may be off it guesses.
+/* Draws every facet into one item buffer, then counts samples. The owner of a sample is exact: it
+   is decided in floats or doubles if their error bounds allow it, which is nearly always so,
+   otherwise by visibility/sample.h. The errors of areas are estimates.
 
-   Depths are kept as floats. A facet is ordinary where its heights, as floats, are within a
-   millionth of the window's side; nearly all are. Ordinary facets are drawn first, samples side by
-   side, and compared by the floats kept; the others (all but edge-on, or reaching far from the
-   window) follow sample by sample, and their heights are computed anew. */
+   Depths are stored as floats. A facet is ordinary if the error of its heights, as floats, is below
+   a millionth of the window's side; nearly all are. Ordinary facets are drawn first, several
+   samples at once, and compared with the stored depths. The others (nearly edge-on, or reaching far
+   from the window) are drawn afterwards, sample by sample, with heights in doubles. */
 #include "visibility/preview.h"
 
 #include <math.h>
@@ -17,43 +17,43 @@
 #include "visibility/grid.h"
 #include "visibility/sample.h"
 
-/* Samples drawn side by side: what a run stores beyond its end is what was there before. */
+/* The number of samples drawn at once. Samples beyond the end of a run are stored unchanged. */
 enum { LANES = 8 };
 
-/* Of a part of the window's side: what an ordinary facet's heights may be off. */
+/* The largest error of an ordinary facet's heights, relative to the window's side. */
 #define ORDINARY_HEIGHT 0x1p-20
 
-/* What owners change across: a border between two facets in a column or row of pixels, and how long
-   the same one has been going on. */
+/* A border between the samples of two owners, followed along a row or column of pixels: its facets,
+   where it was last met, and for how many pixels it has continued. */
 typedef struct preview_border {
     uint32_t facet[2];
     uint32_t at, length;
 } preview_border;
 
-/* A facet's samples, and the borders of what it shows that are not its own surface going on: how
-   many pixels they pass, and how many the longest one along a row or column. */
+/* A facet's samples, and the borders of its visible region except those to its neighbours on the
+   same surface: the number of pixels on them, and on the longest along one row or column. */
 typedef struct preview_counts {
     uint32_t covered, owned, borders, longest;
-    uint32_t met;   /* 1 if a border passes that may be another's, too */
-    float share;    /* of it that is seen */
-    uint32_t round; /* in which that was found: 0 from its samples, LRCS_NONE not yet */
+    uint32_t met;   /* 1 if there is any such border, also if it belongs to the other facet */
+    float share;    /* its visible fraction */
+    uint32_t round; /* the round in which that was found: 0 from its samples, LRCS_NONE not yet */
 } preview_counts;
 
-/* Fewer samples than this are few. */
+/* Facets with fewer samples than this are corrected for bias (preview_bias). */
 #define FEW_SAMPLES 16u
 
-/* How far from facets with samples others take their shares. */
+/* Over how many neighbours visible fractions are passed on to facets without samples. */
 enum { SHARE_ROUNDS = 8 };
 
 typedef struct preview_job {
     const lrcsi_view *view;
     lrcsi_raster raster; /* its geometry alone */
     uint32_t *owner;     /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
-    float *depth; /* N * N: height of an ordinary owner's plane; -HUGE_VALF where nobody is */
+    float *depth; /* N * N: height of an ordinary owner's plane; -HUGE_VALF if there is no owner */
     preview_counts *counts; /* facet */
     preview_border *column; /* column of pixels */
     double ordinary_err;    /* bound on the error of an ordinary facet's depth */
-    double outline;         /* pairs of adjacent samples of which just one shows what reflects */
+    double outline;         /* pairs of adjacent samples of which exactly one reflects */
     int undecided;
 } preview_job;
 
@@ -83,8 +83,8 @@ static void preview_point(const lrcsi_raster *r, uint32_t x, uint32_t y, double 
                     r->view->low[1] + (y + 0.5) * r->pixel, point);
 }
 
-/* Is the facet nearer than the owner of a sample that both cover? From heights in doubles, computed
-   anew, else exactly. */
+/* 1 if the facet is nearer than the owner of a sample that both cover: from heights in doubles,
+   else exactly. */
 static int preview_nearer(preview_job *job, preview_facet *f, uint32_t owner, uint32_t x,
                           uint32_t y)
 {
@@ -121,9 +121,9 @@ static void preview_sample(preview_job *job, preview_facet *f, uint32_t x, uint3
     }
 }
 
-/* Gives the facet those of the first `left` of LANES samples at which it is surely nearer. Returns
-   bits of which some are set where there are others at which it is not surely farther. Masks in the
-   place of branches: so compilers do the lanes at once. */
+/* Gives the facet those of the first `left` of LANES samples at which it is certainly nearer. The
+   result is not 0 if there are samples at which its order is uncertain. Masks instead of branches,
+   so that compilers vectorize the loop. */
 static inline uint32_t lanes_draw(uint32_t *restrict owner, float *restrict depth, float first,
                                   float along, float close, uint32_t facet, int32_t left)
 {
@@ -150,10 +150,10 @@ static inline uint32_t lanes_draw(uint32_t *restrict owner, float *restrict dept
     return any;
 }
 
-/* Samples x0 <= x < x1 of a row, which the facet covers. The float heights of an ordinary one: with
-   z the largest magnitude of a corner's depth, those of samples covered and what they change along
-   the run are at most z and 2 z; rounding the first, the slope, two products and two sums costs
-   less than 2^-21 z. */
+/* Draws samples x0 <= x < x1 of a row, all of which the facet covers. Error of the float heights of
+   an ordinary facet: with z the largest magnitude of a corner's depth, the heights of covered
+   samples are at most z, and they change by at most 2 z along the run. Rounding the first height,
+   the slope, two products and two sums adds less than 2^-21 z. */
 static void preview_run(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0, uint32_t x1)
 {
     size_t at = (size_t)y * job->raster.size + x0;
@@ -174,9 +174,9 @@ static void preview_run(preview_job *job, preview_facet *f, uint32_t y, uint32_t
     job->counts[f->facet].covered += x1 - x0;
 }
 
-/* Samples of which the edge functions cannot tell whether the facet covers them. */
-static void preview_doubtful(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0,
-                             uint32_t x1)
+/* Samples for which the edge functions do not decide whether the facet covers them. */
+static void preview_uncertain(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0,
+                              uint32_t x1)
 {
     for (uint32_t x = x0; x < x1; x++) {
         double point[3];
@@ -187,7 +187,7 @@ static void preview_doubtful(preview_job *job, preview_facet *f, uint32_t y, uin
     }
 }
 
-/* Does a box of the view hold a sample? */
+/* 0 if a box of the view certainly contains no sample, else 1. */
 static int box_sampled(const lrcsi_raster *r, const double low[3], const double high[3])
 {
     for (int k = 0; k < 2; k++) {
@@ -200,8 +200,9 @@ static int box_sampled(const lrcsi_raster *r, const double low[3], const double 
     return 1;
 }
 
-/* Draws a facet if it is ordinary, or if it is not, as asked for. Returns 0 if it is not. Those
-   that cover no sample count as ordinary. Floats are subnormal below 2^-126: the last term. */
+/* Draws a facet if it is ordinary and `ordinary` is 1, or if neither is so. Returns 1 if it is
+   ordinary; facets that certainly cover no sample count as ordinary. The last term of `err` covers
+   subnormal floats. */
 static int preview_draw(preview_job *job, uint32_t facet, int ordinary)
 {
     double low[3];
@@ -223,11 +224,11 @@ static int preview_draw(preview_job *job, uint32_t facet, int ordinary)
     lrcsi_edges e = lrcsi_raster_edges(&job->raster, facet);
     for (uint32_t y = e.y0; y < e.y1; y++) {
         lrcsi_samples row = lrcsi_span_samples(&e, y);
-        preview_doubtful(job, &f, y, row.may.x0, row.sure.x0);
+        preview_uncertain(job, &f, y, row.may.x0, row.sure.x0);
         if (row.sure.x0 < row.sure.x1) {
             preview_run(job, &f, y, row.sure.x0, row.sure.x1);
         }
-        preview_doubtful(job, &f, y, row.sure.x1, row.may.x1);
+        preview_uncertain(job, &f, y, row.sure.x1, row.may.x1);
     }
     return f.ordinary;
 }
@@ -246,9 +247,9 @@ static void preview_facets(preview_job *job)
 
 /* --- counting --------------------------------------------------------------------------------- */
 
-/* Do two facets, or a facet and nothing, border on each other otherwise than as one surface that
-   goes on? */
-static int preview_parts(const lrcs_prepared *p, uint32_t a, uint32_t b)
+/* 0 if facet b is the neighbour of a across one of its sides, else 1: also if one of them is
+   LRCS_NONE. */
+static int preview_is_border(const lrcs_prepared *p, uint32_t a, uint32_t b)
 {
     if (a == LRCS_NONE || b == LRCS_NONE) {
         return 1;
@@ -257,8 +258,9 @@ static int preview_parts(const lrcs_prepared *p, uint32_t a, uint32_t b)
     return across[0] != b && across[1] != b && across[2] != b;
 }
 
-/* Does a facet reach beyond a border, to the sample of another, which hides it there? Its own sides
-   miscount neither more nor less of what it shows than of what it covers. */
+/* 1 if a facet covers the sample beyond a border, which belongs to another owner that hides it
+   there. Only such borders cause errors of the visible fraction: at its own sides the facet's
+   visible and covered samples have the same error. */
 static int preview_reaches(const preview_job *job, uint32_t facet, uint32_t x, uint32_t y)
 {
     const lrcsi_raster *r = &job->raster;
@@ -286,12 +288,12 @@ static int preview_reflects(const preview_job *job, uint32_t owner)
     return owner != LRCS_NONE && lrcsi_view_reflects(job->view, owner);
 }
 
-/* Two samples side by side; `at` is the step along the border between them. */
+/* Counts the border between two adjacent samples; `at` is their position along the border. */
 static void preview_step(preview_job *job, preview_border *border, uint32_t at, preview_owned a,
                          preview_owned b)
 {
     job->outline += preview_reflects(job, a.facet) != preview_reflects(job, b.facet);
-    if (!preview_parts(job->view->prepared, a.facet, b.facet)) {
+    if (!preview_is_border(job->view->prepared, a.facet, b.facet)) {
         return;
     }
     int goes_on =
@@ -343,9 +345,9 @@ static void preview_count(preview_job *job)
 
 /* --- areas ------------------------------------------------------------------------------------ */
 
-/* All or nothing, as the centroid of a facet is no farther than the owner of the sample next to it
-   is there, but for a pixel. */
-static float preview_nearest(const preview_job *job, uint32_t facet)
+/* The visible fraction of a facet from its centroid: 1 if it is not more than a pixel behind the
+   plane of the owner of the nearest sample, else 0. */
+static float preview_by_depth(const preview_job *job, uint32_t facet)
 {
     const lrcsi_raster *r = &job->raster;
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
@@ -368,9 +370,10 @@ static float preview_nearest(const preview_job *job, uint32_t facet)
     return middle[2] > height - r->pixel;
 }
 
-/* The share of a facet without samples: the mean of those across its sides that were found in
-   earlier rounds. Returns whether there are any. */
-static int preview_beside(const preview_job *job, uint32_t facet, uint32_t round, float *share)
+/* The visible fraction of a facet without samples: the mean over the neighbours whose fractions
+   were found in earlier rounds. Returns 0 if there are none. */
+static int preview_by_neighbours(const preview_job *job, uint32_t facet, uint32_t round,
+                                 float *share)
 {
     const lrcs_prepared *p = job->view->prepared;
     const uint32_t *across = p->across.facet[facet].corner;
@@ -387,8 +390,10 @@ static int preview_beside(const preview_job *job, uint32_t facet, uint32_t round
     return count > 0;
 }
 
-/* Shares from samples; of facets without, from those across their sides, in rounds, so that the
-   order of facets does not matter; of what is left, by its depth. */
+/* The visible fractions of all facets: from samples; without samples, from neighbours, in rounds,
+   so that the result does not depend on the order of facets; otherwise from the depth of the
+   centroid.
+   */
 static void preview_shares(preview_job *job)
 {
     uint32_t facets = job->view->prepared->scene->facet_count;
@@ -402,32 +407,33 @@ static void preview_shares(preview_job *job)
             preview_counts *c = &job->counts[f];
             float share;
             if (c->round == LRCS_NONE && lrcsi_grid_casts(job->view, f) &&
-                (preview_beside(job, f, round, &share) || round > SHARE_ROUNDS)) {
-                c->share = round > SHARE_ROUNDS ? preview_nearest(job, f) : share;
+                (preview_by_neighbours(job, f, round, &share) || round > SHARE_ROUNDS)) {
+                c->share = round > SHARE_ROUNDS ? preview_by_depth(job, f) : share;
                 c->round = round;
             }
         }
     }
 }
 
-/* The square of the likely error: two standard deviations, which one error in twenty exceeds. Where
-   a border of what is seen passes a pixel, a share that is as good as any is taken for 0 or 1,
-   whichever is nearer: that errs by half a pixel at most, and by 1 / 12 in the mean square. Pixels
-   err by chance, but for those along a border that runs along a row or column, all of which err
-   alike: so the longest one counts again, as one. */
+/* The square of the estimated error of one pixel on a border: two standard deviations, which one
+   error in twenty exceeds. The visible fraction of such a pixel, about uniformly distributed, is
+   rounded to 0 or 1: the error is at most half a pixel, and 1 / 12 in the mean square. The errors
+   of pixels are independent, except along a border parallel to a row or column, where all are
+   equal: therefore the longest such border is added with the square of its length. */
 #define LIKELY_SQUARE (4.0 / 12)
 
-/* What facets with few samples show in all can be computed in two ways: from their shares, and from
-   all samples whose owners reflect, less the shares of facets with many. The second has no bias: it
-   errs by chance only, along the outline of what reflects. So the shares are corrected towards it,
-   by d^3 / (d^2 + chance^2) where the two differ by d and chance is the second's likely error: by
-   all of d where that is far more than chance, by hardly any of it where it is not. What may be
-   left of the bias is twice what chance leaves of it, since one correction serves facets that
-   reflect differently, and what no facet has room for. */
+/* The total visible area of facets with few samples can be computed in two ways: from their visible
+   fractions, and from all samples whose owners reflect, minus the areas of facets with many
+   samples. The second has no bias, only a random error along the outline of the reflecting region.
+   Therefore the fractions are corrected towards it. If the two differ by d, and the second has an
+   estimated error of `chance`, the correction is d^3 / (d^2 + chance^2): nearly all of d if it is
+   much larger than chance, hardly any of it if it is smaller. The remaining bias is estimated as
+   twice the uncorrected part of d, because one correction is applied to facets that reflect
+   differently, plus what no facet has room for. */
 typedef struct preview_bias {
-    double less; /* the part of what a facet shows that is taken off */
-    double more; /* the part of what it does not show, of one that shows some, that is added */
-    double left; /* the part of what it shows that may still be too much, or too little */
+    double less; /* subtracted, relative to a facet's visible area */
+    double more; /* added, relative to the hidden area of a facet of which something is visible */
+    double left; /* the estimated remaining bias, relative to its visible area */
 } preview_bias;
 
 static int preview_few(const preview_job *job, uint32_t facet)
@@ -439,9 +445,9 @@ static int preview_few(const preview_job *job, uint32_t facet)
 static preview_bias preview_bias_of(const preview_job *job)
 {
     double pixel = job->raster.pixel * job->raster.pixel;
-    double over = 0;   /* shares less samples */
-    double shares = 0; /* of facets with few samples, */
-    double room = 0;   /* and what else these could show */
+    double over = 0;   /* area by visible fractions minus area by samples */
+    double shares = 0; /* visible area of facets with few samples */
+    double room = 0;   /* their hidden area */
     for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
         const preview_counts *c = &job->counts[f];
         if (lrcsi_grid_casts(job->view, f) && c->share > 0 && lrcsi_view_reflects(job->view, f)) {
@@ -479,7 +485,7 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const 
     }
     if (c->covered == 0) {
         v.likely = sqrt(LIKELY_SQUARE) * area;
-    } else if (c->owned != 0) { /* of one that owns all, a strip may be hidden at a border */
+    } else if (c->owned != 0) { /* even if it owns all, a strip may be hidden at a border */
         double square = c->borders + (double)c->longest * c->longest;
         square = c->owned != c->covered ? square : c->met;
         v.likely = lrcsi_least(area, sqrt(LIKELY_SQUARE * square) * pixel);
@@ -487,9 +493,9 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const 
     return v;
 }
 
-/* --- all of it -------------------------------------------------------------------------------- */
+/* --- the whole preview ------------------------------------------------------------------------ */
 
-/* Samples, and room for lanes behind the last one. */
+/* The number of samples, with room for LANES samples after the last one. */
 static size_t preview_samples(uint32_t size)
 {
     return lrcsi_work_add(lrcsi_work_square(size), LANES);

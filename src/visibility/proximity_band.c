@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Adding up, facet by facet, the shares near event edges and near facets of other parts. It decides
-   nothing exactly: every distance is widened by the errors of what it is between. What doubt costs
-   in sigma is decided in integrate/tessellation.c. */
+/* Adds up, for each facet, the fractions of its area near event edges and near facets of other
+   parts. Nothing is decided exactly: every distance is enlarged by the errors of the positions that
+   it separates. What the uncertain areas add to the bound of sigma is decided in
+   integrate/tessellation.c. */
 #include "visibility/proximity_band.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@
 #include "mesh/slice.h"
 #include "scene/proximity.h"
 
-/* What is computed of coordinates is off by as much as they are, or less: so many times that. */
+/* Errors of positions computed here, as a multiple of the error of view coordinates. */
 #define OFF_MARGIN 8.0
 /* Rounding of a facet's cosine, generously. */
 #define COS_MARGIN 1e-9
@@ -36,7 +37,8 @@ static uint32_t band_part(const band_job *job, uint32_t facet)
 /* --- events of one part ------------------------------------------------------------------------
  */
 
-/* Is an edge an event of a part: do not exactly two of its facets continue each other there? */
+/* 1 if an edge is an event edge of a part: unless exactly two facets of the part share it, with
+   consistent winding, and face the same way. */
 static int part_event(const band_job *job, const lrcsi_edge *edge, uint32_t part)
 {
     const lrcsi_edge_use *use = job->view->prepared->topology.use + edge->first_use;
@@ -53,7 +55,7 @@ static int part_event(const band_job *job, const lrcsi_edge *edge, uint32_t part
     return count != 0 && !(count == 2 && forward == 1 && (facing == 2 || facing == -2));
 }
 
-/* Lists (edge, part) once each, or only counts them where job->edge is NULL. */
+/* Lists each pair of edge and part once, or only counts them if job->edge is NULL. */
 static void list_events(band_job *job)
 {
     const lrcsi_topology *topology = &job->view->prepared->topology;
@@ -97,7 +99,7 @@ static int band_events(band_job *job, lrcs_work *work)
 /* --- one facet and one edge --------------------------------------------------------------------
  */
 
-/* The farthest that a corner of a facet may be off, and what is computed of it. */
+/* Bound on the position errors of a facet's corners and of positions computed from them. */
 static double facet_off(const band_job *job, uint32_t facet)
 {
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
@@ -108,58 +110,100 @@ static double facet_off(const band_job *job, uint32_t facet)
     return OFF_MARGIN * off;
 }
 
-/* The part of a facet within `slack` of an edge in projection: in the rectangle about it. What the
-   edge is off at a share t of its length is linear in t. A point of it that is near the facet is no
-   farther from its end a than the facet's farthest corner and the width are, t length <= far +
-   wide, and what b is off counts for t of itself. */
+/* The rectangle about an edge in projection that holds all points of a facet within a distance of
+   it: from a by `wide` against and across `along`, from b by `end` along it. */
+typedef struct edge_box {
+    const double *a, *b;
+    double along[3];
+    double wide, end;
+} edge_box;
+
+/* The position error of the edge's point at parameter t (0 .. 1) is linear in t. A point of the
+   edge near the facet is no farther from end a than the facet's farthest corner plus the width, t
+   length
+   <= far + wide; therefore the error of end b counts only t times. */
+static edge_box edge_box_make(const band_job *job, uint32_t facet, const lrcsi_edge *edge,
+                              double slack)
+{
+    const lrcsi_view *view = job->view;
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    edge_box box = {.a = view->point[edge->low].x, .b = view->point[edge->high].x};
+    if (lrcsi_view_off(box.a) > lrcsi_view_off(box.b)) {
+        box.a = view->point[edge->high].x;
+        box.b = view->point[edge->low].x;
+    }
+    box.along[0] = box.b[0] - box.a[0];
+    box.along[1] = box.b[1] - box.a[1];
+    double length = sqrt(box.along[0] * box.along[0] + box.along[1] * box.along[1]);
+    double first = OFF_MARGIN * lrcsi_view_off(box.a);
+    double last = OFF_MARGIN * lrcsi_view_off(box.b);
+    double far = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *x = view->point[corner[k]].x;
+        far = lrcsi_most(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
+    }
+    box.wide = slack + facet_off(job, facet) + first;
+    box.end = box.wide + last;
+    if (length > 2 * (first + last)) {
+        box.along[0] /= length;
+        box.along[1] /= length;
+        box.wide += last * lrcsi_least(1, 2 * (far + box.wide) / length);
+    } else { /* of no length: a square about it */
+        box.along[0] = 1;
+        box.along[1] = 0;
+        box.end += length;
+        box.wide = box.end;
+    }
+    return box;
+}
+
+/* Are all corners of a facet beyond one side of the rectangle about an edge? */
+static int edge_box_apart(const band_job *job, uint32_t facet, const edge_box *box)
+{
+    const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
+    int left = 0;
+    int right = 0;
+    int before = 0;
+    int beyond = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *x = job->view->point[corner[k]].x;
+        double from_a[2] = {x[0] - box->a[0], x[1] - box->a[1]};
+        double from_b[2] = {x[0] - box->b[0], x[1] - box->b[1]};
+        double across = box->along[0] * from_a[1] - box->along[1] * from_a[0];
+        left += across > box->wide;
+        right += across < -box->wide;
+        before += box->along[0] * from_a[0] + box->along[1] * from_a[1] < -box->wide;
+        beyond += box->along[0] * from_b[0] + box->along[1] * from_b[1] > box->end;
+    }
+    return left == 3 || right == 3 || before == 3 || beyond == 3;
+}
+
+/* The part of a facet within `slack` of an edge in projection: in the rectangle about it. */
 static lrcsi_slice edge_slice(const band_job *job, uint32_t facet, const lrcsi_edge *edge,
                               double slack)
 {
     const lrcsi_view *view = job->view;
-    const lrcs_prepared *p = view->prepared;
-    const uint32_t *corner = p->scene->facet[facet].corner;
-    const double *a = view->point[edge->low].x;
-    const double *b = view->point[edge->high].x;
-    if (lrcsi_view_off(a) > lrcsi_view_off(b)) {
-        a = view->point[edge->high].x;
-        b = view->point[edge->low].x;
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    edge_box box = edge_box_make(job, facet, edge, slack);
+    lrcsi_slice slice = {.count = 0};
+    if (edge_box_apart(job, facet, &box)) {
+        return slice;
     }
-    double along[3] = {b[0] - a[0], b[1] - a[1], 0};
-    double length = sqrt(along[0] * along[0] + along[1] * along[1]);
-    double first = OFF_MARGIN * lrcsi_view_off(a);
-    double last = OFF_MARGIN * lrcsi_view_off(b);
-    double off = facet_off(job, facet);
-    double far = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *x = view->point[corner[k]].x;
-        far = lrcsi_most(far, fabs(x[0] - a[0]) + fabs(x[1] - a[1]));
-    }
-    double wide = slack + off + first;
-    double end = wide + last;
-    if (length > 2 * (first + last)) {
-        along[0] /= length;
-        along[1] /= length;
-        wide += last * lrcsi_least(1, 2 * (far + wide) / length);
-    } else { /* of no length: a square about it */
-        along[0] = 1;
-        along[1] = 0;
-        end += length;
-        wide = end;
-    }
+    const double *along = box.along;
     const double aside[3] = {-along[1], along[0], 0};
     const double back[3] = {-along[0], -along[1], 0};
     const double other[3] = {along[1], -along[0], 0};
-    lrcsi_slice slice = lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
-                                          view->point[corner[2]].x);
-    lrcsi_slice_cut(&slice, aside, a, wide);
-    lrcsi_slice_cut(&slice, other, a, wide);
-    lrcsi_slice_cut(&slice, along, b, end);
-    lrcsi_slice_cut(&slice, back, a, wide);
+    slice = lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
+                              view->point[corner[2]].x);
+    lrcsi_slice_cut(&slice, aside, box.a, box.wide);
+    lrcsi_slice_cut(&slice, other, box.a, box.wide);
+    lrcsi_slice_cut(&slice, along, box.b, box.end);
+    lrcsi_slice_cut(&slice, back, box.a, box.wide);
     return slice;
 }
 
-/* Does all of an edge lie so far behind a facet's plane that no point of it, seen within `slack` of
-   a point of the facet, is less than 2 slack behind that one? */
+/* 1 if the whole edge lies so far behind a facet's plane that every point of it within `slack`, in
+   projection, of a point of the facet is at least 2 slack behind that point. */
 static int edge_behind(const band_job *job, uint32_t facet, const lrcsi_edge *edge, double slack)
 {
     const lrcs_prepared *p = job->view->prepared;
@@ -179,8 +223,8 @@ static int edge_behind(const band_job *job, uint32_t facet, const lrcsi_edge *ed
     return behind;
 }
 
-/* Is an edge of a part's own a rim beyond which its wall faces the laser, or may? Where the meter
-   is spent, perhaps. */
+/* 1 if an edge of the part is a rim whose wall faces the laser, or may face it; also 1 if the limit
+   of steps is reached. */
 static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
 {
     const lrcs_prepared *p = job->view->prepared;
@@ -204,7 +248,7 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
     return count == 1 && facing;
 }
 
-/* How near an event must come to matter to a facet, unless it is behind; 0 if it cannot. */
+/* The distance within which an event edge affects a facet, unless it is behind; 0 if it cannot. */
 static double event_slack(const band_job *job, uint32_t facet, uint32_t event)
 {
     const lrcs_prepared *p = job->view->prepared;
@@ -219,8 +263,8 @@ static double event_slack(const band_job *job, uint32_t facet, uint32_t event)
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* Where events near a facet are: a box, and the facet's sides, whose errors include how near that
-   is, for the rows of the grid. */
+/* Where to look for event edges near a facet: in a box, and in rows of the grid between the facet's
+   sides, whose errors include the largest relevant distance. */
 typedef struct band_walk {
     double low[3], high[3];
     lrcsi_strip_segment side[3];
@@ -247,7 +291,7 @@ static band_walk walk_make(const band_job *job, uint32_t facet)
     return walk;
 }
 
-/* Adds the shares of area and of rows near an event. */
+/* Adds the fractions of area and of rows near an event edge. */
 static void add_event(band_job *job, uint32_t facet, uint32_t event)
 {
     const lrcs_prepared *p = job->view->prepared;
@@ -269,7 +313,7 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event)
     job->rows[facet] += lrcsi_proximity_rows(p, facet, corner, &slice);
 }
 
-/* Adds the shares of all events near a facet; all of it where the meter is spent. */
+/* Adds the fractions near all event edges; the whole facet if the limit of steps is reached. */
 static void add_events(band_job *job, uint32_t facet, const band_walk *walk)
 {
     const lrcsi_grid *grid = &job->grid;
@@ -321,8 +365,8 @@ static void facet_share(band_job *job, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* The shares near facets of other parts. Facets seen edge-on never hide, nor do back sides of what
-   is closed. */
+/* Adds the fractions near facets of other parts. Facets seen edge-on hide nothing, and neither do
+   back sides of closed parts: fronts of the same part do. */
 static void band_contacts(band_job *job)
 {
     const lrcsi_view *view = job->view;
@@ -361,12 +405,12 @@ static void band_box(band_job *job)
 
 /* --- regions ---------------------------------------------------------------------------------- */
 
-static void band_regions(const lrcsi_proximity_band *margin)
+static void band_regions(const lrcsi_proximity_band *band)
 {
-    const lrcs_prepared *p = margin->classification->view->prepared;
+    const lrcs_prepared *p = band->classification->view->prepared;
     const uint32_t *part = p->scene->facet_part;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        margin->region[f] = f;
+        band->region[f] = f;
     }
     for (uint32_t e = 0; e < p->topology.edge_count; e++) {
         const lrcsi_edge *edge = &p->topology.edge[e];
@@ -374,34 +418,35 @@ static void band_regions(const lrcsi_proximity_band *margin)
         for (uint32_t i = 1; i < edge->uses; i++) {
             uint32_t a = use[i - 1].facet;
             uint32_t b = use[i].facet;
-            if (part[a] == part[b] && p->proximity.reach[part[a]] > 0 && margin->share[a] == 0 &&
-                margin->share[b] == 0) {
-                lrcsi_join(margin->region, a, b);
+            if (part[a] == part[b] && p->proximity.reach[part[a]] > 0 && band->share[a] == 0 &&
+                band->share[b] == 0) {
+                lrcsi_join(band->region, a, b);
             }
         }
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        margin->region[f] = lrcsi_join_root(margin->region, f);
+        band->region[f] = lrcsi_join_root(band->region, f);
     }
 }
 
-/* A region is hidden all over or nowhere: so a front of which less is seen than half is hidden. */
-void lrcsi_proximity_band_settle(const lrcsi_proximity_band *margin, const lrcsi_visible *visible)
+/* A region is entirely hidden or entirely visible. So it is hidden if at most half of one of its
+   front facets is visible. */
+void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_visible *visible)
 {
-    const lrcsi_view *view = margin->classification->view;
+    const lrcsi_view *view = band->classification->view;
     const lrcs_prepared *p = view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        margin->hidden[f] = 0;
+        band->hidden[f] = 0;
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         if (view->facing[f] > 0 && p->proximity.reach[p->scene->facet_part[f]] > 0 &&
-            margin->share[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f)) {
-            margin->hidden[margin->region[f]] = 1;
+            band->share[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f)) {
+            band->hidden[band->region[f]] = 1;
         }
     }
 }
 
-/* Edges, each for every part that has a facet on it; some counted twice, perhaps. */
+/* Upper bound of the number of pairs of an edge and a part with a facet at it. */
 static size_t band_edges(const lrcs_prepared *p)
 {
     const lrcsi_topology *topology = &p->topology;
@@ -429,7 +474,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges));
 }
 
-/* Scratch goes as the shares are done. */
+/* Computes all fractions; scratch memory is released. */
 static int band_shares(band_job *job, lrcs_work *work)
 {
     size_t mark = work->used;
@@ -450,7 +495,7 @@ static int band_shares(band_job *job, lrcs_work *work)
 }
 
 int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcs_work *work,
-                              lrcsi_proximity_band *margin)
+                              lrcsi_proximity_band *band)
 {
     const lrcsi_view *view = classification->view;
     uint32_t facets = view->prepared->scene->facet_count;
@@ -468,6 +513,6 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcs_w
         return status;
     }
     band_regions(&m);
-    *margin = m;
+    *band = m;
     return LRCS_OK;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which share of each facet the truth may show otherwise than the facets do, where curved shapes
-   stand among other parts.
+/* For curved shapes among other parts: on which fraction of each facet the visibility of the true
+   shapes may differ from that of their facets.
 
    Truth: each engine-made curved part is a piece W of the boundary of a closed convex body B (all
    of it; or less flat openings; or a flat body), and a map moves W onto the part's facets S, no
@@ -32,20 +32,21 @@
    and of facets, are convex and within e of each other: both agree unless y lies within 2 e in
    projection of a rim beyond which the wall faces the laser, or may.
 
-   Facets within the rounding of edge-on (lrcsi_proximity.graze) count as doubtful, all of them:
-   rounding may have folded a facet mesh over there.
+   Facets that are edge-on to within rounding (lrcsi_proximity.grazing_cos) count as uncertain over
+   their whole area: rounding may have folded the facet mesh there.
 
-   Facets of a curved part without doubt, joined over edges, make regions, all of which other parts
-   hide or none: one front that is not seen tells which.
+   Facets of a curved part without any uncertain area, joined across edges, form regions. Other
+   parts hide a region entirely or not at all; one hidden front facet tells which.
 
-   A row of a facet on a straight wall that meets no band is seen all along, in truth too, or
-   nowhere. By facets: whether another part hides a point of it can change only across (1) or (2),
-   and whether its own part does, seen from inside, only across a rim as above. In truth: by the
-   claim, point by point.
+   A row of a facet on a straight wall that meets no band is visible over its whole length or
+   nowhere, for the facets and for the true shapes. By facets: whether another part hides a point of
+   it can change only across (1) or (2), and whether its own part does, seen from inside, only
+   across a rim as above. In truth: by the claim, point by point.
 
-   So the shares of a facet within such bands, rectangles about edges and prisms about facets, add
-   up to an upper bound of its share where truth and facets may differ. Its area carries over to its
-   patch: the map stretches area evenly (mesh/profile.c), but for what lrcs_part.uneven bounds. */
+   So the fractions of a facet within such bands (rectangles about edges, prisms about facets) add
+   up to an upper bound of the fraction where true shapes and facets may differ. The fraction of the
+   facet's area is that of its patch, because the map stretches areas evenly (mesh/profile.c), up to
+   what lrcs_part.uneven bounds. */
 #ifndef LRCSI_PROXIMITY_BAND_H
 #define LRCSI_PROXIMITY_BAND_H
 
@@ -54,22 +55,22 @@
 
 typedef struct lrcsi_proximity_band {
     const lrcsi_classification *classification;
-    double *share;         /* facet: of its area, 0 .. 1 */
-    double *rows;          /* facet: of its rows (scene/proximity.h), those that meet such a band */
-    uint32_t *region;      /* facet of a curved part: its region, named by one of its facets */
+    double *share;    /* facet: fraction of its area, 0 .. 1 */
+    double *rows;     /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
+    uint32_t *region; /* facet of a curved part: its region, named by one of its facets */
     unsigned char *hidden; /* region: 1 if other parts hide all of it, in truth too */
 } lrcsi_proximity_band;
 
-/* Bytes at most; 0 if prepared->proximity was not asked for. */
+/* Upper bound of bytes; 0 if prepared->proximity was not requested. */
 size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 
-/* For a scene with prepared->proximity.reach; nothing is known to be hidden yet. Facets that
-   neither reflect nor belong to a curved part are left out: share 0. Status: LRCS_OK;
+/* For a scene with prepared->proximity.reach. No region is marked hidden yet. Facets that neither
+   reflect nor belong to a curved part are left out: share 0. Status: LRCS_OK;
    LRCS_E_MEMORY; LRCS_E_LIMIT. The shares stay in the work area, scratch does not. */
 int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcs_work *work,
-                              lrcsi_proximity_band *margin);
+                              lrcsi_proximity_band *band);
 
 /* Finds the hidden regions, once visible areas are known. */
-void lrcsi_proximity_band_settle(const lrcsi_proximity_band *margin, const lrcsi_visible *visible);
+void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_visible *visible);
 
 #endif

@@ -62,7 +62,7 @@ typedef struct query_line {
 static void line_place(query_line *line)
 {
     const lrcsi_view *view = line->grid->view;
-    const lrcsi_view_box *own = &line->grid->box[line->facet];
+    const lrcsi_view_box *own = lrcsi_boxes_facet(&line->grid->boxes, line->facet);
     lrcsi_view_place(view, line->point, line->x);
     line->x_err = lrcsi_view_off(line->x);
     line->at = lrcsi_view_box_about(view, line->x, line->x_err);
@@ -121,8 +121,9 @@ static uint32_t line_next(query_line *line)
             }
         }
         uint32_t other = grid->item[line->item++];
-        if (other != line->facet && !lrcsi_view_box_beside(&grid->box[other], &line->at) &&
-            !lrcsi_view_box_behind(&grid->box[other], &line->at) && line_meets(line, other)) {
+        const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
+        if (other != line->facet && !lrcsi_view_box_beside(its, &line->at) &&
+            !lrcsi_view_box_behind(its, &line->at) && line_meets(line, other)) {
             return other;
         }
     }
@@ -132,7 +133,7 @@ static uint32_t line_next(query_line *line)
 static int line_nearer(const query_line *line, uint32_t other)
 {
     const lrcsi_view *view = line->grid->view;
-    return lrcsi_view_box_behind(&line->at, &line->grid->box[other])
+    return lrcsi_view_box_behind(&line->at, lrcsi_boxes_facet(&line->grid->boxes, other))
                ? 1
                : lrcsi_sample_nearer(view, other, line->facet, line->point, line->sense);
 }

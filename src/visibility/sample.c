@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Exact decisions along one line of sight. It knows nothing of pixels or of which facets are
-   candidates. */
+/* Exact decisions along one line of sight. Which facets are candidates, and where the lines of
+   sight run, is decided elsewhere. */
 #include "visibility/sample.h"
 
 #include <math.h>
@@ -11,17 +11,19 @@
 
 #define UNDERFLOW 0x1p-1000
 
-/* The axis along which the direction is largest: the other two span the view plane with it. */
+/* The axis along which the direction has its largest component. The other two axes, projected along
+   the direction, span the view plane. */
 static int sample_axis(const double *d)
 {
     int axis = fabs(d[1]) > fabs(d[0]) ? 1 : 0;
     return fabs(d[2]) > fabs(d[axis]) ? 2 : axis;
 }
 
-/* The side of edge p -> q on which the line stands: 1 left, -1 right, never 0 unless the edge is
-   parallel to the direction. On the edge itself the first axis, then the second, decides: the
-   sign of det(q - p, e, d), taken exactly with e as p moved by 2 along that axis (coordinates are
-   below 1, so the move is a positive multiple of the axis, exactly). */
+/* The side of edge p -> q on which the line lies: 1 left, -1 right; 0 only if the edge is parallel
+   to the direction. If the line meets the edge, it counts as moved along a fixed axis e, and if
+   that is parallel to the edge in the view, along a second one. The sign is then that of det(q - p,
+   e, d), computed exactly with p moved by 2 along the axis: coordinates are below 1, so that the
+   rounded move is still a positive multiple of the axis. */
 static int sample_edge_side(const double *p, const double *q, const double *point, int sense,
                             const double *d)
 {
@@ -53,9 +55,10 @@ int lrcsi_sample_covers_towards(const lrcsi_view *view, uint32_t facet, const do
     return 1;
 }
 
-/* From the normal where its error allows, else exactly. Taking its high part, a difference, a
-   product and two sums cost 5 u of the terms; the normal's own error counts with the difference,
-   below 4 in norm; and UNDERFLOW is more than products can lose. */
+/* From the normal if its error allows it, else exactly. Errors: the normal's low part, which is
+   left out, the difference, the product and two sums, 5 u of the terms; the normal's own error
+   times the length of the difference, which is below 4; and underflow in the products, less than
+   UNDERFLOW. */
 int lrcsi_sample_above(const lrcsi_view *view, uint32_t facet, const double point[3])
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
@@ -103,15 +106,17 @@ static int sample_coplanar(const lrcsi_view *view, uint32_t i, uint32_t j)
     return 1;
 }
 
-/* Height of the facet's plane over `point` along the direction, as a fraction: numerator
-   N . (a - point), denominator N . d, both times the facing so that the denominator is positive. */
+/* The height of the facet's plane above `point` along the direction, as a fraction: the numerator
+   is N . (a - point), the denominator N . d, both times the facing, so that the denominator is
+   positive. */
 typedef struct sample_height {
     lrcsi_dd top, bottom;
-    double top_off, bottom_off; /* bounds on their errors */
+    double top_off, bottom_off; /* error bounds */
 } sample_height;
 
-/* Each term: the difference is exact, its product with N is off by 7 u^2, each sum by 3 u^2; with
-   N's own error: 16 u^2 |N| |a - point| sqrt(3) + error |a - point|. */
+/* The error of each term: the difference is exact as a pair, its product with N has an error of
+   7 u^2, each sum one of 3 u^2. With N's own error the total is at most
+   16 u^2 |N| |a - point| sqrt(3) + error |a - point|. */
 static sample_height sample_height_of(const lrcsi_view *view, uint32_t facet, const double *point)
 {
     const lrcsi_normal *n = &view->prepared->normal[facet];
@@ -131,10 +136,9 @@ static sample_height sample_height_of(const lrcsi_view *view, uint32_t facet, co
     return h;
 }
 
-/* Where all corners of `first` lie on one side of the other's plane, or on it, so does what the
-   line meets of it, strictly inside as it counts: 1 first is nearer, -1 second; 0 if corners
-   lie on both sides. Exact, and enough wherever two facets do not pierce each other: along
-   contours, folds, and the rims on which one stands on the other. */
+/* If all corners of `first` lie on one side of the plane of `second`, or on it, so does the point
+   of `first` that the line meets: 1 if first is nearer, -1 if second is. 0 if corners lie on both
+   sides. Exact. */
 static int sample_side(const lrcsi_view *view, uint32_t first, uint32_t second)
 {
     int most = 0;
@@ -151,7 +155,7 @@ static int sample_side(const lrcsi_view *view, uint32_t first, uint32_t second)
     return most + least;
 }
 
-/* Does the corner `ray` lie, seen from corner `at` of the facet, within the angle there? */
+/* 1 if, in the view, the point `ray` lies within the angle of the facet at its corner `at`. */
 static int angle_holds(const lrcsi_view *view, uint32_t facet, int at, const double *ray)
 {
     const double *corner[3];
@@ -163,8 +167,9 @@ static int angle_holds(const lrcsi_view *view, uint32_t facet, int at, const dou
            view->facing[facet] * lrcsi_exact_turn(corner[2], corner[0], ray, view->direction) >= 0;
 }
 
-/* Which of the two is nearer along a side that leaves the first's corner `i` within the second's
-   angle at its corner `j`, the same point; 0 if no side does. */
+/* Corner `i` of the first facet and corner `j` of the second are the same point. If a side of the
+   first that starts there runs within the second's angle: which facet is nearer along it. Otherwise
+   0. */
 static int sample_sides_at(const lrcsi_view *view, uint32_t first, int i, uint32_t second, int j)
 {
     for (int k = 1; k <= 2; k++) {
@@ -184,12 +189,12 @@ static int points_agree(const double *p, const double *q)
     return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
 }
 
-/* Two facets that meet at a common corner only, each with its other corners on both sides of the
-   other's plane (one has part of the line where the planes meet, the other its continuation beyond
-   the corner): 1 first is nearer, -1 second, wherever a line meets both; 0 if they have no
-   corner in common. What they both cover of the view is convex and reaches to the corner, and
-   their heights differ on all of it, so in one sense; there it is bounded by a side of one of them
-   that lies within the angle of the other. Exact. */
+/* For two facets that have one corner in common, do not intersect elsewhere, and each have corners
+   on both sides of the other's plane: 1 if first is nearer on every line that meets both, -1 if
+   second is; 0 if they have no corner in common. The region of the view that both cover is convex
+   and contains the corner. Their heights differ everywhere else in it, so the same facet is nearer
+   everywhere. At the corner the region is bounded by a side of one facet that lies within the angle
+   of the other: along that side the order is decided. Exact. */
 static int sample_corner(const lrcsi_view *view, uint32_t first, uint32_t second)
 {
     for (int n = 0; n < 9; n++) {
@@ -204,10 +209,11 @@ static int sample_corner(const lrcsi_view *view, uint32_t first, uint32_t second
     return 0;
 }
 
-/* Two facets that pierce each other, on a line where they meet as far as can be decided: which is
-   nearer just beside it, on the side to which the line counts as moved. Heights fall by
-   N_k / (N . d) there. Where they meet elsewhere it may be wrong; but both are then undecided, and
-   so mixed is the pixel (visibility/visible.c), so that no bound rests on it. */
+/* For two facets that intersect, and a line of sight that meets their intersection as closely as
+   can be decided: which is nearer beside the line, in the direction in which it counts as moved.
+   Along axis k, heights fall by N_k / (N . d). The answer may be wrong if the line does not meet
+   the intersection exactly. No bound depends on it: both facets are then undecided, and the pixel
+   counts as mixed (visibility/visible.c). */
 static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t second, int sense,
                           lrcsi_dd first_bottom, lrcsi_dd second_bottom)
 {

@@ -1,37 +1,37 @@
 /* SPDX-License-Identifier: MIT */
-/* One line of sight: which facets it meets, and which of them is nearest the laser. Exact: the
-   line runs through a point of scaled scene coordinates along the direction. Where it meets an
-   edge or a vertex, it counts as moved by an infinitesimal (eps, eps^2) along two fixed axes, so
-   that a surface is met once on every line, never twice and never not at all. */
+/* One line of sight: which facets it meets, and which of two is nearer to the laser. The line runs
+   through a point of scaled scene coordinates along the direction; all decisions are exact. If it
+   meets an edge or a vertex, it counts as moved by an infinitesimal (eps, eps^2) along two fixed
+   axes, so that it meets a surface without holes exactly once. */
 #ifndef LRCSI_SAMPLE_H
 #define LRCSI_SAMPLE_H
 
 #include "view/view.h"
 
-/* Does the line through `point` meet the facet? Facing must not be 0. */
+/* 1 if the line through `point` meets the facet, else 0. Its facing must not be 0. */
 int lrcsi_sample_covers(const lrcsi_view *view, uint32_t facet, const double point[3]);
 
-/* The same, the line counting as moved along the two axes where `sense` is 1, against them where it
-   is -1. */
+/* The same; the line counts as moved along the two axes if `sense` is 1, against them if it is -1.
+ */
 int lrcsi_sample_covers_towards(const lrcsi_view *view, uint32_t facet, const double point[3],
                                 int sense);
 
-/* Which side of the facet's plane a scene point lies on: 1 nearer the laser than the plane is
-   there, -1 farther, 0 on it; exact. Facing must not be 0. */
+/* On which side of the facet's plane a scene point lies: 1 if it is nearer to the laser than the
+   plane, -1 if farther, 0 if on it. Exact. The facet's facing must not be 0. */
 int lrcsi_sample_above(const lrcsi_view *view, uint32_t facet, const double point[3]);
 
-/* Does `winner` come first where both lie exactly in one plane? A front face beats a back face, a
-   reflecting back a dead one, then the lower index. */
+/* 1 if, of two facets that lie exactly in one plane, `winner` counts as nearer: a front side before
+   a back side, a back side that reflects before one that does not, then the lower index. */
 int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser);
 
-/* Which of two facets is nearer wherever a line meets both, where that is so: 1 the first, -1 the
-   second (they lie in one plane, or one lies on one side of the other's plane), else 0. Exact. */
+/* 1 if the first facet is nearer on every line that meets both, -1 if the second is, because they
+   lie in one plane or one lies on one side of the other's plane; otherwise 0. Exact. */
 int lrcsi_sample_order(const lrcsi_view *view, uint32_t first, uint32_t second);
 
-/* Which of two facets that the line meets hides the other: 1 the first, -1 the second, 0
-   undecided: nearer to each other there than double-double tells, each with corners on both sides
-   of the other's plane, yet not touching. Where they pierce each other that near, a guess. The
-   line counts as moved in the sense that lrcsi_sample_covers_towards takes. */
+/* Which of two facets that the line meets is nearer: 1 the first, -1 the second. 0 if undecided:
+   their distance on the line is below the error of double-double, each has corners on both sides of
+   the other's plane, and they have no contact. If they intersect within that distance of the line,
+   the answer is a guess. The line counts as moved as in lrcsi_sample_covers_towards. */
 int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
                         const double point[3], int sense);
 

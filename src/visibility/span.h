@@ -66,7 +66,7 @@ static inline void lrcsi_span_follow(const lrcsi_segment *s, uint32_t y, uint32_
     *x1 = to < *x1 ? (uint32_t)lrcsi_most(to + 1, 0) : *x1;
 }
 
-/* Computes over, near, far and the crossings of edges whose other members are set. */
+/* Computes over, the offsets, the crossings and level of edges whose other members are set. */
 void lrcsi_span_prepare(lrcsi_edges *edges);
 
 lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y);

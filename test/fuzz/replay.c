@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* A fuzz target without libFuzzer: it runs every seed, and MUTATIONS mutations of them from a fixed
    generator, the same on every machine. A target that finds a fault aborts. Seeds are kept packed:
-   one seed a line, in hexadecimal digits (pack.sh writes them). With unpack it writes each seed to
-   a file of its own, as libFuzzer wants them. usage: fuzz_NAME MUTATIONS SEEDS fuzz_NAME unpack
+   one seed a line, in base64 (pack.sh writes them). With unpack it writes each seed to a file of
+   its own, as libFuzzer expects. usage: fuzz_NAME MUTATIONS SEEDS fuzz_NAME unpack
    FOLDER SEEDS */
 #include "fuzz.h"
 #include "random.h"
@@ -60,15 +60,26 @@ static void mutate(replay_seed *seed, uint64_t *state)
     }
 }
 
-/* Digits up to the end of the line; 0 where the line is no seed. */
+/* Decodes base64 up to the end of the line. Returns 0 if the line is not a seed. */
 static int seed_read(const char *line, replay_seed *seed)
 {
-    unsigned value;
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    uint32_t bits = 0;
+    int count = 0; /* of bits read and not yet stored: the low ones of `bits` */
     seed->size = 0;
-    while (seed->size < MOST_BYTES && sscanf(line, "%2x", &value) == 1) {
-        seed->bytes[seed->size++] = (unsigned char)value;
-        line += 2;
+    for (; seed->size < MOST_BYTES && *line != '\0' && *line != '\n' && *line != '='; line++) {
+        const char *digit = strchr(digits, *line);
+        if (!digit) {
+            return 0;
+        }
+        bits = bits << 6 | (uint32_t)(digit - digits);
+        count += 6;
+        if (count >= 8) {
+            count -= 8;
+            seed->bytes[seed->size++] = (unsigned char)(bits >> count);
+        }
     }
+    line += strspn(line, "=");
     return seed->size > 0 && (*line == '\n' || *line == '\0');
 }
 
@@ -80,7 +91,7 @@ static uint32_t seeds_read(const char *path)
     FILE *in = fopen(path, "r");
     while (in && count < MOST_SEEDS && fgets(line, sizeof line, in)) {
         if (!seed_read(line, &seeds[count])) {
-            fprintf(stderr, "%s:%u: expected hexadecimal digits\n", path, (unsigned)count + 1);
+            fprintf(stderr, "%s:%u: expected base64\n", path, (unsigned)count + 1);
             count = 0;
             break;
         }

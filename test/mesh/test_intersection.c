@@ -78,8 +78,8 @@ static void check_rims(const lrcs_point *v, const pair_case *c, int welded)
         }
     }
     assert_int_equal(make_touches(6, 2, NULL, NULL, &work, &t), LRCS_OK);
-    assert_int_equal(t.rim[0] != 0, c->b_on_a || c->b_in_a != LRCSI_INTERSECTION_NONE);
-    assert_int_equal(t.rim[1] != 0, c->a_on_b || c->a_in_b != LRCSI_INTERSECTION_NONE);
+    assert_int_equal(t.met[0] != 0, c->b_on_a || c->b_in_a != LRCSI_INTERSECTION_NONE);
+    assert_int_equal(t.met[1] != 0, c->a_on_b || c->a_in_b != LRCSI_INTERSECTION_NONE);
 }
 
 /* The reference that lists are compared with. */
@@ -154,7 +154,7 @@ static void check_facet(uint32_t f, uint32_t facets, const unsigned char *skip,
         }
     }
     assert_int_equal(t->first[f + 1], at);
-    assert_int_equal(t->rim[f] != 0, rim);
+    assert_int_equal(t->met[f] != 0, rim);
 }
 
 /* Contacts, rims and self-contact against brute force; returns the number of contacts. */
@@ -309,7 +309,7 @@ static void neighbours_on_a_closed_surface_do_not_touch(void **state)
     assert_int_equal(make_touches((N + 1) * (N + 1), facets, skip, NULL, &work, &t), LRCS_OK);
     assert_int_equal(t.count, 0);
     for (uint32_t f = 0; f < facets; f++) {
-        assert_int_equal(t.rim[f], 0);
+        assert_int_equal(t.met[f], 0);
     }
 }
 
@@ -368,7 +368,7 @@ static void sides_along_other_sides_are_found(void **state)
             assert_int_equal(lrcsi_intersection_along(&t, f, k), f < 2 && k == 0);
         }
     }
-    assert_true(t.rim[0] != 0);
+    assert_true(t.met[0] != 0);
 }
 
 static void an_empty_list_and_a_skipped_one_have_no_contacts(void **state)

@@ -224,7 +224,7 @@ static uint32_t check_cones(uint32_t facets, uint32_t *met)
         memset(kept, 0, sizeof kept);
         lrcsi_tree_walk walk = lrcsi_tree_after(&tree, leaf);
         walk.without = LRCS_NONE;
-        lrcsi_tree_narrow_fan(&walk, leaf);
+        lrcsi_tree_narrow_by_cones(&walk, leaf);
         for (uint32_t other; (other = lrcsi_tree_next(&walk)) != LRCS_NONE; left++) {
             kept[other] = 1;
         }

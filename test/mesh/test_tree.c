@@ -144,7 +144,7 @@ static uint32_t check_slabs(uint32_t facets)
         static unsigned char kept[MOST];
         memset(kept, 0, sizeof kept);
         lrcsi_tree_walk walk = lrcsi_tree_after(&tree, leaf);
-        lrcsi_tree_narrow(&walk, leaf);
+        lrcsi_tree_narrow_by_slabs(&walk, leaf);
         for (uint32_t other; (other = lrcsi_tree_next(&walk)) != LRCS_NONE; left++) {
             kept[other] = 1;
         }
@@ -333,8 +333,8 @@ static void slabs_and_cones_without_a_direction_leave_out_nothing(void **state)
         for (uint32_t leaf = 0; leaf < tree.blocks[0]; leaf++) {
             lrcsi_tree_walk walk = lrcsi_tree_after(&tree, leaf);
             walk.without = LRCS_NONE;
-            lrcsi_tree_narrow_fan(&walk, leaf);
-            lrcsi_tree_narrow(&walk, leaf);
+            lrcsi_tree_narrow_by_cones(&walk, leaf);
+            lrcsi_tree_narrow_by_slabs(&walk, leaf);
             uint32_t found = leaf + 1;
             while (lrcsi_tree_next(&walk) != LRCS_NONE) {
                 found++;

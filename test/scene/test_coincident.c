@@ -390,7 +390,7 @@ static void twins_have_the_contacts_of_both_sides(void **state)
             }
             if (p->opposite && p->opposite[f] != LRCS_NONE) {
                 uint32_t o = p->opposite[f];
-                assert_int_equal(p->intersections.rim[f] != 0, p->intersections.rim[o] != 0);
+                assert_int_equal(p->intersections.met[f] != 0, p->intersections.met[o] != 0);
                 for (int k = 0; k < 9; k++) { /* sides that are the same edge have the same mark */
                     if (p->topology.facet_edge[f].corner[k / 3] ==
                         p->topology.facet_edge[o].corner[k % 3]) {

@@ -114,7 +114,7 @@ static uint32_t check_grids(void)
     double at[2];
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         lrcsi_view_box box = lrcsi_view_box_of(&view, p->scene->facet[f].corner, 3);
-        assert_memory_equal(&box, &facets.box[f], sizeof box);
+        assert_memory_equal(&box, lrcsi_boxes_facet(&facets.boxes, f), sizeof box);
         for (int i = 0; i < 20; i++) {
             place_on(&view, p->scene->facet[f].corner, 3, at);
             assert_true(lists(&facets, at, f));
@@ -235,7 +235,7 @@ static void grids_are_made_coarser_for_large_facets(void **state)
     assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 0);
     uint32_t cells = 0;
     for (uint32_t f = 0; f < 40; f++) {
-        lrcsi_cells at = lrcsi_grid_cells(&grid, &boxes.facet[f]);
+        lrcsi_cells at = lrcsi_grid_cells(&grid, lrcsi_boxes_facet(&boxes, f));
         cells += (uint32_t)(at.x1 - at.x0) * (uint32_t)(at.y1 - at.y0);
     }
     assert_true(grid.size < 64 && cells <= LRCSI_GRID_FACET_CELLS * 40);

@@ -96,6 +96,11 @@ void cli_compare_kit_free(compare_kit *kit);
 int cli_compare_scene(const compare_kit *kit, compare_scene *scene);
 int cli_compare_records(const compare_kit *kit, compare_case *one);
 
+/* Runs a scene by the exact method without some effects (lrcs_run_options.without). 0 or
+   CLI_FAILED. */
+int cli_compare_run(const lrcs_host_scene *host, const lrcs_pose *pose, uint32_t without,
+                    lrcs_facet_record *records);
+
 /* The case of a line whose columns 0 and 1 are scene and attitude; NULL with the message printed.
  */
 compare_case *cli_compare_find(const compare_kit *kit, const compare_table *table);
@@ -210,68 +215,10 @@ int cli_compare_explain(compare_job *job);
 
 /* ---- mistakes ---- */
 
-/* The point at which a facet is shaded. */
-typedef struct mistake_point {
-    const lrcs_brdf *brdf;
-    double c;    /* the cosine that is used, 0 .. 1 */
-    double peak; /* the largest f_r cos of the case */
-} mistake_point;
-
-/* A case with a mistake: the pose and the records that are used. */
-typedef struct mistake_view {
-    const compare_scene *scene;
-    const lrcs_facet_record *records;
-    double direction[3]; /* unit */
-} mistake_view;
-
-/* What is wrong in the shading (f_r cos theta), in the projected area that is summed and how it is
-   shaded, in the pose. For shading, `at` is the power of the cosine; 1 for its magnitude; the power
-   in 1 / cos^6; a factor of tan^2, or 0 for tan^2 / s; the value of m; 0 without the glint, 1
-   without the diffuse term; the step in deg (twice); the brightest value of a channel of 8 bits, 0
-   for that of the case; the largest value. */
-enum mistake_shade {
-    SHADE_RIGHT,
-    SHADE_COSINE,
-    SHADE_DEGREES,
-    SHADE_POWER,
-    SHADE_SLOPE,
-    SHADE_ONE_TERM,
-    SHADE_LAMBERT,
-    SHADE_LINES,
-    SHADE_STEPS,
-    SHADE_BITS,
-    SHADE_CLAMPED,
-    SHADE_SINE,
-    SHADE_SMALL_ANGLE,
-    SHADE_TAN_DEGREES
-};
-enum mistake_area {
-    AREA_RIGHT,
-    AREA_UNSHADOWED,
-    AREA_BACKS,
-    AREA_ALL,
-    AREA_ONE_SIDED,
-    AREA_FLIPPED,
-    AREA_ONE_MATERIAL,
-    AREA_NEXT_MATERIAL,
-    AREA_SMOOTH,
-    AREA_LAST
-};
-enum mistake_turn {
-    TURN_NONE,
-    TURN_AXES,
-    TURN_TRANSPOSED,
-    TURN_ALONG,
-    TURN_SCALAR_LAST,
-    TURN_RADIANS,
-    TURN_POLAR,
-    TURN_EXCHANGED
-};
-
 /* A mistake: whatever is not 0 differs from the truth. */
 typedef struct compare_mistake {
     const char *name, *text;
-    int shade, area, turn; /* mistake_shade, ... */
+    int shade, area, turn; /* mistakes.c: enum mistake_shade, ... */
     double at;             /* of shade */
     int axes[3]; /* of turn: for x, y, z of s_hat, the component that is used, 1 .. 3, negative to
                     mirror it */
@@ -282,17 +229,6 @@ typedef struct compare_mistake {
 
 /* The catalogue, terminated by a NULL name; the first entry is no mistake. */
 extern const compare_mistake cli_compare_mistakes[];
-
-/* f_r cos. */
-double cli_mistake_shade(const compare_mistake *mistake, const mistake_point *point);
-
-/* The projected area of a facet, for the value at a corner (0 .. 2) if that counts. Also sets how
-   it is shaded; 0 if the facet does not contribute. */
-double cli_mistake_area(const compare_mistake *mistake, const mistake_view *view, uint32_t facet,
-                        int corner, mistake_point *point);
-
-/* The pose that is used. Status: as lrcs_pose_from_quaternion. */
-int cli_mistake_turn(const compare_mistake *mistake, const compare_case *one, lrcs_pose *pose);
 
 /* sigma of a case with a mistake. 0 or CLI_FAILED with the message printed. */
 int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,

@@ -202,13 +202,19 @@ int cli_compare_scene(const compare_kit *kit, compare_scene *scene)
     return code ? code : normals_make(scene);
 }
 
+int cli_compare_run(const lrcs_host_scene *host, const lrcs_pose *pose, uint32_t without,
+                    lrcs_facet_record *records)
+{
+    lrcs_run_options options = lrcs_run_options_default();
+    lrcs_result result;
+    options.method = LRCS_METHOD_EXACT;
+    options.without = without;
+    return cli_scene_run(host, pose, &options, &result, records, NULL, NULL);
+}
+
 int cli_compare_records(const compare_kit *kit, compare_case *one)
 {
     compare_scene *scene = &kit->scene[one->scene];
-    lrcs_run_options options = lrcs_run_options_default();
-    lrcs_host_error error;
-    lrcs_result result;
-    options.method = LRCS_METHOD_EXACT;
     if (one->records) {
         return 0;
     }
@@ -216,14 +222,8 @@ int cli_compare_records(const compare_kit *kit, compare_case *one)
         return CLI_FAILED;
     }
     one->records = calloc((size_t)scene->host.scene.facet_count + 1, sizeof *one->records);
-    if (!one->records) {
-        return cli_out_of_memory();
-    }
-    if (lrcs_host_scene_run(&scene->host, &one->pose, &options, &result, one->records, NULL, NULL,
-                            &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    return 0;
+    return one->records ? cli_compare_run(&scene->host, &one->pose, 0, one->records)
+                        : cli_out_of_memory();
 }
 
 /* ---- lines of others ---- */

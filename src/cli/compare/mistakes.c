@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The catalogue of mistakes: in the shading of a facet, in the area that is summed, in the pose.
-   explain.c decides which of them explains the submitted answers. */
+/* The catalogue of mistakes (in the shading of a facet, in the area that is summed, in the pose),
+   and the answer that a code with a mistake would produce for a case: the sum of Eq. 2 over the
+   truth's facets, with the mistake applied. explain.c decides which of them explains the submitted
+   answers. */
 #include "cli/compare/compare.h"
 
 #include <math.h>
@@ -10,6 +12,64 @@
 #define DEGREES_PER_RADIAN 57.295779513082320877
 #define QUARTER_PI_INVERSE 0.079577471545947667884 /* 1 / (4 pi) */
 #define TWINS_MOST         256u /* scenes with more facets are not searched for coincident facets */
+
+/* The point at which a facet is shaded. */
+typedef struct mistake_point {
+    const lrcs_brdf *brdf;
+    double c;    /* the cosine that is used, 0 .. 1 */
+    double peak; /* the largest f_r cos of the case */
+} mistake_point;
+
+/* A case with a mistake: the pose and the records that are used. */
+typedef struct mistake_view {
+    const compare_scene *scene;
+    const lrcs_facet_record *records;
+    const double *direction; /* unit */
+} mistake_view;
+
+/* What is wrong in the shading (f_r cos theta), in the projected area that is summed and how it is
+   shaded, in the pose. For shading, `at` is the power of the cosine; 1 for its magnitude; the power
+   in 1 / cos^6; a factor of tan^2, or 0 for tan^2 / s; the value of m; 0 without the glint, 1
+   without the diffuse term; the step in deg (twice); the brightest value of a channel of 8 bits, 0
+   for that of the case; the largest value. */
+enum mistake_shade {
+    SHADE_RIGHT,
+    SHADE_COSINE,
+    SHADE_DEGREES,
+    SHADE_POWER,
+    SHADE_SLOPE,
+    SHADE_ONE_TERM,
+    SHADE_LAMBERT,
+    SHADE_LINES,
+    SHADE_STEPS,
+    SHADE_BITS,
+    SHADE_CLAMPED,
+    SHADE_SINE,
+    SHADE_SMALL_ANGLE,
+    SHADE_TAN_DEGREES
+};
+enum mistake_area {
+    AREA_RIGHT,
+    AREA_UNSHADOWED,
+    AREA_BACKS,
+    AREA_ALL,
+    AREA_ONE_SIDED,
+    AREA_FLIPPED,
+    AREA_ONE_MATERIAL,
+    AREA_NEXT_MATERIAL,
+    AREA_SMOOTH,
+    AREA_LAST
+};
+enum mistake_turn {
+    TURN_NONE,
+    TURN_AXES,
+    TURN_TRANSPOSED,
+    TURN_ALONG,
+    TURN_SCALAR_LAST,
+    TURN_RADIANS,
+    TURN_POLAR,
+    TURN_EXCHANGED
+};
 
 /* ---- shading: f_r cos theta ---- */
 
@@ -37,7 +97,8 @@ static double shade_table(const mistake_point *point, double theta_deg, double s
     return (from + (theta_deg - low) / step * (to - from)) * point->c;
 }
 
-double cli_mistake_shade(const compare_mistake *mistake, const mistake_point *point)
+/* f_r cos. */
+static double mistake_shade(const compare_mistake *mistake, const mistake_point *point)
 {
     double at = mistake->at;
     double c = point->c;
@@ -125,8 +186,10 @@ static uint32_t facet_last(const lrcs_scene *scene, uint32_t facet)
     return last;
 }
 
-double cli_mistake_area(const compare_mistake *mistake, const mistake_view *view, uint32_t facet,
-                        int corner, mistake_point *point)
+/* The projected area of a facet, for the value at a corner (0 .. 2) if that counts. Also sets how
+   it is shaded; 0 if the facet does not contribute. */
+static double mistake_area(const compare_mistake *mistake, const mistake_view *view, uint32_t facet,
+                           int corner, mistake_point *point)
 {
     const lrcs_scene *scene = &view->scene->host.scene;
     const lrcs_facet_record *record = &view->records[facet];
@@ -179,7 +242,8 @@ static int pose_at(double az, double el, lrcs_pose *pose)
     return lrcs_pose_from_direction(s, pose);
 }
 
-int cli_mistake_turn(const compare_mistake *mistake, const compare_case *one, lrcs_pose *pose)
+/* The pose that is used. Status: as lrcs_pose_from_quaternion. */
+static int mistake_turn(const compare_mistake *mistake, const compare_case *one, lrcs_pose *pose)
 {
     const double *q = one->quaternion;
     const double scalar_last[4] = {q[3], q[0], q[1], q[2]};
@@ -326,3 +390,144 @@ const compare_mistake cli_compare_mistakes[] = {
     {"polar-angle", "wrong frame: elevation taken for an angle from the z axis",
      .turn = TURN_POLAR},
     {.name = NULL}};
+
+/* ---- a scene in which the wrong one of coplanar facets is seen ---- */
+
+/* Relative to the scene's size: more than rounding, less than any distance in it. */
+#define MOVED 0x1p-30
+
+static double scene_size(const lrcs_scene *scene)
+{
+    double size = 0.0;
+    for (uint32_t i = 0; i < scene->vertex_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            double x = scene->vertex[i].x[k];
+            size = x > size ? x : -x > size ? -x : size;
+        }
+    }
+    return size;
+}
+
+/* Moves every facet towards the laser by a share of the distance: backs by all of it, fronts by up
+   to half, later ones by more. Corners are no longer shared. */
+static void facets_move(const compare_case *one, const lrcs_scene *from, lrcs_scene *scene)
+{
+    double most = MOVED * scene_size(from);
+    for (uint32_t i = 0; i < from->facet_count; i++) {
+        int back = one->records[i].cos_theta < 0.0;
+        double by = most * (back ? 1.0 : 0.5 * i / from->facet_count);
+        for (uint32_t k = 0; k < 3; k++) {
+            lrcs_point *corner = &scene->vertex[3 * i + k];
+            *corner = from->vertex[from->facet[i].corner[k]];
+            for (int axis = 0; axis < 3; axis++) {
+                corner->x[axis] += by * one->direction[axis];
+            }
+            scene->facet[i].corner[k] = 3 * i + k;
+        }
+    }
+    scene->vertex_count = 3 * from->facet_count;
+}
+
+/* The records of a case if of coplanar facets the wrong one is seen: backs before fronts, then the
+   last before the first. Depths of one plane that differ by rounding make this mistake in some
+   pixels. The true records must be there already. 0 or CLI_FAILED with the message printed. */
+static int run_wrong_coplanar(const compare_kit *kit, const compare_case *one,
+                              lrcs_facet_record *records)
+{
+    const lrcs_scene *from = &kit->scene[one->scene].host.scene;
+    lrcs_point *vertex = malloc(((size_t)3 * from->facet_count + 1) * sizeof *vertex);
+    lrcs_facet *facet = malloc(((size_t)from->facet_count + 1) * sizeof *facet);
+    if (!vertex || !facet) {
+        free(vertex);
+        free(facet);
+        return cli_out_of_memory();
+    }
+    lrcs_host_scene moved = {.scene = *from};
+    moved.scene.vertex = vertex;
+    moved.scene.facet = facet;
+    facets_move(one, from, &moved.scene);
+    int code = cli_scene_prepare(&moved);
+    code = code ? code : cli_compare_run(&moved, &one->pose, 0, records);
+    lrcs_host_scene_free(&moved);
+    free(vertex);
+    free(facet);
+    return code;
+}
+
+/* ---- the answer ---- */
+
+/* The largest f_r cos of the case. */
+static double view_peak(const mistake_view *view)
+{
+    double peak = 0.0;
+    for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
+        mistake_point point = {.peak = 0.0};
+        if (mistake_area(cli_compare_mistakes, view, i, 0, &point) > 0.0) {
+            peak = fmax(peak, mistake_shade(cli_compare_mistakes, &point));
+        }
+    }
+    return peak;
+}
+
+/* The records of a run of its own, for mistakes that change the run. 0 or CLI_FAILED. */
+static int records_own(const compare_kit *kit, const compare_case *one,
+                       const compare_mistake *mistake, lrcs_facet_record *own)
+{
+    lrcs_pose pose;
+    if (mistake->wrong_coplanar) {
+        return run_wrong_coplanar(kit, one, own);
+    }
+    int turned = mistake->turn && mistake_turn(mistake, one, &pose) == LRCS_OK;
+    return cli_compare_run(&kit->scene[one->scene].host, turned ? &pose : &one->pose,
+                           mistake->without, own);
+}
+
+/* The records of a case with a mistake: the truth's, or those of another run. 0 or CLI_FAILED. */
+static int view_make(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
+                     mistake_view *view, lrcs_facet_record **own)
+{
+    int code = cli_compare_records(kit, one);
+    view->scene = &kit->scene[one->scene];
+    view->direction = one->direction;
+    view->records = one->records;
+    if (code == 0 && one->peak == 0.0) {
+        one->peak = view_peak(view);
+    }
+    if (code != 0 || (!mistake->turn && !mistake->without && !mistake->wrong_coplanar)) {
+        return code;
+    }
+    *own = calloc((size_t)view->scene->host.scene.facet_count + 1, sizeof **own);
+    if (!*own) {
+        return cli_out_of_memory();
+    }
+    view->records = *own;
+    return records_own(kit, one, mistake, *own);
+}
+
+/* sigma / 4 pi with the mistake. */
+static double view_sum(const mistake_view *view, const compare_mistake *mistake, double peak)
+{
+    int corners = mistake->corners > 0 ? mistake->corners : 1;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
+        for (int corner = 0; corner < corners; corner++) {
+            mistake_point point = {.peak = peak};
+            double area = mistake_area(mistake, view, i, corner, &point);
+            sum += area > 0.0 ? area * mistake_shade(mistake, &point) / corners : 0.0;
+        }
+    }
+    return sum;
+}
+
+int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
+                       double *sigma_m2)
+{
+    mistake_view view;
+    lrcs_facet_record *own = NULL;
+    int code = view_make(kit, one, mistake, &view, &own);
+    if (code == 0) {
+        *sigma_m2 = 4.0 * CLI_PI * view_sum(&view, mistake, one->peak);
+    }
+    free(own);
+    return code;
+}

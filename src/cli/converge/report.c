@@ -150,19 +150,20 @@ static void numbers_make(const converge_job *job, const converge_setting *one,
     const converge_mesh *mesh = &job->mesh[one->mesh];
     double bound = cli_converge_known(one->bound_m2);
     double estimate = cli_converge_known(one->estimate_m2);
-    number[NUMBER_RESOLUTION] = one->resolution ? one->resolution : (double)NAN;
-    number[NUMBER_MESH] = mesh->digits > 0 ? pow(10.0, -mesh->digits) : (double)NAN;
-    number[NUMBER_FACETS] = mesh->scene.scene.facet_count;
-    number[NUMBER_RUNS] = one->runs;
-    number[NUMBER_PREPARE] = 1e3 * mesh->scene.seconds_prepare;
-    number[NUMBER_POSE] = 1e3 * one->pose_s;
-    number[NUMBER_SIGMA] = one->sigma_m2;
-    number[NUMBER_ERROR] = one->error_m2;
-    number[NUMBER_BOUND] = bound;
-    number[NUMBER_ESTIMATE] = estimate;
-    number[NUMBER_RELATIVE_ERROR] = cli_converge_relative(job, one->error_m2);
-    number[NUMBER_RELATIVE_BOUND] = cli_converge_relative(job, bound);
-    number[NUMBER_RELATIVE_ESTIMATE] = cli_converge_relative(job, estimate);
+    const double all[NUMBERS] = {one->resolution ? one->resolution : (double)NAN,
+                                 mesh->digits > 0 ? pow(10.0, -mesh->digits) : (double)NAN,
+                                 mesh->scene.scene.facet_count,
+                                 one->runs,
+                                 1e3 * mesh->scene.seconds_prepare,
+                                 1e3 * one->pose_s,
+                                 one->sigma_m2,
+                                 one->error_m2,
+                                 bound,
+                                 estimate,
+                                 cli_converge_relative(job, one->error_m2),
+                                 cli_converge_relative(job, bound),
+                                 cli_converge_relative(job, estimate)};
+    memcpy(number, all, sizeof all);
 }
 
 void cli_converge_table(const converge_job *job)
@@ -241,30 +242,21 @@ static void setting_json(const converge_job *job, const converge_setting *one, l
 {
     double number[NUMBERS];
     numbers_make(job, one, number);
-    lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_text(json, "setting", one->name);
-    lrcs_host_json_text(json, "method", lrcs_method_text(one->method));
+    cli_json(json, "{setting=%s method=%s", one->name, lrcs_method_text(one->method));
     for (int k = 0; k < NUMBERS; k++) {
         lrcs_host_json_number(json, number_name[k], number[k]);
     }
     if (one->digits > 0) {
-        lrcs_host_json_number(json, "tolerance", pow(10.0, -one->digits));
-        lrcs_host_json_text(json, "accepted_by", one->accepted_by);
+        cli_json(json, "tolerance=%g accepted_by=%s", pow(10.0, -one->digits), one->accepted_by);
     }
-    lrcs_host_json_end(json);
+    cli_json(json, "}");
 }
 
-static void cheapest_json(const char *key, double tolerance, const converge_setting *one,
-                          lrcs_host_json *json)
+/* The setting, in an open object, which it ends. */
+static void cheapest_json(const converge_setting *one, lrcs_host_json *json)
 {
-    lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
-    if (!key) {
-        lrcs_host_json_number(json, "tolerance", tolerance);
-    }
-    lrcs_host_json_text(json, "setting", one ? one->name : NULL);
-    lrcs_host_json_number(json, "pose_ms", one ? 1e3 * one->pose_s : (double)NAN);
-    lrcs_host_json_number(json, "bound_m2", one ? one->bound_m2 : (double)NAN);
-    lrcs_host_json_end(json);
+    cli_json(json, "setting=%s pose_ms=%g bound_m2=%g}", one ? one->name : NULL,
+             one ? 1e3 * one->pose_s : (double)NAN, one ? one->bound_m2 : (double)NAN);
 }
 
 void cli_converge_json(const converge_job *job)
@@ -272,40 +264,33 @@ void cli_converge_json(const converge_job *job)
     const lrcs_host_scene *scene = &cli_converge_finest(job)->scene;
     lrcs_host_json json = lrcs_host_json_make(stdout);
     converge_sentence sentence = cli_converge_sentence(job);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
+    cli_json(&json, "{\n");
     cli_version_json(&json);
     cli_hash_json(lrcs_scene_hash(&scene->scene), &json);
     cli_files_json(scene, &json);
-    lrcs_host_json_text(&json, "unit", cli_value(job->args, "unit"));
+    cli_json(&json, "unit=%s", cli_value(job->args, "unit"));
     cli_direction_json(&job->pose, &json);
-    lrcs_host_json_begin(&json, "truth", LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_text(&json, "from", job->truth.text);
-    lrcs_host_json_number(&json, "sigma_m2", job->truth.sigma_m2);
-    lrcs_host_json_number(&json, "bound_m2", job->truth.bound_m2);
-    lrcs_host_json_bool(&json, "of_facets", !job->truth.whole);
-    lrcs_host_json_end(&json);
-    lrcs_host_json_begin(&json, "settings", LRCS_HOST_ARRAY);
+    cli_json(&json, "truth={from=%s sigma_m2=%g bound_m2=%g of_facets=%d} settings=[\n",
+             job->truth.text, job->truth.sigma_m2, job->truth.bound_m2, !job->truth.whole);
     for (uint32_t i = 0; i < job->settings; i++) {
         setting_json(job, &job->setting[i], &json);
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_begin(&json, "cheapest", LRCS_HOST_ARRAY);
+    cli_json(&json, "] cheapest=[\n");
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {
-        cheapest_json(NULL, report_tolerance[i].value,
-                      setting_cheapest(job, report_tolerance[i].value), &json);
+        cli_json(&json, "{tolerance=%g", report_tolerance[i].value);
+        cheapest_json(setting_cheapest(job, report_tolerance[i].value), &json);
     }
-    lrcs_host_json_end(&json);
-    cheapest_json("best", 0.0, setting_best(job), &json);
-    lrcs_host_json_begin(&json, "notices", LRCS_HOST_ARRAY);
+    cli_json(&json, "] best={");
+    cheapest_json(setting_best(job), &json);
+    cli_json(&json, "notices=[\n");
     cli_notices_json(&scene->notices, &json);
     if (job->left_out[0]) {
-        lrcs_host_json_text(&json, NULL, job->left_out);
+        cli_json(&json, "%s", job->left_out);
     }
     if (job->busy[0]) {
-        lrcs_host_json_text(&json, NULL, job->busy);
+        cli_json(&json, "%s", job->busy);
     }
-    lrcs_host_json_end(&json);
-    lrcs_host_json_text(&json, "sentence", sentence.text);
+    cli_json(&json, "] sentence=%s", sentence.text);
     cli_provenance_json(job->args, scene, &json);
-    lrcs_host_json_end(&json);
+    cli_json(&json, "}");
 }

@@ -92,8 +92,9 @@ static void sweep_line(FILE *out, const report_job *job, int kind)
     putc('\n', out);
 }
 
-static void lines_write(FILE *out, const report_job *job)
+static void lines_write(FILE *out, const void *context)
 {
+    const report_job *job = context;
     report_line(out, job);
     run_line(out, job, "run", " --shares --facets facets.csv");
     run_line(out, job, "image", " --by sigma -o sigma.png");
@@ -118,28 +119,20 @@ static void lines_write(FILE *out, const report_job *job)
 
 void cli_report_again(FILE *out, const report_job *job)
 {
-    report_bytes lines = {NULL, 0};
     cli_page_section(out, "again", "How to make it again");
     fputs("<dl class=\"facts\">\n", out);
-    cli_page_fact(out, "Version");
-    cli_page_say(out, "lrcs %s", lrcs_version());
-    cli_page_fact_end(out);
-    cli_page_fact(out, "Scene hash");
-    fprintf(out, "<code id=\"scene_hash\">%016llx</code>",
+    cli_page_fact(out, "Version", "lrcs %s", lrcs_version());
+    fprintf(out,
+            "<div><dt>Scene hash</dt><dd><code id=\"scene_hash\">%016llx</code></dd></div>\n"
+            "</dl>\n<p>The first line makes this page again, the others what stands on it, one by "
+            "one.</p>\n",
             (unsigned long long)lrcs_scene_hash(&job->scene.scene));
-    cli_page_fact_end(out);
-    fputs("</dl>\n<p>The first line makes this page again, the others what stands on it, one by "
-          "one.</p>\n",
-          out);
-    FILE *text = cli_report_bytes_begin(&lines);
-    if (text) {
-        lines_write(text, job);
-        if (cli_report_bytes_end(text) == 0) {
-            fputs("<pre tabindex=\"0\"><code>", out);
-            cli_page_text(out, lines.bytes);
-            fputs("</code></pre>\n", out);
-        }
+    char *lines = cli_text_of(lines_write, job);
+    if (lines) {
+        cli_page(out, "<pre tabindex=\"0\"><code>%s</code></pre>\n", lines);
+    } else {
+        cli_out_of_memory();
     }
-    free(lines.bytes);
-    cli_page_section_end(out);
+    free(lines);
+    fputs("</section>\n", out);
 }

@@ -34,23 +34,15 @@ static void extremes_say(FILE *out, const report_sweep *sweep)
     double most;
     double bound;
     extremes(sweep, &least, &most, &bound);
-    if (most > 0.0) {
-        fputs(" From ", out);
-        if (least > 0.0) {
-            cli_page_number(out, NULL, cli_dbsm(least), 4);
-        } else {
-            fputs("nothing", out);
-        }
-        fputs(" to ", out);
-        cli_page_number(out, NULL, cli_dbsm(most), 4);
-        fputs(" dBsm; each", out);
+    if (most > 0.0 && least > 0.0) {
+        cli_page(out, " From %.4g to %.4g dBsm; each", cli_dbsm(least), cli_dbsm(most));
+    } else if (most > 0.0) {
+        cli_page(out, " From nothing to %.4g dBsm; each", cli_dbsm(most));
     } else {
         fputs(" Nothing returns; each", out);
     }
-    fputs(" \xcf\x83 is proved to within ", out);
-    cli_page_bound(out, NULL, bound, 2);
-    fprintf(out, " m\xc2\xb2 or better%s.",
-            sweep->plot.open ? " for its materials, which are illustrative" : "");
+    cli_page(out, " \xcf\x83 is proved to within %.2e m\xc2\xb2 or better%s.", bound,
+             sweep->plot.open ? " for its materials, which are illustrative" : "");
     if (sweep->band && most > 0.0) {
         cli_page_say(
             out,
@@ -77,21 +69,18 @@ static void cut_figure(FILE *out, const report_sweep *sweep, const char *plane, 
 static void cuts_section(FILE *out, const report_job *job)
 {
     cli_page_section(out, "cuts", "Cuts through three planes");
-    fputs("<p>", out);
-    cli_page_say(out,
-                 "Away from the middle \xcf\x83 grows, in dBsm: the numbers stand on the rings. "
-                 "The laser goes around the body in steps of %lu\xc2\xb0; what is narrower than "
-                 "that may stand between them.",
-                 (unsigned long)job->cut_step);
-    fputs("</p>\n<div class=\"pair\">\n", out);
+    cli_page(out,
+             "<p>Away from the middle \xcf\x83 grows, in dBsm: the numbers stand on the rings. "
+             "The laser goes around the body in steps of %u\xc2\xb0; what is narrower than "
+             "that may stand between them.</p>\n<div class=\"pair\">\n",
+             job->cut_step);
     cut_figure(out, &job->sweep[REPORT_CUT_XY], "x and y",
                "the angle is the azimuth, at elevation 0");
     cut_figure(out, &job->sweep[REPORT_CUT_XZ], "x and z",
                "the angle is the elevation, from +x over +z");
     cut_figure(out, &job->sweep[REPORT_CUT_YZ], "y and z",
                "the angle is the elevation, from +y over +z");
-    fputs("</div>\n", out);
-    cli_page_section_end(out);
+    fputs("</div>\n</section>\n", out);
 }
 
 static void map_section(FILE *out, const report_job *job)
@@ -104,10 +93,10 @@ static void map_section(FILE *out, const report_job *job)
     } else {
         fputs("<figure><figcaption>", out);
     }
-    cli_page_say(out, "Steps of %lu\xc2\xb0.", (unsigned long)job->map_step);
+    cli_page(out, "Steps of %u\xc2\xb0.", job->map_step);
     extremes_say(out, sweep);
     cli_page_figure_end(out);
-    cli_page_section_end(out);
+    fputs("</section>\n", out);
 }
 
 /* ---- peaks ---- */
@@ -124,17 +113,15 @@ static void most_cell(FILE *out, const cli_shares *shares, const shares_row *row
         double share = cli_share_of(shares, row[i].sigma_m2);
         fputs(i > 0 ? ", " : "", out);
         cli_page_name(out, row[i].name, nameless);
-        fputs("\xc2\xa0", out);
-        cli_page_percent(out, share);
+        cli_page(out, "\xc2\xa0%f", share);
         named_share += share;
     }
     shares_row others = cli_shares_others(row, i, count);
     if (others.sigma_m2 > 0.0) {
-        cli_page_say(out, ", %lu other%s\xc2\xa0", (unsigned long)(count - i),
-                     count - i > 1 ? "s" : "");
-        cli_page_percent(out, cli_share_of(shares, others.sigma_m2));
+        cli_page(out, ", %u other%s\xc2\xa0%f", count - i, count - i > 1 ? "s" : "",
+                 cli_share_of(shares, others.sigma_m2));
     }
-    cli_page_cell_end(out);
+    fputs("</td>", out);
 }
 
 static void peak_row(FILE *out, const report_job *job, uint32_t i)
@@ -147,17 +134,13 @@ static void peak_row(FILE *out, const report_job *job, uint32_t i)
     for (uint32_t k = 0; k < shares->parts; k++) {
         glint += shares->part[k].glint_m2;
     }
-    cli_page_row(out);
-    cli_page_number_cell(out, value[0], 6);
-    cli_page_number_cell(out, value[1], 6);
-    cli_page_number_cell(out, map->row[job->peak[i]][0], 5);
-    cli_page_number_cell(out, cli_dbsm(map->row[job->peak[i]][0]), 4);
-    fputs("<td class=\"n\">", out);
-    cli_page_percent(out, cli_share_of(shares, glint));
-    fputs("</td>", out);
+    double sigma_m2 = map->row[job->peak[i]][0];
+    fputs("\n<tr>", out);
+    cli_page_cells(out, "%.6g%.6g%.5g%.4g", value[0], value[1], sigma_m2, cli_dbsm(sigma_m2));
+    cli_page(out, "<td class=\"n\">%f</td>", cli_share_of(shares, glint));
     most_cell(out, shares, shares->part, shares->parts, "(no name)");
     most_cell(out, shares, shares->material, shares->materials, "(default)");
-    cli_page_row_end(out);
+    fputs("</tr>", out);
 }
 
 static void peaks_section(FILE *out, const report_job *job)
@@ -173,7 +156,7 @@ static void peaks_section(FILE *out, const report_job *job)
         }
         cli_page_table_end(out);
     }
-    cli_page_section_end(out);
+    fputs("</section>\n", out);
 }
 
 void cli_report_curves(FILE *out, const report_job *job)
@@ -187,15 +170,11 @@ void cli_report_curves(FILE *out, const report_job *job)
 
 static void accuracy_row(FILE *out, const converge_job *job, const converge_setting *one)
 {
-    cli_page_row(out);
-    cli_page_name_cell(out, one->name, "");
-    cli_page_count_cell(out, cli_converge_scene(job, one)->scene.facet_count);
-    cli_page_number_cell(out, 1e3 * one->pose_s, 3);
-    cli_page_number_cell(out, one->sigma_m2, 8);
-    cli_page_number_cell(out, cli_converge_relative(job, one->error_m2), 2);
-    cli_page_bound_cell(out, cli_converge_relative(job, one->bound_m2), 2);
-    cli_page_number_cell(out, cli_converge_known(cli_converge_relative(job, one->estimate_m2)), 2);
-    cli_page_row_end(out);
+    cli_page_row(out, "%s%u%.3g%.8g%.2g%.2e%.2g", one->name,
+                 cli_converge_scene(job, one)->scene.facet_count, 1e3 * one->pose_s, one->sigma_m2,
+                 cli_converge_relative(job, one->error_m2),
+                 cli_converge_relative(job, one->bound_m2),
+                 cli_converge_known(cli_converge_relative(job, one->estimate_m2)));
 }
 
 static void accuracy_table(FILE *out, const converge_job *job)
@@ -216,9 +195,7 @@ void cli_report_accuracy(FILE *out, const report_job *job)
     const converge_job *compare = &job->converge;
     converge_sentence sentence = cli_converge_sentence(compare);
     cli_page_section(out, "accuracy", "What accuracy costs in time");
-    fputs("<p>", out);
-    cli_page_text(out, sentence.text);
-    fputs("</p>\n", out);
+    cli_page(out, "<p>%s</p>\n", sentence.text);
     cli_page_figure(out, &job->chart, "Chart of error and bound against the time of a pose",
                     chart_box);
     cli_page_say(out, "Against %s: \xcf\x83 = %.9g m\xc2\xb2%s%s%s%s.", compare->truth.text,
@@ -227,6 +204,5 @@ void cli_report_accuracy(FILE *out, const report_job *job)
     cli_page_figure_end(out);
     cli_page_fold(out, "All settings");
     accuracy_table(out, compare);
-    cli_page_fold_end(out);
-    cli_page_section_end(out);
+    fputs("</details>\n</section>\n", out);
 }

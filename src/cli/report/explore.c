@@ -281,31 +281,27 @@ static void page_controls(FILE *out)
 static void page_notes(FILE *out, const report_job *job, const explore_mesh *mesh)
 {
     const report_sweep *map = &job->sweep[REPORT_MAP];
-    fputs("<p class=\"faint\">", out);
-    cli_page_say(
-        out,
-        "The map was computed in steps of %lu\xc2\xb0 of azimuth and elevation; \xcf\x83 and "
-        "its proved bound are read off at its nearest direction, and nothing is "
-        "interpolated.%s ",
-        (unsigned long)job->map_step,
-        map->plot.open ? " They hold for the materials given, which are illustrative or "
-                         "assumed."
-                       : "");
+    cli_page(out,
+             "<p class=\"faint\">The map was computed in steps of %u\xc2\xb0 of azimuth and "
+             "elevation; \xcf\x83 and its proved bound are read off at its nearest direction, and "
+             "nothing is interpolated.%s ",
+             job->map_step,
+             map->plot.open ? " They hold for the materials given, which are illustrative or "
+                              "assumed."
+                            : "");
     if (mesh->facets < mesh->all) {
-        cli_page_say(out,
-                     "The body is drawn with %lu of its %lu facets, vertices close to each other "
-                     "joined: the drawing is coarser than what was computed. ",
-                     (unsigned long)mesh->facets, (unsigned long)mesh->all);
+        cli_page(out,
+                 "The body is drawn with %u of its %u facets, vertices close to each other "
+                 "joined: the drawing is coarser than what was computed. ",
+                 mesh->facets, mesh->all);
     } else {
-        cli_page_say(out, "The body is drawn with all of its %lu facets. ",
-                     (unsigned long)mesh->all);
+        cli_page(out, "The body is drawn with all of its %u facets. ", mesh->all);
     }
-    fputs("Dark grey: the back of a surface that reflects from its front only.</p>\n</main>\n"
-          "<footer><p>Made by lrcs ",
-          out);
-    cli_page_text(out, lrcs_version());
-    fprintf(out, "; scene hash <code>%016llx</code>. This page loads nothing.</p></footer>\n",
-            (unsigned long long)lrcs_scene_hash(&job->scene.scene));
+    fprintf(out,
+            "Dark grey: the back of a surface that reflects from its front only.</p>\n</main>\n"
+            "<footer><p>Made by lrcs %s; scene hash <code>%016llx</code>. This page loads "
+            "nothing.</p></footer>\n",
+            lrcs_version(), (unsigned long long)lrcs_scene_hash(&job->scene.scene));
 }
 
 int cli_report_explore_page(FILE *out, const void *context, lrcs_host_error *error)

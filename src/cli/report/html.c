@@ -30,11 +30,6 @@ int cli_report_bytes_end(FILE *out)
 
 /* ---- words and numbers ---- */
 
-void cli_page_text(FILE *out, const char *text)
-{
-    lrcs_host_html_text(out, text);
-}
-
 void cli_page_say(FILE *out, const char *format, ...)
 {
     char text[2048];
@@ -47,11 +42,7 @@ void cli_page_say(FILE *out, const char *format, ...)
 
 void cli_page_name(FILE *out, const char *name, const char *nameless)
 {
-    if (name[0]) {
-        lrcs_host_html_text(out, name);
-    } else {
-        fprintf(out, "<i>%s</i>", nameless);
-    }
+    cli_page(out, name[0] ? "%s" : "<i>%s</i>", name[0] ? name : nameless);
 }
 
 /* Writes "-2.5e-06" with a minus sign and a power of ten. */
@@ -108,12 +99,7 @@ void cli_page_bound(FILE *out, const char *id, double bound, int digits)
     }
 }
 
-void cli_page_count(FILE *out, uint64_t value)
-{
-    fprintf(out, "%llu", (unsigned long long)value);
-}
-
-void cli_page_percent(FILE *out, double share)
+static void percent_put(FILE *out, double share)
 {
     if (share > 0.0 && share < 0.0005) {
         fputs("&lt;\xc2\xa0"
@@ -126,6 +112,66 @@ void cli_page_percent(FILE *out, double share)
     }
 }
 
+/* ---- markup with values ---- */
+
+/* Writes a value that is no text, of the conversion at `at` after its '%'. Returns the value of a
+   share, otherwise 0. */
+static double value_put(FILE *out, const char *at, va_list *list)
+{
+    int digits = at[0] == '.' ? at[1] - '0' : 0;
+    at += at[0] == '.' ? 2 : 0;
+    double share = 0.0;
+    switch (*at) {
+    case 'g':
+        cli_page_number(out, NULL, va_arg(*list, double), digits);
+        break;
+    case 'e':
+        cli_page_bound(out, NULL, va_arg(*list, double), digits);
+        break;
+    case 'f':
+        share = va_arg(*list, double);
+        percent_put(out, share);
+        break;
+    default:
+        fprintf(out, "%u", va_arg(*list, unsigned));
+        break;
+    }
+    return share;
+}
+
+/* The end of the conversion after its '%'. */
+static const char *value_end(const char *at)
+{
+    return at + strspn(at, ".0123456789") + 1;
+}
+
+static void markup_put(FILE *out, const char *format, va_list *list)
+{
+    for (const char *at = format; *at;) {
+        size_t plain = strcspn(at, "%");
+        fwrite(at, 1, plain, out);
+        at += plain;
+        if (at[0] == '%' && at[1] == '%') {
+            putc('%', out);
+            at += 2;
+        } else if (at[0] == '%' && at[1] == 's') {
+            lrcs_host_html_text(out, va_arg(*list, const char *));
+            at += 2;
+        } else if (at[0] == '%') {
+            value_put(out, at + 1, list);
+            at = value_end(at + 1);
+        }
+    }
+}
+
+void cli_page(FILE *out, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    markup_put(out, format, &list);
+    va_end(list);
+}
+
 /* ---- sections and facts ---- */
 
 void cli_page_section(FILE *out, const char *id, const char *title)
@@ -133,40 +179,19 @@ void cli_page_section(FILE *out, const char *id, const char *title)
     fprintf(out, "<section aria-labelledby=\"%s\">\n<h2 id=\"%s\">%s</h2>\n", id, id, title);
 }
 
-void cli_page_section_end(FILE *out)
+void cli_page_fact(FILE *out, const char *name, const char *format, ...)
 {
-    fputs("</section>\n", out);
-}
-
-void cli_page_fact(FILE *out, const char *name)
-{
+    va_list list;
+    va_start(list, format);
     fprintf(out, "<div><dt>%s</dt><dd>", name);
-}
-
-void cli_page_fact_end(FILE *out)
-{
+    markup_put(out, format, &list);
     fputs("</dd></div>\n", out);
+    va_end(list);
 }
-
-void cli_page_fact_number(FILE *out, const char *name, const char *id, double value, int digits,
-                          const char *unit)
-{
-    cli_page_fact(out, name);
-    cli_page_number(out, id, value, digits);
-    fprintf(out, " %s", unit);
-    cli_page_fact_end(out);
-}
-
-/* ---- folds ---- */
 
 void cli_page_fold(FILE *out, const char *title)
 {
     fprintf(out, "<details>\n<summary>%s</summary>\n", title);
-}
-
-void cli_page_fold_end(FILE *out)
-{
-    fputs("</details>\n", out);
 }
 
 /* ---- tables ---- */
@@ -186,65 +211,46 @@ void cli_page_table(FILE *out, const char *label, const char *columns)
     fputs("</tr></thead>\n<tbody>", out);
 }
 
-void cli_page_row(FILE *out)
+static void cells_put(FILE *out, const char *format, va_list *list)
 {
+    for (const char *at = format; *at == '%';) {
+        if (at[1] == 's') {
+            char nameless[16];
+            const char *name = va_arg(*list, const char *);
+            size_t size = strcspn(at + 2, "%");
+            snprintf(nameless, sizeof nameless, "%.*s", (int)size, at + 2);
+            fputs("<td class=\"name\">", out);
+            cli_page_name(out, name, nameless);
+            at += 2 + size;
+        } else {
+            fputs("<td class=\"n\">", out);
+            double share = value_put(out, at + 1, list);
+            if (at[1] == 'f') {
+                fprintf(out, "</td><td class=\"bar\"><i style=\"width:%.1f%%\"></i>",
+                        isfinite(share) ? fmin(fmax(100.0 * share, 0.0), 100.0) : 0.0);
+            }
+            at = value_end(at + 1);
+        }
+        fputs("</td>", out);
+    }
+}
+
+void cli_page_cells(FILE *out, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    cells_put(out, format, &list);
+    va_end(list);
+}
+
+void cli_page_row(FILE *out, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
     fputs("\n<tr>", out);
-}
-
-void cli_page_row_others(FILE *out)
-{
-    fputs("\n<tr class=\"others\">", out);
-}
-
-void cli_page_row_end(FILE *out)
-{
+    cells_put(out, format, &list);
     fputs("</tr>", out);
-}
-
-void cli_page_cell(FILE *out)
-{
-    fputs("<td class=\"name\">", out);
-}
-
-void cli_page_cell_end(FILE *out)
-{
-    fputs("</td>", out);
-}
-
-void cli_page_name_cell(FILE *out, const char *name, const char *nameless)
-{
-    cli_page_cell(out);
-    cli_page_name(out, name, nameless);
-    cli_page_cell_end(out);
-}
-
-void cli_page_number_cell(FILE *out, double value, int digits)
-{
-    fputs("<td class=\"n\">", out);
-    cli_page_number(out, NULL, value, digits);
-    fputs("</td>", out);
-}
-
-void cli_page_bound_cell(FILE *out, double bound, int digits)
-{
-    fputs("<td class=\"n\">", out);
-    cli_page_bound(out, NULL, bound, digits);
-    fputs("</td>", out);
-}
-
-void cli_page_count_cell(FILE *out, uint64_t value)
-{
-    fputs("<td class=\"n\">", out);
-    cli_page_count(out, value);
-    fputs("</td>", out);
-}
-
-void cli_page_share_cells(FILE *out, double share)
-{
-    fputs("<td class=\"n\">", out);
-    cli_page_percent(out, share);
-    fprintf(out, "</td><td class=\"bar\"><i style=\"width:%.1f%%\"></i></td>",
-            isfinite(share) ? fmin(fmax(100.0 * share, 0.0), 100.0) : 0.0);
+    va_end(list);
 }
 
 void cli_page_table_end(FILE *out)
@@ -265,9 +271,9 @@ static const char *svg_after(const char *at, const char *what)
 void cli_page_figure(FILE *out, const report_bytes *svg, const char *label, const double box[4])
 {
     const char *body = svg_after(svg_after(svg->bytes, "<svg "), ">");
-    fputs("<figure>\n<div class=\"chart\">", out);
     fprintf(out,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"%g %g %g %g\" role=\"img\""
+            "<figure>\n<div class=\"chart\"><svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"%g "
+            "%g %g %g\" role=\"img\""
             " aria-label=\"",
             box[0], box[1], box[2], box[3]);
     lrcs_host_html_text(out, label);

@@ -18,17 +18,16 @@ void cli_report_head(FILE *out, const report_job *job, const char *attribute, co
             "<!DOCTYPE html>\n<html lang=\"en\"%s>\n<head>\n"
             "<meta charset=\"utf-8\" />\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n"
-            "<meta name=\"color-scheme\" content=\"light dark\" />\n%s<title>",
+            "<meta name=\"color-scheme\" content=\"light dark\" />\n%s",
             attribute, meta);
-    cli_page_text(out, cli_report_title(job));
-    fprintf(out, ": laser radar cross-section%s</title>\n<style>\n", more);
+    cli_page(out, "<title>%s: laser radar cross-section%s</title>\n<style>\n",
+             cli_report_title(job), more);
     cli_report_style(out);
-    fprintf(out,
-            "%s</style>\n</head>\n<body>\n<header>\n"
-            "<p class=\"kind\">Laser radar cross-section</p>\n<h1>",
-            style);
-    cli_page_text(out, cli_report_title(job));
-    fputs("</h1>\n", out);
+    fputs(style, out);
+    cli_page(out,
+             "</style>\n</head>\n<body>\n<header>\n"
+             "<p class=\"kind\">Laser radar cross-section</p>\n<h1>%s</h1>\n",
+             cli_report_title(job));
 }
 
 static void page_way(FILE *out)
@@ -44,28 +43,19 @@ static void page_way(FILE *out)
 static void lead_sigma(FILE *out, const report_job *job)
 {
     const lrcs_result *r = &job->result;
-    fputs("<p class=\"lead\"><b>\xcf\x83 = ", out);
-    cli_page_number(out, NULL, r->sigma_m2, 6);
-    fputs(" m\xc2\xb2</b>", out);
+    cli_page(out, "<p class=\"lead\"><b>\xcf\x83 = %.6g m\xc2\xb2</b>", r->sigma_m2);
     if (r->sigma_m2 > 0.0) {
-        fputs(" <span>", out);
-        cli_page_number(out, NULL, cli_dbsm(r->sigma_m2), 6);
-        fputs(" dBsm</span>", out);
+        cli_page(out, " <span>%.6g dBsm</span>", cli_dbsm(r->sigma_m2));
     }
-    fputs("</p>\n<p>Proved to within ", out);
-    cli_page_bound(out, NULL, r->bound_m2, 2);
-    fputs(" m\xc2\xb2", out);
+    cli_page(out, "</p>\n<p>Proved to within %.2e m\xc2\xb2", r->bound_m2);
     if (r->sigma_m2 > 0.0) {
-        fputs(", which is ", out);
-        cli_page_bound(out, NULL, r->bound_m2 / r->sigma_m2, 2);
-        fputs(" of \xcf\x83", out);
+        cli_page(out, ", which is %.2e of \xcf\x83", r->bound_m2 / r->sigma_m2);
     }
     if (!cli_tolerance_judged(job->args, &job->options)) {
         fputs(".", out);
         return;
     }
-    fputs("; the tolerance of ", out);
-    cli_page_number(out, NULL, job->options.tolerance, 3);
+    cli_page(out, "; the tolerance of %.3g", job->options.tolerance);
     fputs(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET ? " is <b>not met</b>."
           : r->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE
               ? " is met by the likely error, <b>an estimate</b>, alone."
@@ -81,13 +71,10 @@ static void lead_materials(FILE *out, const report_job *job)
     if (!job->uncertainty.stated) {
         return;
     }
-    fputs(" The stated errors of materials leave it uncertain by <b>", out);
-    cli_page_number(out, NULL, deviation, 3);
-    fputs(" m\xc2\xb2", out);
+    cli_page(out, " The stated errors of materials leave it uncertain by <b>%.3g m\xc2\xb2",
+             deviation);
     if (job->result.sigma_m2 > 0.0) {
-        fputs(", ", out);
-        cli_page_number(out, NULL, 100.0 * deviation / job->result.sigma_m2, 3);
-        fputs(" %", out);
+        cli_page(out, ", %.3g %%", 100.0 * deviation / job->result.sigma_m2);
     }
     fputs("</b> (one standard deviation).", out);
 }
@@ -96,16 +83,11 @@ static void lead_direction(FILE *out, const report_job *job)
 {
     const double *d = job->pose.direction;
     double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    fputs(" The laser stands at azimuth ", out);
-    cli_page_number(out, NULL, atan2(d[1], d[0]) * CLI_DEGREES, 6);
-    fputs("\xc2\xb0, elevation ", out);
-    cli_page_number(out, NULL, atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES, 6);
-    fputs("\xc2\xb0 of the body frame, in the direction (", out);
-    for (int k = 0; k < 3; k++) {
-        fputs(k > 0 ? ", " : "", out);
-        cli_page_number(out, NULL, d[k] / length, 6);
-    }
-    fputs(").</p>\n", out);
+    cli_page(out,
+             " The laser stands at azimuth %.6g\xc2\xb0, elevation %.6g\xc2\xb0 of the body frame, "
+             "in the direction (%.6g, %.6g, %.6g).</p>\n",
+             atan2(d[1], d[0]) * CLI_DEGREES, atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES,
+             d[0] / length, d[1] / length, d[2] / length);
 }
 
 static void page_lead(FILE *out, const report_job *job)
@@ -148,11 +130,11 @@ int cli_report_page(FILE *out, const void *context, lrcs_host_error *error)
     cli_report_effects(out, job);
     cli_report_accuracy(out, job);
     cli_report_again(out, job);
-    fputs("</main>\n<footer><p>Made by lrcs ", out);
-    cli_page_text(out, lrcs_version());
-    fputs(". A <em>bound</em> is proved: the error is no larger. An <em>estimate</em> says what is "
-          "likely. Neither knows whether A, B, s and m are those of the paint.</p></footer>\n"
-          "</body>\n</html>\n",
-          out);
+    cli_page(out,
+             "</main>\n<footer><p>Made by lrcs %s. A <em>bound</em> is proved: the error is no "
+             "larger. An <em>estimate</em> says what is "
+             "likely. Neither knows whether A, B, s and m are those of the paint.</p></footer>\n"
+             "</body>\n</html>\n",
+             lrcs_version());
     return LRCS_OK;
 }

@@ -102,43 +102,36 @@ void cli_report_style(FILE *out);
 void cli_report_head(FILE *out, const report_job *job, const char *attribute, const char *more,
                      const char *meta, const char *style);
 
-/* Begins a section with its heading; ends it. */
-void cli_page_section(FILE *out, const char *id, const char *title);
-void cli_page_section_end(FILE *out);
+/* Writes markup with values in it. The format is the markup; the conversions are %s (a text, which
+   is escaped), %u (a count), %.6g (a number for people, with so many digits and its full value for
+   scripts; a dash if it is not finite), %.2e (the same for a bound, rounded up; a dash if it is
+   negative) and %f (a share as a percentage). The compiler checks the arguments as those of
+   printf. */
+__attribute__((format(printf, 2, 3))) void cli_page(FILE *out, const char *format, ...);
 
-/* Writes text as it is; formatted text, which is escaped; a name, or a replacement if there is
-   none. */
-void cli_page_text(FILE *out, const char *text);
+/* Writes formatted text, which is escaped as a whole; a name, or a replacement if there is none; a
+   number and a bound as above, which a script finds by the id. */
 __attribute__((format(printf, 2, 3))) void cli_page_say(FILE *out, const char *format, ...);
 void cli_page_name(FILE *out, const char *name, const char *nameless);
-
-/* Writes a number for people, with some digits, and its full value for scripts; one that is not
-   finite is a dash. id: NULL for none. Likewise a count. */
 void cli_page_number(FILE *out, const char *id, double value, int digits);
-void cli_page_bound(FILE *out, const char *id, double bound, int digits); /* rounded up */
-void cli_page_count(FILE *out, uint64_t value);
-void cli_page_percent(FILE *out, double share);
+void cli_page_bound(FILE *out, const char *id, double bound, int digits);
 
-/* Begins a fact with its name; its value follows; ends it. */
-void cli_page_fact(FILE *out, const char *name);
-void cli_page_fact_end(FILE *out);
-void cli_page_fact_number(FILE *out, const char *name, const char *id, double value, int digits,
-                          const char *unit);
+/* Begins a section with its heading, and a folded section with its title; the caller closes the
+   elements <section> and <details>. */
+void cli_page_section(FILE *out, const char *id, const char *title);
+void cli_page_fold(FILE *out, const char *title);
+
+/* A fact: its name, and its value as markup with values. */
+__attribute__((format(printf, 3, 4))) void cli_page_fact(FILE *out, const char *name,
+                                                         const char *format, ...);
 
 /* A table that scrolls by itself if it is wide: columns as "name|name|#number", where '#' marks
-   those of numbers; rows, the last of which may be the sum of the others; cells, whose text wraps
-   unless it is a number. */
+   those of numbers. Rows and cells have a format of conversions as above, one for each cell: "%s"
+   is a name, followed by the replacement of an empty one, and "%f" a share in percent and, in a
+   cell of its own, as a bar. */
 void cli_page_table(FILE *out, const char *label, const char *columns);
-void cli_page_row(FILE *out);
-void cli_page_row_others(FILE *out);
-void cli_page_row_end(FILE *out);
-void cli_page_cell(FILE *out);
-void cli_page_cell_end(FILE *out);
-void cli_page_name_cell(FILE *out, const char *name, const char *nameless);
-void cli_page_number_cell(FILE *out, double value, int digits);
-void cli_page_bound_cell(FILE *out, double bound, int digits);
-void cli_page_count_cell(FILE *out, uint64_t value);
-void cli_page_share_cells(FILE *out, double share); /* a share in percent, and as a bar */
+__attribute__((format(printf, 2, 3))) void cli_page_row(FILE *out, const char *format, ...);
+__attribute__((format(printf, 2, 3))) void cli_page_cells(FILE *out, const char *format, ...);
 void cli_page_table_end(FILE *out);
 
 /* A drawing with a description, showing the given box of it: left, top, width, height; a caption
@@ -151,10 +144,6 @@ void cli_page_figure_end(FILE *out);
    markup. */
 int cli_report_verdict_make(report_job *job);
 void cli_report_verdict(FILE *out, const report_job *job);
-
-/* Begins a folded section with its title; ends it. */
-void cli_page_fold(FILE *out, const char *title);
-void cli_page_fold_end(FILE *out);
 
 /* The sections. */
 void cli_report_notices(FILE *out, const report_job *job);

@@ -5,70 +5,45 @@
 #include <math.h>
 #include <string.h>
 
-/* Writes how many rows a table leaves out. */
-static void more_say(FILE *out, uint32_t more)
+/* Writes how many rows a table leaves out, and ends the fold around it. */
+static void fold_end(FILE *out, uint32_t more)
 {
     if (more > 0) {
-        fputs("<p class=\"faint\">", out);
-        cli_page_say(out, "%lu more are not listed; lrcs info has them.", (unsigned long)more);
-        fputs("</p>\n", out);
+        cli_page(out, "<p class=\"faint\">%u more are not listed; lrcs info has them.</p>\n", more);
     }
+    fputs("</details>\n", out);
 }
 
 /* ---- the model ---- */
-
-static void fact_count(FILE *out, const char *name, uint64_t value)
-{
-    cli_page_fact(out, name);
-    cli_page_count(out, value);
-    cli_page_fact_end(out);
-}
-
-static void fact_text(FILE *out, const char *name, const char *text)
-{
-    cli_page_fact(out, name);
-    cli_page_text(out, text);
-    cli_page_fact_end(out);
-}
-
-static void fact_box(FILE *out, const lrcs_mesh_report *r)
-{
-    cli_page_fact(out, "Box");
-    for (int k = 0; k < 3; k++) {
-        fputs(k > 0 ? " \xc3\x97 " : "", out);
-        cli_page_number(out, NULL, r->box_max[k] - r->box_min[k], 5);
-    }
-    fputs("\xc2\xa0m", out);
-    cli_page_fact_end(out);
-}
 
 static void model_facts(FILE *out, const report_job *job)
 {
     const lrcs_scene *scene = &job->info.scene.scene;
     const lrcs_mesh_report *r = &job->info.report;
     fputs("<dl class=\"facts\">\n", out);
-    fact_count(out, "Parts", job->info.parts);
-    fact_count(out, "Facets", scene->facet_count);
-    fact_count(out, "Vertices", scene->vertex_count);
-    fact_box(out, r);
-    cli_page_fact_number(out, "Surface", NULL, r->area, 7, "m\xc2\xb2");
+    cli_page_fact(out, "Parts", "%u", job->info.parts);
+    cli_page_fact(out, "Facets", "%u", scene->facet_count);
+    cli_page_fact(out, "Vertices", "%u", scene->vertex_count);
+    cli_page_fact(out, "Box", "%.5g \xc3\x97 %.5g \xc3\x97 %.5g\xc2\xa0m",
+                  r->box_max[0] - r->box_min[0], r->box_max[1] - r->box_min[1],
+                  r->box_max[2] - r->box_min[2]);
+    cli_page_fact(out, "Surface", "%.7g m\xc2\xb2", r->area);
     if (r->closed) {
-        cli_page_fact_number(out, "Volume", NULL, r->volume, 7, "m\xc2\xb3");
+        cli_page_fact(out, "Volume", "%.7g m\xc2\xb3", r->volume);
     } else {
-        fact_text(out, "Volume", "none: not closed");
+        cli_page_fact(out, "Volume", "none: not closed");
     }
-    fact_text(out, "Closed", r->closed ? "yes" : "no");
-    fact_text(out, "Convex", r->convex ? "yes" : "no");
+    cli_page_fact(out, "Closed", r->closed ? "yes" : "no");
+    cli_page_fact(out, "Convex", r->convex ? "yes" : "no");
     fputs("</dl>\n", out);
     cli_page_fold(out, "Defects of the mesh");
     fputs("<dl class=\"facts\">\n", out);
-    fact_count(out, "Facets without area", r->degenerate);
-    fact_count(out, "Doubled facets", r->duplicate);
-    fact_count(out, "of these, facing the other way", r->opposite_pairs);
-    fact_count(out, "Open edges", r->boundary_edges);
-    fact_count(out, "Edges of three or more facets", r->nonmanifold_edges);
-    fputs("</dl>\n", out);
-    cli_page_fold_end(out);
+    cli_page_fact(out, "Facets without area", "%u", r->degenerate);
+    cli_page_fact(out, "Doubled facets", "%u", r->duplicate);
+    cli_page_fact(out, "of these, facing the other way", "%u", r->opposite_pairs);
+    cli_page_fact(out, "Open edges", "%u", r->boundary_edges);
+    cli_page_fact(out, "Edges of three or more facets", "%u", r->nonmanifold_edges);
+    fputs("</dl>\n</details>\n", out);
 }
 
 static void model_glint(FILE *out, const cli_info *info)
@@ -85,50 +60,33 @@ static void model_glint(FILE *out, const cli_info *info)
                    "Part|Material|#s|#Turn, deg|#Error|#N for 1 %|#N for 0.1 %");
     for (uint32_t i = 0; i < info->glint_count && i < REPORT_ROWS; i++) {
         const lrcs_host_glint *glint = &info->glint[i];
-        cli_page_row(out);
-        cli_page_name_cell(out, scene->part[glint->part].name, "(no name)");
-        cli_page_name_cell(out, scene->material[glint->material].name, "(default)");
-        cli_page_number_cell(out, glint->s, 4);
-        cli_page_number_cell(out, glint->turn * CLI_DEGREES, 3);
-        cli_page_number_cell(out, glint->error, 2);
-        cli_page_number_cell(out, glint->around_1_percent, 6);
-        cli_page_number_cell(out, glint->around_01_percent, 6);
-        cli_page_row_end(out);
+        cli_page_row(out, "%s(no name)%s(default)%.4g%.3g%.2g%.6g%.6g",
+                     scene->part[glint->part].name, scene->material[glint->material].name, glint->s,
+                     glint->turn * CLI_DEGREES, glint->error, glint->around_1_percent,
+                     glint->around_01_percent);
     }
     cli_page_table_end(out);
-    more_say(out, info->glint_count > REPORT_ROWS ? info->glint_count - REPORT_ROWS : 0);
-    cli_page_fold_end(out);
+    fold_end(out, info->glint_count > REPORT_ROWS ? info->glint_count - REPORT_ROWS : 0);
 }
 
 /* ---- materials ---- */
 
-static void material_name_cell(FILE *out, const lrcs_material *material)
+static void material_row(FILE *out, const lrcs_material *material, const info_material *found)
 {
-    cli_page_cell(out);
+    fputs("\n<tr><td class=\"name\">", out);
     if (material->has_colour) {
         fprintf(out, "<span class=\"dot\" style=\"background:#%02x%02x%02x\"></span>",
                 material->rgb[0], material->rgb[1], material->rgb[2]);
     }
     cli_page_name(out, material->name, "(default)");
-    cli_page_cell_end(out);
-}
-
-static void material_row(FILE *out, const lrcs_material *material, const info_material *found)
-{
-    cli_page_row(out);
-    material_name_cell(out, material);
-    cli_page_count_cell(out, found->facets);
-    cli_page_number_cell(out, cli_sum_value(&found->area), 6);
-    cli_page_number_cell(out, material->brdf.A, 6);
-    cli_page_number_cell(out, material->brdf.B, 6);
-    cli_page_number_cell(out, material->brdf.s, 6);
-    cli_page_number_cell(out, material->brdf.m, 6);
-    fprintf(out, "<td>%s%s%s</td>",
+    fputs("</td>", out);
+    cli_page_cells(out, "%u%.6g%.6g%.6g%.6g%.6g", found->facets, cli_sum_value(&found->area),
+                   material->brdf.A, material->brdf.B, material->brdf.s, material->brdf.m);
+    fprintf(out, "<td>%s%s%s</td></tr>",
             material->bound                                    ? ""
             : strcmp(cli_material_source(material), "default") ? "assumed"
                                                                : "not bound: the default",
             material->two_sided ? " two-sided" : "", material->omitted ? " left out" : "");
-    cli_page_row_end(out);
 }
 
 static void materials_section(FILE *out, const report_job *job)
@@ -154,19 +112,11 @@ static void materials_section(FILE *out, const report_job *job)
         }
     }
     cli_page_table_end(out);
-    more_say(out, more);
-    cli_page_fold_end(out);
-    cli_page_section_end(out);
+    fold_end(out, more);
+    fputs("</section>\n", out);
 }
 
 /* ---- notices ---- */
-
-static void notice_item(FILE *out, const char *text)
-{
-    fputs("<li>", out);
-    cli_page_text(out, text);
-    fputs("</li>\n", out);
-}
 
 void cli_report_notices(FILE *out, const report_job *job)
 {
@@ -177,30 +127,30 @@ void cli_report_notices(FILE *out, const report_job *job)
     fputs("<ul class=\"notices\">\n", out);
     for (uint32_t bits = job->result.flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
         if (bits & 1u) {
-            fputs("<li><b>", out);
-            cli_page_text(out, lrcs_flag_text((int)bit));
-            fputs("</b>: the answer is degraded, and its bound wider for it</li>\n", out);
+            cli_page(out,
+                     "<li><b>%s</b>: the answer is degraded, and its bound wider for it</li>\n",
+                     lrcs_flag_text((int)bit));
             count++;
         }
     }
     for (uint32_t i = 0; i < notices->count; i++) {
-        notice_item(out, notices->text[i]);
+        cli_page(out, "<li>%s</li>\n", notices->text[i]);
     }
     for (int i = 0; i < INFO_NOTICES; i++) {
         const char *notice = cli_info_notice(&job->info, i, text);
         if (notice) {
-            notice_item(out, notice);
+            cli_page(out, "<li>%s</li>\n", notice);
             count++;
         }
     }
     for (uint32_t bits = job->result.notices, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
         if (bits & 1u) {
-            notice_item(out, lrcs_notice_text((int)bit));
+            cli_page(out, "<li>%s</li>\n", lrcs_notice_text((int)bit));
             count++;
         }
     }
     fputs(count > 0 ? "</ul>\n" : "<li>none</li>\n</ul>\n", out);
-    cli_page_section_end(out);
+    fputs("</section>\n", out);
 }
 
 void cli_report_scene(FILE *out, const report_job *job)
@@ -208,6 +158,6 @@ void cli_report_scene(FILE *out, const report_job *job)
     cli_page_section(out, "model", "Model");
     model_facts(out, job);
     model_glint(out, &job->info);
-    cli_page_section_end(out);
+    fputs("</section>\n", out);
     materials_section(out, job);
 }

@@ -7,48 +7,51 @@
 
 /* ---- the certificate ---- */
 
+/* A fact whose number a script finds by its id. */
+static void fact_put(FILE *out, const char *name, const char *id, double value, int digits,
+                     const char *unit)
+{
+    cli_page(out, "<div><dt>%s</dt><dd>", name);
+    cli_page_number(out, id, value, digits);
+    cli_page(out, " %s</dd></div>\n", unit);
+}
+
 static void sigma_facts(FILE *out, const report_job *job)
 {
+    static const char m2[] = "m\xc2\xb2";
     const lrcs_result *r = &job->result;
     fputs("<dl class=\"facts\">\n", out);
-    cli_page_fact_number(out, "\xcf\x83", "sigma_m2", r->sigma_m2, 10, "m\xc2\xb2");
+    fact_put(out, "\xcf\x83", "sigma_m2", r->sigma_m2, 10, m2);
     if (r->sigma_m2 > 0.0) {
-        cli_page_fact_number(out, "in decibels", "sigma_dbsm", cli_dbsm(r->sigma_m2), 8, "dBsm");
+        fact_put(out, "in decibels", "sigma_dbsm", cli_dbsm(r->sigma_m2), 8, "dBsm");
     }
-    cli_page_fact_number(out, "of it, glint", "sigma_glint_m2", r->sigma_glint_m2, 7, "m\xc2\xb2");
-    cli_page_fact_number(out, "of it, diffuse", "sigma_diffuse_m2", r->sigma_diffuse_m2, 7,
-                         "m\xc2\xb2");
-    cli_page_fact(out, "Bound, proved");
+    fact_put(out, "of it, glint", "sigma_glint_m2", r->sigma_glint_m2, 7, m2);
+    fact_put(out, "of it, diffuse", "sigma_diffuse_m2", r->sigma_diffuse_m2, 7, m2);
+    fputs("<div><dt>Bound, proved</dt><dd>", out);
     cli_page_bound(out, "bound_m2", r->bound_m2, 3);
-    fputs(" m\xc2\xb2", out);
-    cli_page_fact_end(out);
+    fputs(" m\xc2\xb2</dd></div>\n", out);
     if (job->uncertainty.stated) {
-        cli_page_fact_number(out, "Materials, one standard deviation", "material_deviation_m2",
-                             job->uncertainty.deviation_m2, 3, "m\xc2\xb2");
+        fact_put(out, "Materials, one standard deviation", "material_deviation_m2",
+                 job->uncertainty.deviation_m2, 3, m2);
     }
     if (r->estimate_m2 >= 0.0) {
-        cli_page_fact_number(out, "Likely error, an estimate", "estimate_m2", r->estimate_m2, 3,
-                             "m\xc2\xb2");
+        fact_put(out, "Likely error, an estimate", "estimate_m2", r->estimate_m2, 3, m2);
     }
     if (r->curvature_estimate_m2 >= 0.0) {
-        cli_page_fact_number(out, "Cubature over curved normals, an estimate beside the bound",
-                             "curvature_estimate_m2", r->curvature_estimate_m2, 3, "m\xc2\xb2");
+        fact_put(out, "Cubature over curved normals, an estimate beside the bound",
+                 "curvature_estimate_m2", r->curvature_estimate_m2, 3, m2);
     }
-    cli_page_fact_number(out, "Silhouette", "projected_area_m2", r->projected_area_m2, 8,
-                         "m\xc2\xb2");
+    fact_put(out, "Silhouette", "projected_area_m2", r->projected_area_m2, 8, m2);
     fputs("</dl>\n", out);
 }
 
 static void budget_row(FILE *out, const report_job *job, const char *name, const char *id,
                        double value, const char *why)
 {
-    cli_page_row(out);
-    fprintf(out, "<td>%s</td><td class=\"n\">", name);
+    cli_page(out, "\n<tr><td>%s</td><td class=\"n\">", name);
     cli_page_bound(out, id, value, 3);
-    fputs("</td>", out);
-    cli_page_bound_cell(out, job->result.sigma_m2 > 0.0 ? value / job->result.sigma_m2 : -1.0, 2);
-    fprintf(out, "<td class=\"why\">%s</td>", why);
-    cli_page_row_end(out);
+    cli_page(out, "</td><td class=\"n\">%.2e</td><td class=\"why\">%s</td></tr>",
+             job->result.sigma_m2 > 0.0 ? value / job->result.sigma_m2 : -1.0, why);
 }
 
 static void budget_table(FILE *out, const report_job *job)
@@ -66,21 +69,18 @@ static void budget_table(FILE *out, const report_job *job)
     budget_row(out, job, "Rounding", "rounding_m2", budget->rounding_m2,
                "every step of the arithmetic");
     cli_page_table_end(out);
-    cli_page_fold_end(out);
+    fputs("</details>\n", out);
 }
 
 static void method_words(FILE *out, const report_job *job)
 {
     const lrcs_result *r = &job->result;
-    fputs("<p>Method <b id=\"method\">", out);
-    cli_page_text(out, lrcs_method_text(r->method));
-    fputs("</b>", out);
+    cli_page(out, "<p>Method <b id=\"method\">%s</b>", lrcs_method_text(r->method));
     if (r->resolution != 0) {
-        cli_page_say(out, " on a raster of %lu x %lu", (unsigned long)r->resolution,
-                     (unsigned long)r->resolution);
+        cli_page(out, " on a raster of %u x %u", r->resolution, r->resolution);
     }
-    fputs(job->options.method == LRCS_METHOD_AUTO ? ", chosen by auto: " : ": ", out);
-    cli_page_text(out, r->method_reason);
+    cli_page(out, "%s%s", job->options.method == LRCS_METHOD_AUTO ? ", chosen by auto: " : ": ",
+             r->method_reason);
     cli_page_say(
         out,
         ". Normals are %s. Of %lu facets %lu face the laser; of those that could reflect %lu "
@@ -103,20 +103,16 @@ void cli_report_effects(FILE *out, const report_job *job)
     cli_page_table(out, "Effects", "Effect||Why");
     for (int i = 0; i < LRCS_EFFECTS; i++) {
         const lrcs_effect *effect = &job->result.effect[i];
-        cli_page_row(out);
-        cli_page_cell(out);
+        fputs("\n<tr><td class=\"name\">", out);
         for (const char *at = lrcs_effect_text(i); *at; at++) {
             putc(*at == '_' ? ' ' : *at, out);
         }
-        cli_page_cell_end(out);
-        fputs(effect->on ? "<td class=\"on\">simulated</td>" : "<td class=\"off\">left out</td>",
-              out);
-        cli_page_name_cell(out, effect->reason, "");
-        cli_page_row_end(out);
+        fprintf(out, "</td><td class=\"%s</td>", effect->on ? "on\">simulated" : "off\">left out");
+        cli_page_cells(out, "%s", effect->reason);
+        fputs("</tr>", out);
     }
     cli_page_table_end(out);
-    cli_page_fold_end(out);
-    cli_page_section_end(out);
+    fputs("</details>\n</section>\n", out);
 }
 
 void cli_report_sigma(FILE *out, const report_job *job)
@@ -125,19 +121,16 @@ void cli_report_sigma(FILE *out, const report_job *job)
     sigma_facts(out, job);
     method_words(out, job);
     budget_table(out, job);
-    cli_page_section_end(out);
+    fputs("</section>\n", out);
 }
 
 /* ---- shares ---- */
 
-static void share_row(FILE *out, const cli_shares *shares, const shares_row *row)
+static void share_cells(FILE *out, const cli_shares *shares, const shares_row *row)
 {
-    cli_page_count_cell(out, row->facets);
-    cli_page_number_cell(out, row->sigma_m2, 5);
-    cli_page_share_cells(out, cli_share_of(shares, row->sigma_m2));
-    cli_page_number_cell(out, row->glint_m2, 3);
-    cli_page_number_cell(out, row->diffuse_m2, 3);
-    cli_page_row_end(out);
+    cli_page_cells(out, "%u%.5g%f%.3g%.3g", row->facets, row->sigma_m2,
+                   cli_share_of(shares, row->sigma_m2), row->glint_m2, row->diffuse_m2);
+    fputs("</tr>", out);
 }
 
 static void share_table(FILE *out, const cli_shares *shares, const char *label, const char *columns,
@@ -146,18 +139,16 @@ static void share_table(FILE *out, const cli_shares *shares, const char *label, 
     uint32_t shown = cli_shares_shown(row, count);
     cli_page_table(out, label, columns);
     for (uint32_t i = 0; i < shown; i++) {
-        cli_page_row(out);
-        cli_page_name_cell(out, row[i].name, nameless);
-        share_row(out, shares, &row[i]);
+        fputs("\n<tr><td class=\"name\">", out);
+        cli_page_name(out, row[i].name, nameless);
+        fputs("</td>", out);
+        share_cells(out, shares, &row[i]);
     }
     if (shown < count) {
         shares_row others = cli_shares_others(row, shown, count);
-        cli_page_row_others(out);
-        cli_page_cell(out);
-        cli_page_say(out, "%lu other%s", (unsigned long)(count - shown),
-                     count - shown > 1 ? "s" : "");
-        cli_page_cell_end(out);
-        share_row(out, shares, &others);
+        cli_page(out, "\n<tr class=\"others\"><td class=\"name\">%u other%s</td>", count - shown,
+                 count - shown > 1 ? "s" : "");
+        share_cells(out, shares, &others);
     }
     cli_page_table_end(out);
 }
@@ -169,15 +160,9 @@ static void share_facets(FILE *out, const cli_shares *shares)
         "#Facet|Part|Material|#\xce\xb8, deg|#Seen, m\xc2\xb2|#\xcf\x83, m\xc2\xb2|#Share|");
     for (uint32_t i = 0; i < shares->facets; i++) {
         const shares_facet *facet = &shares->facet[i];
-        cli_page_row(out);
-        cli_page_count_cell(out, facet->facet);
-        cli_page_name_cell(out, facet->part, "(no name)");
-        cli_page_name_cell(out, facet->material, "(default)");
-        cli_page_number_cell(out, facet->theta_deg, 4);
-        cli_page_number_cell(out, facet->visible_area_m2, 3);
-        cli_page_number_cell(out, facet->sigma_m2, 5);
-        cli_page_share_cells(out, cli_share_of(shares, facet->sigma_m2));
-        cli_page_row_end(out);
+        cli_page_row(out, "%u%s(no name)%s(default)%.4g%.3g%.5g%f", facet->facet, facet->part,
+                     facet->material, facet->theta_deg, facet->visible_area_m2, facet->sigma_m2,
+                     cli_share_of(shares, facet->sigma_m2));
     }
     cli_page_table_end(out);
 }
@@ -195,11 +180,11 @@ void cli_report_shares(FILE *out, const report_job *job)
         out, shares, "Shares of materials",
         "Material|#Facets|#\xcf\x83, m\xc2\xb2|#Share||#Glint, m\xc2\xb2|#Diffuse, m\xc2\xb2",
         shares->material, shares->materials, "(default)");
-    cli_page_fold_end(out);
+    fputs("</details>\n", out);
     if (shares->facets > 0) {
         cli_page_fold(out, "The brightest facets");
         share_facets(out, shares);
-        cli_page_fold_end(out);
+        fputs("</details>\n", out);
     }
-    cli_page_section_end(out);
+    fputs("</section>\n", out);
 }

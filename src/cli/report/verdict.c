@@ -61,11 +61,10 @@ void cli_report_verdict(FILE *out, const report_job *job)
             while (used > 0 && name[used - 1] == ' ') {
                 name[--used] = '\0';
             }
-            fputs(items++ == 0 ? "</p>\n<ul class=\"notices\">\n<li><b>" : "</li>\n<li><b>", out);
-            cli_page_text(out, name + blank);
-            fputs("</b>: ", out);
+            fputs(items++ == 0 ? "</p>\n<ul class=\"notices\">\n" : "</li>\n", out);
+            cli_page(out, "<li><b>%s</b>: ", name + blank);
         }
-        cli_page_text(out, words);
+        cli_page(out, "%s", words);
         text = next;
     }
     fputs(items > 0 ? "</li>\n</ul>\n" : job->verdict.bytes ? "</p>\n" : "", out);

@@ -65,199 +65,142 @@ const vectors_attitude cli_vectors_attitudes[] = {
     {                                                                                              \
         16384, -8192, 4096                                                                         \
     }
-#define END                                                                                        \
-    {                                                                                              \
-        VECTORS_NONE, 0, HERE, HERE, UP, NULL                                                      \
-    }
 
-/* Two skins DOWN apart in a scene 8 m deep, a bright one below half of a dark one. */
-#define SKINS(DOWN)                                                                                \
-    {PLATE, 0, {2, 2, 0}, {0, 0, -(DOWN)}, UP, "r"}, {PLATE, 0, {1, 2, 0}, {0.5, 0, 0}, UP, "k"},  \
-        {BOX, 0, {0.25, 0.25, 0.25}, {2, 0, 4}, UP, "o"},                                          \
-    {                                                                                              \
-        BOX, 0, {0.25, 0.25, 0.25}, {-2, 0, -4}, UP, "b"                                           \
-    }
-
-static const vectors_item scene_plate_white[] = {{PLATE, 0, {2, 1, 0}, HERE, UP, "w"}, END};
-
-static const vectors_item scene_plate_power[] = {{PLATE, 0, {2, 1, 0}, HERE, UP, "p"}, END};
-
-static const vectors_item scene_plate_gloss[] = {{PLATE, 0, {2, 1, 0}, HERE, UP, "g"}, END};
-
-static const vectors_item scene_plate_turned[] = {
-    {PLATE, 0, {2, 1, 0}, {0.5, 0.25, 0}, {20, 50, 10}, "r"}, END};
-
-static const vectors_item scene_box[] = {{BOX, 0, {2, 1.5, 1}, HERE, UP, "rgomwb"}, END};
-
-static const vectors_item scene_brick[] = {
-    {BOX, 0, {2, 1.5, 1}, {0.25, 0, 1}, {20, 30, 40}, "bwomgr"}, END};
-
-static const vectors_item scene_drum[] = {{ROUND, 24, {0.5, 0.5, 2}, HERE, UP, "rmw"}, END};
-
-static const vectors_item scene_cone[] = {{ROUND, 24, {0.5, 0, 1.5}, HERE, UP, "or"}, END};
-
-static const vectors_item scene_ball[] = {{BALL, 24, {1, 0, 0}, HERE, UP, "r"}, END};
-
-static const vectors_item scene_needle_drum[] = {{ROUND, 48, {0.5, 0.5, 2}, HERE, UP, "n"}, END};
-
-static const vectors_item scene_bracket[] = {{PLATE, 0, {1, 1, 0}, HERE, UP, "r"},
-                                             {PLATE, 0, {1, 1, 0}, {0.5, 0, 0.5}, {0, -90, 0}, "b"},
-                                             END};
+/* The items of a scene. */
+#define ITEMS(...) ((const vectors_item[]){__VA_ARGS__, {.kind = VECTORS_NONE}})
 
 /* The bus and the arrays shadow each other; the shadows have closed forms. */
-static const vectors_item scene_wings[] = {{BOX, 0, {1, 1, 1}, HERE, UP, "frmobw"},
-                                           {PLATE, 0, {2, 1, 0}, {1.625, 0, 0}, UP, "c"},
-                                           {PLATE, 0, {2, 1, 0}, {-1.625, 0, 0}, UP, "t"},
-                                           END};
+#define WINGS                                                                                      \
+    ITEMS({BOX, 0, {1, 1, 1}, HERE, UP, "frmobw"}, {PLATE, 0, {2, 1, 0}, {1.625, 0, 0}, UP, "c"},  \
+          {PLATE, 0, {2, 1, 0}, {-1.625, 0, 0}, UP, "t"})
 
-static const vectors_item scene_comb[] = {{PLATE, 0, {4, 2, 0}, HERE, UP, "r"},
-                                          {BOX, 0, {0.0625, 2, 0.5}, {-1.5, 0, 0.25}, UP, "o"},
-                                          {BOX, 0, {0.0625, 2, 0.5}, {-1, 0, 0.25}, UP, "m"},
-                                          {BOX, 0, {0.0625, 2, 0.5}, {-0.5, 0, 0.25}, UP, "o"},
-                                          {BOX, 0, {0.0625, 2, 0.5}, {0, 0, 0.25}, UP, "m"},
-                                          {BOX, 0, {0.0625, 2, 0.5}, {0.5, 0, 0.25}, UP, "o"},
-                                          {BOX, 0, {0.0625, 2, 0.5}, {1, 0, 0.25}, UP, "m"},
-                                          {BOX, 0, {0.0625, 2, 0.5}, {1.5, 0, 0.25}, UP, "o"},
-                                          END};
-
-static const vectors_item scene_tray[] = {{BOX, 0, {2, 1, 0.75}, HERE, UP, "rbom-w"},
-                                          {BALL, 12, {0.25, 0, 0}, {0.25, 0.125, 0}, UP, "f"},
-                                          END};
-
-static const vectors_item scene_dish[] = {{ROUND, 24, {0, 1, 0.5}, HERE, UP, "t--"},
-                                          {BALL, 12, {0.125, 0, 0}, {0, 0, 0.5}, UP, "m"},
-                                          {PLATE, 0, {1.5, 1.5, 0}, {0.25, 0.125, -0.375}, UP, "f"},
-                                          END};
-
-static const vectors_item scene_gate[] = {
-    {BOX, 0, {0.25, 0.25, 2}, {-1, 0, 0}, UP, "r"},
-    {BOX, 0, {0.25, 0.25, 2}, {1, 0, 0}, UP, "o"},
-    {BOX, 0, {2.25, 0.25, 0.25}, {0, 0, 1.125}, UP, "b"},
-    {ROUND, 16, {0.375, 0.25, 1.5}, {0.25, 1, 0}, {35, 0, 0}, "gmw"},
-    END};
-
-static const vectors_item scene_satellite[] = {
-    {BOX, 0, {1.25, 1.25, 1.75}, HERE, UP, "f"},
-    {PLATE, 0, {1, 1.5, 0}, {0, 0.640625, 0}, {-90, 0, 0}, "w"},
-    {BOX, 0, {0.5, 0.0625, 0.0625}, {0.875, 0, 0}, UP, "m"},
-    {BOX, 0, {0.5, 0.0625, 0.0625}, {-0.875, 0, 0}, UP, "m"},
-    {BOX, 0, {2.5, 1.125, 0.03125}, {2.375, 0, 0}, {20, 0, 0}, "w"},
-    {BOX, 0, {2.5, 1.125, 0.03125}, {-2.375, 0, 0}, {20, 0, 0}, "w"},
-    {PLATE, 0, {2.375, 1, 0}, {2.375, -0.0068, 0.0188}, {20, 0, 0}, "c"},
-    {PLATE, 0, {2.375, 1, 0}, {-2.375, -0.0068, 0.0188}, {20, 0, 0}, "c"},
-    {ROUND, 48, {0, 0.5, 0.25}, {0, 0, 1.0625}, UP, "t--"},
-    {ROUND, 32, {0.1875, 0.0625, 0.3125}, {0, 0, -1.03125}, UP, "m"},
-    END};
-
-static const vectors_item scene_spinner[] = {
-    {ROUND, 64, {1, 1, 1.5}, HERE, UP, "cfm"},
-    {ROUND, 32, {0.25, 0.125, 0.5}, {0, 0, -1}, UP, "m"},
-    {ROUND, 32, {0, 0.75, 0.375}, {0, 0, 1.1875}, UP, "t--"},
-    {BOX, 0, {0.0625, 0.0625, 1}, {0.5, 0.25, 1.25}, UP, "w"},
-    {BOX, 0, {3, 0.03125, 0.03125}, {2, 0, 0.5}, {0, 10, 20}, "b"},
-    END};
-
-static const vectors_item scene_station[] = {
-    {ROUND, 32, {0.75, 0.75, 4}, HERE, {0, 90, 0}, "wmm"},
-    {ROUND, 32, {0.5, 0.5, 2}, {0.5, 0, 1.5}, UP, "fom"},
-    {BALL, 16, {0.625, 0, 0}, {-2.25, 0, 0}, UP, "m"},
-    {BOX, 0, {0.125, 6, 0.125}, {1, 0, -0.875}, UP, "m"},
-    {PLATE, 0, {1, 2, 0}, {1, 2, -1}, {0, 40, 0}, "c"},
-    {PLATE, 0, {1, 2, 0}, {1, -2, -1}, {0, 40, 0}, "c"},
-    {PLATE, 0, {1, 2, 0}, {1, 2, -1.0078125}, {0, 220, 0}, "w"},
-    {PLATE, 0, {1, 2, 0}, {1, -2, -1.0078125}, {0, 220, 0}, "w"},
-    END};
-
-static const vectors_item scene_quilt[] = {{QUILT, 16, {2, 2, 0.0078125}, HERE, UP, "n"},
-                                           {BALL, 16, {0.25, 0, 0}, {0.25, 0, 0.5}, UP, "o"},
-                                           END};
-
-static const vectors_item scene_slivers[] = {{FAN, 720, {1, 0, 0}, HERE, UP, "r"},
-                                             {BOX, 0, {0.125, 3, 0.125}, {0.25, 0, 0.5}, UP, "m"},
-                                             END};
-
-static const vectors_item scene_two_faced[] = {
-    {PLATE, 0, {2, 1, 0}, HERE, UP, "r"}, {PLATE, 0, {2, 1, 0}, HERE, {180, 0, 0}, "b"}, END};
-
-static const vectors_item scene_twins[] = {
-    {PLATE, 0, {2, 1, 0}, HERE, UP, "r"}, {PLATE, 0, {2, 1, 0}, HERE, UP, "k"}, END};
-
-static const vectors_item scene_skins_10[] = {SKINS(0x1p-10), END};
-static const vectors_item scene_skins_14[] = {SKINS(0x1p-14), END};
-static const vectors_item scene_skins_18[] = {SKINS(0x1p-18), END};
-static const vectors_item scene_skins_22[] = {SKINS(0x1p-22), END};
-static const vectors_item scene_skins_40[] = {SKINS(0x1p-40), END};
-
-static const vectors_item scene_cross[] = {{PLATE, 0, {2, 1, 0}, HERE, UP, "r"},
-                                           {PLATE, 0, {2, 1, 0}, HERE, {0, 90, 0}, "t"},
-                                           {PLATE, 0, {2, 1, 0}, HERE, {40, 0, 90}, "o"},
-                                           END};
-
-static const vectors_item scene_edge_on[] = {{BOX, 0, {1, 1, 1}, HERE, UP, "rgombw"},
-                                             {PLATE, 0, {2, 2, 0}, {0, 0, 0.5}, UP, "f"},
-                                             {PLATE, 0, {2, 2, 0}, {0.5, 0, 0}, {0, -90, 0}, "c"},
-                                             END};
-
-static const vectors_item scene_sunk[] = {{PLATE, 0, {3, 2, 0}, HERE, {10, 20, 0}, "r"},
-                                          {BALL, 16, {0.75, 0, 0}, {0.25, 0, 0.125}, UP, "o"},
-                                          END};
+/* A scene of two skins 2^-K m apart, a bright one below half of a dark one. */
+#define SKINS(K)                                                                                   \
+    {                                                                                              \
+        "skins-" #K, 5, TURNS, 1.0, HERE,                                                          \
+            ITEMS({PLATE, 0, {2, 2, 0}, {0, 0, -0x1p-##K}, UP, "r"},                               \
+                  {PLATE, 0, {1, 2, 0}, {0.5, 0, 0}, UP, "k"},                                     \
+                  {BOX, 0, {0.25, 0.25, 0.25}, {2, 0, 4}, UP, "o"},                                \
+                  {BOX, 0, {0.25, 0.25, 0.25}, {-2, 0, -4}, UP, "b"}),                             \
+            "two skins 2^-" #K " m apart in a scene 8 m deep"                                      \
+    }
 
 const vectors_scene cli_vectors_scenes[] = {
-    {"plate-white", 1, TILTS, 1.0, HERE, scene_plate_white,
+    {"plate-white", 1, TILTS, 1.0, HERE, ITEMS({PLATE, 0, {2, 1, 0}, HERE, UP, "w"}),
      "a plate of 2 x 1 m that scatters the same way everywhere: 4 pi B S cos^2"},
-    {"plate-power", 1, TILTS, 1.0, HERE, scene_plate_power,
+    {"plate-power", 1, TILTS, 1.0, HERE, ITEMS({PLATE, 0, {2, 1, 0}, HERE, UP, "p"}),
      "the diffuse term with a power of the cosine"},
-    {"plate-gloss", 1, TILTS, 1.0, HERE, scene_plate_gloss, "the glint term alone"},
-    {"plate-turned", 1, TURNS, 1.0, HERE, scene_plate_turned,
+    {"plate-gloss", 1, TILTS, 1.0, HERE, ITEMS({PLATE, 0, {2, 1, 0}, HERE, UP, "g"}),
+     "the glint term alone"},
+    {"plate-turned", 1, TURNS, 1.0, HERE,
+     ITEMS({PLATE, 0, {2, 1, 0}, {0.5, 0.25, 0}, {20, 50, 10}, "r"}),
      "both terms, on a plate that stands along no axis"},
-    {"box", 2, TURNS | EDGES, 1.0, HERE, scene_box,
+    {"box", 2, TURNS | EDGES, 1.0, HERE, ITEMS({BOX, 0, {2, 1.5, 1}, HERE, UP, "rgomwb"}),
      "six faces, six materials: frames, quaternions, handedness"},
-    {"brick", 2, TURNS, 1.0, HERE, scene_brick, "the same, turned in the body frame"},
-    {"drum", 2, TURNS | EDGES, 1.0, HERE, scene_drum,
+    {"brick", 2, TURNS, 1.0, HERE,
+     ITEMS({BOX, 0, {2, 1.5, 1}, {0.25, 0, 1}, {20, 30, 40}, "bwomgr"}),
+     "the same, turned in the body frame"},
+    {"drum", 2, TURNS | EDGES, 1.0, HERE, ITEMS({ROUND, 24, {0.5, 0.5, 2}, HERE, UP, "rmw"}),
      "a prism of 24 sides: many facets, one normal each"},
-    {"cone", 2, TURNS | EDGES, 1.0, HERE, scene_cone, "a cone of 24 sides with its base"},
-    {"ball", 2, TURNS, 1.0, HERE, scene_ball, "a sphere of 24 meridians"},
-    {"needle-drum", 2, TURNS | EDGES, 1.0, HERE, scene_needle_drum,
+    {"cone", 2, TURNS | EDGES, 1.0, HERE, ITEMS({ROUND, 24, {0.5, 0, 1.5}, HERE, UP, "or"}),
+     "a cone of 24 sides with its base"},
+    {"ball", 2, TURNS, 1.0, HERE, ITEMS({BALL, 24, {1, 0, 0}, HERE, UP, "r"}),
+     "a sphere of 24 meridians"},
+    {"needle-drum", 2, TURNS | EDGES, 1.0, HERE, ITEMS({ROUND, 48, {0.5, 0.5, 2}, HERE, UP, "n"}),
      "glints ten times narrower than the turn from facet to facet"},
-    {"bracket", 3, TILTS | TURNS, 1.0, HERE, scene_bracket,
+    {"bracket", 3, TILTS | TURNS, 1.0, HERE,
+     ITEMS({PLATE, 0, {1, 1, 0}, HERE, UP, "r"},
+           {PLATE, 0, {1, 1, 0}, {0.5, 0, 0.5}, {0, -90, 0}, "b"}),
      "an L: the wall shadows 1 - tan of the floor"},
-    {"wings", 3, TILTS | TURNS, 1.0, HERE, scene_wings,
+    {"wings", 3, TILTS | TURNS, 1.0, HERE, WINGS,
      "a cube between two arrays, one of them two-sided"},
-    {"comb", 3, TURNS, 1.0, HERE, scene_comb,
+    {"comb", 3, TURNS, 1.0, HERE,
+     ITEMS({PLATE, 0, {4, 2, 0}, HERE, UP, "r"},
+           {BOX, 0, {0.0625, 2, 0.5}, {-1.5, 0, 0.25}, UP, "o"},
+           {BOX, 0, {0.0625, 2, 0.5}, {-1, 0, 0.25}, UP, "m"},
+           {BOX, 0, {0.0625, 2, 0.5}, {-0.5, 0, 0.25}, UP, "o"},
+           {BOX, 0, {0.0625, 2, 0.5}, {0, 0, 0.25}, UP, "m"},
+           {BOX, 0, {0.0625, 2, 0.5}, {0.5, 0, 0.25}, UP, "o"},
+           {BOX, 0, {0.0625, 2, 0.5}, {1, 0, 0.25}, UP, "m"},
+           {BOX, 0, {0.0625, 2, 0.5}, {1.5, 0, 0.25}, UP, "o"}),
      "fins on a plate, whose feet lie in its plane, back to front"},
-    {"tray", 3, TURNS, 1.0, HERE, scene_tray,
+    {"tray", 3, TURNS, 1.0, HERE,
+     ITEMS({BOX, 0, {2, 1, 0.75}, HERE, UP, "rbom-w"},
+           {BALL, 12, {0.25, 0, 0}, {0.25, 0.125, 0}, UP, "f"}),
      "an open box: its inner sides are the backs of its walls, which hide but do not reflect"},
-    {"dish", 3, TURNS | EDGES, 1.0, HERE, scene_dish,
+    {"dish", 3, TURNS | EDGES, 1.0, HERE,
+     ITEMS({ROUND, 24, {0, 1, 0.5}, HERE, UP, "t--"},
+           {BALL, 12, {0.125, 0, 0}, {0, 0, 0.5}, UP, "m"},
+           {PLATE, 0, {1.5, 1.5, 0}, {0.25, 0.125, -0.375}, UP, "f"}),
      "an open cone that reflects from both sides, over a plate"},
-    {"gate", 3, TURNS, 1.0, HERE, scene_gate, "a frame before a frustum"},
-    {"satellite", 4, TURNS, 1.0, HERE, scene_satellite,
+    {"gate", 3, TURNS, 1.0, HERE,
+     ITEMS({BOX, 0, {0.25, 0.25, 2}, {-1, 0, 0}, UP, "r"},
+           {BOX, 0, {0.25, 0.25, 2}, {1, 0, 0}, UP, "o"},
+           {BOX, 0, {2.25, 0.25, 0.25}, {0, 0, 1.125}, UP, "b"},
+           {ROUND, 16, {0.375, 0.25, 1.5}, {0.25, 1, 0}, {35, 0, 0}, "gmw"}),
+     "a frame before a frustum"},
+    {"satellite", 4, TURNS, 1.0, HERE,
+     ITEMS({BOX, 0, {1.25, 1.25, 1.75}, HERE, UP, "f"},
+           {PLATE, 0, {1, 1.5, 0}, {0, 0.640625, 0}, {-90, 0, 0}, "w"},
+           {BOX, 0, {0.5, 0.0625, 0.0625}, {0.875, 0, 0}, UP, "m"},
+           {BOX, 0, {0.5, 0.0625, 0.0625}, {-0.875, 0, 0}, UP, "m"},
+           {BOX, 0, {2.5, 1.125, 0.03125}, {2.375, 0, 0}, {20, 0, 0}, "w"},
+           {BOX, 0, {2.5, 1.125, 0.03125}, {-2.375, 0, 0}, {20, 0, 0}, "w"},
+           {PLATE, 0, {2.375, 1, 0}, {2.375, -0.0068, 0.0188}, {20, 0, 0}, "c"},
+           {PLATE, 0, {2.375, 1, 0}, {-2.375, -0.0068, 0.0188}, {20, 0, 0}, "c"},
+           {ROUND, 48, {0, 0.5, 0.25}, {0, 0, 1.0625}, UP, "t--"},
+           {ROUND, 32, {0.1875, 0.0625, 0.3125}, {0, 0, -1.03125}, UP, "m"}),
      "a bus with arrays, a dish and a nozzle; the cells lie 4 mm above the wings"},
-    {"spinner", 4, TURNS, 1.0, HERE, scene_spinner,
+    {"spinner", 4, TURNS, 1.0, HERE,
+     ITEMS({ROUND, 64, {1, 1, 1.5}, HERE, UP, "cfm"},
+           {ROUND, 32, {0.25, 0.125, 0.5}, {0, 0, -1}, UP, "m"},
+           {ROUND, 32, {0, 0.75, 0.375}, {0, 0, 1.1875}, UP, "t--"},
+           {BOX, 0, {0.0625, 0.0625, 1}, {0.5, 0.25, 1.25}, UP, "w"},
+           {BOX, 0, {3, 0.03125, 0.03125}, {2, 0, 0.5}, {0, 10, 20}, "b"}),
      "a drum of cells with a dish, a nozzle and booms"},
-    {"station", 4, TURNS, 1.0, HERE, scene_station, "modules and arrays that shadow each other"},
-    {"quilt", 4, TILTS | TURNS, 1.0, HERE, scene_quilt,
+    {"station", 4, TURNS, 1.0, HERE,
+     ITEMS({ROUND, 32, {0.75, 0.75, 4}, HERE, {0, 90, 0}, "wmm"},
+           {ROUND, 32, {0.5, 0.5, 2}, {0.5, 0, 1.5}, UP, "fom"},
+           {BALL, 16, {0.625, 0, 0}, {-2.25, 0, 0}, UP, "m"},
+           {BOX, 0, {0.125, 6, 0.125}, {1, 0, -0.875}, UP, "m"},
+           {PLATE, 0, {1, 2, 0}, {1, 2, -1}, {0, 40, 0}, "c"},
+           {PLATE, 0, {1, 2, 0}, {1, -2, -1}, {0, 40, 0}, "c"},
+           {PLATE, 0, {1, 2, 0}, {1, 2, -1.0078125}, {0, 220, 0}, "w"},
+           {PLATE, 0, {1, 2, 0}, {1, -2, -1.0078125}, {0, 220, 0}, "w"}),
+     "modules and arrays that shadow each other"},
+    {"quilt", 4, TILTS | TURNS, 1.0, HERE,
+     ITEMS({QUILT, 16, {2, 2, 0.0078125}, HERE, UP, "n"},
+           {BALL, 16, {0.25, 0, 0}, {0.25, 0, 0.5}, UP, "o"}),
      "512 facets of crumpled foil with narrow glints below a ball"},
-    {"slivers", 5, TURNS, 1.0, HERE, scene_slivers, "720 slivers to a disc, below a bar"},
-    {"two-faced", 5, TILTS | TURNS, 1.0, HERE, scene_two_faced,
+    {"slivers", 5, TURNS, 1.0, HERE,
+     ITEMS({FAN, 720, {1, 0, 0}, HERE, UP, "r"},
+           {BOX, 0, {0.125, 3, 0.125}, {0.25, 0, 0.5}, UP, "m"}),
+     "720 slivers to a disc, below a bar"},
+    {"two-faced", 5, TILTS | TURNS, 1.0, HERE,
+     ITEMS({PLATE, 0, {2, 1, 0}, HERE, UP, "r"}, {PLATE, 0, {2, 1, 0}, HERE, {180, 0, 0}, "b"}),
      "two skins in one plane, back to back: the one that faces the laser is seen, whatever "
      "rounding says"},
-    {"twins", 5, TURNS, 1.0, HERE, scene_twins,
+    {"twins", 5, TURNS, 1.0, HERE,
+     ITEMS({PLATE, 0, {2, 1, 0}, HERE, UP, "r"}, {PLATE, 0, {2, 1, 0}, HERE, UP, "k"}),
      "the same plate twice, in two materials: the first one counts"},
-    {"skins-10", 5, TURNS, 1.0, HERE, scene_skins_10,
-     "two skins 2^-10 m apart in a scene 8 m deep"},
-    {"skins-14", 5, TURNS, 1.0, HERE, scene_skins_14,
-     "two skins 2^-14 m apart in a scene 8 m deep"},
-    {"skins-18", 5, TURNS, 1.0, HERE, scene_skins_18,
-     "two skins 2^-18 m apart in a scene 8 m deep"},
-    {"skins-22", 5, TURNS, 1.0, HERE, scene_skins_22,
-     "two skins 2^-22 m apart in a scene 8 m deep"},
-    {"skins-40", 5, TURNS, 1.0, HERE, scene_skins_40,
-     "two skins 2^-40 m apart in a scene 8 m deep"},
-    {"cross", 5, TURNS | EDGES, 1.0, HERE, scene_cross, "plates that pierce each other"},
-    {"edge-on", 5, EDGES, 1.0, HERE, scene_edge_on,
+    SKINS(10),
+    SKINS(14),
+    SKINS(18),
+    SKINS(22),
+    SKINS(40),
+    {"cross", 5, TURNS | EDGES, 1.0, HERE,
+     ITEMS({PLATE, 0, {2, 1, 0}, HERE, UP, "r"}, {PLATE, 0, {2, 1, 0}, HERE, {0, 90, 0}, "t"},
+           {PLATE, 0, {2, 1, 0}, HERE, {40, 0, 90}, "o"}),
+     "plates that pierce each other"},
+    {"edge-on", 5, EDGES, 1.0, HERE,
+     ITEMS({BOX, 0, {1, 1, 1}, HERE, UP, "rgombw"}, {PLATE, 0, {2, 2, 0}, {0, 0, 0.5}, UP, "f"},
+           {PLATE, 0, {2, 2, 0}, {0.5, 0, 0}, {0, -90, 0}, "c"}),
      "plates exactly in the faces of a box, from directions exactly in their planes"},
-    {"sunk", 5, TURNS, 1.0, HERE, scene_sunk, "a ball sunk in a plate"},
-    {"far", 5, TURNS, 1.0, AWAY, scene_wings, "wings, 18.8 km away from the origin"},
-    {"tiny", 5, TURNS, 0x1p-20, HERE, scene_wings, "wings, 2^-20 times as large: some microns"},
-    {"huge", 5, TURNS, 0x1p+20, HERE, scene_wings, "wings, 2^20 times as large: 5000 km"},
+    {"sunk", 5, TURNS, 1.0, HERE,
+     ITEMS({PLATE, 0, {3, 2, 0}, HERE, {10, 20, 0}, "r"},
+           {BALL, 16, {0.75, 0, 0}, {0.25, 0, 0.125}, UP, "o"}),
+     "a ball sunk in a plate"},
+    {"far", 5, TURNS, 1.0, AWAY, WINGS, "wings, 18.8 km away from the origin"},
+    {"tiny", 5, TURNS, 0x1p-20, HERE, WINGS, "wings, 2^-20 times as large: some microns"},
+    {"huge", 5, TURNS, 0x1p+20, HERE, WINGS, "wings, 2^20 times as large: 5000 km"},
     {NULL, 0, 0, 0.0, HERE, NULL, NULL}};

@@ -53,7 +53,7 @@ int ref_cover_make(lrcsi_classification *classification, lrcs_work *work, ref_co
 void ref_cover_start(ref_cover *cover, const lrcsi_target *target)
 {
     const lrcsi_grid *facets = &cover->facets;
-    lrcsi_view_box box = facets->box[target->facet];
+    lrcsi_view_box box = *lrcsi_boxes_facet(&facets->boxes, target->facet);
     lrcsi_cells cells = lrcsi_grid_cells(facets, &box);
     cover->count = 0;
     cover->asks++;
@@ -70,7 +70,7 @@ void ref_cover_start(ref_cover *cover, const lrcsi_target *target)
                 continue;
             }
             cover->asked[other] = cover->asks;
-            const lrcsi_view_box *its = &facets->box[other];
+            const lrcsi_view_box *its = lrcsi_boxes_facet(&facets->boxes, other);
             if (!lrcsi_view_box_beside(its, &box) && !lrcsi_view_box_behind(its, &box)) {
                 cover->candidate[cover->count++] =
                     (ref_cover_facet){.box = *its, .facet = other, .order = ORDER_NEW};
