@@ -21,9 +21,9 @@ lrcs_host_options lrcs_host_options_default(void);
 
 /* A division (lrcs_build_options) with which curved shapes have a few hundred facets. Poses that
    need more are run at finer divisions: lrcs_host_scene_division, lrcs_host_sweep.refine. And a
-   limit for the facets of one shape then: preparing so many takes about a quarter of a second. */
+   limit for the facets of one shape then: preparing so many takes about a tenth of a second. */
 #define LRCS_HOST_DIVISION 1e-2
-#define LRCS_HOST_FACETS   (UINT32_C(1) << 18)
+#define LRCS_HOST_FACETS   (UINT32_C(1) << 17)
 
 /* A regular file that a scene was read from: its name, the FNV-1a hash of its bytes, and its device
    and inode number. */

@@ -14,6 +14,9 @@
 /* The tessellation's part of a bound is about proportional to the division. This share of what the
    tolerance leaves for it is aimed at. */
 #define AIM 0.8
+/* Some poses are so dark that their tolerance cannot be met, or only at a high price: no division
+   is less than the tolerance over this. */
+#define DIVISION_LEAST 64.0
 /* The number of divisions: level k has the scene's own over 2^k. */
 #define DIVISIONS 32u
 
@@ -21,7 +24,7 @@ struct lrcsi_host_levels {
     pthread_mutex_t lock;
     lrcs_build_options build;
     lrcs_host_scene *scene[DIVISIONS]; /* NULL: not built yet */
-    uint32_t finest;                /* levels beyond this have failed */
+    uint32_t finest;                   /* levels beyond this have failed */
 };
 
 struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
@@ -120,6 +123,10 @@ const lrcs_host_scene *lrcsi_host_finer(const lrcs_host_scene *scene,
     }
     pthread_mutex_lock(&levels->lock);
     uint32_t wanted = *level + more < levels->finest ? *level + more : levels->finest;
+    while (lrcsi_host_level_division(scene, wanted) < options->tolerance / DIVISION_LEAST &&
+           wanted > 0) {
+        wanted--;
+    }
     while (!found && wanted > *level) {
         if (!levels->scene[wanted]) {
             levels->scene[wanted] = level_build(scene, levels, wanted);
