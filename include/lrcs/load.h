@@ -19,6 +19,12 @@ typedef struct lrcs_host_options {
 
 lrcs_host_options lrcs_host_options_default(void);
 
+/* A division (lrcs_build_options) with which curved shapes have a few hundred facets. Poses that
+   need more are run at finer divisions: lrcs_host_scene_division, lrcs_host_sweep.refine. And a
+   limit for the facets of one shape then: preparing so many takes about a quarter of a second. */
+#define LRCS_HOST_DIVISION 1e-2
+#define LRCS_HOST_FACETS   (UINT32_C(1) << 18)
+
 /* A regular file that a scene was read from: its name, the FNV-1a hash of its bytes, and its device
    and inode number. */
 typedef struct lrcs_host_input {
@@ -57,6 +63,8 @@ typedef struct lrcs_host_scene {
     double seconds_stage[LRCS_HOST_PREPARE_STAGES]; /* of seconds_prepare, in the last attempt,
                                                        whose work area sufficed */
     void *blocks;                                   /* memory owned */
+    struct lrcsi_host_levels *levels; /* finer divisions; NULL: it was read without a division, or
+                                         no part is curved among others */
 } lrcs_host_scene;
 
 /* Loads a scene: a model file (3DS, OBJ with its MTL, STL), a scene file, or "demo", which is
@@ -75,14 +83,15 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
                          lrcs_host_error *error);
 
 /* Builds a scene from a recipe that has only shapes. Only the recipe's strings must outlive the
-   scene; scene->recipe stays empty. Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_scene_build. */
+   scene; scene->recipe stays empty, or is a copy if the options have a division. Status: LRCS_OK;
+   LRCS_E_SYSTEM; as lrcs_scene_build. */
 int lrcs_host_scene_make(const lrcs_recipe *recipe, const lrcs_build_options *build,
                          lrcs_host_scene *scene, lrcs_host_error *error);
 
 /* Builds a variant of a scene. The recipe has the parts of base->recipe, in their order and with
    their models; parts are two-sided where those of base are. Everything else may differ: places,
    joints, shapes, materials. `base` and the recipe's strings must outlive the scene; scene->recipe
-   stays empty.
+   stays empty, or is a copy if the options have a division.
    Status: as lrcs_host_scene_make. */
 int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
                          const lrcs_build_options *build, lrcs_host_scene *scene,
@@ -111,6 +120,15 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         const lrcs_run_options *options, lrcs_result *result,
                         lrcs_facet_record *records, lrcs_image *image, double *seconds,
                         lrcs_host_error *error);
+
+/* The division with which a pose meets its tolerance, or the finest that there is, for a prepared
+   scene that was read with one: its own, unless the curved shapes' facets make the pose miss it.
+   The time is that of all runs needed to find it, and of building and preparing their scenes.
+   Returned: division (0: the scene has none); seconds unless NULL.
+   Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_sigma_run. */
+int lrcs_host_scene_division(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                             const lrcs_run_options *options, double *division, double *seconds,
+                             lrcs_host_error *error);
 
 /* lrcs_uncertainty_run and lrcs_attitude_slope_run with memory from the heap.
    Returned: result; sensitivity[material_count]; uncertainty; and slope.

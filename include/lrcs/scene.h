@@ -106,9 +106,11 @@ typedef struct lrcs_build_options {
     uint32_t max_facets; /* limit for one shape */
     int normals;         /* lrcs_normals */
     int facets_only;     /* lrcs_facets_only */
+    double division;     /* relative; if not 0, shapes that have no closed form from every direction
+                            are divided for this instead of `tolerance`, round bodies too */
 } lrcs_build_options;
 
-lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21, flat, 0 */
+lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21, flat, 0, 0 */
 
 /* Builds the scene: vertex = translate + rotate (scale (joint (vertex))). Identity steps are exact,
    and so is scaling by powers of two; mirroring reverses the winding.

@@ -36,6 +36,8 @@ typedef struct lrcs_host_sweep {
     lrcs_host_sweep_pose *pose;
     lrcs_host_sweep_scene *scene; /* NULL: all poses use the scene passed to the sweep */
     lrcs_host_sweep_take *take;
+    int refine; /* run poses again at finer divisions of curved shapes where these make them miss
+                   the tolerance, for a scene read with a division; glint is of its own facets */
     const lrcs_uncertainty_options *uncertainty; /* NULL: that of materials is not wanted */
     const lrcs_host_glint *glint; /* as for lrcs_host_glint_sum_make; NULL: not wanted */
     uint32_t glint_count;

@@ -194,6 +194,12 @@ void cli_scene_options_free(lrcs_host_options *options);
    matches nothing is a usage error. */
 int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene);
 
+/* lrcs_host_scene_prepare; lrcs_host_scene_run. 0, or CLI_FAILED with the message printed. */
+int cli_scene_prepare(lrcs_host_scene *scene);
+int cli_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                  const lrcs_run_options *options, lrcs_result *result, lrcs_facet_record *records,
+                  lrcs_image *image, double *seconds);
+
 /* 1 if the scene contains shapes that the engine meshes, so that a tolerance changes it. */
 int cli_has_curved_shapes(const lrcs_scene *scene);
 

@@ -300,3 +300,18 @@ int cli_has_curved_shapes(const lrcs_scene *scene)
     }
     return 0;
 }
+
+int cli_scene_prepare(lrcs_host_scene *scene)
+{
+    lrcs_host_error error;
+    return lrcs_host_scene_prepare(scene, &error) == LRCS_OK ? 0 : cli_failed(&error);
+}
+
+int cli_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                  const lrcs_run_options *options, lrcs_result *result, lrcs_facet_record *records,
+                  lrcs_image *image, double *seconds)
+{
+    lrcs_host_error error;
+    int status = lrcs_host_scene_run(scene, pose, options, result, records, image, seconds, &error);
+    return status == LRCS_OK ? 0 : cli_failed(&error);
+}

@@ -6,6 +6,7 @@
 #include "host/input.h"
 #include "host/model.h"
 #include "host/notes.h"
+#include "host/refine.h"
 #include "host/sides.h"
 
 #include <limits.h>
@@ -336,10 +337,37 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
         lrcs_host_scene_free(scene);
         return status;
     }
+    scene->levels = lrcsi_host_levels_make(scene, &options->build);
     scene_material_notes(scene);
     lrcsi_host_scene_notes(scene);
     scene->seconds_load = lrcsi_host_seconds() - start;
     return LRCS_OK;
+}
+
+/* A copy of an array, owned by the scene; NULL if there is no memory. */
+static void *array_copy(lrcs_host_scene *scene, const void *array, size_t count, size_t size)
+{
+    void *copy = lrcsi_host_take(scene, count + 1, size);
+    if (copy && count > 0) {
+        memcpy(copy, array, count * size);
+    }
+    return copy;
+}
+
+/* Finer divisions of a scene of the caller's recipe, of which the scene keeps a copy for them.
+   There are none if there is no memory. */
+static void levels_add(lrcs_host_scene *scene, const lrcs_recipe *recipe,
+                       const lrcs_build_options *build)
+{
+    lrcs_recipe own = *recipe;
+    own.part = array_copy(scene, recipe->part, recipe->part_count, sizeof *own.part);
+    own.material =
+        array_copy(scene, recipe->material, recipe->material_count, sizeof *own.material);
+    own.binding = array_copy(scene, recipe->binding, recipe->binding_count, sizeof *own.binding);
+    if (own.part && own.material && own.binding) {
+        scene->recipe = own;
+        scene->levels = lrcsi_host_levels_make(scene, build);
+    }
 }
 
 /* A scene of the caller's recipe and of the caller's models (or NULL). */
@@ -360,6 +388,9 @@ static int scene_from(const lrcs_recipe *recipe, lrcs_mesh *model, const char *t
         return status;
     }
     memset(&scene->recipe, 0, sizeof scene->recipe);
+    if (build->division > 0.0) {
+        levels_add(scene, recipe, build);
+    }
     scene->seconds_load = lrcsi_host_seconds() - start;
     return LRCS_OK;
 }

@@ -3,6 +3,8 @@
    number of times) and does not depend on their content. */
 #include "host/memory.h"
 
+#include "host/refine.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -119,6 +121,7 @@ void lrcsi_host_free(void *blocks)
 
 void lrcs_host_scene_free(lrcs_host_scene *scene)
 {
+    lrcsi_host_levels_free(scene->levels);
     lrcsi_host_free(scene->blocks);
     for (uint32_t i = 0; i < scene->notices.count; i++) {
         free(scene->notices.text[i]);

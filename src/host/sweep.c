@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "host/refine.h"
 #include "host/run.h"
 #include "host/workers.h"
 
@@ -35,12 +36,12 @@ typedef struct sweep_run {
 
 /* One pose of a scene, with the glint of coarse facets if requested. */
 static int pose_sigma(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
-                      sweep_slot *one)
+                      int glint, sweep_slot *one)
 {
     const lrcs_host_sweep *sweep = run->sweep;
     lrcs_facet_record *records = NULL;
     size_t size = ((size_t)scene->scene.facet_count + 1) * sizeof *records;
-    if (sweep->glint) {
+    if (glint) {
         records = malloc(size);
         if (!records) {
             return lrcsi_host_fail_memory(&one->error, size);
@@ -56,23 +57,43 @@ static int pose_sigma(const sweep_run *run, uint32_t member, const lrcs_host_sce
     return status;
 }
 
-/* The same with its material uncertainty if requested. */
-static int sweep_pose(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
-                      sweep_slot *one)
+/* One pose of a scene with its material uncertainty. */
+static int pose_uncertainty(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
+                            sweep_slot *one)
 {
-    const lrcs_uncertainty_options *how = run->sweep->uncertainty;
-    int status = how && !run->sweep->glint ? LRCS_OK : pose_sigma(run, member, scene, one);
-    if (!how || status != LRCS_OK) {
-        return status;
-    }
     size_t size = ((size_t)scene->scene.material_count + 1) * sizeof(lrcs_sensitivity);
     lrcs_sensitivity *sensitivity = malloc(size);
     if (!sensitivity) {
         return lrcsi_host_fail_memory(&one->error, size);
     }
-    status = lrcsi_host_uncertainty(scene, &one->pose, run->options, how, &run->area[member],
-                                    &one->result, sensitivity, &one->uncertainty, &one->error);
+    int status = lrcsi_host_uncertainty(scene, &one->pose, run->options, run->sweep->uncertainty,
+                                        &run->area[member], &one->result, sensitivity,
+                                        &one->uncertainty, &one->error);
     free(sensitivity);
+    return status;
+}
+
+/* One pose: at the scene's own division of curved shapes, then at finer ones while these are needed
+   to meet the tolerance. */
+static int sweep_pose(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
+                      sweep_slot *one)
+{
+    const lrcs_host_sweep *sweep = run->sweep;
+    const lrcs_host_scene *at = scene;
+    uint32_t level = 0;
+    int status = LRCS_OK;
+    while (at && status == LRCS_OK) {
+        int glint = sweep->glint && at == scene;
+        if (glint || !sweep->uncertainty) {
+            status = pose_sigma(run, member, at, glint, one);
+        }
+        if (status == LRCS_OK && sweep->uncertainty) {
+            status = pose_uncertainty(run, member, at, one);
+        }
+        at = status == LRCS_OK && sweep->refine
+                 ? lrcsi_host_finer(scene, run->options, &one->result, &level)
+                 : NULL;
+    }
     return status;
 }
 

@@ -54,7 +54,8 @@ typedef struct total_run {
     const lrcsi_proximity_band *band; /* NULL: none was made */
     const lrcsi_clear *clear;         /* NULL: no shape is evaluated by its closed form */
     lrcs_facet_record *records;       /* NULL: none are asked for */
-    lrcsi_patch patch;                /* of the last facet that has one */
+    int tessellation;  /* facets stand for curved shapes, and what that costs is known */
+    lrcsi_patch patch; /* of the last facet that has one */
     lrcsi_total total;
     total_sums sums;
 } total_run;
@@ -319,6 +320,28 @@ static void sum_facet(total_run *run, uint32_t facet)
         lrcsi_sum_add(&run->sums.projected, area);
         lrcsi_sum_add(&run->sums.back_side, area);
         run->total.back_sides += area > 0 ? 1 : 0;
+    }
+}
+
+/* Does a facet stand for a patch of a curved wall in this run? */
+static int stands_for_patch(const total_run *run, uint32_t facet)
+{
+    return run->plan->patches && lrcsi_patch_exists(run->view->prepared, facet);
+}
+
+/* The error of a facet in the place of a curved shape. Facets with curved normals add what could be
+   visible otherwise within the proximity band; clear shapes have no such error. */
+static void add_tessellation(total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
+{
+    if (is_in_clear_shape(run, facet)) {
+        return;
+    }
+    if (!run->curved || !lrcsi_curve_applies(run->view, facet)) {
+        run->sums.tessellation +=
+            LRCSI_FOUR_PI * lrcsi_tessellation_error(run->view, run->plan, facet, incidence,
+                                                     run->visible, run->band, &run->patch);
+    } else if (run->band) {
+        run->sums.tessellation += run->band->share[facet] * run->curved[facet].upper_bound;
     }
 }
 
@@ -594,7 +617,7 @@ static void sum_places(total_run *run, total_batch *batch, uint32_t place, uint3
     total_pick pick;
     places_pick(run, batch, place, count, &pick);
     for (uint32_t i = 0; run->plan->patches && i < count; i++) {
-        if (lrcsi_patch_exists(run->view->prepared, facet[i])) {
+        if (stands_for_patch(run, facet[i])) {
             pick.front[i] = pick.back[i] = 0;
             pick.any_other = UINT64_MAX;
         }
@@ -616,6 +639,10 @@ static void sum_places(total_run *run, total_batch *batch, uint32_t place, uint3
     for (uint32_t i = 0; pick.any_other >> 63 && i < count; i++) {
         if (!((pick.front[i] | pick.back[i]) >> 63)) {
             sum_facet(run, facet[i]);
+            if (run->tessellation && stands_for_patch(run, facet[i])) { /* its patch is at hand */
+                lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet[i]);
+                add_tessellation(run, facet[i], &incidence);
+            }
         }
     }
 }
@@ -672,8 +699,7 @@ static void sum_material(total_run *run, uint32_t material)
 
 /* --- curved shapes ---------------------------------------------------------------------------- */
 
-/* The error of facets in place of curved shapes. Facets with curved normals add what could be
-   visible otherwise within the proximity band; clear shapes have no such error. */
+/* The error of facets in the place of curved shapes, but for those that stand for patches. */
 static void sum_tessellation(total_run *run)
 {
     const lrcsi_batches *b = &run->view->prepared->batches;
@@ -683,17 +709,8 @@ static void sum_tessellation(total_run *run)
         uint32_t count = left < LRCSI_INCIDENCES ? left : LRCSI_INCIDENCES;
         lrcsi_view_incidences(run->view, b->facet + place, count, incidence);
         for (uint32_t i = 0; i < count; i++) {
-            uint32_t facet = b->facet[place + i];
-            if (is_in_clear_shape(run, facet)) {
-                continue;
-            }
-            if (!run->curved || !lrcsi_curve_applies(run->view, facet)) {
-                run->sums.tessellation +=
-                    LRCSI_FOUR_PI * lrcsi_tessellation_error(run->view, run->plan, facet,
-                                                             &incidence[i], run->visible, run->band,
-                                                             &run->patch);
-            } else if (run->band) {
-                run->sums.tessellation += run->band->share[facet] * run->curved[facet].upper_bound;
+            if (!stands_for_patch(run, b->facet[place + i])) {
+                add_tessellation(run, b->facet[place + i], &incidence[i]);
             }
         }
     }
@@ -819,6 +836,8 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     if (records) {
         records_start(&run);
     }
+    run.tessellation =
+        plan->method != LRCS_METHOD_CLOSED && p->curved && lrcsi_tessellation_known(p, plan);
     for (uint32_t i = 0; i < p->scene->material_count; i++) {
         sum_material(&run, i);
     }
@@ -827,11 +846,9 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
             sum_shape(&run, i, run.clear->slab[i]);
         }
     }
-    if (plan->method == LRCS_METHOD_CLOSED) {
-        run.sums.tessellation = 0;
-    } else if (p->curved && lrcsi_tessellation_known(p, plan)) {
+    if (run.tessellation) {
         sum_tessellation(&run);
-    } else if (p->curved) {
+    } else if (p->curved && plan->method != LRCS_METHOD_CLOSED) {
         run.sums.tessellation = -HUGE_VAL;
     }
     total_finish(&run);

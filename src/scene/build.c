@@ -42,7 +42,7 @@ typedef struct scene_piece {
 
 lrcs_build_options lrcs_build_options_default(void)
 {
-    lrcs_build_options options = {1e-4, UINT32_C(1) << 21, LRCS_NORMALS_FLAT, 0};
+    lrcs_build_options options = {1e-4, UINT32_C(1) << 21, LRCS_NORMALS_FLAT, 0, 0};
     return options;
 }
 
@@ -131,8 +131,13 @@ static int is_curved(const scene_builder *builder, uint32_t i)
 static int count_scene(scene_builder *builder, scene_totals *totals)
 {
     const lrcs_recipe *recipe = builder->recipe;
-    builder->fineness = (lrcsi_fineness){builder->options->tolerance, builder->options->max_facets,
-                                         recipe->part_count, 0.0, builder->options->facets_only};
+    const lrcs_build_options *options = builder->options;
+    builder->fineness = (lrcsi_fineness){
+        .tolerance = options->division > 0.0 ? options->division : options->tolerance,
+        .round_least = options->division > 0.0 ? 0.0 : LRCSI_FINENESS_ROUND,
+        .max_facets = options->max_facets,
+        .parts = recipe->part_count,
+        .facets_only = options->facets_only};
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         builder->fineness.area += lrcsi_fineness_area(
             &recipe->part[i], recipe->part[i].file ? &builder->models[i] : NULL);
@@ -459,10 +464,12 @@ int lrcs_scene_build(const lrcs_recipe *recipe, const lrcs_mesh *models,
     lrcs_scene made;
     size_t mark = work->used;
     if (!(options->tolerance > 0.0) || !isfinite(options->tolerance) || options->max_facets < 64 ||
-        !lrcs_normals_text(options->normals)) {
+        !lrcs_normals_text(options->normals) || !(options->division >= 0.0) ||
+        !isfinite(options->division)) {
         return lrcsi_where_text(where, LRCS_E_ARGUMENT, 0, 0, "options",
-                                "a tolerance above 0, at least 64 facets and a kind of normals", "",
-                                0);
+                                "a tolerance above 0, at least 64 facets, a kind of normals, and a "
+                                "division of 0 or more",
+                                "", 0);
     }
     int status = build(&builder, work, &made);
     if (status != LRCS_OK) {

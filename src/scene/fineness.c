@@ -19,9 +19,8 @@
 /* How far a round body's surface may be from its facets, in units of its radius and the tolerance:
    with 0.3, 14 of 20 directions to examples/satellites/spinner.toml and 11 of 20 to lander.toml
    meet 1e-4; with 1.0, 25 and 17 of 60 in half the time. The number of its facets grows as
-   1/tolerance, so that below this one it stays as it is. */
-#define REACH_ROUND     0.3
-#define TOLERANCE_ROUND 1e-4
+   1/tolerance. */
+#define REACH_ROUND 0.3
 
 /* Divisions of a shape whose facets only pictures and records show: neighbours differ by 7.5 and 9
    degrees, which looks smooth. */
@@ -104,7 +103,8 @@ static double shape_tolerance(const lrcsi_fineness *fineness, const lrcs_recipe_
         return tolerance;
     }
     tolerance = fmin(tolerance * part_leave(fineness, part), fmax(1.0, tolerance));
-    return shape_is_round(&part->shape) ? fmax(fmin(10.0 * tolerance, 1.0), 1e-4) : tolerance;
+    return shape_is_round(&part->shape) ? fmax(fmin(10.0 * tolerance, 1.0), fineness->round_least)
+                                        : tolerance;
 }
 
 /* Among other parts a rim casts shadows that are uncertain over twice its reach, about 0.4 R
@@ -136,7 +136,7 @@ static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_
     const lrcs_shape *shape = &part->shape;
     double tolerance = fmin(fineness->tolerance * part_leave(fineness, part), 1.0);
     int is_round = shape_is_round(shape);
-    double reach = REACH_ROUND * fmax(tolerance, TOLERANCE_ROUND) * shape->radius;
+    double reach = REACH_ROUND * fmax(tolerance, fineness->round_least) * shape->radius;
     double corners =
         3.1416 * (is_round ? sqrt(0.4 * shape->radius / (0.7 * reach)) : sqrt(5.0 / tolerance));
     if (!(corners < 1e6)) {

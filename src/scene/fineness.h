@@ -5,8 +5,12 @@
 
 #include <lrcs/scene.h>
 
+/* Round bodies are divided for at most this tolerance, unless a division is requested. */
+#define LRCSI_FINENESS_ROUND 1e-4
+
 typedef struct lrcsi_fineness {
     double tolerance;
+    double round_least; /* the least tolerance for which a round body is divided */
     uint32_t max_facets, parts;
     double area;     /* of all parts, by lrcsi_fineness_area */
     int facets_only; /* lrcs_build_options.facets_only */

@@ -109,6 +109,24 @@ static lrcsi_slice near_slice(const lrcs_prepared *p, uint32_t facet, uint32_t o
     return slice;
 }
 
+/* Are all corners of `other` farther than `slack` from the plane of a facet, on one side of it? */
+static int near_plane_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
+{
+    const lrcsi_normal *n = &p->normal[facet];
+    const double *a = lrcsi_prepared_corner(p, facet, 0);
+    double most = slack * n->length;
+    int above = 0;
+    int below = 0;
+    for (int k = 0; k < 3; k++) {
+        double from_a[3];
+        lrcsi_vec3_between(a, lrcsi_prepared_corner(p, other, k), from_a);
+        double height = lrcsi_vec3_dot(n->high, from_a);
+        above += height > most;
+        below += height < -most;
+    }
+    return above == 3 || below == 3;
+}
+
 /* --- all pairs -------------------------------------------------------------------------------- */
 
 /* A share as a float, rounded up. */
@@ -125,14 +143,20 @@ static int near_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work 
     lrcsi_proximity *proximity = &p->proximity;
     const uint32_t *part = p->scene->facet_part;
     double slack = lrcsi_proximity_slack(p, part[facet], part[other]);
+    if (near_plane_apart(p, facet, other, slack) || near_plane_apart(p, other, facet, slack)) {
+        return LRCS_OK;
+    }
     lrcsi_slice slice = near_slice(p, facet, other, slack);
+    if (slice.count == 0) {
+        return LRCS_OK;
+    }
     const double *const corner[3] = {lrcsi_prepared_corner(p, facet, 0),
                                      lrcsi_prepared_corner(p, facet, 1),
                                      lrcsi_prepared_corner(p, facet, 2)};
     double share =
         lrcsi_slice_share(&slice, 0.5 * p->normal[facet].length, lrcsi_proximity_longest(p, facet));
     double rows = lrcsi_proximity_rows(p, facet, corner, &slice);
-    if (slice.count == 0 || !(share > 0)) {
+    if (!(share > 0)) {
         return LRCS_OK;
     }
     lrcsi_proximity_pair *pair = lrcsi_work_take(work, 1, sizeof *pair);

@@ -110,54 +110,95 @@ static double facet_off(const band_job *job, uint32_t facet)
     return OFF_MARGIN * off;
 }
 
-/* The part of a facet within `slack` of an edge in projection, or an enclosure of it: what lies in
-   a rectangle about the edge. The position error of the edge's point at parameter t (0 .. 1) is
-   linear in t. A point of the edge near the facet is no farther from end a than the facet's
-   farthest corner plus the width, t length <= far + wide; therefore the error of end b counts only
-   t times. */
+/* The rectangle about an edge in projection that holds all points of a facet within a distance of
+   it: from a by `wide` against and across `along`, from b by `end` along it. */
+typedef struct edge_box {
+    const double *a, *b;
+    double along[3];
+    double wide, end;
+} edge_box;
+
+/* The position error of the edge's point at parameter t (0 .. 1) is linear in t. A point of the
+   edge near the facet is no farther from end a than the facet's farthest corner plus the width, t
+   length
+   <= far + wide; therefore the error of end b counts only t times. */
+static edge_box edge_box_make(const band_job *job, uint32_t facet, const lrcsi_edge *edge,
+                              double slack)
+{
+    const lrcsi_view *view = job->view;
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    edge_box box = {.a = view->point[edge->low].x, .b = view->point[edge->high].x};
+    if (lrcsi_view_off(box.a) > lrcsi_view_off(box.b)) {
+        box.a = view->point[edge->high].x;
+        box.b = view->point[edge->low].x;
+    }
+    box.along[0] = box.b[0] - box.a[0];
+    box.along[1] = box.b[1] - box.a[1];
+    double length = sqrt(box.along[0] * box.along[0] + box.along[1] * box.along[1]);
+    double first = OFF_MARGIN * lrcsi_view_off(box.a);
+    double last = OFF_MARGIN * lrcsi_view_off(box.b);
+    double far = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *x = view->point[corner[k]].x;
+        far = lrcsi_most(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
+    }
+    box.wide = slack + facet_off(job, facet) + first;
+    box.end = box.wide + last;
+    if (length > 2 * (first + last)) {
+        box.along[0] /= length;
+        box.along[1] /= length;
+        box.wide += last * lrcsi_least(1, 2 * (far + box.wide) / length);
+    } else { /* of no length: a square about it */
+        box.along[0] = 1;
+        box.along[1] = 0;
+        box.end += length;
+        box.wide = box.end;
+    }
+    return box;
+}
+
+/* Are all corners of a facet beyond one side of the rectangle about an edge? */
+static int edge_box_apart(const band_job *job, uint32_t facet, const edge_box *box)
+{
+    const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
+    int left = 0;
+    int right = 0;
+    int before = 0;
+    int beyond = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *x = job->view->point[corner[k]].x;
+        double from_a[2] = {x[0] - box->a[0], x[1] - box->a[1]};
+        double from_b[2] = {x[0] - box->b[0], x[1] - box->b[1]};
+        double across = box->along[0] * from_a[1] - box->along[1] * from_a[0];
+        left += across > box->wide;
+        right += across < -box->wide;
+        before += box->along[0] * from_a[0] + box->along[1] * from_a[1] < -box->wide;
+        beyond += box->along[0] * from_b[0] + box->along[1] * from_b[1] > box->end;
+    }
+    return left == 3 || right == 3 || before == 3 || beyond == 3;
+}
+
+/* The part of a facet within `slack` of an edge in projection: in the rectangle about it. */
 static lrcsi_slice edge_slice(const band_job *job, uint32_t facet, const lrcsi_edge *edge,
                               double slack)
 {
     const lrcsi_view *view = job->view;
-    const lrcs_prepared *p = view->prepared;
-    const uint32_t *corner = p->scene->facet[facet].corner;
-    const double *a = view->point[edge->low].x;
-    const double *b = view->point[edge->high].x;
-    if (lrcsi_view_off(a) > lrcsi_view_off(b)) {
-        a = view->point[edge->high].x;
-        b = view->point[edge->low].x;
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    edge_box box = edge_box_make(job, facet, edge, slack);
+    lrcsi_slice slice = {.count = 0};
+    if (edge_box_apart(job, facet, &box)) {
+        return slice;
     }
-    double along[3] = {b[0] - a[0], b[1] - a[1], 0};
-    double length = sqrt(along[0] * along[0] + along[1] * along[1]);
-    double first = OFF_MARGIN * lrcsi_view_off(a);
-    double last = OFF_MARGIN * lrcsi_view_off(b);
-    double off = facet_off(job, facet);
-    double far = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *x = view->point[corner[k]].x;
-        far = lrcsi_most(far, fabs(x[0] - a[0]) + fabs(x[1] - a[1]));
-    }
-    double wide = slack + off + first;
-    double end = wide + last;
-    if (length > 2 * (first + last)) {
-        along[0] /= length;
-        along[1] /= length;
-        wide += last * lrcsi_least(1, 2 * (far + wide) / length);
-    } else { /* of no length: a square about it */
-        along[0] = 1;
-        along[1] = 0;
-        end += length;
-        wide = end;
-    }
+    const double *along = box.along;
     const double aside[3] = {-along[1], along[0], 0};
     const double back[3] = {-along[0], -along[1], 0};
     const double other[3] = {along[1], -along[0], 0};
-    lrcsi_slice slice = lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
-                                          view->point[corner[2]].x);
-    lrcsi_slice_cut(&slice, aside, a, wide);
-    lrcsi_slice_cut(&slice, other, a, wide);
-    lrcsi_slice_cut(&slice, along, b, end);
-    lrcsi_slice_cut(&slice, back, a, wide);
+    slice = lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
+                              view->point[corner[2]].x);
+    lrcsi_slice_cut(&slice, aside, box.a, box.wide);
+    lrcsi_slice_cut(&slice, other, box.a, box.wide);
+    lrcsi_slice_cut(&slice, along, box.b, box.end);
+    lrcsi_slice_cut(&slice, back, box.a, box.wide);
     return slice;
 }
 

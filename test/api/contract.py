@@ -14,6 +14,9 @@ NEVER = {
     # the recipe's shapes and materials are checked as the scene is built
     "lrcs_prepare_run": {"LRCS_E_ARGUMENT"},
     "lrcs_host_scene_prepare": {"LRCS_E_ARGUMENT"},
+    # a finer division that cannot be built is not used
+    "lrcs_host_scene_division": {"LRCS_E_NAME"},
+    "lrcs_host_sweep_run": {"LRCS_E_NAME"},
     # a direction made of a sine and a cosine, or a rotation, is never zero
     "lrcs_pose_from_azel": {"LRCS_E_ARGUMENT"},
     "lrcs_pose_from_euler": {"LRCS_E_ARGUMENT"},

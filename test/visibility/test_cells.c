@@ -6,6 +6,7 @@
 #include "base/work.h"
 #include "scenes.h"
 #include "visibility/occlude.h"
+#include "visibility/query.h"
 
 static test_scene scene;
 static lrcs_work work;
@@ -413,6 +414,64 @@ static void memory_that_does_not_suffice_leaves_all_open(void **state)
     work.size = size;
 }
 
+/* A plate in front of a square mesh, within its outline in the view. Facets of the mesh that are
+   proved to be hidden are not listed: they stay open. Those that the plate's sides cross get the
+   areas that they have when all are listed; so the mesh shows all that the plate leaves. */
+static void hidden_facets_are_left_out_and_change_nothing(void **state)
+{
+    (void)state;
+    enum { SIDE = 12 };
+    scene_start(&scene);
+    for (uint32_t i = 0; i <= SIDE; i++) {
+        for (uint32_t j = 0; j <= SIDE; j++) {
+            point(0.5 * i - 3, 0.5 * j - 3, 0);
+        }
+    }
+    for (uint32_t i = 0; i < SIDE; i++) {
+        for (uint32_t j = 0; j < SIDE; j++) {
+            uint32_t v = i * (SIDE + 1) + j;
+            scene_facet(&scene, v, v + SIDE + 1, v + SIDE + 2);
+            scene_facet(&scene, v, v + SIDE + 2, v + 1);
+        }
+    }
+    scene_plate(&scene, (const double[3]){-1.03, -1.07, 1}, (const double[3]){2.1, 0, 0},
+                (const double[3]){0, 2.2, 0});
+    turned((const double[3]){0.05, 0.1, 1});
+    static unsigned char answer[SCENE_FACETS];
+    static lrcsi_visible listed[SCENE_FACETS];
+    lrcsi_grid facets;
+    assert_int_equal(lrcsi_query_uniform(&classification, NULL, &work, &facets, answer), LRCS_OK);
+    uint32_t left;
+    ask(&left);
+    assert_int_equal(left, 0);
+    memcpy(listed, found, sizeof listed);
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        open[f] = 1;
+    }
+    lrcsi_cells_areas(&classification, &work, answer, open, found);
+    uint32_t hidden = 0;
+    uint32_t crossed = 0;
+    double seen = 0;
+    double whole = 0;
+    for (uint32_t f = 0; f < 2 * SIDE * SIDE; f++) {
+        whole += lrcsi_view_projected(&view, f);
+        if (!classification.undecided[f] && answer[f] == LRCSI_QUERY_HIDDEN) {
+            hidden++;
+            assert_int_equal(open[f], 1);
+            check_abs(listed[f].high, 0, 0);
+        } else {
+            crossed += classification.undecided[f] != 0;
+            assert_int_equal(open[f], 0);
+            check_most(found[f].low, listed[f].high);
+            check_most(listed[f].low, found[f].high);
+            seen += found[f].area;
+        }
+    }
+    assert_true(hidden > 10);
+    assert_true(crossed > 20);
+    check_abs(seen / whole, (36 - 2.1 * 2.2) / 36, 1e-13);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -427,6 +486,7 @@ int main(void)
         cmocka_unit_test(hatch_takes_steps_like_the_pieces_that_are_seen),
         cmocka_unit_test(steps_that_run_out_leave_facets_open),
         cmocka_unit_test(memory_that_does_not_suffice_leaves_all_open),
+        cmocka_unit_test(hidden_facets_are_left_out_and_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

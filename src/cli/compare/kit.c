@@ -206,12 +206,10 @@ int cli_compare_run(const lrcs_host_scene *host, const lrcs_pose *pose, uint32_t
                     lrcs_facet_record *records)
 {
     lrcs_run_options options = lrcs_run_options_default();
-    lrcs_host_error error;
     lrcs_result result;
     options.method = LRCS_METHOD_EXACT;
     options.without = without;
-    int status = lrcs_host_scene_run(host, pose, &options, &result, records, NULL, NULL, &error);
-    return status == LRCS_OK ? 0 : cli_failed(&error);
+    return cli_scene_run(host, pose, &options, &result, records, NULL, NULL);
 }
 
 int cli_compare_records(const compare_kit *kit, compare_case *one)

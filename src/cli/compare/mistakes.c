@@ -435,7 +435,6 @@ static int run_wrong_coplanar(const compare_kit *kit, const compare_case *one,
                               lrcs_facet_record *records)
 {
     const lrcs_scene *from = &kit->scene[one->scene].host.scene;
-    lrcs_host_error error;
     lrcs_point *vertex = malloc(((size_t)3 * from->facet_count + 1) * sizeof *vertex);
     lrcs_facet *facet = malloc(((size_t)from->facet_count + 1) * sizeof *facet);
     if (!vertex || !facet) {
@@ -447,7 +446,7 @@ static int run_wrong_coplanar(const compare_kit *kit, const compare_case *one,
     moved.scene.vertex = vertex;
     moved.scene.facet = facet;
     facets_move(one, from, &moved.scene);
-    int code = lrcs_host_scene_prepare(&moved, &error) == LRCS_OK ? 0 : cli_failed(&error);
+    int code = cli_scene_prepare(&moved);
     code = code ? code : cli_compare_run(&moved, &one->pose, 0, records);
     lrcs_host_scene_free(&moved);
     free(vertex);

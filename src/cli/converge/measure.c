@@ -26,7 +26,6 @@ const converge_mesh *cli_converge_finest(const converge_job *job)
    from the last one and is not too large. */
 static int mesh_read(converge_job *job, int digits)
 {
-    lrcs_host_error error;
     converge_mesh *mesh = &job->mesh[job->meshes];
     mesh->digits = digits;
     job->load.build.tolerance = pow(10.0, -digits);
@@ -49,10 +48,7 @@ static int mesh_read(converge_job *job, int digits)
         return 0;
     }
     job->meshes++;
-    if (lrcs_host_scene_prepare(&mesh->scene, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    return 0;
+    return cli_scene_prepare(&mesh->scene);
 }
 
 /* Keeps every mesh that differs; if there is only one, it does not depend on the tolerance. */
@@ -74,7 +70,6 @@ int cli_converge_meshes(converge_job *job)
 
 static int setting_run(converge_job *job, converge_setting *setting)
 {
-    lrcs_host_error error;
     lrcs_result result = {0};
     lrcs_run_options options = lrcs_run_options_default();
     double *seconds = &setting->seconds[setting->runs];
@@ -89,11 +84,11 @@ static int setting_run(converge_job *job, converge_setting *setting)
     cli_watch_stage(setting->name, NULL);
     options.progress = cli_watch_run();
     clock_t begun = clock();
-    int status = lrcs_host_scene_run(&job->mesh[setting->mesh].scene, &job->pose, &options, &result,
-                                     NULL, NULL, seconds, &error);
+    int code = cli_scene_run(&job->mesh[setting->mesh].scene, &job->pose, &options, &result, NULL,
+                             NULL, seconds);
     job->processor += (double)(clock() - begun) / CLOCKS_PER_SEC;
-    if (status != LRCS_OK) {
-        return cli_failed(&error);
+    if (code != 0) {
+        return code;
     }
     setting->runs++;
     setting->sigma_m2 = result.sigma_m2;
@@ -158,16 +153,15 @@ static int previews_add(converge_job *job)
    Also returns whether closed forms need no mesh at all. */
 static int method_enough(converge_job *job, uint32_t mesh, int *method, int *closed)
 {
-    lrcs_host_error error;
     lrcs_run_options options = lrcs_run_options_default();
     lrcs_result result = {0};
     double seconds = 0.0;
-    int status = lrcs_host_scene_run(&job->mesh[mesh].scene, &job->pose, &options, &result, NULL,
-                                     NULL, &seconds, &error);
+    int code =
+        cli_scene_run(&job->mesh[mesh].scene, &job->pose, &options, &result, NULL, NULL, &seconds);
     job->spent += seconds;
     *closed = result.method == LRCS_METHOD_CLOSED;
     *method = result.method == LRCS_METHOD_FACET || *closed ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
-    return status == LRCS_OK ? 0 : cli_failed(&error);
+    return code;
 }
 
 /* Adds finer and finer rasters until half of the time is used. */

@@ -92,8 +92,9 @@ static void sweep_line(FILE *out, const report_job *job, int kind)
     putc('\n', out);
 }
 
-static void lines_write(FILE *out, const report_job *job)
+static void lines_write(FILE *out, const void *context)
 {
+    const report_job *job = context;
     report_line(out, job);
     run_line(out, job, "run", " --shares --facets facets.csv");
     run_line(out, job, "image", " --by sigma -o sigma.png");
@@ -118,7 +119,6 @@ static void lines_write(FILE *out, const report_job *job)
 
 void cli_report_again(FILE *out, const report_job *job)
 {
-    report_bytes lines = {NULL, 0};
     cli_page_section(out, "again", "How to make it again");
     fputs("<dl class=\"facts\">\n", out);
     cli_page_fact(out, "Version", "lrcs %s", lrcs_version());
@@ -127,13 +127,12 @@ void cli_report_again(FILE *out, const report_job *job)
             "</dl>\n<p>The first line makes this page again, the others what stands on it, one by "
             "one.</p>\n",
             (unsigned long long)lrcs_scene_hash(&job->scene.scene));
-    FILE *text = cli_report_bytes_begin(&lines);
-    if (text) {
-        lines_write(text, job);
-        if (cli_report_bytes_end(text) == 0) {
-            cli_page(out, "<pre tabindex=\"0\"><code>%s</code></pre>\n", lines.bytes);
-        }
+    char *lines = cli_text_of(lines_write, job);
+    if (lines) {
+        cli_page(out, "<pre tabindex=\"0\"><code>%s</code></pre>\n", lines);
+    } else {
+        cli_out_of_memory();
     }
-    free(lines.bytes);
+    free(lines);
     fputs("</section>\n", out);
 }

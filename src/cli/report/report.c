@@ -163,13 +163,10 @@ static int report_measure(report_job *job)
 
 static int explore_measure(report_job *job)
 {
-    lrcs_host_error error;
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_outputs_spare(job->args, &job->scene);
     cli_watch_stage("preparing", &job->scene);
-    if (code == 0 && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
-        code = cli_failed(&error);
-    }
+    code = code ? code : cli_scene_prepare(&job->scene);
     return code ? code : cli_report_map(job);
 }
 

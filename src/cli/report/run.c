@@ -38,7 +38,6 @@ static int picture_draw(report_job *job, const lrcs_host_picture *picture, repor
 /* All pictures of the same size share one image: the size that the legend leaves. */
 static int picture_make(report_job *job, int kind)
 {
-    lrcs_host_error error;
     lrcs_result result;
     lrcs_host_picture picture = picture_of(job, kind, 0);
     uint32_t side = lrcs_host_picture_need(&picture, CLI_PICTURE_DEFAULT);
@@ -50,11 +49,7 @@ static int picture_make(report_job *job, int kind)
     }
     lrcs_run_options coarse = job->options;
     coarse.method = LRCS_METHOD_FACET; /* only its image is used */
-    if (lrcs_host_scene_run(&job->scene, &job->pose, &coarse, &result, NULL, &job->image, NULL,
-                            &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    int code = 0;
+    int code = cli_scene_run(&job->scene, &job->pose, &coarse, &result, NULL, &job->image, NULL);
     for (int white = 0; white < 2 && code == 0; white++) {
         picture = picture_of(job, kind, white);
         code = picture_draw(job, &picture, &job->picture[kind][white]);
@@ -64,26 +59,25 @@ static int picture_make(report_job *job, int kind)
 
 int cli_report_run(report_job *job)
 {
-    lrcs_host_error error;
     job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
     if (!job->records) {
         return cli_out_of_memory();
     }
     cli_watch_stage("preparing", &job->scene);
-    int status = lrcs_host_scene_prepare(&job->scene, &error);
-    if (status == LRCS_OK) {
+    int code = cli_scene_prepare(&job->scene);
+    if (code == 0) {
         cli_watch_stage("pose", NULL);
         job->options.progress = cli_watch_run();
-        status = lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result,
-                                     job->records, NULL, &job->pose_s, &error);
+        code = cli_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
+                             NULL, &job->pose_s);
     }
-    if (status != LRCS_OK) {
-        return cli_failed(&error);
+    if (code != 0) {
+        return code;
     }
     job->options.progress = NULL; /* sweeps run in threads */
     cli_watch_stage("pictures", NULL);
-    int code = cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
-                               &job->shares);
+    code = cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
+                           &job->shares);
     for (int kind = 0; kind < REPORT_PICTURES && code == 0; kind++) {
         code = picture_make(job, kind);
     }

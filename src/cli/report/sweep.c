@@ -176,28 +176,12 @@ static int walk_take(void *context, uint64_t index, const lrcs_pose *pose,
     return LRCS_OK;
 }
 
-static int walk_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *walk)
-{
-    lrcs_host_error error;
-    const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
-    const lrcs_host_sweep sweep = {.uncertainty = walk->sweep->band ? &how : NULL,
-                                   .count = walk->listed,
-                                   .threads = job->threads,
-                                   .pose = walk_pose,
-                                   .take = walk_take,
-                                   .context = walk};
-    if (lrcs_host_sweep_run(scene, &job->sweep_options, &sweep, NULL, &error) != LRCS_OK) {
-        cli_progress_clear(walk->progress);
-        return cli_failed(&error);
-    }
-    walk->before += walk->listed;
-    return 0;
-}
-
 /* Runs each direction once, and gives its result to all its rows. */
 static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *walk)
 {
     const sweep_plan *plan = &walk->sweep->plan;
+    const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
+    lrcs_host_error error;
     double(*row)[2] = calloc(plan->rows, sizeof *row);
     int stated = cli_errors_stated(&scene->scene);
     double(*band)[2] = stated ? calloc(plan->rows, sizeof *band) : NULL;
@@ -215,8 +199,19 @@ static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *
             list[walk->listed++] = i;
         }
     }
-    int code = walk_run(job, scene, walk);
-    for (uint64_t i = 0; i < plan->rows && code == 0; i++) {
+    const lrcs_host_sweep sweep = {.uncertainty = stated ? &how : NULL,
+                                   .count = walk->listed,
+                                   .threads = job->threads,
+                                   .pose = walk_pose,
+                                   .take = walk_take,
+                                   .context = walk};
+    if (lrcs_host_sweep_run(scene, &job->sweep_options, &sweep, NULL, &error) != LRCS_OK) {
+        cli_progress_clear(walk->progress);
+        free(list);
+        return cli_failed(&error);
+    }
+    walk->before += walk->listed;
+    for (uint64_t i = 0; i < plan->rows; i++) {
         uint64_t first = row_first(plan, i);
         memcpy(row[i], row[first], sizeof row[i]);
         if (band) {
@@ -224,7 +219,7 @@ static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *
         }
     }
     free(list);
-    return code;
+    return 0;
 }
 
 /* Draws a sweep, unless sigma is 0 everywhere. */
@@ -256,7 +251,6 @@ static int sweep_draw(report_sweep *sweep)
 /* The scene as coarse as its tolerance allows, if shapes depend on that. */
 static int scene_choose(report_job *job, lrcs_host_scene **scene)
 {
-    lrcs_host_error error;
     *scene = &job->scene;
     if (job->sweep_options.tolerance == job->options.tolerance ||
         !cli_has_curved_shapes(&job->scene.scene)) {
@@ -264,10 +258,7 @@ static int scene_choose(report_job *job, lrcs_host_scene **scene)
     }
     *scene = &job->sweep_scene;
     int code = cli_scene_read(job->args, &job->sweep_load, &job->sweep_scene);
-    if (code == 0 && lrcs_host_scene_prepare(&job->sweep_scene, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    return code;
+    return code ? code : cli_scene_prepare(&job->sweep_scene);
 }
 
 static int peaks_run(report_job *job, lrcs_host_scene *scene)

@@ -98,6 +98,10 @@ static int options_read(run_job *job)
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->asked = job->options.tolerance;
     job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
+    if (!cli_value(args, "time-budget")) {
+        job->load.build.division = LRCS_HOST_DIVISION;
+        job->load.build.max_facets = LRCS_HOST_FACETS;
+    }
     code = code ? code : cli_run_budget_read(job);
     code = code ? code : cli_run_emulation_read(job);
     code = code ? code : cli_run_materials_read(job);
@@ -163,6 +167,32 @@ static int run_pose(run_job *job)
     return 0;
 }
 
+/* Divides curved shapes as finely as the pose needs: reads the scene again if its own division does
+   not suffice. */
+static int run_divide(run_job *job)
+{
+    lrcs_host_error error;
+    double division = 0.0;
+    if (!job->scene.levels) {
+        return 0;
+    }
+    cli_watch_stage("dividing curved shapes", NULL);
+    int status = lrcs_host_scene_prepare(&job->scene, &error);
+    if (status == LRCS_OK) {
+        status = lrcs_host_scene_division(&job->scene, &job->pose, &job->options, &division, NULL,
+                                          &error);
+    }
+    if (status != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    if (division == job->load.build.division) {
+        return 0;
+    }
+    job->load.build.division = division;
+    lrcs_host_scene_free(&job->scene);
+    return cli_scene_read(job->args, &job->load, &job->scene);
+}
+
 /* A search for the best settings already has their result; files and shares need the run itself. */
 static int run_scene(run_job *job)
 {
@@ -171,6 +201,7 @@ static int run_scene(run_job *job)
     cli_watch_stage("loading", NULL);
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_run_outputs_check(job);
+    code = code ? code : run_divide(job);
     code = code == 0 && searched ? cli_run_budget(job) : code;
     if (code == 0 && (files || !searched)) {
         code = run_room(job);

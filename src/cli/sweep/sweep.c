@@ -159,6 +159,8 @@ static int job_read(sweep_job *job)
     }
     job->load.build.tolerance = job->options.tolerance;
     job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
+    job->load.build.division = LRCS_HOST_DIVISION;
+    job->load.build.max_facets = LRCS_HOST_FACETS;
     if (code == 0 && job->file.npy && cli_value(args, "shard")) {
         return cli_usage(args->command,
                          "--shard writes .csv or .jsonl; lrcs merge makes the .npy of them");
@@ -246,6 +248,7 @@ static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
                              .pose = job_pose,
                              .scene = scene ? NULL : job_scene,
                              .take = job_take,
+                             .refine = 1,
                              .uncertainty = job->plan.fields.materials ? &how : NULL,
                              .glint = job->plan.fields.glint ? job->coarse : NULL,
                              .glint_count = job->coarse_count,

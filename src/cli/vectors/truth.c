@@ -91,12 +91,11 @@ static void record_print(FILE *out, const vectors_case *one, uint32_t facet,
 
 static int case_run(truth_run *run, vectors_case *one)
 {
-    lrcs_host_error error;
     lrcs_run_options options = lrcs_run_options_default();
     options.method = LRCS_METHOD_EXACT;
-    if (lrcs_host_scene_run(&run->host, &one->pose, &options, &one->result, run->records,
-                            &run->image, NULL, &error) != LRCS_OK) {
-        return cli_failed(&error);
+    if (cli_scene_run(&run->host, &one->pose, &options, &one->result, run->records, &run->image,
+                      NULL) != 0) {
+        return CLI_FAILED;
     }
     if (one->result.method != LRCS_METHOD_EXACT ||
         (one->result.flags & LRCS_FLAG_MEMORY_FALLBACK)) {

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* Finer divisions of a scene's curved shapes, for poses whose bound would miss the tolerance. */
+#ifndef LRCSI_HOST_REFINE_H
+#define LRCSI_HOST_REFINE_H
+
+#include <lrcs/load.h>
+
+/* For a scene built with a division, whose recipe and models last as long as it: what is kept of
+   its finer divisions, all of them yet to be built. NULL if no part is curved, or if there is no
+   memory. */
+struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
+                                                 const lrcs_build_options *build);
+void lrcsi_host_levels_free(struct lrcsi_host_levels *levels);
+
+/* The scene at the division for which the tolerance is likely to be met, given what a pose at the
+   division `*level` returned (0: the scene's own), which is replaced. NULL if the tolerance is met,
+   if the shapes are not what makes the pose miss it, or if they cannot be divided any finer. Built
+   and prepared when first asked for; may be called from several threads. */
+const lrcs_host_scene *lrcsi_host_finer(const lrcs_host_scene *scene,
+                                        const lrcs_run_options *options, const lrcs_result *result,
+                                        uint32_t *level);
+
+/* The division of a level; 0 if the scene has none. */
+double lrcsi_host_level_division(const lrcs_host_scene *scene, uint32_t level);
+
+#endif

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: MIT */
+/* Curved shapes divided as finely as each pose needs: every pose meets its tolerance, the answers
+   of all tolerances agree within their bounds, and neither the order of the poses nor the number of
+   threads changes a bit. */
+#include <lrcs/sweep.h>
+
+#include "check.h"
+
+#define POSES 12u
+
+static lrcs_host_error error;
+
+static void scene_make(lrcs_host_scene *scene, const char *path, double division)
+{
+    lrcs_host_options options = lrcs_host_options_default();
+    options.build.division = division;
+    assert_int_equal(lrcs_host_scene_read(path, &options, scene, &error), LRCS_OK);
+    assert_int_equal(lrcs_host_scene_prepare(scene, &error), LRCS_OK);
+}
+
+static int pose_at(void *context, uint64_t index, lrcs_pose *pose)
+{
+    (void)context;
+    return lrcs_pose_from_azel(31.0 * (double)index, 14.0 * (double)index - 80.0, pose);
+}
+
+static int result_take(void *context, uint64_t index, const lrcs_pose *pose,
+                       const lrcs_result *result, const lrcs_uncertainty *uncertainty,
+                       const lrcs_host_glint_sum *glint, lrcs_host_error *failed)
+{
+    lrcs_result *results = context;
+    (void)pose;
+    (void)uncertainty;
+    (void)glint;
+    (void)failed;
+    results[index] = *result;
+    return LRCS_OK;
+}
+
+static void sweep_run(const lrcs_host_scene *scene, double tolerance, uint64_t first,
+                      uint64_t count, uint32_t threads, lrcs_result results[POSES])
+{
+    lrcs_run_options options = lrcs_run_options_default();
+    options.tolerance = tolerance;
+    lrcs_host_sweep sweep = {.first = first,
+                             .count = count,
+                             .threads = threads,
+                             .pose = pose_at,
+                             .take = result_take,
+                             .refine = 1,
+                             .context = results};
+    assert_int_equal(lrcs_host_sweep_run(scene, &options, &sweep, NULL, &error), LRCS_OK);
+}
+
+static void every_pose_meets_its_tolerance_and_all_of_them_agree(void **state)
+{
+    (void)state;
+    static const double tolerance[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
+    lrcs_result results[5][POSES];
+    lrcs_host_scene scene;
+    scene_make(&scene, "demo", LRCS_HOST_DIVISION);
+    for (int t = 0; t < 5; t++) {
+        sweep_run(&scene, tolerance[t], 0, POSES, 1, results[t]);
+        for (int i = 0; i < (int)POSES; i++) {
+            const lrcs_result *r = &results[t][i];
+            const lrcs_result *finest = &results[4][i];
+            assert_false(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+            check_most(r->bound_m2, tolerance[t] * r->sigma_m2);
+            if (t == 4) {
+                for (int k = 0; k < 4; k++) {
+                    check_abs(results[k][i].sigma_m2, finest->sigma_m2,
+                              results[k][i].bound_m2 + finest->bound_m2);
+                }
+            }
+        }
+    }
+    assert_true(results[0][0].facets_total < results[4][0].facets_total);
+    lrcs_host_scene_free(&scene);
+}
+
+static void order_and_threads_change_nothing(void **state)
+{
+    (void)state;
+    lrcs_result all[POSES];
+    lrcs_result other[POSES];
+    for (int way = 0; way < 3; way++) {
+        lrcs_host_scene scene;
+        scene_make(&scene, "demo", LRCS_HOST_DIVISION);
+        if (way == 1) { /* the last ones first */
+            sweep_run(&scene, 1e-5, POSES / 2, POSES / 2, 1, other);
+            sweep_run(&scene, 1e-5, 0, POSES / 2, 1, other);
+        } else {
+            sweep_run(&scene, 1e-5, 0, POSES, way == 0 ? 1 : 3, way == 0 ? all : other);
+        }
+        for (int i = 0; way > 0 && i < (int)POSES; i++) {
+            assert_memory_equal(&all[i].sigma_m2, &other[i].sigma_m2, sizeof(double));
+            assert_memory_equal(&all[i].bound_m2, &other[i].bound_m2, sizeof(double));
+            assert_int_equal(all[i].facets_total, other[i].facets_total);
+        }
+        lrcs_host_scene_free(&scene);
+    }
+}
+
+static void a_division_is_found_with_which_the_pose_meets_the_tolerance(void **state)
+{
+    (void)state;
+    lrcs_host_scene scene;
+    lrcs_host_scene fine;
+    lrcs_pose pose;
+    lrcs_result result;
+    double division = 0;
+    lrcs_run_options options = lrcs_run_options_default();
+    options.tolerance = 1e-5;
+    assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
+    scene_make(&scene, "demo", LRCS_HOST_DIVISION);
+    assert_int_equal(
+        lrcs_host_scene_run(&scene, &pose, &options, &result, NULL, NULL, NULL, &error), LRCS_OK);
+    assert_true(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+    assert_int_equal(lrcs_host_scene_division(&scene, &pose, &options, &division, NULL, &error),
+                     LRCS_OK);
+    assert_true(division > 0 && division < LRCS_HOST_DIVISION);
+    scene_make(&fine, "demo", division);
+    assert_int_equal(lrcs_host_scene_run(&fine, &pose, &options, &result, NULL, NULL, NULL, &error),
+                     LRCS_OK);
+    assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+    lrcs_host_scene_free(&fine);
+    lrcs_host_scene_free(&scene);
+}
+
+/* Where facets are not what a bound comes from, dividing them further is no use. */
+static void a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is(void **state)
+{
+    (void)state;
+    lrcs_host_scene scene;
+    lrcs_pose pose;
+    double division = -1;
+    lrcs_run_options options = lrcs_run_options_default();
+    options.tolerance = 1e-9;
+    options.steps = 10;
+    assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
+    scene_make(&scene, "demo", LRCS_HOST_DIVISION);
+    assert_int_equal(lrcs_host_scene_division(&scene, &pose, &options, &division, NULL, &error),
+                     LRCS_OK);
+    assert_true(division == LRCS_HOST_DIVISION);
+    lrcs_host_scene_free(&scene);
+    scene_make(&scene, "demo", 0);
+    assert_null(scene.levels);
+    assert_int_equal(lrcs_host_scene_division(&scene, &pose, &options, &division, NULL, &error),
+                     LRCS_OK);
+    assert_true(division == 0);
+    lrcs_host_scene_free(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_pose_meets_its_tolerance_and_all_of_them_agree),
+        cmocka_unit_test(order_and_threads_change_nothing),
+        cmocka_unit_test(a_division_is_found_with_which_the_pose_meets_the_tolerance),
+        cmocka_unit_test(a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
