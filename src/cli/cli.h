@@ -185,6 +185,13 @@ int cli_brdf_read(const cli_command *command, const char *text, const char *opti
 int cli_brdf_error_read(const cli_command *command, const char *text, const char *option,
                         lrcs_brdf *brdf, lrcs_brdf_error *error);
 
+/* Prints a notice for each warning about a BRDF, as of a material of that name. */
+void cli_brdf_warnings_print(const char *name, const lrcs_brdf *brdf);
+
+/* A colour as "#RRGGBB"; returns the text. */
+#define CLI_COLOUR_TEXT 8
+const char *cli_colour_text(const unsigned char rgb[3], char text[CLI_COLOUR_TEXT]);
+
 /* Reads the scene options shared by run and info: --material (repeatable), --unit,
    --keep-transparent. The caller frees the bindings' array and names (cli_scene_options_free). */
 int cli_scene_options_read(const cli_args *args, lrcs_host_options *options);
@@ -306,6 +313,17 @@ void cli_watch_count(uint64_t done, uint64_t total);
 lrcs_progress *cli_watch_run(void);
 void cli_watch_end(void);
 
+/* A progress bar with the remaining time, on stderr if that is a terminal. */
+typedef struct cli_progress {
+    int on;
+    uint64_t first, total;
+    double begun, shown; /* s */
+} cli_progress;
+
+cli_progress cli_progress_make(uint64_t first, uint64_t total);
+void cli_progress_show(cli_progress *progress, uint64_t done);
+void cli_progress_clear(const cli_progress *progress);
+
 /* Prints "notice: ..." for each notice, on `out`; or as the items of an open array. */
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
 void cli_notices_json(const lrcs_host_notices *notices, lrcs_host_json *json);
@@ -322,10 +340,6 @@ void cli_flags_json(lrcs_host_json *json, uint32_t flags);
 
 /* Writes an array of numbers in one line. */
 void cli_numbers_json(lrcs_host_json *json, const char *key, const double *value, uint32_t count);
-
-/* Prints on stdout the manual page, and the completion for bash. */
-void cli_manual_page(const cli_command *const *command, size_t count, const char *overview);
-void cli_manual_completion(const cli_command *const *command, size_t count);
 
 /* 1 if a path ends with the extension, in upper or lower case, and has a character before it. */
 int cli_extension(const char *path, const char *extension);

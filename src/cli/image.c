@@ -70,56 +70,28 @@ typedef struct image_job {
 
 /* ---- options ---- */
 
-/* Checks that a file has one of two endings; the second may be NULL. */
-static int ending_check(const image_job *job, int file, const char *ending, const char *other)
-{
-    const char *path = job->path[file];
-    const char *option = image_file[file];
-    if (!path || cli_extension(path, ending) || (other && cli_extension(path, other))) {
-        return 0;
-    }
-    return cli_usage(job->args->command, "%s%s: expected FILE%s%s%s, found '%s'",
-                     cli_dashes(option), option, ending, other ? " or FILE" : "",
-                     other ? other : "", path);
-}
-
+/* Reads the files to write, each with one of the endings of its kind. */
 static int files_read(image_job *job)
 {
-    const cli_command *command = job->args->command;
+    static const struct {
+        const char *ending, *other, *expected;
+    } kind[IMAGE_FILES] = {{".png", ".png", "FILE.png"},
+                           {".svg", ".svg", "FILE.svg"},
+                           {".vtp", ".vtk", "FILE.vtp or FILE.vtk"}};
+    const cli_args *args = job->args;
     int given = 0;
-    for (int i = 0; i < IMAGE_FILES; i++) {
-        job->path[i] = cli_value(job->args, image_file[i]);
-        given += job->path[i] != NULL;
+    int wrong = IMAGE_FILES;
+    for (int i = IMAGE_FILES; i-- > 0;) {
+        const char *path = job->path[i] = cli_value(args, image_file[i]);
+        given += path != NULL;
+        if (path && !cli_extension(path, kind[i].ending) && !cli_extension(path, kind[i].other)) {
+            wrong = i;
+        }
     }
     if (given == 0) {
-        return cli_usage(command, "give -o FILE.png, --visible FILE.svg or --vtk FILE.vtp");
+        return cli_usage(args->command, "give -o FILE.png, --visible FILE.svg or --vtk FILE.vtp");
     }
-    int code = ending_check(job, IMAGE_PNG, ".png", NULL);
-    code = code ? code : ending_check(job, IMAGE_SVG, ".svg", NULL);
-    return code ? code : ending_check(job, IMAGE_VTK, ".vtp", ".vtk");
-}
-
-static int look_read(image_job *job)
-{
-    const cli_command *command = job->args->command;
-    const char *by = cli_value(job->args, "by");
-    const char *ground = cli_value(job->args, "ground");
-    job->colouring = by ? lrcs_host_colouring_find(by) : LRCS_HOST_BY_SIGMA;
-    if (job->colouring < 0) {
-        return cli_usage(
-            command, "--by: expected sigma, theta, range, facet, material or shaded, found '%s'",
-            by);
-    }
-    job->ground_asked = ground != NULL;
-    job->white = ground && strcmp(ground, "white") == 0;
-    if (ground && !job->white && strcmp(ground, "dark") != 0) {
-        return cli_usage(command, "--ground: expected dark or white, found '%s'", ground);
-    }
-    if (cli_value(job->args, "size") && !job->path[IMAGE_PNG]) {
-        return cli_usage(command, "--size needs -o FILE.png");
-    }
-    job->size = CLI_PICTURE_DEFAULT;
-    return cli_whole(job->args, "size", CLI_PICTURE_LEAST, CLI_PICTURE_MOST, &job->size);
+    return wrong < IMAGE_FILES ? cli_expected(args, image_file[wrong], kind[wrong].expected) : 0;
 }
 
 static int image_read(image_job *job)
@@ -127,7 +99,17 @@ static int image_read(image_job *job)
     const cli_args *args = job->args;
     int code = cli_pose_read(args, &job->pose);
     code = code ? code : files_read(job);
-    code = code ? code : look_read(job);
+    job->ground_asked = cli_value(args, "ground") != NULL;
+    job->colouring = LRCS_HOST_BY_SIGMA;
+    job->size = CLI_PICTURE_DEFAULT;
+    code = code ? code
+                : cli_choice(args, "by", "sigma, theta, range, facet, material or shaded",
+                             &job->colouring);
+    code = code ? code : cli_choice(args, "ground", "dark or white", &job->white);
+    if (code == 0 && cli_value(args, "size") && !job->path[IMAGE_PNG]) {
+        return cli_usage(args->command, "--size needs -o FILE.png");
+    }
+    code = code ? code : cli_whole(args, "size", CLI_PICTURE_LEAST, CLI_PICTURE_MOST, &job->size);
     code = code ? code : cli_accuracy_read(args, &job->options);
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->options.tolerance;
@@ -147,8 +129,9 @@ static lrcs_host_picture picture_of(const image_job *job)
                                .white = job->white};
 }
 
-static int image_room(image_job *job)
+static int image_run(image_job *job)
 {
+    lrcs_host_error error;
     const lrcs_host_picture picture = picture_of(job);
     job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
     if (job->path[IMAGE_PNG]) {
@@ -157,16 +140,6 @@ static int image_room(image_job *job)
     }
     if (!job->records || (job->path[IMAGE_PNG] && !job->image.facet)) {
         return cli_out_of_memory();
-    }
-    return 0;
-}
-
-static int image_run(image_job *job)
-{
-    lrcs_host_error error;
-    int code = image_room(job);
-    if (code != 0) {
-        return code;
     }
     cli_watch_stage("preparing", &job->scene);
     int status = lrcs_host_scene_prepare(&job->scene, &error);
@@ -215,24 +188,9 @@ static int vtk_write(FILE *out, const void *context, lrcs_host_error *error)
     return LRCS_OK;
 }
 
-static int image_write(const image_job *job)
-{
-    static cli_writer *const writer[IMAGE_FILES] = {png_write, svg_write, vtk_write};
-    int code = 0;
-    for (int i = 0; i < IMAGE_FILES && code == 0; i++) {
-        code = job->path[i] ? cli_output_write(job->path[i], writer[i], job) : 0;
-    }
-    const char *vtk = job->path[IMAGE_VTK];
-    if (code == 0 && vtk) {
-        code = cli_provenance_beside(job->args, vtk, &job->scene, &job->pose, NULL);
-    }
-    return code;
-}
-
-/* ---- the command ---- */
-
 static int image_command(const cli_args *args)
 {
+    static cli_writer *const writer[IMAGE_FILES] = {png_write, svg_write, vtk_write};
     image_job job;
     memset(&job, 0, sizeof job);
     job.args = args;
@@ -241,7 +199,12 @@ static int image_command(const cli_args *args)
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
     code = code ? code : cli_outputs_spare(args, &job.scene);
     code = code ? code : image_run(&job);
-    code = code ? code : image_write(&job);
+    for (int i = 0; i < IMAGE_FILES && code == 0; i++) {
+        code = job.path[i] ? cli_output_write(job.path[i], writer[i], &job) : 0;
+    }
+    if (code == 0 && job.path[IMAGE_VTK]) {
+        code = cli_provenance_beside(args, job.path[IMAGE_VTK], &job.scene, &job.pose, NULL);
+    }
     cli_watch_end();
     if (code == 0) {
         cli_notices_print(stderr, &job.scene.notices);

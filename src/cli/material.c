@@ -6,16 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int brdf_fault(const cli_command *command, const char *option, const lrcs_brdf *brdf)
-{
-    const char *fault = brdf->A < 0.0   ? "A is negative"
-                        : brdf->B < 0.0 ? "B is negative"
-                        : brdf->s < 0.0 ? "s is negative"
-                        : brdf->m < 0.0 ? "m is negative"
-                                        : "s is 0, which needs A = 0";
-    return cli_usage(command, "%s: %s (A, B, m >= 0 and s > 0)", option, fault);
-}
-
 /* Reads four numbers separated by commas, each with or without its "+-" deviation; 0, or -1. */
 static int brdf_numbers(const char *text, double value[4], double deviation[4])
 {
@@ -57,7 +47,12 @@ int cli_brdf_error_read(const cli_command *command, const char *text, const char
         lrcs_brdf read = {v[0], v[1], v[2], v[3]};
         lrcs_brdf_error off = {.A = d[0], .B = d[1], .s = d[2], .m = d[3]};
         if (lrcs_brdf_check(&read) < 0) {
-            return brdf_fault(command, option, &read);
+            return cli_usage(command, "%s: %s (A, B, m >= 0 and s > 0)", option,
+                             v[0] < 0.0   ? "A is negative"
+                             : v[1] < 0.0 ? "B is negative"
+                             : v[2] < 0.0 ? "s is negative"
+                             : v[3] < 0.0 ? "m is negative"
+                                          : "s is 0, which needs A = 0");
         }
         if (lrcs_brdf_error_check(&read, &off) != LRCS_OK) {
             return cli_usage(command, "%s: an error (+-) is %s, found '%s'", option,
@@ -68,12 +63,12 @@ int cli_brdf_error_read(const cli_command *command, const char *text, const char
         return 0;
     }
     const lrcs_brdf_entry *entry = lrcs_brdf_find(text);
-    if (!entry && strchr(text, ',')) {
-        return cli_usage(command, "%s: expected A,B,s,m (four finite numbers), found '%s'", option,
-                         text);
-    }
     if (!entry) {
         const char *best = NULL;
+        if (strchr(text, ',')) {
+            return cli_usage(command, "%s: expected A,B,s,m (four finite numbers), found '%s'",
+                             option, text);
+        }
         for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
             best = cli_nearest(text, best, entry->name);
         }
@@ -85,6 +80,22 @@ int cli_brdf_error_read(const cli_command *command, const char *text, const char
     *brdf = entry->brdf;
     *error = entry->error;
     return 0;
+}
+
+void cli_brdf_warnings_print(const char *name, const lrcs_brdf *brdf)
+{
+    int warnings = lrcs_brdf_check(brdf);
+    for (int bit = 1; warnings > 0 && bit <= warnings; bit *= 2) {
+        if (warnings & bit) {
+            fprintf(stderr, "notice: %s: %s\n", name, lrcs_brdf_warning_text(bit));
+        }
+    }
+}
+
+const char *cli_colour_text(const unsigned char rgb[3], char text[CLI_COLOUR_TEXT])
+{
+    snprintf(text, CLI_COLOUR_TEXT, "#%02X%02X%02X", rgb[0], rgb[1], rgb[2]);
+    return text;
 }
 
 /* '#RRGGBB' exactly. */
@@ -138,36 +149,26 @@ static int binding_read(const cli_command *command, const char *text, lrcs_bindi
     return cli_brdf_error_read(command, value, "--material", &binding->brdf, &binding->error);
 }
 
-static int unit_read(const cli_args *args, double *unit_m)
+int cli_scene_options_read(const cli_args *args, lrcs_host_options *options)
 {
     static const struct {
         const char *name;
         double m;
     } unit[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}, {"ft", 0.3048}};
     const char *text = cli_value(args, "unit");
-    if (!text) {
-        return 0;
-    }
-    for (size_t i = 0; i < sizeof unit / sizeof unit[0]; i++) {
-        if (strcmp(text, unit[i].name) == 0) {
-            *unit_m = unit[i].m;
-            return 0;
-        }
-    }
-    if (lrcs_host_number_read(text, strlen(text), unit_m) != LRCS_OK || !(*unit_m > 0.0)) {
-        return cli_usage(args->command,
-                         "--unit: expected mm, cm, m, in, ft or metres per unit (> 0), found '%s'",
-                         text);
-    }
-    return 0;
-}
-
-int cli_scene_options_read(const cli_args *args, lrcs_host_options *options)
-{
+    int code = 0;
     *options = lrcs_host_options_default();
     options->keep_transparent = cli_value(args, "keep-transparent") != NULL;
     options->two_sided = cli_value(args, "two-sided");
-    int code = unit_read(args, &options->unit_m);
+    int known = text == NULL;
+    for (size_t i = 0; i < sizeof unit / sizeof unit[0] && !known; i++) {
+        known = strcmp(text, unit[i].name) == 0;
+        options->unit_m = known ? unit[i].m : options->unit_m;
+    }
+    if (!known && (lrcs_host_number_read(text, strlen(text), &options->unit_m) != LRCS_OK ||
+                   !(options->unit_m > 0.0))) {
+        code = cli_expected(args, "unit", "mm, cm, m, in, ft or metres per unit (> 0)");
+    }
     lrcs_binding *all = calloc((size_t)args->given_count + 1, sizeof *all);
     options->binding = all;
     if (!all) {
@@ -200,41 +201,48 @@ const char *cli_material_name(const lrcs_material *material)
 #define NEAR_MOST ((size_t)5) /* names that an error lists */
 
 /* The colours of the scene nearest to a colour, by the sum of squares of the channels'
-   differences. */
-static void colours_near(const lrcs_scene *scene, const unsigned char rgb[3],
-                         char list[NEAR_MOST * 12])
+   differences, as "#RRGGBB". Returns their number. */
+static uint32_t colours_near(const lrcs_scene *scene, const unsigned char rgb[3],
+                             char text[NEAR_MOST][CLI_COLOUR_TEXT])
 {
-    unsigned char taken[NEAR_MOST][3];
-    size_t used = 0;
-    list[0] = '\0';
-    for (size_t n = 0; n < NEAR_MOST; n++) {
+    uint32_t found = 0;
+    for (; found < NEAR_MOST; found++) {
         const lrcs_material *best = NULL;
         long least = 0;
         for (uint32_t i = 0; i < scene->material_count; i++) {
             const lrcs_material *one = &scene->material[i];
+            char own[CLI_COLOUR_TEXT];
             long sum = 0;
             int known = !one->has_colour;
+            cli_colour_text(one->rgb, own);
             for (int k = 0; k < 3; k++) {
                 sum += (long)(one->rgb[k] - rgb[k]) * (one->rgb[k] - rgb[k]);
             }
-            for (size_t k = 0; k < n && !known; k++) {
-                known = memcmp(taken[k], one->rgb, sizeof taken[k]) == 0;
+            for (uint32_t k = 0; k < found && !known; k++) {
+                known = strcmp(text[k], own) == 0;
             }
             if (!known && (!best || sum < least)) {
                 best = one;
                 least = sum;
+                memcpy(text[found], own, sizeof own);
             }
         }
         if (!best) {
-            return;
+            break;
         }
-        memcpy(taken[n], best->rgb, sizeof taken[n]);
-        used += (size_t)snprintf(list + used, NEAR_MOST * 12 - used, "%s#%02X%02X%02X",
-                                 n > 1   ? ", "
-                                 : n > 0 ? ", then "
-                                         : "",
-                                 best->rgb[0], best->rgb[1], best->rgb[2]);
     }
+    return found;
+}
+
+/* Appends a name to a list, "a, then b, c". */
+static void list_add(char *list, size_t size, uint32_t index, const char *quote, const char *name)
+{
+    size_t used = strlen(list);
+    snprintf(list + used, size - used, "%s%s%.60s%s",
+             index > 1   ? ", "
+             : index > 0 ? ", then "
+                         : "",
+             quote, name, quote);
 }
 
 /* Reports a --material that matches no facet: the message lists the names or colours most like
@@ -245,12 +253,14 @@ static int unmatched_binding(const cli_command *command, const lrcs_host_scene *
     const lrcs_binding *binding = &host->recipe.binding[scene->unmatched];
     const char *near[NEAR_MOST];
     char list[NEAR_MOST * 80] = "";
-    size_t used = 0;
     if (binding->kind != LRCS_BIND_NAME) {
-        colours_near(scene, binding->rgb, list);
-        return cli_usage(command,
-                         "--material: no material of the scene has the colour #%02X%02X%02X; %s%s",
-                         binding->rgb[0], binding->rgb[1], binding->rgb[2],
+        char colour[NEAR_MOST][CLI_COLOUR_TEXT];
+        uint32_t found = colours_near(scene, binding->rgb, colour);
+        for (uint32_t i = 0; i < found; i++) {
+            list_add(list, sizeof list, i, "", colour[i]);
+        }
+        return cli_usage(command, "--material: no material of the scene has the colour %s; %s%s",
+                         cli_colour_text(binding->rgb, colour[0]),
                          list[0] ? "the nearest is " : "none has a colour", list);
     }
     const char **name = calloc((size_t)scene->material_count + 1, sizeof *name);
@@ -264,11 +274,7 @@ static int unmatched_binding(const cli_command *command, const lrcs_host_scene *
         lrcs_host_names_near(binding->name, name, scene->material_count, near, (uint32_t)NEAR_MOST);
     free(name);
     for (uint32_t i = 0; i < found; i++) {
-        used += (size_t)snprintf(list + used, sizeof list - used, "%s'%.60s'",
-                                 i > 1   ? ", "
-                                 : i > 0 ? ", then "
-                                         : "",
-                                 near[i]);
+        list_add(list, sizeof list, i, "'", near[i]);
     }
     return cli_usage(command, "--material: the scene has no material named '%s'%s%s", binding->name,
                      found > 0 ? "; the nearest is " : ", nor any other", list);

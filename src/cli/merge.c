@@ -31,11 +31,6 @@ typedef struct merge_shard {
     uint64_t first, rows;
 } merge_shard;
 
-static int shard_refuse(const merge_shard *shard, const char *what)
-{
-    return cli_fail("%s: %s", shard->path, what);
-}
-
 static int shard_read(merge_shard *shard, const merge_shard *first)
 {
     lrcs_host_error error;
@@ -43,12 +38,13 @@ static int shard_read(merge_shard *shard, const merge_shard *first)
         return cli_failed(&error);
     }
     if (cli_text_open((const char *)shard->file.bytes, shard->file.size, &shard->text) != 0) {
-        return shard_refuse(shard, "expected rows of lrcs sweep, CSV or JSON lines");
+        return cli_fail("%s: expected rows of lrcs sweep, CSV or JSON lines", shard->path);
     }
     if (shard->text.head_size != first->text.head_size ||
         memcmp(shard->text.head, first->text.head, first->text.head_size) != 0) {
-        return shard_refuse(shard, "is of another sweep (its first lines differ from those of the "
-                                   "first file)");
+        return cli_fail("%s: is of another sweep (its first lines differ from those of the "
+                        "first file)",
+                        shard->path);
     }
     return cli_text_rows(shard->path, &shard->text, NULL, NULL, NULL, &shard->first, &shard->rows);
 }
@@ -67,7 +63,7 @@ static int shards_check(const merge_shard *shard, int count)
     uint64_t next = 0;
     for (int i = 0; i < count; i++) {
         if (shard[i].rows > 0 && shard[i].first < next) {
-            return shard_refuse(&shard[i], "holds rows that another file holds");
+            return cli_fail("%s: holds rows that another file holds", shard[i].path);
         }
         if (shard[i].rows > 0 && shard[i].first > next) {
             break;
@@ -132,40 +128,11 @@ static void rows_write(FILE *out, merge_rows *rows)
     cli_rows_sum(out, head->format, sum);
 }
 
-/* Checks that OUT has the format of the shards, or is a map. 0 or CLI_USAGE. */
-static int out_check(const cli_args *args, const sweep_file *file, const merge_shard *shard,
-                     int count)
-{
-    static const char *const name[] = {"CSV", "JSON lines"};
-    int format = shard[0].text.format;
-    if (file->path && !file->npy && file->format != format) {
-        return cli_usage(args->command, "-o %s: the shards are %s", file->path, name[format]);
-    }
-    for (int i = 0; file->path && i < count; i++) {
-        if (lrcs_host_output_same(file->path, shard[i].path)) {
-            return cli_usage(args->command, "-o %s: would overwrite a shard", file->path);
-        }
-    }
-    return 0;
-}
-
-static int merge_write(const sweep_file *file, const merge_shard *shard, int count)
-{
-    lrcs_host_error error;
-    lrcs_host_output out;
-    merge_rows rows = {.shard = shard, .count = count, .text = shard[0].text};
-    if (file->npy) {
-        return cli_map_write(file->path, &shard[0].text, merge_next, &rows);
-    }
-    if (lrcs_host_output_open(file->path ? file->path : "-", &out, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    rows_write(out.stream, &rows);
-    return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? CLI_DONE : cli_failed(&error);
-}
-
 static int merge_shards(const cli_args *args, const sweep_file *file, merge_shard *shard)
 {
+    static const char *const name[] = {"CSV", "JSON lines"};
+    lrcs_host_error error;
+    lrcs_host_output out;
     int count = 0;
     int code = 0;
     for (int i = 0; i < args->given_count && code == 0; i++) {
@@ -176,14 +143,30 @@ static int merge_shards(const cli_args *args, const sweep_file *file, merge_shar
             count++;
         }
     }
-    code = code ? code : out_check(args, file, shard, count);
+    const int format = shard[0].text.format;
+    if (code == 0 && file->path && !file->npy && file->format != format) {
+        return cli_usage(args->command, "-o %s: the shards are %s", file->path, name[format]);
+    }
+    for (int i = 0; code == 0 && file->path && i < count; i++) {
+        if (lrcs_host_output_same(file->path, shard[i].path)) {
+            return cli_usage(args->command, "-o %s: would overwrite a shard", file->path);
+        }
+    }
+    qsort(shard, (size_t)count, sizeof *shard, by_first);
+    code = code ? code : shards_check(shard, count);
     if (code != 0) {
         return code;
     }
-    qsort(shard, (size_t)count, sizeof *shard, by_first);
-    code = shards_check(shard, count);
     cli_watch_stage("writing", NULL);
-    return code ? code : merge_write(file, shard, count);
+    merge_rows rows = {.shard = shard, .count = count, .text = shard[0].text};
+    if (file->npy) {
+        return cli_map_write(file->path, &shard[0].text, merge_next, &rows);
+    }
+    if (lrcs_host_output_open(file->path ? file->path : "-", &out, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    rows_write(out.stream, &rows);
+    return lrcs_host_output_close(&out, 1, &error) == LRCS_OK ? CLI_DONE : cli_failed(&error);
 }
 
 static int merge_command(const cli_args *args)

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* What a result was made from, as outputs state it: the scene's title, its files with their hashes,
-   the unit, the assigned materials and the origin of their numbers, the options given. */
+   the unit, the assigned materials and the origin of their numbers, the options given. Also the
+   first line of a table, "lrcs VERSION COMMAND; key=text; ..", read back. */
 #include "cli/cli.h"
 
+#include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -32,11 +35,15 @@ const char *cli_material_source(const lrcs_material *material)
     return "given";
 }
 
+static int error_stated(const lrcs_brdf_error *e)
+{
+    return e->A > 0.0 || e->B > 0.0 || e->s > 0.0 || e->m > 0.0;
+}
+
 int cli_errors_stated(const lrcs_scene *scene)
 {
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lrcs_brdf_error *e = &scene->material[i].error;
-        if (e->A > 0.0 || e->B > 0.0 || e->s > 0.0 || e->m > 0.0) {
+        if (error_stated(&scene->material[i].error)) {
             return 1;
         }
     }
@@ -89,20 +96,6 @@ void cli_line_put(FILE *out, const char *before, const char *text)
     }
 }
 
-/* The options given, except files to write: a result does not depend on where it is written. */
-static void options_put(FILE *out, const cli_args *args)
-{
-    const char *before = "; options=";
-    for (int i = 0; i < args->given_count; i++) {
-        const cli_given *given = &args->given[i];
-        if (!cli_is_output(args->command, given->name)) {
-            fprintf(out, "%s%s%s", before, cli_dashes(given->name), given->name);
-            cli_line_put(out, given->value ? "=" : "", given->value ? given->value : "");
-            before = " ";
-        }
-    }
-}
-
 void cli_file_text(const char *path, uint64_t hash, char text[CLI_FILE_TEXT])
 {
     snprintf(text, CLI_FILE_TEXT, "%.300s fnv1a:%016llx", cli_base_name(path),
@@ -118,7 +111,16 @@ static void source_put(FILE *out, const cli_args *args, const char *title,
         fprintf(out, "; scene_hash=%016llx", (unsigned long long)lrcs_scene_hash(&scene->scene));
         cli_line_put(out, "; title=", cli_base_name(title));
     }
-    options_put(out, args);
+    const char *before =
+        "; options="; /* not files: a result does not depend on where it is written */
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        if (!cli_is_output(args->command, given->name)) {
+            fprintf(out, "%s%s%s", before, cli_dashes(given->name), given->name);
+            cli_line_put(out, given->value ? "=" : "", given->value ? given->value : "");
+            before = " ";
+        }
+    }
     if (!scene) {
         cli_file_text(args->operand, file_hash(args->operand), text);
         cli_line_put(out, "; file=", text);
@@ -141,8 +143,7 @@ void cli_table_head(FILE *out, const cli_args *args, const char *title,
 
 void cli_version_json(lrcs_host_json *json)
 {
-    lrcs_host_json_count(json, "schema", CLI_SCHEMA);
-    lrcs_host_json_text(json, "version", lrcs_version());
+    cli_json(json, "schema=%u version=%s", CLI_SCHEMA, lrcs_version());
 }
 
 void cli_hash_json(uint64_t hash, lrcs_host_json *json)
@@ -152,30 +153,29 @@ void cli_hash_json(uint64_t hash, lrcs_host_json *json)
     lrcs_host_json_text(json, "scene_hash", text);
 }
 
+/* A file as an item of an open array (key NULL) or as a member. */
 static void file_json(const char *key, const char *name, uint64_t hash, lrcs_host_json *json)
 {
     char text[32];
     snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)hash);
     lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
-    lrcs_host_json_text(json, "name", name);
-    lrcs_host_json_text(json, "hash", text);
-    lrcs_host_json_end(json);
+    cli_json(json, "name=%s hash=%s}", name, text);
 }
 
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json)
 {
-    lrcs_host_json_begin(json, "files", LRCS_HOST_ARRAY);
+    cli_json(json, "files=[\n");
     for (const lrcs_host_input *input = scene->input; input; input = input->next) {
         file_json(NULL, input->path, input->hash, json);
     }
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
 }
 
 void cli_operand_json(const cli_args *args, lrcs_host_json *json)
 {
-    lrcs_host_json_begin(json, "files", LRCS_HOST_ARRAY);
+    cli_json(json, "files=[\n");
     file_json(NULL, args->operand, file_hash(args->operand), json);
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
 }
 
 void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json)
@@ -187,64 +187,54 @@ void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json)
 
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json)
 {
-    lrcs_host_json_number(json, "A", brdf->A);
-    lrcs_host_json_number(json, "B", brdf->B);
-    lrcs_host_json_number(json, "s", brdf->s);
-    lrcs_host_json_number(json, "m", brdf->m);
+    cli_json(json, "A=%g B=%g s=%g m=%g", brdf->A, brdf->B, brdf->s, brdf->m);
 }
 
 void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json)
 {
-    if (!(error->A > 0.0 || error->B > 0.0 || error->s > 0.0 || error->m > 0.0)) {
-        return;
+    if (error_stated(error)) {
+        cli_json(json, "A_error=%g B_error=%g s_error=%g m_error=%g", error->A, error->B, error->s,
+                 error->m);
+        cli_numbers_json(json, "correlation", error->correlation, 6);
     }
-    lrcs_host_json_number(json, "A_error", error->A);
-    lrcs_host_json_number(json, "B_error", error->B);
-    lrcs_host_json_number(json, "s_error", error->s);
-    lrcs_host_json_number(json, "m_error", error->m);
-    cli_numbers_json(json, "correlation", error->correlation, 6);
 }
 
 static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
 {
-    lrcs_host_json_begin(json, "materials", LRCS_HOST_ARRAY);
+    cli_json(json, "materials=[\n");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *material = &scene->material[i];
         uint32_t facets = 0;
         for (uint32_t f = 0; f < scene->facet_count; f++) {
             facets += scene->facet_material[f] == i;
         }
-        if (facets == 0 || material->omitted) {
-            continue;
+        if (facets > 0 && !material->omitted) {
+            cli_json(json, "{name=%s", material->name);
+            cli_brdf_json(&material->brdf, json);
+            cli_brdf_error_json(&material->error, json);
+            cli_json(json, "two_sided=%d source=%s facets=%u}", material->two_sided,
+                     cli_material_source(material), facets);
         }
-        lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
-        lrcs_host_json_text(json, "name", material->name);
-        cli_brdf_json(&material->brdf, json);
-        cli_brdf_error_json(&material->error, json);
-        lrcs_host_json_bool(json, "two_sided", material->two_sided);
-        lrcs_host_json_text(json, "source", cli_material_source(material));
-        lrcs_host_json_count(json, "facets", facets);
-        lrcs_host_json_end(json);
     }
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
 }
 
 void cli_options_json(const cli_args *args, lrcs_host_json *json)
 {
     char word[1200];
-    lrcs_host_json_begin(json, "options", LRCS_HOST_ROW_ARRAY);
+    cli_json(json, "options=[");
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *given = &args->given[i];
         snprintf(word, sizeof word, "%s%s%s%s", cli_dashes(given->name), given->name,
                  given->value ? "=" : "", given->value ? given->value : "");
         lrcs_host_json_text(json, NULL, word);
     }
-    lrcs_host_json_end(json);
+    cli_json(json, "]");
 }
 
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json)
 {
-    lrcs_host_json_text(json, "title", cli_scene_title(args, scene));
+    cli_json(json, "title=%s", cli_scene_title(args, scene));
     materials_json(&scene->scene, json);
     cli_options_json(args, json);
 }
@@ -264,17 +254,16 @@ static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
     const beside *from = context;
     (void)error;
     lrcs_host_json json = lrcs_host_json_make(out);
-    lrcs_host_json_begin(&json, NULL, LRCS_HOST_OBJECT);
-    lrcs_host_json_text(&json, "lrcs", from->args->command->name);
+    cli_json(&json, "{\nlrcs=%s", from->args->command->name);
     cli_version_json(&json);
     file_json("file", cli_base_name(from->path), file_hash(from->path), &json);
     if (from->about) {
-        lrcs_host_json_text(&json, CLI_ABOUT, from->about);
+        cli_json(&json, CLI_ABOUT "=%s", from->about);
     }
     if (from->scene) {
         cli_hash_json(lrcs_scene_hash(&from->scene->scene), &json);
         cli_files_json(from->scene, &json);
-        lrcs_host_json_text(&json, "unit", cli_value(from->args, "unit"));
+        cli_json(&json, "unit=%s", cli_value(from->args, "unit"));
     } else {
         cli_operand_json(from->args, &json);
     }
@@ -286,7 +275,7 @@ static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
     } else {
         cli_options_json(from->args, &json);
     }
-    lrcs_host_json_end(&json);
+    cli_json(&json, "}");
     return LRCS_OK;
 }
 
@@ -353,4 +342,58 @@ char *cli_text_of(cli_text_writer *write, const void *context)
         }
     }
     return text;
+}
+
+/* ---- read back ---- */
+
+/* A text may contain "; " too: it ends where the next "; key=" begins. */
+char *cli_key_next(const char *line)
+{
+    char *at = strstr(line, "; ");
+    for (; at; at = strstr(at + 1, "; ")) {
+        size_t size = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz0123456789_-");
+        if (size > 0 && at[2 + size] == '=') {
+            break;
+        }
+    }
+    return at;
+}
+
+int cli_key_text(const char *line, const char *key, char *text, size_t size)
+{
+    size_t length = strlen(key);
+    for (const char *at = cli_key_next(line); at; at = cli_key_next(at + 2)) {
+        if (strncmp(at + 2, key, length) == 0 && at[2 + length] == '=') {
+            const char *begin = at + 3 + length;
+            const char *end = cli_key_next(begin);
+            int whole = (int)(end ? end - begin : (ptrdiff_t)strlen(begin));
+            snprintf(text, size, "%.*s", whole, begin);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+double cli_key_number(const char *line, const char *key)
+{
+    char text[64];
+    double value;
+    return cli_key_text(line, key, text, sizeof text) &&
+                   lrcs_host_number_read(text, strlen(text), &value) == LRCS_OK
+               ? value
+               : (double)NAN;
+}
+
+char *cli_json_unquote(char *at)
+{
+    char *to = at;
+    for (; *at && *at != '"'; at++) {
+        if (*at == '\\' && at[1]) {
+            at++;
+        }
+        *to++ = *at;
+    }
+    char *next = *at ? at + 1 : at;
+    *to = '\0';
+    return next;
 }

@@ -50,9 +50,9 @@ typedef struct scene_job {
 /* ---- TOML ---- */
 
 /* Writes a TOML basic string. */
-static void string_put(FILE *out, const char *text)
+static void string_put(FILE *out, const char *before, const char *text)
 {
-    putc('"', out);
+    fprintf(out, "%s\"", before);
     for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
         if (*c < 0x20 || *c == 0x7f) {
             fprintf(out, "\\u%04X", *c);
@@ -61,14 +61,6 @@ static void string_put(FILE *out, const char *text)
         }
     }
     putc('"', out);
-}
-
-/* Text in a comment: one line, no control characters. */
-static void comment_put(FILE *out, const char *text)
-{
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        putc(*c < 0x20 || *c == 0x7f ? '?' : *c, out);
-    }
 }
 
 /* Writes a number with as few digits as identify it. */
@@ -154,57 +146,39 @@ static const char *suggestion(const char *name)
 
 /* ---- the parts of the file ---- */
 
-/* Counts the facets of each material, and their area. */
-static int facets_count(scene_job *job)
-{
-    const lrcs_scene *scene = &job->scene.scene;
-    job->facets = calloc((size_t)scene->material_count + 1, sizeof *job->facets);
-    job->area = calloc((size_t)scene->material_count + 1, sizeof *job->area);
-    for (uint32_t i = 0; job->facets && job->area && i < scene->facet_count; i++) {
-        job->facets[scene->facet_material[i]]++;
-        job->area[scene->facet_material[i]] += cli_facet_area(scene, i);
-    }
-    return job->facets && job->area ? 0 : cli_out_of_memory();
-}
-
 static void head_put(const scene_job *job, const char *unnamed, FILE *out)
 {
-    const lrcs_recipe_part *part = &job->scene.recipe.part[0];
-    fputs("# ", out);
-    comment_put(out, cli_base_name(job->args->operand));
-    fprintf(out, " as a scene, to edit: made by lrcs scene, version %s.\n", lrcs_version());
-    fputs(
-        "# As it stands it means what the model alone means. What nobody has given is marked as a "
-        "GUESS.\nschema = 1\nname = ",
-        out);
-    string_put(out, cli_base_name(job->args->operand));
+    const char *operand = job->args->operand;
+    const char *unit = cli_value(job->args, "unit");
+    char *path = path_from(operand, job->path);
+    double metres = 0.0;
+    cli_line_put(out, "# ", cli_base_name(operand));
+    fprintf(out,
+            " as a scene, to edit: made by lrcs scene, version %s.\n"
+            "# As it stands it means what the model alone means. What nobody has given is marked "
+            "as a GUESS.\n",
+            lrcs_version());
+    string_put(out, "schema = 1\nname = ", cli_base_name(operand));
     fprintf(out,
             "\n%skeep_transparent = true   # keep facets that the file calls fully transparent\n",
             job->load.keep_transparent ? "" : "# ");
     if (unnamed) {
-        fputs("default_material = ", out);
-        string_put(out, unnamed);
+        string_put(out, "default_material = ", unnamed);
         fputs("   # of facets without a material\n", out);
     }
-    fputs("\n[[part]]\nname = ", out);
-    string_put(out, part->name);
-    fputs("\nfile = ", out);
-    char *path = path_from(job->args->operand, job->path);
-    string_put(out, path ? path : job->args->operand);
+    string_put(out, "\n[[part]]\nname = ", job->scene.recipe.part[0].name);
+    string_put(out, "\nfile = ", path ? path : operand);
     free(path);
-    const char *unit = cli_value(job->args, "unit");
-    double metres = 0.0;
     if (!unit) {
         fputs("\n# GUESS: ", out);
         for (uint32_t i = 0; i < job->scene.notices.count; i++) {
             if (strstr(job->scene.notices.text[i], "no unit is stated")) {
-                comment_put(out, job->scene.notices.text[i]);
+                cli_line_put(out, "", job->scene.notices.text[i]);
             }
         }
         fputs("\n# unit = \"m\"              # mm, cm, m, in, ft, or metres per unit\n", out);
     } else if (lrcs_host_number_read(unit, strlen(unit), &metres) == LRCS_OK) {
-        putc('\n', out);
-        number_put(out, "unit", metres);
+        number_put(out, "\nunit", metres);
     } else {
         fprintf(out, "\nunit = \"%s\"\n", unit);
     }
@@ -229,7 +203,7 @@ static void objects_put(const scene_job *job, FILE *out)
     }
     for (uint32_t k = 0; count && k < model->part_count; k++) {
         fprintf(out, "#   %8lu facets  ", (unsigned long)count[k]);
-        comment_put(out, model->part[k]);
+        cli_line_put(out, "", model->part[k]);
         putc('\n', out);
     }
     free(count);
@@ -258,28 +232,15 @@ static void brdf_put(const lrcs_material *material, FILE *out)
         }
         putc('\n', out);
     }
-    number_put(out, "A", brdf->A);
-    number_put(out, "B", brdf->B);
-    number_put(out, "s", brdf->s);
-    number_put(out, "m", brdf->m);
-    const char *const key[4] = {"A_error", "B_error", "s_error", "m_error"};
-    const double deviation[4] = {material->error.A, material->error.B, material->error.s,
-                                 material->error.m};
-    for (int i = 0; i < 4; i++) {
-        if (deviation[i] > 0.0) {
-            number_put(out, key[i], deviation[i]);
+    const char *const key[8] = {"A", "B", "s", "m", "A_error", "B_error", "s_error", "m_error"};
+    const double value[8] = {brdf->A,           brdf->B,           brdf->s,
+                             brdf->m,           material->error.A, material->error.B,
+                             material->error.s, material->error.m};
+    for (int i = 0; i < 8; i++) {
+        if (i < 4 || value[i] > 0.0) {
+            number_put(out, key[i], value[i]);
         }
     }
-}
-
-/* 1 for the first material of each name: a name stands for all materials that have it. */
-static int is_first(const lrcs_scene *scene, uint32_t index)
-{
-    uint32_t i = 0;
-    while (i < index && strcmp(scene->material[i].name, scene->material[index].name) != 0) {
-        i++;
-    }
-    return i == index;
 }
 
 /* 1 if all materials of a name are two-sided; the key makes them all so. */
@@ -300,13 +261,13 @@ static void material_put(const scene_job *job, uint32_t index, const char *unnam
     const char *name = unnamed ? unnamed : material->name;
     fprintf(out, "\n# %lu facets, %.4g m2", (unsigned long)job->facets[index], job->area[index]);
     if (material->has_colour) {
-        fprintf(out, ", colour #%02X%02X%02X", material->rgb[0], material->rgb[1],
-                material->rgb[2]);
+        char colour[CLI_COLOUR_TEXT];
+        fprintf(out, ", colour %s", cli_colour_text(material->rgb, colour));
     }
-    fputs(material->omitted ? ", fully transparent: left out\n[[material]]\nname = "
-                            : "\n[[material]]\nname = ",
-          out);
-    string_put(out, name);
+    string_put(out,
+               material->omitted ? ", fully transparent: left out\n[[material]]\nname = "
+                                 : "\n[[material]]\nname = ",
+               name);
     putc('\n', out);
     brdf_put(material, out);
     fputs(two_sided_all(&job->scene.scene, material->name)
@@ -314,43 +275,36 @@ static void material_put(const scene_job *job, uint32_t index, const char *unnam
               : "# two_sided = true   # if its back reflects, too\n",
           out);
     if (!unnamed) {
-        fputs("[[map]]\nname = ", out);
-        string_put(out, name);
-        fputs("\nmaterial = ", out);
-        string_put(out, name);
+        string_put(out, "[[map]]\nname = ", name);
+        string_put(out, "\nmaterial = ", name);
         putc('\n', out);
-    }
-}
-
-/* Chooses a name, different from all others, for the unnamed material. */
-static void unnamed_choose(const lrcs_scene *scene, char name[32])
-{
-    int taken = 1;
-    for (unsigned n = 1; taken; n++) {
-        snprintf(name, 32, n > 1 ? "default %u" : "default", n);
-        taken = 0;
-        for (uint32_t i = 0; i < scene->material_count; i++) {
-            taken |= strcmp(scene->material[i].name, name) == 0;
-        }
     }
 }
 
 static void scene_put(const scene_job *job, FILE *out)
 {
     const lrcs_scene *scene = &job->scene.scene;
+    const lrcs_brdf_entry *entry;
     char unnamed[32];
     int any = 0;
-    unnamed_choose(scene, unnamed);
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        any |= !scene->material[i].name[0] && job->facets[i] > 0;
+    int taken = 1;
+    /* 1. A name, different from all others, for the material without a name. */
+    for (unsigned n = 1; taken; n++) {
+        snprintf(unnamed, sizeof unnamed, n > 1 ? "default %u" : "default", n);
+        taken = 0;
+        for (uint32_t i = 0; i < scene->material_count; i++) {
+            taken |= strcmp(scene->material[i].name, unnamed) == 0;
+            any |= !scene->material[i].name[0] && job->facets[i] > 0;
+        }
     }
+    /* 2. The model. */
     head_put(job, any ? unnamed : NULL, out);
     objects_put(job, out);
+    /* 3. The materials: the first of each name, which stands for all that have it. */
     fputs(
         "\n# Materials: f_r = A / cos^6 exp(-tan^2 / s^2) + B cos^m, A and B in 1/sr. Names of the "
         "library,\n# illustrative but for those with a published reflectance (*):",
         out);
-    const lrcs_brdf_entry *entry;
     for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
         fprintf(out, "%s %s%s",
                 i == 0       ? ""
@@ -360,35 +314,18 @@ static void scene_put(const scene_job *job, FILE *out)
     }
     putc('\n', out);
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        int nameless = !scene->material[i].name[0];
-        if ((!nameless || job->facets[i] > 0) && is_first(scene, i)) {
-            material_put(job, i, nameless ? unnamed : NULL, out);
+        const char *name = scene->material[i].name;
+        uint32_t first = 0;
+        while (strcmp(scene->material[first].name, name) != 0) {
+            first++;
+        }
+        if ((name[0] || job->facets[i] > 0) && first == i) {
+            material_put(job, i, name[0] ? NULL : unnamed, out);
         }
     }
 }
 
 /* ---- the command ---- */
-
-/* Materials of the same name have the same mapping: colours cannot distinguish them. 0 or
-   CLI_USAGE. */
-static int names_check(const scene_job *job)
-{
-    const lrcs_scene *scene = &job->scene.scene;
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lrcs_material *one = &scene->material[i];
-        for (uint32_t k = 0; k < i; k++) {
-            const lrcs_material *other = &scene->material[k];
-            if (strcmp(one->name, other->name) == 0 &&
-                memcmp(&one->brdf, &other->brdf, sizeof one->brdf) != 0) {
-                return cli_usage(job->args->command,
-                                 "--material: two materials are named '%s', which a scene file "
-                                 "cannot give different numbers",
-                                 one->name);
-            }
-        }
-    }
-    return 0;
-}
 
 static int scene_read(scene_job *job)
 {
@@ -398,7 +335,7 @@ static int scene_read(scene_job *job)
         return cli_usage(args->command, "give -o FILE.toml");
     }
     if (strcmp(job->path, "-") != 0 && !cli_extension(job->path, ".toml")) {
-        return cli_usage(args->command, "-o: expected FILE.toml, found '%s'", job->path);
+        return cli_expected(args, "o", "FILE.toml");
     }
     if (strcmp(job->path, "-") != 0 && access(job->path, F_OK) == 0) {
         return cli_usage(args->command,
@@ -412,15 +349,50 @@ static int scene_read(scene_job *job)
                          "it is",
                          args->operand);
     }
+    /* materials of the same name have the same mapping: colours cannot distinguish them */
+    const lrcs_scene *scene = &job->scene.scene;
+    for (uint32_t i = 0; code == 0 && i < scene->material_count; i++) {
+        const lrcs_material *one = &scene->material[i];
+        for (uint32_t k = 0; k < i; k++) {
+            if (strcmp(one->name, scene->material[k].name) == 0 &&
+                memcmp(&one->brdf, &scene->material[k].brdf, sizeof one->brdf) != 0) {
+                return cli_usage(args->command,
+                                 "--material: two materials are named '%s', which a scene file "
+                                 "cannot give different numbers",
+                                 one->name);
+            }
+        }
+    }
     return code;
 }
 
-/* Reads back what was made before it is written, so that no names in a model lead to a file that
-   lrcs refuses. */
-static int scene_check(const scene_job *job)
+static void text_write(FILE *out, const void *context)
 {
+    const scene_job *job = context;
+    fwrite(job->text, 1, job->size, out);
+}
+
+/* Makes the text from the facets of each material and their area. It is read back before it is
+   written, so that no names in a model lead to a file that lrcs refuses. */
+static int scene_make(scene_job *job)
+{
+    const lrcs_scene *scene = &job->scene.scene;
     lrcs_recipe recipe;
     lrcs_where where;
+    job->facets = calloc((size_t)scene->material_count + 1, sizeof *job->facets);
+    job->area = calloc((size_t)scene->material_count + 1, sizeof *job->area);
+    FILE *out = open_memstream(&job->text, &job->size);
+    if (job->facets && job->area && out) {
+        for (uint32_t i = 0; i < scene->facet_count; i++) {
+            job->facets[scene->facet_material[i]]++;
+            job->area[scene->facet_material[i]] += cli_facet_area(scene, i);
+        }
+        scene_put(job, out);
+    }
+    int failed = !job->facets || !job->area || !out || ferror(out);
+    if ((out && fclose(out) != 0) || failed) {
+        return cli_out_of_memory();
+    }
     size_t need = lrcs_recipe_need(job->size);
     void *bytes = malloc(need);
     if (!bytes) {
@@ -429,30 +401,10 @@ static int scene_check(const scene_job *job)
     lrcs_work work = lrcs_work_make(bytes, need);
     int status = lrcs_recipe_read(job->text, job->size, &work, &recipe, &where);
     free(bytes);
-    if (status != LRCS_OK) {
-        return cli_fail("%s: cannot be written as a scene file: %s, found '%s', expected %s",
-                        job->args->operand, where.item, where.found, where.expected);
-    }
-    return 0;
-}
-
-static int text_write(FILE *out, const void *context, lrcs_host_error *error)
-{
-    const scene_job *job = context;
-    (void)error;
-    fwrite(job->text, 1, job->size, out);
-    return LRCS_OK;
-}
-
-static int scene_make(scene_job *job)
-{
-    FILE *out = open_memstream(&job->text, &job->size);
-    if (!out) {
-        return cli_out_of_memory();
-    }
-    scene_put(job, out);
-    int failed = ferror(out);
-    return fclose(out) != 0 || failed ? cli_out_of_memory() : scene_check(job);
+    return status == LRCS_OK
+               ? 0
+               : cli_fail("%s: cannot be written as a scene file: %s, found '%s', expected %s",
+                          job->args->operand, where.item, where.found, where.expected);
 }
 
 static int scene_command(const cli_args *args)
@@ -461,10 +413,8 @@ static int scene_command(const cli_args *args)
     memset(&job, 0, sizeof job);
     job.args = args;
     int code = scene_read(&job);
-    code = code ? code : names_check(&job);
-    code = code ? code : facets_count(&job);
     code = code ? code : scene_make(&job);
-    code = code ? code : cli_output_write(job.path, text_write, &job);
+    code = code ? code : cli_text_write(job.path, text_write, &job);
     cli_watch_end();
     if (code == 0) {
         cli_notices_print(stderr, &job.scene.notices);

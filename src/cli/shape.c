@@ -56,59 +56,40 @@ static const shape_form shape_forms[LRCS_SHAPE_KINDS] = {
     [LRCS_SHAPE_FRUSTUM] = {.radius = 1, .radius2 = 1, .length = 1, .caps = 1},
     [LRCS_SHAPE_PARABOLOID] = {.radius = 1, .length = 1, .caps = 1}};
 
-/* Reads one number that a kind requires or does not allow. */
-static int dimension_read(const cli_args *args, const char *name, int wanted, double *value)
+/* 1 if an option is given as the kind requires; else CLI_USAGE in *code if it must or must not be
+   given. `more` follows its name in the message. */
+static int is_given(const cli_args *args, const char *name, int wanted, const char *more, int *code)
 {
     int given = cli_value(args, name) != NULL;
-    if (given && !wanted) {
-        return cli_usage(args->command, "%s takes no --%s", args->operand, name);
+    if (given != (wanted != 0)) {
+        *code = given ? cli_usage(args->command, "%s takes no --%s", args->operand, name)
+                      : cli_usage(args->command, "%s needs --%s%s", args->operand, name, more);
     }
-    if (!given && wanted) {
-        return cli_usage(args->command, "%s needs --%s", args->operand, name);
+    return given && wanted;
+}
+
+static int dimension_read(const cli_args *args, const char *name, int wanted, double *value)
+{
+    int code = 0;
+    if (!is_given(args, name, wanted, "", &code)) {
+        return code;
     }
-    int code = cli_number(args, name, value);
-    if (code == 0 && *value < 0.0) {
-        return cli_usage(args->command, "--%s: expected a number >= 0, found '%s'", name,
-                         cli_value(args, name));
-    }
-    return code;
+    code = cli_number(args, name, value);
+    return code == 0 && *value < 0.0 ? cli_expected(args, name, "a number >= 0") : code;
 }
 
 static int size_read(const cli_args *args, const shape_form *form, lrcs_shape *shape)
 {
-    const char *text = cli_value(args, "size");
-    const char *sizes = form->sizes == 2 ? "a,b" : "a,b,c";
-    if (text && form->sizes == 0) {
-        return cli_usage(args->command, "%s takes no --size", args->operand);
+    int code = 0;
+    double *size = shape->size;
+    const char *sizes = form->sizes == 2 ? " a,b" : " a,b,c";
+    if (is_given(args, "size", form->sizes, sizes, &code) &&
+        (cli_list(cli_value(args, "size"), size, form->sizes) != 0 || size[0] < 0.0 ||
+         size[1] < 0.0 || size[2] < 0.0)) {
+        return cli_expected(args, "size",
+                            form->sizes == 2 ? "a,b (metres, >= 0)" : "a,b,c (metres, >= 0)");
     }
-    if (!text && form->sizes != 0) {
-        return cli_usage(args->command, "%s needs --size %s", args->operand, sizes);
-    }
-    if (!text) {
-        return 0;
-    }
-    if (cli_list(text, shape->size, form->sizes) != 0 || shape->size[0] < 0.0 ||
-        shape->size[1] < 0.0 || shape->size[2] < 0.0) {
-        return cli_usage(args->command, "--size: expected %s (metres, >= 0), found '%s'", sizes,
-                         text);
-    }
-    return 0;
-}
-
-static int parts_read(const cli_args *args, const shape_form *form, lrcs_shape *shape)
-{
-    const char *text = cli_value(args, "parts");
-    if (!text || strcmp(text, "all") == 0) {
-        return 0;
-    }
-    if (strcmp(text, "wall") != 0) {
-        return cli_usage(args->command, "--parts: expected wall or all, found '%s'", text);
-    }
-    if (!form->caps) {
-        return cli_usage(args->command, "--parts: a %s has no caps to leave out", args->operand);
-    }
-    shape->parts = LRCS_SHAPE_WALL;
-    return 0;
+    return code;
 }
 
 /* Reads a cone's height or its half-angle; exactly one must be given. */
@@ -126,8 +107,7 @@ static int cone_read(const cli_args *args, const shape_form *form, lrcs_shape *s
                                  &shape->length);
     if (code == 0 && form->cone && angle &&
         !(shape->half_angle_deg > 0.0 && shape->half_angle_deg < 90.0)) {
-        return cli_usage(args->command, "--half-angle: expected 0 < DEG < 90, found '%s'",
-                         cli_value(args, "half-angle"));
+        return cli_expected(args, "half-angle", "0 < DEG < 90");
     }
     return code;
 }
@@ -145,21 +125,20 @@ static int aspect_read(const cli_args *args, const shape_form *form, lrcs_aspect
         double *v = aspect->direction;
         aspect->by_direction = 1;
         if (cli_list(direction, v, 3) != 0 || (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0)) {
-            return cli_usage(args->command, "--direction: expected x,y,z, not all zero, found '%s'",
-                             direction);
+            return cli_expected(args, "direction", "x,y,z, not all zero");
         }
         return 0;
     }
     int code = cli_number(args, "aspect", &aspect->deg);
     if (code == 0 && !(aspect->deg >= 0.0 && aspect->deg <= 180.0)) {
-        return cli_usage(args->command, "--aspect: expected 0 .. 180 degrees, found '%s'",
-                         cli_value(args, "aspect"));
+        return cli_expected(args, "aspect", "0 .. 180 degrees");
     }
     return code;
 }
 
 static int shape_read(const cli_args *args, lrcs_shape *shape, lrcs_aspect *aspect)
 {
+    int all = 1;
     shape->kind = lrcs_shape_find(args->operand);
     if (shape->kind < 0) {
         const char *best = NULL;
@@ -174,7 +153,11 @@ static int shape_read(const cli_args *args, lrcs_shape *shape, lrcs_aspect *aspe
     code = code ? code : dimension_read(args, "radius", form->radius, &shape->radius);
     code = code ? code : dimension_read(args, "radius2", form->radius2, &shape->radius2);
     code = code ? code : cone_read(args, form, shape);
-    code = code ? code : parts_read(args, form, shape);
+    code = code ? code : cli_choice(args, "parts", "wall or all", &all);
+    if (code == 0 && !all && !form->caps) {
+        return cli_usage(args->command, "--parts: a %s has no caps to leave out", args->operand);
+    }
+    shape->parts = all ? LRCS_SHAPE_ALL : LRCS_SHAPE_WALL;
     return code ? code : aspect_read(args, form, aspect);
 }
 
@@ -231,12 +214,7 @@ static int shape_command(const cli_args *args)
     if (!material) {
         fprintf(stderr, "notice: no --material: A=1, B=0.25, s=0.2, m=0.5\n");
     }
-    int warnings = lrcs_brdf_check(&brdf);
-    for (int bit = 1; warnings > 0 && bit <= warnings; bit *= 2) {
-        if (warnings & bit) {
-            fprintf(stderr, "notice: material: %s\n", lrcs_brdf_warning_text(bit));
-        }
-    }
+    cli_brdf_warnings_print("material", &brdf);
     shape_print(args, &closed);
     return CLI_DONE;
 }

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* Adds up the contributions of single facets to sigma, by part, by material and for the brightest
    facets. This file decides what a part is (a shape, a model, or each object of a model that has
-   several) and which materials are treated as one (same name, same numbers); shares_report.c prints
-   the lists. */
+   several) and which materials are treated as one (same name, same numbers). It prints a table of
+   the largest, and writes all as JSON. */
 #include "cli/shares.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define NAME_WIDTH 24
 
 /* Sums of one row, before sorting. */
 typedef struct shares_tally {
@@ -33,15 +35,6 @@ static const lrcs_mesh *part_objects(const shares_plan *plan, uint32_t part)
     return plan->base->recipe.part[part].file && mesh->part_count > 1 ? mesh : NULL;
 }
 
-static void parts_number(shares_plan *plan)
-{
-    for (uint32_t i = 0; i < plan->scene->part_count; i++) {
-        const lrcs_mesh *mesh = part_objects(plan, i);
-        plan->first_part[i] = plan->parts;
-        plan->parts += mesh ? mesh->part_count : 1;
-    }
-}
-
 static uint32_t part_of_facet(const shares_plan *plan, uint32_t facet)
 {
     uint32_t part = plan->scene->facet_part[facet];
@@ -50,37 +43,19 @@ static uint32_t part_of_facet(const shares_plan *plan, uint32_t facet)
            (mesh ? mesh->facet_part[facet - plan->scene->part[part].first_facet] : 0);
 }
 
-typedef struct shares_material {
-    const lrcs_material *material;
-} shares_material;
-
 /* Materials with the same name and the same numbers are treated as one. */
-static int material_compare(const void *a, const void *b)
+static void materials_number(shares_plan *plan)
 {
-    const lrcs_material *x = ((const shares_material *)a)->material;
-    const lrcs_material *y = ((const shares_material *)b)->material;
-    int order = strcmp(x->name, y->name);
-    return order ? order : memcmp(&x->brdf, &y->brdf, sizeof x->brdf);
-}
-
-static int materials_number(shares_plan *plan)
-{
-    const lrcs_scene *scene = plan->scene;
-    shares_material *sorted = calloc((size_t)scene->material_count + 1, sizeof *sorted);
-    if (!sorted) {
-        return -1;
+    for (uint32_t i = 0; i < plan->scene->material_count; i++) {
+        const lrcs_material *own = &plan->scene->material[i];
+        uint32_t k = 0;
+        while (k < i &&
+               (strcmp(plan->scene->material[k].name, own->name) != 0 ||
+                memcmp(&plan->scene->material[k].brdf, &own->brdf, sizeof own->brdf) != 0)) {
+            k++;
+        }
+        plan->material_of[i] = k < i ? plan->material_of[k] : plan->materials++;
     }
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        sorted[i].material = &scene->material[i];
-    }
-    qsort(sorted, scene->material_count, sizeof *sorted, material_compare);
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        int another = i > 0 && material_compare(&sorted[i - 1], &sorted[i]) != 0;
-        plan->materials += i == 0 || another;
-        plan->material_of[sorted[i].material - scene->material] = plan->materials - 1;
-    }
-    free(sorted);
-    return 0;
 }
 
 /* ---- names ---- */
@@ -112,18 +87,30 @@ static int alike_compare(const void *a, const void *b)
 
 /* Numbers objects that share a name as "name #3"; they are frequent in 3DS files, whose names have
    at most 10 letters. */
-static int alike_number(shares_alike *list, uint32_t count)
+static int parts_tell(const shares_plan *plan, cli_shares *shares)
 {
-    for (uint32_t i = 0; i < count;) {
+    shares_alike *list = calloc((size_t)plan->parts + 1, sizeof *list);
+    int status = list ? 0 : -1;
+    for (uint32_t i = 0, part = 0; list && i < plan->parts; i++) {
+        while (part + 1 < plan->scene->part_count && plan->first_part[part + 1] <= i) {
+            part++;
+        }
+        list[i] = (shares_alike){&shares->part[i].name, i - plan->first_part[part] + 1};
+    }
+    if (list) {
+        qsort(list, plan->parts, sizeof *list, alike_compare);
+    }
+    for (uint32_t i = 0; status == 0 && i < plan->parts;) {
         uint32_t end = i + 1;
-        while (end < count && strcmp(*list[i].name, *list[end].name) == 0) {
+        while (end < plan->parts && strcmp(*list[i].name, *list[end].name) == 0) {
             end++;
         }
         for (uint32_t last = end - i > 1 ? end : i; last-- > i;) {
             size_t room = strlen(*list[last].name) + 14;
             char *text = malloc(room);
             if (!text) {
-                return -1;
+                status = -1;
+                break;
             }
             snprintf(text, room, "%s #%lu", *list[last].name, (unsigned long)list[last].object);
             free(*list[last].name);
@@ -131,24 +118,6 @@ static int alike_number(shares_alike *list, uint32_t count)
         }
         i = end;
     }
-    return 0;
-}
-
-/* Distinguishes parts that have the same name. */
-static int parts_tell(const shares_plan *plan, cli_shares *shares)
-{
-    shares_alike *list = calloc((size_t)plan->parts + 1, sizeof *list);
-    if (!list) {
-        return -1;
-    }
-    for (uint32_t i = 0, part = 0; i < plan->parts; i++) {
-        while (part + 1 < plan->scene->part_count && plan->first_part[part + 1] <= i) {
-            part++;
-        }
-        list[i] = (shares_alike){&shares->part[i].name, i - plan->first_part[part] + 1};
-    }
-    qsort(list, plan->parts, sizeof *list, alike_compare);
-    int status = alike_number(list, plan->parts);
     free(list);
     return status;
 }
@@ -178,14 +147,6 @@ static int rows_name(const shares_plan *plan, cli_shares *shares)
 }
 
 /* ---- sums ---- */
-
-static void tally_add(shares_tally *tally, const lrcs_facet_record *record)
-{
-    cli_sum_add(&tally->sigma, record->sigma_m2);
-    cli_sum_add(&tally->glint, record->sigma_glint_m2);
-    cli_sum_add(&tally->diffuse, record->sigma_m2 - record->sigma_glint_m2);
-    tally->facets++;
-}
 
 static void row_fill(shares_row *row, const shares_tally *tally)
 {
@@ -220,20 +181,25 @@ static void facet_offer(const shares_plan *plan, uint32_t facet, const lrcs_face
         .glint_m2 = record->sigma_glint_m2};
 }
 
+/* Adds every facet to the row of its part and to that of its material. */
 static void facets_add(const shares_plan *plan, const lrcs_facet_record *records,
                        shares_tally *tally, cli_shares *shares)
 {
     for (uint32_t i = 0; i < plan->scene->facet_count; i++) {
-        tally_add(&tally[part_of_facet(plan, i)], &records[i]);
-        tally_add(&tally[plan->parts + plan->material_of[plan->scene->facet_material[i]]],
-                  &records[i]);
-        facet_offer(plan, i, &records[i], shares);
+        const lrcs_facet_record *one = &records[i];
+        const uint32_t row[2] = {part_of_facet(plan, i),
+                                 plan->parts + plan->material_of[plan->scene->facet_material[i]]};
+        for (int k = 0; k < 2; k++) {
+            cli_sum_add(&tally[row[k]].sigma, one->sigma_m2);
+            cli_sum_add(&tally[row[k]].glint, one->sigma_glint_m2);
+            cli_sum_add(&tally[row[k]].diffuse, one->sigma_m2 - one->sigma_glint_m2);
+            tally[row[k]].facets++;
+        }
+        facet_offer(plan, i, one, shares);
     }
-    for (uint32_t i = 0; i < plan->parts; i++) {
-        row_fill(&shares->part[i], &tally[i]);
-    }
-    for (uint32_t i = 0; i < plan->materials; i++) {
-        row_fill(&shares->material[i], &tally[plan->parts + i]);
+    for (uint32_t i = 0; i < plan->parts + plan->materials; i++) {
+        row_fill(i < plan->parts ? &shares->part[i] : &shares->material[i - plan->parts],
+                 &tally[i]);
     }
 }
 
@@ -258,27 +224,6 @@ static void rows_sort(shares_row *row, uint32_t *count)
     }
 }
 
-/* ---- in public ---- */
-
-static int shares_fill(shares_plan *plan, const lrcs_facet_record *records, cli_shares *shares)
-{
-    parts_number(plan);
-    if (materials_number(plan) != 0) {
-        return -1;
-    }
-    shares_tally *tally = calloc((size_t)plan->parts + plan->materials + 1, sizeof *tally);
-    shares->part = calloc((size_t)plan->parts + 1, sizeof *shares->part);
-    shares->material = calloc((size_t)plan->materials + 1, sizeof *shares->material);
-    int made = tally && shares->part && shares->material && rows_name(plan, shares) == 0;
-    if (made) {
-        facets_add(plan, records, tally, shares);
-        rows_sort(shares->part, &shares->parts);
-        rows_sort(shares->material, &shares->materials);
-    }
-    free(tally);
-    return made ? 0 : -1;
-}
-
 int cli_shares_make(const lrcs_host_scene *base, const lrcs_scene *scene,
                     const lrcs_facet_record *records, double sigma_m2, cli_shares *shares)
 {
@@ -286,7 +231,27 @@ int cli_shares_make(const lrcs_host_scene *base, const lrcs_scene *scene,
     *shares = (cli_shares){.sigma_m2 = sigma_m2};
     plan.first_part = calloc((size_t)scene->part_count + 1, sizeof *plan.first_part);
     plan.material_of = calloc((size_t)scene->material_count + 1, sizeof *plan.material_of);
-    int made = plan.first_part && plan.material_of && shares_fill(&plan, records, shares) == 0;
+    if (!plan.first_part || !plan.material_of) {
+        free(plan.first_part);
+        free(plan.material_of);
+        return cli_out_of_memory();
+    }
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        const lrcs_mesh *mesh = part_objects(&plan, i);
+        plan.first_part[i] = plan.parts;
+        plan.parts += mesh ? mesh->part_count : 1;
+    }
+    materials_number(&plan);
+    shares->part = calloc((size_t)plan.parts + 1, sizeof *shares->part);
+    shares->material = calloc((size_t)plan.materials + 1, sizeof *shares->material);
+    shares_tally *tally = calloc((size_t)plan.parts + plan.materials + 1, sizeof *tally);
+    int made = tally && shares->part && shares->material && rows_name(&plan, shares) == 0;
+    if (made) {
+        facets_add(&plan, records, tally, shares);
+        rows_sort(shares->part, &shares->parts);
+        rows_sort(shares->material, &shares->materials);
+    }
+    free(tally);
     free(plan.first_part);
     free(plan.material_of);
     return made ? 0 : cli_out_of_memory();
@@ -331,4 +296,104 @@ shares_row cli_shares_others(const shares_row *row, uint32_t from, uint32_t coun
     }
     row_fill(&others, &tally);
     return others;
+}
+
+/* ---- the table ---- */
+
+/* Prints a share in percent; "-" if it is not defined. */
+static void percent_cell(double share)
+{
+    if (isfinite(share)) {
+        printf(" %7.2f %%", 100.0 * share);
+    } else {
+        printf(" %9s", "-");
+    }
+}
+
+static void row_line(const cli_shares *shares, const shares_row *row)
+{
+    printf(" %12.6g", row->sigma_m2);
+    percent_cell(cli_share_of(shares, row->sigma_m2));
+    printf(" %12.4g %12.4g\n", row->glint_m2, row->diffuse_m2);
+}
+
+static void rows_table(const cli_shares *shares, const char *what, const shares_row *row,
+                       uint32_t count)
+{
+    uint32_t shown = cli_shares_shown(row, count);
+    printf("  %-*s %12s %9s %12s %12s\n", NAME_WIDTH, what, "sigma m2", "share", "glint m2",
+           "diffuse m2");
+    for (uint32_t i = 0; i < shown; i++) {
+        printf("  ");
+        cli_column(row[i].name[0] ? row[i].name : "(no name)", NAME_WIDTH);
+        row_line(shares, &row[i]);
+    }
+    if (shown < count) {
+        char text[32];
+        shares_row others = cli_shares_others(row, shown, count);
+        snprintf(text, sizeof text, "%lu other%s", (unsigned long)(count - shown),
+                 count - shown > 1 ? "s" : "");
+        printf("  %-*s", NAME_WIDTH, text);
+        row_line(shares, &others);
+    }
+}
+
+static void facets_table(const cli_shares *shares)
+{
+    if (shares->facets == 0) {
+        return;
+    }
+    printf("  %-10s %-*s %-20s %9s %12s %12s %9s\n", "facet", NAME_WIDTH, "part", "material",
+           "theta deg", "visible m2", "sigma m2", "share");
+    for (uint32_t i = 0; i < shares->facets; i++) {
+        const shares_facet *facet = &shares->facet[i];
+        printf("  %-10lu ", (unsigned long)facet->facet);
+        cli_column(facet->part, NAME_WIDTH);
+        putchar(' ');
+        cli_column(facet->material[0] ? facet->material : "(default)", 20);
+        printf(" %9.3f %12.4g %12.6g", facet->theta_deg, facet->visible_area_m2, facet->sigma_m2);
+        percent_cell(cli_share_of(shares, facet->sigma_m2));
+        putchar('\n');
+    }
+}
+
+void cli_shares_table(const cli_shares *shares)
+{
+    printf("shares       who makes sigma; the brightest first\n");
+    rows_table(shares, "part", shares->part, shares->parts);
+    rows_table(shares, "material", shares->material, shares->materials);
+    facets_table(shares);
+}
+
+/* ---- JSON ---- */
+
+static void rows_json(const cli_shares *shares, const char *key, const shares_row *row,
+                      uint32_t count, lrcs_host_json *json)
+{
+    lrcs_host_json_begin(json, key, LRCS_HOST_ARRAY);
+    for (uint32_t i = 0; i < count; i++) {
+        cli_json(json,
+                 "{name=%s sigma_m2=%g share=%g sigma_glint_m2=%g sigma_diffuse_m2=%g facets=%u}",
+                 row[i].name, row[i].sigma_m2, cli_share_of(shares, row[i].sigma_m2),
+                 row[i].glint_m2, row[i].diffuse_m2, row[i].facets);
+    }
+    cli_json(json, "]");
+}
+
+void cli_shares_json(const cli_shares *shares, lrcs_host_json *json)
+{
+    cli_json(json, "shares={\n");
+    rows_json(shares, "parts", shares->part, shares->parts, json);
+    rows_json(shares, "materials", shares->material, shares->materials, json);
+    cli_json(json, "facets=[\n");
+    for (uint32_t i = 0; i < shares->facets; i++) {
+        const shares_facet *facet = &shares->facet[i];
+        cli_json(json,
+                 "{facet=%u part=%s material=%s theta_deg=%g visible_area_m2=%g sigma_m2=%g "
+                 "sigma_glint_m2=%g share=%g}",
+                 facet->facet, facet->part, facet->material, facet->theta_deg,
+                 facet->visible_area_m2, facet->sigma_m2, facet->glint_m2,
+                 cli_share_of(shares, facet->sigma_m2));
+    }
+    cli_json(json, "]}");
 }

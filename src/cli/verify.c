@@ -56,48 +56,29 @@ typedef struct verify_tally {
     double seconds, worst; /* the largest |error| / bound */
 } verify_tally;
 
-static void case_row(const verify_case *one)
+static void case_print(const verify_case *one, lrcs_host_json *json)
 {
     double error = one->engine - one->closed;
-    char material[64];
-    snprintf(material, sizeof material, "%g,%g,%g,%g", one->brdf->A, one->brdf->B, one->brdf->s,
-             one->brdf->m);
-    printf("%-10s %6g  %-14s %15.9g %15.9g ", one->shape, one->aspect_deg, material, one->engine,
-           one->closed);
-    if (one->closed != 0.0) {
-        printf("%10.1e", error / one->closed);
-    } else {
-        printf("%10s", error == 0.0 ? "0" : "-");
+    double relative = one->closed != 0.0 ? error / one->closed : (double)NAN;
+    char text[64];
+    if (json) {
+        cli_json(json, "{shape=%s aspect_deg=%g material={", one->shape, one->aspect_deg);
+        cli_brdf_json(one->brdf, json);
+        cli_json(json,
+                 "} engine_m2=%g closed_form_m2=%g relative_error=%g bound_m2=%g seconds=%g ok=%d}",
+                 one->engine, one->closed, relative, one->bound, one->seconds, one->good);
+        return;
     }
-    printf(" %9.1e %9.3f%s\n", one->bound, 1e3 * one->seconds, one->good ? "" : "  FAIL");
-}
-
-static void case_json(const verify_case *one, lrcs_host_json *json)
-{
-    cli_json(json, "{shape=%s aspect_deg=%g material={", one->shape, one->aspect_deg);
-    cli_brdf_json(one->brdf, json);
-    cli_json(json,
-             "} engine_m2=%g closed_form_m2=%g relative_error=%g bound_m2=%g seconds=%g ok=%d}",
-             one->engine, one->closed,
-             one->closed != 0.0 ? (one->engine - one->closed) / one->closed : (double)NAN,
-             one->bound, one->seconds, one->good);
-}
-
-/* One shape in one material, prepared. */
-static int shape_scene(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcs_host_scene *scene,
-                       lrcs_host_error *error)
-{
-    lrcs_recipe_part part = {.name = lrcs_shape_text(shape->kind),
-                             .shape = *shape,
-                             .place = lrcs_place_default(),
-                             .material_index = -1};
-    lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = -1};
-    lrcs_recipe recipe = {.part = &part, .binding = &binding, .part_count = 1, .binding_count = 1};
-    lrcs_build_options build = lrcs_build_options_default();
-    build.tolerance = VERIFY_TOLERANCE;
-    build.facets_only = LRCS_FACETS_TOTAL;
-    int status = lrcs_host_scene_make(&recipe, &build, scene, error);
-    return status == LRCS_OK ? lrcs_host_scene_prepare(scene, error) : status;
+    snprintf(text, sizeof text, "%g,%g,%g,%g", one->brdf->A, one->brdf->B, one->brdf->s,
+             one->brdf->m);
+    printf("%-10s %6g  %-14s %15.9g %15.9g ", one->shape, one->aspect_deg, text, one->engine,
+           one->closed);
+    snprintf(text, sizeof text, "%10.1e", relative);
+    printf("%10s %9.1e %9.3f%s\n",
+           one->closed != 0.0 ? text
+           : error == 0.0     ? "0"
+                              : "-",
+           one->bound, 1e3 * one->seconds, one->good ? "" : "  FAIL");
 }
 
 /* An axis and an angle from it: s_hat = (sin, 0, cos), that is elevation 90 - angle. */
@@ -130,12 +111,23 @@ static int case_run(const lrcs_host_scene *scene, const lrcs_shape *shape, verif
     return status;
 }
 
+/* One shape in one material, from all aspects. */
 static int shape_verify(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcs_host_json *json,
                         verify_tally *tally)
 {
     lrcs_host_error error;
     lrcs_host_scene scene;
-    int status = shape_scene(shape, brdf, &scene, &error);
+    lrcs_recipe_part part = {.name = lrcs_shape_text(shape->kind),
+                             .shape = *shape,
+                             .place = lrcs_place_default(),
+                             .material_index = -1};
+    lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = -1};
+    lrcs_recipe recipe = {.part = &part, .binding = &binding, .part_count = 1, .binding_count = 1};
+    lrcs_build_options build = lrcs_build_options_default();
+    build.tolerance = VERIFY_TOLERANCE;
+    build.facets_only = LRCS_FACETS_TOTAL;
+    int status = lrcs_host_scene_make(&recipe, &build, &scene, &error);
+    status = status == LRCS_OK ? lrcs_host_scene_prepare(&scene, &error) : status;
     for (size_t i = 0; i < COUNT_OF(verify_aspects) && status == LRCS_OK; i++) {
         verify_case one = {
             .shape = lrcs_shape_text(shape->kind), .aspect_deg = verify_aspects[i], .brdf = brdf};
@@ -149,11 +141,7 @@ static int shape_verify(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcs_hos
         if (one.bound > 0.0) {
             tally->worst = fmax(tally->worst, fabs(one.engine - one.closed) / one.bound);
         }
-        if (json) {
-            case_json(&one, json);
-        } else {
-            case_row(&one);
-        }
+        case_print(&one, json);
     }
     lrcs_host_scene_free(&scene);
     return status == LRCS_OK ? CLI_DONE : cli_failed(&error);

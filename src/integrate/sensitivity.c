@@ -80,7 +80,7 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
     lrcsi_patch patch = {.side = 0};
     memset(response, 0, scene->material_count * sizeof *response);
     for (uint32_t f = 0; f < scene->facet_count; f++) {
-        int in_clear_shape = clear && clear->count > 0 && clear->part[scene->facet_part[f]];
+        int in_clear_shape = clear->count > 0 && clear->part[scene->facet_part[f]];
         if (view->facing[f] == 0 || !lrcsi_view_reflects(view, f) || in_clear_shape) {
             continue;
         }
@@ -98,7 +98,7 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
                                &response[material]);
         }
     }
-    for (uint32_t i = 0; clear && clear->count > 0 && i < scene->part_count; i++) {
+    for (uint32_t i = 0; clear->count > 0 && i < scene->part_count; i++) {
         if (clear->part[i]) {
             uint32_t material = scene->facet_material[scene->part[i].first_facet];
             lrcsi_shape_response at = lrcsi_shape_response_make(view, i, &brdf[material]);

@@ -131,6 +131,8 @@ typedef struct raster_job {
     lrcsi_edges edges;
     lrcsi_plane plane;
     double slack;
+    uint32_t met;  /* the owner that doubles last left undecided, or LRCS_NONE, */
+    int met_order; /* and its lrcsi_sample_order */
 } raster_job;
 
 static void sample_point(const lrcsi_raster *r, uint32_t x, uint32_t y, double point[3])
@@ -147,13 +149,21 @@ static int job_covers(const raster_job *job, uint32_t x, uint32_t y)
     return lrcsi_sample_covers(job->raster->view, job->facet, point);
 }
 
-/* Is the facet nearer than the owner of a sample that both cover? */
-static int job_nearer(const raster_job *job, uint32_t owner, double ahead, uint32_t x, uint32_t y)
+/* Is the facet nearer than the owner of a sample that both cover? Where doubles cannot tell, most
+   pairs have the same order at all samples, which is found once. */
+static int job_nearer(raster_job *job, uint32_t owner, double ahead, uint32_t x, uint32_t y)
 {
     lrcsi_raster *r = job->raster;
     double slack = job->slack + r->slack[owner];
     if (ahead > slack || ahead < -slack) {
         return ahead > 0;
+    }
+    if (owner != job->met) {
+        job->met = owner;
+        job->met_order = lrcsi_sample_order(r->view, job->facet, owner);
+    }
+    if (job->met_order != 0) {
+        return job->met_order > 0;
     }
     double point[3];
     sample_point(r, x, y, point);
@@ -165,7 +175,7 @@ static int job_nearer(const raster_job *job, uint32_t owner, double ahead, uint3
 
 /* Samples x0 <= x < x1 of a row, which the facet covers: it takes them, or leaves them to their
    owners. */
-static void draw_run(const raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
+static void draw_run(raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
 {
     lrcsi_raster *r = job->raster;
     double row = job->plane.at + job->plane.up * (y + 0.5);
@@ -189,7 +199,7 @@ static void draw_run(const raster_job *job, uint32_t y, uint32_t x0, uint32_t x1
     r->owned[job->facet] += taken;
 }
 
-static void draw_doubtful(const raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
+static void draw_doubtful(raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
 {
     for (uint32_t x = x0; x < x1; x++) {
         if (job_covers(job, x, y)) {
@@ -200,7 +210,7 @@ static void draw_doubtful(const raster_job *job, uint32_t y, uint32_t x0, uint32
 
 void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet)
 {
-    raster_job job = {.raster = raster, .facet = facet};
+    raster_job job = {.raster = raster, .facet = facet, .met = LRCS_NONE};
     raster->slack[facet] = job.slack = lrcsi_raster_slack(raster, facet);
     job.edges = lrcsi_raster_edges(raster, facet);
     job.plane = lrcsi_raster_plane(raster, facet);
@@ -264,25 +274,25 @@ void lrcsi_raster_clear(lrcsi_raster *raster)
     }
 }
 
-static void want_row(lrcsi_raster *r, uint32_t y, uint32_t x0, uint32_t x1)
-{
-    for (uint32_t x = x0; x < x1; x += LRCSI_RASTER_TILE) {
-        r->wanted[tile_at(r, x, y)] = 1;
-    }
-    r->wanted[tile_at(r, x1 - 1, y)] = 1;
-}
-
+/* A row of tiles at a time: its tiles from the first to the last column that the facet may touch in
+   these pixel rows and in the two rows on either side of them. */
 void lrcsi_raster_want(lrcsi_raster *raster, uint32_t facet)
 {
-    lrcsi_edges e = lrcsi_raster_edges(raster, facet);
-    uint32_t last = raster->size - 1;
-    for (uint32_t y = e.bottom; y < e.top; y++) {
-        lrcsi_pixels row = lrcsi_span_touched(&e, y);
-        if (row.x0 < row.x1) {
-            uint32_t x0 = row.x0 > 2 ? row.x0 - 2 : 0;
-            uint32_t x1 = row.x1 + 2 < raster->size ? row.x1 + 2 : raster->size;
-            want_row(raster, y > 2 ? y - 2 : 0, x0, x1);
-            want_row(raster, y + 2 < last ? y + 2 : last, x0, x1);
+    const uint32_t tile = LRCSI_RASTER_TILE;
+    const lrcsi_edges e = lrcsi_raster_edges(raster, facet);
+    if (e.bottom >= e.top) {
+        return;
+    }
+    for (uint32_t row = (e.bottom > 2 ? e.bottom - 2 : 0) / tile;
+         row < raster->tiles && row * tile < e.top + 2; row++) {
+        uint32_t first = row * tile > e.bottom + 2 ? row * tile - 2 : e.bottom;
+        uint32_t end = (row + 1) * tile + 2 < e.top ? (row + 1) * tile + 2 : e.top;
+        lrcsi_pixels span = lrcsi_span_touched_rows(&e, first, end - 1);
+        if (span.x0 < span.x1) {
+            uint32_t x0 = span.x0 > 2 ? span.x0 - 2 : 0;
+            uint32_t x1 = span.x1 + 2 < raster->size ? span.x1 + 2 : raster->size;
+            memset(raster->wanted + tile_at(raster, x0, row * tile), 1,
+                   (x1 - 1) / tile - x0 / tile + 1);
         }
     }
 }

@@ -196,17 +196,31 @@ lrcsi_samples lrcsi_span_samples(const lrcsi_edges *e, uint32_t y)
 
 lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *e, uint32_t y)
 {
+    return lrcsi_span_touched_rows(e, y, y);
+}
+
+/* Where a side crosses the rows, and the value of one that is parallel to them, are linear in y: in
+   rows between the first and the last they lie between the values there, which have the errors of
+   those rows. */
+lrcsi_pixels lrcsi_span_touched_rows(const lrcsi_edges *e, uint32_t y0, uint32_t y1)
+{
     double from[2];
     double to[2];
     for (int i = 0; i < 2; i++) {
-        from[i] = e->cross_at[i] + e->cross_up[i] * y - e->cross_pixel_offset[i];
-        to[i] = e->cross_at[2 + i] + e->cross_up[2 + i] * y + e->cross_pixel_offset[2 + i];
+        double left[2] = {e->cross_at[i] + e->cross_up[i] * y0,
+                          e->cross_at[i] + e->cross_up[i] * y1};
+        double right[2] = {e->cross_at[2 + i] + e->cross_up[2 + i] * y0,
+                           e->cross_at[2 + i] + e->cross_up[2 + i] * y1};
+        from[i] = lrcsi_least(left[0], left[1]) - e->cross_pixel_offset[i];
+        to[i] = lrcsi_most(right[0], right[1]) + e->cross_pixel_offset[2 + i];
     }
     span_ends ends = {.from = {lrcsi_most(e->left, lrcsi_most(from[0], from[1]))},
                       .to = {lrcsi_least(e->right, lrcsi_least(to[0], to[1]))}};
     for (int k = 0; e->level && k < 3; k++) {
         if (e->over[k] == 0) {
-            ends_level(&ends, e, k, e->at[k] + e->up[k] * (y + 0.5));
+            ends_level(
+                &ends, e, k,
+                lrcsi_most(e->at[k] + e->up[k] * (y0 + 0.5), e->at[k] + e->up[k] * (y1 + 0.5)));
         }
     }
     return outer_span(&ends, TOUCHED, e->left, e->right);

@@ -80,4 +80,7 @@ lrcsi_samples lrcsi_span_samples(const lrcsi_edges *edges, uint32_t y);
 /* Only which pixels of a row are touched: a third of the cost. */
 lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *edges, uint32_t y);
 
+/* A range of columns that holds all pixels touched in rows y0 <= y <= y1, and possibly others. */
+lrcsi_pixels lrcsi_span_touched_rows(const lrcsi_edges *edges, uint32_t y0, uint32_t y1);
+
 #endif

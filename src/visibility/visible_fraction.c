@@ -90,10 +90,17 @@ static uint32_t samples_add_neighbours(const lrcsi_sharing *s, uint32_t facet, d
 /* The longest side of a facet, in pixels. */
 static double longest_in_pixels(const lrcsi_raster *raster, uint32_t facet)
 {
-    lrcsi_edges e = lrcsi_raster_edges(raster, facet);
+    const uint32_t *corner = raster->view->prepared->scene->facet[facet].corner;
+    double p[3][2];
     double square = 0;
     for (int k = 0; k < 3; k++) {
-        square = lrcsi_most(square, e.along[k] * e.along[k] + e.up[k] * e.up[k]);
+        lrcsi_raster_point(raster, corner[k], p[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *next = p[(k + 1) % 3];
+        double x = next[0] - p[k][0];
+        double y = next[1] - p[k][1];
+        square = lrcsi_most(square, y * y + x * x);
     }
     return sqrt(square);
 }

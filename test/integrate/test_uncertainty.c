@@ -415,6 +415,92 @@ static void where_sigma_bends_the_sample_is_reported_and_right(void **state)
     check_rel(got.u.high_m2, 4 * CURVED_PI * 16 / 9 * exp(-u / 0.26 / 0.26), 0.02);
 }
 
+/* Only the diffuse exponent is uncertain: sigma varies as cos(theta)^m, nearly linear in m over so
+   small an error. */
+static void an_error_of_m_alone_is_first_order_and_sampled(void **state)
+{
+    (void)state;
+    const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
+    const lrcs_shape plate = PLATE;
+    const lrcs_brdf brdf = {1, 0.25, 0.2, 0.5};
+    const lrcs_brdf_error error = {.m = 0.01};
+    double direction[3];
+    aspect(60, direction);
+    outcome got =
+        run_with(shape_prepare(&plate, &brdf, &error, 1), direction, LRCS_METHOD_AUTO, &how);
+    check_rel(got.u.first_order_m2, 0.01 * fabs(references[2].d[3]), 1e-12);
+    check_rel(got.u.sample_m2, got.u.first_order_m2, 0.05);
+}
+
+/* The derivatives and the first order are those of a run with a sample, to the bit. */
+static void without_draws_the_first_order_is_reported(void **state)
+{
+    (void)state;
+    const lrcs_uncertainty_options draws[2] = {{0, 1}, {4096, 1}};
+    const lrcs_shape plate = PLATE;
+    const lrcs_brdf brdf = {1, 0, 0.2, 0};
+    const lrcs_brdf_error error = {.s = 0.06};
+    double direction[3];
+    outcome got[2];
+    aspect(30, direction);
+    for (int i = 0; i < 2; i++) {
+        got[i] = run_with(shape_prepare(&plate, &brdf, &error, 1), direction, LRCS_METHOD_AUTO,
+                          &draws[i]);
+    }
+    assert_int_equal(got[0].u.sampled, 0);
+    assert_int_equal(got[1].u.sampled, 1);
+    check_same(got[0].d[0].ds, got[1].d[0].ds);
+    check_same(got[0].u.first_order_m2, got[1].u.first_order_m2);
+    check_same(got[0].u.deviation_m2, got[0].u.first_order_m2);
+    assert_true(got[0].u.first_order_m2 > 0);
+}
+
+/* A term that a run leaves out has no derivatives; those of the other term stay. */
+static void terms_left_out_have_no_derivatives(void **state)
+{
+    (void)state;
+    const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
+    const lrcs_shape plate = PLATE;
+    double direction[3];
+    lrcs_pose pose;
+    aspect(20, direction);
+    assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
+    for (int glint = 0; glint < 2; glint++) {
+        lrcs_run_options options = lrcs_run_options_default();
+        outcome got;
+        options.without = 1u << (glint ? LRCS_EFFECT_DIFFUSE : LRCS_EFFECT_GLINT);
+        const lrcs_prepared *prepared = shape_prepare(&plate, &references[1].brdf, NULL, 1);
+        lrcs_work work = lrcs_work_make(run_area, sizeof run_area);
+        assert_int_equal(lrcs_uncertainty_run(prepared, &pose, &options, &how, &work, &got.result,
+                                              got.d, &got.u),
+                         LRCS_OK);
+        const double *want = references[1].d;
+        check_rel(got.d[0].dA, glint ? want[0] : 0, 1e-12);
+        check_rel(got.d[0].dB, glint ? 0 : want[1], 1e-12);
+        check_rel(got.d[0].ds, glint ? want[2] : 0, 1e-12);
+        check_rel(got.d[0].dm, glint ? 0 : want[3], 1e-12);
+    }
+}
+
+static void a_failed_run_leaves_outputs_alone(void **state)
+{
+    (void)state;
+    const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
+    const lrcs_run_options options = lrcs_run_options_default();
+    const lrcs_shape plate = PLATE;
+    const lrcs_pose nowhere = {.direction = {NAN, 0, 1}};
+    outcome got;
+    memset(&got, 0x5a, sizeof got);
+    const outcome before = got;
+    const lrcs_prepared *prepared = shape_prepare(&plate, &references[0].brdf, NULL, 1);
+    lrcs_work work = lrcs_work_make(run_area, sizeof run_area);
+    assert_int_equal(
+        lrcs_uncertainty_run(prepared, &nowhere, &options, &how, &work, &got.result, got.d, &got.u),
+        LRCS_E_NUMBER);
+    assert_memory_equal(&got, &before, sizeof got);
+    assert_true(work.used == 0);
+}
+
 static void draws_stay_in_the_domain(void **state)
 {
     (void)state;
@@ -611,6 +697,10 @@ int main(void)
         cmocka_unit_test(first_order_is_the_square_root_of_g_c_g),
         cmocka_unit_test(materials_of_one_source_are_off_together),
         cmocka_unit_test(where_sigma_bends_the_sample_is_reported_and_right),
+        cmocka_unit_test(an_error_of_m_alone_is_first_order_and_sampled),
+        cmocka_unit_test(without_draws_the_first_order_is_reported),
+        cmocka_unit_test(terms_left_out_have_no_derivatives),
+        cmocka_unit_test(a_failed_run_leaves_outputs_alone),
         cmocka_unit_test(draws_stay_in_the_domain),
         cmocka_unit_test(a_seed_gives_one_sample),
         cmocka_unit_test(full_correlation_is_one_deviate),

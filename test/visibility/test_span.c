@@ -97,6 +97,38 @@ static unsigned check_row(const int corner[3][2], int y, int x0, int x1)
     return row.touched.x1 - row.touched.x0;
 }
 
+/* It may be wider than they need, since sides may meet between the rows; often it is not. */
+static void a_range_for_several_rows_holds_what_each_of_them_touches(void **state)
+{
+    (void)state;
+    uint64_t seed = 11;
+    unsigned tight = 0;
+    for (int i = 0; i < 2000; i++) {
+        int corner[3][2];
+        triangle_of(&seed, i % 2, corner);
+        if (i % 5 == 0) { /* a side along the rows */
+            corner[1][1] = corner[0][1];
+        }
+        lrcsi_edges e = edges_of((const int(*)[2])corner);
+        e.right = N;
+        uint32_t y0 = random_below(&seed, N);
+        uint32_t y1 = y0 + random_below(&seed, N - y0);
+        lrcsi_pixels all = lrcsi_span_touched_rows(&e, y0, y1);
+        uint32_t low = N;
+        uint32_t high = 0;
+        for (uint32_t y = y0; y <= y1; y++) {
+            lrcsi_pixels row = lrcsi_span_touched(&e, y);
+            if (row.x0 < row.x1) {
+                assert_true(row.x0 >= all.x0 && row.x1 <= all.x1);
+                low = row.x0 < low ? row.x0 : low;
+                high = row.x1 > high ? row.x1 : high;
+            }
+        }
+        tight += low < high && low == all.x0 && high == all.x1;
+    }
+    assert_true(tight > 500);
+}
+
 static void spans_are_those_of_whole_numbers(void **state)
 {
     (void)state;
@@ -214,6 +246,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spans_are_those_of_whole_numbers),
+        cmocka_unit_test(a_range_for_several_rows_holds_what_each_of_them_touches),
         cmocka_unit_test(sides_along_the_rows_are_decided_for_the_whole_row),
         cmocka_unit_test(what_is_within_the_error_is_not_sure),
         cmocka_unit_test(segments_are_followed_through_the_pixels_they_meet),

@@ -91,6 +91,38 @@ static void wanted_tiles_hold_what_the_whole_picture_holds(void **state)
     assert_true(wanted > 1000 && left > 1000);
 }
 
+/* Undecided facets have samples wherever they may be touched, and two pixels farther. */
+static void tiles_about_undecided_facets_are_wanted(void **state)
+{
+    (void)state;
+    static lrcsi_visible visible[SCENE_FACETS];
+    unsigned seen = 0;
+    for (int i = 0; i < 4; i++) {
+        crowd();
+        lrcsi_view view = seen_from(i);
+        lrcsi_classification classification;
+        lrcsi_known known;
+        lrcsi_raster raster = sampled(&view, &classification, &known, visible);
+        for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+            lrcsi_edges e = lrcsi_raster_edges(&raster, f);
+            for (uint32_t y = e.bottom; known.answer[f] == LRCSI_QUERY_UNDECIDED && y < e.top;
+                 y++) {
+                lrcsi_pixels row = lrcsi_span_touched(&e, y);
+                for (uint32_t k = 0; k < 25 * (row.x1 - row.x0); k++) {
+                    uint32_t at_x = row.x0 + k / 25 + k % 5;
+                    uint32_t at_y = y + k % 25 / 5;
+                    if (at_x >= 2 && at_x < N + 2 && at_y >= 2 && at_y < N + 2) {
+                        seen++;
+                        assert_true(raster.wanted[(at_y - 2) / LRCSI_RASTER_TILE * raster.tiles +
+                                                  (at_x - 2) / LRCSI_RASTER_TILE]);
+                    }
+                }
+            }
+        }
+    }
+    assert_true(seen > 1000);
+}
+
 /* Large triangles of all slopes, each through all others. */
 static void tangle(uint64_t seed)
 {
@@ -173,6 +205,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wanted_tiles_hold_what_the_whole_picture_holds),
+        cmocka_unit_test(tiles_about_undecided_facets_are_wanted),
         cmocka_unit_test(pure_pixels_show_their_owner_in_every_part),
         cmocka_unit_test(pixels_where_facets_pierce_each_other_are_not_pure),
         cmocka_unit_test(facets_that_pierce_each_other_are_seen_as_clipping_sees_them),

@@ -91,51 +91,6 @@ static const struct {
                         {"+2 errors", LRCS_HOST_BLACK, LRCS_HOST_DOTTED},
                         {"-2 errors", LRCS_HOST_BLACK, LRCS_HOST_DOTTED}}};
 
-static lrcs_host_series series_look(int residuals, int i)
-{
-    if (i >= CHART_FIT) {
-        return (lrcs_host_series){.name = chart_lines[residuals][i - CHART_FIT].name,
-                                  .colour = chart_lines[residuals][i - CHART_FIT].colour,
-                                  .dash = chart_lines[residuals][i - CHART_FIT].dash,
-                                  .marker = LRCS_HOST_NO_MARKER};
-    }
-    const char *kept = residuals ? "residuals" : "readings";
-    return (lrcs_host_series){.name = i == CHART_KEPT ? kept : "set aside",
-                              .colour = i == CHART_KEPT ? LRCS_HOST_BLUE : LRCS_HOST_VERMILION,
-                              .marker = i == CHART_KEPT ? LRCS_HOST_DISC : LRCS_HOST_CROSS,
-                              .dash = LRCS_HOST_NO_LINE};
-}
-
-/* Fills all series of a chart. */
-static void series_take(const fit_job *job, int residuals, chart_points points[CHART_SERIES])
-{
-    points_take(job, residuals, 0, &points[CHART_KEPT]);
-    points_take(job, residuals, 1, &points[CHART_OUTLIERS]);
-    if (residuals) {
-        line_take(&job->material[0], 0.0, &points[CHART_FIT]);
-        line_take(&job->material[0], 2.0, &points[CHART_GLINT]);
-        line_take(&job->material[0], -2.0, &points[CHART_DIFFUSE]);
-    } else {
-        curve_take(job, 3, &points[CHART_FIT]);
-        curve_take(job, 1, &points[CHART_GLINT]);
-        curve_take(job, 2, &points[CHART_DIFFUSE]);
-    }
-}
-
-/* Moves residuals beyond the edge onto it. */
-static void edge_take(chart_points *points, chart_label *label, const char **text)
-{
-    for (uint32_t i = 0; i < points->count; i++) {
-        double y = points->y[i];
-        text[i] = NULL;
-        if (fabs(y) > CHART_EDGE) {
-            snprintf(label[i].text, sizeof label[i].text, "%.3g", y);
-            text[i] = label[i].text;
-            points->y[i] = copysign(CHART_EDGE, y);
-        }
-    }
-}
-
 /* A fit that spans decades has a logarithmic axis, with a floor if readings need one; curves end
    where they fall below it. */
 static void axis_choose(chart_points points[CHART_SERIES], lrcs_host_chart *chart)
@@ -186,7 +141,17 @@ static int chart_draw(const fit_job *job, int residuals, const char *path,
         axis_choose(points, &chart);
     }
     for (int i = 0; i < CHART_SERIES; i++) { /* only series that have points */
-        lrcs_host_series one = series_look(residuals, i);
+        const int kept = i == CHART_KEPT;
+        lrcs_host_series one = {.name = kept ? residuals ? "residuals" : "readings" : "set aside",
+                                .colour = kept ? LRCS_HOST_BLUE : LRCS_HOST_VERMILION,
+                                .marker = kept ? LRCS_HOST_DISC : LRCS_HOST_CROSS,
+                                .dash = LRCS_HOST_NO_LINE};
+        if (i >= CHART_FIT) {
+            one.name = chart_lines[residuals][i - CHART_FIT].name;
+            one.colour = chart_lines[residuals][i - CHART_FIT].colour;
+            one.dash = chart_lines[residuals][i - CHART_FIT].dash;
+            one.marker = LRCS_HOST_NO_MARKER;
+        }
         one.x = points[i].x;
         one.y = points[i].y;
         one.count = points[i].count;
@@ -217,10 +182,30 @@ int cli_fit_chart(const fit_job *job, int residuals, const char *path)
         for (size_t i = 0; i < CHART_SERIES; i++) {
             points[i] = (chart_points){number + 2 * i * room, number + (2 * i + 1) * room, 0};
         }
-        series_take(job, residuals, points);
+        points_take(job, residuals, 0, &points[CHART_KEPT]);
+        points_take(job, residuals, 1, &points[CHART_OUTLIERS]);
+        for (int k = CHART_FIT; k < CHART_SERIES; k++) {
+            static const double line[] = {0.0, 2.0, -2.0};
+            static const int parts[] = {3, 1, 2};
+            if (residuals) {
+                line_take(&job->material[0], line[k - CHART_FIT], &points[k]);
+            } else {
+                curve_take(job, parts[k - CHART_FIT], &points[k]);
+            }
+        }
         for (size_t i = 0; residuals && i <= CHART_OUTLIERS; i++) {
-            edge_take(&points[i], label + i * room, text + i * room);
             series[i].label = text + i * room;
+            for (uint32_t k = 0; k < points[i].count;
+                 k++) { /* those beyond the edge move onto it */
+                double *y = &points[i].y[k];
+                chart_label *own = &label[i * room + k];
+                text[i * room + k] = NULL;
+                if (fabs(*y) > CHART_EDGE) {
+                    snprintf(own->text, sizeof own->text, "%.3g", *y);
+                    text[i * room + k] = own->text;
+                    *y = copysign(CHART_EDGE, *y);
+                }
+            }
         }
         code = chart_draw(job, residuals, path, series, points);
     }

@@ -64,34 +64,21 @@ static int is_chart(const cli_given *given)
     return strcmp(given->name, "plot") == 0 || strcmp(given->name, "residuals") == 0;
 }
 
-static int noise_read(fit_job *job)
-{
-    const cli_args *args = job->args;
-    const char *text = cli_value(args, "noise");
-    if (!text || strcmp(text, "auto") == 0) {
-        return 0;
-    }
-    job->noise_asked = 1;
-    job->options.noise = strcmp(text, "relative") == 0 ? LRCS_FIT_RELATIVE : LRCS_FIT_ABSOLUTE;
-    return job->options.noise == LRCS_FIT_RELATIVE || strcmp(text, "absolute") == 0
-               ? 0
-               : cli_usage(args->command,
-                           "--noise: expected absolute, relative or auto, found '%s'", text);
-}
-
 static int fit_read(fit_job *job)
 {
     const cli_args *args = job->args;
+    int noise = LRCS_FIT_RELATIVE + 1;
     job->options = lrcs_fit_options_default();
     job->options.cosine = cli_value(args, "cosine") != NULL;
-    int code = noise_read(job);
+    int code = cli_choice(args, "noise", "absolute, relative or auto", &noise);
+    if (noise <= LRCS_FIT_RELATIVE) {
+        job->noise_asked = 1;
+        job->options.noise = noise;
+    }
     code = code ? code : cli_number(args, "panel", &job->panel);
     if (code == 0 && cli_value(args, "panel")) {
         if (!(job->panel > 0.0 && job->panel <= 1.5)) {
-            return cli_usage(args->command,
-                             "--panel: expected a reflectance 0 < RHO <= 1.5, "
-                             "found '%s'",
-                             cli_value(args, "panel"));
+            return cli_expected(args, "panel", "a reflectance 0 < RHO <= 1.5");
         }
         job->options.unit = job->panel / CLI_PI;
     }
@@ -125,26 +112,6 @@ static int material_name(fit_job *job)
     }
     free(readings->name[0]);
     readings->name[0] = own;
-    return 0;
-}
-
-/* Copies the readings of one material of the file. */
-static int material_take(const lrcs_host_readings *readings, uint32_t index, fit_material *material)
-{
-    size_t room = readings->count;
-    material->name = readings->name[index];
-    material->reading = malloc(room * sizeof *material->reading);
-    material->line = malloc(room * sizeof *material->line);
-    material->point = malloc(room * sizeof *material->point);
-    if (!material->reading || !material->line || !material->point) {
-        return cli_out_of_memory();
-    }
-    for (uint32_t i = 0; i < readings->count; i++) {
-        if (readings->reading[i].material == index) {
-            material->reading[material->count] = readings->reading[i].fit;
-            material->line[material->count++] = readings->reading[i].line;
-        }
-    }
     return 0;
 }
 
@@ -184,18 +151,8 @@ static int noise_fit(const fit_job *job, int noise, fit_material *material, lrcs
                         material->point);
 }
 
-/* Fits with relative errors and with absolute ones, and keeps the likelier fit. */
-static int noise_choose(const fit_job *job, fit_material *material, lrcs_work *work)
-{
-    int status = noise_fit(job, LRCS_FIT_RELATIVE, material, work);
-    double relative = status == LRCS_OK ? noise_likelihood(material, LRCS_FIT_RELATIVE) : 0.0;
-    status = status == LRCS_OK ? noise_fit(job, LRCS_FIT_ABSOLUTE, material, work) : status;
-    if (status == LRCS_OK && relative > noise_likelihood(material, LRCS_FIT_ABSOLUTE)) {
-        status = noise_fit(job, LRCS_FIT_RELATIVE, material, work);
-    }
-    return status;
-}
-
+/* Fits with the errors that are known or asked for; else with relative errors and with absolute
+   ones, and keeps the likelier fit. */
 static int material_fit(const fit_job *job, fit_material *material)
 {
     size_t size = lrcs_fit_need(material->count);
@@ -204,8 +161,15 @@ static int material_fit(const fit_job *job, fit_material *material)
         return cli_out_of_memory();
     }
     lrcs_work work = lrcs_work_make(bytes, size);
-    int status = job->noise_asked ? noise_fit(job, job->options.noise, material, &work)
-                                  : noise_choose(job, material, &work);
+    int status =
+        noise_fit(job, job->noise_asked ? job->options.noise : LRCS_FIT_RELATIVE, material, &work);
+    if (status == LRCS_OK && !job->noise_asked) {
+        double relative = noise_likelihood(material, LRCS_FIT_RELATIVE);
+        status = noise_fit(job, LRCS_FIT_ABSOLUTE, material, &work);
+        if (status == LRCS_OK && relative > noise_likelihood(material, LRCS_FIT_ABSOLUTE)) {
+            status = noise_fit(job, LRCS_FIT_RELATIVE, material, &work);
+        }
+    }
     free(bytes);
     if (status == LRCS_E_EMPTY && material->count < LRCS_FIT_READINGS) {
         return cli_fail("%s: %s: found %lu readings, expected %u or more", job->args->operand,
@@ -234,9 +198,21 @@ static int materials_make(fit_job *job)
         best = asked ? cli_nearest(asked, best, readings->name[i]) : NULL;
         if (!asked || strcmp(asked, readings->name[i]) == 0) {
             fit_material *material = &job->material[job->materials++];
-            code = material_take(readings, i, material);
+            material->name = readings->name[i];
+            material->reading = malloc(readings->count * sizeof *material->reading);
+            material->line = malloc(readings->count * sizeof *material->line);
+            material->point = malloc(readings->count * sizeof *material->point);
+            if (!material->reading || !material->line || !material->point) {
+                return cli_out_of_memory();
+            }
+            for (uint32_t k = 0; k < readings->count; k++) {
+                if (readings->reading[k].material == i) {
+                    material->reading[material->count] = readings->reading[k].fit;
+                    material->line[material->count++] = readings->reading[k].line;
+                }
+            }
             cli_watch_stage(material->name[0] ? material->name : "fit", NULL);
-            code = code ? code : material_fit(job, material);
+            code = material_fit(job, material);
         }
     }
     if (code == 0 && job->materials == 0) {
@@ -270,16 +246,6 @@ static int readings_check(fit_job *job)
 
 /* ---- the command ---- */
 
-static void warnings_print(const fit_material *material)
-{
-    int warnings = lrcs_brdf_check(&material->fit.brdf);
-    for (int bit = 1; warnings > 0 && bit <= warnings; bit *= 2) {
-        if (warnings & bit) {
-            fprintf(stderr, "notice: %s: %s\n", material->name, lrcs_brdf_warning_text(bit));
-        }
-    }
-}
-
 static int fit_report(const fit_job *job)
 {
     cli_watch_end();
@@ -301,7 +267,7 @@ static int fit_report(const fit_job *job)
     }
     cli_notices_print(stderr, &job->readings.notices);
     for (uint32_t i = 0; i < job->materials; i++) {
-        warnings_print(&job->material[i]);
+        cli_brdf_warnings_print(job->material[i].name, &job->material[i].fit.brdf);
         code = cli_fit_open(&job->material[i].fit) ? CLI_DEGRADED : code;
     }
     if (cli_value(args, "json")) {

@@ -45,33 +45,6 @@ static report_statement statement_make(const lrcs_fit *fit, int parameter)
 
 /* ---- the table ---- */
 
-static void unit_print(const fit_job *job)
-{
-    const char *with = job->options.cosine ? " cos(theta)" : "";
-    if (job->panel > 0.0) {
-        printf("unit       relative to a Lambert panel of reflectance %.6g: f_r%s = %.6g value, "
-               "1/sr\n",
-               job->panel, with, job->options.unit);
-    } else {
-        printf("unit       value = f_r%s, 1/sr\n", with);
-    }
-}
-
-static void outliers_print(const fit_material *material)
-{
-    uint32_t named = 0;
-    uint32_t outliers = material->count - material->fit.kept;
-    printf("readings   %lu from %.6g to %.6g deg, outliers set aside: %lu",
-           (unsigned long)material->count, material->fit.least_deg, material->fit.most_deg,
-           (unsigned long)outliers);
-    for (uint32_t i = 0; i < material->count && named < REPORT_LINES_MOST; i++) {
-        if (material->point[i].outlier) {
-            printf("%s%lu", named++ ? ", " : " (line ", (unsigned long)material->line[i]);
-        }
-    }
-    printf("%s%s\n", named < outliers ? ", ..." : "", outliers ? ")" : "");
-}
-
 /* Prints a number right-aligned, or a word if there is no number. */
 static void cell_print(double value, int width, const char *none)
 {
@@ -117,26 +90,6 @@ static void statements_print(const lrcs_fit *fit)
                        report_name[p], fit->correlation[p][q]);
             }
         }
-    }
-}
-
-static void residuals_print(const fit_job *job, const fit_material *material)
-{
-    const lrcs_fit *fit = &material->fit;
-    const char *taken = job->noise_asked ? "taken" : "likelier";
-    printf("residuals  rms %.4g 1/sr; errors ", fit->rms);
-    switch (material->noise) {
-    case LRCS_FIT_GIVEN:
-        printf("given: reduced chi-square %.4g\n", fit->noise * fit->noise);
-        break;
-    case LRCS_FIT_WEIGHTED:
-        printf("by weight\n");
-        break;
-    case LRCS_FIT_RELATIVE:
-        printf("%s relative: %.3g %% a reading\n", taken, 100.0 * fit->noise);
-        break;
-    default:
-        printf("%s the same for all: %.4g 1/sr a reading\n", taken, fit->noise);
     }
 }
 
@@ -198,6 +151,45 @@ static void material_print(const fit_material *material)
     printf("%s", stated > 1 ? "] # of AB, As, Am, Bs, Bm, sm\n" : "\n");
 }
 
+/* What was fitted: the readings with the lines of the outliers, the unit, the residuals. */
+static void readings_print(const fit_job *job, const fit_material *material)
+{
+    const lrcs_fit *fit = &material->fit;
+    const char *with = job->options.cosine ? " cos(theta)" : "";
+    const char *taken = job->noise_asked ? "taken" : "likelier";
+    uint32_t named = 0;
+    uint32_t outliers = material->count - fit->kept;
+    printf("readings   %lu from %.6g to %.6g deg, outliers set aside: %lu",
+           (unsigned long)material->count, fit->least_deg, fit->most_deg, (unsigned long)outliers);
+    for (uint32_t i = 0; i < material->count && named < REPORT_LINES_MOST; i++) {
+        if (material->point[i].outlier) {
+            printf("%s%lu", named++ ? ", " : " (line ", (unsigned long)material->line[i]);
+        }
+    }
+    printf("%s%s\n", named < outliers ? ", ..." : "", outliers ? ")" : "");
+    if (job->panel > 0.0) {
+        printf("unit       relative to a Lambert panel of reflectance %.6g: f_r%s = %.6g value, "
+               "1/sr\n",
+               job->panel, with, job->options.unit);
+    } else {
+        printf("unit       value = f_r%s, 1/sr\n", with);
+    }
+    printf("residuals  rms %.4g 1/sr; errors ", fit->rms);
+    switch (material->noise) {
+    case LRCS_FIT_GIVEN:
+        printf("given: reduced chi-square %.4g\n", fit->noise * fit->noise);
+        break;
+    case LRCS_FIT_WEIGHTED:
+        printf("by weight\n");
+        break;
+    case LRCS_FIT_RELATIVE:
+        printf("%s relative: %.3g %% a reading\n", taken, 100.0 * fit->noise);
+        break;
+    default:
+        printf("%s the same for all: %.4g 1/sr a reading\n", taken, fit->noise);
+    }
+}
+
 void cli_fit_table(const fit_job *job)
 {
     for (uint32_t i = 0; i < job->materials; i++) {
@@ -205,9 +197,7 @@ void cli_fit_table(const fit_job *job)
         printf("%smaterial   ", i ? "\n\n" : "");
         cli_column(material->name, 0);
         putchar('\n');
-        outliers_print(material);
-        unit_print(job);
-        residuals_print(job, material);
+        readings_print(job, material);
         parameters_print(&material->fit);
         putchar('\n');
         statements_print(&material->fit);

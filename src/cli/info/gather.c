@@ -25,33 +25,10 @@ double cli_facet_area(const lrcs_scene *scene, uint32_t facet)
     return 0.5 * hypot(hypot(n[0], n[1]), n[2]);
 }
 
-static int materials_count(cli_info *info)
+/* Gathers the properties of a scene that was built from what `base` was read from. */
+static int info_look(const char *operand, const lrcs_host_scene *base, cli_info *info)
 {
-    const lrcs_scene *scene = &info->scene.scene;
-    info->material = calloc((size_t)scene->material_count + 1, sizeof *info->material);
-    if (!info->material) {
-        return -1;
-    }
-    for (uint32_t i = 0; i < scene->facet_count; i++) {
-        info_material *material = &info->material[scene->facet_material[i]];
-        material->facets++;
-        cli_sum_add(&material->area, cli_facet_area(scene, i));
-    }
-    return 0;
-}
-
-/* The number of parts as files and shapes define them. */
-static uint32_t parts_count(const lrcs_host_scene *scene)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < scene->recipe.part_count; i++) {
-        count += scene->recipe.part[i].file ? scene->model[i].part_count : 1;
-    }
-    return count;
-}
-
-static int mesh_examine(cli_info *info)
-{
+    lrcs_host_error error;
     const lrcs_scene *scene = &info->scene.scene;
     size_t need = lrcs_mesh_check_need(scene->vertex_count, scene->facet_count);
     void *bytes = malloc(need);
@@ -60,25 +37,23 @@ static int mesh_examine(cli_info *info)
                                          scene->facet_count, &work, &info->report)
                        : LRCS_E_MEMORY;
     free(bytes);
-    return status;
-}
-
-/* Gathers the properties of a scene that was built from what `base` was read from. */
-static int info_look(const char *operand, const lrcs_host_scene *base, cli_info *info)
-{
-    lrcs_host_error error;
-    int status = mesh_examine(info);
-    if (status != LRCS_OK || materials_count(info) != 0) {
+    info->material = calloc((size_t)scene->material_count + 1, sizeof *info->material);
+    if (status != LRCS_OK || !info->material) {
         return cli_fail("%s: %s", operand,
                         status == LRCS_OK || status == LRCS_E_MEMORY ? "out of memory"
                                                                      : lrcs_status_text(status));
     }
-    if (lrcs_host_glint_check(&info->scene.scene, &info->glint, &info->glint_count, &error) !=
-        LRCS_OK) {
-        return cli_failed(&error);
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        info_material *material = &info->material[scene->facet_material[i]];
+        material->facets++;
+        cli_sum_add(&material->area, cli_facet_area(scene, i));
     }
-    info->parts = parts_count(base);
-    return 0;
+    for (uint32_t i = 0; i < base->recipe.part_count; i++) {
+        info->parts += base->recipe.part[i].file ? base->model[i].part_count : 1;
+    }
+    return lrcs_host_glint_check(scene, &info->glint, &info->glint_count, &error) == LRCS_OK
+               ? 0
+               : cli_failed(&error);
 }
 
 int cli_info_read(const cli_args *args, const lrcs_host_options *options, cli_info *info)
@@ -155,37 +130,14 @@ int cli_info_shows(const cli_info *info, uint32_t material)
 
 /* ---- what the mesh itself gives notice of ---- */
 
-static const char *notice_normals(const lrcs_scene *scene)
-{
-    for (uint32_t k = 0; k < scene->part_count; k++) {
-        const lrcs_part *part = &scene->part[k];
-        if (part->kind < 0 && !part->smoothed && part->facet_count > 0) {
-            return "a model has no smoothing groups or vertex normals: whether its facets stand "
-                   "for curves is not known";
-        }
-    }
-    return NULL;
-}
-
-static const char *notice_glint(const cli_info *info, char text[INFO_NOTICE_SIZE])
-{
-    uint32_t poor = 0;
-    for (uint32_t k = 0; k < info->glint_count; k++) {
-        poor += info->glint[k].error > LRCS_HOST_GLINT_COARSE;
-    }
-    snprintf(text, INFO_NOTICE_SIZE,
-             "glint: %lu of %lu curved parts are too coarse for their material's slope "
-             "(estimated error above 1 %%); lrcs run --normals auto curves them",
-             (unsigned long)poor, (unsigned long)info->glint_count);
-    return poor > 0 ? text : NULL;
-}
-
 const char *cli_info_notice(const cli_info *info, int i, char text[INFO_NOTICE_SIZE])
 {
     const lrcs_mesh_report *report = &info->report;
+    const lrcs_scene *scene = &info->scene.scene;
+    uint32_t poor = 0;
     switch (i) {
     case 0:
-        return report->closed || info->scene.scene.facet_count == 0
+        return report->closed || scene->facet_count == 0
                    ? NULL
                    : "the mesh is not closed: its back sides may show, and its volume has no "
                      "meaning";
@@ -194,8 +146,22 @@ const char *cli_info_notice(const cli_info *info, int i, char text[INFO_NOTICE_S
                    ? "the mesh is closed but inverted (negative volume): its fronts face inwards"
                    : NULL;
     case 2:
-        return notice_normals(&info->scene.scene);
+        for (uint32_t k = 0; k < scene->part_count; k++) {
+            const lrcs_part *part = &scene->part[k];
+            if (part->kind < 0 && !part->smoothed && part->facet_count > 0) {
+                return "a model has no smoothing groups or vertex normals: whether its facets "
+                       "stand for curves is not known";
+            }
+        }
+        return NULL;
     default:
-        return notice_glint(info, text);
+        for (uint32_t k = 0; k < info->glint_count; k++) {
+            poor += info->glint[k].error > LRCS_HOST_GLINT_COARSE;
+        }
+        snprintf(text, INFO_NOTICE_SIZE,
+                 "glint: %lu of %lu curved parts are too coarse for their material's slope "
+                 "(estimated error above 1 %%); lrcs run --normals auto curves them",
+                 (unsigned long)poor, (unsigned long)info->glint_count);
+        return poor > 0 ? text : NULL;
     }
 }

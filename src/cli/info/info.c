@@ -33,7 +33,7 @@ static void info_json(const cli_args *args, const cli_info *info)
 {
     const lrcs_scene *scene = &info->scene.scene;
     const lrcs_mesh_report *report = &info->report;
-    char text[INFO_NOTICE_SIZE];
+    char text[INFO_NOTICE_SIZE], colour[CLI_COLOUR_TEXT];
     lrcs_host_json json = lrcs_host_json_make(stdout);
     cli_json(&json, "{\n");
     cli_version_json(&json);
@@ -50,10 +50,9 @@ static void info_json(const cli_args *args, const cli_info *info)
         if (!cli_info_shows(info, i)) {
             continue;
         }
-        snprintf(text, sizeof text, "#%02X%02X%02X", material->rgb[0], material->rgb[1],
-                 material->rgb[2]);
+        cli_colour_text(material->rgb, colour);
         cli_json(&json, "{name=%s colour=%s facets=%u area_m2=%g brdf={", material->name,
-                 material->has_colour ? text : NULL, info->material[i].facets,
+                 material->has_colour ? colour : NULL, info->material[i].facets,
                  cli_sum_value(&info->material[i].area));
         cli_brdf_json(&material->brdf, &json);
         cli_json(&json, "}}");
@@ -92,17 +91,14 @@ static void table_materials(const cli_info *info)
            "A,B,s,m");
     for (uint32_t i = 0; i < info->scene.scene.material_count; i++) {
         const lrcs_material *material = &info->scene.scene.material[i];
-        char colour[8] = "-";
+        char colour[CLI_COLOUR_TEXT];
         if (!cli_info_shows(info, i)) {
             continue;
         }
-        if (material->has_colour) {
-            snprintf(colour, sizeof colour, "#%02X%02X%02X", material->rgb[0], material->rgb[1],
-                     material->rgb[2]);
-        }
         printf("  ");
         cli_column(cli_material_name(material), 24);
-        printf(" %-8s %9lu %12.6g  %g,%g,%g,%g%s%s%s\n", colour,
+        printf(" %-8s %9lu %12.6g  %g,%g,%g,%g%s%s%s\n",
+               material->has_colour ? cli_colour_text(material->rgb, colour) : "-",
                (unsigned long)info->material[i].facets, cli_sum_value(&info->material[i].area),
                material->brdf.A, material->brdf.B, material->brdf.s, material->brdf.m,
                material->bound                                    ? ""

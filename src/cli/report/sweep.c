@@ -132,7 +132,7 @@ typedef struct sweep_walk {
     report_sweep *sweep;
     uint64_t *list; /* rows to be run: one for each direction */
     uint64_t listed;
-    sweep_progress *progress;
+    cli_progress *progress;
     uint64_t before; /* number of rows of the sweeps before */
 } sweep_walk;
 
@@ -287,7 +287,7 @@ int cli_report_map(report_job *job)
         }
         job->map_step = steps[i];
     }
-    sweep_progress progress = cli_progress_make(0, code ? 0 : (uint64_t)map_poses(job->map_step));
+    cli_progress progress = cli_progress_make(0, code ? 0 : (uint64_t)map_poses(job->map_step));
     sweep_walk walk = {.progress = &progress, .sweep = &job->sweep[REPORT_MAP]};
     code = code ? code : sweep_plan_make(job, REPORT_MAP, walk.sweep);
     code = code ? code : sweep_run(job, scene, &walk);
@@ -302,7 +302,7 @@ int cli_report_sweeps(report_job *job)
     int code = scene_choose(job, &scene);
     code = code ? code : steps_choose(job, scene);
     double poses = code ? 0.0 : steps_poses(job->cut_step, job->map_step);
-    sweep_progress progress = cli_progress_make(0, (uint64_t)poses);
+    cli_progress progress = cli_progress_make(0, (uint64_t)poses);
     sweep_walk walk = {.progress = &progress};
     for (int kind = 0; kind < REPORT_SWEEPS && code == 0; kind++) {
         walk.sweep = &job->sweep[kind];

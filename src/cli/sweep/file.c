@@ -25,35 +25,12 @@ static int path_refuse(const char *path, const char *what)
    names its holder; it ends with its process, so that a file left by a crash locks nothing. If the
    file system does not support locks, there is none. */
 
-/* Reports the holder of the lock by the text that it wrote, "process PID on HOST". */
-static void lock_refuse(const sweep_file *file, int descriptor)
+/* 1 if a path names the file that was opened, whose properties are returned. */
+static int file_is_named(int descriptor, const char *path, struct stat *held)
 {
-    char holder[300];
-    ssize_t size = pread(descriptor, holder, sizeof holder - 1, 0);
-    holder[size > 0 ? size : 0] = '\0';
-    holder[strcspn(holder, "\n")] = '\0';
-    fprintf(stderr, "lrcs: %s: is being written by %s: wait for its end, or stop it\n", file->path,
-            holder[0] ? holder : "another process");
-}
-
-/* 1 if locked; 0 if another process holds the lock; negative if locking failed, with the reason in
-   errno. */
-static int lock_try(int descriptor)
-{
-    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    if (fcntl(descriptor, F_SETLK, &whole) == 0) {
-        return 1;
-    }
-    return errno == EACCES || errno == EAGAIN ? 0 : -1;
-}
-
-/* 1 if the path still names the file that was opened; its last holder may have removed it. */
-static int lock_is_there(const sweep_file *file, int descriptor)
-{
-    struct stat held;
     struct stat named;
-    return fstat(descriptor, &held) == 0 && stat(file->lock_path, &named) == 0 &&
-           held.st_dev == named.st_dev && held.st_ino == named.st_ino;
+    return fstat(descriptor, held) == 0 && stat(path, &named) == 0 &&
+           held->st_dev == named.st_dev && held->st_ino == named.st_ino;
 }
 
 static void lock_drop(sweep_file *file)
@@ -66,29 +43,33 @@ static void lock_drop(sweep_file *file)
 }
 
 /* Locks FILE.lock: 0, or CLI_FAILED with a message that names the holder if another process holds
-   it. */
+   it, by the text that it wrote. */
 static int lock_take(sweep_file *file)
 {
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    struct stat held;
     char holder[300];
     char host[256] = "";
-    for (;;) {
-        int descriptor = open(file->lock_path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (descriptor < 0) {
+    int locked;
+    do {
+        if (file->lock >= 0) {
+            close(file->lock); /* its last holder has removed it: another file has its name */
+        }
+        file->lock = open(file->lock_path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (file->lock < 0) {
             return path_refuse(file->lock_path, "write");
         }
-        int locked = lock_try(descriptor);
-        if (locked > 0 && !lock_is_there(file, descriptor)) {
-            close(descriptor);
-            continue;
+        locked = fcntl(file->lock, F_SETLK, &whole) == 0;
+        if (!locked && (errno == EACCES || errno == EAGAIN)) {
+            ssize_t read = pread(file->lock, holder, sizeof holder - 1, 0);
+            holder[read > 0 ? read : 0] = '\0';
+            holder[strcspn(holder, "\n")] = '\0';
+            close(file->lock);
+            file->lock = -1;
+            return cli_fail("%s: is being written by %s: wait for its end, or stop it", file->path,
+                            holder[0] ? holder : "another process");
         }
-        if (locked == 0) {
-            lock_refuse(file, descriptor);
-            close(descriptor);
-            return CLI_FAILED;
-        }
-        file->lock = descriptor;
-        break;
-    }
+    } while (locked && !file_is_named(file->lock, file->lock_path, &held));
     gethostname(host, sizeof host - 1);
     int size = snprintf(holder, sizeof holder, "process %ld on %s\n", (long)getpid(), host);
     if (ftruncate(file->lock, 0) != 0 || pwrite(file->lock, holder, (size_t)size, 0) != size) {
@@ -122,8 +103,7 @@ int cli_file_read(const cli_args *args, sweep_file *file)
         found = cli_extension(path, extension[i]) ? i : found;
     }
     if (found < 0) {
-        return cli_usage(args->command, "-o: expected FILE.csv, FILE.jsonl or FILE.npy, found '%s'",
-                         path);
+        return cli_expected(args, "o", "FILE.csv, FILE.jsonl or FILE.npy");
     }
     file->npy = found == SWEEP_NPY;
     file->format = found == SWEEP_JSONL ? SWEEP_JSONL : SWEEP_CSV;
@@ -199,13 +179,6 @@ static int bytes_write(int descriptor, const char *bytes, size_t size, uint64_t 
     return 0;
 }
 
-static int stream_fault(const sweep_file *file, lrcs_host_error *error)
-{
-    snprintf(error->text, sizeof error->text, "%.900s: cannot write: %s",
-             file->path ? file->partial : "standard output", strerror(errno));
-    return LRCS_E_SYSTEM;
-}
-
 /* Writes the buffered rows: to standard output, with the checksum if `last`; or to the file,
    followed by the checksum of all rows so far, in one write, which overwrites the previous
    checksum. The checksum is never longer than what overwrites it. Status: LRCS_OK;
@@ -228,7 +201,9 @@ static int waiting_flush(sweep_file *file, int last, lrcs_host_error *error)
                fflush(stdout) == 0;
     }
     if (!good) {
-        return stream_fault(file, error);
+        snprintf(error->text, sizeof error->text, "%.900s: cannot write: %s",
+                 file->path ? file->partial : "standard output", strerror(errno));
+        return LRCS_E_SYSTEM;
     }
     if (waiting_begin(file) != 0) {
         snprintf(error->text, sizeof error->text, "out of memory");
@@ -348,24 +323,6 @@ static int whole_recover(sweep_file *file, const sweep_plan *plan, const char *c
     return code;
 }
 
-/* Creates FILE.partial. An existing one is never overwritten: it may contain hours of work. */
-static int partial_begin(sweep_file *file, const char *head, size_t head_size)
-{
-    file->descriptor = open(file->partial, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file->descriptor < 0 && errno == EEXIST) {
-        fprintf(stderr,
-                "lrcs: %s: is there from a sweep that was stopped: --resume goes on with "
-                "it; or remove it\n",
-                file->partial);
-        return CLI_FAILED;
-    }
-    if (file->descriptor < 0) {
-        return path_refuse(file->partial, "write");
-    }
-    fwrite(head, 1, head_size, file->stream);
-    return 0;
-}
-
 int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head,
                   const sweep_plan *plan)
 {
@@ -395,8 +352,17 @@ int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head
         code = whole_recover(file, plan, (const char *const *)text, size);
     } else if (resume && stat(file->partial, &about) == 0) {
         code = partial_continue(file, plan, text[format], size[format]);
-    } else {
-        code = partial_begin(file, text[format], size[format]);
+    } else { /* an existing FILE.partial is never overwritten: it may contain hours of work */
+        file->descriptor = open(file->partial, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file->descriptor >= 0) {
+            fwrite(text[format], 1, size[format], file->stream);
+        } else if (errno == EEXIST) {
+            code = cli_fail("%s: is there from a sweep that was stopped: --resume goes on with "
+                            "it; or remove it",
+                            file->partial);
+        } else {
+            code = path_refuse(file->partial, "write");
+        }
     }
     free(text[0]);
     free(text[1]);
@@ -434,7 +400,7 @@ static int map_next(void *context, sweep_row *row)
         more = -1;
     }
     if (more < 0) {
-        fprintf(stderr, "lrcs: the rows of the map were changed: %s\n", rows->text.fault);
+        cli_fail("the rows of the map were changed: %s", rows->text.fault);
     }
     return more;
 }
@@ -456,44 +422,10 @@ static int map_make(const sweep_file *file, const sweep_plan *plan)
     return code ? code : remove(file->partial) == 0 ? 0 : path_refuse(file->partial, "remove");
 }
 
-/* 1 if FILE.partial is still the file that this process wrote: the same file, with a size that
-   fits. */
-static int partial_is_ours(const sweep_file *file)
-{
-    struct stat held;
-    struct stat named;
-    return fstat(file->descriptor, &held) == 0 && stat(file->partial, &named) == 0 &&
-           held.st_dev == named.st_dev && held.st_ino == named.st_ino &&
-           (uint64_t)held.st_size > file->size && (uint64_t)held.st_size <= file->size + 64;
-}
-
-/* Closes FILE.partial, which contains rows, all of them or some. */
-static int partial_close(sweep_file *file, const sweep_plan *plan, int all)
-{
-    int ours = partial_is_ours(file);
-    int closed = close(file->descriptor);
-    file->descriptor = -1;
-    if (closed != 0) {
-        return path_refuse(file->partial, "write");
-    }
-    if (!ours) {
-        return cli_fail(
-            "%s: was changed or removed by another program while it was written: it does "
-            "not become %s",
-            file->partial, file->path);
-    }
-    if (!all) {
-        return 0;
-    }
-    if (file->npy) {
-        return map_make(file, plan);
-    }
-    return rename(file->partial, file->path) == 0 ? 0 : path_refuse(file->path, "write");
-}
-
 int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
 {
     lrcs_host_error error;
+    struct stat held;
     int whole = file->path && file->descriptor < 0; /* FILE already existed */
     if (!file->stream || whole) {
         return 0;
@@ -504,11 +436,27 @@ int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
     if (waiting_flush(file, all, &error) != LRCS_OK) {
         return file->path ? cli_failed(&error) : 0; /* cli_finish checks standard output */
     }
-    int code = 0;
-    if (file->path && !all && file->next == plan->first) {
-        code = remove(file->partial) == 0 ? 0 : path_refuse(file->partial, "remove");
-    } else if (file->path) {
-        code = partial_close(file, plan, all);
+    if (!file->path) {
+        return 0;
     }
-    return code;
+    if (!all && file->next == plan->first) {
+        return remove(file->partial) == 0 ? 0 : path_refuse(file->partial, "remove");
+    }
+    /* FILE.partial must still be the file that this process wrote, with a size that fits */
+    int ours = file_is_named(file->descriptor, file->partial, &held) &&
+               (uint64_t)held.st_size > file->size && (uint64_t)held.st_size <= file->size + 64;
+    int closed = close(file->descriptor);
+    file->descriptor = -1;
+    if (closed != 0) {
+        return path_refuse(file->partial, "write");
+    }
+    if (!ours) {
+        return cli_fail("%s: was changed or removed by another program while it was written: it "
+                        "does not become %s",
+                        file->partial, file->path);
+    }
+    if (all && file->npy) {
+        return map_make(file, plan);
+    }
+    return !all || rename(file->partial, file->path) == 0 ? 0 : path_refuse(file->path, "write");
 }

@@ -33,26 +33,18 @@ static void npy_head(FILE *out, const sweep_text *text)
             whole - 11 - used, "");
 }
 
-static void npy_row(FILE *out, const sweep_text *text, const sweep_row *row)
-{
-    npy_double(out, row->field[FIELD_SIGMA]);
-    npy_double(out, row->field[FIELD_BOUND]);
-    if (text->flagged) {
-        npy_double(out, row->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE ? 1.0
-                        : row->flags & LRCS_FLAG_ACCEPTED_UNJUDGED  ? 2.0
-                        : row->flags & LRCS_FLAG_TOLERANCE_NOT_MET  ? -1.0
-                                                                    : 0.0);
-    }
-}
-
 /* ---- the head beside it ---- */
+
+static const char *const map_count[TALLY_FLAGS] = {"missed", "starved", "estimated", "unjudged"};
 
 static void map_sum(FILE *out, const lrcs_host_file *map, const sweep_tally *tally)
 {
-    fprintf(out, "# map=fnv1a:%016llx; missed=%llu; starved=%llu; estimated=%llu; unjudged=%llu\n",
-            (unsigned long long)cli_sum_more(CLI_SUM_BEGIN, map->bytes, map->size),
-            (unsigned long long)tally->missed, (unsigned long long)tally->starved,
-            (unsigned long long)tally->estimated, (unsigned long long)tally->unjudged);
+    fprintf(out, "# map=fnv1a:%016llx",
+            (unsigned long long)cli_sum_more(CLI_SUM_BEGIN, map->bytes, map->size));
+    for (int k = 0; k < TALLY_FLAGS; k++) {
+        fprintf(out, "; %s=%llu", map_count[k], (unsigned long long)tally->count[k]);
+    }
+    putc('\n', out);
 }
 
 int cli_map_write(const char *path, const sweep_text *text, sweep_next *next, void *context)
@@ -73,7 +65,14 @@ int cli_map_write(const char *path, const sweep_text *text, sweep_next *next, vo
     npy_head(map.stream, text);
     while ((more = next(context, &row)) == 1) {
         cli_tally_add(&tally, &row);
-        npy_row(map.stream, text, &row);
+        npy_double(map.stream, row.field[FIELD_SIGMA]);
+        npy_double(map.stream, row.field[FIELD_BOUND]);
+        if (text->flagged) {
+            npy_double(map.stream, row.flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE ? 1.0
+                                   : row.flags & LRCS_FLAG_ACCEPTED_UNJUDGED  ? 2.0
+                                   : row.flags & LRCS_FLAG_TOLERANCE_NOT_MET  ? -1.0
+                                                                              : 0.0);
+        }
     }
     int status = more == 0 ? LRCS_OK : LRCS_E_SYNTAX;
     /* 2. Its checksum and its head; a device or standard output has none. */
@@ -115,22 +114,20 @@ static double double_at(const unsigned char *bytes)
    it is not such a line, or not that of these bytes. */
 static int map_tally_read(sweep_map *map)
 {
-    static const char *const key[] = {"; missed=", "; starved=", "; estimated=", "; unjudged="};
-    sweep_tally *tally = &map->tally;
-    uint64_t *count[] = {&tally->missed, &tally->starved, &tally->estimated, &tally->unjudged};
     char line[200] = "";
     char expected[200] = "";
     size_t size = (size_t)(map->text.end - map->text.at);
     memcpy(line, map->text.at, size < sizeof line ? size : 0);
-    for (int i = 0; i < 4; i++) {
-        const char *at = strstr(line, key[i]);
-        *count[i] = at ? strtoull(at + strlen(key[i]), NULL, 10) : 0;
+    for (int k = 0; k < TALLY_FLAGS; k++) {
+        char count[32] = "";
+        cli_key_text(line, map_count[k], count, sizeof count);
+        map->tally.count[k] = strtoull(count, NULL, 10);
     }
     FILE *out = fmemopen(expected, sizeof expected, "w");
     if (!out) {
         return -1;
     }
-    map_sum(out, &map->file, tally);
+    map_sum(out, &map->file, &map->tally);
     fclose(out);
     return strcmp(line, expected) == 0 ? 0 : -1;
 }
@@ -186,10 +183,7 @@ int cli_map_recover(sweep_file *file, const sweep_plan *plan, const char *const 
         cli_file_take(file, &row);
     }
     if (same == 0) {
-        file->tally.missed = map.tally.missed;
-        file->tally.starved = map.tally.starved;
-        file->tally.estimated = map.tally.estimated;
-        file->tally.unjudged = map.tally.unjudged;
+        memcpy(file->tally.count, map.tally.count, sizeof map.tally.count);
     }
     cli_map_close(&map);
     return same;

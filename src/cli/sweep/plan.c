@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The rows of a sweep: the axes of the command line, and the values and the pose of a row from its
-   number. This file decides their order; scene.c decides how a scene changes along its axes. */
+   number. Ranges A:B:STEP are exact: decimal numbers as integer multiples of one power of ten. This
+   file decides how many rows there are, their order and their values; scene.c decides how a scene
+   changes along its axes. */
 #include "cli/sweep/sweep.h"
 
 #include <math.h>
@@ -8,6 +10,130 @@
 #include <string.h>
 
 #define PLAN_ROWS ((uint64_t)1 << 53) /* far more than can be computed */
+
+/* ---- ranges ---- */
+
+/* Integers and powers of ten that doubles represent exactly: one division then rounds only once. */
+#define RANGE_MOST     ((int64_t)1 << 53)
+#define RANGE_DECIMALS 22
+
+static const char range_form[] = "expected A:B:STEP or one number";
+static const char range_long[] = "a number has too many digits: at most 15 are exact";
+
+typedef struct range_number {
+    int64_t digits; /* digits * 10^exponent */
+    int exponent;
+} range_number;
+
+/* The digits of a number that lrcs_host_number_read has accepted. */
+static const char *digits_read(const char *at, const char *end, range_number *number)
+{
+    int point = 0;
+    for (; at < end && *at != 'e' && *at != 'E'; at++) {
+        if (*at == '.') {
+            point = 1;
+        } else if (number->digits > RANGE_MOST / 10 - 1) {
+            return NULL;
+        } else if (*at >= '0' && *at <= '9') {
+            number->digits = 10 * number->digits + (*at - '0');
+            number->exponent -= point;
+        }
+    }
+    return at;
+}
+
+static const char *range_number_read(const char *text, size_t size, range_number *number)
+{
+    double value;
+    const char *end = text + size;
+    *number = (range_number){0, 0};
+    if (lrcs_host_number_read(text, size, &value) != LRCS_OK) {
+        return range_form;
+    }
+    const char *at = digits_read(text + strspn(text, " +-"), end, number);
+    if (!at) {
+        return range_long;
+    }
+    if (at < end) {
+        number->exponent += (int)strtol(at + 1, NULL, 10);
+    }
+    if (memchr(text, '-', (size_t)(at - text))) {
+        number->digits = -number->digits;
+    }
+    while (number->digits % 10 == 0 && number->digits != 0) {
+        number->digits /= 10;
+        number->exponent++;
+    }
+    number->exponent = number->digits == 0 ? 0 : number->exponent;
+    return NULL;
+}
+
+/* digits * 10^(exponent + decimals); on overflow 0, and *good becomes 0. */
+static int64_t range_scaled(const range_number *number, int decimals, int *good)
+{
+    int64_t digits = number->digits;
+    for (int i = number->exponent + decimals; i > 0 && *good; i--) {
+        *good = llabs(digits) <= RANGE_MOST / 10;
+        digits *= *good ? 10 : 1;
+    }
+    return digits;
+}
+
+/* Makes a range from first, last and step; returns what is wrong, or NULL. */
+static const char *range_make(const range_number number[3], sweep_range *range)
+{
+    int decimals = 0;
+    int good = 1;
+    for (int i = 0; i < 3; i++) {
+        decimals = -number[i].exponent > decimals ? -number[i].exponent : decimals;
+    }
+    if (decimals > RANGE_DECIMALS) {
+        return range_long;
+    }
+    int64_t first = range_scaled(&number[0], decimals, &good);
+    int64_t span = range_scaled(&number[1], decimals, &good) - first;
+    int64_t step = range_scaled(&number[2], decimals, &good);
+    if (!good) {
+        return range_long;
+    }
+    if (span != 0 && (step == 0 || (step > 0) != (span > 0))) {
+        return "STEP does not lead from A to B";
+    }
+    *range = (sweep_range){first, step, span != 0 ? (uint64_t)(span / step) + 1 : 1, decimals};
+    return NULL;
+}
+
+const char *cli_range_read(const char *text, size_t size, sweep_range *range)
+{
+    range_number number[3] = {{0, 0}, {0, 0}, {1, 0}};
+    const char *end = text + size;
+    for (int i = 0; i < 3; i++) {
+        const char *colon = memchr(text, ':', (size_t)(end - text));
+        const char *stop = colon ? colon : end;
+        const char *fault = range_number_read(text, (size_t)(stop - text), &number[i]);
+        if (fault) {
+            return fault;
+        }
+        if (!colon && i == 0) {
+            number[1] = number[0];
+            return range_make(number, range);
+        }
+        if (!colon) {
+            return i == 2 ? range_make(number, range) : range_form;
+        }
+        text = colon + 1;
+    }
+    return range_form;
+}
+
+double cli_range_at(const sweep_range *range, uint64_t i)
+{
+    double power = 1.0;
+    for (int k = 0; k < range->decimals; k++) {
+        power *= 10.0; /* exact up to 10^22 */
+    }
+    return (double)(range->first + (int64_t)i * range->step) / power;
+}
 
 /* ---- axes ---- */
 
@@ -62,17 +188,15 @@ static int euler_axes(const cli_args *args, sweep_plan *plan)
         memcpy(plan->sequence, text, 3);
     }
     if (lrcs_pose_from_euler(plan->sequence, none, &pose) != LRCS_OK) {
-        return cli_usage(args->command,
-                         "--euler: expected SEQ:a,b,c with SEQ three of XYZ (intrinsic) or of xyz "
-                         "(extrinsic), neighbours different, found '%s'",
-                         text);
+        return cli_expected(args, "euler",
+                            "SEQ:a,b,c with SEQ three of XYZ (intrinsic) or of xyz (extrinsic), "
+                            "neighbours different");
     }
     const char *at = text + 4;
     for (int i = 0; i < 3 && code == 0; i++) {
         size_t size = strcspn(at, ",");
         if ((at[size] == '\0') != (i == 2)) {
-            return cli_usage(args->command, "--euler: expected three angles or ranges, found '%s'",
-                             text);
+            return cli_expected(args, "euler", "three angles or ranges");
         }
         code = cli_axis_add(args, plan, "euler", name[i], at, size);
         at += size + 1;
@@ -95,10 +219,8 @@ static int rotate_axes(const cli_args *args, sweep_plan *plan)
         plan->about[axis[0] - 'x'] = 1.0;
     } else if (cli_list(axis, plan->about, 3) != 0 ||
                lrcs_host_pose_turn(&pose, plan->about, 0.0, &pose) != LRCS_OK) {
-        return cli_usage(args->command,
-                         "--rotate: expected x, y, z or an axis u,v,w of the body, then "
-                         ":A:B:STEP in degrees, found '%s'",
-                         text);
+        return cli_expected(args, "rotate",
+                            "x, y, z or an axis u,v,w of the body, then :A:B:STEP in degrees");
     }
     const char *range = text[size] ? text + size + 1 : text + size;
     int code = cli_pose_read(args, &plan->base);
@@ -132,25 +254,9 @@ static int ways_check(const cli_args *args)
     return 0;
 }
 
-static int sphere_read(const cli_args *args, sweep_plan *plan)
-{
-    uint32_t points = 0;
-    int code = cli_whole(args, "sphere", 1.0, 4e9, &points);
-    plan->kind = SWEEP_SPHERE;
-    plan->poses = points;
-    return code;
-}
-
-static int track_poses(const cli_args *args, sweep_plan *plan)
-{
-    int code = cli_track_read(cli_value(args, "poses"), &plan->track);
-    plan->kind = SWEEP_TRACK;
-    plan->poses = plan->track.count;
-    return code;
-}
-
 static int poses_read(const cli_args *args, const sweep_track *track, sweep_plan *plan)
 {
+    int code;
     plan->poses = 1;
     plan->base = lrcs_pose_default();
     if (track) {
@@ -166,55 +272,23 @@ static int poses_read(const cli_args *args, const sweep_track *track, sweep_plan
         return rotate_axes(args, plan);
     }
     if (cli_value(args, "sphere")) {
-        return sphere_read(args, plan);
+        uint32_t points = 0;
+        code = cli_whole(args, "sphere", 1.0, 4e9, &points);
+        plan->kind = SWEEP_SPHERE;
+        plan->poses = points;
+        return code;
     }
     if (cli_value(args, "poses")) {
-        return track_poses(args, plan);
+        code = cli_track_read(cli_value(args, "poses"), &plan->track);
+        plan->kind = SWEEP_TRACK;
+        plan->poses = plan->track.count;
+        return code;
     }
     if (cli_value(args, "euler")) {
         return euler_axes(args, plan);
     }
     plan->kind = SWEEP_FIXED;
     return cli_pose_read(args, &plan->base);
-}
-
-/* ---- rows ---- */
-
-static int rows_count(const cli_args *args, sweep_plan *plan)
-{
-    plan->rows = plan->poses;
-    for (uint32_t i = 0; i < plan->axes; i++) {
-        if (plan->axis[i].range.count > PLAN_ROWS / plan->rows) {
-            return cli_usage(args->command, "too many poses: more than 2^53");
-        }
-        plan->rows *= plan->axis[i].range.count;
-        plan->poses *= i >= plan->scene_axes ? plan->axis[i].range.count : 1;
-    }
-    if (plan->kind == SWEEP_FIXED && plan->axes == 0) {
-        return cli_usage(args->command,
-                         "nothing varies: give --az A:B:STEP, --el, --euler, --rotate, --sphere N, "
-                         "--poses FILE.csv, --joint or --vary");
-    }
-    plan->first = 0;
-    plan->end = plan->rows;
-    return 0;
-}
-
-static void columns_name(sweep_plan *plan)
-{
-    static const char *const direction[3] = {"x", "y", "z"};
-    for (uint32_t i = 0; i < plan->axes; i++) {
-        plan->column[plan->columns++] = plan->axis[i].name;
-    }
-    for (uint32_t i = 0; i < plan->track.joints; i++) {
-        plan->column[plan->columns++] = plan->track.joint_name[i];
-    }
-    if (plan->kind == SWEEP_TRACK) {
-        plan->column[plan->columns++] = "time";
-    }
-    for (int k = 0; k < 3 && (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK); k++) {
-        plan->column[plan->columns++] = direction[k];
-    }
 }
 
 /* K/N: part K of N nearly equal parts of the rows. */
@@ -230,8 +304,7 @@ static int shard_read(const cli_args *args, sweep_plan *plan)
         lrcs_host_number_read(text + size + 1, strlen(text + size + 1), &part[1]) != LRCS_OK ||
         !(part[0] >= 1.0 && part[0] <= part[1] && part[1] <= 1e6) ||
         part[0] != (double)(uint32_t)part[0] || part[1] != (double)(uint32_t)part[1]) {
-        return cli_usage(args->command, "--shard: expected K/N, 1 <= K <= N <= 1000000, found '%s'",
-                         text);
+        return cli_expected(args, "shard", "K/N, 1 <= K <= N <= 1000000");
     }
     uint64_t shards = (uint64_t)part[1];
     uint64_t k = (uint64_t)part[0];
@@ -244,14 +317,38 @@ static int shard_read(const cli_args *args, sweep_plan *plan)
 
 int cli_plan_read(const cli_args *args, const sweep_track *track, sweep_plan *plan)
 {
+    static const char *const direction[3] = {"x", "y", "z"};
     memset(plan, 0, sizeof *plan);
     int code = ways_check(args);
     code = code ? code : cli_scene_axes_read(args, plan);
     code = code ? code : poses_read(args, track, plan);
-    code = code ? code : rows_count(args, plan);
-    code = code ? code : shard_read(args, plan);
-    columns_name(plan);
-    return code;
+    plan->rows = plan->poses;
+    for (uint32_t i = 0; i < plan->axes && code == 0; i++) {
+        if (plan->axis[i].range.count > PLAN_ROWS / plan->rows) {
+            return cli_usage(args->command, "too many poses: more than 2^53");
+        }
+        plan->rows *= plan->axis[i].range.count;
+        plan->poses *= i >= plan->scene_axes ? plan->axis[i].range.count : 1;
+    }
+    if (code == 0 && plan->kind == SWEEP_FIXED && plan->axes == 0) {
+        return cli_usage(args->command,
+                         "nothing varies: give --az A:B:STEP, --el, --euler, --rotate, --sphere N, "
+                         "--poses FILE.csv, --joint or --vary");
+    }
+    plan->end = plan->rows;
+    for (uint32_t i = 0; i < plan->axes; i++) {
+        plan->column[plan->columns++] = plan->axis[i].name;
+    }
+    for (uint32_t i = 0; i < plan->track.joints; i++) {
+        plan->column[plan->columns++] = plan->track.joint_name[i];
+    }
+    if (plan->kind == SWEEP_TRACK) {
+        plan->column[plan->columns++] = "time";
+    }
+    for (int k = 0; k < 3 && (plan->kind == SWEEP_SPHERE || plan->kind == SWEEP_TRACK); k++) {
+        plan->column[plan->columns++] = direction[k];
+    }
+    return code ? code : shard_read(args, plan);
 }
 
 void cli_plan_free(sweep_plan *plan)
@@ -294,17 +391,9 @@ static void sphere_point(uint64_t i, uint64_t count, double direction[3])
     direction[2] = z;
 }
 
-static void axes_values(const sweep_plan *plan, uint64_t row, double value[SWEEP_COLUMNS])
-{
-    for (uint32_t i = 0; i < plan->axes; i++) {
-        value[i] = cli_range_at(&plan->axis[i].range, cli_plan_place(plan, row, i));
-    }
-}
-
 int cli_plan_pose(const sweep_plan *plan, uint64_t row, lrcs_pose *pose)
 {
-    double value[SWEEP_COLUMNS];
-    const double *v = value + plan->scene_axes;
+    double v[SWEEP_AXES];
     uint64_t at = row % plan->poses;
     if (plan->kind == SWEEP_FIXED) {
         *pose = plan->base;
@@ -320,7 +409,9 @@ int cli_plan_pose(const sweep_plan *plan, uint64_t row, lrcs_pose *pose)
         sphere_point(at, plan->poses, direction);
         return lrcs_pose_from_direction(direction, pose);
     }
-    axes_values(plan, row, value);
+    for (uint32_t i = plan->scene_axes; i < plan->axes; i++) {
+        v[i - plan->scene_axes] = cli_range_at(&plan->axis[i].range, cli_plan_place(plan, row, i));
+    }
     if (plan->kind == SWEEP_AZEL) {
         int swapped = plan->axis[plan->scene_axes].option[0] == 'e';
         return lrcs_pose_from_azel(v[swapped], v[!swapped], pose);
@@ -333,7 +424,9 @@ void cli_plan_values(const sweep_plan *plan, uint64_t row, double value[SWEEP_CO
 {
     uint32_t used = plan->axes;
     lrcs_pose pose = lrcs_pose_default();
-    axes_values(plan, row, value);
+    for (uint32_t i = 0; i < plan->axes; i++) {
+        value[i] = cli_range_at(&plan->axis[i].range, cli_plan_place(plan, row, i));
+    }
     for (uint32_t i = 0; i < plan->track.joints; i++) {
         value[used++] = plan->track.joint[row % plan->poses][i];
     }

@@ -13,8 +13,14 @@
 
 /* ---- words ---- */
 
+/* The name of an axis in words, and its unit or NULL. */
+typedef struct axis_words {
+    char text[160];
+    const char *unit;
+} axis_words;
+
 /* Converts "az_deg" to words and its unit; other names are unchanged. */
-static void axis_words(const char *name, char text[160], const char **unit)
+static axis_words words_of(const char *name)
 {
     static const char *const units[][2] = {{"_deg", "deg"},  {".A", "1/sr"},    {".B", "1/sr"},
                                            {".size_x", "m"}, {".size_y", "m"},  {".size_z", "m"},
@@ -25,44 +31,34 @@ static void axis_words(const char *name, char text[160], const char **unit)
                                            {"euler_b_deg", "Euler angle b"},
                                            {"euler_c_deg", "Euler angle c"},
                                            {"rotate_deg", "rotation"}};
+    axis_words words = {.unit = NULL};
     size_t size = strlen(name);
-    *unit = NULL;
-    snprintf(text, 160, "%s", name);
+    snprintf(words.text, sizeof words.text, "%s", name);
     for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
         size_t end = strlen(units[i][0]);
         if (size > end && strcmp(name + size - end, units[i][0]) == 0) {
-            *unit = units[i][1];
-            text[units[i][0][0] == '_' ? size - end : size] = '\0';
+            words.unit = units[i][1];
+            words.text[units[i][0][0] == '_' ? size - end : size] = '\0';
         }
     }
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (strcmp(name, known[i][0]) == 0) {
-            snprintf(text, 160, "%s", known[i][1]);
+            snprintf(words.text, sizeof words.text, "%s", known[i][1]);
         }
     }
-}
-
-static void axis_title(const char *name, char text[192])
-{
-    char words[160];
-    const char *unit;
-    axis_words(name, words, &unit);
-    snprintf(text, 192, unit ? "%s (%s)" : "%s", words, unit);
+    return words;
 }
 
 static void value_text(const char *name, double value, char text[192])
 {
-    char words[160];
-    const char *unit;
-    axis_words(name, words, &unit);
-    snprintf(text, 192, "%s %.7g%s%s", words, value, unit ? " " : "", unit ? unit : "");
+    axis_words words = words_of(name);
+    snprintf(text, 192, "%s %.7g%s%s", words.text, value, words.unit ? " " : "",
+             words.unit ? words.unit : "");
 }
 
 static int is_angle(const plot_axis *axis)
 {
-    char words[160];
-    const char *unit;
-    axis_words(axis->name, words, &unit);
+    const char *unit = words_of(axis->name).unit;
     return unit && strcmp(unit, "deg") == 0;
 }
 
@@ -81,18 +77,6 @@ static uint32_t varying_list(const sweep_plan *plan, plot_axis axis[SWEEP_AXES +
         axis[count++] = (plot_axis){plan->axes, plan->track.count, "time"};
     }
     return count;
-}
-
-/* 1 if the times of a track ascend: the axes of a map must ascend. Ranges do so, or are
-   reversed. */
-static int track_ascends(const sweep_plan *plan)
-{
-    for (uint64_t i = 1; plan->kind == SWEEP_TRACK && i < plan->track.count; i++) {
-        if (!(plan->track.row[i][0] > plan->track.row[i - 1][0])) {
-            return 0;
-        }
-    }
-    return 1;
 }
 
 /* Curves run along the axis with more values (if equal, the faster one); a map's second axis is the
@@ -151,9 +135,31 @@ static int mollweide_fits(const sweep_plan *plan, const sweep_plot *plot)
     return 1;
 }
 
-/* Checks that a polar diagram or a map, if asked for, is possible. */
-static int kind_check(const cli_args *args, const sweep_plan *plan, const sweep_plot *plot)
+static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *plot)
 {
+    plot_axis axis[SWEEP_AXES + 1];
+    uint32_t count = varying_list(plan, axis);
+    int sphere = plan->kind == SWEEP_SPHERE;
+    if (sphere && (count > 0 || plot->polar)) {
+        return cli_usage(args->command,
+                         "--plot draws the directions of --sphere as a map, of one scene");
+    }
+    if (cli_value(args, "shard")) {
+        return cli_usage(args->command, "--plot draws whole sweeps: not with --shard");
+    }
+    if (!sphere && (count < 1 || count > 2)) {
+        return cli_usage(args->command, "--plot draws one or two things that vary, found %lu",
+                         (unsigned long)count);
+    }
+    if (plan->rows > PLOT_ROWS) {
+        return cli_usage(args->command, "--plot: at most 2^28 rows, found %llu",
+                         (unsigned long long)plan->rows);
+    }
+    if (sphere) {
+        sphere_choose(plan, plot);
+    } else {
+        plot_choose(axis, count, plot);
+    }
     if (plot->polar && plot->y.count > PLOT_CURVES) {
         return cli_usage(args->command, "--polar draws at most %u curves, found %llu", PLOT_CURVES,
                          (unsigned long long)plot->y.count);
@@ -162,7 +168,11 @@ static int kind_check(const cli_args *args, const sweep_plan *plan, const sweep_
         return cli_usage(args->command, "--polar: curves turn with an angle, found '%s'",
                          plot->x.name);
     }
-    if (plot->map && !track_ascends(plan)) {
+    int ascends = 1; /* the axes of a map must ascend; ranges do so, or are reversed */
+    for (uint64_t i = 1; plan->kind == SWEEP_TRACK && i < plan->track.count; i++) {
+        ascends &= plan->track.row[i][0] > plan->track.row[i - 1][0];
+    }
+    if (plot->map && !ascends) {
         return cli_usage(args->command, "--plot: a map wants poses whose time ascends");
     }
     if (plot->mollweide && !mollweide_fits(plan, plot)) {
@@ -172,68 +182,28 @@ static int kind_check(const cli_args *args, const sweep_plan *plan, const sweep_
     }
     return 0;
 }
-
-static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *plot)
-{
-    plot_axis axis[SWEEP_AXES + 1];
-    uint32_t count = varying_list(plan, axis);
-    if (plan->kind == SWEEP_SPHERE && (count > 0 || plot->polar)) {
-        return cli_usage(args->command, "--plot draws the directions of --sphere as a map, of one "
-                                        "scene");
-    }
-    if (cli_value(args, "shard")) {
-        return cli_usage(args->command, "--plot draws whole sweeps: not with --shard");
-    }
-    if (plan->kind != SWEEP_SPHERE && (count < 1 || count > 2)) {
-        return cli_usage(args->command, "--plot draws one or two things that vary, found %lu",
-                         (unsigned long)count);
-    }
-    if (plan->rows > PLOT_ROWS) {
-        return cli_usage(args->command, "--plot: at most 2^28 rows, found %llu",
-                         (unsigned long long)plan->rows);
-    }
-    if (plan->kind == SWEEP_SPHERE) {
-        sphere_choose(plan, plot);
-    } else {
-        plot_choose(axis, count, plot);
-    }
-    return kind_check(args, plan, plot);
-}
-
 /* ---- options ---- */
-
-static int is_plot(const sweep_plot *plot, const cli_given *given)
-{
-    return strcmp(given->name, plot->option) == 0;
-}
 
 int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot)
 {
-    const char *projection = cli_value(args, "projection");
     *plot = (sweep_plot){.option = args->command == &cli_sweep_command ? "plot" : "o",
                          .dbsm = cli_value(args, "dbsm") != NULL,
                          .polar = cli_value(args, "polar") != NULL,
-                         .mollweide = projection && strcmp(projection, "mollweide") == 0,
                          .accept = cli_value(args, "accept"),
                          .plan = plan};
-    if (projection && !plot->mollweide && strcmp(projection, "flat") != 0) {
-        return cli_usage(args->command, "--projection: expected flat or mollweide, found '%s'",
-                         projection);
-    }
-    if (plot->mollweide && plot->polar) {
+    int code = cli_choice(args, "projection", "flat or mollweide", &plot->mollweide);
+    if (code == 0 && plot->mollweide && plot->polar) {
         return cli_usage(args->command, "--polar draws curves, --projection maps: give one");
     }
-    for (int i = 0; i < args->given_count; i++) {
-        plot->asked |= is_plot(plot, &args->given[i]);
-    }
-    if (!plot->asked && (plot->dbsm || plot->polar || plot->mollweide)) {
+    plot->asked = cli_value(args, plot->option) != NULL;
+    if (code == 0 && !plot->asked && (plot->dbsm || plot->polar || plot->mollweide)) {
         return cli_usage(args->command, "--%s needs %s%s FILE.svg or FILE.png",
                          plot->dbsm    ? "dbsm"
                          : plot->polar ? "polar"
                                        : "projection",
                          cli_dashes(plot->option), plot->option);
     }
-    return plot->asked ? plot_check(args, plan, plot) : 0;
+    return code == 0 && plot->asked ? plot_check(args, plan, plot) : code;
 }
 
 /* ---- notes ---- */
@@ -376,7 +346,8 @@ static void time_title(const sweep_plot *plot, const plot_axis *axis, char text[
     const sweep_plan *plan = plot->plan;
     if (plan->kind != SWEEP_TRACK || axis->column != plan->axes ||
         strcmp(axis->name, "time") != 0) {
-        axis_title(axis->name, text);
+        axis_words words = words_of(axis->name);
+        snprintf(text, 192, words.unit ? "%s (%s)" : "%s", words.text, words.unit);
     } else if (plan->track.epoch[0]) {
         snprintf(text, 192, "time since %s (s)", plan->track.epoch);
     } else {
@@ -411,8 +382,9 @@ static void curve_name(const sweep_plot *plot, double y, char name[400])
              plot->name && value[0] ? ", " : "", value);
 }
 
-static int sheet_curves(FILE *out, const plot_sheet *sheet, int png, lrcs_host_error *error)
+static int sheet_curves(FILE *out, const void *context, int png, lrcs_host_error *error)
 {
+    const plot_sheet *sheet = context;
     static const int colour[PLOT_CURVES] = {LRCS_HOST_BLUE,   LRCS_HOST_VERMILION, LRCS_HOST_GREEN,
                                             LRCS_HOST_PURPLE, LRCS_HOST_SKY_BLUE,  LRCS_HOST_ORANGE,
                                             LRCS_HOST_BLACK};
@@ -451,8 +423,9 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, int png, lrcs_host_e
     return cli_chart_put(out, &chart, png, error);
 }
 
-static int sheet_map(FILE *out, const plot_sheet *sheet, int png, lrcs_host_error *error)
+static int sheet_map(FILE *out, const void *context, int png, lrcs_host_error *error)
 {
+    const plot_sheet *sheet = context;
     const sweep_plot *plot = sheet->plot;
     const lrcs_host_map map = {.title = sheet->title,
                                .note = sheet->note,
@@ -475,13 +448,6 @@ static int sheet_map(FILE *out, const plot_sheet *sheet, int png, lrcs_host_erro
     }
     lrcs_host_map_svg(out, &map);
     return LRCS_OK;
-}
-
-static int sheet_write(FILE *out, const void *context, int png, lrcs_host_error *error)
-{
-    const plot_sheet *sheet = context;
-    return sheet->plot->map ? sheet_map(out, sheet, png, error)
-                            : sheet_curves(out, sheet, png, error);
 }
 
 /* The values along both axes in ascending order, as a map needs them, and sigma in that order:
@@ -565,7 +531,7 @@ int cli_plot_svg(FILE *out, const sweep_plot *plot)
     plot_sheet sheet;
     int code = sheet_make(plot, 1, &sheet);
     if (code == 0) {
-        sheet_write(out, &sheet, 0, NULL);
+        (plot->map ? sheet_map : sheet_curves)(out, &sheet, 0, NULL);
     }
     sheet_free(&sheet);
     return code;
@@ -575,7 +541,9 @@ int cli_plot_write(const cli_args *args, const sweep_plot *plot, uint32_t count)
 {
     plot_sheet sheet;
     int code = sheet_make(plot, count, &sheet);
-    code = code ? code : cli_charts_write(args, plot->option, sheet_write, &sheet);
+    code = code
+               ? code
+               : cli_charts_write(args, plot->option, plot->map ? sheet_map : sheet_curves, &sheet);
     sheet_free(&sheet);
     return code;
 }

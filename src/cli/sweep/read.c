@@ -14,26 +14,6 @@
 
 /* ---- the first lines ---- */
 
-/* Reads N x M .. or N, M, ..]; the product must be the number of rows. */
-static int shape_read(const char *at, sweep_head *head)
-{
-    uint64_t product = 1;
-    for (;;) {
-        char *end;
-        uint64_t size = strtoull(at, &end, 10);
-        if (end == at || size == 0 || head->dimensions == SWEEP_AXES + 1 ||
-            size > UINT64_MAX / product) {
-            return -1;
-        }
-        head->shape[head->dimensions++] = size;
-        product *= size;
-        if (*end != 'x' && *end != ',') {
-            return product == head->rows ? 0 : -1;
-        }
-        at = end + 1;
-    }
-}
-
 /* Adds a key and its text. Hash, rows and shape have their own fields; they precede everything that
    a user wrote. 0, or -1 if it is not valid. */
 static int word_put(sweep_head *head, const char *key, const char *text)
@@ -50,8 +30,25 @@ static int word_put(sweep_head *head, const char *key, const char *text)
         head->rows = head->rows ? head->rows : strtoull(text, NULL, 10);
         return 0;
     }
+    if (strcmp(key, "shape") == 0 && head->dimensions > 0) {
+        return 0;
+    }
     if (strcmp(key, "shape") == 0) {
-        return head->dimensions > 0 ? 0 : shape_read(text, head);
+        uint64_t product = 1; /* N x M .. or N, M, ..]; the product is the number of rows */
+        for (;; text++) {
+            char *end;
+            uint64_t size = strtoull(text, &end, 10);
+            if (end == text || size == 0 || head->dimensions == SWEEP_AXES + 1 ||
+                size > UINT64_MAX / product) {
+                return -1;
+            }
+            head->shape[head->dimensions++] = size;
+            product *= size;
+            if (*end != 'x' && *end != ',') {
+                return product == head->rows ? 0 : -1;
+            }
+            text = end;
+        }
     }
     if (at == SWEEP_OPTIONS || strlen(text) >= sizeof head->option[0].text) {
         return -1;
@@ -226,27 +223,10 @@ static int flags_read(const char *at, uint32_t *flags)
     return 0;
 }
 
-/* Splits a row into index, values and fields, in place. Returns their number; fields beyond `room`
-   are only counted. */
-static uint32_t csv_split(char *line, const char **field, uint32_t room)
-{
-    uint32_t count = 0;
-    for (char *at = line; at; count++) {
-        char *comma = strchr(at, ',');
-        if (comma) {
-            *comma++ = '\0';
-        }
-        if (count < room) {
-            field[count] = at;
-        }
-        at = comma;
-    }
-    return count;
-}
-
-/* The same for {"key": value, ..., "flags": [..]}; 0 if the line does not have this form. The keys
-   of fields must be the known ones; those of values are the names that the user chose, in the order
-   of the head. */
+/* Splits {"key": value, ..., "flags": [..]} into index, values and fields, in place. Returns their
+   number; fields beyond `room` are only counted; 0 if the line does not have this form. The keys of
+   fields must be the known ones; those of values are the names that the user chose, in the order of
+   the head. */
 static uint32_t jsonl_split(char *line, const char **field, uint32_t room, uint32_t columns,
                             const sweep_fields *fields)
 {
@@ -407,9 +387,20 @@ static int row_read(sweep_text *text, const sweep_plan *plan, char *line, sweep_
     const uint32_t room = 2 + text->columns + text->fields.count; /* with index and flags */
     char begun[41];
     snprintf(begun, sizeof begun, "%.40s", line);
-    uint32_t count = text->format == SWEEP_JSONL
-                         ? jsonl_split(line, field, room, text->columns, &text->fields)
-                         : csv_split(line, field, room);
+    uint32_t count = 0;
+    if (text->format == SWEEP_JSONL) {
+        count = jsonl_split(line, field, room, text->columns, &text->fields);
+    }
+    for (char *at = text->format == SWEEP_CSV ? line : NULL; at; count++) {
+        char *comma = strchr(at, ',');
+        if (comma) {
+            *comma++ = '\0';
+        }
+        if (count < room) {
+            field[count] = at;
+        }
+        at = comma;
+    }
     if (count != room) {
         char expected[60];
         snprintf(expected, sizeof expected, "a row of %lu fields", (unsigned long)room);
@@ -528,11 +519,15 @@ static void given_put(sweep_data *data, const char *name, const char *value)
     }
 }
 
-/* The options --joint and --vary, in the order of their columns. Texts of one option are joined by
-   " and ", which a name may also contain: the text that follows decides where each ends. */
-static void scene_given(sweep_data *data)
+/* The options that define the plan, --joint and --vary first, in the order of their columns. Texts
+   of one option are joined by " and ", which a name may also contain: the text that follows decides
+   where each ends. Options of a file of poses are not among them, because its rows are the
+   poses. */
+static void plan_given(sweep_data *data)
 {
     static const char *const name[2] = {"joint", "vary"};
+    static const char *const pose[] = {"az",        "el",   "rotate", "sphere",
+                                       "direction", "azel", "euler",  "quaternion"};
     for (uint32_t i = 0; i < data->text.columns; i++) {
         char begin[160];
         for (int k = 0; k < 2; k++) {
@@ -558,15 +553,6 @@ static void scene_given(sweep_data *data)
             }
         }
     }
-}
-
-/* The options that define the plan. Those of a file of poses are not among them, because its rows
-   are the poses. */
-static void plan_given(sweep_data *data)
-{
-    static const char *const pose[] = {"az",        "el",   "rotate", "sphere",
-                                       "direction", "azel", "euler",  "quaternion"};
-    scene_given(data);
     for (uint32_t i = 0; i < data->head.options; i++) {
         for (size_t k = 0; k < sizeof pose / sizeof pose[0]; k++) {
             if (strcmp(data->head.option[i].key, pose[k]) == 0) {
@@ -598,11 +584,6 @@ static void data_take(void *context, const sweep_row *row)
     for (uint32_t k = 0; k < data->plan.track.joints && row->index < poses; k++) {
         data->plan.track.joint[row->index][k] = row->value[data->plan.axes + k];
     }
-}
-
-static int data_refuse(const sweep_data *data, const char *what)
-{
-    return cli_fail("%s: %s", data->path, what);
 }
 
 /* Makes the plan from the first lines; the rows of a file of poses are filled in later. */
@@ -641,80 +622,64 @@ static int data_plan(sweep_data *data, const cli_command *command)
         same = strcmp(data->plan.column[i], data->column[i]) == 0;
     }
     return same ? 0
-                : data_refuse(data, "its first lines do not tell what varies in its rows: was it "
-                                    "written by another version of lrcs?");
-}
-
-/* Reads all rows of CSV or JSON lines, from the first to the checksum. */
-static int text_read(sweep_data *data)
-{
-    uint64_t first;
-    uint64_t rows;
-    const sweep_plan *plan = data->plan.track.row ? NULL : &data->plan;
-    int code = cli_text_rows(data->path, &data->text, plan, data_take, data, &first, &rows);
-    if (code == 0 && rows != data->text.rows) {
-        return cli_fail("%s: holds %llu of %llu rows: lrcs merge makes shards whole", data->path,
-                        (unsigned long long)rows, (unsigned long long)data->text.rows);
-    }
-    return code;
-}
-
-static int map_read(sweep_data *data)
-{
-    if (data->plan.track.row) {
-        return data_refuse(data, "a .npy holds no times: give the .csv or .jsonl of these poses");
-    }
-    for (uint64_t i = 0; i < data->text.rows; i++) {
-        sweep_row row;
-        cli_map_row(&data->map, i, &row);
-        data_take(data, &row);
-    }
-    return 0;
-}
-
-/* Opens FILE: its text, or its map with the head. 0 or CLI_FAILED. */
-static int data_open(sweep_data *data)
-{
-    lrcs_host_error error;
-    if (cli_extension(data->path, ".npy")) {
-        if (cli_map_open(data->path, &data->map) != 0) {
-            return data_refuse(data, "expected a map of lrcs sweep with its FILE.npy.head, both as "
-                                     "they were written");
-        }
-        data->text = data->map.text;
-        return 0;
-    }
-    if (lrcs_host_file_read(data->path, &data->file, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    if (cli_text_open((const char *)data->file.bytes, data->file.size, &data->text) != 0 ||
-        data->text.rows > data->file.size) {
-        return data_refuse(
-            data, "expected what lrcs sweep writes (CSV, JSON lines, .npy), or a CSV file of "
-                  "lrcs profile or lrcs converge");
-    }
-    return 0;
+                : cli_fail("%s: its first lines do not tell what varies in its rows: was it "
+                           "written by another version of lrcs?",
+                           data->path);
 }
 
 int cli_data_read(const char *path, const cli_command *command, sweep_data *data)
 {
+    lrcs_host_error error;
+    int npy = cli_extension(path, ".npy");
+    uint64_t first;
+    uint64_t rows;
     memset(data, 0, sizeof *data);
     data->path = path;
     data->args.given = data->given;
-    int code = data_open(data);
-    if (code != 0) {
-        return code;
+    /* 1. FILE: its text, or its map with the head. */
+    if (npy) {
+        if (cli_map_open(path, &data->map) != 0) {
+            return cli_fail("%s: expected a map of lrcs sweep with its FILE.npy.head, both as "
+                            "they were written",
+                            path);
+        }
+        data->text = data->map.text;
+    } else if (lrcs_host_file_read(path, &data->file, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    } else if (cli_text_open((const char *)data->file.bytes, data->file.size, &data->text) != 0 ||
+               data->text.rows > data->file.size) {
+        return cli_fail("%s: expected what lrcs sweep writes (CSV, JSON lines, .npy), or a CSV "
+                        "file of lrcs profile or lrcs converge",
+                        path);
     }
+    /* 2. The plan, from the first lines. */
+    int banded = data->text.fields.materials && !npy;
     data->row = calloc(data->text.rows + 1, sizeof *data->row);
-    int banded = data->text.fields.materials && !cli_extension(data->path, ".npy");
-    data->band = banded ? calloc(data->text.rows, sizeof *data->band) : NULL;
+    data->band = banded ? calloc(data->text.rows + 1, sizeof *data->band) : NULL;
     if (!data->row || (banded && !data->band) ||
         head_read(&data->text, &data->words, &data->head, data->column) != 0) {
         return cli_out_of_memory();
     }
-    code = data_plan(data, command);
-    code = code ? code : data->map.value ? map_read(data) : text_read(data);
-    return code;
+    int code = data_plan(data, command);
+    int track = data->plan.track.row != NULL;
+    /* 3. All rows: of the map, or from the first one to the checksum. */
+    if (code == 0 && npy && track) {
+        return cli_fail("%s: a .npy holds no times: give the .csv or .jsonl of these poses", path);
+    }
+    for (uint64_t i = 0; code == 0 && npy && i < data->text.rows; i++) {
+        sweep_row row;
+        cli_map_row(&data->map, i, &row);
+        data_take(data, &row);
+    }
+    if (code != 0 || npy) {
+        return code;
+    }
+    code = cli_text_rows(path, &data->text, track ? NULL : &data->plan, data_take, data, &first,
+                         &rows);
+    return code != 0 || rows == data->text.rows
+               ? code
+               : cli_fail("%s: holds %llu of %llu rows: lrcs merge makes shards whole", path,
+                          (unsigned long long)rows, (unsigned long long)data->text.rows);
 }
 
 void cli_data_free(sweep_data *data)

@@ -28,17 +28,19 @@ sweep_fields cli_fields_make(int materials, int glint)
 
 void cli_tally_add(sweep_tally *tally, const sweep_row *row)
 {
+    static const uint32_t flag[TALLY_FLAGS] = {
+        LRCS_FLAG_TOLERANCE_NOT_MET, LRCS_FLAG_MEMORY_FALLBACK, LRCS_FLAG_ACCEPTED_BY_ESTIMATE,
+        LRCS_FLAG_ACCEPTED_UNJUDGED};
     double sigma = row->field[FIELD_SIGMA];
     double off = sigma - tally->mean;
     tally->rows++;
     tally->mean += off / (double)tally->rows; /* B. P. Welford, Technometrics 4 (1962) 419 */
     tally->square += off * (sigma - tally->mean);
     tally->bound += row->field[FIELD_BOUND];
-    tally->missed += (row->flags & LRCS_FLAG_TOLERANCE_NOT_MET) != 0;
-    tally->estimated += (row->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE) != 0;
-    tally->unjudged += (row->flags & LRCS_FLAG_ACCEPTED_UNJUDGED) != 0;
-    tally->dominated += row->field[FIELD_DOMINATED] > 0.0;
-    tally->starved += (row->flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
+    for (int k = 0; k < TALLY_FLAGS; k++) {
+        tally->count[k] += (row->flags & flag[k]) != 0;
+    }
+    tally->count[TALLY_DOMINATED] += row->field[FIELD_DOMINATED] > 0.0;
 }
 
 double cli_tally_error(const sweep_tally *tally)

@@ -39,38 +39,17 @@ static const struct {
 
 /* ---- the command line ---- */
 
-/* The start of the range in NAME:A:B:STEP or NAME:A; names may contain colons. NULL if there is
-   none. */
-static const char *range_find(const char *text)
-{
-    const char *found = NULL;
-    sweep_range range;
-    for (const char *at = strchr(text, ':'); at && !found; at = strchr(at + 1, ':')) {
-        found = at > text && !cli_range_read(at + 1, strlen(at + 1), &range) ? at + 1 : NULL;
-    }
-    return found;
-}
-
-static int key_find(const char *name)
-{
-    for (int i = 1; i < SCENE_KEYS; i++) {
-        if (strcmp(scene_keys[i].name, name) == 0) {
-            return i;
-        }
-    }
-    return -1;
-}
-
 /* Splits "NAME.KEY"; returns the key, or -1 with the message printed. */
 static int whom_split(const cli_args *args, char *whom)
 {
     char *dot = strrchr(whom, '.');
-    int key = dot && dot > whom ? key_find(dot + 1) : -1;
+    const char *best = NULL;
+    int key = -1;
+    for (int i = 1; dot && i < SCENE_KEYS; i++) {
+        key = dot > whom && strcmp(scene_keys[i].name, dot + 1) == 0 ? i : key;
+        best = cli_nearest(dot + 1, best, scene_keys[i].name);
+    }
     if (key < 0) {
-        const char *best = NULL;
-        for (int i = 1; dot && i < SCENE_KEYS; i++) {
-            best = cli_nearest(dot + 1, best, scene_keys[i].name);
-        }
         cli_usage(args->command,
                   "--vary: expected MATERIAL.A, .B, .s or .m, or PART.radius, .length, .. , then "
                   ":A:B:STEP; found '%s'%s%s",
@@ -81,11 +60,16 @@ static int whom_split(const cli_args *args, char *whom)
     return key;
 }
 
+/* Reads NAME:A:B:STEP or NAME:A; names may contain colons. */
 static int scene_axis_read(const cli_args *args, const cli_given *one, sweep_plan *plan)
 {
     sweep_axis axis = {.key = 0};
     char column[128];
-    const char *range = range_find(one->value);
+    const char *range = NULL;
+    for (const char *at = strchr(one->value, ':'); at && !range; at = strchr(at + 1, ':')) {
+        int found = at > one->value && !cli_range_read(at + 1, strlen(at + 1), &axis.range);
+        range = found ? at + 1 : NULL;
+    }
     size_t size = range ? (size_t)(range - 1 - one->value) : 0;
     if (!range || size >= sizeof axis.whom) {
         return cli_usage(args->command, "--%s: expected %s:A:B:STEP, found '%s'", one->name,

@@ -48,54 +48,32 @@ static int is_map(const sweep_plan *plan)
     return varied;
 }
 
-/* The width of a cell along one axis of a map: for azimuth the same for all, except the ends of a
-   full turn, which are one direction; for elevation the difference of sines, clipped at the
-   poles. */
-static double axis_weight(const sweep_plan *plan, uint64_t row, uint32_t axis)
-{
-    const sweep_axis *along = &plan->axis[axis];
-    uint64_t place = cli_plan_place(plan, row, axis);
-    uint64_t last = along->range.count - 1;
-    double first = cli_range_at(&along->range, 0);
-    double here = cli_range_at(&along->range, place);
-    double half = 0.5 * fabs(cli_range_at(&along->range, 1) - first);
-    if (along->option[0] == 'a') {
-        int turn = fabs(cli_range_at(&along->range, last) - first) == 360.0;
-        return turn && (place == 0 || place == last) ? 0.5 : 1.0;
-    }
-    return sin(fmin(here + half, 90.0) / CLI_DEGREES) - sin(fmax(here - half, -90.0) / CLI_DEGREES);
-}
-
+/* The solid angle of a cell of a map, up to a factor. Along azimuth all cells have the same width,
+   except the ends of a full turn, which are one direction; along elevation it is the difference of
+   sines, clipped at the poles. */
 static double row_weight(const sweep_plan *plan, uint64_t row)
 {
     double weight = 1.0;
     for (uint32_t i = plan->scene_axes; i < plan->axes; i++) {
-        weight *= fmax(axis_weight(plan, row, i), 0.0);
+        const sweep_axis *along = &plan->axis[i];
+        uint64_t place = cli_plan_place(plan, row, i);
+        uint64_t last = along->range.count - 1;
+        double first = cli_range_at(&along->range, 0);
+        double here = cli_range_at(&along->range, place);
+        double half = 0.5 * fabs(cli_range_at(&along->range, 1) - first);
+        if (along->option[0] == 'a') {
+            int turn = fabs(cli_range_at(&along->range, last) - first) == 360.0;
+            weight *= turn && (place == 0 || place == last) ? 0.5 : 1.0;
+        } else {
+            double width = sin(fmin(here + half, 90.0) / CLI_DEGREES) -
+                           sin(fmax(here - half, -90.0) / CLI_DEGREES);
+            weight *= fmax(width, 0.0);
+        }
     }
     return weight;
 }
 
-static const char *weights_text(const sweep_plan *plan, int map)
-{
-    return map                          ? "each by the solid angle that it stands for"
-           : plan->kind == SWEEP_SPHERE ? "all alike: each stands for the same solid angle"
-           : plan->kind == SWEEP_AZEL   ? "all alike: a cut stands for no solid angle"
-                                        : "all alike";
-}
-
 /* ---- percentiles ---- */
-
-/* The first of the rows in ascending order at which `part` of the weight is reached. `slack` is a
-   share of the weight that allows for the rounding of sums. */
-static uint64_t row_at(const stats_row *row, uint64_t rows, double part, double slack)
-{
-    double below = 0.0;
-    uint64_t at = 0;
-    while (at + 1 < rows && below + row[at].weight < part + slack) {
-        below += row[at++].weight;
-    }
-    return at;
-}
 
 /* Percentiles of sigma moved to an end. Sigma of every row lies between its ends, and a percentile
    increases with every sigma, so that the percentiles of the ends enclose it. If weights are not
@@ -120,12 +98,17 @@ static void percentiles_at(sweep_stats *stats, stats_row *end, enum stats_end wh
                                            : end[i].sigma;
     }
     qsort(end, stats->rows, sizeof *end, by_sigma);
-    for (int k = 0; k < STATS_PERCENTS; k++) {
-        double part = stats_percent[k] * stats->whole / 100.0;
-        stats->percentile[k].at[which] = end[row_at(end, stats->rows, part, slack)].sigma;
-    }
     double below = 0.0;
     uint64_t at = 0;
+    for (int k = 0; k < STATS_PERCENTS; k++) { /* the first row at which the part is reached */
+        double part = stats_percent[k] * stats->whole / 100.0;
+        while (at + 1 < stats->rows && below + end[at].weight < part + slack) {
+            below += end[at++].weight;
+        }
+        stats->percentile[k].at[which] = end[at].sigma;
+    }
+    below = 0.0;
+    at = 0;
     for (uint32_t i = 0; i <= stats->bins; i++) {
         for (; at < stats->rows && end[at].sigma <= stats->edge_m2[i]; at++) {
             below += end[at].weight;
@@ -204,12 +187,16 @@ int cli_stats_make(const sweep_plan *plan, const sweep_head *head, const double 
 {
     int map = is_map(plan);
     stats_row *end = calloc(plan->rows, sizeof *end);
-    *stats = (sweep_stats){.plan = plan,
-                           .head = head,
-                           .rows = plan->rows,
-                           .row = calloc(plan->rows, sizeof *stats->row),
-                           .weights = weights_text(plan, map),
-                           .banded = band != NULL};
+    *stats = (sweep_stats){
+        .plan = plan,
+        .head = head,
+        .rows = plan->rows,
+        .row = calloc(plan->rows, sizeof *stats->row),
+        .weights = map                          ? "each by the solid angle that it stands for"
+                   : plan->kind == SWEEP_SPHERE ? "all alike: each stands for the same solid angle"
+                   : plan->kind == SWEEP_AZEL   ? "all alike: a cut stands for no solid angle"
+                                                : "all alike",
+        .banded = band != NULL};
     if (!stats->row || !end) {
         free(end);
         return cli_out_of_memory();
@@ -562,21 +549,6 @@ static int chart_make(const sweep_stats *stats, stats_chart *chart)
 
 /* ---- all of them ---- */
 
-static int file_write(const char *path, const sweep_stats *stats)
-{
-    if (cli_extension(path, ".json") || cli_extension(path, ".csv")) {
-        return cli_text_write(path, cli_extension(path, ".csv") ? stats_csv : stats_json, stats);
-    }
-    if (stats->bins == 0) {
-        return cli_fail("%s: nothing to draw: sigma of every row is 0", path);
-    }
-    stats_chart chart;
-    int code = chart_make(stats, &chart);
-    code = code ? code : cli_chart_write(path, chart_write, &chart);
-    free(chart.x);
-    return code;
-}
-
 int cli_stats_write(const cli_args *args, FILE *out, const sweep_stats *stats)
 {
     int code = 0;
@@ -584,8 +556,20 @@ int cli_stats_write(const cli_args *args, FILE *out, const sweep_stats *stats)
         stats_print(out, stats);
     }
     for (int i = 0; i < args->given_count && code == 0; i++) {
-        if (is_stats_file(&args->given[i])) {
-            code = file_write(args->given[i].value, stats);
+        const char *path = args->given[i].value;
+        stats_chart chart;
+        if (!is_stats_file(&args->given[i])) {
+            continue;
+        }
+        if (cli_extension(path, ".json") || cli_extension(path, ".csv")) {
+            code =
+                cli_text_write(path, cli_extension(path, ".csv") ? stats_csv : stats_json, stats);
+        } else if (stats->bins == 0) {
+            code = cli_fail("%s: nothing to draw: sigma of every row is 0", path);
+        } else {
+            code = chart_make(stats, &chart);
+            code = code ? code : cli_chart_write(path, chart_write, &chart);
+            free(chart.x);
         }
     }
     return code;

@@ -89,7 +89,7 @@ typedef struct sweep_job {
     sweep_plan plan;
     sweep_head head;
     sweep_file file;
-    sweep_progress progress;
+    cli_progress progress;
     sweep_plot plot;
     uint32_t brightest;
     int stats;
@@ -261,35 +261,26 @@ static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
     return cli_failed(&error);
 }
 
-/* Computes one scene after another, the poses of each in threads. */
-static int scenes_run(sweep_job *job)
-{
-    int code = 0;
-    while (code == 0 && job->file.next < job->plan.end) {
-        lrcs_host_scene scene;
-        lrcs_host_error error;
-        uint64_t end = (job->file.next / job->plan.poses + 1) * job->plan.poses;
-        memset(&scene, 0, sizeof scene);
-        if (job_scene(job, job->file.next, &scene, &error) != LRCS_OK) {
-            return cli_failed(&error);
-        }
-        code = rows_run(job, &scene, end < job->plan.end ? end : job->plan.end);
-        lrcs_host_scene_free(&scene);
-    }
-    return code;
-}
-
 static int job_run(sweep_job *job)
 {
     lrcs_host_error error;
+    lrcs_host_scene scene;
     int code = 0;
     const uint64_t done = job->file.next - job->plan.first;
     const uint64_t all = job->plan.end - job->plan.first;
     if (job->plan.scene_axes > 0 || job->plan.track.joints > 0) {
         job->progress = cli_progress_make(done, all);
-        code = job->plan.poses > 1 && job->plan.track.joints == 0
-                   ? scenes_run(job)
-                   : rows_run(job, NULL, job->plan.end);
+        int apart = job->plan.poses == 1 || job->plan.track.joints > 0; /* each row has a scene */
+        code = apart ? rows_run(job, NULL, job->plan.end) : 0;
+        while (!apart && code == 0 && job->file.next < job->plan.end) {
+            uint64_t end = (job->file.next / job->plan.poses + 1) * job->plan.poses;
+            memset(&scene, 0, sizeof scene);
+            if (job_scene(job, job->file.next, &scene, &error) != LRCS_OK) {
+                return cli_failed(&error);
+            }
+            code = rows_run(job, &scene, end < job->plan.end ? end : job->plan.end);
+            lrcs_host_scene_free(&scene);
+        }
     } else if (job->file.next < job->plan.end) {
         cli_watch_stage("preparing", &job->scene);
         code = lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? 0 : cli_failed(&error);
@@ -319,75 +310,47 @@ static void job_say(const sweep_job *job)
         fprintf(stderr, "mean of sigma %.10g m2, standard error %s, mean bound %.3g m2\n",
                 tally->mean, spread, tally->bound / (double)tally->rows);
     }
-    if (tally->missed > 0) {
-        fprintf(stderr, "lrcs: %llu of %llu rows miss the tolerance %g\n",
-                (unsigned long long)tally->missed, (unsigned long long)tally->rows,
-                job->options.tolerance);
-    }
-    if (tally->estimated > 0) {
-        fprintf(stderr, "lrcs: %llu of %llu rows are accepted by estimate, not proved to %g\n",
-                (unsigned long long)tally->estimated, (unsigned long long)tally->rows,
-                job->options.tolerance);
-    }
-    if (tally->unjudged > 0) {
-        fprintf(stderr, "lrcs: %llu of %llu rows are accepted whatever their error\n",
-                (unsigned long long)tally->unjudged, (unsigned long long)tally->rows);
-    }
-    if (tally->dominated > 0) {
-        fprintf(stderr,
-                "lrcs: in %llu of %llu rows the glint of one flat face of a curved part makes "
-                "most of sigma: its normal is the mesh's, not the surface's\n",
-                (unsigned long long)tally->dominated, (unsigned long long)tally->rows);
-    }
-    if (tally->starved > 0) {
-        fprintf(stderr, "lrcs: %llu of %llu rows were short of memory\n",
-                (unsigned long long)tally->starved, (unsigned long long)tally->rows);
-    }
-}
-
-/* Allocates memory for what depends on all rows. */
-static int job_room(sweep_job *job)
-{
-    if (job->plot.asked || job->brightest > 0 || job->stats) {
-        job->row = calloc(job->plan.rows, sizeof *job->row);
-        if (!job->row) {
-            return cli_out_of_memory();
+    char missed[60];
+    char estimated[80];
+    snprintf(missed, sizeof missed, "miss the tolerance %g", job->options.tolerance);
+    snprintf(estimated, sizeof estimated, "are accepted by estimate, not proved to %g",
+             job->options.tolerance);
+    const struct {
+        int count;
+        const char *in, *what;
+    } said[] = {
+        {TALLY_MISSED, "", missed},
+        {TALLY_ESTIMATED, "", estimated},
+        {TALLY_UNJUDGED, "", "are accepted whatever their error"},
+        {TALLY_DOMINATED, "in ",
+         "the glint of one flat face of a curved part makes most of sigma: its normal is the "
+         "mesh's, not the surface's"},
+        {TALLY_STARVED, "", "were short of memory"}};
+    for (size_t i = 0; i < sizeof said / sizeof said[0]; i++) {
+        if (tally->count[said[i].count] > 0) {
+            fprintf(stderr, "lrcs: %s%llu of %llu rows %s\n", said[i].in,
+                    (unsigned long long)tally->count[said[i].count],
+                    (unsigned long long)tally->rows, said[i].what);
         }
     }
-    if ((job->plot.asked || job->stats) && job->plan.fields.materials) {
-        job->band = calloc(job->plan.rows, sizeof *job->band);
-        if (!job->band) {
-            return cli_out_of_memory();
-        }
-    }
-    job->file.row = job->plot.row = job->row;
-    job->file.band = job->plot.band = job->band;
-    return 0;
-}
-
-static int job_show(sweep_job *job)
-{
-    int code = job->plot.asked ? cli_plot_write(job->args, &job->plot, 1) : 0;
-    if (code == 0 && job->stats) { /* stdout is for the rows if no file is given */
-        sweep_stats stats;
-        code = cli_stats_make(&job->plan, &job->head, (const double(*)[2])job->row,
-                              (const double(*)[2])job->band, &stats);
-        code = code ? code : cli_stats_write(job->args, job->file.path ? stdout : stderr, &stats);
-        cli_stats_free(&stats);
-    }
-    return code == 0 && job->brightest > 0
-               ? cli_brightest_print(&job->plan, (const double(*)[2])job->row, job->brightest,
-                                     &job->scene, &job->options, &job->load.build, job->coarse,
-                                     job->coarse_count)
-               : code;
 }
 
 static int job_rows(sweep_job *job)
 {
+    const sweep_tally *tally = &job->file.tally;
+    const cli_args *args = job->args;
     signals_watch(); /* before the existing rows are read, which may take seconds */
     cli_watch_stage("rows that are there", NULL);
-    int code = job_room(job);
-    code = code ? code : cli_file_open(job->args, &job->file, &job->head, &job->plan);
+    if (job->plot.asked || job->brightest > 0 || job->stats) { /* what depends on all rows */
+        int banded = (job->plot.asked || job->stats) && job->plan.fields.materials;
+        job->file.row = job->plot.row = job->row = calloc(job->plan.rows, sizeof *job->row);
+        job->band = banded ? calloc(job->plan.rows, sizeof *job->band) : NULL;
+        job->file.band = job->plot.band = job->band;
+        if (!job->row || (banded && !job->band)) {
+            return cli_out_of_memory();
+        }
+    }
+    int code = cli_file_open(args, &job->file, &job->head, &job->plan);
     if (code != 0) {
         return code;
     }
@@ -399,17 +362,31 @@ static int job_rows(sweep_job *job)
                 (unsigned long long)(job->plan.end - job->plan.first));
     }
     code = code ? code : closed;
-    code = code ? code : job_show(job);
+    const double(*row)[2] = (const double(*)[2])job->row;
+    code = code == 0 && job->plot.asked ? cli_plot_write(args, &job->plot, 1) : code;
+    if (code == 0 && job->stats) { /* stdout is for the rows if no file is given */
+        sweep_stats stats;
+        code = cli_stats_make(&job->plan, &job->head, row, (const double(*)[2])job->band, &stats);
+        code = code ? code : cli_stats_write(args, job->file.path ? stdout : stderr, &stats);
+        cli_stats_free(&stats);
+    }
+    if (code == 0 && job->brightest > 0) {
+        code = cli_brightest_print(&job->plan, row, job->brightest, &job->scene, &job->options,
+                                   &job->load.build, job->coarse, job->coarse_count);
+    }
     if (code != 0) {
         return code;
     }
     job_say(job);
-    return job->file.tally.missed > 0 || job->file.tally.starved > 0 ? CLI_DEGRADED : CLI_DONE;
+    return tally->count[TALLY_MISSED] > 0 || tally->count[TALLY_STARVED] > 0 ? CLI_DEGRADED
+                                                                             : CLI_DONE;
 }
 
-/* Prints where the error of the glint may exceed the bound. */
-static void coarse_say(const sweep_job *job)
+/* Prints where the error of the glint may exceed the bound; completes the plan, and computes and
+   writes the rows. */
+static int scene_sweep(sweep_job *job)
 {
+    const cli_args *args = job->args;
     uint32_t coarse = 0;
     double worst = 0.0;
     for (uint32_t i = 0; i < job->coarse_count; i++) {
@@ -424,6 +401,12 @@ static void coarse_say(const sweep_job *job)
             "auto)\n",
             (unsigned long)coarse, coarse == 1 ? " is" : "s are", 100.0 * worst);
     }
+    job->plan.fields = cli_fields_make(cli_errors_stated(&job->scene.scene), job->coarse_count > 0);
+    job->plot.head = &job->head;
+    job->plot.open = cli_materials_open(&job->scene.scene);
+    job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));
+    int code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);
+    return code ? code : job_rows(job);
 }
 
 static int sweep_command(const cli_args *args)
@@ -444,16 +427,7 @@ static int sweep_command(const cli_args *args)
         code = cli_coarse_glint(&job->scene, &job->load.build, cli_value(args, "vary") != NULL,
                                 &job->coarse, &job->coarse_count);
     }
-    if (code == 0) {
-        coarse_say(job);
-        job->plan.fields =
-            cli_fields_make(cli_errors_stated(&job->scene.scene), job->coarse_count > 0);
-        job->plot.head = &job->head;
-        job->plot.open = cli_materials_open(&job->scene.scene);
-        job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));
-        code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);
-        code = code ? code : job_rows(job);
-    }
+    code = code ? code : scene_sweep(job);
     free(job->row);
     free(job->band);
     free(job->coarse);

@@ -181,12 +181,19 @@ const char *cli_head_text(const sweep_head *head, const char *key);
 int cli_head_make(const cli_args *args, const sweep_plan *plan, const lrcs_run_options *options,
                   const lrcs_host_scene *scene, sweep_head *head);
 
-/* Statistics of all rows. */
+/* Statistics of all rows. The first counts are those of a map's head. */
+enum tally_count {
+    TALLY_MISSED,    /* the tolerance is missed */
+    TALLY_STARVED,   /* short of memory */
+    TALLY_ESTIMATED, /* accepted by estimate */
+    TALLY_UNJUDGED,  /* accepted without a condition */
+    TALLY_FLAGS,
+    TALLY_DOMINATED = TALLY_FLAGS, /* most of sigma is the glint of one coarse facet */
+    TALLY_COUNTS
+};
 typedef struct sweep_tally {
-    uint64_t rows, missed, starved; /* missed: the tolerance; starved: short of memory */
-    uint64_t estimated, unjudged;   /* accepted by estimate; accepted without a condition */
-    uint64_t dominated;             /* most of sigma is the glint of one coarse facet */
-    double mean, square, bound;     /* mean of sigma; sum of squared deviations; sum of bounds */
+    uint64_t rows, count[TALLY_COUNTS];
+    double mean, square, bound; /* mean of sigma; sum of squared deviations; sum of bounds */
 } sweep_tally;
 
 void cli_tally_add(sweep_tally *tally, const sweep_row *row);
@@ -454,18 +461,5 @@ void cli_stats_free(sweep_stats *stats);
 
 /* Writes the table for people, if --stats is given, and every --stats-file. 0 or CLI_FAILED. */
 int cli_stats_write(const cli_args *args, FILE *out, const sweep_stats *stats);
-
-/* ---- progress ---- */
-
-/* A progress bar with the remaining time, on stderr if that is a terminal. */
-typedef struct sweep_progress {
-    int on;
-    uint64_t first, total;
-    double begun, shown; /* s */
-} sweep_progress;
-
-sweep_progress cli_progress_make(uint64_t first, uint64_t total);
-void cli_progress_show(sweep_progress *progress, uint64_t done);
-void cli_progress_clear(const sweep_progress *progress);
 
 #endif

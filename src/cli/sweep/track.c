@@ -107,21 +107,6 @@ static int names_read(track_reader *reader, sweep_track *track)
     return 0;
 }
 
-/* Without names, four columns are time and direction, five are time and quaternion. */
-static int columns_assume(track_reader *reader, sweep_track *track)
-{
-    uint32_t count = reader->table.columns;
-    if (count != 4 && count != 5) {
-        return track_fault(reader, "expected time,w,x,y,z (quaternion, body to observation) or "
-                                   "time,x,y,z (direction to the laser)");
-    }
-    track->quaternions = count == 5;
-    for (int i = 0; i < (int)count; i++) {
-        reader->place[i] = i;
-    }
-    return 0;
-}
-
 /* Reads digits as a number from `least` to `most`; -1 if they are not such a number. */
 static int digits_read(const char *text, int count, int least, int most)
 {
@@ -238,54 +223,60 @@ static int row_read(track_reader *reader, sweep_track *track)
     return 0;
 }
 
-/* The first row: reads names, or decides by the number of fields. */
+/* The first row: reads names. If it has none, four columns are time and direction, five are time
+   and quaternion. */
 static int first_read(track_reader *reader, sweep_track *track)
 {
     const lrcs_host_field *field = reader->table.field;
+    const uint32_t count = reader->table.columns;
     int64_t seconds;
     double number;
     if (lrcs_host_number_read(field->text, field->size, &number) == LRCS_E_SYNTAX &&
         date_read(field, &seconds, &number) != 0) {
         return names_read(reader, track);
     }
-    int code = columns_assume(reader, track);
-    return code ? code : row_read(reader, track);
-}
-
-static int track_parse(track_reader *reader, const lrcs_host_file *file, sweep_track *track)
-{
-    size_t lines = 1;
-    for (size_t i = 0; i < file->size; i++) {
-        lines += file->bytes[i] == '\n' || file->bytes[i] == '\r';
+    if (count != 4 && count != 5) {
+        return track_fault(reader, "expected time,w,x,y,z (quaternion, body to observation) or "
+                                   "time,x,y,z (direction to the laser)");
     }
-    track->row = calloc(lines, sizeof *track->row);
-    track->joint = calloc(lines, sizeof *track->joint);
-    if (!track->row || !track->joint) {
-        return cli_out_of_memory();
+    track->quaternions = count == 5;
+    for (int i = 0; i < (int)count; i++) {
+        reader->place[i] = i;
     }
-    int code = 0;
-    int status = lrcs_host_table_read(&reader->table, &reader->error);
-    for (int first = 1; status == 1 && code == 0; first = 0) {
-        code = first ? first_read(reader, track) : row_read(reader, track);
-        status = lrcs_host_table_read(&reader->table, &reader->error);
-    }
-    if (code == 0 && status < 0) {
-        return cli_failed(&reader->error);
-    }
-    return code == 0 && track->count == 0 ? track_fault(reader, "no attitude in the file") : code;
+    return row_read(reader, track);
 }
 
 int cli_track_read(const char *path, sweep_track *track)
 {
-    lrcs_host_error error;
     lrcs_host_file file;
     track_reader reader = {.dates = 0};
-    if (lrcs_host_file_read(path, &file, &error) != LRCS_OK) {
-        return cli_failed(&error);
+    size_t lines = 1;
+    int code = 0;
+    int status = 0;
+    if (lrcs_host_file_read(path, &file, &reader.error) != LRCS_OK) {
+        return cli_failed(&reader.error);
+    }
+    for (size_t i = 0; i < file.size; i++) {
+        lines += file.bytes[i] == '\n' || file.bytes[i] == '\r';
     }
     track->hash = cli_sum_more(CLI_SUM_BEGIN, file.bytes, file.size);
+    track->row = calloc(lines, sizeof *track->row);
+    track->joint = calloc(lines, sizeof *track->joint);
     reader.table = lrcs_host_table_make(path, &file);
-    int code = track_parse(&reader, &file, track);
+    if (!track->row || !track->joint) {
+        code = cli_out_of_memory();
+    } else {
+        status = lrcs_host_table_read(&reader.table, &reader.error);
+    }
+    for (int first = 1; status == 1 && code == 0; first = 0) {
+        code = first ? first_read(&reader, track) : row_read(&reader, track);
+        status = lrcs_host_table_read(&reader.table, &reader.error);
+    }
+    if (code == 0 && status < 0) {
+        code = cli_failed(&reader.error);
+    } else if (code == 0 && track->count == 0) {
+        code = track_fault(&reader, "no attitude in the file");
+    }
     lrcs_host_file_free(&file);
     return code;
 }
