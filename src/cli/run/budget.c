@@ -3,8 +3,9 @@
    are tried one after the other, in the order of their expected cost:
      1. no self-shadowing,
      2. rasters of 256 and 1024 pixels that are accepted by their estimate,
-     3. tolerances from 1e-1 to 1e-12, by the method that suffices; if no tolerance changes
-        anything, clipping instead.
+     3. tolerances from 1e-1 to 1e-12, by the method that suffices, up to the first that is missed;
+        one that the answer before it meets is left out. If no tolerance changes anything, clipping
+        instead.
    On real models a raster with a bound takes longer than clipping and has a larger bound, so that
    there is none. The sequence ends when the time is up, when an answer meets the tolerance asked
    for, or after its last setting.
@@ -36,8 +37,7 @@ static const double rungs[] = {1e-1, 3e-2,  1e-2,  3e-3,  1e-3,  3e-4,  1e-4, 3e
                                1e-5, 3e-6,  1e-6,  3e-7,  1e-7,  3e-8,  1e-8, 3e-9,
                                1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12, 1e-12};
 
-#define RUNGS     ((int)(sizeof rungs / sizeof rungs[0]))
-#define RUNG_NONE (-1) /* for scenes that no tolerance changes */
+#define RUNGS (sizeof rungs / sizeof rungs[0])
 
 static const uint32_t rasters[] = {256, 1024};
 
@@ -49,7 +49,7 @@ static const uint32_t rasters[] = {256, 1024};
 typedef struct budget_answer {
     lrcs_result result;
     lrcs_run_options options;
-    int rung;
+    lrcs_build_options build;
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
@@ -59,70 +59,73 @@ static pid_t child_parent;
 
 /* ---- settings ---- */
 
-/* Runs one setting. Status: as lrcs_host_scene_run. */
-static int setting_run(run_job *job, int rung, budget_answer *answer, lrcs_host_error *error)
+/* Does the tolerance change the answer? */
+static int tolerance_matters(const run_job *job)
 {
+    return cli_has_curved_shapes(&job->scene.scene) ||
+           job->scene.scene.normals != LRCS_NORMALS_FLAT;
+}
+
+/* Runs one setting, job->options, as lrcs run does: 0, CLI_FAILED or CLI_USAGE. A scene with curved
+   shapes is read again, because it depends on the setting. */
+static int setting_run(run_job *job, budget_answer *answer)
+{
+    lrcs_host_error error;
+    int code = 0;
     memset(answer, 0, sizeof *answer);
+    if (cli_has_curved_shapes(&job->scene.scene)) {
+        lrcs_host_scene_free(&job->scene);
+        job->load.build.tolerance = job->options.tolerance;
+        job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
+        job->load.build.division = LRCS_HOST_DIVISION;
+        code = cli_scene_read(job->args, &job->load, &job->scene);
+        code = code ? code : cli_run_divide(job);
+    }
+    if (code == 0 && !job->scene.prepared &&
+        lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
+        code = cli_failed(&error);
+    }
+    if (code == 0 && lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &answer->result,
+                                         NULL, NULL, &answer->seconds_pose, &error) != LRCS_OK) {
+        code = cli_failed(&error);
+    }
     answer->options = job->options;
-    answer->rung = rung;
+    answer->build = job->load.build;
     answer->seconds_load = job->scene.seconds_load;
     answer->seconds_prepare = job->scene.seconds_prepare;
-    return lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &answer->result, NULL, NULL,
-                               &answer->seconds_pose, error);
+    return code;
 }
 
 /* The same in the child process, which sends the answer. Returns 1 if the sequence goes on: not if
    the run failed, if nobody reads, or if the answer meets the tolerance asked for. */
-static int setting_send(run_job *job, int rung, int answers)
+static int setting_send(run_job *job, int answers, budget_answer *answer)
 {
-    budget_answer answer;
-    return setting_run(job, rung, &answer, NULL) == LRCS_OK &&
-           write(answers, &answer, sizeof answer) == (ssize_t)sizeof answer &&
-           !cli_run_meets(&answer.result, job->asked);
-}
-
-/* Reads the scene with its shapes built for finer and finer rungs, starting with this one, until
-   the mesh differs from the last one, and prepares it. Returns its rung; RUNGS if there is none. */
-static int rung_scene(run_job *job, int rung)
-{
-    lrcs_host_error error;
-    uint64_t last = lrcs_scene_hash(&job->scene.scene);
-    for (; rung < RUNGS; rung++) {
-        lrcs_host_scene_free(&job->scene);
-        job->load.build.tolerance = rungs[rung];
-        if (lrcs_host_scene_read(job->args->operand, &job->load, &job->scene, &error) != LRCS_OK) {
-            return RUNGS;
-        }
-        if (lrcs_scene_hash(&job->scene.scene) != last) {
-            break;
-        }
-    }
-    return rung < RUNGS && lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? rung : RUNGS;
+    return setting_run(job, answer) == 0 &&
+           write(answers, answer, sizeof *answer) == (ssize_t)sizeof *answer &&
+           !cli_run_meets(&answer->result, job->asked);
 }
 
 /* All settings after the first, in order, as long as each can be completed. */
-static void settings_run(run_job *job, int rung, int answers)
+static void settings_run(run_job *job, int answers)
 {
-    const int shapes = cli_has_curved_shapes(&job->scene.scene);
     const lrcs_run_options plain = job->options;
+    const int scales = tolerance_matters(job);
+    budget_answer answer;
     int on = 1;
     for (size_t i = 0; i < sizeof rasters / sizeof rasters[0] && on; i++) {
         job->options.method = LRCS_METHOD_ZBUFFER;
         job->options.resolution = rasters[i];
         job->options.accept = LRCS_ACCEPT_ESTIMATE;
-        on = setting_send(job, rung, answers);
+        on = setting_send(job, answers, &answer);
     }
     job->options = plain;
-    job->options.method = LRCS_METHOD_AUTO;
-    if (on && rung == RUNG_NONE) {
-        job->options.method = LRCS_METHOD_EXACT;
-        setting_send(job, rung, answers);
-        return;
-    }
-    while (on && rung < RUNGS) {
-        job->options.tolerance = rungs[rung];
-        on = setting_send(job, rung, answers);
-        rung = shapes ? rung_scene(job, rung + 1) : rung + 1;
+    job->options.method = scales ? LRCS_METHOD_AUTO : LRCS_METHOD_EXACT;
+    for (size_t i = 0; i < (scales ? RUNGS : 1) && on; i++) {
+        job->options.tolerance = scales ? rungs[i] : plain.tolerance;
+        if (i == 0 || !cli_run_meets(&answer.result, rungs[i])) {
+            on = setting_send(job, answers, &answer) &&
+                 !(answer.result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+        }
     }
 }
 
@@ -138,7 +141,7 @@ static void child_tick(int number)
 }
 
 /* Starts the child process. Returns the read end of the pipe of its answers, or -1. */
-static int child_start(run_job *job, int rung, pid_t *child)
+static int child_start(run_job *job, pid_t *child)
 {
     int end[2];
     if (pipe(end) != 0) {
@@ -159,7 +162,7 @@ static int child_start(run_job *job, int rung, pid_t *child)
         close(end[0]);
         sigaction(SIGALRM, &action, NULL);
         setitimer(ITIMER_REAL, &timer, NULL);
-        settings_run(job, rung, end[1]);
+        settings_run(job, end[1]);
         _exit(0);
     }
     close(end[1]);
@@ -238,7 +241,6 @@ int cli_run_budget_read(run_job *job)
         }
     }
     job->asked = cli_value(args, "tolerance") ? job->asked : 0.0;
-    job->load.build.tolerance = rungs[0];
     return 0;
 }
 
@@ -249,8 +251,8 @@ static int budget_settle(run_job *job, const budget_answer *best)
     const int named = best->options.method != LRCS_METHOD_AUTO;
     char text[sizeof job->budget.same] = "";
     size_t used = 0;
-    if (best->rung != RUNG_NONE) {
-        used += (size_t)snprintf(text, sizeof text, " --tolerance %g", rungs[best->rung]);
+    if (tolerance_matters(job)) {
+        used += (size_t)snprintf(text, sizeof text, " --tolerance %g", best->options.tolerance);
     }
     if (named) {
         used += (size_t)snprintf(
@@ -268,9 +270,9 @@ static int budget_settle(run_job *job, const budget_answer *best)
         job->result.method_reason = "the best that the time budget reached";
     }
     int code = 0;
-    if (best->rung > 0 && cli_has_curved_shapes(&job->scene.scene)) {
+    if (cli_has_curved_shapes(&job->scene.scene)) {
         lrcs_host_scene_free(&job->scene);
-        job->load.build.tolerance = job->options.tolerance;
+        job->load.build = best->build;
         code = cli_scene_read(job->args, &job->load, &job->scene);
     }
     job->scene.seconds_load = best->seconds_load;
@@ -281,26 +283,19 @@ static int budget_settle(run_job *job, const budget_answer *best)
 
 int cli_run_budget(run_job *job)
 {
-    lrcs_host_error error;
     budget_answer best;
     pid_t child;
-    int scales =
-        cli_has_curved_shapes(&job->scene.scene) || job->scene.scene.normals != LRCS_NORMALS_FLAT;
-    int rung = scales ? 0 : RUNG_NONE;
-    if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
     cli_watch_stage("trying settings", NULL);
-    job->options.tolerance = scales ? rungs[0] : lrcs_run_options_default().tolerance;
+    job->options.tolerance =
+        tolerance_matters(job) ? rungs[0] : lrcs_run_options_default().tolerance;
     job->options.method = LRCS_METHOD_FACET;
-    if (setting_run(job, rung, &best, &error) != LRCS_OK) {
-        return cli_failed(&error);
+    int code = setting_run(job, &best);
+    if (code != 0) {
+        return code;
     }
-    if (!cli_run_meets(&best.result, job->asked)) {
-        int answers = child_start(job, rung, &child);
-        if (answers >= 0) {
-            answers_read(answers, child, &best);
-        }
+    int answers = cli_run_meets(&best.result, job->asked) ? -1 : child_start(job, &child);
+    if (answers >= 0) {
+        answers_read(answers, child, &best);
     }
     job->budget.spent_ms = 1e3 * (cli_seconds() - job->budget.start);
     return budget_settle(job, &best);

@@ -19,7 +19,7 @@ static const char run_help[] =
     "Computes sigma (m2) of SCENE: a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
     "\n" CLI_POSE_HELP "\n"
     "options\n" CLI_ACCURACY_HELP "  --time-budget MS      instead of these: the best answer of "
-                                  "the settings that MS milliseconds\n"
+    "the settings that MS milliseconds\n"
     "                        suffice for, loading and preparing included. In this order: no\n"
     "                        self-shadowing, rasters of 256 and 1024 by their estimate, "
     "tolerances\n"
@@ -98,10 +98,8 @@ static int options_read(run_job *job)
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->asked = job->options.tolerance;
     job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
-    if (!cli_value(args, "time-budget")) {
-        job->load.build.division = LRCS_HOST_DIVISION;
-        job->load.build.max_facets = LRCS_HOST_FACETS;
-    }
+    job->load.build.division = LRCS_HOST_DIVISION;
+    job->load.build.max_facets = LRCS_HOST_FACETS;
     code = code ? code : cli_run_budget_read(job);
     code = code ? code : cli_run_emulation_read(job);
     code = code ? code : cli_run_materials_read(job);
@@ -167,9 +165,7 @@ static int run_pose(run_job *job)
     return 0;
 }
 
-/* Divides curved shapes as finely as the pose needs: reads the scene again if its own division does
-   not suffice. */
-static int run_divide(run_job *job)
+int cli_run_divide(run_job *job)
 {
     lrcs_host_error error;
     double division = 0.0;
@@ -201,8 +197,7 @@ static int run_scene(run_job *job)
     cli_watch_stage("loading", NULL);
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_run_outputs_check(job);
-    code = code ? code : run_divide(job);
-    code = code == 0 && searched ? cli_run_budget(job) : code;
+    code = code ? code : searched ? cli_run_budget(job) : cli_run_divide(job);
     if (code == 0 && (files || !searched)) {
         code = run_room(job);
         code = code ? code : run_pose(job);
