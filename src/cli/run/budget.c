@@ -1,26 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs run --time-budget: the most accurate answer that can be computed in a given time. How long a
-   setting takes is not known in advance. So two processes run two sequences of settings, in each of
-   which a setting takes at least as long as the one before it; one process at a time runs, in turns
-   (turns.h). When the time is up, the best of all answers counts, whenever it came.
+/* lrcs run --time-budget: the most accurate answer that can be computed in a given time. Settings
+   are tried one after the other, in the order of their expected cost:
+     1. no self-shadowing,
+     2. rasters of 256 and 1024 pixels that are accepted by their estimate,
+     3. tolerances from 1e-1 to 1e-12, by the method that suffices, up to the first that is missed;
+        one that the answer before it meets is left out. If no tolerance changes anything, clipping
+        instead.
+   On real models a raster with a bound takes longer than clipping and has a larger bound, so that
+   there is none. The sequence ends when the time is up, when an answer meets the tolerance asked
+   for, or after its last setting.
 
-   Claim: no setting that takes less time than the one that is returned would have been better, but
-   for the length of a turn. A raster that is returned: by turns.h all settings of both sequences
-   that take less have been completed. A tolerance or clipping that is returned: those that take
-   less are before it, and a raster cannot be better, because it has the error of the same mesh and
-   that of its samples besides. The exception is a tolerance that was answered by a raster, or whose
-   bound says little: then the claim holds for rasters that take less than half of its time.
+   Claim: every setting that stands before the answer in this sequence has been completed, and the
+   error (answer_error) of the answer is at most 1.001 times that of any setting completed.
+
+   The first setting runs in this process, because there must be an answer whatever the time. The
+   others run in one child process: the library cannot be interrupted, but a process can end itself.
 
    This file decides which settings are tried; each is an ordinary run, which the same options
    reproduce. */
 #include "cli/run/run.h"
-#include "cli/run/turns.h"
 
 #include <errno.h>
 #include <math.h>
-#include <poll.h>
 #include <signal.h>
 #include <string.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -28,260 +32,145 @@
 /* A bound above this share of sigma says little: beyond it a likely error decides. */
 #define BOUND_TELLS 0.1
 
-/* The tolerances that are tried, two per decade: rungs 0 .. 22 are 1e-1, 3e-2, 1e-2, ... 1e-12. */
-#define RUNGS     23
-#define RUNG_NONE (-1) /* for scenes that no tolerance changes */
+/* The tolerances that are tried. */
+static const double rungs[] = {1e-1, 3e-2,  1e-2,  3e-3,  1e-3,  3e-4,  1e-4, 3e-5,
+                               1e-5, 3e-6,  1e-6,  3e-7,  1e-7,  3e-8,  1e-8, 3e-9,
+                               1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12, 1e-12};
 
-/* The sequences: tolerances by the method that suffices (if no tolerance changes anything, clipping
-   instead), whose work grows with their digits; and rasters. */
-enum budget_chain { CHAIN_SOUGHT, CHAIN_RASTERS, CHAINS };
+#define RUNGS (sizeof rungs / sizeof rungs[0])
 
-/* The rasters. One that is accepted by estimate evaluates only its samples, which is a part of the
-   work of one with a bound. */
-static const struct {
-    uint32_t size;
-    int accept;
-} rasters[] = {{256, LRCS_ACCEPT_ESTIMATE},
-               {1024, LRCS_ACCEPT_ESTIMATE},
-               {1024, LRCS_ACCEPT_BOUND},
-               {4096, LRCS_ACCEPT_BOUND}};
+static const uint32_t rasters[] = {256, 1024};
 
-#define RASTERS (sizeof rasters / sizeof rasters[0])
-
-/* The least time of a turn, s: on a busy machine it may take some milliseconds until a process that
-   is continued runs. */
-#define TURN_LEAST 5e-3
-
-/* The weights: each raster delays a tolerance by at most 5/8 of its time, and a turn. */
-static const double chain_weight[CHAINS] = {2.0, 1.0};
+/* How often the child process looks at the clock, us. */
+#define CHILD_TICK 5000
 
 /* An answer on its way to the parent process. Its reasons are constant texts, at the same address
    in both processes. */
 typedef struct budget_answer {
     lrcs_result result;
-    int rung;
-    int named;  /* 1 if the method was specified, not chosen by auto */
-    int sought; /* 1 if found by a tolerance or by clipping; of equal answers these are preferred */
-    int accept; /* LRCS_ACCEPT_ESTIMATE for a raster that costs no more than drawing it */
+    lrcs_run_options options;
+    lrcs_build_options build;
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
-/* A process that runs a sequence of settings, and the pipe of its answers. */
-typedef struct budget_runner {
-    pid_t process;
-    int end; /* read end of its pipe; negative if the process has ended */
-} budget_runner;
-
-/* All of them, and a process that ends them if this one ends before it could. At first only that of
-   the tolerances is started, which often needs a single turn. */
-typedef struct budget_runners {
-    budget_runner one[CHAINS];
-    run_sequence sequence[CHAINS];
-    int running; /* the one that is not stopped, or -1 */
-    int started; /* 1 if all have been started */
-    pid_t guard;
-    int alive; /* write end of the pipe that the guard reads until its end; negative if none */
-} budget_runners;
-
-static const char *rung_text(int rung, char text[16])
-{
-    snprintf(text, 16, "%de-%d", rung % 2 ? 3 : 1, 1 + (rung + 1) / 2);
-    return text;
-}
-
-static double rung_tolerance(int rung)
-{
-    char text[16];
-    double value = lrcs_run_options_default().tolerance;
-    if (rung == RUNG_NONE) {
-        return value;
-    }
-    rung_text(rung, text);
-    lrcs_host_number_read(text, strlen(text), &value);
-    return value;
-}
+/* Read by the child's signal handler: when to end, and whose child it is. */
+static double child_deadline;
+static pid_t child_parent;
 
 /* ---- settings ---- */
 
-/* Runs one setting; its time is that of the processor, because the process may be stopped in
-   between. Status: as lrcs_host_scene_run. */
-static int setting_run(run_job *job, int rung, int sought, budget_answer *answer,
-                       lrcs_host_error *error)
+/* Does the tolerance change the answer? */
+static int tolerance_matters(const run_job *job)
 {
-    memset(answer, 0, sizeof *answer);
-    clock_t begun = clock();
-    int status = lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &answer->result, NULL,
-                                     NULL, NULL, error);
-    answer->seconds_pose = (double)(clock() - begun) / CLOCKS_PER_SEC;
-    answer->rung = rung;
-    answer->named = job->options.method != LRCS_METHOD_AUTO;
-    answer->sought = sought;
-    answer->accept = job->options.accept;
-    answer->seconds_load = job->scene.seconds_load;
-    answer->seconds_prepare = job->scene.seconds_prepare;
-    return status;
+    return cli_has_curved_shapes(&job->scene.scene) ||
+           job->scene.scene.normals != LRCS_NORMALS_FLAT;
 }
 
-/* The same in a runner, which reports the answer; 0, or -1 if it failed or the pipe is closed. */
-static int setting_report(run_job *job, int rung, int sought, int answers)
-{
-    budget_answer answer;
-    return setting_run(job, rung, sought, &answer, NULL) == LRCS_OK &&
-                   write(answers, &answer, sizeof answer) == (ssize_t)sizeof answer
-               ? 0
-               : -1;
-}
-
-/* Reads the scene with its shapes built for finer and finer rungs, starting with this one, until
-   the mesh differs from the last one, and prepares it. Returns its rung; RUNGS if there is none. */
-static int rung_scene(run_job *job, int rung)
+/* Runs one setting, job->options, as lrcs run does: 0, CLI_FAILED or CLI_USAGE. A scene with curved
+   shapes is read again, because it depends on the setting. */
+static int setting_run(run_job *job, budget_answer *answer)
 {
     lrcs_host_error error;
-    uint64_t last = lrcs_scene_hash(&job->scene.scene);
-    for (; rung < RUNGS; rung++) {
+    int code = 0;
+    memset(answer, 0, sizeof *answer);
+    if (cli_has_curved_shapes(&job->scene.scene)) {
         lrcs_host_scene_free(&job->scene);
-        job->load.build.tolerance = rung_tolerance(rung);
-        if (lrcs_host_scene_read(job->args->operand, &job->load, &job->scene, &error) != LRCS_OK) {
-            return RUNGS;
+        job->load.build.tolerance = job->options.tolerance;
+        job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
+        job->load.build.division = LRCS_HOST_DIVISION;
+        code = cli_scene_read(job->args, &job->load, &job->scene);
+        code = code ? code : cli_run_divide(job);
+    }
+    if (code == 0 && !job->scene.prepared &&
+        lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
+        code = cli_failed(&error);
+    }
+    if (code == 0 && lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &answer->result,
+                                         NULL, NULL, &answer->seconds_pose, &error) != LRCS_OK) {
+        code = cli_failed(&error);
+    }
+    answer->options = job->options;
+    answer->build = job->load.build;
+    answer->seconds_load = job->scene.seconds_load;
+    answer->seconds_prepare = job->scene.seconds_prepare;
+    return code;
+}
+
+/* The same in the child process, which sends the answer. Returns 1 if the sequence goes on: not if
+   the run failed, if nobody reads, or if the answer meets the tolerance asked for. */
+static int setting_send(run_job *job, int answers, budget_answer *answer)
+{
+    return setting_run(job, answer) == 0 &&
+           write(answers, answer, sizeof *answer) == (ssize_t)sizeof *answer &&
+           !cli_run_meets(&answer->result, job->asked);
+}
+
+/* All settings after the first, in order, as long as each can be completed. */
+static void settings_run(run_job *job, int answers)
+{
+    const lrcs_run_options plain = job->options;
+    const int scales = tolerance_matters(job);
+    budget_answer answer;
+    int on = 1;
+    for (size_t i = 0; i < sizeof rasters / sizeof rasters[0] && on; i++) {
+        job->options.method = LRCS_METHOD_ZBUFFER;
+        job->options.resolution = rasters[i];
+        job->options.accept = LRCS_ACCEPT_ESTIMATE;
+        on = setting_send(job, answers, &answer);
+    }
+    job->options = plain;
+    job->options.method = scales ? LRCS_METHOD_AUTO : LRCS_METHOD_EXACT;
+    for (size_t i = 0; i < (scales ? RUNGS : 1) && on; i++) {
+        job->options.tolerance = scales ? rungs[i] : plain.tolerance;
+        if (i == 0 || !cli_run_meets(&answer.result, rungs[i])) {
+            on = setting_send(job, answers, &answer) &&
+                 !(answer.result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
         }
-        if (lrcs_scene_hash(&job->scene.scene) != last) {
-            break;
-        }
-    }
-    return rung < RUNGS && lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? rung : RUNGS;
-}
-
-static void rasters_run(run_job *job, int rung, int answers)
-{
-    int over = 0;
-    job->options.method = LRCS_METHOD_ZBUFFER;
-    for (size_t i = 0; i < RASTERS && over == 0; i++) {
-        job->options.resolution = rasters[i].size;
-        job->options.accept = rasters[i].accept;
-        over = setting_report(job, rung, 0, answers);
     }
 }
 
-static void tolerances_run(run_job *job, int rung, int answers)
+/* ---- the child process ---- */
+
+/* Ends the child when the time is up, or when its parent has ended. */
+static void child_tick(int number)
 {
-    const int last = rung == RUNG_NONE ? RUNG_NONE : RUNGS - 1;
-    const int shapes = cli_has_curved_shapes(&job->scene.scene);
-    int over = 0;
-    job->options.method = rung == RUNG_NONE ? LRCS_METHOD_EXACT : LRCS_METHOD_AUTO;
-    while (over == 0 && rung <= last) {
-        job->options.tolerance = rung_tolerance(rung);
-        over = setting_report(job, rung, 1, answers);
-        rung = shapes ? rung_scene(job, rung + 1) : rung + 1;
+    (void)number;
+    if (getppid() != child_parent || cli_seconds() >= child_deadline) {
+        _exit(0);
     }
 }
 
-/* Starts a process; if that fails, its sequence is over. */
-static void runner_start(run_job *job, int chain, int rung, budget_runners *all)
+/* Starts the child process. Returns the read end of the pipe of its answers, or -1. */
+static int child_start(run_job *job, pid_t *child)
 {
-    budget_runner *runner = &all->one[chain];
     int end[2];
-    all->sequence[chain].over = 1;
     if (pipe(end) != 0) {
-        return;
+        return -1;
     }
+    child_deadline = job->budget.start + 1e-3 * job->budget.asked_ms;
+    child_parent = getpid();
     fflush(NULL); /* otherwise both processes would write the buffered output */
-    runner->process = fork();
-    if (runner->process == 0) {
+    *child = fork();
+    if (*child == 0) {
+        const struct itimerval timer = {.it_interval.tv_usec = CHILD_TICK,
+                                        .it_value.tv_usec = CHILD_TICK};
+        struct sigaction action;
+        memset(&action, 0, sizeof action);
+        action.sa_flags = SA_RESTART;
+        action.sa_handler = child_tick;
         signal(SIGINT, SIG_DFL); /* the parent reports what remains after a Ctrl-C */
         close(end[0]);
-        if (chain == CHAIN_SOUGHT) {
-            tolerances_run(job, rung, end[1]);
-        } else {
-            rasters_run(job, rung, end[1]);
-        }
+        sigaction(SIGALRM, &action, NULL);
+        setitimer(ITIMER_REAL, &timer, NULL);
+        settings_run(job, end[1]);
         _exit(0);
     }
     close(end[1]);
-    if (runner->process < 0) {
+    if (*child < 0) {
         close(end[0]);
-        return;
+        return -1;
     }
-    runner->end = end[0];
-    all->sequence[chain].over = 0;
-}
-
-/* Starts the process that waits for the end of this one and then ends the runners: a stopped
-   process would otherwise remain for ever. */
-static void guard_start(budget_runners *all)
-{
-    int end[2];
-    all->alive = -1;
-    all->guard = pipe(end) == 0 ? fork() : -1;
-    if (all->guard == 0) {
-        char byte;
-        signal(SIGINT, SIG_IGN);
-        signal(SIGHUP, SIG_IGN);
-        signal(SIGTERM, SIG_IGN);
-        close(end[1]);
-        while (read(end[0], &byte, 1) < 0 && errno == EINTR) {
-        }
-        for (int i = 0; i < CHAINS; i++) {
-            if (all->one[i].end >= 0) {
-                kill(all->one[i].process, SIGKILL);
-            }
-        }
-        _exit(0);
-    }
-    if (all->guard > 0) {
-        close(end[0]);
-        all->alive = end[1];
-    }
-}
-
-static void runners_start(run_job *job, int rung, budget_runners *all)
-{
-    memset(all, 0, sizeof *all);
-    all->alive = -1;
-    for (int i = 0; i < CHAINS; i++) {
-        all->one[i].end = -1;
-        all->sequence[i].weight = chain_weight[i];
-    }
-    runner_start(job, CHAIN_SOUGHT, rung, all);
-    all->running = CHAIN_SOUGHT;
-}
-
-/* Starts the process of the rasters, stopped until its first turn. */
-static void rasters_start(run_job *job, int rung, budget_runners *all)
-{
-    runner_start(job, CHAIN_RASTERS, rung, all);
-    if (all->one[CHAIN_RASTERS].end >= 0) {
-        kill(all->one[CHAIN_RASTERS].process, SIGSTOP);
-    }
-    guard_start(all);
-    all->started = 1;
-}
-
-/* ---- in the parent ---- */
-
-static void runner_stop(budget_runners *all, int i)
-{
-    budget_runner *runner = &all->one[i];
-    if (runner->end >= 0) {
-        close(runner->end);
-        kill(runner->process, SIGKILL);
-        waitpid(runner->process, NULL, 0);
-        runner->end = -1;
-    }
-    all->sequence[i].over = 1;
-    all->running = all->running == i ? -1 : all->running;
-}
-
-/* Ends all processes; the guard first, so that it does not end one that no longer is theirs. */
-static void runners_stop(budget_runners *all)
-{
-    if (all->alive >= 0) {
-        kill(all->guard, SIGKILL);
-        waitpid(all->guard, NULL, 0);
-        close(all->alive);
-    }
-    for (int i = 0; i < CHAINS; i++) {
-        runner_stop(all, i);
-    }
+    return end[0];
 }
 
 /* The error that an answer may have: its bound, and the contribution of curved normals. If that
@@ -295,81 +184,30 @@ static double answer_error(const budget_answer *answer)
     return bound > tells && r->estimate_m2 >= 0.0 ? fmin(bound, tells + r->estimate_m2) : bound;
 }
 
-/* Is an answer better than the best so far? Errors within a thousandth of each other count as
-   equal: of these an answer found by a tolerance or by clipping is preferred. Therefore the best of
-   any sequence has at most 1.001 times its least error: an answer that is not sought is best only
-   if its error is the least so far, and what replaces it as equal is replaced only by less. */
+/* Is an answer better than the best so far? Of equal answers the first is kept, which costs less.
+   But errors of a raster accepted by estimate and of a later setting count as equal within a
+   thousandth, and then the later one is preferred; this happens once, because the rasters come
+   first. */
 static int answer_beats(const budget_answer *answer, const budget_answer *best)
 {
-    const double alike = 1.001;
-    double error = answer_error(answer);
-    double least = answer_error(best);
-    if (answer->sought != best->sought) {
-        return answer->sought ? error <= alike * least : alike * error < least;
-    }
-    return error < least;
+    int sampled =
+        best->options.accept == LRCS_ACCEPT_ESTIMATE && answer->options.accept == LRCS_ACCEPT_BOUND;
+    return answer_error(answer) < (sampled ? 1.001 : 1.0) * answer_error(best);
 }
 
-/* Milliseconds left, as a time-out for poll. */
-static int time_left(const run_budget *budget)
-{
-    double left = budget->asked_ms - 1e3 * (cli_seconds() - budget->start);
-    return left > 1e9 ? 1000000000 : left > 0.0 ? (int)ceil(left) : 0;
-}
-
-/* Receives an answer of a runner, and ends the runner if it has none left. An answer that is not
-   from a raster and whose bound says something ends the rasters, none of which can be better. 1 if
-   an answer came. */
-static int answer_take(budget_runners *all, int i, budget_answer *best)
+/* Reads the child's answers until it ends. */
+static void answers_read(int answers, pid_t child, budget_answer *best)
 {
     budget_answer answer;
-    if (read(all->one[i].end, &answer, sizeof answer) != (ssize_t)sizeof answer) {
-        runner_stop(all, i);
-        return 0;
-    }
-    if (i == CHAIN_SOUGHT && answer.result.method != LRCS_METHOD_ZBUFFER &&
-        answer_error(&answer) <= BOUND_TELLS * answer.result.sigma_m2) {
-        runner_stop(all, CHAIN_RASTERS);
-    }
-    if (answer_beats(&answer, best)) {
-        *best = answer;
-    }
-    return 1;
-}
-
-/* Gives turns until the time is up, no more answers are to come, or one meets the tolerance asked
-   for. */
-static void runners_watch(run_job *job, int rung, budget_runners *all, budget_answer *best)
-{
-    int turn;
-    while (!cli_run_meets(&best->result, job->asked) && time_left(&job->budget) > 0 &&
-           (turn = cli_turn_next(all->sequence, CHAINS)) >= 0) {
-        if (turn != all->running) {
-            if (!all->started) {
-                rasters_start(job, rung, all);
-                continue; /* one that could not be started is over */
-            }
-            if (all->running >= 0) {
-                kill(all->one[all->running].process, SIGSTOP);
-            }
-            kill(all->one[turn].process, SIGCONT);
-            all->running = turn;
+    ssize_t count;
+    while ((count = read(answers, &answer, sizeof answer)) == (ssize_t)sizeof answer ||
+           (count < 0 && errno == EINTR)) {
+        if (count > 0 && answer_beats(&answer, best)) {
+            *best = answer;
         }
-        struct pollfd wait = {.fd = all->one[turn].end, .events = POLLIN};
-        double begun = cli_seconds();
-        double length = ceil(1e3 * cli_turn_length(&all->sequence[turn], TURN_LEAST));
-        int ready = poll(&wait, 1, (int)fmin(length, time_left(&job->budget)));
-        if (ready < 0 && errno != EINTR) { /* EINTR: the signal of the watch */
-            break;
-        }
-        int came = ready > 0 && answer_take(all, turn, best);
-        cli_turn_took(&all->sequence[turn], cli_seconds() - begun, came);
     }
-    for (int i = 0; i < CHAINS; i++) { /* those that came at the end of a turn */
-        struct pollfd wait = {.fd = all->one[i].end, .events = POLLIN};
-        if (all->one[i].end >= 0 && poll(&wait, 1, 0) > 0) {
-            answer_take(all, i, best);
-        }
+    close(answers);
+    while (waitpid(child, NULL, 0) < 0 && errno == EINTR) {
     }
 }
 
@@ -403,44 +241,39 @@ int cli_run_budget_read(run_job *job)
         }
     }
     job->asked = cli_value(args, "tolerance") ? job->asked : 0.0;
-    job->load.build.tolerance = rung_tolerance(0);
     return 0;
 }
 
 /* Sets the run's options to those of the answer, and its scene to the one that they lead to. */
 static int budget_settle(run_job *job, const budget_answer *best)
 {
-    char *same = job->budget.same;
-    size_t room = sizeof job->budget.same;
-    int used = 0;
-    int code = 0;
-    if (best->rung != RUNG_NONE) {
-        char tolerance[16];
-        used = snprintf(same, room, "--tolerance %s", rung_text(best->rung, tolerance));
+    const lrcs_result *result = &best->result;
+    const int named = best->options.method != LRCS_METHOD_AUTO;
+    char text[sizeof job->budget.same] = "";
+    size_t used = 0;
+    if (tolerance_matters(job)) {
+        used += (size_t)snprintf(text, sizeof text, " --tolerance %g", best->options.tolerance);
     }
-    if (best->named) {
-        used += snprintf(same + used, room - (size_t)used, "%s--method %s", used ? " " : "",
-                         lrcs_method_text(best->result.method));
-        if (best->accept == LRCS_ACCEPT_ESTIMATE) {
-            used += snprintf(same + used, room - (size_t)used, " --accept estimate");
-        }
-        job->options.accept = best->accept;
-        job->options.method = best->result.method;
-        job->options.resolution = best->result.resolution;
+    if (named) {
+        used += (size_t)snprintf(
+            text + used, sizeof text - used, " --method %s%s", lrcs_method_text(result->method),
+            best->options.accept == LRCS_ACCEPT_ESTIMATE ? " --accept estimate" : "");
     }
-    if (best->result.resolution != 0) {
-        snprintf(same + used, room - (size_t)used, " --resolution %lu",
-                 (unsigned long)best->result.resolution);
+    if (result->resolution != 0) {
+        snprintf(text + used, sizeof text - used, " --resolution %lu",
+                 (unsigned long)result->resolution);
     }
-    job->options.tolerance = rung_tolerance(best->rung);
-    if (best->rung > 0 && cli_has_curved_shapes(&job->scene.scene)) {
-        lrcs_host_scene_free(&job->scene);
-        job->load.build.tolerance = job->options.tolerance;
-        code = cli_scene_read(job->args, &job->load, &job->scene);
-    }
-    job->result = best->result;
-    if (best->named) {
+    snprintf(job->budget.same, sizeof job->budget.same, "%s", text + 1);
+    job->options = best->options;
+    job->result = *result;
+    if (named) {
         job->result.method_reason = "the best that the time budget reached";
+    }
+    int code = 0;
+    if (cli_has_curved_shapes(&job->scene.scene)) {
+        lrcs_host_scene_free(&job->scene);
+        job->load.build = best->build;
+        code = cli_scene_read(job->args, &job->load, &job->scene);
     }
     job->scene.seconds_load = best->seconds_load;
     job->scene.seconds_prepare = best->seconds_prepare;
@@ -450,24 +283,20 @@ static int budget_settle(run_job *job, const budget_answer *best)
 
 int cli_run_budget(run_job *job)
 {
-    lrcs_host_error error;
     budget_answer best;
-    budget_runners all;
-    int scales =
-        cli_has_curved_shapes(&job->scene.scene) || job->scene.scene.normals != LRCS_NORMALS_FLAT;
-    int rung = scales ? 0 : RUNG_NONE;
-    if (lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
+    pid_t child;
     cli_watch_stage("trying settings", NULL);
-    job->options.method = LRCS_METHOD_FACET; /* whatever the budget, there is this answer */
-    if (setting_run(job, rung, 0, &best, &error) != LRCS_OK) {
-        return cli_failed(&error);
+    job->options.tolerance =
+        tolerance_matters(job) ? rungs[0] : lrcs_run_options_default().tolerance;
+    job->options.method = LRCS_METHOD_FACET;
+    int code = setting_run(job, &best);
+    if (code != 0) {
+        return code;
     }
-    job->options.method = LRCS_METHOD_AUTO;
-    runners_start(job, rung, &all);
-    runners_watch(job, rung, &all, &best);
+    int answers = cli_run_meets(&best.result, job->asked) ? -1 : child_start(job, &child);
+    if (answers >= 0) {
+        answers_read(answers, child, &best);
+    }
     job->budget.spent_ms = 1e3 * (cli_seconds() - job->budget.start);
-    runners_stop(&all);
     return budget_settle(job, &best);
 }

@@ -18,13 +18,16 @@ static const char run_help[] =
     "\n"
     "Computes sigma (m2) of SCENE: a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
     "\n" CLI_POSE_HELP "\n"
-    "options\n" CLI_ACCURACY_HELP "  --time-budget MS      in place of these: the best answer that "
-    "MS milliseconds buy, loading and\n"
-    "                        preparing included: by its bound, or by its likely error where "
-    "bounds\n"
-    "                        say little; no setting that takes less time would have been better.\n"
-    "                        Names the options that give it again. Exit 3 where it took longer,\n"
-    "                        misses a --tolerance, or the bound exceeds sigma\n"
+    "options\n" CLI_ACCURACY_HELP "  --time-budget MS      instead of these: the best answer of "
+    "the settings that MS milliseconds\n"
+    "                        suffice for, loading and preparing included. In this order: no\n"
+    "                        self-shadowing, rasters of 256 and 1024 by their estimate, "
+    "tolerances\n"
+    "                        1e-1 to 1e-12 (or method exact, if tolerances change nothing). All\n"
+    "                        settings before the answer's were completed, and none is better, by\n"
+    "                        its bound, or by its estimate where the bound exceeds sigma / 10.\n"
+    "                        Prints the options that reproduce the answer. Exit 3 if it took\n"
+    "                        longer, misses a --tolerance, or the bound exceeds sigma\n"
     "  --steps N             at most N steps of finding what is seen, counted the same on every\n"
     "                        machine; what they leave open is in the bound. A raster's pixels are\n"
     "                        not counted\n" CLI_SCENE_HELP;
@@ -95,10 +98,8 @@ static int options_read(run_job *job)
     code = code ? code : cli_scene_options_read(args, &job->load);
     job->load.build.tolerance = job->asked = job->options.tolerance;
     job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
-    if (!cli_value(args, "time-budget")) {
-        job->load.build.division = LRCS_HOST_DIVISION;
-        job->load.build.max_facets = LRCS_HOST_FACETS;
-    }
+    job->load.build.division = LRCS_HOST_DIVISION;
+    job->load.build.max_facets = LRCS_HOST_FACETS;
     code = code ? code : cli_run_budget_read(job);
     code = code ? code : cli_run_emulation_read(job);
     code = code ? code : cli_run_materials_read(job);
@@ -164,9 +165,7 @@ static int run_pose(run_job *job)
     return 0;
 }
 
-/* Divides curved shapes as finely as the pose needs: reads the scene again if its own division does
-   not suffice. */
-static int run_divide(run_job *job)
+int cli_run_divide(run_job *job)
 {
     lrcs_host_error error;
     double division = 0.0;
@@ -198,8 +197,7 @@ static int run_scene(run_job *job)
     cli_watch_stage("loading", NULL);
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_run_outputs_check(job);
-    code = code ? code : run_divide(job);
-    code = code == 0 && searched ? cli_run_budget(job) : code;
+    code = code ? code : searched ? cli_run_budget(job) : cli_run_divide(job);
     if (code == 0 && (files || !searched)) {
         code = run_room(job);
         code = code ? code : run_pose(job);

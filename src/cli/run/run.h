@@ -101,12 +101,16 @@ void cli_run_explain_json(const run_job *job, int effect, lrcs_host_json *json);
 void cli_run_explain_stages_json(const run_job *job, lrcs_host_json *json);
 void cli_run_explain_table(const run_job *job);
 
+/* Divides curved shapes as finely as the pose needs: reads the scene again if its own division does
+   not suffice. 0, CLI_FAILED or CLI_USAGE. */
+int cli_run_divide(run_job *job);
+
 /* 1 if a result meets a tolerance, by its bound and by the estimate of what curved normals add. A
    tolerance of 0 means none and is never met. */
 int cli_run_meets(const lrcs_result *result, double tolerance);
 
-/* --time-budget: reads its value, 0 or CLI_USAGE; then searches, on a scene just read for the
-   coarsest tolerance: result and seconds are set, and options and scene are those that reproduce
+/* --time-budget: reads its value, 0 or CLI_USAGE; then searches, on a scene just read:
+   result and seconds are set, and options and scene are those that reproduce
    them. 0, CLI_FAILED or CLI_USAGE. */
 int cli_run_budget_read(run_job *job);
 int cli_run_budget(run_job *job);
