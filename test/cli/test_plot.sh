@@ -77,6 +77,14 @@ same nothing_was_written "$(ls x.svg 2>/dev/null)" ""
 run sweep pair.toml --az 0:360:15 --el -90:90:15 --tolerance 0.01 -o all.csv
 run plot all.csv -o all.svg -o all.png --projection mollweide
 same a_whole_map_is_drawn "$rc" 0
+# shapes: what a drawing consists of.
+shapes() { grep -E '<(path|polygon|polyline|rect|line|circle)' "$1"; }
+run sweep pair.toml --az 0:345:15 --el -90:90:15 --tolerance 0.01 -o ring.csv
+run plot ring.csv -o ring.svg --projection mollweide
+same a_turn_without_its_last_step_is_drawn_whole "$rc $(shapes all.svg | grep -c . | awk '{ print ($1 > 50) }') $(shapes ring.svg | cksum)" "0 1 $(shapes all.svg | cksum)"
+run sweep pair.toml --az 0:330:15 --el -90:90:15 --tolerance 0.01 -o gap.csv
+run plot gap.csv -o gap.svg --projection mollweide
+same what_was_not_computed_stays_empty "$rc $(shapes gap.svg | cksum | grep -c "$(shapes all.svg | cksum)")" "0 0"
 run plot sphere.csv -o ball.svg --projection mollweide --dbsm
 same a_sphere_is_drawn "$rc" 0
 # Tables of profile.

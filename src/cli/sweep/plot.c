@@ -423,31 +423,62 @@ static int sheet_curves(FILE *out, const void *context, int png, lrcs_host_error
     return cli_chart_put(out, &chart, png, error);
 }
 
+/* A map around the whole sphere in Mollweide's projection whose azimuths end one step before the
+   full turn: repeats its first column there, because otherwise that step would be empty. Returns
+   the memory of the longer arrays; NULL if the map stays as it is. */
+static double *ring_close(lrcs_host_map *map)
+{
+    const uint32_t n = map->columns;
+    double end = map->x[0] + 360.0;
+    double step = map->x[n - 1] - map->x[n - 2];
+    if (!map->mollweide || !(end > map->x[n - 1] && end - map->x[n - 1] <= 1.000001 * step)) {
+        return NULL;
+    }
+    double *x = malloc(((size_t)n + 1) * ((size_t)map->rows + 1) * sizeof *x);
+    if (x) {
+        double *z = x + n + 1;
+        memcpy(x, map->x, n * sizeof *x);
+        x[n] = end;
+        for (size_t i = 0; i < map->rows; i++) {
+            memcpy(z + i * (n + 1), map->z + i * n, n * sizeof *z);
+            z[i * (n + 1) + n] = map->z[i * n];
+        }
+        map->x = x;
+        map->z = z;
+        map->columns = n + 1;
+    }
+    return x;
+}
+
 static int sheet_map(FILE *out, const void *context, int png, lrcs_host_error *error)
 {
     const plot_sheet *sheet = context;
     const sweep_plot *plot = sheet->plot;
-    const lrcs_host_map map = {.title = sheet->title,
-                               .note = sheet->note,
-                               .x_name = sheet->x_name,
-                               .y_name = sheet->y_name,
-                               .z_name = plot->dbsm ? "sigma (dBsm)" : "sigma (m2)",
-                               .columns = (uint32_t)plot->x.count,
-                               .rows = (uint32_t)plot->y.count,
-                               .x = sheet->values->x,
-                               .y = sheet->values->y,
-                               .z = sheet->values->z,
-                               .deep = plot->dbsm ? PLOT_DEEP : 0.0,
-                               .x_deg = is_angle(&plot->x),
-                               .y_deg = is_angle(&plot->y),
-                               .mollweide = plot->mollweide,
-                               .about = sheet->about,
-                               .cells = plot->plan->kind == SWEEP_SPHERE};
+    lrcs_host_map map = {.title = sheet->title,
+                         .note = sheet->note,
+                         .x_name = sheet->x_name,
+                         .y_name = sheet->y_name,
+                         .z_name = plot->dbsm ? "sigma (dBsm)" : "sigma (m2)",
+                         .columns = (uint32_t)plot->x.count,
+                         .rows = (uint32_t)plot->y.count,
+                         .x = sheet->values->x,
+                         .y = sheet->values->y,
+                         .z = sheet->values->z,
+                         .deep = plot->dbsm ? PLOT_DEEP : 0.0,
+                         .x_deg = is_angle(&plot->x),
+                         .y_deg = is_angle(&plot->y),
+                         .mollweide = plot->mollweide,
+                         .about = sheet->about,
+                         .cells = plot->plan->kind == SWEEP_SPHERE};
+    int status = LRCS_OK;
+    double *closed = ring_close(&map);
     if (png) {
-        return lrcs_host_map_png(out, &map, error);
+        status = lrcs_host_map_png(out, &map, error);
+    } else {
+        lrcs_host_map_svg(out, &map);
     }
-    lrcs_host_map_svg(out, &map);
-    return LRCS_OK;
+    free(closed);
+    return status;
 }
 
 /* The values along both axes in ascending order, as a map needs them, and sigma in that order:
