@@ -26,7 +26,8 @@ def struct(*fields: tuple) -> type:
 
 
 D, I, U, P = C.c_double, C.c_int, C.c_uint32, C.c_void_p
-BUILD = struct(("tolerance", D), ("max_facets", U), ("normals", I), ("facets_only", I))
+BUILD = struct(("tolerance", D), ("max_facets", U), ("normals", I), ("facets_only", I),
+               ("division", D))
 HOST_OPTIONS = struct(("unit_m", D), ("keep_transparent", I), ("two_sided", C.c_char_p),
                       ("binding", P), ("binding_count", U), ("build", BUILD))
 RUN_OPTIONS = struct(("tolerance", D), ("method", I), ("resolution", U), ("without", U), ("with_", U),
@@ -42,7 +43,7 @@ RECORD = struct(("area_m2", D), ("cos_theta", D), ("visible_area_m2", D), ("sigm
                 ("sigma_glint_m2", D))
 SCENE = struct(("recipe", P * 6), ("model", P), ("vertex_count", U), ("facet_count", U),
                ("scene", P * 11), ("prepared", P), ("notices", P * 2), ("input", P),
-               ("two_sided", P), ("seconds", D * 7), ("blocks", P))
+               ("two_sided", P), ("seconds", D * 7), ("blocks", P), ("levels", P))
 ERROR = struct(("text", C.c_char * 1024))
 
 

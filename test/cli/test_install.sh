@@ -41,8 +41,9 @@ if [ "$sanitized" -gt 0 ]; then
 elif command -v python3 >/dev/null; then
     python3 examples/oracle/oracle.py "$at/lib/liblrcs.so" demo >"$scratch/python" 2>&1
     "$tool" sweep demo --az 0:315:45 --el 0 2>/dev/null | awk -F, '$1 ~ /^[0-7]$/ {
-        printf "az %3d deg  sigma %.6g m2  bound %.1g m2\n", $2, $4, $6 }' >"$scratch/tool"
-    same python_gets_what_the_tool_says "$(sed 's/  exact, .*//' "$scratch/python")" "$(cat "$scratch/tool")"
+        printf "az %3d deg  sigma %.6g m2\n", $2, $4 }' >"$scratch/tool"
+    # The tool divides curved shapes as finely as each pose needs: bounds differ.
+    same python_gets_what_the_tool_says "$(sed 's/  bound .*//' "$scratch/python")" "$(cat "$scratch/tool")"
     PYTHONPATH=examples/oracle python3 - "$at/lib/liblrcs.so" >"$scratch/python" 2>&1 <<'EOF'
 import ctypes
 import math
