@@ -5,18 +5,13 @@
 . "$(dirname "$0")/check.sh"
 cd "$scratch" || exit 1
 command -v python3 >/dev/null || { skip a_stage_is_shown 'no python3'; finish; exit; }
-# A ball in the shadow of a plate, divided very finely: seconds on any machine.
-cat >ball.toml <<'END'
-[[part]]
-name = "ball"
-shape = "sphere"
-radius = 1
-[[part]]
-name = "plate"
-shape = "plate"
-size = [1, 1]
-translate = [0.3, 0.2, 3]
-END
+# Balls in the shadow of a plate, divided very finely: seconds on any machine.
+{
+    for i in 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23; do
+        printf '[[part]]\nname = "ball %s"\nshape = "sphere"\nradius = 1\ntranslate = [%s, 0, 0]\n' $i $((3 * i))
+    done
+    printf '[[part]]\nname = "plate"\nshape = "plate"\nsize = [80, 1]\ntranslate = [30.3, 0.2, 3]\n'
+} >balls.toml
 # watch.py TOOL SECONDS TEXT WORDS...: runs WORDS at a terminal until a line of it matches TEXT, then stops it.
 cat >watch.py <<'END'
 import os, pty, re, signal, sys, time
@@ -49,7 +44,7 @@ watched() { # NAME TEXT WORDS...
     shift
     same "$name" "$(python3 -B watch.py "$tool" 120 "$@")" "True True True"
 }
-watched a_stage_is_shown_and_a_stop_said '\r(preparing, [0-5] of 5 stages done|pose.*), [0-9]+ s' run ball.toml --tolerance 1e-9 --facets out.csv
+watched a_stage_is_shown_and_a_stop_said '\r(preparing, [0-5] of 5 stages done|dividing curved shapes|pose.*), [0-9]+ s' run balls.toml --tolerance 1e-9 --facets out.csv
 # a ball with curved normals behind very many slats: a long pose, which says how far it is
 python3 -c '
 import math
@@ -73,8 +68,8 @@ watched a_comparison_names_its_settings '\r(zbuffer|facet|exact|by estimate|mesh
 watched a_report_names_its_stages '\r[a-z ]+(, [0-5] of 5 stages done|: [a-z]+)?[^\r]*, [0-9]+ s' report ball.obj --unit m -o ball.html
 same nothing_half_written "$(ls out.csv .lrcs* 2>/dev/null)" ""
 # a sweep ends in order, after the pose that is running
-same a_sweep_says_how_many_rows_before_the_first "$(python3 -B watch.py "$tool" 120 '\r\[ +\]   0 %  0 of 37 ' sweep ball.toml --az 0:360:10 --tolerance 1e-5 -o rows.csv | cut -d' ' -f1)" True
+same a_sweep_says_how_many_rows_before_the_first "$(python3 -B watch.py "$tool" 120 '\r\[ +\]   0 %  0 of 37 ' sweep balls.toml --az 0:360:10 --tolerance 1e-5 -o rows.csv | cut -d' ' -f1)" True
 same no_page_half_written "$(ls ball.html 2>/dev/null)" ""
-run run ball.toml --tolerance 1e-2
+run run balls.toml --tolerance 1e-2
 same no_terminal_no_stage "$(printf '%s' "$err" | grep -c 'stages done')" 0
 finish
