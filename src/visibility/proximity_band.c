@@ -167,8 +167,8 @@ static int edge_box_apart(const band_job *job, uint32_t facet, const edge_box *b
     int beyond = 0;
     for (int k = 0; k < 3; k++) {
         const double *x = job->view->point[corner[k]].x;
-        double from_a[2] = {x[0] - box->a[0], x[1] - box->a[1]};
-        double from_b[2] = {x[0] - box->b[0], x[1] - box->b[1]};
+        const double from_a[2] = {x[0] - box->a[0], x[1] - box->a[1]};
+        const double from_b[2] = {x[0] - box->b[0], x[1] - box->b[1]};
         double across = box->along[0] * from_a[1] - box->along[1] * from_a[0];
         left += across > box->wide;
         right += across < -box->wide;
