@@ -78,7 +78,7 @@ const vectors_attitude cli_vectors_attitudes[] = {
 #define SKINS(K)                                                                                   \
     {                                                                                              \
         "skins-" #K, 5, TURNS, 1.0, HERE,                                                          \
-            ITEMS({PLATE, 0, {2, 2, 0}, {0, 0, -1.0 / (double)(UINT64_C(1) << K)}, UP, "r"},       \
+            ITEMS({PLATE, 0, {2, 2, 0}, {0, 0, -1.0 / (double)(UINT64_C(1) << (K))}, UP, "r"},     \
                   {PLATE, 0, {1, 2, 0}, {0.5, 0, 0}, UP, "k"},                                     \
                   {BOX, 0, {0.25, 0.25, 0.25}, {2, 0, 4}, UP, "o"},                                \
                   {BOX, 0, {0.25, 0.25, 0.25}, {-2, 0, -4}, UP, "b"}),                             \
