@@ -250,15 +250,15 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
     return count == 1 && facing;
 }
 
-/* The distance within which an event edge affects a facet, unless it is behind; 0 if it cannot. */
+/* The distance within which an event edge affects a facet, unless it is behind; 0 if it cannot. Of
+   the facet's own part only the rims of openings do. */
 static double event_slack(const band_job *job, uint32_t facet, uint32_t event)
 {
     const lrcs_prepared *p = job->view->prepared;
     uint32_t part = band_part(job, facet);
     if (job->part[event] == part) {
         const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
-        int inside = job->view->facing[facet] < 0 && !lrcsi_proximity_closed(p, part);
-        return inside && own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
+        return own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
     }
     return lrcsi_proximity_slack(p, part, job->part[event]);
 }
@@ -272,7 +272,8 @@ typedef struct band_walk {
     double low[3], high[3];
     lrcsi_strip_segment side[3];
     double outward[3][2], limit[3];
-    int tried; /* the side to try first: the one that the last edge was beyond */
+    int tried;  /* the side to try first: the one that the last edge was beyond */
+    int inside; /* the laser may see the facet through an opening of its own part */
 } band_walk;
 
 /* outward . x of a point, with `off` times its position's error added. */
@@ -328,6 +329,7 @@ static band_walk walk_make(const band_job *job, uint32_t facet)
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
                                     view->point[corner[2]].x};
     band_walk walk = {.tried = 0};
+    walk.inside = view->facing[facet] < 0 && !lrcsi_proximity_closed(p, band_part(job, facet));
     lrcsi_view_bounds(view, corner, 3, walk.low, walk.high);
     for (int k = 0; k < 3; k++) {
         walk.low[k] -= wide;
@@ -344,7 +346,8 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
-    if (walk_apart(walk, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
+    if ((job->part[event] == band_part(job, facet) && !walk->inside) ||
+        walk_apart(walk, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
         return;
     }
     double slack = event_slack(job, facet, event);
