@@ -324,18 +324,16 @@ static band_walk walk_make(const band_job *job, uint32_t facet)
     const uint32_t *corner = p->scene->facet[facet].corner;
     double near =
         2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.most) + LRCSI_PROXIMITY_ERR;
-    double rounding = lrcsi_grid_rounding(&job->grid) + near * view->scale;
     double wide = near + facet_off(job, facet);
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
                                     view->point[corner[2]].x};
     band_walk walk = {.tried = 0};
     walk.inside = view->facing[facet] < 0 && !lrcsi_proximity_closed(p, band_part(job, facet));
+    lrcsi_grid_sides(&job->grid, corner, 3, near, walk.side);
     lrcsi_view_bounds(view, corner, 3, walk.low, walk.high);
     for (int k = 0; k < 3; k++) {
         walk.low[k] -= wide;
         walk.high[k] += wide;
-        walk.side[k] =
-            lrcsi_strip_segment_make(point[k], point[(k + 1) % 3], view->scale, rounding);
         walk_line(&walk, k, point, near);
     }
     return walk;
