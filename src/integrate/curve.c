@@ -59,7 +59,7 @@ void lrcsi_curve_integral_make(const lrcsi_curve_context *context, uint32_t face
                                         context->options->stack);
     integral->sum.area = integral->incidence.projected;
     integral->sum.position_err = NORMAL_ERR;
-    integral->sum.meter = view->meter;
+    integral->sum.meter = context->options->meter;
     integral->sum.moments = context->options->moments;
     integral->sum.negligible = lrcsi_most(integral->sum.negligible, context->negligible);
     integral->sum.reference =
@@ -228,7 +228,7 @@ int lrcsi_curve_from_pieces(lrcsi_classification *classification,
     lrcsi_occluding o;
     lrcsi_curve_integral integral;
     lrcsi_curve_context context = lrcsi_curve_context_make(view, options);
-    int status = lrcsi_occlude_make(classification, work, &o);
+    int status = lrcsi_occlude_make(classification, options->meter, work, &o);
     for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
         int applies = lrcsi_curve_applies(view, f);
         int partly = sampled && classification->undecided[f] && visible[f].low < visible[f].high;

@@ -673,7 +673,7 @@ static int curved_take(profile_run *run, const lrcsi_classification *classificat
         run->visible = lrcsi_work_take_zero(work, p->scene->facet_count, sizeof *run->visible);
         int status = run->visible ? LRCS_OK : LRCS_E_MEMORY;
         if (status == LRCS_OK && run->plan.proximity_band) {
-            status = lrcsi_proximity_band_make(classification, work, &run->band_memory);
+            status = lrcsi_proximity_band_make(classification, NULL, work, &run->band_memory);
             run->band = &run->band_memory;
         }
         if (status != LRCS_OK) {
@@ -682,7 +682,7 @@ static int curved_take(profile_run *run, const lrcsi_classification *classificat
     }
     if (p->smooth) {
         run->curve_options =
-            (lrcsi_curve_options){&run->plan, CURVE_TOLERANCE, lrcsi_cubature_stack(work), 0};
+            (lrcsi_curve_options){&run->plan, CURVE_TOLERANCE, NULL, lrcsi_cubature_stack(work), 0};
         if (!run->curve_options.stack) {
             return LRCS_E_MEMORY;
         }
@@ -699,7 +699,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     const lrcsi_clear clear = {0};
     lrcsi_classification classification;
     lrcsi_occluding o;
-    int status = lrcsi_plan_view(p, pose, &options, work, view);
+    int status = lrcsi_view_face(p, pose, lrcsi_plan_backs(p, &options), work, view);
     status = status == LRCS_OK ? lrcsi_view_project(work, view) : status;
     if (status != LRCS_OK) {
         return status;
@@ -710,10 +710,10 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     if (status == LRCS_OK) {
         run->bin = lrcsi_work_take_zero(work, run->count, sizeof *run->bin);
         run->begin = run->count;
-        status = run->bin ? lrcsi_classify_make(view, work, &classification) : LRCS_E_MEMORY;
+        status = run->bin ? lrcsi_classify_make(view, NULL, work, &classification) : LRCS_E_MEMORY;
     }
     status = status == LRCS_OK ? curved_take(run, &classification, work) : status;
-    status = status == LRCS_OK ? lrcsi_occlude_make(&classification, work, &o) : status;
+    status = status == LRCS_OK ? lrcsi_occlude_make(&classification, NULL, work, &o) : status;
     for (uint32_t facet = 0; facet < p->scene->facet_count && status == LRCS_OK; facet++) {
         if (view->facing[facet] != 0 && lrcsi_view_reflects(view, facet) &&
             lrcsi_grid_casts(view, facet)) {

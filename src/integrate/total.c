@@ -684,8 +684,8 @@ static void sum_material(total_run *run, uint32_t material)
     total_batch batch = {
         .lobes = lrcsi_lobes_make(&brdf, brdf.s > 0 && is_evaluated(run->plan->glint, brdf.A),
                                   is_evaluated(run->plan->diffuse, brdf.B)),
-        .back_reflects = view->backs_reflect && m->two_sided,
-        .back_visible = view->backs_cast || run->visible};
+        .back_reflects = view->backs.reflect && m->two_sided,
+        .back_visible = view->backs.cast || run->visible};
     const uint32_t *first = view->prepared->batches.first + material;
     for (uint32_t place = first[0]; place < first[1]; place += LRCSI_LANES) {
         uint32_t left = first[1] - place;

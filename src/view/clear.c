@@ -220,7 +220,7 @@ static int shows_no_inside(const lrcsi_view *view, const lrcs_part *part)
 {
     const lrcs_material *material = lrcsi_prepared_material(view->prepared, part->first_facet);
     int one = part->kind != LRCS_SHAPE_CYLINDER && part->kind != LRCS_SHAPE_FRUSTUM;
-    return part->solid || !material->two_sided || !view->backs_reflect ||
+    return part->solid || !material->two_sided || !view->backs.reflect ||
            (one && lrcsi_vec3_dot(part->axis[2], view->unit) > 16 * LRCSI_U);
 }
 

@@ -18,7 +18,7 @@ typedef struct lrcsi_clear {
 /* Bytes; 0 if no shape has a closed form. */
 size_t lrcsi_clear_need(const lrcs_prepared *prepared);
 
-/* For a view with backs_reflect. Status: LRCS_OK; LRCS_E_MEMORY. What it
+/* Given: a view, with or without coordinates. Status: LRCS_OK; LRCS_E_MEMORY. What it
    finds stays in the work area. Work: O(parts * clear ones). */
 int lrcsi_clear_make(const lrcsi_view *view, lrcs_work *work, lrcsi_clear *clear);
 

@@ -287,15 +287,14 @@ size_t lrcsi_view_face_need(const lrcs_prepared *prepared)
     return lrcsi_work_bytes(prepared->scene->facet_count, 1);
 }
 
-int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
-                    lrcsi_view *view)
+int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_view_backs backs,
+                    lrcs_work *work, lrcsi_view *view)
 {
-    lrcsi_view v = {.prepared = prepared};
+    lrcsi_view v = {.prepared = prepared, .backs = backs};
     int status = lrcsi_ieee_kept() ? lrcsi_frame_make(pose, v.direction, v.R) : LRCS_E_UNSUPPORTED;
     if (status != LRCS_OK) {
         return status;
     }
-    v.backs_cast = v.backs_reflect = !prepared->solid;
     v.facing = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *v.facing);
     if (!v.facing) {
         return LRCS_E_MEMORY;
@@ -334,7 +333,8 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
 {
     lrcsi_view v;
     size_t mark = work->used;
-    int status = lrcsi_view_face(prepared, pose, work, &v);
+    const lrcsi_view_backs backs = {!prepared->solid, !prepared->solid};
+    int status = lrcsi_view_face(prepared, pose, backs, work, &v);
     if (status == LRCS_OK) {
         status = lrcsi_view_project(work, &v);
     }

@@ -193,7 +193,7 @@ static int alone_facets(lrcsi_alone *a)
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = grid->first[(size_t)y * grid->size + cells.x0];
         uint32_t end = grid->first[(size_t)y * grid->size + cells.x1];
-        if (!lrcsi_meter_take(c->view->meter, end - i)) {
+        if (!lrcsi_meter_take(c->meter, end - i)) {
             return 0;
         }
         for (; i < end; i++) {
@@ -318,14 +318,14 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
             return 0;
         }
     }
-    uint32_t crossings = lrcsi_classify_crossings(a->classification, a->facet, c->view->meter);
+    uint32_t crossings = lrcsi_classify_crossings(a->classification, a->facet, c->meter);
     for (uint32_t i = 0; i < crossings; i++) {
         if (!alone_edge(a, a->classification->crossing[i])) {
             return 0;
         }
     }
     cell->segments = c->segment_count;
-    return lrcsi_meter_take(c->view->meter, (uint64_t)a->count + cell->segments);
+    return lrcsi_meter_take(c->meter, (uint64_t)a->count + cell->segments);
 }
 
 /* Leaves an area undecided: it counts as half visible. */
@@ -697,7 +697,7 @@ int lrcsi_alone_next(lrcsi_alone *a)
     while (c->top > 0) {
         lrcsi_cells_cell cell = lrcsi_cells_take(c);
         uint64_t steps = (uint64_t)1 + a->count + cell.segments;
-        if (a->parts == 0 || !lrcsi_meter_take(c->view->meter, steps)) {
+        if (a->parts == 0 || !lrcsi_meter_take(c->meter, steps)) {
             facet_leave(a, lrcsi_clip_area(&cell.shape));
             continue;
         }
@@ -756,13 +756,13 @@ size_t lrcsi_alone_need(const lrcs_prepared *p)
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
 }
 
-int lrcsi_alone_make(lrcsi_classification *classification, const lrcsi_grid *grid, lrcs_work *work,
-                     lrcsi_alone *a)
+int lrcsi_alone_make(lrcsi_classification *classification, lrcsi_meter *meter,
+                     const lrcsi_grid *grid, lrcs_work *work, lrcsi_alone *a)
 {
     const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
     *a = (lrcsi_alone){.classification = classification, .grid = *grid, .side_room = sides_room(p)};
-    lrcsi_cells_work c = {.view = classification->view};
+    lrcsi_cells_work c = {.view = classification->view, .meter = meter};
     c.segment_room = (uint32_t)segments_most(p, classification->events.count);
     a->side = lrcsi_work_take(work, a->side_room, sizeof *a->side);
     a->met = lrcsi_work_take_zero(work, count, sizeof *a->met);

@@ -45,8 +45,8 @@ size_t lrcsi_alone_need(const lrcs_prepared *prepared);
 /* Makes the data for all facets of a view; they stay in the work area. Given: a grid of facets
    whose lists are complete in the cells of every facet that will be opened. Status: LRCS_OK;
    LRCS_E_MEMORY. */
-int lrcsi_alone_make(lrcsi_classification *classification, const lrcsi_grid *grid, lrcs_work *work,
-                     lrcsi_alone *a);
+int lrcsi_alone_make(lrcsi_classification *classification, lrcsi_meter *meter,
+                     const lrcsi_grid *grid, lrcs_work *work, lrcsi_alone *a);
 
 /* One facet that can hide others (visibility/boxes.h), piece by piece: call open, then next until
    it returns 0, then close. Each `next` that returns 1 leaves one piece of the visible region in

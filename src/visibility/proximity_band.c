@@ -23,6 +23,7 @@
 /* What one run needs; the edges' grid lists events by index. */
 typedef struct band_job {
     const lrcsi_view *view;
+    lrcsi_meter *meter;
     double *share, *rows;
     uint32_t *edge, *part; /* event: its topology edge, the part for which it is one */
     uint32_t *seen;        /* event: the facet + 1 that last met it */
@@ -233,7 +234,7 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
     const lrcsi_edge_use *use = p->topology.use + edge->first_use;
     uint32_t count = 0;
     int facing = 0;
-    if (!lrcsi_meter_take(job->view->meter, edge->uses)) {
+    if (!lrcsi_meter_take(job->meter, edge->uses)) {
         return 1;
     }
     for (uint32_t i = 0; i < edge->uses; i++) {
@@ -376,7 +377,7 @@ static void add_events(band_job *job, uint32_t facet, band_walk *walk)
         lrcsi_cells row = several ? lrcsi_grid_row(grid, walk->side, 3, y) : cells;
         uint32_t i = grid->first[(size_t)y * grid->size + row.x0];
         uint32_t end = grid->first[(size_t)y * grid->size + row.x1];
-        if (!lrcsi_meter_take(job->view->meter, (uint64_t)1 + end - i)) {
+        if (!lrcsi_meter_take(job->meter, (uint64_t)1 + end - i)) {
             job->share[facet] = 1;
             return;
         }
@@ -546,8 +547,8 @@ static int band_shares(band_job *job, lrcs_work *work)
     return status;
 }
 
-int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcs_work *work,
-                              lrcsi_proximity_band *band)
+int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
+                              lrcs_work *work, lrcsi_proximity_band *band)
 {
     const lrcsi_view *view = classification->view;
     uint32_t facets = view->prepared->scene->facet_count;
@@ -557,7 +558,7 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcs_w
     m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     m.hidden = lrcsi_work_take_zero(work, facets, 1);
-    band_job job = {.view = view, .share = m.share, .rows = m.rows};
+    band_job job = {.view = view, .meter = meter, .share = m.share, .rows = m.rows};
     int status =
         m.share && m.rows && m.region && m.hidden ? band_shares(&job, work) : LRCS_E_MEMORY;
     if (status != LRCS_OK) {

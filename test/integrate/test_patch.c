@@ -53,7 +53,9 @@ static void scene_make(const lrcs_shape *shape, const lrcs_place *place, const l
     assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &s->scene, NULL), LRCS_OK);
     assert_int_equal(lrcs_prepare_run(&s->scene, &work, &prepared), LRCS_OK);
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
-    assert_int_equal(lrcsi_plan_view(prepared, &pose, &run, &work, &s->view), LRCS_OK);
+    assert_int_equal(
+        lrcsi_view_face(prepared, &pose, lrcsi_plan_backs(prepared, &run), &work, &s->view),
+        LRCS_OK);
     assert_int_equal(lrcsi_view_project(&work, &s->view), LRCS_OK);
     assert_int_equal(lrcsi_clear_make(&s->view, &work, &clear), LRCS_OK);
     s->plan = lrcsi_plan_make(&s->view, &clear, &run);
