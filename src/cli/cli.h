@@ -6,8 +6,7 @@
 
 #include <lrcs/picture.h>
 
-#define CLI_PI      3.14159265358979323846
-#define CLI_DEGREES (180.0 / CLI_PI) /* degrees per radian */
+#define CLI_DEGREES (180.0 / LRCS_PI) /* degrees per radian */
 
 enum cli_exit {
     CLI_DONE = 0,

@@ -182,13 +182,13 @@ static void bin_add_smooth(profile_run *run, const profile_facet *f, uint32_t i,
     sum.area = area;
     sum.weight = weight;
     lrcsi_cubature_add(&sum, normal, area);
-    double glint = LRCSI_FOUR_PI * lrcsi_sum_value(&sum.glint);
-    double diffuse = LRCSI_FOUR_PI * lrcsi_sum_value(&sum.diffuse);
+    double glint = LRCS_FOUR_PI * lrcsi_sum_value(&sum.glint);
+    double diffuse = LRCS_FOUR_PI * lrcsi_sum_value(&sum.diffuse);
     double relative = f->curve->incidence.error + 16 * LRCSI_U + PART_ERROR;
-    bin_add(run, i, glint, diffuse, LRCSI_FOUR_PI * lrcsi_sum_value(&sum.weighted),
-            LRCSI_FOUR_PI * (sum.rounding + sum.unresolved) + relative * (glint + diffuse));
-    run->bin[i].estimate += LRCSI_FOUR_PI * sum.estimate;
-    run->estimate += LRCSI_FOUR_PI * sum.estimate;
+    bin_add(run, i, glint, diffuse, LRCS_FOUR_PI * lrcsi_sum_value(&sum.weighted),
+            LRCS_FOUR_PI * (sum.rounding + sum.unresolved) + relative * (glint + diffuse));
+    run->bin[i].estimate += LRCS_FOUR_PI * sum.estimate;
+    run->estimate += LRCS_FOUR_PI * sum.estimate;
 }
 
 /* --- ranges ----------------------------------------------------------------------------------- */
@@ -489,7 +489,7 @@ static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occluding 
     if (lrcsi_curve_applies(run->view, facet)) {
         lrcsi_curve_integral_make(&run->curves, facet, &curve);
         f.curve = &curve;
-        f.upper_bound = LRCSI_FOUR_PI * lrcsi_curve_upper_bound(&curve) * (1 + incidence.error);
+        f.upper_bound = LRCS_FOUR_PI * lrcsi_curve_upper_bound(&curve) * (1 + incidence.error);
     } else {
         lrcsi_facet_terms terms =
             lrcsi_facet_terms_make(run->view, &run->plan, facet, &incidence, &whole, &run->patch);
@@ -574,7 +574,7 @@ static void tessellation_charge(profile_run *run, uint32_t facet)
         lrcsi_most(t.z[2], lrcsi_most(other.range[0], lrcsi_most(other.range[1], other.range[2])));
     uint32_t begin = bin_of(run, low - reach);
     uint32_t end = bin_of(run, high + reach);
-    double whole = LRCSI_FOUR_PI * parts.whole;
+    double whole = LRCS_FOUR_PI * parts.whole;
     run->tessellation += whole;
     if (!(whole > 0) && !(parts.lit && reach > 0 && parts.shift > 0)) {
         return;
@@ -586,8 +586,8 @@ static void tessellation_charge(profile_run *run, uint32_t facet)
         double fraction = fraction_between(t.z, from - reach, to + reach);
         double shifted = fraction_between(t.z, from - reach, from + reach) +
                          fraction_between(t.z, to - reach, to + reach) + parts.share;
-        double general = LRCSI_FOUR_PI * (parts.bend * fraction + parts.shift * shifted);
-        double larger = parts.lit ? LRCSI_FOUR_PI * parts.most * fraction : whole;
+        double general = LRCS_FOUR_PI * (parts.bend * fraction + parts.shift * shifted);
+        double larger = parts.lit ? LRCS_FOUR_PI * parts.most * fraction : whole;
         general = parts.lit ? general : HUGE_VAL;
         run->bin[i].tessellation_variation += lrcsi_least(general, 2 * larger);
         run->bin[i].tessellation += begin == end ? whole : lrcsi_least(general, larger);
@@ -829,7 +829,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
                        double *density_m, double *bound_m, double *estimate_m)
 {
     double d = fwhm_m / FWHM_DEVIATIONS;
-    double peak = 1 / (d * sqrt(2 * LRCSI_PI));
+    double peak = 1 / (d * sqrt(2 * LRCS_PI));
     lrcsi_sum density = {0, 0};
     double bound = 0;
     double estimate = 0;

@@ -150,7 +150,7 @@ lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_pla
         at = reflection_planned(&brdf, plan, incidence->tan2);
         uncertainty = reflection_uncertainty(&brdf, incidence, &at);
     }
-    double four_pi_s = LRCSI_FOUR_PI * 0.5 * p->normal[facet].length;
+    double four_pi_s = LRCS_FOUR_PI * 0.5 * p->normal[facet].length;
     double fraction = fraction_of(visible->area, incidence->projected);
     double fraction_high = fraction_of(visible->high, incidence->projected);
     lrcsi_facet_terms terms = {.glint = four_pi_s * at.glint * fraction,
@@ -338,8 +338,8 @@ static void add_tessellation(total_run *run, uint32_t facet, const lrcsi_inciden
     }
     if (!run->curved || !lrcsi_curve_applies(run->view, facet)) {
         run->sums.tessellation +=
-            LRCSI_FOUR_PI * lrcsi_tessellation_error(run->view, run->plan, facet, incidence,
-                                                     run->visible, run->band, &run->patch);
+            LRCS_FOUR_PI * lrcsi_tessellation_error(run->view, run->plan, facet, incidence,
+                                                    run->visible, run->band, &run->patch);
     } else if (run->band) {
         run->sums.tessellation += run->band->share[facet] * run->curved[facet].upper_bound;
     }

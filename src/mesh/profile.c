@@ -140,8 +140,8 @@ static profile_strip strip_round(const lrcsi_profile *profile, uint32_t i)
                            sinc * outward,
                            cos(theta) * cos(0.5 * d),
                            1.0,
-                           (0.5 * LRCSI_PI) - profile_polar(profile, i),
-                           (0.5 * LRCSI_PI) - profile_polar(profile, i + 1)};
+                           (0.5 * LRCS_PI) - profile_polar(profile, i),
+                           (0.5 * LRCS_PI) - profile_polar(profile, i + 1)};
 }
 
 /* y = tan of the angle from the top = slope rho/R, y1 below, y0 = t y1 above. In units of
@@ -231,7 +231,7 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
 
 lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *divisions)
 {
-    double h = 2.0 * (0.5 * LRCSI_PI) / (double)divisions->around;
+    double h = 2.0 * (0.5 * LRCS_PI) / (double)divisions->around;
     lrcsi_profile profile = {.kind = shape->kind,
                              .base = shape->radius,
                              .around = divisions->around,
@@ -249,10 +249,9 @@ lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *
         profile.top = shape->radius;
         profile.height = shape->length;
     } else if (shape->kind == LRCS_SHAPE_CONE) {
-        profile.height =
-            shape->half_angle_deg > 0.0
-                ? shape->radius / tan(shape->half_angle_deg * ((0.5 * LRCSI_PI) / 90.0))
-                : shape->length;
+        profile.height = shape->half_angle_deg > 0.0
+                             ? shape->radius / tan(shape->half_angle_deg * ((0.5 * LRCS_PI) / 90.0))
+                             : shape->length;
     } else if (shape->kind == LRCS_SHAPE_PARABOLOID) {
         profile.height = shape->length;
         double slope = shape->radius > 0.0 ? 2.0 * (shape->length / shape->radius) : 0.0;
@@ -260,7 +259,7 @@ lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *
         profile.step = atan(profile.slope) / rings;
     } else {
         profile.height = shape->radius;
-        profile.step = (0.5 * LRCSI_PI) / rings;
+        profile.step = (0.5 * LRCS_PI) / rings;
     }
     return profile;
 }
@@ -316,11 +315,10 @@ lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
 lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *c, double blur)
 {
     if (!(blur <= BLUR_MOST)) {
-        return (lrcs_curvature){2.0 * (0.5 * LRCSI_PI), USELESS, USELESS, sqrt(USELESS)};
+        return (lrcs_curvature){2.0 * (0.5 * LRCS_PI), USELESS, USELESS, sqrt(USELESS)};
     }
-    return (lrcs_curvature){fmin(c->turn + blur, 2.0 * (0.5 * LRCSI_PI)),
-                            c->area_error + 2.0 * blur, c->bias + 2.0 * blur,
-                            c->spread + 2.0 * blur};
+    return (lrcs_curvature){fmin(c->turn + blur, 2.0 * (0.5 * LRCS_PI)), c->area_error + 2.0 * blur,
+                            c->bias + 2.0 * blur, c->spread + 2.0 * blur};
 }
 
 /* A linear map takes normals n to N n / |N n|, N being its inverse transpose, and areas dA to
@@ -342,7 +340,7 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
     double h = 0.5 * (k - 1.0) * (k + 1.0);
     double G = g + h * c->turn;
     double square = c->spread * c->spread;
-    double turn = fmin(k * c->turn, 2.0 * (0.5 * LRCSI_PI));
+    double turn = fmin(k * c->turn, 2.0 * (0.5 * LRCS_PI));
     double outward = 1.0 + SLACK;
     if (!(G * c->turn <= 1.0)) {
         double area = (1.0 + c->area_error) * k * outward;

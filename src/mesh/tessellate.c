@@ -64,7 +64,7 @@ static void turn_fraction(uint32_t k, uint32_t n, double *c, double *s)
     uint32_t quarter = n / 4;
     uint32_t rest = k % quarter;
     uint32_t fold = 2 * rest > quarter ? quarter - rest : rest;
-    double angle = (2.0 * LRCSI_PI) * (double)fold / (double)n;
+    double angle = (2.0 * LRCS_PI) * (double)fold / (double)n;
     double x = 2 * fold == quarter ? SQRT_HALF : cos(angle);
     double y = 2 * fold == quarter ? SQRT_HALF : sin(angle);
     double ahead = 2 * rest > quarter ? y : x;
@@ -193,7 +193,7 @@ static int list_rings(uint32_t around, uint32_t corners[RINGS_MOST], double radi
     double r = 1.0;
     while (around >= RING_LEAST && rings < RINGS_MOST) {
         around = 4 * ((around + 16) / 32);
-        r *= 1.0 - LRCSI_PI / around;
+        r *= 1.0 - LRCS_PI / around;
         corners[rings] = around;
         radius[rings++] = r;
     }

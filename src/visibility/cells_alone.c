@@ -194,12 +194,11 @@ static int alone_facets(lrcsi_alone *a)
     a->met[a->facet] = c->look;
     a->order[a->facet] = ORDER_APART;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        uint32_t i = grid->first[(size_t)y * grid->size + cells.x0];
-        uint32_t end = grid->first[(size_t)y * grid->size + cells.x1];
-        if (!lrcsi_meter_take(c->meter, end - i)) {
+        lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
+        if (!lrcsi_meter_take(c->meter, items.to - items.from)) {
             return 0;
         }
-        for (; i < end; i++) {
+        for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t other = grid->item[i];
             const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
             if (a->met[other] == c->look || lrcsi_view_box_beside(its, &box) ||

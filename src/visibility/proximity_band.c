@@ -40,24 +40,6 @@ static uint32_t band_part(const band_job *job, uint32_t facet)
 /* --- events of one part ------------------------------------------------------------------------
  */
 
-/* 1 if an edge is an event edge of a part: unless exactly two facets of the part share it, with
-   consistent winding, and face the same way. */
-static int part_event(const band_job *job, const lrcsi_edge *edge, uint32_t part)
-{
-    const lrcsi_edge_use *use = job->view->prepared->topology.use + edge->first_use;
-    uint32_t count = 0;
-    uint32_t forward = 0;
-    int facing = 0;
-    for (uint32_t i = 0; i < edge->uses; i++) {
-        if (band_part(job, use[i].facet) == part && !job->view->prepared->skip[use[i].facet]) {
-            count++;
-            forward += use[i].forward;
-            facing += job->view->facing[use[i].facet];
-        }
-    }
-    return count != 0 && !(count == 2 && forward == 1 && (facing == 2 || facing == -2));
-}
-
 /* Lists each pair of edge and part once, or only counts them if job->edge is NULL. */
 static void list_events(band_job *job)
 {
@@ -68,11 +50,12 @@ static void list_events(band_job *job)
         const lrcsi_edge_use *use = topology->use + edge->first_use;
         for (uint32_t i = 0; i < edge->uses; i++) {
             uint32_t part = band_part(job, use[i].facet);
+            uint32_t pair[2];
             int met = 0;
             for (uint32_t k = 0; k < i && !met; k++) {
                 met = band_part(job, use[k].facet) == part;
             }
-            if (met || !part_event(job, edge, part)) {
+            if (met || lrcsi_edge_kind_of(job->view, e, part, pair) != LRCSI_EDGE_EVENT) {
                 continue;
             }
             if (job->edge) {
@@ -375,13 +358,12 @@ static void add_events(band_job *job, uint32_t facet, band_walk *walk)
     int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         lrcsi_cells row = several ? lrcsi_grid_row(grid, walk->side, 3, y) : cells;
-        uint32_t i = grid->first[(size_t)y * grid->size + row.x0];
-        uint32_t end = grid->first[(size_t)y * grid->size + row.x1];
-        if (!lrcsi_meter_take(job->meter, (uint64_t)1 + end - i)) {
+        lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, row.x0, row.x1);
+        if (!lrcsi_meter_take(job->meter, (uint64_t)1 + items.to - items.from)) {
             job->share[facet] = 1;
             return;
         }
-        for (; i < end && job->share[facet] < 1; i++) {
+        for (uint32_t i = items.from; i < items.to && job->share[facet] < 1; i++) {
             uint32_t event = grid->item[i];
             if (job->seen[event] != facet + 1) {
                 job->seen[event] = facet + 1;

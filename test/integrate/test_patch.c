@@ -234,7 +234,7 @@ static void patches_of_a_cone_add_up_to_its_closed_form(void **state)
         sum += (patch.glint + patch.diffuse) * 0.5 * s.view.prepared->normal[f].length;
     }
     assert_int_equal(lrcs_closed_eval(&shape, &brdf, &aspect, &closed), LRCS_OK);
-    check_rel(lrcsi_prepared_area(s.view.prepared, 4 * LRCSI_PI * sum), closed.sigma_m2, 1e-12);
+    check_rel(lrcsi_prepared_area(s.view.prepared, 4 * LRCS_PI * sum), closed.sigma_m2, 1e-12);
 }
 
 /* Facets that the laser sees edge-on, or nearly, and flat ones have no mean; nor has any where

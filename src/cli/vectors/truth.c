@@ -34,9 +34,9 @@ static double facet_float(const lrcs_facet_record *record, const lrcs_brdf *brdf
     lrcs_brdf glint = *brdf;
     lrcs_brdf diffuse = *brdf;
     double c = fabs(record->cos_theta);
-    double unit = 4.0 * CLI_PI * c * record->visible_area_m2 * SINGLE;
+    double unit = LRCS_FOUR_PI * c * record->visible_area_m2 * SINGLE;
     if (c < EDGE_ON) {
-        return 4.0 * CLI_PI * lrcs_brdf_eval(brdf, EDGE_ON) * EDGE_ON * EDGE_ON * record->area_m2;
+        return LRCS_FOUR_PI * lrcs_brdf_eval(brdf, EDGE_ON) * EDGE_ON * EDGE_ON * record->area_m2;
     }
     if (record->sigma_m2 <= 0.0) {
         return unit * SINGLE_LEAST;

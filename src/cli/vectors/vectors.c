@@ -10,9 +10,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#define RESOLUTION         128u
-#define RESOLUTION_MOST    4096.0
-#define DEGREES_PER_RADIAN 57.295779513082320877
+#define RESOLUTION      128u
+#define RESOLUTION_MOST 4096.0
 
 static const char vectors_help[] =
     "usage: lrcs vectors DIR [options]\n"
@@ -101,8 +100,8 @@ static int case_make(const vectors_scene *scene, const vectors_attitude *attitud
         one->direction[k] = pose.direction[k] / sqrt(across);
     }
     const double *s = one->direction;
-    one->azel_deg[0] = DEGREES_PER_RADIAN * atan2(s[1], s[0]);
-    one->azel_deg[1] = DEGREES_PER_RADIAN * atan2(s[2], hypot(s[0], s[1]));
+    one->azel_deg[0] = CLI_DEGREES * atan2(s[1], s[0]);
+    one->azel_deg[1] = CLI_DEGREES * atan2(s[2], hypot(s[0], s[1]));
     return cli_kit_pose(one->quaternion, one->direction, &one->pose) == LRCS_OK ? 0 : CLI_FAILED;
 }
 
