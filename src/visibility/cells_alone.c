@@ -59,6 +59,9 @@
 /* A cell without room for a sample is halved if its area exceeds this many margins times its
    perimeter: it is then of an unfavourable shape, not narrow. */
 #define NARROW 64
+/* Nor is it halved if its area is at most this fraction of f's: of the cells that a facet may have
+   (PARTS_MOST), all together are then less than 1e-12 of it. */
+#define TRIFLE 0x1p-52
 
 /* The depth order of a facet against f: one of these, or the number of the segment in which the two
    intersect. */
@@ -352,6 +355,7 @@ static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
     a->rim = frame->perimeter * (off + 16 * LRCSI_U * c->reach);
+    a->trifle = TRIFLE * lrcsi_clip_area(&cell->shape);
     cell->facets = 1;
     return lrcsi_clip_area(&cell->shape) > 8 * off * frame->diameter;
 }
@@ -641,15 +645,15 @@ static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_
                                                (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]);
 }
 
-/* Cuts a cell along a segment. Without a segment, halves it if it is not narrow. 0 if that is not
-   possible. */
+/* Cuts a cell along a segment. Without a segment, halves it if it is neither narrow nor a trifle. 0
+   if that is not possible. */
 static int cell_divide(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                        const lrcsi_cells_segment *cut)
 {
     double margin = cell->inset + alone_off(a) + s->g;
+    double least = lrcsi_most(a->trifle, NARROW * margin * s->perimeter);
     return cut ? lrcsi_cells_divide(&a->cells, cell, s, cut)
-               : lrcsi_clip_area(&cell->shape) > NARROW * margin * s->perimeter &&
-                     lrcsi_cells_halve(&a->cells, cell, s);
+               : lrcsi_clip_area(&cell->shape) > least && lrcsi_cells_halve(&a->cells, cell, s);
 }
 
 /* Processes one cell. Returns 1 if it is a visible piece; else it is hidden, cut, or undecided. */

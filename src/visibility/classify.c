@@ -19,6 +19,9 @@
    never wrong. Most events listed near needles about one tip stand beside them. */
 #define MOST_LISTED 4096u
 #define MOST_ASKED  512u
+/* Of a facet in so many rows and columns of the grid or more, each row is limited to the cells
+   between its sides: long facets across the grid touch few of the cells of their boxes. */
+#define SLANTED 3
 /* How many rows, cells, and listed events are examined at most to tell whether any event may cross
    a run. */
 #define RUN_STEPS 1024u
@@ -183,9 +186,15 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
     uint32_t count = 0;
     int more = 0; /* an event was left out for want of steps */
     classification->along = 0;
+    const int slanted = cells.x1 - cells.x0 >= SLANTED && cells.y1 - cells.y0 >= SLANTED;
+    lrcsi_strip_segment side[3];
+    if (slanted) {
+        lrcsi_grid_sides(grid, view->prepared->scene->facet[facet].corner, 3, 0, side);
+    }
     for (uint32_t y = cells.y0; y < cells.y1 && !more; y++) {
         const uint32_t *row = grid->first + (size_t)y * grid->size;
-        for (uint32_t x = cells.x0; x < cells.x1 && !more; x++) {
+        const lrcsi_cells range = slanted ? lrcsi_grid_row(grid, side, 3, y) : cells;
+        for (uint32_t x = range.x0; x < range.x1 && !more; x++) {
             for (uint32_t i = row[x]; i < row[x + 1] && count < most; i++) {
                 lrcsi_event_box *event = &classification->event[grid->item[i]];
                 more = left == 0;

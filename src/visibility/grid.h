@@ -68,6 +68,11 @@ static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_v
                          .y1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[1], 1) + 1)};
 }
 
+/* The sides of a facet (count 3), or an edge (count 2, one side), for lrcsi_grid_row; `near`: how
+   far beyond them rows should reach. */
+void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
+                      lrcsi_strip_segment *side);
+
 /* The cells of row y that a polygon with these sides, in the units of boxes, may touch; rows and
    columns on the border reach on without end. Empty (x0 == x1) if there are none. */
 lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *side, int sides,

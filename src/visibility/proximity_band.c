@@ -17,6 +17,8 @@
 #define OFF_MARGIN 8.0
 /* Rounding of a facet's cosine, generously. */
 #define COS_MARGIN 1e-9
+/* The grid has so many cells for each event: rims are many short edges in few of its cells. */
+#define EVENT_CELLS 4u
 
 /* What one run needs; the edges' grid lists events by index. */
 typedef struct band_job {
@@ -76,7 +78,7 @@ static int band_events(band_job *job, lrcs_work *work)
     }
     job->edge = edge;
     list_events(job);
-    job->grid = lrcsi_grid_empty(job->view, job->count);
+    job->grid = lrcsi_grid_empty(job->view, EVENT_CELLS * job->count);
     return lrcsi_grid_edges(job->edge, job->count, 8 * (uint64_t)job->count, work, &job->grid);
 }
 
@@ -232,15 +234,15 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
     return count == 1 && facing;
 }
 
-/* The distance within which an event edge affects a facet, unless it is behind; 0 if it cannot. */
+/* The distance within which an event edge affects a facet, unless it is behind; 0 if it cannot. Of
+   the facet's own part only the rims of openings do. */
 static double event_slack(const band_job *job, uint32_t facet, uint32_t event)
 {
     const lrcs_prepared *p = job->view->prepared;
     uint32_t part = band_part(job, facet);
     if (job->part[event] == part) {
         const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
-        int inside = job->view->facing[facet] < 0 && !lrcsi_proximity_closed(p, part);
-        return inside && own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
+        return own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
     }
     return lrcsi_proximity_slack(p, part, job->part[event]);
 }
@@ -248,11 +250,56 @@ static double event_slack(const band_job *job, uint32_t facet, uint32_t event)
 /* --- one facet -------------------------------------------------------------------------------- */
 
 /* Where to look for event edges near a facet: in a box, and in rows of the grid between the facet's
-   sides, whose errors include the largest relevant distance. */
+   sides, whose errors include the largest relevant distance. Event edges on the outer side of a
+   line along one of the sides are too far away: outward . x > limit there, errors included. */
 typedef struct band_walk {
     double low[3], high[3];
     lrcsi_strip_segment side[3];
+    double outward[3][2], limit[3];
+    int tried;  /* the side to try first: the one that the last edge was beyond */
+    int inside; /* the laser may see the facet through an opening of its own part */
 } band_walk;
+
+/* outward . x of a point, with `off` times its position's error added. */
+static double walk_height(const band_walk *walk, int side, const double x[3], double off)
+{
+    return walk->outward[side][0] * x[0] + walk->outward[side][1] * x[1] + off * lrcsi_view_off(x);
+}
+
+/* The line along a side, `near` away from the facet. Where the side has no length nothing is beyond
+   it. */
+static void walk_line(band_walk *walk, int side, const double *const corner[3], double near)
+{
+    const double *from = corner[side];
+    const double *to = corner[(side + 1) % 3];
+    const double *apex = corner[(side + 2) % 3];
+    double x = to[1] - from[1];
+    double y = from[0] - to[0];
+    double length = sqrt(x * x + y * y);
+    double turn = x * (apex[0] - from[0]) + y * (apex[1] - from[1]) > 0 ? -1 : 1;
+    walk->outward[side][0] = length > 0 ? turn * x / length : 0;
+    walk->outward[side][1] = length > 0 ? turn * y / length : 0;
+    double most = -HUGE_VAL;
+    for (int k = 0; k < 3; k++) {
+        most = lrcsi_most(most, walk_height(walk, side, corner[k], OFF_MARGIN));
+    }
+    walk->limit[side] = length > 0 ? most + near * (1 + 0x1p-40) : HUGE_VAL;
+}
+
+/* Is a whole edge beyond one of these lines? */
+static int walk_apart(band_walk *walk, const double a[3], const double b[3])
+{
+    int side = walk->tried;
+    for (int i = 0; i < 3; i++) {
+        if (walk_height(walk, side, a, -OFF_MARGIN) > walk->limit[side] &&
+            walk_height(walk, side, b, -OFF_MARGIN) > walk->limit[side]) {
+            walk->tried = side;
+            return 1;
+        }
+        side = side < 2 ? side + 1 : 0;
+    }
+    return 0;
+}
 
 static band_walk walk_make(const band_job *job, uint32_t facet)
 {
@@ -261,25 +308,30 @@ static band_walk walk_make(const band_job *job, uint32_t facet)
     const uint32_t *corner = p->scene->facet[facet].corner;
     double near =
         2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.most) + LRCSI_PROXIMITY_ERR;
-    double rounding = lrcsi_grid_rounding(&job->grid) + near * view->scale;
     double wide = near + facet_off(job, facet);
-    band_walk walk;
+    const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
+                                    view->point[corner[2]].x};
+    band_walk walk = {.tried = 0};
+    walk.inside = view->facing[facet] < 0 && !lrcsi_proximity_closed(p, band_part(job, facet));
+    lrcsi_grid_sides(&job->grid, corner, 3, near, walk.side);
     lrcsi_view_bounds(view, corner, 3, walk.low, walk.high);
     for (int k = 0; k < 3; k++) {
-        const double *from = view->point[corner[k]].x;
-        const double *to = view->point[corner[(k + 1) % 3]].x;
         walk.low[k] -= wide;
         walk.high[k] += wide;
-        walk.side[k] = lrcsi_strip_segment_make(from, to, view->scale, rounding);
+        walk_line(&walk, k, point, near);
     }
     return walk;
 }
 
 /* Adds the fractions of area and of rows near an event edge. */
-static void add_event(band_job *job, uint32_t facet, uint32_t event)
+static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *walk)
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
+    if ((job->part[event] == band_part(job, facet) && !walk->inside) ||
+        walk_apart(walk, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
+        return;
+    }
     double slack = event_slack(job, facet, event);
     if (!(slack > 0)) {
         return;
@@ -298,7 +350,7 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event)
 }
 
 /* Adds the fractions near all event edges; the whole facet if the limit of steps is reached. */
-static void add_events(band_job *job, uint32_t facet, const band_walk *walk)
+static void add_events(band_job *job, uint32_t facet, band_walk *walk)
 {
     const lrcsi_grid *grid = &job->grid;
     lrcsi_view_box box = lrcsi_view_box_round(job->view, walk->low, walk->high);
@@ -315,7 +367,7 @@ static void add_events(band_job *job, uint32_t facet, const band_walk *walk)
             uint32_t event = grid->item[i];
             if (job->seen[event] != facet + 1) {
                 job->seen[event] = facet + 1;
-                add_event(job, facet, event);
+                add_event(job, facet, event, walk);
             }
         }
     }
@@ -454,7 +506,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges));
+    return lrcsi_work_add(need, lrcsi_grid_need(EVENT_CELLS * edges, 8 * edges));
 }
 
 /* Computes all fractions; scratch memory is released. */
