@@ -5,13 +5,13 @@
 
    Nearly all facets are summed in blocks of LRCSI_LANES, in plain doubles (optics/shade.h). Facets
    near grazing incidence, in the bright lobe of a narrow glint, with curved normals, or on curved
-   walls are added one by one (add_facet), with incidence in double-double (view/view.h). What each
-   step adds to the bounds is stated beside it; at the end the bounds are increased by 1e-9 and 2 u
-   a facet, relative, for the rounding of their own sums. The steps of lrcsi_total_make:
-   1. add_material, for each material: select_facets selects the facets of its batch that face the
+   walls are added one by one (add_any_facet), with incidence in double-double (view/view.h). What
+   each step adds to the bounds is stated beside it; at the end the bounds are increased by 1e-9 and
+   2 u a facet, relative, for the rounding of their own sums. The steps of lrcsi_total_make:
+   1. add_batch, for each material: select_facets selects the facets of its batch that face the
       laser (lrcsi_view_dot), keep_visible keeps those that are visible, and add_block evaluates
       blocks of them: normals and areas, lrcsi_shade, visible areas, sums, bounds;
-   2. add_shape, for each clear shape: lrcsi_shape_terms_make;
+   2. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;
    3. add_tessellation_errors, if shapes are curved: lrcsi_tessellation_error;
    4. total_finish: conversion to square metres, and the rounding of the sums. */
 #include "integrate/total.h"
@@ -302,7 +302,7 @@ static void add_facet_of_clear_shape(total_run *run, uint32_t facet)
 }
 
 /* Adds any facet, by its exact facing. */
-static void add_facet(total_run *run, uint32_t facet)
+static void add_any_facet(total_run *run, uint32_t facet)
 {
     int reflects = lrcsi_view_reflects(run->view, facet);
     int visible =
@@ -611,7 +611,7 @@ static void select_facets(const total_run *run, const total_batch *batch, uint32
    2. collects front sides for a block;
    3. collects back sides too if they reflect; otherwise adds their areas;
    4. adds the others one by one: near grazing, or in the bright lobe of a narrow glint. */
-static void add_facets(total_run *run, total_batch *batch, uint32_t place, uint32_t count)
+static void add_places(total_run *run, total_batch *batch, uint32_t place, uint32_t count)
 {
     const uint32_t *facet = run->view->prepared->batches.facet + place;
     total_selection pick;
@@ -637,7 +637,7 @@ static void add_facets(total_run *run, total_batch *batch, uint32_t place, uint3
     }
     for (uint32_t i = 0; pick.any_other >> 63 && i < count; i++) {
         if (!((pick.front[i] | pick.back[i]) >> 63)) {
-            add_facet(run, facet[i]);
+            add_any_facet(run, facet[i]);
             if (run->tessellation &&
                 represents_patch(run, facet[i])) { /* run->patch is its patch */
                 lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet[i]);
@@ -657,7 +657,7 @@ static int is_evaluated(int term, double amplitude)
    2. the last block, which may not be full;
    3. the sums and the errors of the blocks. With method facet and a grazing threshold of 1, nothing
       is known about what is hidden, and all of the material may be. */
-static void add_material(total_run *run, uint32_t material)
+static void add_batch(total_run *run, uint32_t material)
 {
     const lrcsi_view *view = run->view;
     const lrcs_material *m = &view->prepared->scene->material[material];
@@ -670,7 +670,7 @@ static void add_material(total_run *run, uint32_t material)
     const uint32_t *first = view->prepared->batches.first + material;
     for (uint32_t place = first[0]; place < first[1]; place += LRCSI_LANES) {
         uint32_t left = first[1] - place;
-        add_facets(run, &batch, place, left < LRCSI_LANES ? left : LRCSI_LANES);
+        add_places(run, &batch, place, left < LRCSI_LANES ? left : LRCSI_LANES);
     }
     if (batch.waiting > 0) {
         add_block(run, &batch);
@@ -697,7 +697,7 @@ static void add_material(total_run *run, uint32_t material)
 /* --- curved shapes ---------------------------------------------------------------------------- */
 
 /* Adds the errors of the facets that replace curved shapes, except those that represent patches,
-   whose errors add_facets adds. */
+   whose errors add_places adds. */
 static void add_tessellation_errors(total_run *run)
 {
     const lrcsi_batches *b = &run->view->prepared->batches;
@@ -747,7 +747,7 @@ static void record_shape(const total_run *run, const lrcs_part *part,
 }
 
 /* Adds a clear shape. The rounding of the compensated sums is part of that of the facets. */
-static void add_shape(total_run *run, uint32_t index, double slab)
+static void add_clear_shape(total_run *run, uint32_t index, double slab)
 {
     const lrcs_prepared *p = run->view->prepared;
     const lrcs_part *part = &p->scene->part[index];
@@ -837,11 +837,11 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     run.tessellation =
         plan->method != LRCS_METHOD_CLOSED && p->curved && lrcsi_tessellation_known(p, plan);
     for (uint32_t i = 0; i < p->scene->material_count; i++) {
-        add_material(&run, i);
+        add_batch(&run, i);
     }
     for (uint32_t i = 0; run.clear && i < p->scene->part_count; i++) {
         if (run.clear->part[i]) {
-            add_shape(&run, i, run.clear->slab[i]);
+            add_clear_shape(&run, i, run.clear->slab[i]);
         }
     }
     if (run.tessellation) {
