@@ -306,7 +306,8 @@ static double extent_of(const lrcs_prepared *p)
    or, `as_alone`, AS_ALONE times the least that the facet alone would be charged
    (visibility/cells_alone.c): 52 u of its diameter times its perimeter, and for each cut a strip
    128 u of the diameter wide. Needles, and facets larger than the bulk of the scene, are much more
-   accurate alone: for these only the first counts. */
+   accurate alone: for these only the first counts, unless they stand for a curved surface, from
+   which they differ by far more. */
 static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double projected,
                              int as_alone)
 {
@@ -318,7 +319,9 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double p
         diameter = lrcsi_most(diameter, lrcsi_most(fabs(p[0] - q[0]), fabs(p[1] - q[1])));
     }
     double extent = extent_of(c->view->prepared);
-    int ordinary = projected > NEEDLE * diameter * diameter && diameter < 2 * extent;
+    const lrcs_scene *scene = c->view->prepared->scene;
+    int ordinary = scene->part[scene->facet_part[facet]].reach > 0 ||
+                   (projected > NEEDLE * diameter * diameter && diameter < 2 * extent);
     double alone = LRCSI_U * diameter * (104 * diameter + 128 * c->area[facet].cut);
     alone = as_alone ? AS_ALONE * alone : 0;
     return ACCURACY_OF_FACET * projected +

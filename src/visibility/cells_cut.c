@@ -13,6 +13,11 @@
 
 /* Corners above which a cell is halved. */
 #define MANY_CORNERS 20u
+/* So is one with more segments than this, if few of them are then in both halves. The line of an
+   edge of a rim has all of the rim on one side: cut along it, the cell would lose one segment. */
+#define SHARED        1u
+#define HALVINGS      24u
+#define MANY_SEGMENTS 8u
 
 /* A segment met the cell that this one was cut from. Does it meet this one too? If not, either its
    own line or that of the cut separates them. */
@@ -222,18 +227,48 @@ static int cell_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     return 1;
 }
 
-int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
+/* The line across the middle of a cell's box, at right angles to its longer side. */
+static void middle_line(const lrcsi_cells_sides *s, double line[3])
 {
     int wide = s->high[0] - s->low[0] > s->high[1] - s->low[1];
-    const double line[3] = {
-        wide, !wide, wide ? -0.5 * (s->low[0] + s->high[0]) : -0.5 * (s->low[1] + s->high[1])};
+    line[0] = wide;
+    line[1] = !wide;
+    line[2] = wide ? -0.5 * (s->low[0] + s->high[0]) : -0.5 * (s->low[1] + s->high[1]);
+}
+
+int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
+{
+    double line[3];
+    middle_line(s, line);
     return cell_cut(c, cell, s, line, LRCS_NONE);
+}
+
+/* Are there many segments, of which each half has three quarters at most, and both together an
+   eighth more than the cell? */
+static int halves_well(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                       const lrcsi_cells_sides *s)
+{
+    double line[3];
+    uint32_t side[2] = {0, 0};
+    middle_line(s, line);
+    for (uint32_t i = 0; cell->segments > MANY_SEGMENTS && i < cell->segments; i++) {
+        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        double a = lrcsi_line_at(line, e->end[0][0], e->end[0][1]);
+        double b = lrcsi_line_at(line, e->end[1][0], e->end[1][1]);
+        side[0] += a > 0 || b > 0;
+        side[1] += !(a > 0 && b > 0);
+    }
+    uint32_t most = side[0] > side[1] ? side[0] : side[1];
+    uint32_t both = side[0] + side[1] - cell->segments;
+    return cell->segments > MANY_SEGMENTS &&
+           (most <= cell->segments / 4 * 3 ? both <= cell->segments / 8
+                                           : both <= SHARED && cell->cuts < HALVINGS);
 }
 
 int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                        const lrcsi_cells_sides *s, const lrcsi_cells_segment *along)
 {
-    return cell->shape.count > MANY_CORNERS
+    return cell->shape.count > MANY_CORNERS || halves_well(c, cell, s)
                ? lrcsi_cells_halve(c, cell, s)
                : cell_cut(c, cell, s, along->line, (uint32_t)(along - c->segment));
 }
