@@ -178,7 +178,7 @@ static void report_free(report_job *job)
         free(job->sweep[i].svg.bytes);
     }
     for (uint32_t i = 0; i < REPORT_PEAKS; i++) {
-        cli_shares_free(&job->peak_shares[i]);
+        lrcs_host_shares_free(&job->peak_shares[i]);
     }
     for (int i = 0; i < REPORT_PICTURES; i++) {
         free(job->picture[i][0].bytes);
@@ -191,7 +191,7 @@ static void report_free(report_job *job)
     free(job->verdict.bytes);
     free(job->records);
     free(job->image.facet);
-    cli_shares_free(&job->shares);
+    lrcs_host_shares_free(&job->shares);
     cli_info_free(&job->info);
     lrcs_host_scene_free(&job->sweep_scene);
     lrcs_host_scene_free(&job->scene);
