@@ -97,7 +97,7 @@ static double node_position_err(const lrcsi_cubature *sum, double u, double d, c
     if (glint_change <= 0.25 && diffuse_change <= 0.25) {
         return 2 * (at->glint * glint_change + at->diffuse * diffuse_change);
     }
-    lrcsi_reflection bound = lrcsi_reflect_most(brdf, atan(sqrt(u)), 2 * d);
+    lrcsi_reflection bound = lrcsi_reflect_bound(brdf, atan(sqrt(u)), 2 * d);
     return (glint_change <= 0.25 ? 2 * at->glint * glint_change : bound.glint) +
            (diffuse_change <= 0.25 ? 2 * at->diffuse * diffuse_change : bound.diffuse);
 }
@@ -260,7 +260,7 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
     int serves = glint_resolved && diffuse_resolved;
     cell->skipped = 0;
     if (turn <= TURN_MAX && !serves) {
-        lrcsi_reflection bound = lrcsi_reflect_most(brdf, cell->theta, turn);
+        lrcsi_reflection bound = lrcsi_reflect_bound(brdf, cell->theta, turn);
         cell->skipped = (glint_resolved ? 0 : bound.glint) + (diffuse_resolved ? 0 : bound.diffuse);
         double sum_so_far =
             lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse) + sum->estimate;
@@ -458,7 +458,7 @@ static double cube_upper_bound(const lrcsi_cubature *sum, const cube_cell *cell)
 {
     double err = 2 * sum->position_err / cube_shortest(cell);
     double turn = err <= 1 ? cube_turn(cell) + err : LRCS_PI;
-    lrcsi_reflection bound = lrcsi_reflect_most(sum->brdf, cell->theta, turn);
+    lrcsi_reflection bound = lrcsi_reflect_bound(sum->brdf, cell->theta, turn);
     return bound.glint + bound.diffuse;
 }
 
@@ -601,7 +601,7 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     lrcsi_cubature sum = {.brdf = brdf, .tolerance = tolerance, .stack = stack};
     cube_cell cell = cube_of(normal, NULL, 0);
     cube_measure(&cell);
-    sum.upper_bound = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
+    sum.upper_bound = lrcsi_reflect_bound(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
     double farthest = cell.theta + cube_turn(&cell);
     sum.diffuse_min =
         farthest < LRCS_PI / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(farthest)), brdf->m + 1) : 0;
@@ -630,7 +630,7 @@ static double dark_position_err(const lrcsi_cubature *sum, const cube_cell *whol
     double turn = cube_turn(whole);
     double length = turn < LRCS_PI / 2 ? cube_shortest(whole) * cos(turn) : 0;
     double err = 2 * sum->position_err / length;
-    lrcsi_reflection seen = lrcsi_reflect_most(sum->brdf, LRCS_PI / 2, err <= 1 ? err : LRCS_PI);
+    lrcsi_reflection seen = lrcsi_reflect_bound(sum->brdf, LRCS_PI / 2, err <= 1 ? err : LRCS_PI);
     return seen.glint + seen.diffuse;
 }
 

@@ -585,8 +585,8 @@ static void tessellation_charge(profile_run *run, uint32_t facet)
         double to = edge_of(run, i + 1);
         double fraction = fraction_between(t.z, from - reach, to + reach);
         double shifted = fraction_between(t.z, from - reach, from + reach) +
-                         fraction_between(t.z, to - reach, to + reach) + parts.share;
-        double general = LRCS_FOUR_PI * (parts.bend * fraction + parts.shift * shifted);
+                         fraction_between(t.z, to - reach, to + reach) + parts.mismatch;
+        double general = LRCS_FOUR_PI * (parts.deviation * fraction + parts.shift * shifted);
         double larger = parts.lit ? LRCS_FOUR_PI * parts.most * fraction : whole;
         general = parts.lit ? general : HUGE_VAL;
         run->bin[i].tessellation_variation += lrcsi_least(general, 2 * larger);
