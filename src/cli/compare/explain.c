@@ -59,14 +59,6 @@ static const factor_entry *factor_find(double factor)
     return NULL;
 }
 
-/* The known factor near a factor, or the factor itself if there is none. */
-static double factor_known(double factor, int *known)
-{
-    const factor_entry *entry = factor_find(factor);
-    *known = entry != NULL;
-    return entry ? entry->value : factor;
-}
-
 const char *cli_factor_name(double factor)
 {
     const factor_entry *entry = factor_find(factor);
@@ -159,13 +151,6 @@ static int case_touched(const compare_search *search, const compare_case *one, d
     return fabs(expected - one->sigma_m2) > case_room(search, one, expected);
 }
 
-/* An answer of 0 is no evidence if other failing cases have other answers: many mistakes make
-   facets vanish. */
-static int case_mute(const compare_search *search, const compare_case *one)
-{
-    return search->telling && one->theirs_m2 == 0.0;
-}
-
 /* How well a mistake explains the submitted answers. */
 typedef struct search_score {
     const compare_mistake *first, *second; /* second: NULL, or a second mistake made in addition */
@@ -188,8 +173,8 @@ static search_score mistake_score(const compare_search *search, double factor)
         double left = fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
         int right = cli_search_explained(search, one, expected);
         score.explained += (uint32_t)right;
-        if (right && case_mute(search, one)) {
-            mute++;
+        if (right && search->telling && one->theirs_m2 == 0.0) {
+            mute++; /* no evidence if others are not 0: many mistakes make facets vanish */
             continue;
         }
         touched += right || case_touched(search, one, expected);
@@ -218,7 +203,10 @@ static double factor_median(const compare_search *search, uint32_t failings, int
             search->room[count++] = search->failing[i]->theirs_m2 / search->answer[i];
         }
     }
-    return factor_known(cli_search_median(search->room, count), known);
+    double median = cli_search_median(search->room, count);
+    const factor_entry *entry = factor_find(median);
+    *known = entry != NULL;
+    return entry ? entry->value : median;
 }
 
 /* ---- the answers of a mistake ---- */
