@@ -303,14 +303,9 @@ int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_hos
 
 /* ---- in one line ---- */
 
-typedef struct picture_source {
-    const cli_args *args;
-    const lrcs_host_scene *scene; /* NULL: made from the operand alone */
-} picture_source;
-
 static void picture_put(FILE *out, const void *context)
 {
-    const picture_source *from = context;
+    const beside *from = context;
     const lrcs_host_scene *scene = from->scene;
     fprintf(out, "lrcs %s", lrcs_version());
     source_put(out, from->args, scene ? cli_scene_title(from->args, scene) : NULL, scene);
@@ -325,7 +320,7 @@ static void picture_put(FILE *out, const void *context)
 
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
 {
-    const picture_source from = {args, scene};
+    const beside from = {.args = args, .scene = scene};
     return cli_text_of(picture_put, &from);
 }
 

@@ -238,20 +238,6 @@ void cli_converge_csv(FILE *out, const void *context)
 
 /* ---- JSON ---- */
 
-static void setting_json(const converge_job *job, const converge_setting *one, lrcs_host_json *json)
-{
-    double number[NUMBERS];
-    numbers_make(job, one, number);
-    cli_json(json, "{setting=%s method=%s", one->name, lrcs_method_text(one->method));
-    for (int k = 0; k < NUMBERS; k++) {
-        lrcs_host_json_number(json, number_name[k], number[k]);
-    }
-    if (one->digits > 0) {
-        cli_json(json, "tolerance=%g accepted_by=%s", pow(10.0, -one->digits), one->accepted_by);
-    }
-    cli_json(json, "}");
-}
-
 /* The setting, in an open object, which it ends. */
 static void cheapest_json(const converge_setting *one, lrcs_host_json *json)
 {
@@ -273,7 +259,18 @@ void cli_converge_json(const converge_job *job)
     cli_json(&json, "truth={from=%s sigma_m2=%g bound_m2=%g of_facets=%d} settings=[\n",
              job->truth.text, job->truth.sigma_m2, job->truth.bound_m2, !job->truth.whole);
     for (uint32_t i = 0; i < job->settings; i++) {
-        setting_json(job, &job->setting[i], &json);
+        const converge_setting *one = &job->setting[i];
+        double number[NUMBERS];
+        numbers_make(job, one, number);
+        cli_json(&json, "{setting=%s method=%s", one->name, lrcs_method_text(one->method));
+        for (int k = 0; k < NUMBERS; k++) {
+            lrcs_host_json_number(&json, number_name[k], number[k]);
+        }
+        if (one->digits > 0) {
+            cli_json(&json, "tolerance=%g accepted_by=%s", pow(10.0, -one->digits),
+                     one->accepted_by);
+        }
+        cli_json(&json, "}");
     }
     cli_json(&json, "] cheapest=[\n");
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {
