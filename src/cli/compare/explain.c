@@ -325,34 +325,24 @@ static double finding_rest(const compare_search *search, const search_score *bes
     return cli_search_median(search->room, count);
 }
 
-/* Appends to a text, truncated to its size. */
-__attribute__((format(printf, 2, 3))) static void text_add(char text[COMPARE_TEXT],
-                                                           const char *format, ...)
-{
-    size_t used = strlen(text);
-    va_list list;
-    va_start(list, format);
-    vsnprintf(text + used, COMPARE_TEXT - used, format, list);
-    va_end(list);
-}
-
 static void finding_say(const compare_job *job, const search_score *best, compare_finding *finding)
 {
     char *text = finding->text;
+    size_t size = sizeof finding->text;
     finding->factor = best->factor;
     if (best->first == cli_compare_mistakes) {
         finding->name = cli_factor_name(best->factor);
-        text_add(text, "%.6g times the truth everywhere: %s", best->factor,
-                 cli_factor_text(job, best->factor));
+        cli_append(text, size, "%.6g times the truth everywhere: %s", best->factor,
+                   cli_factor_text(job, best->factor));
         return;
     }
-    text_add(text, "%s", best->first->text);
+    cli_append(text, size, "%s", best->first->text);
     if (best->second) {
-        text_add(text, "; and %s", best->second->text);
+        cli_append(text, size, "; and %s", best->second->text);
     }
     if (best->factor != 1.0) {
-        text_add(text, "; and %.6g times that: %s", best->factor,
-                 cli_factor_text(job, best->factor));
+        cli_append(text, size, "; and %.6g times that: %s", best->factor,
+                   cli_factor_text(job, best->factor));
     }
 }
 
@@ -393,7 +383,8 @@ static int ties_say(const compare_search *search, const search_score *best,
         }
         double score = fits ? mistake_score(search, best->factor).score - best->price : 0.0;
         if (fits && fabs(score - best->score) <= TIED) {
-            text_add(finding->text, "%s%s", ties++ > 0 ? "; " : "; or, equally well: ", a->text);
+            cli_append(finding->text, sizeof finding->text, "%s%s",
+                       ties++ > 0 ? "; " : "; or, equally well: ", a->text);
         }
     }
     return 0;
@@ -421,9 +412,9 @@ static void clipped_say(const compare_search *search, const search_score *best,
         one->explained = cut ? mark : one->explained;
     }
     finding->explained += less;
-    text_add(finding->text,
-             "; in %lu cases less than that: part of the scene is outside the window",
-             (unsigned long)less);
+    cli_append(finding->text, sizeof finding->text,
+               "; in %lu cases less than that: part of the scene is outside the window",
+               (unsigned long)less);
 }
 
 /* Makes the best explanation a finding and marks its cases. 0, or -1 with the message printed. */

@@ -171,10 +171,8 @@ static int rasters_add(converge_job *job, uint32_t mesh)
     double last = 0.0;
     for (uint32_t n = RASTER_LEAST; n <= RASTER_MOST && code == 0; n *= 2) {
         if (job->spent + last > 0.5 * job->seconds) { /* this one would not be faster */
-            size_t used = strlen(job->left_out);
-            snprintf(job->left_out + used, sizeof job->left_out - used,
-                     "%szbuffer %lu and finer, for time",
-                     used ? "; " : "left out: ", (unsigned long)n);
+            cli_append(job->left_out, sizeof job->left_out, "%szbuffer %lu and finer, for time",
+                       job->left_out[0] ? "; " : "left out: ", (unsigned long)n);
             break;
         }
         code = setting_add(job, CONVERGE_ZBUFFER, LRCS_METHOD_ZBUFFER, n, mesh);

@@ -83,9 +83,8 @@ static void differences_list(const sweep_head *head, const sweep_head *other, in
     for (uint32_t i = 0; i < head->options && i < SWEEP_OPTIONS; i++) {
         const char *key = head->option[i].key;
         const char *text = cli_head_text(other, key);
-        size_t used = strlen(list);
         if (!text || (values && strcmp(text, head->option[i].text) != 0)) {
-            snprintf(list + used, size - used, "%s%s", used > 0 ? ", " : "", key);
+            cli_append(list, size, "%s%s", list[0] ? ", " : "", key);
         }
     }
 }

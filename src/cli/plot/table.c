@@ -65,12 +65,10 @@ static int about_of_json(table_job *job, lrcs_host_error *error)
     static const char key[] = "\"" CLI_ABOUT "\": \"";
     char hash[48];
     lrcs_host_file json;
-    size_t room = strlen(job->path) + sizeof CLI_BESIDE;
-    char *name = malloc(room);
+    char *name = cli_beside_name(job->path);
     if (!name) {
         return job_refuse(job, "out of memory", error);
     }
-    snprintf(name, room, "%s" CLI_BESIDE, job->path);
     int status = lrcs_host_file_read(name, &json, error);
     free(name);
     if (status != LRCS_OK) {
