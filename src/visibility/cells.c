@@ -168,23 +168,28 @@ typedef struct cell_sample {
     double clear;
 } cell_sample;
 
-/* Removes what is behind the component around the nearest facet, if it covers the cell. Returns 1
-   if it does, and no contact of it crosses the cell; else *cut is the segment of the component
-   along which to cut, or NULL. *uncertainty: how wrong the area of any facet may be because the
-   cell is thin. */
+/* Removes what is behind the component around the nearest facet, if it covers the cell, or else
+   behind a single facet that covers it. Returns 1 if the component does, and no contact of it
+   crosses the cell; else *cut is the segment of the component along which to cut, or NULL.
+   *uncertainty: how wrong the area of any facet may be because the cell is thin. */
 static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                        const cell_sample *sample, double *uncertainty,
                        const lrcsi_cells_segment **cut)
 {
     int covers = lrcsi_cells_component(c, cell, s, sample->nearest);
-    if (covers) {
-        for (uint32_t i = 0; i < c->borders; i++) {
-            lrcsi_cells_charge_border(c, cell, s, &c->border[i]);
-        }
-        *uncertainty = lrcsi_cells_thin(cell, s, sample->clear, cell->struck + c->borders, c->off);
-        lrcsi_cells_drop(c, cell, s, *uncertainty);
+    *cut = covers ? NULL : cells_choose(c, cell, s, CHOOSE_OWN);
+    if (!covers && !lrcsi_cells_screen(c, cell, s, sample->at)) {
+        return 0;
     }
-    *cut = cells_choose(c, cell, s, CHOOSE_OWN);
+    for (uint32_t i = 0; i < c->borders; i++) {
+        lrcsi_cells_charge_border(c, cell, s, &c->border[i]);
+    }
+    double thin = lrcsi_cells_thin(cell, s, sample->clear, cell->struck + c->borders, c->off);
+    lrcsi_cells_drop(c, cell, s, covers ? NULL : sample->at, thin);
+    if (covers) {
+        *uncertainty = thin;
+        *cut = cells_choose(c, cell, s, CHOOSE_OWN);
+    }
     return covers && !*cut;
 }
 

@@ -160,6 +160,48 @@ static int contacts_only(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
     return only;
 }
 
+/* Does a facet alone cover the cell? */
+static int covers_alone(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                        const lrcsi_cells_sides *s, uint32_t index)
+{
+    const lrcsi_cells_facet *f = &c->facet[index];
+    double w = f->off + s->g;
+    for (int k = 0; k < 3; k++) {
+        double range[2];
+        lrcsi_line_range(&cell->shape, f->side[k], range);
+        if (!(range[0] > w)) {
+            return 0;
+        }
+    }
+    return (c->kind[index] & LRCSI_CELLS_VAGUE) == 0;
+}
+
+int lrcsi_cells_screen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                       const lrcsi_cells_sides *s, const double at[2])
+{
+    uint32_t screen = LRCS_NONE;
+    double most = -HUGE_VAL;
+    for (uint32_t i = 0; i < c->hits; i++) {
+        uint32_t index = c->hit[i];
+        double range[2];
+        lrcsi_cells_facet_height(&c->facet[index], at, s->g, range);
+        if (c->met[index] == 2 * c->look + 1 && range[0] > most &&
+            covers_alone(c, cell, s, index)) {
+            screen = index;
+            most = range[0];
+        }
+    }
+    if (screen == LRCS_NONE) {
+        return 0;
+    }
+    c->borders = 0;
+    c->component[0] = screen;
+    c->components = 1;
+    c->joined[screen] = c->look;
+    contacts_only(c, cell);
+    return 1;
+}
+
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, uint32_t best)
 {
@@ -322,8 +364,22 @@ static void facet_charge(lrcsi_cells_work *c, uint32_t facet, double uncertainty
     c->area[facet].uncertainty += c->open[facet] ? uncertainty : 0;
 }
 
+/* Is a facet that surely covers the sample behind the component there? */
+static int behind_at(const lrcsi_cells_work *c, const lrcsi_cells_sides *s, const double *at,
+                     uint32_t facet)
+{
+    double range[2];
+    double of_component[2];
+    if (!at) {
+        return 1;
+    }
+    lrcsi_cells_facet_height(&c->facet[facet], at, s->g, range);
+    lrcsi_cells_facet_height(&c->facet[c->component[0]], at, s->g, of_component);
+    return range[1] < of_component[0];
+}
+
 void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                      double uncertainty)
+                      const double *at, double uncertainty)
 {
     double low = HUGE_VAL;
     for (uint32_t i = 0; i < c->components; i++) {
@@ -332,8 +388,9 @@ void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = c->facets[i];
-        if (c->joined[f] != c->look && ((c->met[f] == 2 * c->look + 1 && c->meets[f] != c->look) ||
-                                        lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
+        if (c->joined[f] != c->look &&
+            ((c->met[f] == 2 * c->look + 1 && c->meets[f] != c->look && behind_at(c, s, at, f)) ||
+             lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
             c->listed[f] = 0;
             c->found[f] |= LRCSI_CELLS_HIDDEN;
             facet_charge(c, f, cell->uncertainty + uncertainty);

@@ -31,9 +31,15 @@ int lrcsi_cells_segment_of(const lrcs_prepared *prepared, const lrcsi_cells_segm
 /* Is any facet of a segment in the component? */
 int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e);
 
+/* Of the facets that each cover the cell alone, takes the one nearest at the sample as the
+   component. 0 if there is none. */
+int lrcsi_cells_screen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                       const lrcsi_cells_sides *s, const double at[2]);
+
 /* Removes the facets and edges behind the component, which covers the cell, from the cell's lists.
- */
+   Given: the sample if other facets may be nearer there than the component, which is then a single
+   facet; else NULL. */
 void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                      double uncertainty);
+                      const double *at, double uncertainty);
 
 #endif
