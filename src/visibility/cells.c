@@ -133,9 +133,9 @@ static void cells_decide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 enum { CHOOSE_OWN, CHOOSE_EDGES, CHOOSE_ANY };
 
 /* Of the segments of a kind, the one whose line divides the cell best, or NULL: the product of the
-   cell's width on the narrower side of the line and of how far the segment itself reaches through
-   the cell is largest. So cells shrink fast, few become long and narrow, and few are cut where
-   nothing changes. */
+   cell's width on the narrower side of the line, and of the root of how far the segment itself
+   reaches through the cell, is largest. So cells shrink fast, few become long and narrow, and few
+   are cut where nothing changes. */
 static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
                                                const lrcsi_cells_cell *cell,
                                                const lrcsi_cells_sides *s, int which)
@@ -153,7 +153,7 @@ static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
                          lrcsi_most(s->low[k], lrcsi_least(e->end[0][k], e->end[1][k]));
             }
             lrcsi_line_range(&cell->shape, e->line, range);
-            double good = lrcsi_least(-range[0], range[1]) * reach;
+            double good = lrcsi_least(-range[0], range[1]) * sqrt(lrcsi_most(0, reach));
             best = good > most ? e : best;
             most = lrcsi_most(most, good);
         }
