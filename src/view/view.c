@@ -50,13 +50,6 @@ static signed char facing_of(const lrcsi_view *view, uint32_t facet)
                                          lrcsi_prepared_corner(view->prepared, facet, 2), d);
 }
 
-static double grazing_dot(const lrcsi_view *view, uint32_t facet)
-{
-    return lrcsi_exact_dot(lrcsi_prepared_corner(view->prepared, facet, 0),
-                           lrcsi_prepared_corner(view->prepared, facet, 1),
-                           lrcsi_prepared_corner(view->prepared, facet, 2), view->direction);
-}
-
 /* A dot product below this multiple of its error is computed exactly. */
 #define GRAZING_DOT 0x1p50
 /* Closer to edge-on than this, only a lower bound of tan^2 is known: about 2^1000, still a double.
@@ -75,7 +68,10 @@ static incidence_dot incidence_dot_of(const lrcsi_view *view, uint32_t facet, do
 {
     incidence_dot dot = {fabs(product), off, 0};
     if (!(dot.value > GRAZING_DOT * off)) {
-        dot.value = fabs(grazing_dot(view, facet));
+        dot.value =
+            fabs(lrcsi_exact_dot(lrcsi_prepared_corner(view->prepared, facet, 0),
+                                 lrcsi_prepared_corner(view->prepared, facet, 1),
+                                 lrcsi_prepared_corner(view->prepared, facet, 2), view->direction));
         dot.err = 2 * LRCSI_U * dot.value;
     }
     double least = GRAZING_LEAST * view->prepared->normal[facet].length * view->length;
@@ -250,17 +246,6 @@ static void view_facings(lrcsi_view *view)
     }
 }
 
-static void view_unit(lrcsi_view *view)
-{
-    static const double no_low[3] = {0, 0, 0};
-    lrcsi_inverse inverse = lrcsi_length_inverse(view->direction, no_low, view->length);
-    for (int k = 0; k < 3; k++) {
-        lrcsi_dd d = lrcsi_inverse_times(&inverse, view->direction[k], 0);
-        view->unit[k] = d.hi;
-        view->unit_low[k] = d.lo;
-    }
-}
-
 /* The window: the square over the longer side of the projected box, centred. */
 static void view_window(lrcsi_view *view)
 {
@@ -300,7 +285,13 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_
         return LRCS_E_MEMORY;
     }
     v.length = sqrt(lrcsi_vec3_dot(v.direction, v.direction));
-    view_unit(&v);
+    static const double no_low[3] = {0, 0, 0};
+    lrcsi_inverse inverse = lrcsi_length_inverse(v.direction, no_low, v.length);
+    for (int k = 0; k < 3; k++) {
+        lrcsi_dd d = lrcsi_inverse_times(&inverse, v.direction[k], 0);
+        v.unit[k] = d.hi;
+        v.unit_low[k] = d.lo;
+    }
     view_facings(&v);
     *view = v;
     return LRCS_OK;
