@@ -50,13 +50,6 @@ static signed char facing_of(const lrcsi_view *view, uint32_t facet)
                                          lrcsi_prepared_corner(view->prepared, facet, 2), d);
 }
 
-static double grazing_dot(const lrcsi_view *view, uint32_t facet)
-{
-    return lrcsi_exact_dot(lrcsi_prepared_corner(view->prepared, facet, 0),
-                           lrcsi_prepared_corner(view->prepared, facet, 1),
-                           lrcsi_prepared_corner(view->prepared, facet, 2), view->direction);
-}
-
 /* A dot product below this multiple of its error is computed exactly. */
 #define GRAZING_DOT 0x1p50
 /* Closer to edge-on than this, only a lower bound of tan^2 is known: about 2^1000, still a double.
@@ -75,7 +68,10 @@ static incidence_dot incidence_dot_of(const lrcsi_view *view, uint32_t facet, do
 {
     incidence_dot dot = {fabs(product), off, 0};
     if (!(dot.value > GRAZING_DOT * off)) {
-        dot.value = fabs(grazing_dot(view, facet));
+        dot.value =
+            fabs(lrcsi_exact_dot(lrcsi_prepared_corner(view->prepared, facet, 0),
+                                 lrcsi_prepared_corner(view->prepared, facet, 1),
+                                 lrcsi_prepared_corner(view->prepared, facet, 2), view->direction));
         dot.err = 2 * LRCSI_U * dot.value;
     }
     double least = GRAZING_LEAST * view->prepared->normal[facet].length * view->length;
@@ -179,9 +175,9 @@ void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32
     }
 }
 
-/* Let p be the point as seen from the origin, both doubles. The rounded difference is off by u |p|,
-   the row by 4 u (view/frame.h), which moves the coordinate by 4 u |p|, and three products and two
-   sums add 3 u |p|: together 8.01 u |p|, at most 8.1 u of the sum of |coordinates|. */
+/* Let p be the point as seen from the origin, both doubles. The rounded difference has an error of
+   u |p|, the row by 4 u (view/frame.h), which moves the coordinate by 4 u |p|, and three products
+   and two sums add 3 u |p|: together 8.01 u |p|, at most 8.1 u of the sum of |coordinates|. */
 void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3])
 {
     const double *o = view->prepared->origin;
@@ -198,8 +194,8 @@ void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]
     }
 }
 
-/* As vectors: the rows are off by 4 u each, two products and a sum by 2 u (|x| + |y|), and the last
-   sum by u of its result, of length below |x| + |y| and sqrt(3) times the origin's largest. */
+/* As vectors: the rows have errors of 4 u each, two products and a sum by 2 u (|x| + |y|), and the
+   last sum by u of its result, of length below |x| + |y| and sqrt(3) times the origin's largest. */
 double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y)
 {
     const double *o = view->prepared->origin;
@@ -208,7 +204,7 @@ double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y)
 }
 
 /* By the sign of the dot product of unit vectors; exactly if its error may hide the sign, which is
-   rare: one test serves a block. */
+   rare: one test suffices for a block. */
 static void view_facings(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
@@ -247,17 +243,6 @@ static void view_facings(lrcsi_view *view)
                 view->facing[facet[i]] = facing;
             }
         }
-    }
-}
-
-static void view_unit(lrcsi_view *view)
-{
-    static const double no_low[3] = {0, 0, 0};
-    lrcsi_inverse inverse = lrcsi_length_inverse(view->direction, no_low, view->length);
-    for (int k = 0; k < 3; k++) {
-        lrcsi_dd d = lrcsi_inverse_times(&inverse, view->direction[k], 0);
-        view->unit[k] = d.hi;
-        view->unit_low[k] = d.lo;
     }
 }
 
@@ -300,7 +285,13 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_
         return LRCS_E_MEMORY;
     }
     v.length = sqrt(lrcsi_vec3_dot(v.direction, v.direction));
-    view_unit(&v);
+    static const double no_low[3] = {0, 0, 0};
+    lrcsi_inverse inverse = lrcsi_length_inverse(v.direction, no_low, v.length);
+    for (int k = 0; k < 3; k++) {
+        lrcsi_dd d = lrcsi_inverse_times(&inverse, v.direction[k], 0);
+        v.unit[k] = d.hi;
+        v.unit_low[k] = d.lo;
+    }
     view_facings(&v);
     *view = v;
     return LRCS_OK;
