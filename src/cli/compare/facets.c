@@ -20,20 +20,6 @@ typedef struct facets_read {
 
 /* ---- reading ---- */
 
-static double *facets_room(facets_read *facets, compare_case *one)
-{
-    const compare_kit *kit = &facets->job->kit;
-    double **visible = &facets->visible[one - kit->list];
-    if (!*visible && cli_compare_records(kit, one) == 0) {
-        size_t count = kit->scene[one->scene].host.scene.facet_count;
-        *visible = calloc(count + 1, sizeof **visible);
-        if (!*visible) {
-            cli_out_of_memory();
-        }
-    }
-    return *visible;
-}
-
 enum { FACET_SCENE, FACET_ATTITUDE, FACET_INDEX, FACET_AREA, FACET_COSINE, FACET_COLUMNS };
 
 static int facet_line(facets_read *facets, const compare_table *table)
@@ -42,12 +28,19 @@ static int facet_line(facets_read *facets, const compare_table *table)
     double area;
     double cosine;
     compare_case *one = cli_compare_find(&facets->job->kit, table);
-    double *visible = one ? facets_room(facets, one) : NULL;
-    if (!visible || cli_table_number(table, FACET_INDEX, &index) != 0 ||
-        cli_table_number(table, FACET_AREA, &area) != 0) {
+    if (!one || cli_compare_records(&facets->job->kit, one) != 0) {
         return CLI_FAILED;
     }
     uint32_t count = facets->job->kit.scene[one->scene].host.scene.facet_count;
+    double **visible = &facets->visible[one - facets->job->kit.list];
+    *visible = *visible ? *visible : calloc((size_t)count + 1, sizeof **visible);
+    if (!*visible) {
+        return cli_out_of_memory();
+    }
+    if (cli_table_number(table, FACET_INDEX, &index) != 0 ||
+        cli_table_number(table, FACET_AREA, &area) != 0) {
+        return CLI_FAILED;
+    }
     if (!(index >= 0.0 && index < count) || index != floor(index)) {
         return cli_table_refuse(table, FACET_INDEX, "a facet 0 .. %lu", (unsigned long)count - 1);
     }
@@ -64,7 +57,7 @@ static int facet_line(facets_read *facets, const compare_table *table)
             facets->found->cosine_most = fmax(facets->found->cosine_most, off);
         }
     }
-    visible[(uint32_t)index] = area;
+    (*visible)[(uint32_t)index] = area;
     return 0;
 }
 

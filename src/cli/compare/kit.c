@@ -159,15 +159,22 @@ void cli_compare_kit_free(compare_kit *kit)
 
 /* ---- scenes ---- */
 
-/* The mean of the normals of the adjacent facets at each vertex, weighted by area. */
-static int normals_make(compare_scene *scene)
+int cli_compare_scene(const compare_kit *kit, compare_scene *scene)
 {
     const lrcs_scene *mesh = &scene->host.scene;
+    if (scene->loaded) {
+        return 0;
+    }
+    scene->loaded = 1;
+    int code = cli_kit_scene(kit->folder, scene->name, kit->binding, kit->bindings, &scene->host);
+    if (code != 0) {
+        return code;
+    }
     scene->normal = calloc((size_t)mesh->vertex_count + 1, sizeof *scene->normal);
     if (!scene->normal) {
         return cli_out_of_memory();
     }
-    for (uint32_t i = 0; i < mesh->facet_count; i++) {
+    for (uint32_t i = 0; i < mesh->facet_count; i++) { /* means weighted by area */
         const uint32_t *v = mesh->facet[i].corner;
         const double *p[3] = {mesh->vertex[v[0]].x, mesh->vertex[v[1]].x, mesh->vertex[v[2]].x};
         for (int k = 0; k < 3; k++) {
@@ -175,22 +182,12 @@ static int normals_make(compare_scene *scene)
             int b = (k + 2) % 3;
             double n = (p[1][a] - p[0][a]) * (p[2][b] - p[0][b]) -
                        (p[1][b] - p[0][b]) * (p[2][a] - p[0][a]);
-            scene->normal[v[0]].x[k] += n;
-            scene->normal[v[1]].x[k] += n;
-            scene->normal[v[2]].x[k] += n;
+            for (int corner = 0; corner < 3; corner++) {
+                scene->normal[v[corner]].x[k] += n;
+            }
         }
     }
     return 0;
-}
-
-int cli_compare_scene(const compare_kit *kit, compare_scene *scene)
-{
-    if (scene->loaded) {
-        return 0;
-    }
-    scene->loaded = 1;
-    int code = cli_kit_scene(kit->folder, scene->name, kit->binding, kit->bindings, &scene->host);
-    return code ? code : normals_make(scene);
 }
 
 int cli_compare_run(const lrcs_host_scene *host, const lrcs_pose *pose, uint32_t without,
