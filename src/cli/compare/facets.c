@@ -63,25 +63,6 @@ static int facet_line(facets_read *facets, const compare_table *table)
 
 /* ---- differing ---- */
 
-/* Keeps the worst facets: those of failing cases first, then by the change relative to what the
-   case is allowed. */
-static void worst_take(compare_facets *facets, const compare_facet *off)
-{
-    uint32_t at = facets->worsts;
-    for (; at > 0; at--) {
-        const compare_facet *before = &facets->worst[at - 1];
-        if (off->failed != before->failed ? before->failed : before->weight >= off->weight) {
-            break;
-        }
-    }
-    if (at < COMPARE_NAMED) {
-        facets->worsts += facets->worsts < COMPARE_NAMED;
-        memmove(&facets->worst[at + 1], &facets->worst[at],
-                (facets->worsts - at - 1) * sizeof *facets->worst);
-        facets->worst[at] = *off;
-    }
-}
-
 static int facet_way(double whole, double truth, double theirs, double allowed)
 {
     double none = NONE_SEEN * whole;
@@ -118,8 +99,23 @@ static void facet_compare(facets_read *facets, const compare_case *one, uint32_t
     off.weight = sigma_allowed > 0.0 ? off.sigma_m2 / sigma_allowed : 0.0;
     off.failed = cli_compare_failed(job, one);
     off.way = facet_way(whole, truth, theirs, allowed);
-    facets->found->way[off.way]++;
-    worst_take(facets->found, &off);
+    compare_facets *found = facets->found;
+    found->way[off.way]++;
+    /* the worst are kept: those of failing cases first, then by the change relative to what the
+       case is allowed */
+    uint32_t at = found->worsts;
+    for (; at > 0; at--) {
+        const compare_facet *before = &found->worst[at - 1];
+        if (off.failed != before->failed ? before->failed : before->weight >= off.weight) {
+            break;
+        }
+    }
+    if (at < COMPARE_NAMED) {
+        found->worsts += found->worsts < COMPARE_NAMED;
+        memmove(&found->worst[at + 1], &found->worst[at],
+                (found->worsts - at - 1) * sizeof *found->worst);
+        found->worst[at] = off;
+    }
 }
 
 int cli_compare_facets(compare_job *job)

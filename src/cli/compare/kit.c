@@ -216,34 +216,30 @@ int cli_compare_records(const compare_kit *kit, compare_case *one)
 
 /* ---- lines of others ---- */
 
-static compare_scene *scene_find(const compare_kit *kit, const compare_table *table,
-                                 const char *name)
-{
-    const char *best = NULL;
-    int tiers = 0;
-    for (uint32_t i = 0; i < kit->scenes; i++) {
-        if (strcmp(kit->scene[i].name, name) == 0) {
-            return &kit->scene[i];
-        }
-        best = cli_nearest(name, best, kit->scene[i].name);
-        tiers = kit->scene[i].tier > tiers ? kit->scene[i].tier : tiers;
-    }
-    cli_table_refuse(table, 0, "a scene of the kit, which has tiers 1 .. %d (the nearest is %s)",
-                     tiers, best ? best : "none");
-    return NULL;
-}
-
 compare_case *cli_compare_find(const compare_kit *kit, const compare_table *table)
 {
     char name[KIT_NAME];
     const char *best = NULL;
+    const compare_scene *scene = NULL;
+    int tiers = 0;
     if (cli_table_name(table, 0, name) != 0) {
         return NULL;
     }
-    compare_scene *scene = scene_find(kit, table, name);
-    if (!scene || cli_table_name(table, 1, name) != 0) {
+    for (uint32_t i = 0; i < kit->scenes && !scene; i++) {
+        scene = strcmp(kit->scene[i].name, name) == 0 ? &kit->scene[i] : NULL;
+        best = cli_nearest(name, best, kit->scene[i].name);
+        tiers = kit->scene[i].tier > tiers ? kit->scene[i].tier : tiers;
+    }
+    if (!scene) {
+        cli_table_refuse(table, 0,
+                         "a scene of the kit, which has tiers 1 .. %d (the nearest is %s)", tiers,
+                         best ? best : "none");
         return NULL;
     }
+    if (cli_table_name(table, 1, name) != 0) {
+        return NULL;
+    }
+    best = NULL;
     for (uint32_t i = scene->first; i < scene->first + scene->count; i++) {
         if (strcmp(kit->list[i].attitude, name) == 0) {
             return &kit->list[i];
