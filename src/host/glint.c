@@ -13,7 +13,7 @@
 /* Neighbours that turn by less are treated as halves of one flat polygon; those that turn by more
    (60 deg), as faces of a box with a smoothing group. */
 #define FLAT_TURN  1e-3
-#define SHARP_TURN (LRCSI_PI / 3.0)
+#define SHARP_TURN (LRCS_PI / 3.0)
 
 /* An edge of a facet, lower vertex first. */
 typedef struct glint_edge {

@@ -143,7 +143,7 @@ static double mean_overdraw(const lrcsi_cost *cost)
 /* Random segments of total length L in a square of side 1 cross at L^2 / pi points (Crofton). */
 double lrcsi_cost_clip(const lrcsi_cost *cost, double undecided)
 {
-    double crossings = cost->borders * cost->borders / LRCSI_PI / mean_overdraw(cost);
+    double crossings = cost->borders * cost->borders / LRCS_PI / mean_overdraw(cost);
     return CLIP_FACET * cost->facets + CLIP_CASTING * cost->casting + CLIP_UNDECIDED * undecided +
            CLIP_CROSSING * crossings;
 }

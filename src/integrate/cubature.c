@@ -97,7 +97,7 @@ static double node_position_err(const lrcsi_cubature *sum, double u, double d, c
     if (glint_change <= 0.25 && diffuse_change <= 0.25) {
         return 2 * (at->glint * glint_change + at->diffuse * diffuse_change);
     }
-    lrcsi_reflection bound = lrcsi_reflect_most(brdf, atan(sqrt(u)), 2 * d);
+    lrcsi_reflection bound = lrcsi_reflect_bound(brdf, atan(sqrt(u)), 2 * d);
     return (glint_change <= 0.25 ? 2 * at->glint * glint_change : bound.glint) +
            (diffuse_change <= 0.25 ? 2 * at->diffuse * diffuse_change : bound.diffuse);
 }
@@ -233,7 +233,7 @@ static double cube_turn(const cube_cell *cell)
         tangent =
             lrcsi_most(tangent, dot > 0 ? sqrt(lrcsi_vec3_dot(cross, cross)) / dot : HUGE_VAL);
     }
-    return isfinite(tangent) ? atan(tangent) * (1 + 4 * LRCSI_U) + 16 * LRCSI_U : LRCSI_PI;
+    return isfinite(tangent) ? atan(tangent) * (1 + 4 * LRCSI_U) + 16 * LRCSI_U : LRCS_PI;
 }
 
 /* Errors of f_r cos below this are accepted. */
@@ -260,7 +260,7 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
     int serves = glint_resolved && diffuse_resolved;
     cell->skipped = 0;
     if (turn <= TURN_MAX && !serves) {
-        lrcsi_reflection bound = lrcsi_reflect_most(brdf, cell->theta, turn);
+        lrcsi_reflection bound = lrcsi_reflect_bound(brdf, cell->theta, turn);
         cell->skipped = (glint_resolved ? 0 : bound.glint) + (diffuse_resolved ? 0 : bound.diffuse);
         double sum_so_far =
             lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse) + sum->estimate;
@@ -457,8 +457,8 @@ static double cube_shortest(const cube_cell *cell)
 static double cube_upper_bound(const lrcsi_cubature *sum, const cube_cell *cell)
 {
     double err = 2 * sum->position_err / cube_shortest(cell);
-    double turn = err <= 1 ? cube_turn(cell) + err : LRCSI_PI;
-    lrcsi_reflection bound = lrcsi_reflect_most(sum->brdf, cell->theta, turn);
+    double turn = err <= 1 ? cube_turn(cell) + err : LRCS_PI;
+    lrcsi_reflection bound = lrcsi_reflect_bound(sum->brdf, cell->theta, turn);
     return bound.glint + bound.diffuse;
 }
 
@@ -601,10 +601,10 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     lrcsi_cubature sum = {.brdf = brdf, .tolerance = tolerance, .stack = stack};
     cube_cell cell = cube_of(normal, NULL, 0);
     cube_measure(&cell);
-    sum.upper_bound = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
+    sum.upper_bound = lrcsi_reflect_bound(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
     double farthest = cell.theta + cube_turn(&cell);
     sum.diffuse_min =
-        farthest < LRCSI_PI / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(farthest)), brdf->m + 1) : 0;
+        farthest < LRCS_PI / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(farthest)), brdf->m + 1) : 0;
     sum.negligible = NEGLIGIBLE * tolerance *
                      (sum.upper_bound.glint * lrcsi_least(1, brdf->s * brdf->s) +
                       sum.upper_bound.diffuse / (brdf->m + 1));
@@ -628,9 +628,9 @@ static double dark_position_err(const lrcsi_cubature *sum, const cube_cell *whol
         return 0;
     }
     double turn = cube_turn(whole);
-    double length = turn < LRCSI_PI / 2 ? cube_shortest(whole) * cos(turn) : 0;
+    double length = turn < LRCS_PI / 2 ? cube_shortest(whole) * cos(turn) : 0;
     double err = 2 * sum->position_err / length;
-    lrcsi_reflection seen = lrcsi_reflect_most(sum->brdf, LRCSI_PI / 2, err <= 1 ? err : LRCSI_PI);
+    lrcsi_reflection seen = lrcsi_reflect_bound(sum->brdf, LRCS_PI / 2, err <= 1 ? err : LRCS_PI);
     return seen.glint + seen.diffuse;
 }
 

@@ -13,15 +13,15 @@ typedef struct lrcsi_patch {
     double diffuse_log;  /* the mean of log(1 + u) times the diffuse part */
     double remainder;    /* a bound on the error of glint + diffuse from the quadrature rule */
     double rounding;     /* a bound on their rounding error */
-    double blur;         /* rounding of the facets' corners changes a share of their area by at most
-                            this, relative */
-    lrcsi_wall_patch at; /* where it is, */
-    uint32_t part;       /* on which part, */
+    double area_err;     /* rounding of the facets' corners changes a share of their area by at most
+                          this, relative */
+    lrcsi_wall_patch at; /* where it is on the shape */
+    uint32_t part;       /* the shape */
     int side;            /* 1: from outside, -1: from inside; 0: this is no patch yet */
     int known;           /* lrcsi_patch_make returned 1 */
 } lrcsi_patch;
 
-/* 1 if a facet may stand for a patch: one of the curved wall of a shape placed without distortion.
+/* 1 if a facet may represent a patch: one of the curved wall of a shape placed without distortion.
  */
 int lrcsi_patch_exists(const lrcs_prepared *prepared, uint32_t facet);
 

@@ -182,13 +182,13 @@ static void bin_add_smooth(profile_run *run, const profile_facet *f, uint32_t i,
     sum.area = area;
     sum.weight = weight;
     lrcsi_cubature_add(&sum, normal, area);
-    double glint = LRCSI_FOUR_PI * lrcsi_sum_value(&sum.glint);
-    double diffuse = LRCSI_FOUR_PI * lrcsi_sum_value(&sum.diffuse);
+    double glint = LRCS_FOUR_PI * lrcsi_sum_value(&sum.glint);
+    double diffuse = LRCS_FOUR_PI * lrcsi_sum_value(&sum.diffuse);
     double relative = f->curve->incidence.error + 16 * LRCSI_U + PART_ERROR;
-    bin_add(run, i, glint, diffuse, LRCSI_FOUR_PI * lrcsi_sum_value(&sum.weighted),
-            LRCSI_FOUR_PI * (sum.rounding + sum.unresolved) + relative * (glint + diffuse));
-    run->bin[i].estimate += LRCSI_FOUR_PI * sum.estimate;
-    run->estimate += LRCSI_FOUR_PI * sum.estimate;
+    bin_add(run, i, glint, diffuse, LRCS_FOUR_PI * lrcsi_sum_value(&sum.weighted),
+            LRCS_FOUR_PI * (sum.rounding + sum.unresolved) + relative * (glint + diffuse));
+    run->bin[i].estimate += LRCS_FOUR_PI * sum.estimate;
+    run->estimate += LRCS_FOUR_PI * sum.estimate;
 }
 
 /* --- ranges ----------------------------------------------------------------------------------- */
@@ -489,7 +489,7 @@ static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occluding 
     if (lrcsi_curve_applies(run->view, facet)) {
         lrcsi_curve_integral_make(&run->curves, facet, &curve);
         f.curve = &curve;
-        f.upper_bound = LRCSI_FOUR_PI * lrcsi_curve_upper_bound(&curve) * (1 + incidence.error);
+        f.upper_bound = LRCS_FOUR_PI * lrcsi_curve_upper_bound(&curve) * (1 + incidence.error);
     } else {
         lrcsi_facet_terms terms =
             lrcsi_facet_terms_make(run->view, &run->plan, facet, &incidence, &whole, &run->patch);
@@ -574,7 +574,7 @@ static void tessellation_charge(profile_run *run, uint32_t facet)
         lrcsi_most(t.z[2], lrcsi_most(other.range[0], lrcsi_most(other.range[1], other.range[2])));
     uint32_t begin = bin_of(run, low - reach);
     uint32_t end = bin_of(run, high + reach);
-    double whole = LRCSI_FOUR_PI * parts.whole;
+    double whole = LRCS_FOUR_PI * parts.whole;
     run->tessellation += whole;
     if (!(whole > 0) && !(parts.lit && reach > 0 && parts.shift > 0)) {
         return;
@@ -585,9 +585,9 @@ static void tessellation_charge(profile_run *run, uint32_t facet)
         double to = edge_of(run, i + 1);
         double fraction = fraction_between(t.z, from - reach, to + reach);
         double shifted = fraction_between(t.z, from - reach, from + reach) +
-                         fraction_between(t.z, to - reach, to + reach) + parts.share;
-        double general = LRCSI_FOUR_PI * (parts.bend * fraction + parts.shift * shifted);
-        double larger = parts.lit ? LRCSI_FOUR_PI * parts.most * fraction : whole;
+                         fraction_between(t.z, to - reach, to + reach) + parts.mismatch;
+        double general = LRCS_FOUR_PI * (parts.deviation * fraction + parts.shift * shifted);
+        double larger = parts.lit ? LRCS_FOUR_PI * parts.most * fraction : whole;
         general = parts.lit ? general : HUGE_VAL;
         run->bin[i].tessellation_variation += lrcsi_least(general, 2 * larger);
         run->bin[i].tessellation += begin == end ? whole : lrcsi_least(general, larger);
@@ -673,7 +673,7 @@ static int curved_take(profile_run *run, const lrcsi_classification *classificat
         run->visible = lrcsi_work_take_zero(work, p->scene->facet_count, sizeof *run->visible);
         int status = run->visible ? LRCS_OK : LRCS_E_MEMORY;
         if (status == LRCS_OK && run->plan.proximity_band) {
-            status = lrcsi_proximity_band_make(classification, work, &run->band_memory);
+            status = lrcsi_proximity_band_make(classification, NULL, work, &run->band_memory);
             run->band = &run->band_memory;
         }
         if (status != LRCS_OK) {
@@ -682,7 +682,7 @@ static int curved_take(profile_run *run, const lrcsi_classification *classificat
     }
     if (p->smooth) {
         run->curve_options =
-            (lrcsi_curve_options){&run->plan, CURVE_TOLERANCE, lrcsi_cubature_stack(work), 0};
+            (lrcsi_curve_options){&run->plan, CURVE_TOLERANCE, NULL, lrcsi_cubature_stack(work), 0};
         if (!run->curve_options.stack) {
             return LRCS_E_MEMORY;
         }
@@ -699,7 +699,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     const lrcsi_clear clear = {0};
     lrcsi_classification classification;
     lrcsi_occluding o;
-    int status = lrcsi_plan_view(p, pose, &options, work, view);
+    int status = lrcsi_view_face(p, pose, lrcsi_plan_backs(p, &options), work, view);
     status = status == LRCS_OK ? lrcsi_view_project(work, view) : status;
     if (status != LRCS_OK) {
         return status;
@@ -710,10 +710,10 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     if (status == LRCS_OK) {
         run->bin = lrcsi_work_take_zero(work, run->count, sizeof *run->bin);
         run->begin = run->count;
-        status = run->bin ? lrcsi_classify_make(view, work, &classification) : LRCS_E_MEMORY;
+        status = run->bin ? lrcsi_classify_make(view, NULL, work, &classification) : LRCS_E_MEMORY;
     }
     status = status == LRCS_OK ? curved_take(run, &classification, work) : status;
-    status = status == LRCS_OK ? lrcsi_occlude_make(&classification, work, &o) : status;
+    status = status == LRCS_OK ? lrcsi_occlude_make(&classification, NULL, work, &o) : status;
     for (uint32_t facet = 0; facet < p->scene->facet_count && status == LRCS_OK; facet++) {
         if (view->facing[facet] != 0 && lrcsi_view_reflects(view, facet) &&
             lrcsi_grid_casts(view, facet)) {
@@ -829,7 +829,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
                        double *density_m, double *bound_m, double *estimate_m)
 {
     double d = fwhm_m / FWHM_DEVIATIONS;
-    double peak = 1 / (d * sqrt(2 * LRCSI_PI));
+    double peak = 1 / (d * sqrt(2 * LRCS_PI));
     lrcsi_sum density = {0, 0};
     double bound = 0;
     double estimate = 0;

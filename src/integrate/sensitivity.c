@@ -34,7 +34,7 @@ static double visible_fraction(const lrcsi_view *view, const lrcsi_areas *areas,
 static void response_add_facet(const lrcsi_view *view, const lrcs_brdf *brdf, uint32_t facet,
                                double fraction, double u, lrcsi_response *response)
 {
-    double weight = LRCSI_FOUR_PI * 0.5 * view->prepared->normal[facet].length * fraction;
+    double weight = LRCS_FOUR_PI * 0.5 * view->prepared->normal[facet].length * fraction;
     if (!isfinite(u)) {
         return;
     }
@@ -51,7 +51,7 @@ static void response_add_facet(const lrcsi_view *view, const lrcs_brdf *brdf, ui
 static void response_add_patch(const lrcsi_view *view, double s, uint32_t facet, double fraction,
                                const lrcsi_patch *patch, lrcsi_response *response)
 {
-    double weight = LRCSI_FOUR_PI * 0.5 * view->prepared->normal[facet].length * fraction;
+    double weight = LRCS_FOUR_PI * 0.5 * view->prepared->normal[facet].length * fraction;
     double slope = patch->glint_u > 0 ? 2 * (patch->glint_u / s / s) / s : 0;
     lrcsi_sum_add(&response->glint, weight * patch->glint);
     lrcsi_sum_add(&response->glint_s, weight * slope);

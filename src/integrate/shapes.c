@@ -30,7 +30,7 @@ static double glint_peak_bound(double s)
 static double shape_surface_bound(const lrcs_shape *shape)
 {
     double radius = fmax(shape->radius, shape->radius2);
-    return 4 * LRCSI_PI * radius * (radius + lrcsi_closed_length(shape));
+    return 4 * LRCS_PI * radius * (radius + lrcsi_closed_length(shape));
 }
 
 /* Adds the error that eta causes. */
@@ -75,12 +75,12 @@ lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_pla
         add_axis_error(&placed->shape, &brdf, &sum);
     }
     lrcsi_closed_scale(&sum, unit * unit, 1);
-    lrcsi_closed_scale(&sum, LRCSI_FOUR_PI, 1);
+    lrcsi_closed_scale(&sum, LRCS_FOUR_PI, 1);
     double bound = (brdf.A > 0 ? brdf.A * glint_peak_bound(brdf.s) : 0) + brdf.B;
     return (lrcsi_shape_terms){.glint = sum.value[LRCSI_GLINT],
                                .diffuse = sum.value[LRCSI_DIFFUSE],
                                .rounding = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE],
-                               .visibility = LRCSI_FOUR_PI * 1.000001 * slab * bound,
+                               .visibility = LRCS_FOUR_PI * 1.000001 * slab * bound,
                                .silhouette = silhouette * unit * unit};
 }
 
@@ -150,7 +150,7 @@ lrcsi_shape_response lrcsi_shape_response_make(const lrcsi_view *view, uint32_t 
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *placed = &p->scene->part[part];
     double unit = ldexp(placed->unit, -p->exponent);
-    double scale = LRCSI_FOUR_PI * unit * unit;
+    double scale = LRCS_FOUR_PI * unit * unit;
     double s = brdf->s >= 0x1p-333 && brdf->s <= 0x1p333 ? brdf->s : 0;
     double term[2];
     lrcsi_dd direction[3];

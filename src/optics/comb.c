@@ -13,7 +13,7 @@
 
 double lrcsi_comb_error(double turn, double s)
 {
-    double comb = LRCSI_PI * s / turn;
+    double comb = LRCS_PI * s / turn;
     return turn * turn / 24.0 + 2.0 * exp(-comb * comb);
 }
 
@@ -21,13 +21,13 @@ double lrcsi_comb_around(double s, double most)
 {
     double low = 2.0;
     double high = 3.0;
-    while (lrcsi_comb_error(2.0 * LRCSI_PI / high, s) > most && high < 1e15) {
+    while (lrcsi_comb_error(2.0 * LRCS_PI / high, s) > most && high < 1e15) {
         low = high;
         high *= 2.0;
     }
     while (high - low > 1.0) { /* the error falls with N */
         double middle = floor(0.5 * (low + high));
-        if (lrcsi_comb_error(2.0 * LRCSI_PI / middle, s) > most) {
+        if (lrcsi_comb_error(2.0 * LRCS_PI / middle, s) > most) {
             low = middle;
         } else {
             high = middle;

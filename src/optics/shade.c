@@ -86,8 +86,8 @@ static int in_range(double x, double low, double high)
 
 lrcsi_lobes lrcsi_lobes_make(const lrcs_brdf *brdf, int glint, int diffuse)
 {
-    lrcsi_lobes lobes = {.A = LRCSI_FOUR_PI * brdf->A,
-                         .B = LRCSI_FOUR_PI * brdf->B,
+    lrcsi_lobes lobes = {.A = LRCS_FOUR_PI * brdf->A,
+                         .B = LRCS_FOUR_PI * brdf->B,
                          .m = brdf->m,
                          .low = SHADE_GRAZING,
                          .high = 2,

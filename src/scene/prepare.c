@@ -224,7 +224,7 @@ static int prepare_edges(lrcs_prepared *p, lrcs_work *work)
                                work, &p->topology);
 }
 
-/* Coincident facets come before neighbours: a redundant facet is nobody's neighbour. */
+/* Coincident facets come before neighbours: a redundant facet is not a neighbour of any other. */
 static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
 {
     const lrcs_scene *scene = p->scene;
@@ -258,10 +258,10 @@ static int contacts_of_convex(lrcs_prepared *p, lrcs_work *work)
     return LRCS_OK;
 }
 
-/* Pieces of surface are distinguished first, for contacts within one piece. Not searched are
-   redundant facets, and of opposite pairs the second, which gets a copy of the first one's list.
-   Then whether the scene is solid. This stage comes before the normals: they use the memory of its
-   scratch. */
+/* Pieces of surface are distinguished first, for contacts within one piece. Redundant facets are
+   not searched, nor the second facet of an opposite pair, which gets a copy of the first one's
+   list. Then the proof that the scene is solid. This stage comes before the normals, which use the
+   memory of its scratch. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 {
     uint32_t facets = p->scene->facet_count;
@@ -304,8 +304,8 @@ static int prepare_normals(lrcs_prepared *p, lrcs_work *work)
     return lrcsi_batches_make(p, work);
 }
 
-/* Is a solid scene convex (one piece of surface, as a convex body is)? How close are curved shapes
-   to each other, and what is the extent of parts? Last, the runs of facets. */
+/* Proves that a solid scene is convex, if it is one piece of surface; finds which facets are close
+   to curved shapes, and the extents of parts; last, makes the runs of facets. */
 static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
 {
     int status = LRCS_OK;

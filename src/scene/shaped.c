@@ -110,7 +110,7 @@ void lrcsi_shaped_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, doub
         part->tilted = 1.000001 * wide * e / altitude;
         part->curvature_known = part->curvature_known && altitude > 0.0;
         part->curvature = part->curvature.turn > 0.0
-                              ? lrcsi_profile_blurred(&part->curvature, part->tilted)
+                              ? lrcsi_profile_rounded(&part->curvature, part->tilted)
                               : part->curvature;
     }
 }

@@ -76,7 +76,7 @@ static double angle_of(const double a[3], const double b[3])
     /* tan of the half; beyond a right angle by the other formula, without cancellation */
     double t = dot >= 0.0 ? size / (whole + dot) : (whole - dot) / size;
     if (!(t < 0x1p60)) {
-        return LRCSI_PI;
+        return LRCS_PI;
     }
     for (int i = 0; i < 5; i++) {
         t = t / (1.0 + sqrt(1.0 + t * t));

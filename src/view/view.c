@@ -27,7 +27,7 @@ static inline double normal_products(const double *high, const double *low, cons
     return lrcsi_product_dot(high, low, d);
 }
 
-/* The absolute error of both, per unit of |d|. */
+/* A bound on the absolute errors of |N x d| and N . d, per unit of |d|. */
 static double normal_off(const lrcsi_normal *n)
 {
     return 21 * LRCSI_U * LRCSI_U * n->length + n->error;
@@ -57,17 +57,17 @@ static double grazing_dot(const lrcsi_view *view, uint32_t facet)
                            lrcsi_prepared_corner(view->prepared, facet, 2), view->direction);
 }
 
-/* A dot product below this multiple of its error is taken exactly. */
+/* A dot product below this multiple of its error is computed exactly. */
 #define GRAZING_DOT 0x1p50
 /* Closer to edge-on than this, only a lower bound of tan^2 is known: about 2^1000, still a double.
  */
 #define GRAZING_LEAST 0x1p-500
 
-/* |N . d| and its error: the computed value, or near grazing incidence the exact one, to 2 u; too
-   close to edge-on to be decided, only a lower bound. */
+/* |N . d| and a bound on its error: the computed value or, near grazing incidence, the exact one to
+   2 u. Closer to edge-on than GRAZING_LEAST it is replaced by that bound. */
 typedef struct incidence_dot {
-    double value, off;
-    int least;
+    double value, err;
+    int replaced;
 } incidence_dot;
 
 static incidence_dot incidence_dot_of(const lrcsi_view *view, uint32_t facet, double product,
@@ -76,12 +76,12 @@ static incidence_dot incidence_dot_of(const lrcsi_view *view, uint32_t facet, do
     incidence_dot dot = {fabs(product), off, 0};
     if (!(dot.value > GRAZING_DOT * off)) {
         dot.value = fabs(grazing_dot(view, facet));
-        dot.off = 2 * LRCSI_U * dot.value;
+        dot.err = 2 * LRCSI_U * dot.value;
     }
     double least = GRAZING_LEAST * view->prepared->normal[facet].length * view->length;
     if (dot.value < least) {
         dot.value = least;
-        dot.least = 1;
+        dot.replaced = 1;
     }
     return dot;
 }
@@ -106,8 +106,8 @@ static lrcsi_incidence incidence_make(const lrcsi_view *view, uint32_t facet, do
     double off = normal_off(n) * view->length;
     double cross = lrcsi_length(cross_product);
     incidence_dot dot = incidence_dot_of(view, facet, product, off);
-    double relative = dot.off / dot.value;
-    incidence.error = dot.least ? 2 : 2 * relative + n->error / n->length + 8 * LRCSI_U;
+    double relative = dot.err / dot.value;
+    incidence.error = dot.replaced ? 2 : 2 * relative + n->error / n->length + 8 * LRCSI_U;
     incidence.tan2_err = 4 * relative + 12 * LRCSI_U;
     if (cross > 1000 * off) {
         incidence.tan2_err += 2.1 * off / cross;
@@ -115,7 +115,7 @@ static lrcsi_incidence incidence_make(const lrcsi_view *view, uint32_t facet, do
         cross += off;
         incidence.tan2_err = 1;
     }
-    incidence.tan2_err = dot.least ? HUGE_VAL : incidence.tan2_err;
+    incidence.tan2_err = dot.replaced ? HUGE_VAL : incidence.tan2_err;
     incidence.tan2 = (cross / dot.value) * (cross / dot.value);
     incidence.cos_theta = facing * lrcsi_least(1, dot.value / (n->length * view->length));
     incidence.projected = incidence_projected(view, dot);
@@ -271,15 +271,14 @@ size_t lrcsi_view_face_need(const lrcs_prepared *prepared)
     return lrcsi_work_bytes(prepared->scene->facet_count, 1);
 }
 
-int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
-                    lrcsi_view *view)
+int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_view_backs backs,
+                    lrcs_work *work, lrcsi_view *view)
 {
-    lrcsi_view v = {.prepared = prepared};
+    lrcsi_view v = {.prepared = prepared, .backs = backs};
     int status = lrcsi_ieee_kept() ? lrcsi_frame_make(pose, v.direction, v.R) : LRCS_E_UNSUPPORTED;
     if (status != LRCS_OK) {
         return status;
     }
-    v.backs_cast = v.backs_reflect = !prepared->solid;
     v.facing = lrcsi_work_take(work, prepared->scene->facet_count, sizeof *v.facing);
     if (!v.facing) {
         return LRCS_E_MEMORY;
@@ -333,7 +332,8 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
 {
     lrcsi_view v;
     size_t mark = work->used;
-    int status = lrcsi_view_face(prepared, pose, work, &v);
+    const lrcsi_view_backs backs = {!prepared->solid, !prepared->solid};
+    int status = lrcsi_view_face(prepared, pose, backs, work, &v);
     if (status == LRCS_OK) {
         status = lrcsi_view_project(work, &v);
     }

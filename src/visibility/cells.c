@@ -253,7 +253,6 @@ static int block_wanted(const lrcsi_cells_work *c, size_t block)
 
 static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
 {
-    lrcsi_meter *meter = c->view->meter;
     size_t block = (size_t)y * c->grid.side + x;
     if (!block_wanted(c, block)) {
         return;
@@ -273,7 +272,7 @@ static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
     while (c->top > 0) {
         cell = lrcsi_cells_take(c);
         uint64_t steps = (uint64_t)1 + cell.facets + cell.segments;
-        if (steps > most || !lrcsi_meter_take(meter, steps)) {
+        if (steps > most || !lrcsi_meter_take(c->meter, steps)) {
             block_leave(c, block);
             return;
         }
@@ -404,13 +403,14 @@ static int cells_make(const lrcsi_classification *classification, const unsigned
     return segments < LRCS_NONE && c->segments && c->segment;
 }
 
-void lrcsi_cells_areas(const lrcsi_classification *classification, lrcs_work *work,
-                       const unsigned char *answer, unsigned char *open, lrcsi_visible *visible)
+void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *meter,
+                       lrcs_work *work, const unsigned char *answer, unsigned char *open,
+                       lrcsi_visible *visible)
 {
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;
     size_t peak = work->peak; /* restored if memory does not suffice: it is no failure then */
-    lrcsi_cells_work c = {.view = view, .frame = {.view = view}, .open = open};
+    lrcsi_cells_work c = {.view = view, .meter = meter, .frame = {.view = view}, .open = open};
     c.trifle = 0x1p-10 * ACCURACY_OF_SCENE * extent_of(view->prepared) * extent_of(view->prepared);
     if (!view->prepared->convex && cells_make(classification, answer, work, &c)) {
         for (uint32_t y = 0; y < c.grid.side; y++) {

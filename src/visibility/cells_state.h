@@ -75,6 +75,7 @@ enum {
 
 typedef struct lrcsi_cells_work {
     const lrcsi_view *view;
+    lrcsi_meter *meter; /* limit on steps; NULL: none */
     lrcsi_cells_grid grid;
     lrcsi_cells_frame frame;
     unsigned char *open;  /* facet: 1 if its area is wanted */

@@ -11,27 +11,34 @@
 
 /* --- one edge --------------------------------------------------------------------------------- */
 
-/* In projection a facet
-   lies to the left of its side if it faces the laser, otherwise to the right. Two facets lie on
-   opposite sides of an edge if and only if they traverse it in opposite directions and face the
-   same way, or in the same direction and face opposite ways (as where the winding of a surface
-   changes). */
-int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2])
+/* In projection a facet lies to the left of its side if it faces the laser, otherwise to the right.
+   Two facets lie on opposite sides of an edge if and only if they traverse it in opposite
+   directions and face the same way, or in the same direction and face opposite ways (as where the
+   winding of a surface changes). */
+int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part, uint32_t pair[2])
 {
-    const lrcsi_topology *t = &view->prepared->topology;
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_topology *t = &p->topology;
     const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
     uint32_t count = 0;
-    int left = 0; /* facets on the left of the edge, less those on the right */
+    uint32_t forward = 0; /* facets that traverse the edge in its own direction */
+    int left = 0;         /* facets on the left of the edge, less those on the right */
     for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
-        if (lrcsi_grid_casts(view, use[i].facet)) {
-            pair[count < 2 ? count : 1] = use[i].facet;
+        uint32_t f = use[i].facet;
+        if (part == LRCS_NONE ? lrcsi_grid_casts(view, f)
+                              : p->scene->facet_part[f] == part && !p->skip[f]) {
+            pair[count < 2 ? count : 1] = f;
             count++;
-            left += use[i].forward ? view->facing[use[i].facet] : -view->facing[use[i].facet];
+            forward += use[i].forward;
+            left += use[i].forward ? view->facing[f] : -view->facing[f];
         }
     }
-    return count == 0                ? LRCSI_EDGE_UNUSED
-           : count == 2 && left == 0 ? LRCSI_EDGE_JOINS
-                                     : LRCSI_EDGE_EVENT;
+    if (count == 0) {
+        return LRCSI_EDGE_UNUSED;
+    }
+    int opposite = count == 2 && left == 0;
+    int continues = part == LRCS_NONE || (forward == 1 && view->facing[pair[0]] != 0);
+    return opposite && continues ? LRCSI_EDGE_JOINS : LRCSI_EDGE_EVENT;
 }
 
 /* --- all edges -------------------------------------------------------------------------------- */
@@ -99,7 +106,7 @@ static void mark_irregular(const lrcsi_view *view, uint32_t *mark)
     const lrcsi_across *across = &view->prepared->across;
     for (uint32_t i = 0; i < across->irregular_count; i++) {
         uint32_t pair[2];
-        if (lrcsi_edge_kind_of(view, across->irregular[i], pair) == LRCSI_EDGE_EVENT) {
+        if (lrcsi_edge_kind_of(view, across->irregular[i], LRCS_NONE, pair) == LRCSI_EDGE_EVENT) {
             mark_edge_event(mark, across->irregular[i]);
         }
     }
@@ -235,7 +242,7 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
     }
     for (uint32_t i = 0; i < p->across.irregular_count; i++) {
         uint32_t pair[2];
-        if (lrcsi_edge_kind_of(view, p->across.irregular[i], pair) == LRCSI_EDGE_JOINS &&
+        if (lrcsi_edge_kind_of(view, p->across.irregular[i], LRCS_NONE, pair) == LRCSI_EDGE_JOINS &&
             joinable[pair[0]] != 0 && joinable[pair[1]] != 0) {
             lrcsi_join(group, item_of(p, joinable, pair[0]), item_of(p, joinable, pair[1]));
         }

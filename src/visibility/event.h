@@ -20,8 +20,11 @@ enum lrcsi_edge_kind {
     LRCSI_EDGE_EVENT
 };
 
-/* The kind of an edge, of any number of facets; if it joins two, they are returned in pair. */
-int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t pair[2]);
+/* The kind of an edge, of any number of facets; if it joins two, they are returned in pair.
+   part: LRCS_NONE, or a part of the scene, as if it were alone. Then its facets count whether or
+   not they can hide anything, and only two of consistent winding that are not seen edge-on are
+   joined: the true surface of the part continues from one to the other. */
+int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part, uint32_t pair[2]);
 
 size_t lrcsi_events_need(const lrcs_prepared *prepared);
 

@@ -55,7 +55,8 @@ typedef struct query_line {
     lrcsi_view_box at;  /* the line in the view; in depth, the whole facet */
     int sense;          /* the sense of the infinitesimal by which it is moved */
     lrcsi_cells cells;
-    uint32_t y, item, end; /* the current row of cells, and its remaining items */
+    uint32_t y;             /* the next row of cells */
+    lrcsi_grid_items items; /* of the row before it, those that remain */
 } query_line;
 
 /* Finds the grid cells of the line through line->point. */
@@ -109,18 +110,16 @@ static uint32_t line_next(query_line *line)
 {
     const lrcsi_grid *grid = line->grid;
     for (;;) {
-        while (line->item == line->end) {
+        while (line->items.from == line->items.to) {
             if (line->y == line->cells.y1) {
                 return LRCS_NONE;
             }
-            size_t row = (size_t)line->y++ * grid->size;
-            line->item = grid->first[row + line->cells.x0];
-            line->end = grid->first[row + line->cells.x1];
-            if (!lrcsi_meter_take(line->meter, line->end - line->item)) {
+            line->items = lrcsi_grid_row_items(grid, line->y++, line->cells.x0, line->cells.x1);
+            if (!lrcsi_meter_take(line->meter, line->items.to - line->items.from)) {
                 return LRCS_NONE;
             }
         }
-        uint32_t other = grid->item[line->item++];
+        uint32_t other = grid->item[line->items.from++];
         const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
         if (other != line->facet && !lrcsi_view_box_beside(its, &line->at) &&
             !lrcsi_view_box_behind(its, &line->at) && line_meets(line, other)) {

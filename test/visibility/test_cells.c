@@ -14,6 +14,7 @@ static lrcsi_view view;
 static lrcsi_classification classification;
 static lrcsi_visible found[SCENE_FACETS];
 static unsigned char open[SCENE_FACETS];
+static lrcsi_meter *limit; /* NULL: none */
 
 static void turned(const double direction[3])
 {
@@ -21,7 +22,7 @@ static void turned(const double direction[3])
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
 }
 
 /* Asks for all facets that can be seen, undecided or not. Returns how many there are; *left is how
@@ -34,7 +35,7 @@ static uint32_t ask(uint32_t *left)
         open[f] = lrcsi_grid_casts(&view, f) != 0;
         asked += open[f];
     }
-    lrcsi_cells_areas(&classification, &work, NULL, open, found);
+    lrcsi_cells_areas(&classification, limit, &work, NULL, open, found);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         *left += open[f];
     }
@@ -50,7 +51,7 @@ static uint32_t agree(const double direction[3])
     turned(direction);
     uint32_t asked = ask(&left);
     lrcsi_occluding o;
-    assert_int_equal(lrcsi_occlude_make(&classification, &work, &o), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_make(&classification, NULL, &work, &o), LRCS_OK);
     const double *bulk = view.prepared->bulk;
     double extent = 2 * fmax(bulk[0], fmax(bulk[1], bulk[2]));
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
@@ -367,8 +368,9 @@ static void hatch_takes_steps_like_the_pieces_that_are_seen(void **state)
         lrcsi_meter meter = {.most = UINT64_MAX};
         hatch(50 << i);
         turned((const double[3]){0, 0, 1});
-        view.meter = &meter;
+        limit = &meter;
         assert_int_equal(ask(&left), 4 * (50 << i));
+        limit = NULL;
         assert_int_equal(left, 0);
         steps[i] = meter.taken;
     }
@@ -384,8 +386,9 @@ static void steps_that_run_out_leave_facets_open(void **state)
         uint32_t left;
         lrcsi_meter meter = {.most = most};
         turned((const double[3]){0, 0, 1});
-        view.meter = &meter;
+        limit = &meter;
         uint32_t asked = ask(&left);
+        limit = NULL;
         assert_true(meter.spent ? left > 0 : left == 0);
         assert_true(left <= asked && meter.taken <= most);
     }
@@ -448,7 +451,7 @@ static void hidden_facets_are_left_out_and_change_nothing(void **state)
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         open[f] = 1;
     }
-    lrcsi_cells_areas(&classification, &work, answer, open, found);
+    lrcsi_cells_areas(&classification, NULL, &work, answer, open, found);
     uint32_t hidden = 0;
     uint32_t crossed = 0;
     double seen = 0;

@@ -19,7 +19,7 @@ static void look_from(double x, double y, double z)
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction((const double[3]){x, y, z}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
     lrcsi_classify_regions(&classification);
     assert_int_equal(
         lrcsi_grid_facets(&classification.grid, &classification.boxes, NULL, &work, &facets),
@@ -86,8 +86,8 @@ static void boundary_edges_in_front_make_facets_that_they_cross_undecided(void *
     assert_int_equal(classification.events.count, 8);
     assert_true(classification.undecided[0]);
     assert_false(classification.undecided[1]);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 1, view.meter), 0);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 1, NULL), 0);
     assert_int_equal(classification.undecided[2] + classification.undecided[3], 0); /* the nearer */
     assert_int_equal(lrcsi_query_facet(&facets, 1, NULL), LRCSI_QUERY_VISIBLE);
     look_from(0, 0, -1); /* from behind the large one hides the small one whole */
@@ -106,13 +106,13 @@ static void crossings_are_searched_for_once(void **state)
     look_from(0, 0, 1);
     uint32_t found[4];
     uint32_t before = classification.asked;
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
     assert_int_equal(classification.asked, before + 1);
     memcpy(found, classification.crossing, sizeof found);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 1, view.meter), 0);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 1, NULL), 0);
     assert_int_equal(classification.asked, before + 2);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
     assert_memory_equal(classification.crossing, found, sizeof found);
     assert_int_equal(classification.asked, before + 3);
 }
@@ -134,7 +134,7 @@ static void boundary_edges_behind_a_facet_do_not_make_it_undecided(void **state)
     scene_facet(&scene, v, v + 1, v + 2);
     look_from(0, 0, 1);
     assert_false(classification.undecided[0]);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 0);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 0);
     assert_true(classification.undecided[1]);
 }
 
@@ -169,7 +169,7 @@ static void piercing_and_overlapping_facets_make_each_other_undecided(void **sta
     look_from(0, 0, 1);
     assert_false(classification.undecided[0]);
     assert_true(classification.undecided[2] && classification.undecided[3]);
-    assert_true(lrcsi_query_screened(&classification, &facets, 2, view.meter) == 0);
+    assert_true(lrcsi_query_screened(&classification, &facets, 2, NULL) == 0);
 }
 
 /* Of every edge of the scene: it is listed as an event if it is one, and joins two facets into one
@@ -333,8 +333,8 @@ static void whole_components_screen_and_others_do_not(void **state)
     uint32_t screen = square(-1, -1, 2, 6);
     look_from(0.125, 0, 1);
     assert_true(classification.undecided[low]);
-    assert_true(lrcsi_query_screened(&classification, &facets, low, view.meter));
-    assert_false(lrcsi_query_screened(&classification, &facets, screen, view.meter));
+    assert_true(lrcsi_query_screened(&classification, &facets, low, NULL));
+    assert_false(lrcsi_query_screened(&classification, &facets, screen, NULL));
 
     scene_start(&scene);
     low = square(0, 0, 0, 4);
@@ -344,7 +344,7 @@ static void whole_components_screen_and_others_do_not(void **state)
                 (const double[3]){0, 6, 0});
     look_from(0, 0, 1);
     assert_true(classification.undecided[low]);
-    assert_false(lrcsi_query_screened(&classification, &facets, low, view.meter));
+    assert_false(lrcsi_query_screened(&classification, &facets, low, NULL));
 
     scene_start(&scene);
     low = scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
@@ -352,7 +352,7 @@ static void whole_components_screen_and_others_do_not(void **state)
     square(-1, -1, 2, 6); /* the tip looks out of it */
     look_from(0, -1, 3);
     assert_true(classification.undecided[low]);
-    assert_false(lrcsi_query_screened(&classification, &facets, low, view.meter));
+    assert_false(lrcsi_query_screened(&classification, &facets, low, NULL));
 }
 
 static int listed(const lrcsi_grid *grid, const double xy[2], uint32_t item)
@@ -487,8 +487,7 @@ static void stacked_facets_are_classified_in_linear_time(void **state)
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction((const double[3]){0.3, 0.2, 0.9}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    view.meter = &meter;
-    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, &meter, &work, &classification), LRCS_OK);
     assert_true(classification.undecided_count >= 999);
     assert_true(meter.taken <= 600 * 1000);
 }

@@ -36,11 +36,11 @@ typedef struct factor_entry {
 } factor_entry;
 
 static const factor_entry factors[] = {
-    {0.25 / CLI_PI, "missing-4-pi", "4 pi is missing"},
-    {4.0 * CLI_PI, "twice-4-pi", "4 pi counts twice"},
+    {0.25 / LRCS_PI, "missing-4-pi", "4 pi is missing"},
+    {LRCS_FOUR_PI, "twice-4-pi", "4 pi counts twice"},
     {0.25, "missing-4", "4 is missing of 4 pi"},
-    {1.0 / CLI_PI, "missing-pi", "pi is missing of 4 pi, or f_r is divided by pi once more"},
-    {CLI_PI, "twice-pi", "pi counts twice, or a reflectance in place of f_r"},
+    {1.0 / LRCS_PI, "missing-pi", "pi is missing of 4 pi, or f_r is divided by pi once more"},
+    {LRCS_PI, "twice-pi", "pi counts twice, or a reflectance in place of f_r"},
     {0.5, "half", "2 pi in place of 4 pi, or half the area"},
     {2.0, "twice", "something counts twice: both triangles, both sides?"},
     {4.0, "four-times", "the side of a pixel or of the window is taken twice as long"},

@@ -146,7 +146,7 @@ static void facet_compare(facets_read *facets, const compare_case *one, uint32_t
     if (fabs(theirs - truth) <= allowed) {
         return;
     }
-    off.sigma_m2 = 4.0 * CLI_PI * lrcs_brdf_eval(brdf, c) * c * fabs(theirs - truth);
+    off.sigma_m2 = LRCS_FOUR_PI * lrcs_brdf_eval(brdf, c) * c * fabs(theirs - truth);
     double sigma_allowed = cli_compare_allowed(one, job->grade, job->pixels);
     off.weight = sigma_allowed > 0.0 ? off.sigma_m2 / sigma_allowed : 0.0;
     off.failed = cli_compare_failed(job, one);

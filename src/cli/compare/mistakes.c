@@ -9,9 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define DEGREES_PER_RADIAN 57.295779513082320877
-#define QUARTER_PI_INVERSE 0.079577471545947667884 /* 1 / (4 pi) */
-#define TWINS_MOST         256u /* scenes with more facets are not searched for coincident facets */
+#define TWINS_MOST 256u /* scenes with more facets are not searched for coincident facets */
 
 /* The point at which a facet is shaded. */
 typedef struct mistake_point {
@@ -92,8 +90,8 @@ static double shade_as(lrcs_brdf brdf, double cosine, double c)
 static double shade_table(const mistake_point *point, double theta_deg, double step)
 {
     double low = step * floor(theta_deg / step);
-    double from = lrcs_brdf_eval(point->brdf, cos(low / DEGREES_PER_RADIAN));
-    double to = lrcs_brdf_eval(point->brdf, cos((low + step) / DEGREES_PER_RADIAN));
+    double from = lrcs_brdf_eval(point->brdf, cos(low / CLI_DEGREES));
+    double to = lrcs_brdf_eval(point->brdf, cos((low + step) / CLI_DEGREES));
     return (from + (theta_deg - low) / step * (to - from)) * point->c;
 }
 
@@ -113,11 +111,11 @@ static double mistake_shade(const compare_mistake *mistake, const mistake_point 
     case SHADE_COSINE:
         return lrcs_brdf_eval(point->brdf, c) * pow(c, at);
     case SHADE_DEGREES:
-        wrong = cos(theta * DEGREES_PER_RADIAN);
+        wrong = cos(theta * CLI_DEGREES);
         wrong = at > 0.0 ? fabs(wrong) : wrong;
         return wrong > 0.0 ? shade_as(brdf, wrong, c) : 0.0;
     case SHADE_TAN_DEGREES:
-        wrong = tan(theta * DEGREES_PER_RADIAN) / s;
+        wrong = tan(theta * CLI_DEGREES) / s;
         return shade_terms(point, 6.0, wrong * wrong);
     case SHADE_POWER:
         return shade_terms(point, at, tan2 / (s * s));
@@ -135,10 +133,10 @@ static double mistake_shade(const compare_mistake *mistake, const mistake_point 
         brdf.B *= 1.0 - at;
         return shade_as(brdf, c, c);
     case SHADE_LINES:
-        return shade_table(point, theta * DEGREES_PER_RADIAN, at);
+        return shade_table(point, theta * CLI_DEGREES, at);
     case SHADE_STEPS:
-        wrong = at * floor(theta * DEGREES_PER_RADIAN / at + 0.5);
-        return shade_as(brdf, cos(wrong / DEGREES_PER_RADIAN), c);
+        wrong = at * floor(theta * CLI_DEGREES / at + 0.5);
+        return shade_as(brdf, cos(wrong / CLI_DEGREES), c);
     case SHADE_BITS:
         wrong = white > 0.0 ? fmin(right / white, 1.0) : 0.0;
         return white * floor(255.0 * wrong + 0.5) / 255.0;
@@ -265,9 +263,9 @@ static int mistake_turn(const compare_mistake *mistake, const compare_case *one,
     case TURN_RADIANS:
         return pose_at(az, el, pose);
     case TURN_POLAR:
-        return pose_at(az / DEGREES_PER_RADIAN, 0.5 * CLI_PI - el / DEGREES_PER_RADIAN, pose);
+        return pose_at(az / CLI_DEGREES, 0.5 * LRCS_PI - el / CLI_DEGREES, pose);
     case TURN_EXCHANGED:
-        return pose_at(el / DEGREES_PER_RADIAN, az / DEGREES_PER_RADIAN, pose);
+        return pose_at(el / CLI_DEGREES, az / CLI_DEGREES, pose);
     default:
         break;
     }
@@ -336,7 +334,7 @@ const compare_mistake cli_compare_mistakes[] = {
     {"8-bits", "colour quantisation: f_r cos in 8 bits, 1 being the brightest", .shade = SHADE_BITS,
      .at = 1.0},
     {"8-bits-4pi", "colour quantisation: 4 pi f_r cos in 8 bits, 1 being the brightest",
-     .shade = SHADE_BITS, .at = QUARTER_PI_INVERSE},
+     .shade = SHADE_BITS, .at = 1.0 / LRCS_FOUR_PI},
     {"8-bits-peak", "colour quantisation: 8 bits of the brightest f_r cos of each case",
      .shade = SHADE_BITS, .at = 0.0},
     {"clamped", "f_r cos is clamped at 1", .shade = SHADE_CLAMPED, .at = 1.0},
@@ -526,7 +524,7 @@ int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_
     lrcs_facet_record *own = NULL;
     int code = view_make(kit, one, mistake, &view, &own);
     if (code == 0) {
-        *sigma_m2 = 4.0 * CLI_PI * view_sum(&view, mistake, one->peak);
+        *sigma_m2 = LRCS_FOUR_PI * view_sum(&view, mistake, one->peak);
     }
     free(own);
     return code;

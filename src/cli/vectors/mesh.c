@@ -138,7 +138,7 @@ static void box_add(mesh_build *build)
 /* A point of a circle; those at multiples of 90 deg are exact. */
 static void circle_point(double radius, int i, int count, double z, double p[3])
 {
-    double angle = 2.0 * CLI_PI * i / count;
+    double angle = 2.0 * LRCS_PI * i / count;
     p[0] = 4 * i % (2 * count) == count ? 0.0 : radius * cos(angle);
     p[1] = 2 * i % count == 0 ? 0.0 : radius * sin(angle);
     p[2] = z;
