@@ -438,7 +438,7 @@ void lrcsi_classify_regions(const lrcsi_classification *classification)
    the last one. Run by run, without branches: compilers vectorise the inner loop. */
 static void facets_cast(const lrcsi_view *view, signed char *cast)
 {
-    const signed char back = view->backs_cast ? LRCSI_REDUNDANT_FROM_BEHIND : LRCSI_NOT_REDUNDANT;
+    const signed char back = view->backs.cast ? LRCSI_REDUNDANT_FROM_BEHIND : LRCSI_NOT_REDUNDANT;
     uint32_t count = view->prepared->scene->facet_count;
     for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
         size_t facets = lrcsi_run_end(start, count) - start;
