@@ -155,7 +155,7 @@ uint64_t lrcsi_cost_steps(double ns)
 
 /* Visible borders of length L, in sides of the window, pass through L N pixels of area 1 / N^2.
    Each of these has a random error of half its area: sqrt(L N) / (2 N^2) in all, of a visible area
-   A. If borders would pass through more pixels than there are, this model says nothing, and a
+   A. If borders would pass through more pixels than there are, this model does not apply, and a
    coarse raster is chosen, whose estimate does. */
 uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t largest)
 {

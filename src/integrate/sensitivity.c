@@ -47,7 +47,7 @@ static void response_add_facet(const lrcsi_view *view, const lrcs_brdf *brdf, ui
     lrcsi_sum_add(&response->diffuse_m, weight * (at.diffuse * (-0.5 * lrcsi_log1p(u).hi)));
 }
 
-/* Adds a facet that stands for a patch of a curved wall. */
+/* Adds a facet that represents a patch of a curved wall. */
 static void response_add_patch(const lrcsi_view *view, double s, uint32_t facet, double fraction,
                                const lrcsi_patch *patch, lrcsi_response *response)
 {

@@ -180,7 +180,8 @@ static int run_has_proofs(const lrcsi_sigma *run)
       was made for fronts all the same, the proved interval is joined with the one found: bodies
       that are convex by construction have no contacts, so that the search alone proves nothing.
    2. Back sides that are proved never to be seen, but were searched for, may show nothing.
-   3. The fronts of clear shapes are visible; this serves what is reported about their facets. */
+   3. The fronts of clear shapes are visible; this is needed only for what is reported about their
+      facets. */
 static void areas_apply_proofs(const lrcsi_sigma *run)
 {
     const lrcsi_view *view = &run->view;

@@ -125,7 +125,7 @@ static void correlation_fill(const double c[6], double out[4][4])
     memcpy(out, full, sizeof full);
 }
 
-/* The Cholesky factor L of C = L L'. If C is singular, so that a pivot is 0 but for rounding, the
+/* The Cholesky factor L of C = L L'. If C is singular, so that a pivot is 0 up to rounding, the
    column of that pivot is 0. */
 static void correlation_root(const double c[6], double root[4][4])
 {

@@ -150,8 +150,8 @@ static double plan_rim(const lrcs_shape *shape)
                                                 : 0.5 * LRCS_PI;
 }
 
-/* Error and sigma of a cap of normals from aspect alpha, and in *size the cap's area. Nodes crowd
-   about alpha, on both sides of it. */
+/* Error and sigma of a cap of normals from aspect alpha, and in *size the cap's area. Nodes are
+   denser near alpha, on both sides of it. */
 static plan_value plan_cap(const facet_plan *plan, const lrcs_shape *shape, double alpha,
                            double *size)
 {

@@ -122,8 +122,8 @@ static void lanes_cross(cross_lanes *n)
     }
 }
 
-/* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| is computed
-   within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
+/* The error of the three components together is at most 10 u^2 2 |p| |q| in norm; |p| |q| is
+   computed within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
 static void store_normal(lrcs_prepared *prepared, uint32_t facet, const cross_lanes *lanes, int at)
 {
     lrcsi_normal *n = &prepared->normal[facet];

@@ -51,7 +51,7 @@ typedef struct lrcsi_batches {
     uint32_t count;
     uint32_t *first;   /* material i: places first[i] .. first[i + 1] */
     uint32_t *facet;   /* at each place */
-    double *normal[3]; /* unit; component k is off by at most 1.01 u of itself */
+    double *normal[3]; /* unit; relative error of each component at most 1.01 u */
     double *area;      /* S, scaled; relative error at most 3 u */
     int redundant;     /* some are, on one side at least */
 } lrcsi_batches;
@@ -162,7 +162,7 @@ struct lrcs_prepared {
     lrcsi_proximity
         proximity; /* if there are curved shapes among other parts; else proximity.reach is NULL */
     const lrcsi_extent *extent; /* part: its extent; NULL if no shape has a closed form */
-    int articulated;            /* some part stands on a joint */
+    int articulated;            /* some part has a joint */
     int smooth;                 /* some live facet has curved normals */
 };
 

@@ -179,9 +179,9 @@ void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32
     }
 }
 
-/* Let p be the point as seen from the origin, both doubles. The rounded difference is off by u |p|,
-   the row by 4 u (view/frame.h), which moves the coordinate by 4 u |p|, and three products and two
-   sums add 3 u |p|: together 8.01 u |p|, at most 8.1 u of the sum of |coordinates|. */
+/* Let p be the point as seen from the origin, both doubles. The rounded difference has an error of
+   u |p|, the row by 4 u (view/frame.h), which moves the coordinate by 4 u |p|, and three products
+   and two sums add 3 u |p|: together 8.01 u |p|, at most 8.1 u of the sum of |coordinates|. */
 static inline void place(const lrcsi_view *view, const double point[3], double x[3])
 {
     const double *o = view->prepared->origin;
@@ -203,8 +203,8 @@ void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]
     }
 }
 
-/* As vectors: the rows are off by 4 u each, two products and a sum by 2 u (|x| + |y|), and the last
-   sum by u of its result, of length below |x| + |y| and sqrt(3) times the origin's largest. */
+/* As vectors: the rows have errors of 4 u each, two products and a sum by 2 u (|x| + |y|), and the
+   last sum by u of its result, of length below |x| + |y| and sqrt(3) times the origin's largest. */
 double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y)
 {
     const double *o = view->prepared->origin;
@@ -213,7 +213,7 @@ double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y)
 }
 
 /* By the sign of the dot product of unit vectors; exactly if its error may hide the sign, which is
-   rare: one test serves a block. */
+   rare: one test suffices for a block. */
 static void view_facings(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
