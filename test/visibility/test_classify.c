@@ -187,7 +187,7 @@ static void check_joins(void)
     }
     for (uint32_t e = 0; e < p->topology.edge_count; e++) {
         uint32_t pair[2];
-        int kind = lrcsi_edge_kind_of(&view, e, pair);
+        int kind = lrcsi_edge_kind_of(&view, e, LRCS_NONE, pair);
         int listed = 0;
         for (uint32_t i = 0; i < classification.events.count; i++) {
             listed += classification.events.edge[i] == e;
