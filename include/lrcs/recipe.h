@@ -44,7 +44,7 @@ typedef struct lrcs_recipe_material {
     lrcs_brdf brdf;
     int two_sided; /* -1: keeps what the model says */
     uint32_t line;
-    int assumed; /* the numbers are nobody's: facets are as if unbound, but for the numbers */
+    int assumed; /* the numbers are assumed, not given: apart from them, facets count as unbound */
     lrcs_brdf_error error; /* of brdf */
 } lrcs_recipe_material;
 

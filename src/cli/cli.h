@@ -119,6 +119,9 @@ const char *cli_value(const cli_args *args, const char *name);
 /* Reads an option's number, which is unchanged if the option was not given. 0 or CLI_USAGE. */
 int cli_number(const cli_args *args, const char *name, double *value);
 
+/* The same for a number > 0; `what` says so in a message: "a time > 0". */
+int cli_positive(const cli_args *args, const char *name, const char *what, double *value);
+
 /* The same for a whole number from `least` to `most`. */
 int cli_whole(const cli_args *args, const char *name, double least, double most, uint32_t *value);
 

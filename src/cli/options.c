@@ -100,10 +100,7 @@ void cli_pose_unit(const lrcs_pose *pose, double s_hat[3])
 int cli_accuracy_read(const cli_args *args, lrcs_run_options *options)
 {
     *options = lrcs_run_options_default();
-    int code = cli_number(args, "tolerance", &options->tolerance);
-    if (code == 0 && !(options->tolerance > 0.0)) {
-        return cli_expected(args, "tolerance", "a relative error > 0");
-    }
+    int code = cli_positive(args, "tolerance", "a relative error > 0", &options->tolerance);
     code =
         code ? code : cli_choice(args, "method", "auto, facet, zbuffer or exact", &options->method);
     code = code ? code : cli_choice(args, "accept", "bound, estimate or any", &options->accept);

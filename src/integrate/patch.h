@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Eq. 2 over the true surface that a facet of a shape's curved wall stands for: its patch. */
+/* Eq. 2 over the patch of a facet on a shape's curved wall: the part of the true surface that the
+   facet represents. */
 #ifndef LRCSI_PATCH_H
 #define LRCSI_PATCH_H
 
@@ -26,7 +27,7 @@ typedef struct lrcsi_patch {
 int lrcsi_patch_exists(const lrcs_prepared *prepared, uint32_t facet);
 
 /* Given: a facet that is not skipped; the BRDF; what `patch` holds from the last call with the same
-   BRDF, which serves again for the other facet of the same patch, or side = 0.
+   BRDF, which is used again for the other facet of the same patch, or side = 0.
    Returned: 1 and the patch; or 0: the plan asks for facets, the facet has no patch, the laser may
    see the patch edge-on or from its other side in part, or it is too large for the rules. */
 int lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcs_brdf *brdf,

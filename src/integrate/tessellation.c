@@ -34,7 +34,7 @@
    a) b)).
 
    Without a proximity band the facets count as visible: what may be hidden of them is then in the
-   bounds of the visible area, for the truth and for the facets alike. */
+   bounds of the visible area, for both the truth and the facets. */
 #include "integrate/tessellation.h"
 
 #include <math.h>
@@ -150,10 +150,10 @@ static double patch_area_error(const lrcs_prepared *p, uint32_t facet, const lrc
 /* The deviation of F over a patch from F_i, the value that the sum uses for the facet. *stretch: a
    bound on the relative difference of areas, as patch_area_error, to be multiplied by F_i.
 
-   Where the sum uses the mean over the patch (integrate/patch.h), F_i = (1 + a') F^, where F^ is the
-   mean per unit of the patch's own area, which is 1 + a' times the facet's. The map stretches area
-   evenly, except for rounding (patch->area_err): so over a region E, T - M = Int_E (F - F^), and the
-   stretch drops out. With h = F - F(facet normal), max(Int h+, Int h-) <= S region, so that
+   Where the sum uses the mean over the patch (integrate/patch.h), F_i = (1 + a') F^, where F^ is
+   the mean per unit of the patch's own area, which is 1 + a' times the facet's. The map stretches
+   area evenly, except for rounding (patch->area_err): so over a region E, T - M = Int_E (F - F^),
+   and the stretch drops out. With h = F - F(facet normal), max(Int h+, Int h-) <= S region, so that
        Int_U |h| = 2 max - |Int_U h| <= S (2 region) - (1 + a') S |F^ - F(facet normal)|,
        Int_U |F - F^| <= Int_U |h| + (1 + a') S |F^ - F(facet normal)| <= S (2 region),
        |Int_E (F - F^)| <= (Int_U |F - F^| + |Int_U (F - F^)|) / 2 <= S (region + remainder / 2).

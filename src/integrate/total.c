@@ -133,7 +133,7 @@ static double fraction_of(double part, double whole)
     return part == whole ? 1 : part / whole;
 }
 
-/* The reflectance is the mean over the facet's patch if it stands for a part of a curved wall, else
+/* The reflectance is the mean over the facet's patch if it represents a part of a curved wall, else
    that of its normal. Rounding: S, 4 pi, two products and the fraction, 8 u; the relative error of
    areas; and the error of f_r cos^2, times the upper bound of the visible area. */
 lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,

@@ -37,15 +37,15 @@
      straight walls: rho^2 is linear in a: r = rho, and heights agree;
      sphere: cos theta is, and rho^2 - r^2 = R^2 a (1 - a) (cos theta1 - cos theta0)^2;
      paraboloid: w^3 is, w^2 = 1 + y^2: w^2 exceeds its chord by at most 1/8 of the largest second
-   derivative, (w0^3 - w1^3)^2 / (36 w1^4). With b that `bulge`, rho - r <= min(sqrt(b), b /
-   (2 rho1), rho0 - rho1). In height, as a fraction from the top, the trapezoid's point is at beta =
-   (r - rho1)/(rho0 - rho1), which exceeds a by at most (rho0 - rho1) / (4 (rho0 + rho1)); the
-   sphere's is at a, the paraboloid's between a and a + b/(rho0^2 - rho1^2); to that the differences
-   in height between the rows and the true circles are added. Across, with v in -1 .. 1, (cos vh,
-   sin vh) is mapped to kappa (1, v tan h): a distance of at most max(1 - kappa, kappa - cos h)
-   inward or outward and max(h^3/6, (mu - 1) sin h) sideways, times r. For a disc only the last
-   applies; that map preserves areas everywhere, so that it holds for any division of the polygon
-   into facets. */
+   derivative, (w0^3 - w1^3)^2 / (36 w1^4). With b a bound on rho^2 - r^2 (strip_bulge), rho - r <=
+   min(sqrt(b), b / (2 rho1), rho0 - rho1). In height, as a fraction from the top, the trapezoid's
+   point is at beta = (r - rho1)/(rho0 - rho1), which exceeds a by at most (rho0 - rho1) / (4 (rho0
+   + rho1)); the sphere's is at a, the paraboloid's between a and a + b/(rho0^2 - rho1^2); to that
+   the differences in height between the rows and the true circles are added. Across, with v in -1
+   .. 1, (cos vh, sin vh) is mapped to kappa (1, v tan h): a distance of at most max(1 - kappa,
+   kappa - cos h) inward or outward and max(h^3/6, (mu - 1) sin h) sideways, times r. For a disc
+   only the last applies; that map preserves areas everywhere, so that it holds for any division of
+   the polygon into facets. */
 #include "mesh/profile.h"
 
 #include <math.h>

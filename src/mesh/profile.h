@@ -40,7 +40,7 @@ double lrcsi_profile_rounding(const lrcsi_profile *profile, uint32_t i);
 lrcs_curvature lrcsi_profile_rounded(const lrcs_curvature *curvature, double rounding);
 
 /* The numbers after a linear map whose largest singular value is `ratio` times its least, applied
-   to patches and facets alike. Also returned: `uneven`. 1 + uneven bounds the factor by which the
+   to both patches and facets. Also returned: `uneven`. 1 + uneven bounds the factor by which the
    map stretches areas at one place of a patch more, or less, than on average over the facet. */
 lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *curvature, double ratio,
                                        double *uneven);

@@ -46,7 +46,7 @@ lrcs_build_options lrcs_build_options_default(void)
     return options;
 }
 
-/* --- complaints ---------------------------------------------------------------------------- */
+/* --- errors -------------------------------------------------------------------------------- */
 
 static int refuse_part(const scene_builder *builder, int status, const lrcs_recipe_part *part,
                        const char *expected)
@@ -415,7 +415,11 @@ static void settle_normals(lrcs_scene *scene)
     scene->corner_normal = curved ? scene->corner_normal : NULL;
 }
 
-/* Does everything, in a work area whose `used` the caller resets on failure. */
+/* The steps, in a work area whose `used` the caller resets on failure:
+   1. counts (count_scene), the divisions of shapes included, and the scene's arrays (take_scene);
+   2. an index of names (lrcsi_binder_make);
+   3. each part: materials, vertices, facets, normals (add_part);
+   4. the first binding that matched nothing. */
 static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
 {
     const lrcs_recipe *recipe = builder->recipe;

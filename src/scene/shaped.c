@@ -62,14 +62,6 @@ double lrcsi_shaped_extent(const lrcs_mesh *mesh)
     return most;
 }
 
-/* A bound on the errors of a shape's placed vertices. The mesh's own coordinates have a relative
-   error of (16 + rings) u (src/mesh/profile.c), except for underflow. */
-static double misplacement(double most, const lrcs_divisions *divisions, const lrcsi_placer *placer)
-{
-    double error = (17.0 + (double)divisions->along) * LRCSI_U * most + 0x1p-1022;
-    return lrcsi_placer_error(placer, most + error, error);
-}
-
 /* The least altitude of a facet of the part placed last, m: its area over its longest side; 0 if
    one is a point. */
 static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
@@ -117,7 +109,8 @@ void lrcsi_shaped_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, doub
 
 /* Properties of a placed shape by construction. A uniform scale does not change curvature, other
    scales change it as in mesh/profile.h; any affine map preserves convexity, and as a reflection
-   reverses the winding, the outside stays outside. */
+   reverses the winding, the outside stays outside. The mesh's own coordinates have a relative error
+   of (16 + rings) u (mesh/profile.c), except for underflow. */
 void lrcsi_shaped_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
                            const lrcs_curvature *curvature, const lrcsi_placer *placer,
                            double extent, lrcs_part *part)
@@ -133,7 +126,8 @@ void lrcsi_shaped_describe(const lrcs_shape *shape, const lrcs_divisions *divisi
     double ratio;
     lrcsi_axes axes;
     lrcsi_placer_stretch(placer, &stretch, &ratio);
-    part->misplaced = misplacement(extent, divisions, placer);
+    double error = (17.0 + (double)divisions->along) * LRCSI_U * extent + 0x1p-1022;
+    part->misplaced = lrcsi_placer_error(placer, extent + error, error);
     part->kind = shape->kind;
     part->rigid = lrcsi_placer_axes(placer, &axes);
     if (part->rigid) {

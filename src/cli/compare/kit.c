@@ -144,8 +144,7 @@ int cli_compare_kit(const char *folder, compare_kit *kit)
         return CLI_FAILED;
     }
     if (access(path, F_OK) != 0) {
-        fprintf(stderr, "lrcs: %s: not a kit's folder (lrcs vectors DIR makes one)\n", folder);
-        return CLI_FAILED;
+        return cli_fail("%s: not a kit's folder (lrcs vectors DIR makes one)", folder);
     }
     int code = kit_table(folder, 0, kit);
     return code ? code : kit_table(folder, 1, kit);

@@ -43,11 +43,7 @@ static int converge_read(converge_job *job)
     job->seconds = 20.0;
     job->csv = cli_value(args, "csv");
     int code = cli_pose_read(args, &job->pose);
-    code = code ? code : cli_number(args, "seconds", &job->seconds);
-    if (code == 0 && !(job->seconds > 0.0)) {
-        return cli_usage(args->command, "--seconds: expected a time > 0, found '%s'",
-                         cli_value(args, "seconds"));
-    }
+    code = code ? code : cli_positive(args, "seconds", "a time > 0", &job->seconds);
     return code ? code : cli_scene_options_read(args, &job->load);
 }
 
@@ -73,9 +69,8 @@ static int settings_check(const converge_job *job)
     for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
         if (one->bound_m2 >= 0.0 && one->error_m2 > one->bound_m2 + job->truth.bound_m2) {
-            fprintf(stderr, "lrcs: %s: the error, %.3g m2, exceeds its bound, %.3g m2\n", one->name,
-                    one->error_m2, one->bound_m2);
-            return CLI_FAILED;
+            return cli_fail("%s: the error, %.3g m2, exceeds its bound, %.3g m2", one->name,
+                            one->error_m2, one->bound_m2);
         }
         code = one->short_of_memory ? CLI_DEGRADED : code;
     }

@@ -4,6 +4,10 @@
 
 #include <math.h>
 
+static const char page_style[] = {
+#include "style.inc"
+};
+
 static const struct {
     const char *id, *name;
 } page_places[] = {{"sigma", "Certificate"}, {"notices", "Notices"},     {"map", "Map"},
@@ -22,7 +26,7 @@ void cli_report_head(FILE *out, const report_job *job, const char *attribute, co
             attribute, meta);
     cli_page(out, "<title>%s: laser radar cross-section%s</title>\n<style>\n",
              cli_report_title(job), more);
-    cli_report_style(out);
+    fwrite(page_style, 1, sizeof page_style, out);
     fputs(style, out);
     cli_page(out,
              "</style>\n</head>\n<body>\n<header>\n"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The output of lrcs run. The keys and their order are the contract of DESIGN.md, section 4. */
+/* The output of lrcs run. The keys and their order are a contract: scripts rely on them. */
 #include "cli/run/run.h"
 
 #include <math.h>

@@ -273,7 +273,7 @@ static int run_command(const cli_args *args)
     free(job.records);
     free(job.image.facet);
     free(job.sensitivity);
-    cli_shares_free(&job.shares);
+    lrcs_host_shares_free(&job.shares);
     lrcs_host_polygons_free(&job.polygons);
     lrcs_host_scene_free(&job.scene);
     cli_scene_options_free(&job.load);

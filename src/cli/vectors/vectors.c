@@ -38,12 +38,14 @@ static const cli_option vectors_options[] = {
 
 /* ---- the folder ---- */
 
-/* 1 if the folder contains files but no kit: such a folder is not written to. */
-static int folder_foreign(const char *path)
+/* Makes the folders of a kit. A folder that contains files but no kit is not written to. */
+static int folders_make(const char *path)
 {
+    static const char *const name[] = {"", "/scenes", "/truth"};
     char inside[KIT_PATH];
     struct stat about;
     int entries = 0;
+    int code = 0;
     DIR *folder = opendir(path);
     while (folder && readdir(folder)) {
         entries++;
@@ -52,23 +54,13 @@ static int folder_foreign(const char *path)
         closedir(folder);
     }
     int kit = cli_kit_path(inside, "%s/scenes", path) == 0 && stat(inside, &about) == 0;
-    return entries > 2 && !kit; /* "." and ".." */
-}
-
-static int folders_make(const char *path)
-{
-    static const char *const name[] = {"", "/scenes", "/truth"};
-    int code = 0;
-    if (folder_foreign(path)) {
-        fprintf(stderr, "lrcs: %s: holds other files, and no kit: give an empty folder\n", path);
-        return CLI_FAILED;
+    if (entries > 2 && !kit) { /* "." and ".." */
+        return cli_fail("%s: holds other files, and no kit: give an empty folder", path);
     }
     for (int i = 0; i < 3 && code == 0; i++) {
-        char folder[KIT_PATH];
-        code = cli_kit_path(folder, "%s%s", path, name[i]);
-        if (code == 0 && mkdir(folder, 0777) != 0 && errno != EEXIST) {
-            fprintf(stderr, "lrcs: %s: cannot make this folder: %s\n", folder, strerror(errno));
-            code = CLI_FAILED;
+        code = cli_kit_path(inside, "%s%s", path, name[i]);
+        if (code == 0 && mkdir(inside, 0777) != 0 && errno != EEXIST) {
+            code = cli_fail("%s: cannot make this folder: %s", inside, strerror(errno));
         }
     }
     return code;
