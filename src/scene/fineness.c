@@ -8,7 +8,7 @@
 
 #include "base/vec3.h"
 #include "mesh/tessellate.h"
-#include "scene/shaped.h"
+#include "scene/placed_shape.h"
 
 /* The tolerance of a scene is divided among its parts, and among at least this many. The largest
    factor by which a small part may be coarser than requested. */
@@ -196,7 +196,7 @@ static int is_closed_form(const lrcsi_fineness *fineness, const lrcs_recipe_part
     lrcsi_placer placer;
     lrcsi_axes axes;
     return fineness->parts == 1 && !fineness->facets_only &&
-           lrcsi_shaped_closed_form(&part->shape, material->two_sided) &&
+           lrcsi_placed_shape_closed_form(&part->shape, material->two_sided) &&
            lrcsi_placer_make(&part->place, &part->joint, &placer) == LRCS_OK &&
            lrcsi_placer_axes(&placer, &axes);
 }
