@@ -542,14 +542,6 @@ static double fraction_between(const double corner[3], double from, double to)
     return to < corner[0] || from > corner[2] ? 0 : lrcsi_least(1, fraction);
 }
 
-/* The reach of a facet's part, scaled, plus the error of the ranges of its corners. */
-static double reach_of(const profile_run *run, uint32_t facet, const profile_facet *f)
-{
-    const lrcs_scene *scene = run->prepared->scene;
-    double reach = scene->part[scene->facet_part[facet]].reach;
-    return ldexp(reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) + 8 * LRCSI_U * f->range_max;
-}
-
 /* Adds part (5) of the error for one facet:
    1. the bins that the facet or its partner reaches into, enlarged by the reach;
    2. the error of the whole patches, which is that of the sum of all bins, and of a bin that
@@ -567,7 +559,9 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
                                                        run->visible, run->band, &run->patch);
     facet_ranges(run, facet, &f);
     facet_ranges(run, parts.partner, &other);
-    double reach = reach_of(run, facet, &f);
+    const lrcs_part *part = &run->prepared->scene->part[run->prepared->scene->facet_part[facet]];
+    double reach = ldexp(part->reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
+                   8 * LRCSI_U * f.range_max; /* with the error of the ranges of corners */
     profile_triangle t = triangle_of(1, f.range, NULL);
     double low = lrcsi_least(
         t.z[0], lrcsi_least(other.range[0], lrcsi_least(other.range[1], other.range[2])));
@@ -610,18 +604,12 @@ static double max_reach(const lrcs_prepared *prepared)
     return reach;
 }
 
-/* The largest number of bins of a scene in any pose. */
-static size_t bins_max(const lrcs_prepared *prepared, double bin_m)
-{
-    double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent) +
-                   2 * max_reach(prepared);
-    double bins = depth / bin_m + 4;
-    return bins < LRCS_PROFILE_BINS ? (size_t)bins + 1 : (size_t)LRCS_PROFILE_BINS + 4;
-}
-
 size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
 {
-    size_t bins = bins_max(prepared, bin_m);
+    double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent) +
+                   2 * max_reach(prepared); /* of the scene, in any pose */
+    double most = depth / bin_m + 4;
+    size_t bins = most < LRCS_PROFILE_BINS ? (size_t)most + 1 : (size_t)LRCS_PROFILE_BINS + 4;
     size_t need = lrcsi_work_bytes(bins, sizeof(lrcs_profile_bin));
     need = lrcsi_work_add(need, lrcsi_work_bytes(bins, sizeof(bin_sums)));
     need = lrcsi_work_add(need, lrcsi_view_need(prepared));

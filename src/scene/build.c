@@ -13,7 +13,7 @@
 #include "scene/bind.h"
 #include "scene/fineness.h"
 #include "scene/place.h"
-#include "scene/shaped.h"
+#include "scene/placed_shape.h"
 #include "scene/smooth.h"
 
 /* Coordinates beyond this are refused, because their squares and cubes must not overflow. */
@@ -333,11 +333,12 @@ static int add_shape(scene_builder *builder, scene_piece *piece, const lrcs_divi
                    : refuse_part(builder, status, piece->part, "a shape that can be meshed");
     }
     lrcs_part *part = &scene->part[scene->part_count];
-    double extent = lrcsi_shaped_extent(&mesh);
-    lrcsi_shaped_describe(&piece->part->shape, divisions, &curvature, &piece->placer, extent, part);
+    double extent = lrcsi_placed_shape_extent(&mesh);
+    lrcsi_placed_shape_describe(&piece->part->shape, divisions, &curvature, &piece->placer, extent,
+                                part);
     status = add_piece(builder, &mesh, piece, scene);
     if (status == LRCS_OK) {
-        lrcsi_shaped_tilt(&piece->placer, scene, extent, part);
+        lrcsi_placed_shape_tilt(&piece->placer, scene, extent, part);
     }
     work->used = mark;
     return status;

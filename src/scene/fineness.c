@@ -8,7 +8,7 @@
 
 #include "base/vec3.h"
 #include "mesh/tessellate.h"
-#include "scene/shaped.h"
+#include "scene/placed_shape.h"
 
 /* The tolerance of a scene is divided among its parts, and among at least this many. The largest
    factor by which a small part may be coarser than requested. */
@@ -177,16 +177,6 @@ static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *
     return counts->facets <= fineness->max_facets;
 }
 
-/* The ratio of a scale between axes: it multiplies the turns of normals by that factor, and the
-   error of a facet by slightly more than its square (mesh/profile.c). */
-static double scale_ratio(const lrcs_recipe_part *part)
-{
-    const double *scale = part->place.scale;
-    double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
-    double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
-    return small > 0.0 && large / small < RATIO_MOST ? large / small : 1.0;
-}
-
 /* Do the facets of a shape represent patches of it? */
 static int has_patches(const lrcs_recipe_part *part)
 {
@@ -206,16 +196,24 @@ static int is_closed_form(const lrcsi_fineness *fineness, const lrcs_recipe_part
     lrcsi_placer placer;
     lrcsi_axes axes;
     return fineness->parts == 1 && !fineness->facets_only &&
-           lrcsi_shaped_closed_form(&part->shape, material->two_sided) &&
+           lrcsi_placed_shape_closed_form(&part->shape, material->two_sided) &&
            lrcsi_placer_make(&part->place, &part->joint, &placer) == LRCS_OK &&
            lrcsi_placer_axes(&placer, &axes);
 }
 
+/* The first of these that applies:
+   1. facets for pictures only, if the closed form holds for the shape;
+   2. facets that represent patches of the true surface;
+   3. flat facets. The ratio of the scales along two axes multiplies the turns of normals, and the
+      error of a facet by slightly more than its square (mesh/profile.c). */
 int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                           const lrcs_material *material, lrcs_divisions *divisions,
                           lrcs_mesh_counts *counts)
 {
-    double ratio = scale_ratio(part);
+    const double *scale = part->place.scale;
+    double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    double ratio = small > 0.0 && large / small < RATIO_MOST ? large / small : 1.0;
     double spread = ratio > 1.0 ? 1.5 * ratio * ratio : 1.0;
     const lrcs_fineness wanted = {shape_tolerance(fineness, part) / spread, material->brdf,
                                   fineness->max_facets};

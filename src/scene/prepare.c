@@ -65,19 +65,6 @@ static int scene_check(const lrcs_scene *scene, double *most)
     return LRCS_OK;
 }
 
-/* Scaled in two steps, so that neither power overflows: exact, unless it becomes 0. */
-static void scale_vertices(lrcs_prepared *p)
-{
-    double first = ldexp(1, -p->exponent / 2);
-    double second = ldexp(1, -p->exponent - -p->exponent / 2);
-    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
-        for (int k = 0; k < 3; k++) {
-            double x = p->scene->vertex[v].x[k] * first * second;
-            p->vertex[v].x[k] = fabs(x) < LRCSI_COORDINATE_LEAST ? 0 : x;
-        }
-    }
-}
-
 /* Normals computed side by side. */
 enum { CROSS_LANES = 8 };
 
@@ -212,6 +199,8 @@ static void find_box(lrcs_prepared *p)
 
 /* ---- stages ---- */
 
+/* Vertices are scaled in two steps, so that neither power overflows: exactly, unless they become 0.
+ */
 static int prepare_edges(lrcs_prepared *p, lrcs_work *work)
 {
     const lrcs_scene *scene = p->scene;
@@ -219,7 +208,14 @@ static int prepare_edges(lrcs_prepared *p, lrcs_work *work)
     if (!p->vertex) {
         return LRCS_E_MEMORY;
     }
-    scale_vertices(p);
+    double first = ldexp(1, -p->exponent / 2);
+    double second = ldexp(1, -p->exponent - -p->exponent / 2);
+    for (uint32_t v = 0; v < scene->vertex_count; v++) {
+        for (int k = 0; k < 3; k++) {
+            double x = scene->vertex[v].x[k] * first * second;
+            p->vertex[v].x[k] = fabs(x) < LRCSI_COORDINATE_LEAST ? 0 : x;
+        }
+    }
     return lrcsi_topology_make(p->vertex, scene->vertex_count, scene->facet, scene->facet_count,
                                work, &p->topology);
 }

@@ -50,13 +50,6 @@ static signed char facing_of(const lrcsi_view *view, uint32_t facet)
                                          lrcsi_prepared_corner(view->prepared, facet, 2), d);
 }
 
-static double grazing_dot(const lrcsi_view *view, uint32_t facet)
-{
-    return lrcsi_exact_dot(lrcsi_prepared_corner(view->prepared, facet, 0),
-                           lrcsi_prepared_corner(view->prepared, facet, 1),
-                           lrcsi_prepared_corner(view->prepared, facet, 2), view->direction);
-}
-
 /* A dot product below this multiple of its error is computed exactly. */
 #define GRAZING_DOT 0x1p50
 /* Closer to edge-on than this, only a lower bound of tan^2 is known: about 2^1000, still a double.
@@ -75,7 +68,10 @@ static incidence_dot incidence_dot_of(const lrcsi_view *view, uint32_t facet, do
 {
     incidence_dot dot = {fabs(product), off, 0};
     if (!(dot.value > GRAZING_DOT * off)) {
-        dot.value = fabs(grazing_dot(view, facet));
+        dot.value =
+            fabs(lrcsi_exact_dot(lrcsi_prepared_corner(view->prepared, facet, 0),
+                                 lrcsi_prepared_corner(view->prepared, facet, 1),
+                                 lrcsi_prepared_corner(view->prepared, facet, 2), view->direction));
         dot.err = 2 * LRCSI_U * dot.value;
     }
     double least = GRAZING_LEAST * view->prepared->normal[facet].length * view->length;
@@ -182,7 +178,7 @@ void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32
 /* Let p be the point as seen from the origin, both doubles. The rounded difference has an error of
    u |p|, the row by 4 u (view/frame.h), which moves the coordinate by 4 u |p|, and three products
    and two sums add 3 u |p|: together 8.01 u |p|, at most 8.1 u of the sum of |coordinates|. */
-static inline void place(const lrcsi_view *view, const double point[3], double x[3])
+static inline void point_place(const lrcsi_view *view, const double point[3], double x[3])
 {
     const double *o = view->prepared->origin;
     const double p[3] = {point[0] - o[0], point[1] - o[1], point[2] - o[2]};
@@ -193,7 +189,7 @@ static inline void place(const lrcsi_view *view, const double point[3], double x
 
 void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3])
 {
-    place(view, point, x);
+    point_place(view, point, x);
 }
 
 void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3])
@@ -255,17 +251,6 @@ static void view_facings(lrcsi_view *view)
     }
 }
 
-static void view_unit(lrcsi_view *view)
-{
-    static const double no_low[3] = {0, 0, 0};
-    lrcsi_inverse inverse = lrcsi_length_inverse(view->direction, no_low, view->length);
-    for (int k = 0; k < 3; k++) {
-        lrcsi_dd d = lrcsi_inverse_times(&inverse, view->direction[k], 0);
-        view->unit[k] = d.hi;
-        view->unit_low[k] = d.lo;
-    }
-}
-
 size_t lrcsi_view_face_need(const lrcs_prepared *prepared)
 {
     return lrcsi_work_bytes(prepared->scene->facet_count, 1);
@@ -284,7 +269,13 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_
         return LRCS_E_MEMORY;
     }
     v.length = sqrt(lrcsi_vec3_dot(v.direction, v.direction));
-    view_unit(&v);
+    static const double no_low[3] = {0, 0, 0};
+    lrcsi_inverse inverse = lrcsi_length_inverse(v.direction, no_low, v.length);
+    for (int k = 0; k < 3; k++) {
+        lrcsi_dd d = lrcsi_inverse_times(&inverse, v.direction[k], 0);
+        v.unit[k] = d.hi;
+        v.unit_low[k] = d.lo;
+    }
     view_facings(&v);
     *view = v;
     return LRCS_OK;
@@ -302,7 +293,7 @@ int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
     for (uint32_t i = 0; i < p->scene->vertex_count; i++) {
         double x[3];
-        place(view, p->vertex[i].x, x);
+        point_place(view, p->vertex[i].x, x);
         memcpy(view->point[i].x, x, sizeof x);
         if (p->referenced[i]) {
             low[0] = lrcsi_least(low[0], x[0]);

@@ -212,6 +212,40 @@ static void plates_that_pierce_each_other(void **state)
     check_abs(first, 1, 1e-13);
 }
 
+/* Spikes that rise through a plate of two facets: most of each edge of a spike is behind the plate,
+   and its tip is in front. A strip of facets behind the plate begins at the first spike. */
+static void tips_of_spikes_through_a_plate_are_seen(void **state)
+{
+    (void)state;
+    for (int winding = 0; winding < 2; winding++) {
+        scene_start(&scene);
+        scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                    (const double[3]){0, 1, 0});
+        for (int i = 0; i < 12; i++) {
+            double x = 0.07 * i;
+            uint32_t v = scene.scene.vertex_count;
+            point(0.05 + x, 0.1, -1);
+            point(0.06 + x, 0.3, -1);
+            point(0.15 + x, 0.8, 0.05 + 0.01 * i);
+            point(0.5 + 0.01 * i, 0.05, -1.5);
+            scene_facet(&scene, v, v + 1, v + 2);
+            scene_facet(&scene, v, v + 3, v + 1);
+        }
+        if (winding) {
+            flip();
+        }
+        assert_int_equal(agree((const double[3]){0, 0, 1}), 26);
+        for (uint32_t i = 0; i < 12; i++) {
+            double above = 0.05 + 0.01 * i; /* the tip is a smaller triangle of the same shape */
+            double part = above / (1 + above);
+            check_abs(share(2 + 2 * i), part * part, 1e-13);
+            check_abs(share(3 + 2 * i), 0, 1e-13);
+        }
+        agree((const double[3]){0.2, 0.3, 1});
+        agree((const double[3]){-1, 0.1, 0.4});
+    }
+}
+
 /* A ramp that winds around an axis twice passes behind itself: one component, two layers. */
 static void ramp_that_passes_behind_itself(void **state)
 {
@@ -482,6 +516,7 @@ int main(void)
         cmocka_unit_test(folds_of_panels_that_change_order_along_a_line),
         cmocka_unit_test(square_stored_twice_with_both_diagonals),
         cmocka_unit_test(plates_that_pierce_each_other),
+        cmocka_unit_test(tips_of_spikes_through_a_plate_are_seen),
         cmocka_unit_test(ramp_that_passes_behind_itself),
         cmocka_unit_test(moebius_strip_wound_at_random),
         cmocka_unit_test(needle_along_the_line_of_sight_has_all_of_its_area),
