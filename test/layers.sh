@@ -1,10 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Proves the order of the rooms: a file includes its own layer or earlier ones, the tool only the
-# public headers, the core nothing of the system but freestanding-like headers; and that every
-# header compiles alone, no includes are cyclic, and the map names every file and, in its trace of one
-# facet, no function that does not exist. Prints FILE:LINE and
-# the reason for each breach.
+# Checks the order of the layers: a file includes its own layer or earlier ones, the tool only the
+# public headers, the core no system header that needs an operating system. Also: every header
+# compiles alone, no includes are cyclic, src/README.md names every file and, in its trace of one
+# facet, only what exists. Prints FILE:LINE and the reason for each breach.
 # usage: layers.sh    (in the root; CC names the compiler)
 core='base mesh optics scene view visibility integrate'
 layers="$core analysis host cli"
