@@ -265,6 +265,7 @@ void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json);
    about, the first line that a table would have, may be NULL. 0 or CLI_FAILED. */
 #define CLI_BESIDE ".json"
 #define CLI_ABOUT  "about"
+char *cli_beside_name(const char *path); /* NULL without memory; the caller frees it */
 int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
                           const lrcs_pose *pose, const char *about);
 
@@ -294,6 +295,10 @@ void cli_number_put(FILE *out, const char *before, double value);
 
 /* The same for a text as a field of CSV: in quotes if it contains one of the special characters. */
 void cli_csv_text(FILE *out, const char *before, const char *text, const char *special);
+
+/* Appends to a text, truncated to its size. */
+__attribute__((format(printf, 3, 4))) void cli_append(char *text, size_t size, const char *format,
+                                                      ...);
 
 /* Prints text on stdout, padded with blanks to `width`; control characters are printed as '?'. */
 void cli_column(const char *text, int width);

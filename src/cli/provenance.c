@@ -279,6 +279,16 @@ static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
     return LRCS_OK;
 }
 
+char *cli_beside_name(const char *path)
+{
+    size_t room = strlen(path) + sizeof CLI_BESIDE;
+    char *name = malloc(room);
+    if (name) {
+        snprintf(name, room, "%s" CLI_BESIDE, path);
+    }
+    return name;
+}
+
 int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
                           const lrcs_pose *pose, const char *about)
 {
@@ -287,13 +297,11 @@ int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_hos
     if (strcmp(path, "-") == 0 || stat(path, &kind) != 0 || !S_ISREG(kind.st_mode)) {
         return 0; /* nothing stands beside standard output or a device */
     }
-    size_t room = strlen(path) + sizeof CLI_BESIDE;
-    char *name = malloc(room);
+    char *name = cli_beside_name(path);
     if (!name) {
         return cli_out_of_memory();
     }
     lrcs_host_error error;
-    snprintf(name, room, "%s" CLI_BESIDE, path);
     int code = scene && lrcs_host_output_check(name, scene, &error) != LRCS_OK
                    ? cli_failed(&error)
                    : cli_output_write(name, beside_write, &from);
@@ -303,14 +311,9 @@ int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_hos
 
 /* ---- in one line ---- */
 
-typedef struct picture_source {
-    const cli_args *args;
-    const lrcs_host_scene *scene; /* NULL: made from the operand alone */
-} picture_source;
-
 static void picture_put(FILE *out, const void *context)
 {
-    const picture_source *from = context;
+    const beside *from = context;
     const lrcs_host_scene *scene = from->scene;
     fprintf(out, "lrcs %s", lrcs_version());
     source_put(out, from->args, scene ? cli_scene_title(from->args, scene) : NULL, scene);
@@ -325,7 +328,7 @@ static void picture_put(FILE *out, const void *context)
 
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
 {
-    const picture_source from = {args, scene};
+    const beside from = {.args = args, .scene = scene};
     return cli_text_of(picture_put, &from);
 }
 

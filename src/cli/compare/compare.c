@@ -114,18 +114,6 @@ static int compare_make(compare_job *job, const char *folder)
     return code;
 }
 
-static int compare_report(const compare_job *job)
-{
-    const char *json = cli_value(job->args, "json");
-    const char *junit = cli_value(job->args, "junit");
-    int code = json ? cli_text_write(json, cli_compare_json, job) : 0;
-    code = code == 0 && junit ? cli_text_write(junit, cli_compare_junit, job) : code;
-    if (code == 0 && !(json && strcmp(json, "-") == 0) && !(junit && strcmp(junit, "-") == 0)) {
-        cli_compare_table(job);
-    }
-    return code ? code : cli_compare_passed(job) ? CLI_DONE : CLI_FAILED;
-}
-
 static int compare_command(const cli_args *args)
 {
     compare_job job;
@@ -134,7 +122,14 @@ static int compare_command(const cli_args *args)
     job.args = args;
     int code = options_read(&job, &folder);
     code = code ? code : compare_make(&job, folder);
-    code = code ? code : compare_report(&job);
+    const char *json = cli_value(args, "json");
+    const char *junit = cli_value(args, "junit");
+    code = code == 0 && json ? cli_text_write(json, cli_compare_json, &job) : code;
+    code = code == 0 && junit ? cli_text_write(junit, cli_compare_junit, &job) : code;
+    if (code == 0 && !(json && strcmp(json, "-") == 0) && !(junit && strcmp(junit, "-") == 0)) {
+        cli_compare_table(&job);
+    }
+    code = code ? code : cli_compare_passed(&job) ? CLI_DONE : CLI_FAILED;
     cli_compare_kit_free(&job.kit);
     return code;
 }

@@ -35,31 +35,6 @@ static const cli_option converge_options[] = {
     {"material", 1, 1},         {"json", 0, 0},       {"seconds", 1, 0},      {"help", 0, 0},
     {"keep-transparent", 0, 0}, {NULL, 0, 0}};
 
-/* ---- options ---- */
-
-static int converge_read(converge_job *job)
-{
-    const cli_args *args = job->args;
-    job->seconds = 20.0;
-    job->csv = cli_value(args, "csv");
-    int code = cli_pose_read(args, &job->pose);
-    code = code ? code : cli_positive(args, "seconds", "a time > 0", &job->seconds);
-    return code ? code : cli_scene_options_read(args, &job->load);
-}
-
-/* ---- files ---- */
-
-static int files_write(const converge_job *job)
-{
-    const cli_args *args = job->args;
-    int code = job->csv ? cli_text_write(job->csv, cli_converge_csv, job) : 0;
-    if (code == 0 && job->csv) {
-        code = cli_provenance_beside(args, job->csv, &cli_converge_finest(job)->scene, &job->pose,
-                                     job->about);
-    }
-    return code ? code : cli_charts_write(args, "plot", cli_converge_chart, job);
-}
-
 /* ---- the command ---- */
 
 /* Checks the errors against their bounds: an error above its bound is a fault of the engine. */
@@ -79,12 +54,18 @@ static int settings_check(const converge_job *job)
 
 static int converge_report(const converge_job *job)
 {
-    int code = files_write(job);
+    const cli_args *args = job->args;
+    int code = job->csv ? cli_text_write(job->csv, cli_converge_csv, job) : 0;
+    if (code == 0 && job->csv) {
+        code = cli_provenance_beside(args, job->csv, &cli_converge_finest(job)->scene, &job->pose,
+                                     job->about);
+    }
+    code = code ? code : cli_charts_write(args, "plot", cli_converge_chart, job);
     cli_watch_end();
     if (code != 0) {
         return code;
     }
-    if (cli_value(job->args, "json")) {
+    if (cli_value(args, "json")) {
         cli_converge_json(job);
         return settings_check(job);
     }
@@ -107,7 +88,11 @@ static int converge_command(const cli_args *args)
     memset(&job, 0, sizeof job);
     job.args = args;
     job.title = args->operand;
-    int code = converge_read(&job);
+    job.seconds = 20.0;
+    job.csv = cli_value(args, "csv");
+    int code = cli_pose_read(args, &job.pose);
+    code = code ? code : cli_positive(args, "seconds", "a time > 0", &job.seconds);
+    code = code ? code : cli_scene_options_read(args, &job.load);
     code = code ? code : cli_converge_meshes(&job);
     code = code ? code : cli_outputs_spare(args, &job.mesh[0].scene);
     code = code ? code : cli_converge_measure(&job);

@@ -115,16 +115,6 @@ static int cases_add(vectors_job *job, const vectors_scene *scene)
     return code;
 }
 
-static int scene_make(vectors_job *job, const vectors_scene *scene)
-{
-    vectors_mesh mesh;
-    int code = cli_vectors_mesh(scene, &mesh);
-    code = code ? code : cli_vectors_files(job, scene, &mesh);
-    cli_vectors_mesh_free(&mesh);
-    code = code ? code : cases_add(job, scene);
-    return code ? code : cli_vectors_truth(job, scene);
-}
-
 /* Allocates memory for all cases, and makes the bindings of all materials. */
 static int job_room(vectors_job *job)
 {
@@ -163,7 +153,12 @@ static int vectors_make(vectors_job *job, uint32_t tier)
     for (const vectors_scene *scene = cli_vectors_scenes; scene->name && code == 0; scene++) {
         if ((uint32_t)scene->tier <= tier) {
             cli_watch_stage(scene->name, NULL);
-            code = scene_make(job, scene);
+            vectors_mesh mesh;
+            code = cli_vectors_mesh(scene, &mesh);
+            code = code ? code : cli_vectors_files(job, scene, &mesh);
+            cli_vectors_mesh_free(&mesh);
+            code = code ? code : cases_add(job, scene);
+            code = code ? code : cli_vectors_truth(job, scene);
             scenes++;
         }
     }
