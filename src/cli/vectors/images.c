@@ -86,8 +86,10 @@ static void depth_fill(images_case *file)
     file->nearest = -HUGE_VAL;
     file->farthest = HUGE_VAL;
     for (size_t i = 0; i < (size_t)image->size * image->size; i++) {
-        double x = image->left_m + ((double)(i % image->size) + 0.5) * step;
-        double y = image->top_m - ((double)(i / image->size) + 0.5) * step;
+        size_t row = i / image->size;
+        size_t column = i % image->size;
+        double x = image->left_m + ((double)column + 0.5) * step;
+        double y = image->top_m - ((double)row + 0.5) * step;
         double v[3][3];
         file->depth[i] = (double)NAN;
         if (image->facet[i] == LRCS_NONE) {
@@ -95,9 +97,9 @@ static void depth_fill(images_case *file)
         }
         for (int k = 0; k < 3; k++) {
             const double *p = file->scene->vertex[file->scene->facet[image->facet[i]].corner[k]].x;
-            for (int row = 0; row < 3; row++) {
-                const double *r = file->one->pose.R[row];
-                v[k][row] = r[0] * p[0] + r[1] * p[1] + r[2] * p[2];
+            for (int axis = 0; axis < 3; axis++) {
+                const double *r = file->one->pose.R[axis];
+                v[k][axis] = r[0] * p[0] + r[1] * p[1] + r[2] * p[2];
             }
         }
         const double a[3] = {v[1][0] - v[0][0], v[1][1] - v[0][1], v[1][2] - v[0][2]};
