@@ -14,8 +14,8 @@ typedef struct lrcsi_patch {
     double diffuse_log;  /* the mean of log(1 + u) times the diffuse part */
     double remainder;    /* a bound on the error of glint + diffuse from the quadrature rule */
     double rounding;     /* a bound on their rounding error */
-    double area_err;     /* rounding of the facets' corners changes a share of their area by at most
-                          this, relative */
+    double area_err;     /* bound on the relative change of the area of a part of the facets by
+                            rounding of their corners */
     lrcsi_wall_patch at; /* where it is on the shape */
     uint32_t part;       /* the shape */
     int side;            /* 1: from outside, -1: from inside; 0: this is no patch yet */
