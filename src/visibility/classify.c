@@ -272,7 +272,7 @@ int lrcsi_classify_crossed_by(lrcsi_classification *classification, uint32_t fac
 int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,
                              const lrcsi_intersection *touch)
 {
-    return lrcsi_grid_casts(view, touch->other) && !(touch->kind == LRCSI_INTERSECTION_COPLANAR &&
+    return lrcsi_view_casts(view, touch->other) && !(touch->kind == LRCSI_INTERSECTION_COPLANAR &&
                                                      lrcsi_sample_beats(view, facet, touch->other));
 }
 
@@ -463,7 +463,7 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *w
     int status = c.undecided && c.joinable && c.component && c.region ? LRCS_OK : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
         for (uint32_t f = 0; f < count; f++) {
-            c.joinable[f] = lrcsi_grid_casts(view, f) ? view->facing[f] : 0;
+            c.joinable[f] = lrcsi_view_casts(view, f) ? view->facing[f] : 0;
         }
         c.joinable[count] = 0;
         status = lrcsi_boxes_make(view, c.joinable, work, &c.boxes);

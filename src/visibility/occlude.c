@@ -33,7 +33,7 @@ void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
     o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
     o->alone.facet = o->alone.target.facet = facet;
     o->undecided = o->whole = 0;
-    if (!lrcsi_grid_casts(classification->view, facet)) {
+    if (!lrcsi_view_casts(classification->view, facet)) {
         return;
     }
     if (!classification->undecided[facet]) {
@@ -148,7 +148,7 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
     unsigned char *open = lrcsi_work_take(work, count, 1);
     status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
     for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
-        open[f] = classification->undecided[f] && lrcsi_grid_casts(view, f);
+        open[f] = classification->undecided[f] && lrcsi_view_casts(view, f);
         if (open[f]) {
             o.uniform[f] = LRCSI_QUERY_UNDECIDED;
         } else if (o.uniform[f] == LRCSI_QUERY_UNDECIDED) {

@@ -184,7 +184,7 @@ static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_
             f = lrcsi_run_end(f, count) - 1; /* no facet of the run is visible */
         } else if (first != f) {
             answer[f] = answer[first];
-        } else if (lrcsi_grid_casts(classification->view, f) && !classification->undecided[f]) {
+        } else if (lrcsi_view_casts(classification->view, f) && !classification->undecided[f]) {
             answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
             undecided += answer[f] == LRCSI_QUERY_UNDECIDED;
         }
