@@ -29,8 +29,6 @@ static inline const lrcsi_view_box *lrcsi_boxes_facet(const lrcsi_boxes *boxes, 
     return &boxes->facet[boxes->start[facet / LRCSI_RUN] + facet % LRCSI_RUN];
 }
 
-#define lrcsi_grid_casts lrcsi_view_casts /* the former name */
-
 /* Bytes at most. */
 size_t lrcsi_boxes_need(const lrcs_prepared *prepared);
 
