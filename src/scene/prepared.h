@@ -80,7 +80,11 @@ typedef struct lrcsi_proximity {
 typedef struct lrcsi_run {
     double low[3], high[3]; /* the box around its facets, except those always redundant */
     uint32_t first_side;
-    int has_contacts; /* some facet has a contact or is marked in `met` (mesh/intersection.h) */
+    unsigned char links; /* this many of its sides, the first ones, stand for all: each is a side
+                            without a facet across, or the first that leads to its other run */
+    unsigned char whole; /* all facets are connected across sides within the run */
+    unsigned char has_contacts; /* some facet has a contact or is marked in `met`
+                                   (mesh/intersection.h) */
 } lrcsi_run;
 
 /* A side of a facet of a run across which (scene/across.h) there is a facet of another run that
@@ -101,6 +105,13 @@ typedef struct lrcsi_runs {
 static inline uint32_t lrcsi_runs_count(uint32_t facet_count)
 {
     return facet_count / LRCSI_RUN + (facet_count % LRCSI_RUN != 0);
+}
+
+/* The facets that all runs had if the last one had as many as the others. Arrays of so many entries
+   can be processed a whole run at a time. */
+static inline size_t lrcsi_runs_room(uint32_t facet_count)
+{
+    return (size_t)lrcsi_runs_count(facet_count) * LRCSI_RUN;
 }
 
 /* The end of a run that starts at a facet. */

@@ -178,13 +178,18 @@ void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32
 /* Let p be the point as seen from the origin, both doubles. The rounded difference has an error of
    u |p|, the row by 4 u (view/frame.h), which moves the coordinate by 4 u |p|, and three products
    and two sums add 3 u |p|: together 8.01 u |p|, at most 8.1 u of the sum of |coordinates|. */
-void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3])
+static inline void point_place(const lrcsi_view *view, const double point[3], double x[3])
 {
     const double *o = view->prepared->origin;
     const double p[3] = {point[0] - o[0], point[1] - o[1], point[2] - o[2]};
-    for (int k = 0; k < 3; k++) {
-        x[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
-    }
+    x[0] = view->R[0][0] * p[0] + view->R[0][1] * p[1] + view->R[0][2] * p[2];
+    x[1] = view->R[1][0] * p[0] + view->R[1][1] * p[1] + view->R[1][2] * p[2];
+    x[2] = view->R[2][0] * p[0] + view->R[2][1] * p[1] + view->R[2][2] * p[2];
+}
+
+void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3])
+{
+    point_place(view, point, x);
 }
 
 void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3])
@@ -246,27 +251,6 @@ static void view_facings(lrcsi_view *view)
     }
 }
 
-/* The window: the square over the longer side of the projected box, centred. */
-static void view_window(lrcsi_view *view)
-{
-    const lrcs_prepared *p = view->prepared;
-    double low[2] = {HUGE_VAL, HUGE_VAL};
-    double high[2] = {-HUGE_VAL, -HUGE_VAL};
-    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
-        const double *x = view->point[v].x;
-        for (int k = 0; k < 2 && p->referenced[v]; k++) {
-            low[k] = lrcsi_least(low[k], x[k]);
-            high[k] = lrcsi_most(high[k], x[k]);
-        }
-    }
-    if (p->live > 0) {
-        view->side = lrcsi_most(high[0] - low[0], high[1] - low[1]);
-        for (int k = 0; k < 2; k++) {
-            view->low[k] = 0.5 * (low[k] + high[k]) - 0.5 * view->side;
-        }
-    }
-}
-
 size_t lrcsi_view_face_need(const lrcs_prepared *prepared)
 {
     return lrcsi_work_bytes(prepared->scene->facet_count, 1);
@@ -304,12 +288,27 @@ int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
     if (!view->point) {
         return LRCS_E_MEMORY;
     }
+    /* The window: the square over the longer side of the projected box, centred. */
+    double low[2] = {HUGE_VAL, HUGE_VAL};
+    double high[2] = {-HUGE_VAL, -HUGE_VAL};
     for (uint32_t i = 0; i < p->scene->vertex_count; i++) {
-        lrcsi_view_place(view, p->vertex[i].x, view->point[i].x);
+        double x[3];
+        point_place(view, p->vertex[i].x, x);
+        memcpy(view->point[i].x, x, sizeof x);
+        if (p->referenced[i]) {
+            low[0] = lrcsi_least(low[0], x[0]);
+            low[1] = lrcsi_least(low[1], x[1]);
+            high[0] = lrcsi_most(high[0], x[0]);
+            high[1] = lrcsi_most(high[1], x[1]);
+        }
+    }
+    if (p->live > 0) {
+        view->side = lrcsi_most(high[0] - low[0], high[1] - low[1]);
+        view->low[0] = 0.5 * (low[0] + high[0]) - 0.5 * view->side;
+        view->low[1] = 0.5 * (low[1] + high[1]) - 0.5 * view->side;
     }
     double bulk = p->bulk[0] + p->bulk[1] + p->bulk[2];
     view->scale = bulk > 0 ? ldexp(1, -ilogb(bulk) - 1) : 1;
-    view_window(view);
     return LRCS_OK;
 }
 
