@@ -30,6 +30,8 @@ lrcs_host_options lrcs_host_options_default(void);
 typedef struct lrcs_host_input {
     const char *path;
     uint64_t hash, device, node;
+    double unit_m; /* metres per unit of its lengths; < 0: a model that states none, metres are
+                      assumed; 0: it holds no lengths */
     struct lrcs_host_input *next;
 } lrcs_host_input;
 

@@ -203,6 +203,13 @@ void cli_scene_options_free(lrcs_host_options *options);
    matches nothing is a usage error. */
 int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene);
 
+/* A unit of length (lrcs_host_input.unit_m) in words: "mm", .., metres per unit, "m assumed", or
+   NULL for none. The unit of the scene's own coordinates: the one given for a model file, NULL if
+   none was; "m" for scene files and demo. */
+#define CLI_UNIT_TEXT 32
+const char *cli_unit_text(double unit_m, char text[CLI_UNIT_TEXT]);
+const char *cli_scene_unit(const cli_args *args, const lrcs_host_scene *scene);
+
 /* lrcs_host_scene_prepare; lrcs_host_scene_run. 0, or CLI_FAILED with the message printed. */
 int cli_scene_prepare(lrcs_host_scene *scene);
 int cli_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
@@ -226,9 +233,10 @@ void cli_table_head(FILE *out, const cli_args *args, const char *title,
 /* Writes `before` as it is, and a text with its control characters as '?': it stays one line. */
 void cli_line_put(FILE *out, const char *before, const char *text);
 
-/* A file as such lines name it: its last name and the hash of its bytes. */
-#define CLI_FILE_TEXT 336
-void cli_file_text(const char *path, uint64_t hash, char text[CLI_FILE_TEXT]);
+/* A file as such lines name it: its last name, the hash of its bytes, and the unit of its lengths.
+ */
+#define CLI_FILE_TEXT 384
+void cli_file_text(const lrcs_host_input *input, char text[CLI_FILE_TEXT]);
 
 /* Such a line read back. The place of the next "; key=" in a line, or NULL; the text of a key, cut
    at the size: 1, or 0 if the key is missing; its number, or NAN. */

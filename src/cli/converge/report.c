@@ -245,7 +245,7 @@ void cli_converge_json(const converge_job *job)
     cli_version_json(&json);
     cli_hash_json(lrcs_scene_hash(&scene->scene), &json);
     cli_files_json(scene, &json);
-    cli_json(&json, "unit=%s", cli_value(job->args, "unit"));
+    cli_json(&json, "unit=%s", cli_scene_unit(job->args, scene));
     cli_direction_json(&job->pose, &json);
     cli_json(&json, "truth={from=%s sigma_m2=%g bound_m2=%g of_facets=%d} settings=[\n",
              job->truth.text, job->truth.sigma_m2, job->truth.bound_m2, !job->truth.whole);

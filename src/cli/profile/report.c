@@ -111,7 +111,7 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
     cli_version_json(json);
     cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
-    cli_json(json, "unit=%s", cli_value(job->args, "unit"));
+    cli_json(json, "unit=%s", cli_scene_unit(job->args, &job->scene));
     cli_direction_json(&job->pose, json);
     cli_json(
         json,

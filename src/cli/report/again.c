@@ -109,9 +109,15 @@ void cli_report_again(FILE *out, const report_job *job)
     cli_page_section(out, "again", "How to make it again");
     fputs("<dl class=\"facts\">\n", out);
     cli_page_fact(out, "Version", "lrcs %s", lrcs_version());
+    for (const lrcs_host_input *input = job->scene.input; input; input = input->next) {
+        char text[CLI_FILE_TEXT];
+        cli_file_text(input, text);
+        cli_page_fact(out, "File", "%s", text);
+    }
     fprintf(out,
             "<div><dt>Scene hash</dt><dd><code id=\"scene_hash\">%016llx</code></dd></div>\n"
-            "</dl>\n<p>The first line makes this page again, the others what stands on it, one by "
+            "</dl>\n"
+            "<p>The first line makes this page again, the others what stands on it, one by "
             "one.</p>\n",
             (unsigned long long)lrcs_scene_hash(&job->scene.scene));
     char *lines = cli_text_of(lines_write, job);
