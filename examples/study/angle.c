@@ -78,7 +78,7 @@ study_number study_share(study_job *job, int kind, double half_angle_deg, const 
 {
     const lrcs_shape wall = study_wall(kind, half_angle_deg);
     double normal = study_normal(kind, half_angle_deg);
-    const double radian = STUDY_PI / 180.0;
+    const double radian = LRCS_PI / 180.0;
     study_number up = study_half_power(job, &wall, brdf, normal, 1.0);
     study_number down = {0.0, 0.0};
     if (kind != STUDY_DISC) {

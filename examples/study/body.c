@@ -26,7 +26,7 @@ int study_colour(int kind)
 
 static double radian_of(double deg)
 {
-    return deg * (STUDY_PI / 180.0);
+    return deg * (LRCS_PI / 180.0);
 }
 
 /* Disc 2 pi R^2 (a cylinder of no length); cylinder of L = 2R 6 pi R^2; cone of half-angle 30 deg
@@ -39,19 +39,19 @@ lrcs_shape study_body(int kind)
         return (lrcs_shape){.kind = LRCS_SHAPE_BOX, .size = {side, side, side}};
     }
     case STUDY_CYLINDER: {
-        double radius = sqrt(STUDY_SURFACE / (6.0 * STUDY_PI));
+        double radius = sqrt(STUDY_SURFACE / (6.0 * LRCS_PI));
         return (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER, .radius = radius, .length = 2.0 * radius};
     }
     case STUDY_CONE:
         return (lrcs_shape){.kind = LRCS_SHAPE_CONE,
-                            .radius = sqrt(STUDY_SURFACE / (3.0 * STUDY_PI)),
+                            .radius = sqrt(STUDY_SURFACE / (3.0 * LRCS_PI)),
                             .half_angle_deg = STUDY_HALF};
     case STUDY_SPHERE:
         return (lrcs_shape){.kind = LRCS_SHAPE_SPHERE,
-                            .radius = sqrt(STUDY_SURFACE / (4.0 * STUDY_PI))};
+                            .radius = sqrt(STUDY_SURFACE / LRCS_FOUR_PI)};
     default:
         return (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER,
-                            .radius = sqrt(STUDY_SURFACE / (2.0 * STUDY_PI))};
+                            .radius = sqrt(STUDY_SURFACE / (2.0 * LRCS_PI))};
     }
 }
 
@@ -60,7 +60,7 @@ lrcs_shape study_wall(int kind, double half_angle_deg)
 {
     switch (kind) {
     case STUDY_CYLINDER: {
-        double radius = sqrt(1.0 / (4.0 * STUDY_PI));
+        double radius = sqrt(1.0 / LRCS_FOUR_PI);
         return (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER,
                             .parts = LRCS_SHAPE_WALL,
                             .radius = radius,
@@ -69,12 +69,12 @@ lrcs_shape study_wall(int kind, double half_angle_deg)
     case STUDY_CONE:
         return (lrcs_shape){.kind = LRCS_SHAPE_CONE,
                             .parts = LRCS_SHAPE_WALL,
-                            .radius = sqrt(sin(radian_of(half_angle_deg)) / STUDY_PI),
+                            .radius = sqrt(sin(radian_of(half_angle_deg)) / LRCS_PI),
                             .half_angle_deg = half_angle_deg};
     case STUDY_SPHERE:
-        return (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = sqrt(1.0 / (4.0 * STUDY_PI))};
+        return (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = sqrt(1.0 / LRCS_FOUR_PI)};
     default:
-        return (lrcs_shape){.kind = LRCS_SHAPE_DISC, .radius = sqrt(1.0 / STUDY_PI)};
+        return (lrcs_shape){.kind = LRCS_SHAPE_DISC, .radius = sqrt(1.0 / LRCS_PI)};
     }
 }
 
@@ -91,7 +91,7 @@ lrcs_shape study_silhouette(int kind)
                             .radius = sqrt(tan(radian_of(STUDY_HALF))),
                             .half_angle_deg = STUDY_HALF};
     default:
-        return (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = sqrt(1.0 / STUDY_PI)};
+        return (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = sqrt(1.0 / LRCS_PI)};
     }
 }
 

@@ -11,8 +11,7 @@ static void shading_law(study_job *job)
         study_law_add(job, "mutual shadowing", "mean / sigma of the sphere of the same surface");
     double surface;
     study_number mean = study_shaded(job, &job->brdf, &surface);
-    const lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE,
-                               .radius = sqrt(surface / (4.0 * STUDY_PI))};
+    const lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE, .radius = sqrt(surface / LRCS_FOUR_PI)};
     study_number convex = study_meant(study_sigma(job, &sphere, &job->brdf, 0.0));
     study_number ratio = study_ratio(mean, convex);
     law->estimate = 1;

@@ -119,9 +119,9 @@ static int axis_largest_cone(study_job *job)
     study_number cylinder = axis_sigma(job, STUDY_CYLINDER, STUDY_DIFFUSE);
     int deg = 1;
     for (; deg < 89; deg++) {
-        double sine = sin((deg + 1) * STUDY_PI / 180.0);
+        double sine = sin((deg + 1) * LRCS_PI / 180.0);
         const lrcs_shape cone = {.kind = LRCS_SHAPE_CONE,
-                                 .radius = sqrt(STUDY_SURFACE / (STUDY_PI * (1.0 + 1.0 / sine))),
+                                 .radius = sqrt(STUDY_SURFACE / (LRCS_PI * (1.0 + 1.0 / sine))),
                                  .half_angle_deg = deg + 1};
         study_number sigma = study_sigma(job, &cone, &brdf, 0.0);
         if (!(sigma.value + sigma.bound < cylinder.value - cylinder.bound)) {
@@ -210,7 +210,7 @@ static void face_law(study_job *job)
 {
     study_law *law = study_law_add(job, "largest flat face",
                                    "peak / (4 pi (A + B) S), and sigma elsewhere / peak");
-    double flat = 4.0 * STUDY_PI * (job->brdf.A + job->brdf.B);
+    double flat = LRCS_FOUR_PI * (job->brdf.A + job->brdf.B);
     double peak_dbsm[STUDY_SPHERE + 1];
     for (int kind = STUDY_DISC; kind <= STUDY_CONE; kind++) {
         const lrcs_shape shape = study_body(kind);
@@ -295,7 +295,7 @@ static void tilt_law(study_job *job)
                                  .parts = LRCS_SHAPE_WALL,
                                  .radius = 1.0,
                                  .half_angle_deg = angle[i]};
-        study_number expected = {pow(sin(angle[i] * STUDY_PI / 180.0), brdf.m + 1.0), 0.0};
+        study_number expected = {pow(sin(angle[i] * LRCS_PI / 180.0), brdf.m + 1.0), 0.0};
         expected.bound = (12.0 + 6.0 * brdf.m) * 0x1p-53 * expected.value;
         study_number ratio = study_ratio(study_sigma(job, &cone, &brdf, 0.0), flat);
         study_equal(law, study_ratio(ratio, expected), 1.0);
@@ -305,7 +305,7 @@ static void tilt_law(study_job *job)
         "For each unit of projected area a diffuse wall tilted by theta returns cos(theta)^(m+1)"
         " of what it returns face-on: a cone seen nose-on is the disc of its base times "
         "sin(half-angle)^(m+1) = %.4g at %g deg.",
-        pow(sin(STUDY_HALF * STUDY_PI / 180.0), brdf.m + 1.0), STUDY_HALF);
+        pow(sin(STUDY_HALF * LRCS_PI / 180.0), brdf.m + 1.0), STUDY_HALF);
     snprintf(law->range, sizeof law->range, "Diffuse part, any m: an identity of the model.");
 }
 

@@ -64,7 +64,7 @@ static void flat_law(study_job *job)
                                    "sigma / (4 pi (A + B) S), and disc / square");
     const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {1.0, 1.0}};
     const lrcs_shape disc = study_wall(STUDY_DISC, 0.0);
-    study_number expected = {4.0 * STUDY_PI * (job->brdf.A + job->brdf.B), 0.0};
+    study_number expected = {LRCS_FOUR_PI * (job->brdf.A + job->brdf.B), 0.0};
     expected.bound = 0x1p-50 * expected.value; /* three roundings, and pi's */
     for (size_t i = 0; i < COUNT_OF(slopes); i++) {
         const lrcs_brdf brdf = study_with(study_with(job->brdf, 's', slopes[i]), 'm', m[i]);
@@ -92,7 +92,7 @@ static void flat_law(study_job *job)
 /* (angle / (s sqrt(ln 2)) - 1) / s^2, which is to lie between 0 and 1. */
 static void width_check(study_law *law, study_number half_deg, double s)
 {
-    study_number first = {s * sqrt(log(2.0)) * 180.0 / STUDY_PI, 0.0};
+    study_number first = {s * sqrt(log(2.0)) * 180.0 / LRCS_PI, 0.0};
     first.bound = 0x1p-49 * first.value; /* of some ten roundings */
     study_number more = study_sum(study_ratio(half_deg, first), study_exact(-1.0));
     study_number square = {s * s, 0x1p-52 * s * s};
@@ -124,8 +124,8 @@ static void width_law(study_job *job)
         law->range, sizeof law->range,
         "s from 0.05 to 0.4. The width follows s only while s is small: at 0.2 it is %.1f %%, at "
         "0.4 %.1f %% above the first order.",
-        100.0 * (deg[2] * STUDY_PI / 180.0 / (0.2 * sqrt(log(2.0))) - 1.0),
-        100.0 * (deg[3] * STUDY_PI / 180.0 / (0.4 * sqrt(log(2.0))) - 1.0));
+        100.0 * (deg[2] * LRCS_PI / 180.0 / (0.2 * sqrt(log(2.0))) - 1.0),
+        100.0 * (deg[3] * LRCS_PI / 180.0 / (0.4 * sqrt(log(2.0))) - 1.0));
 }
 
 /* ---- s: height ---- */
@@ -186,13 +186,13 @@ static double band_checks(study_job *job, study_law *law, double half_angle, dou
     const lrcs_shape cone = study_wall(STUDY_CONE, half_angle);
     const lrcs_brdf brdf = study_with(study_finish(job, STUDY_GLINT), 's', s);
     double middle = study_normal(STUDY_CONE, half_angle);
-    double off = 180.0 / STUDY_PI * s * s;
+    double off = 180.0 / LRCS_PI * s * s;
     study_number peak = study_sigma(job, &cone, &brdf, middle);
     study_order(law, peak, study_sigma(job, &cone, &brdf, middle + off));
     study_order(law, peak, study_sigma(job, &cone, &brdf, middle - off));
     study_number cylinder = study_wall_sigma(job, STUDY_CYLINDER, 0.0, &brdf);
     study_number gain = study_ratio(study_meant(peak), cylinder);
-    study_number secant = {1.0 / cos(half_angle * STUDY_PI / 180.0), 0.0};
+    study_number secant = {1.0 / cos(half_angle * LRCS_PI / 180.0), 0.0};
     secant.bound = 0x1p-48 * secant.value; /* of an angle of 60 deg at most */
     study_within(law, study_ratio(gain, secant), 1.0 - 2.0 * s * s, 1.0 + 2.0 * s * s);
     return gain.value;
@@ -237,7 +237,7 @@ static void m_checks(study_job *job, study_law *law, double m)
     study_number disc = study_wall_sigma(job, STUDY_DISC, 0.0, &brdf);
     study_number sphere = study_wall_sigma(job, STUDY_SPHERE, 0.0, &brdf);
     study_number cylinder = study_wall_sigma(job, STUDY_CYLINDER, 0.0, &brdf);
-    study_number root = {sqrt(2.0 * STUDY_PI * (m + 2.5)), 0.0};
+    study_number root = {sqrt(2.0 * LRCS_PI * (m + 2.5)), 0.0};
     root.bound = 0x1p-50 * root.value;
     cylinder = study_ratio(cylinder, unit);
     cylinder = study_ratio(cylinder, study_ratio(study_exact(1.0), root));
@@ -253,7 +253,7 @@ static double lobe_check(study_job *job, study_law *law, double m)
     const lrcs_brdf brdf = study_with(study_finish(job, STUDY_DIFFUSE), 'm', m);
     const lrcs_shape disc = study_wall(STUDY_DISC, 0.0);
     study_number half = study_half_power(job, &disc, &brdf, 0.0, 1.0);
-    study_number expected = {acos(exp2(-1.0 / (m + 2.0))) * 180.0 / STUDY_PI, 0.0};
+    study_number expected = {acos(exp2(-1.0 / (m + 2.0))) * 180.0 / LRCS_PI, 0.0};
     expected.bound = 0x1p-46 * expected.value; /* acos enlarges what exp2 rounds 16-fold */
     study_equal(law, study_ratio(half, expected), 1.0);
     return half.value;
@@ -295,8 +295,8 @@ static void crossing_law(study_job *job)
         const lrcs_brdf diffuse = study_with(study_finish(job, STUDY_DIFFUSE), 's', slopes[i]);
         study_number angle = study_crossing(job, &disc, &glint, &diffuse);
         /* twice what the angle's bound makes, which holds the tangent's rounding */
-        study_number tangent = {tan(angle.value * STUDY_PI / 180.0), 0.0};
-        tangent.bound = (1.0 + tangent.value * tangent.value) * angle.bound * STUDY_PI / 90.0;
+        study_number tangent = {tan(angle.value * LRCS_PI / 180.0), 0.0};
+        tangent.bound = (1.0 + tangent.value * tangent.value) * angle.bound * LRCS_PI / 90.0;
         study_number expected = {slopes[i] * first, 0x1p-50 * slopes[i] * first};
         study_number more = study_sum(study_ratio(tangent, expected), study_exact(-1.0));
         study_number limit = {power * slopes[i] * slopes[i], 0x1p-50};

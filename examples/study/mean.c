@@ -30,7 +30,7 @@ static mean_rule rule_make(void)
 {
     mean_rule rule;
     for (int i = 0; i < MEAN_NODES; i++) {
-        double x = cos(STUDY_PI * (i + 0.75) / (MEAN_NODES + 0.5));
+        double x = cos(LRCS_PI * (i + 0.75) / (MEAN_NODES + 0.5));
         double slope = 1.0;
         for (int step = 0; step < 8; step++) {
             x -= legendre_step(x, &slope);
@@ -58,8 +58,8 @@ static study_number mean_turned(study_job *job, const lrcs_shape *shape, const l
     double half = 90.0 / panels; /* deg, of a panel */
     for (int i = 0; i < panels * MEAN_NODES; i++) {
         double aspect = half * rule_place(&rule, i);
-        double weight = 0.5 * rule.weight[i % MEAN_NODES] * half * (STUDY_PI / 180.0) *
-                        sin(aspect * (STUDY_PI / 180.0));
+        double weight = 0.5 * rule.weight[i % MEAN_NODES] * half * (LRCS_PI / 180.0) *
+                        sin(aspect * (LRCS_PI / 180.0));
         study_number sigma = study_sigma(job, shape, brdf, aspect);
         mean = study_sum(mean, study_scaled(sigma, weight));
     }
@@ -73,7 +73,7 @@ static study_number mean_octant(study_job *job, study_look *look, const void *wh
     const mean_rule rule = rule_make();
     study_number mean = {0.0, 0.0};
     int count = panels * MEAN_NODES;
-    double half = 0.25 * STUDY_PI / panels; /* rad, of a panel */
+    double half = 0.25 * LRCS_PI / panels; /* rad, of a panel */
     for (int i = 0; i < count * count; i++) {
         int row = i / count;
         int column = i % count;
@@ -82,7 +82,7 @@ static study_number mean_octant(study_job *job, study_look *look, const void *wh
         const double direction[3] = {sin(polar) * cos(azimuth), sin(polar) * sin(azimuth),
                                      cos(polar)};
         double weight = half * half * rule.weight[row % MEAN_NODES] *
-                        rule.weight[column % MEAN_NODES] * sin(polar) * (2.0 / STUDY_PI);
+                        rule.weight[column % MEAN_NODES] * sin(polar) * (2.0 / LRCS_PI);
         mean = study_sum(mean, study_scaled(look(job, what, direction), weight));
     }
     return mean;

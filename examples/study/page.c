@@ -53,7 +53,7 @@ static void dimensions_row(const char *name, const lrcs_shape *shape, FILE *out)
     if (shape->kind == LRCS_SHAPE_BOX) {
         fprintf(out, " side %.5g |\n", shape->size[0]);
     } else if (shape->kind == LRCS_SHAPE_CONE) {
-        double height = shape->radius / tan(shape->half_angle_deg * STUDY_PI / 180.0);
+        double height = shape->radius / tan(shape->half_angle_deg * LRCS_PI / 180.0);
         fprintf(out, " base radius %.5g, height %.5g, half-angle %g deg |\n", shape->radius, height,
                 shape->half_angle_deg);
     } else if (shape->kind == LRCS_SHAPE_CYLINDER && shape->length > 0.0) {

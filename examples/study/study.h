@@ -7,7 +7,6 @@
 
 #include <stdio.h>
 
-#define STUDY_PI      3.14159265358979323846
 #define STUDY_SURFACE 6.0  /* m2: that of a cube of 1 m, which every body has */
 #define STUDY_HALF    30.0 /* deg: the cone's half-angle; its slant is then its base's diameter */
 #define STUDY_ROWS    181u

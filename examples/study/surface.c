@@ -87,7 +87,7 @@ static study_number width_of(study_job *job, const width_curve *curve, double s)
 /* s sqrt(ln 2) rad, in deg. */
 static double width_first_order(double s)
 {
-    return s * sqrt(log(2.0)) * 180.0 / STUDY_PI;
+    return s * sqrt(log(2.0)) * 180.0 / LRCS_PI;
 }
 
 static void width_table(study_job *job)

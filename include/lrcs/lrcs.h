@@ -4,6 +4,7 @@
 #define LRCS_LRCS_H
 
 #include <lrcs/brdf.h>
+#include <lrcs/constant.h>
 #include <lrcs/mesh.h>
 #include <lrcs/options.h>
 #include <lrcs/polygon.h>

@@ -187,9 +187,9 @@ static void records_fill(const lrcsi_gpu *gpu, const gpu_shade *shade, lrcs_face
         double pixels = records[f].visible_area_m2;
         records[f].visible_area_m2 = pixels_area(gpu, pixels);
         if (pixels > 0) { /* shades of facets without pixels may be infinite */
-            records[f].sigma_glint_m2 = pixels_area(gpu, LRCSI_FOUR_PI * pixels * shade[f].glint);
+            records[f].sigma_glint_m2 = pixels_area(gpu, LRCS_FOUR_PI * pixels * shade[f].glint);
             records[f].sigma_m2 = records[f].sigma_glint_m2 +
-                                  pixels_area(gpu, LRCSI_FOUR_PI * pixels * shade[f].diffuse);
+                                  pixels_area(gpu, LRCS_FOUR_PI * pixels * shade[f].diffuse);
         }
     }
 }
@@ -197,11 +197,11 @@ static void records_fill(const lrcsi_gpu *gpu, const gpu_shade *shade, lrcs_face
 static lrcs_emulation emulation_make(const lrcsi_gpu *gpu, const gpu_totals *totals)
 {
     lrcs_emulation e;
-    e.sigma_glint_m2 = pixels_area(gpu, LRCSI_FOUR_PI * totals->glint);
-    e.sigma_diffuse_m2 = pixels_area(gpu, LRCSI_FOUR_PI * totals->diffuse);
+    e.sigma_glint_m2 = pixels_area(gpu, LRCS_FOUR_PI * totals->glint);
+    e.sigma_diffuse_m2 = pixels_area(gpu, LRCS_FOUR_PI * totals->diffuse);
     e.sigma_m2 = e.sigma_glint_m2 + e.sigma_diffuse_m2;
-    e.running_m2 = pixels_area(gpu, LRCSI_FOUR_PI * totals->running[0]) +
-                   pixels_area(gpu, LRCSI_FOUR_PI * totals->running[1]);
+    e.running_m2 = pixels_area(gpu, LRCS_FOUR_PI * totals->running[0]) +
+                   pixels_area(gpu, LRCS_FOUR_PI * totals->running[1]);
     e.projected_area_m2 = pixels_area(gpu, (double)totals->owned);
     return e;
 }

@@ -96,7 +96,7 @@ int lrcsi_fit_presence(const lrcsi_fit_data *data, int part, const lrcsi_fit_par
     double fall = lrcsi_most(0.0, without->square - square);
     double left = without->square > 0.0 ? square / without->square : 1.0; /* 1 - q */
     double freedom = (double)kept - 2.0;
-    double arc = presence_arc(data, part, without) / (2.0 * LRCSI_PI);
+    double arc = presence_arc(data, part, without) / (2.0 * LRCS_PI);
     left = lrcsi_least(1.0, left);
     double chance = known ? exp(-0.5 * fall) * (0.5 + arc)
                           : pow(left, 0.5 * freedom - 1.0) * (0.5 * sqrt(left) + arc);

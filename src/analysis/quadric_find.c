@@ -23,7 +23,7 @@
 #include "base/vec3.h"
 #include "base/work.h"
 #include "mesh/topology.h"
-#include "optics/comb.h"
+#include "optics/ripple.h"
 
 /* Neighbours turn by less than 37 deg: facets in a circle that turn by more are displaced by more
    than LRCS_QUADRIC_SHARE. */
@@ -42,14 +42,11 @@
 
 /* From the seed on, the surface's normals turn within a region by this many times the angle between
    them and the facets' normals (which is half the turn between two strips of a cylinder), or by all
-   that is possible. Less is no evidence: crumpled foil has such regions. */
+   that is possible. Less is no evidence: crumpled foil has such regions. A narrow ribbon of any
+   smooth surface lies close to some cylinder or cone: a region with more than half as many sides as
+   facets across which the mesh goes on smoothly must turn by CURVED_MOST. */
 #define CURVED_LEAST 4.0
-#define CURVED_MOST  (0.75 * LRCSI_PI)
-
-/* A narrow ribbon of any smooth surface lies close to some cylinder or cone: a region that has more
-   than half as many sides as facets across which the mesh goes on smoothly must turn by
-   CURVED_MOST.
-   */
+#define CURVED_MOST  (0.75 * LRCS_PI)
 
 #define SURROUNDINGS 32u
 #define COMPANIONS   7u    /* of a seed, for guesses */
@@ -257,7 +254,7 @@ static int region_measure(finder *f, uint32_t count, lrcs_quadric_region *region
         lrcs_quadric_bound bound;
         corners_get(f, facet, corner);
         if (lrcs_quadric_facet_bound(&region->surface, corner, &bound) != LRCS_OK ||
-            !(bound.normal_angle < LRCSI_PI / 2) ||
+            !(bound.normal_angle < LRCS_PI / 2) ||
             (i > 0 && bound.inside != region->bound.inside)) {
             return 0;
         }
@@ -399,7 +396,7 @@ static double region_glint_error(const lrcs_scene *scene, const lrcs_quadric_reg
     const lrcs_brdf *brdf = &scene->material[region->material].brdf;
     return region->surface.kind == LRCS_QUADRIC_PLANE || !(brdf->A > 0.0)
                ? 0.0
-               : lrcsi_comb_error(2.0 * region->bound.normal_angle, brdf->s);
+               : lrcsi_ripple_error(2.0 * region->bound.normal_angle, brdf->s);
 }
 
 static size_t regions_most(const lrcs_scene *scene)

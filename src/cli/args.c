@@ -186,6 +186,13 @@ int cli_number(const cli_args *args, const char *name, double *value)
                : 0;
 }
 
+int cli_positive(const cli_args *args, const char *name, const char *what, double *value)
+{
+    int code = cli_number(args, name, value);
+    return code == 0 && cli_value(args, name) && !(*value > 0.0) ? cli_expected(args, name, what)
+                                                                 : code;
+}
+
 int cli_whole(const cli_args *args, const char *name, double least, double most, uint32_t *value)
 {
     double number = *value;

@@ -13,7 +13,7 @@
 #define SCALE_DB      40.0 /* what the scale of sigma spans at most */
 #define SCALE_BINS    800  /* a histogram of -400 .. 400 dB */
 #define SCALE_TEXTS   9.0
-#define DEGREES       (180.0 / LRCSI_PI)
+#define DEGREES       (180.0 / LRCS_PI)
 #define COLOUR_PLAIN  0xc8c8c8u /* facets without a colour of their own, shaded */
 #define VISIBLE_SLOPE 1e-9      /* a slope that no colour shows */
 #define CREASE_COSINE 0.05      /* cosines that differ by more show an edge */

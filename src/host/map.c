@@ -98,8 +98,8 @@ static void box_fill(lrcsi_plotter *plotter, double x0, double y0, double x1, do
    Source: J. P. Snyder, Map Projections: A Working Manual, USGS PP 1395 (1987) 251. */
 static double ellipse_height(double degrees)
 {
-    double want = LRCSI_PI * sin(degrees * LRCSI_PI / 180.0);
-    double t = degrees * LRCSI_PI / 180.0;
+    double want = LRCS_PI * sin(degrees * LRCS_PI / 180.0);
+    double t = degrees * LRCS_PI / 180.0;
     if (fabs(degrees) >= 90.0) {
         return degrees > 0.0 ? 1.0 : -1.0;
     }
@@ -165,7 +165,7 @@ static void ellipse_line(const map_plan *plan, double longitude, uint32_t colour
     lrcsi_plot_point point[61];
     const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
     for (int i = 0; i <= 60; i++) {
-        point[i] = ellipse_point(longitude, sin(LRCSI_PI * (i - 30) / 60.0));
+        point[i] = ellipse_point(longitude, sin(LRCS_PI * (i - 30) / 60.0));
     }
     plan->plotter->line(plan->plotter, point, 61, &ink);
 }
@@ -175,7 +175,7 @@ static void ellipse_ground(const map_plan *plan)
 {
     lrcsi_plot_point point[120];
     for (int i = 0; i < 120; i++) {
-        double t = LRCSI_PI * i / 60.0;
+        double t = LRCS_PI * i / 60.0;
         point[i] = (lrcsi_plot_point){ELLIPSE_X + ELLIPSE_WIDE * cos(t),
                                       ELLIPSE_Y - ELLIPSE_HIGH * sin(t)};
     }

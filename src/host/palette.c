@@ -53,7 +53,7 @@ uint32_t lrcsi_palette_distinct(uint32_t number)
     double pale = 45.0 * (number % 3);
     double rgb[3];
     for (int k = 0; k < 3; k++) {
-        double wave = cos(2.0 * LRCSI_PI * (turn - k / 3.0));
+        double wave = cos(2.0 * LRCS_PI * (turn - k / 3.0));
         rgb[k] = 115.0 + 0.6 * pale + (105.0 - 0.4 * pale) * wave;
     }
     return palette_join(rgb);

@@ -11,7 +11,7 @@
 #define POLAR_RINGS 5.0
 #define POLAR_SPOKE 30   /* deg */
 #define POLAR_ROOM  26.0 /* for the spokes' names */
-#define POLAR_RAD   (LRCSI_PI / 180.0)
+#define POLAR_RAD   (LRCS_PI / 180.0)
 
 typedef struct polar_plan {
     const lrcs_host_chart *chart;

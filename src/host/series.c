@@ -86,7 +86,7 @@ static uint32_t marker_corners(int marker, lrcsi_plot_point corner[24])
                                                                   : NULL;
     uint32_t count = !from ? 24 : from == triangle ? 3 : 4;
     for (uint32_t i = 0; i < count; i++) {
-        double turn = 2.0 * LRCSI_PI * i / 24.0;
+        double turn = 2.0 * LRCS_PI * i / 24.0;
         corner[i] = from ? from[i] : (lrcsi_plot_point){cos(turn), sin(turn)};
     }
     return count;

@@ -59,7 +59,7 @@ void lrcsi_curve_integral_make(const lrcsi_curve_context *context, uint32_t face
                                         context->options->stack);
     integral->sum.area = integral->incidence.projected;
     integral->sum.position_err = NORMAL_ERR;
-    integral->sum.meter = view->meter;
+    integral->sum.meter = context->options->meter;
     integral->sum.moments = context->options->moments;
     integral->sum.negligible = lrcsi_most(integral->sum.negligible, context->negligible);
     integral->sum.reference =
@@ -86,7 +86,7 @@ lrcsi_curve_context lrcsi_curve_context_make(const lrcsi_view *view,
 
 void lrcsi_curve_context_add(lrcsi_curve_context *context, double sigma)
 {
-    context->sum += sigma / LRCSI_FOUR_PI;
+    context->sum += sigma / LRCS_FOUR_PI;
 }
 
 double lrcsi_curve_upper_bound(const lrcsi_curve_integral *integral)
@@ -98,7 +98,7 @@ double lrcsi_curve_upper_bound(const lrcsi_curve_integral *integral)
 static lrcsi_curved integral_part(const lrcsi_curve_integral *integral, double fraction)
 {
     const lrcsi_cubature *sum = &integral->sum;
-    double factor = LRCSI_FOUR_PI * fraction;
+    double factor = LRCS_FOUR_PI * fraction;
     lrcsi_curved part = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     part.glint = factor * lrcsi_sum_value(&sum->glint);
     part.diffuse = factor * lrcsi_sum_value(&sum->diffuse);
@@ -107,7 +107,7 @@ static lrcsi_curved integral_part(const lrcsi_curve_integral *integral, double f
     part.rounding = factor * sum->rounding +
                     (integral->incidence.error + 16 * LRCSI_U) * (part.glint + part.diffuse);
     part.estimate = factor * sum->estimate;
-    part.upper_bound = LRCSI_FOUR_PI * lrcsi_curve_upper_bound(integral) *
+    part.upper_bound = LRCS_FOUR_PI * lrcsi_curve_upper_bound(integral) *
                        integral->incidence.projected * (1 + integral->incidence.error);
     return part;
 }
@@ -134,10 +134,10 @@ static lrcsi_curved curve_from_area(lrcsi_curve_integral *integral, const lrcsi_
     double value = lrcsi_least(high, lrcsi_most(low, visible->area / projected * whole));
     lrcsi_curved part = integral_part(integral, whole > 0 ? value / whole : 0);
     part.visibility =
-        LRCSI_FOUR_PI * (lrcsi_most(high - value, value - low) + integral->sum.unresolved);
+        LRCS_FOUR_PI * (lrcsi_most(high - value, value - low) + integral->sum.unresolved);
     part.rounding = integral_part(integral, 1).rounding;
-    part.likely = part.visibility > 0 ? (LRCSI_FOUR_PI * whole / projected) * visible->likely : 0;
-    part.estimate = LRCSI_FOUR_PI * integral->sum.estimate;
+    part.likely = part.visibility > 0 ? (LRCS_FOUR_PI * whole / projected) * visible->likely : 0;
+    part.estimate = LRCS_FOUR_PI * integral->sum.estimate;
     return part;
 }
 
@@ -212,9 +212,9 @@ static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occl
     area_err += o->alone.bent;
     *visible = lrcsi_visible_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = integral_part(integral, 1);
-    part.visibility = LRCSI_FOUR_PI * (lrcsi_curve_upper_bound(integral) *
-                                           (visible->high - visible->low + area_err) +
-                                       integral->sum.unresolved);
+    part.visibility = LRCS_FOUR_PI * (lrcsi_curve_upper_bound(integral) *
+                                          (visible->high - visible->low + area_err) +
+                                      integral->sum.unresolved);
     return part;
 }
 
@@ -228,7 +228,7 @@ int lrcsi_curve_from_pieces(lrcsi_classification *classification,
     lrcsi_occluding o;
     lrcsi_curve_integral integral;
     lrcsi_curve_context context = lrcsi_curve_context_make(view, options);
-    int status = lrcsi_occlude_make(classification, work, &o);
+    int status = lrcsi_occlude_make(classification, options->meter, work, &o);
     for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
         int applies = lrcsi_curve_applies(view, f);
         int partly = sampled && classification->undecided[f] && visible[f].low < visible[f].high;

@@ -22,11 +22,12 @@ typedef struct lrcsi_curved {
     double glint_u, diffuse_log;
 } lrcsi_curved;
 
-/* How to integrate: the plan, which selects the terms of the BRDF; the relative error accepted; and
-   memory for the cubature. */
+/* How to integrate: the plan, which selects the terms of the BRDF; the relative error accepted; the
+   limit on steps; and memory for the cubature. */
 typedef struct lrcsi_curve_options {
     const lrcsi_plan *plan;
     double tolerance;
+    lrcsi_meter *meter; /* limit on steps; NULL: none */
     lrcsi_cubature_cell *stack;
     int moments; /* 1: compute them */
 } lrcsi_curve_options;

@@ -9,6 +9,9 @@
 /* With a tolerance below this, no raster is expected to be accepted by its estimate. */
 #define PREVIEW_TOLERANCE_MIN 1e-4
 
+/* With fewer facets than this, answers are never accepted from samples alone. */
+#define PREVIEW_FACETS 1024u
+
 static int has_effect(uint32_t set, int effect)
 {
     return (set >> effect & 1u) != 0;
@@ -22,19 +25,13 @@ static int shadows_dropped(const lrcs_run_options *options)
             !has_effect(options->with, LRCS_EFFECT_SELF_SHADOWING));
 }
 
-int lrcsi_plan_view(const lrcs_prepared *p, const lrcs_pose *pose, const lrcs_run_options *options,
-                    lrcs_work *work, lrcsi_view *view)
+lrcsi_view_backs lrcsi_plan_backs(const lrcs_prepared *p, const lrcs_run_options *options)
 {
     int requested = has_effect(options->with, LRCS_EFFECT_BACK_FACE_CASTERS) ||
                     (p->two_sided && has_effect(options->with, LRCS_EFFECT_TWO_SIDED));
     int cast = (!p->solid || (requested && !shadows_dropped(options))) &&
                !has_effect(options->without, LRCS_EFFECT_BACK_FACE_CASTERS);
-    int status = lrcsi_view_face(p, pose, work, view);
-    if (status == LRCS_OK) {
-        view->backs_cast = cast;
-        view->backs_reflect = cast && !has_effect(options->without, LRCS_EFFECT_TWO_SIDED);
-    }
-    return status;
+    return (lrcsi_view_backs){cast, cast && !has_effect(options->without, LRCS_EFFECT_TWO_SIDED)};
 }
 
 static int plan_term(const lrcs_run_options *options, int effect)
@@ -57,10 +54,23 @@ static int preview_tried(const lrcs_run_options *options)
            (options->tolerance >= PREVIEW_TOLERANCE_MIN || options->accept == LRCS_ACCEPT_ANY);
 }
 
+/* May areas be taken from the samples of a raster alone, without a proof? Not with curved normals,
+   which must know where on a facet it is visible; nor with curved shapes among other parts, whose
+   proximity band needs the classification; nor with few facets, for which the search for occluders
+   costs less than a raster, and whose sampling errors are too few to be estimated well. */
+static int samples_suffice(const lrcsi_view *view, const lrcs_run_options *options)
+{
+    const lrcs_prepared *p = view->prepared;
+    return options->accept != LRCS_ACCEPT_BOUND && !p->smooth && !p->proximity.reach &&
+           view->front + view->back >= PREVIEW_FACETS;
+}
+
 /* The method, with its reason. Under auto the last choice is clipping, since a raster whose bound
    meets the tolerance mostly costs more. */
-static void plan_method(lrcsi_plan *plan, const lrcsi_clear *clear, const lrcs_run_options *options)
+static void plan_method(lrcsi_plan *plan, const lrcsi_view *view, const lrcsi_clear *clear,
+                        const lrcs_run_options *options)
 {
+    int samples = samples_suffice(view, options);
     if (shadows_dropped(options)) {
         plan_choose(plan, LRCS_METHOD_FACET,
                     options->method == LRCS_METHOD_FACET ? "as asked"
@@ -74,15 +84,19 @@ static void plan_method(lrcsi_plan *plan, const lrcsi_clear *clear, const lrcs_r
         plan_choose(plan, LRCS_METHOD_FACET, "proved convex and alone: nothing is hidden");
     } else if (options->resolution != 0) {
         plan_choose(plan, LRCS_METHOD_ZBUFFER, "the raster asked for meets the tolerance");
-    } else if (preview_tried(options)) {
-        plan->previews = 1;
+    } else if (preview_tried(options) && (samples || options->accept == LRCS_ACCEPT_ANY)) {
+        plan->previews = samples;
         plan_choose(plan, LRCS_METHOD_ZBUFFER, "any answer counts: the first raster");
+    } else if (preview_tried(options)) {
+        plan_choose(plan, LRCS_METHOD_EXACT,
+                    "few facets, or curved ones: a raster would save little time");
     } else {
         plan_choose(plan, LRCS_METHOD_EXACT,
                     plan->nothing_hidden
                         ? "self-shadowing is asked for"
                         : "not proved convex and alone; clipping has the closest bound");
     }
+    plan->samples_only = plan->method == LRCS_METHOD_ZBUFFER && samples;
 }
 
 lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
@@ -92,16 +106,16 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
     lrcsi_plan plan = {0};
     plan.unshadowed = p->convex;
     plan.grazing_cos = p->convex ? p->grazing_cos : 1;
-    plan.no_back_hidden = !view->backs_cast || view->front == 0 || view->back == 0;
+    plan.no_back_hidden = !view->backs.cast || view->front == 0 || view->back == 0;
     plan.nothing_hidden = p->convex && plan.no_back_hidden;
     plan.shadows_forced = has_effect(options->with, LRCS_EFFECT_SELF_SHADOWING);
     /* where back sides are left out of a scene that shows some, its true surfaces are not known */
-    plan.proximity_band = p->proximity.reach && (view->backs_cast || p->solid);
+    plan.proximity_band = p->proximity.reach && (view->backs.cast || p->solid);
     plan.patches = p->curved;
     plan.glint = plan_term(options, LRCS_EFFECT_GLINT);
     plan.diffuse = plan_term(options, LRCS_EFFECT_DIFFUSE);
     plan.size = options->resolution != 0 ? options->resolution : FIRST_SIZE;
-    plan_method(&plan, clear, options);
+    plan_method(&plan, view, clear, options);
     return plan;
 }
 
@@ -136,7 +150,7 @@ static lrcs_effect shadowing_effect(const lrcs_prepared *p, const lrcsi_plan *pl
 
 static lrcs_effect caster_effect(const lrcsi_view *view, const lrcsi_plan *plan)
 {
-    if (view->backs_cast && view->prepared->solid) {
+    if (view->backs.cast && view->prepared->solid) {
         return (lrcs_effect){1, "on request, though proved closed and outward"};
     }
     if (view->prepared->solid) {
@@ -145,7 +159,7 @@ static lrcs_effect caster_effect(const lrcsi_view *view, const lrcsi_plan *plan)
     if (plan->method == LRCS_METHOD_FACET || plan->method == LRCS_METHOD_CLOSED) {
         return (lrcs_effect){0, "no self-shadowing"};
     }
-    return view->backs_cast ? (lrcs_effect){1, "not proved closed and outward"}
+    return view->backs.cast ? (lrcs_effect){1, "not proved closed and outward"}
                             : (lrcs_effect){0, "left out on request"};
 }
 
@@ -179,7 +193,7 @@ static lrcs_effect two_sided_effect(const lrcsi_view *view)
     if (!view->prepared->two_sided) {
         return (lrcs_effect){0, "no material is two-sided"};
     }
-    if (view->backs_reflect) {
+    if (view->backs.reflect) {
         return (lrcs_effect){1, view->prepared->solid
                                     ? "on request, though back sides are never seen"
                                     : "a material is two-sided"};

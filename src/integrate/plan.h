@@ -22,6 +22,7 @@ typedef struct lrcsi_plan {
     const char *reason; /* why this method */
     int previews;       /* auto, and the estimate of a raster may be accepted: the method that is
                            estimated to cost less comes first (integrate/cost.h) */
+    int samples_only;   /* areas of the raster are those of samples alone, without a proof */
     int unshadowed;     /* proved: in this view no front facet with cos(theta) > grazing_cos is
                            hidden */
     double grazing_cos; /* of the scene if unshadowed, else 1 */
@@ -30,16 +31,16 @@ typedef struct lrcsi_plan {
     int no_back_hidden; /* no facet hides a back side that could be visible */
     int proximity_band; /* what curved shapes may hide or show beyond their facets is bounded by a
                            proximity band (visibility/proximity_band.h) */
-    int patches;        /* facets of curved walls stand for the true surface (integrate/patch.h) */
+    int patches;        /* facets of curved walls represent the true surface (integrate/patch.h) */
     int glint, diffuse; /* lrcsi_term */
 } lrcsi_plan;
 
-/* The view of a pose without coordinates (lrcsi_view_face), in which back sides cast shadows and
-   reflect as the proofs about the scene and the options require. Status: as lrcsi_view_face. */
-int lrcsi_plan_view(const lrcs_prepared *prepared, const lrcs_pose *pose,
-                    const lrcs_run_options *options, lrcs_work *work, lrcsi_view *view);
+/* Whether back sides cast shadows and reflect: as the proofs about the scene and the options
+   require. */
+lrcsi_view_backs lrcsi_plan_backs(const lrcs_prepared *prepared, const lrcs_run_options *options);
 
-/* Given: a view made by lrcsi_plan_view, the shapes that nothing hides in it, and the options. */
+/* Given: a view made with lrcsi_plan_backs, the shapes that nothing hides in it, and the options.
+ */
 lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
                            const lrcs_run_options *options);
 

@@ -2,7 +2,8 @@
 /* One pose, from a prepared scene to a result. This file decides in which order the stages run,
    which method follows if the first one does not meet the tolerance, and at which resolution
    rasters are drawn. The stages, in the order of lrcsi_sigma_stages:
-   1. view: lrcsi_plan_view, lrcsi_clear_make, lrcsi_plan_make, lrcsi_view_project;
+   1. view: lrcsi_plan_backs, lrcsi_view_face, lrcsi_clear_make, lrcsi_plan_make,
+      lrcsi_view_project;
    2. classification: run_classify;
    3. visible areas: run_exact (clipping), run_zbuffer or run_previews (samples);
    4. the sum of Eq. 2: run_sum, and run_facet where nothing is searched for shadows. */
@@ -24,9 +25,6 @@
 #define CLIP_PREFERRED      1.5
 #define CLIP_PREFERRED_NEXT 2.5
 
-/* With fewer facets than this, answers are never accepted from samples alone. */
-#define PREVIEW_FACETS 1024u
-
 lrcs_run_options lrcs_run_options_default(void)
 {
     return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0, 0, LRCS_ACCEPT_BOUND, NULL};
@@ -46,24 +44,10 @@ int lrcsi_sigma_check(const lrcs_run_options *options, const lrcs_image *image)
 
 /* --- memory ----------------------------------------------------------------------------------- */
 
-/* Bytes for visible areas; under auto, for the method that needs more. With samples, facets with
-   curved normals that are partly visible are clipped as well. */
-static size_t method_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
-{
-    uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
-    size_t raster =
-        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
-    size_t exact = lrcsi_occlude_need(prepared);
-    raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
-    if (options->accept != LRCS_ACCEPT_BOUND) {
-        size_t preview = lrcsi_preview_need(prepared, size);
-        raster = preview > raster ? preview : raster;
-    }
-    return options->method == LRCS_METHOD_EXACT                       ? exact
-           : options->method == LRCS_METHOD_ZBUFFER || raster > exact ? raster
-                                                                      : exact;
-}
-
+/* 1. Results by facet: areas, integrals over curved normals;
+   2. the view, clear shapes, the classification, the proximity band;
+   3. visible areas: by clipping, or by a raster, after which facets with curved normals that are
+      partly visible are clipped as well; under auto, the larger of the two. */
 size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
 {
     size_t facets = prepared->scene->facet_count;
@@ -82,7 +66,18 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
-    return lrcsi_work_add(need, method_need(prepared, options));
+    uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
+    size_t exact = lrcsi_occlude_need(prepared);
+    size_t raster =
+        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
+    raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
+    if (options->accept != LRCS_ACCEPT_BOUND) {
+        size_t preview = lrcsi_preview_need(prepared, size);
+        raster = preview > raster ? preview : raster;
+    }
+    int clips = options->method == LRCS_METHOD_EXACT ||
+                (options->method != LRCS_METHOD_ZBUFFER && exact >= raster);
+    return lrcsi_work_add(need, clips ? exact : raster);
 }
 
 /* Is no search for shadows made? */
@@ -135,9 +130,10 @@ static uint32_t run_verdict(const lrcsi_sigma *run)
 
 /* --- the sum over visible areas --------------------------------------------------------------- */
 
-static lrcsi_curve_options run_curve_options(const lrcsi_sigma *run)
+static lrcsi_curve_options run_curve_options(const lrcsi_sigma *run, lrcsi_meter *meter)
 {
-    return (lrcsi_curve_options){&run->plan, run->options->tolerance, run->stack, run->moments};
+    return (lrcsi_curve_options){&run->plan, run->options->tolerance, meter, run->stack,
+                                 run->moments};
 }
 
 static lrcsi_total run_total(const lrcsi_sigma *run, lrcs_facet_record *records)
@@ -157,7 +153,7 @@ static void run_facet(lrcsi_sigma *run)
         return;
     }
     if (run->curved) {
-        lrcsi_curve_options options = run_curve_options(run);
+        lrcsi_curve_options options = run_curve_options(run, &run->meter);
         for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
             lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
             run->visible[f] = lrcsi_grid_casts(view, f)
@@ -173,7 +169,7 @@ static void run_facet(lrcsi_sigma *run)
 static int run_has_proofs(const lrcsi_sigma *run)
 {
     return run->plan.unshadowed || run->clear.count > 0 ||
-           (run->view.prepared->solid && run->view.backs_cast);
+           (run->view.prepared->solid && run->view.backs.cast);
 }
 
 /* Replaces areas by what is proved about them:
@@ -181,7 +177,8 @@ static int run_has_proofs(const lrcsi_sigma *run)
       was made for fronts all the same, the proved interval is joined with the one found: bodies
       that are convex by construction have no contacts, so that the search alone proves nothing.
    2. Back sides that are proved never to be seen, but were searched for, may show nothing.
-   3. The fronts of clear shapes are visible; this serves what is reported about their facets. */
+   3. The fronts of clear shapes are visible; this is needed only for what is reported about their
+      facets. */
 static void areas_apply_proofs(const lrcsi_sigma *run)
 {
     const lrcsi_view *view = &run->view;
@@ -224,7 +221,7 @@ static void run_sum(lrcsi_sigma *run, int sampled)
         areas_apply_proofs(run);
     }
     if (run->curved && sampled) {
-        lrcsi_curve_options options = run_curve_options(run);
+        lrcsi_curve_options options = run_curve_options(run, &run->meter);
         int status = lrcsi_curve_from_pieces(&run->classification, &options, 1, run->work,
                                              run->visible, run->curved);
         if (status != LRCS_OK) {
@@ -240,16 +237,18 @@ static void run_sum(lrcsi_sigma *run, int sampled)
 
 /* --- classification, clipping ----------------------------------------------------------------- */
 
-/* Finds which facets are undecided, and the proximity band if the plan needs it: once a pose. */
-static int run_classify(lrcsi_sigma *run)
+/* Finds which facets are undecided, and the proximity band if the plan needs it: once a pose. Steps
+   are taken from the meter: that of the run, or of an attempt. */
+static int run_classify(lrcsi_sigma *run, lrcsi_meter *meter)
 {
     if (run->classified) {
         return LRCS_OK;
     }
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_CLASSIFY, 0, 0);
-    int status = lrcsi_classify_make(&run->view, run->work, &run->classification);
+    int status = lrcsi_classify_make(&run->view, meter, run->work, &run->classification);
     if (status == LRCS_OK && run->plan.proximity_band) {
-        status = lrcsi_proximity_band_make(&run->classification, run->work, &run->band_memory);
+        status =
+            lrcsi_proximity_band_make(&run->classification, meter, run->work, &run->band_memory);
         run->band = &run->band_memory;
     }
     run->classified = status == LRCS_OK;
@@ -257,18 +256,19 @@ static int run_classify(lrcsi_sigma *run)
 }
 
 /* Clipping. If the sum is all that reads the visible areas, uniform facets get only an answer and
-   no area; tessellation and the proofs of areas_apply_proofs need the areas of all facets. */
-static int run_exact(lrcsi_sigma *run)
+   no area; tessellation and the proofs of areas_apply_proofs need the areas of all facets. The
+   meter is that of run_classify. */
+static int run_exact(lrcsi_sigma *run, lrcsi_meter *meter)
 {
-    int status = run_classify(run);
+    int status = run_classify(run, meter);
     if (status == LRCS_OK && run->curved) {
-        lrcsi_curve_options options = run_curve_options(run);
+        lrcsi_curve_options options = run_curve_options(run, meter);
         status = lrcsi_curve_from_pieces(&run->classification, &options, 0, run->work, run->visible,
                                          run->curved);
     } else if (status == LRCS_OK) {
         int sum_only = !run->view.prepared->curved && !run_has_proofs(run);
-        status = lrcsi_occlude_all(&run->classification, run->work, sum_only ? &run->answer : NULL,
-                                   run->visible);
+        status = lrcsi_occlude_all(&run->classification, meter, run->work,
+                                   sum_only ? &run->answer : NULL, run->visible);
     }
     if (status == LRCS_OK) {
         run->size = 0;
@@ -278,18 +278,6 @@ static int run_exact(lrcsi_sigma *run)
 }
 
 /* --- rasters ---------------------------------------------------------------------------------- */
-
-/* May areas be taken from samples alone, without a proof? Not with curved normals, which must know
-   where on a facet it is visible; nor with curved shapes among other parts, whose proximity band
-   needs the classification; nor with few facets, for which the search for occluders costs less than
-   a raster, and whose sampling errors are too few to be estimated well. */
-static int run_samples_only(const lrcsi_sigma *run)
-{
-    const lrcs_prepared *p = run->view.prepared;
-    return run->plan.method == LRCS_METHOD_ZBUFFER && run->options->accept != LRCS_ACCEPT_BOUND &&
-           !p->smooth && !p->proximity.reach && run->flags == 0 &&
-           run->view.front + run->view.back >= PREVIEW_FACETS;
-}
 
 /* One raster of the given size, or of half of it, a quarter and so on until it fits into the work
    area; and the sum over its areas. Where known is NULL the areas are those of samples alone. */
@@ -337,11 +325,11 @@ static uint32_t next_size(const lrcsi_sigma *run)
 }
 
 /* Is the last raster accepted, or can a finer one gain nothing? */
-static int raster_ends(const lrcsi_sigma *run, int samples_only)
+static int raster_ends(const lrcsi_sigma *run)
 {
     return run->options->resolution != 0 || run->size >= LAST_SIZE || run->meter.spent ||
            (run->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
-           (!samples_only && run->classification.undecided_count == 0) ||
+           (!run->plan.samples_only && run->classification.undecided_count == 0) ||
            !(run_verdict(run) & LRCS_FLAG_TOLERANCE_NOT_MET);
 }
 
@@ -350,17 +338,16 @@ static int run_zbuffer(lrcsi_sigma *run)
 {
     lrcsi_known known;
     size_t mark = run->work->used;
-    int samples_only = run_samples_only(run);
     uint32_t size = run->plan.size;
     int status = LRCS_OK;
-    if (!samples_only) {
-        status = run_classify(run);
+    if (!run->plan.samples_only) {
+        status = run_classify(run, &run->meter);
         status = status == LRCS_OK ? lrcsi_visible_known(&run->classification, run->work, &known)
                                    : status;
     }
     while (status == LRCS_OK) {
-        status = run_raster(run, samples_only ? NULL : &known, size);
-        if (status != LRCS_OK || raster_ends(run, samples_only)) {
+        status = run_raster(run, run->plan.samples_only ? NULL : &known, size);
+        if (status != LRCS_OK || raster_ends(run)) {
             break;
         }
         size = next_size(run);
@@ -372,7 +359,7 @@ static int run_zbuffer(lrcsi_sigma *run)
 /* --- the cheapest method first ---------------------------------------------------------------- */
 
 /* The outcome of an attempt to clip. */
-enum { CLIP_DONE, CLIP_ABANDONED, CLIP_NOT_BEGUN };
+enum clip_outcome { CLIP_DONE, CLIP_ABANDONED, CLIP_NOT_BEGUN };
 
 /* Clips in at most the steps that fit into ns, the estimated time of a raster. The attempt is
    abandoned when these are spent, and is not begun if too many facets turn out to be undecided; the
@@ -386,13 +373,12 @@ static int run_clip_within(lrcsi_sigma *run, const lrcsi_cost *cost, double ns)
     const uint32_t size = run->size;
     const int classified = run->classified;
     const lrcsi_proximity_band *band = run->band;
-    const uint64_t limit = run->meter.most;
     uint64_t steps = lrcsi_cost_steps(ns);
-    uint64_t left = limit - run->meter.taken;
+    uint64_t left = run->meter.most - run->meter.taken;
+    lrcsi_meter meter = {.most = steps < left ? steps : left}; /* of this attempt */
     size_t mark = run->work->used;
     int outcome = CLIP_ABANDONED;
-    run->meter.most = run->meter.taken + (steps < left ? steps : left);
-    if (run_classify(run) != LRCS_OK || run->meter.spent) {
+    if (run_classify(run, &meter) != LRCS_OK || meter.spent) {
         run->classified = classified;
         run->band = band;
     } else if (lrcsi_cost_clip(cost, run->classification.undecided_count) > ns) {
@@ -401,13 +387,12 @@ static int run_clip_within(lrcsi_sigma *run, const lrcsi_cost *cost, double ns)
     } else {
         mark = run->work->used;
         run->plan.method = LRCS_METHOD_EXACT;
-        int status = run_exact(run);
-        outcome = status == LRCS_OK && !run->meter.spent ? CLIP_DONE : CLIP_ABANDONED;
+        int status = run_exact(run, &meter);
+        outcome = status == LRCS_OK && !meter.spent ? CLIP_DONE : CLIP_ABANDONED;
     }
-    run->meter.most = limit;
+    run->meter.taken += meter.taken;
     if (outcome != CLIP_DONE) {
         run->work->used = mark;
-        run->meter.spent = 0;
         run->plan = plan;
         run->flags = flags;
         run->size = size;
@@ -445,7 +430,7 @@ static int run_previews(lrcsi_sigma *run)
         }
         size = rasters == 0 ? lrcsi_cost_first(&cost, size) : size;
         status = run_raster(run, NULL, size);
-        if (status != LRCS_OK || raster_ends(run, 1) || (run->flags & LRCS_FLAG_DEPTH_UNDECIDED)) {
+        if (status != LRCS_OK || raster_ends(run) || (run->flags & LRCS_FLAG_DEPTH_UNDECIDED)) {
             break;
         }
         size = next_size(run);
@@ -460,7 +445,7 @@ static int run_previews(lrcsi_sigma *run)
 /* --- the stages ------------------------------------------------------------------------------- */
 
 /* Visible areas and their sum, where shadows are searched for:
-   1. view coordinates, and whether samples alone may serve;
+   1. view coordinates;
    2. the classification, except for samples alone;
    3. the plan's method. Under auto a raster comes first if its size was asked for, or if it costs
       less than clipping and its estimate may be accepted;
@@ -470,21 +455,14 @@ static int run_shadowed(lrcsi_sigma *run)
 {
     const lrcs_run_options *options = run->options;
     int status = lrcsi_view_project(run->work, &run->view);
-    if (run->plan.previews && !run_samples_only(run)) {
-        run->plan.previews = 0;
-        if (options->accept == LRCS_ACCEPT_ESTIMATE) {
-            run->plan.method = LRCS_METHOD_EXACT;
-            run->plan.reason = "few facets, or curved ones: a raster would save little time";
-        }
-    }
-    if (status == LRCS_OK && run->last > LRCSI_SIGMA_VIEW && !run_samples_only(run)) {
-        status = run_classify(run);
+    if (status == LRCS_OK && run->last > LRCSI_SIGMA_VIEW && !run->plan.samples_only) {
+        status = run_classify(run, &run->meter);
     }
     if (status != LRCS_OK || run->last <= LRCSI_SIGMA_CLASSIFY) {
         return status;
     }
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_VISIBILITY, 0, 0);
-    status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run)
+    status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run, &run->meter)
              : run->plan.previews                  ? run_previews(run)
                                                    : run_zbuffer(run);
     if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
@@ -494,11 +472,12 @@ static int run_shadowed(lrcsi_sigma *run)
         run->plan.reason = options->resolution != 0 ? "the raster asked for misses the tolerance"
                                                     : "no raster's estimate meets the tolerance";
         run->flags = 0;
-        status = run_exact(run);
+        status = run_exact(run, &run->meter);
     }
     if (status == LRCS_E_MEMORY && run->plan.method == LRCS_METHOD_EXACT) {
         run->plan.method = LRCS_METHOD_ZBUFFER;
         run->plan.reason = "too little memory for clipping";
+        run->plan.samples_only = 0;
         run->flags = LRCS_FLAG_MEMORY_FALLBACK;
         status = run_zbuffer(run);
     }
@@ -509,9 +488,9 @@ int lrcsi_sigma_stages(lrcsi_sigma *run, const lrcs_prepared *prepared, const lr
 {
     const lrcs_run_options *options = run->options;
     run->meter.most = options->steps != 0 ? options->steps : UINT64_MAX;
-    int status = lrcsi_plan_view(prepared, pose, options, run->work, &run->view);
+    const lrcsi_view_backs backs = lrcsi_plan_backs(prepared, options);
+    int status = lrcsi_view_face(prepared, pose, backs, run->work, &run->view);
     if (status == LRCS_OK) {
-        run->view.meter = &run->meter;
         run->view.progress = options->progress;
         lrcsi_view_progress(&run->view, LRCS_PROGRESS_VIEW, 0, 0);
         status = options->method == LRCS_METHOD_AUTO

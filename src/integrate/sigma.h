@@ -24,7 +24,7 @@ typedef struct lrcsi_sigma {
     int moments;       /* 1: curved normals are integrated with moments, for derivatives */
 
     lrcsi_view view;
-    lrcsi_meter meter; /* of the view */
+    lrcsi_meter meter; /* limit on the steps of the visibility computation */
     lrcsi_clear clear; /* shapes that are evaluated by their closed forms: method auto only */
     lrcsi_plan plan;
     int classified; /* the classification is made, and the band if the plan needs it */

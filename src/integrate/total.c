@@ -5,15 +5,15 @@
 
    Nearly all facets are summed in blocks of LRCSI_LANES, in plain doubles (optics/shade.h). Facets
    near grazing incidence, in the bright lobe of a narrow glint, with curved normals, or on curved
-   walls are summed one by one (sum_facet), with incidence in double-double (view/view.h). What each
-   step adds to the bounds is stated beside it; the bounds themselves are increased by 1e-9 and 2 u
-   a facet for their own rounding. The steps of lrcsi_total_make:
-   1. sum_material, for each material: places_pick selects the facets of its batch that face the
-      laser (lrcsi_view_dot), places_filter keeps those that are visible, and block_run evaluates
+   walls are added one by one (add_any_facet), with incidence in double-double (view/view.h). What
+   each step adds to the bounds is stated beside it; at the end the bounds are increased by 1e-9 and
+   2 u a facet, relative, for the rounding of their own sums. The steps of lrcsi_total_make:
+   1. add_batch, for each material: select_facets selects the facets of its batch that face the
+      laser (lrcsi_view_dot), keep_visible keeps those that are visible, and add_block evaluates
       blocks of them: normals and areas, lrcsi_shade, visible areas, sums, bounds;
-   2. sum_shape, for each clear shape: lrcsi_shape_terms_make;
-   3. sum_tessellation, if shapes are curved: lrcsi_tessellation_error;
-   4. total_finish: square metres, and the rounding of the sums. */
+   2. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;
+   3. add_tessellation_errors, if shapes are curved: lrcsi_tessellation_error;
+   4. total_finish: conversion to square metres, and the rounding of the sums. */
 #include "integrate/total.h"
 
 #include <float.h>
@@ -54,7 +54,7 @@ typedef struct total_run {
     const lrcsi_proximity_band *band; /* NULL: none was made */
     const lrcsi_clear *clear;         /* NULL: no shape is evaluated by its closed form */
     lrcs_facet_record *records;       /* NULL: none are asked for */
-    int tessellation;  /* facets stand for curved shapes, and what that costs is known */
+    int tessellation;  /* facets replace curved shapes, and the error of that is known */
     lrcsi_patch patch; /* of the last facet that has one */
     lrcsi_total total;
     total_sums sums;
@@ -79,7 +79,7 @@ static lrcsi_reflection reflection_planned(const lrcs_brdf *brdf, const lrcsi_pl
     return at;
 }
 
-/* The largest value of (1 + u)^2 exp(-u / s^2) over u >= 0. */
+/* The largest value of the glint of amplitude 1, (1 + u)^2 exp(-u / s^2), over u >= 0. */
 static double glint_peak(double s)
 {
     double q = 2 * s * s;
@@ -133,7 +133,7 @@ static double fraction_of(double part, double whole)
     return part == whole ? 1 : part / whole;
 }
 
-/* The reflectance is the mean over the facet's patch if it stands for a part of a curved wall, else
+/* The reflectance is the mean over the facet's patch if it represents a part of a curved wall, else
    that of its normal. Rounding: S, 4 pi, two products and the fraction, 8 u; the relative error of
    areas; and the error of f_r cos^2, times the upper bound of the visible area. */
 lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
@@ -150,7 +150,7 @@ lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_pla
         at = reflection_planned(&brdf, plan, incidence->tan2);
         uncertainty = reflection_uncertainty(&brdf, incidence, &at);
     }
-    double four_pi_s = LRCSI_FOUR_PI * 0.5 * p->normal[facet].length;
+    double four_pi_s = LRCS_FOUR_PI * 0.5 * p->normal[facet].length;
     double fraction = fraction_of(visible->area, incidence->projected);
     double fraction_high = fraction_of(visible->high, incidence->projected);
     lrcsi_facet_terms terms = {.glint = four_pi_s * at.glint * fraction,
@@ -252,12 +252,12 @@ static void record_sigma(const total_run *run, uint32_t facet, double glint, dou
     }
 }
 
-/* Adds a facet that reflects towards the laser, and of which something may be visible:
+/* Adds a facet that reflects towards the laser and may be visible:
    1. its incidence and visible area;
    2. with curved normals, the integral over them;
    3. otherwise 4 pi S f times the visible fraction, with the rounding error;
    4. the error of the visible area. */
-static void sum_precisely(total_run *run, uint32_t facet)
+static void add_reflecting_facet(total_run *run, uint32_t facet)
 {
     total_sums *sums = &run->sums;
     lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
@@ -290,8 +290,8 @@ static void sum_precisely(total_run *run, uint32_t facet)
 }
 
 /* A facet of a clear shape. What it reflects is part of the closed form, and nothing hides its
-   front. The projected area of a closed shape is part of the closed form, too. */
-static void sum_in_clear_shape(total_run *run, uint32_t facet)
+   front. So is the projected area, if the shape is solid. */
+static void add_facet_of_clear_shape(total_run *run, uint32_t facet)
 {
     const lrcs_prepared *p = run->view->prepared;
     int front = run->view->facing[facet] > 0;
@@ -301,17 +301,17 @@ static void sum_in_clear_shape(total_run *run, uint32_t facet)
     run->total.hidden += front ? 0 : 1;
 }
 
-/* Any facet, by its exact facing. */
-static void sum_facet(total_run *run, uint32_t facet)
+/* Adds any facet, by its exact facing. */
+static void add_any_facet(total_run *run, uint32_t facet)
 {
     int reflects = lrcsi_view_reflects(run->view, facet);
     int visible =
         run->view->facing[facet] != 0 &&
         (run->visible ? area_may_be_visible(run, facet) : lrcsi_grid_casts(run->view, facet));
     if (reflects && is_in_clear_shape(run, facet)) {
-        sum_in_clear_shape(run, facet);
+        add_facet_of_clear_shape(run, facet);
     } else if (reflects && visible) {
-        sum_precisely(run, facet);
+        add_reflecting_facet(run, facet);
     } else if (reflects) {
         run->total.hidden++;
     } else if (visible) { /* a back side that does not reflect */
@@ -323,23 +323,23 @@ static void sum_facet(total_run *run, uint32_t facet)
     }
 }
 
-/* Does a facet stand for a patch of a curved wall in this run? */
-static int stands_for_patch(const total_run *run, uint32_t facet)
+/* Does a facet represent a patch of a curved wall in this run (integrate/patch.h)? */
+static int represents_patch(const total_run *run, uint32_t facet)
 {
     return run->plan->patches && lrcsi_patch_exists(run->view->prepared, facet);
 }
 
-/* The error of a facet in the place of a curved shape. Facets with curved normals add what could be
-   visible otherwise within the proximity band; clear shapes have no such error. */
-static void add_tessellation(total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
+/* Adds the error of a facet that replaces a part of a curved shape. Facets with curved normals add
+   what may be visible or hidden within the proximity band; clear shapes have no such error. */
+static void add_tessellation_error(total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
 {
     if (is_in_clear_shape(run, facet)) {
         return;
     }
     if (!run->curved || !lrcsi_curve_applies(run->view, facet)) {
         run->sums.tessellation +=
-            LRCSI_FOUR_PI * lrcsi_tessellation_error(run->view, run->plan, facet, incidence,
-                                                     run->visible, run->band, &run->patch);
+            LRCS_FOUR_PI * lrcsi_tessellation_error(run->view, run->plan, facet, incidence,
+                                                    run->visible, run->band, &run->patch);
     } else if (run->band) {
         run->sums.tessellation += run->band->share[facet] * run->curved[facet].upper_bound;
     }
@@ -347,8 +347,8 @@ static void add_tessellation(total_run *run, uint32_t facet, const lrcsi_inciden
 
 /* --- facets in blocks ------------------------------------------------------------------------- */
 
-/* The facets of one material. Those that a block can serve are collected until there are enough of
-   them for one; they are named by their places in prepared->batches. */
+/* The facets of one material. Those that can be evaluated in blocks are collected until there are
+   enough for one; they are identified by their places in prepared->batches. */
 typedef struct total_batch {
     lrcsi_lobes lobes;
     int back_reflects; /* back sides reflect */
@@ -419,11 +419,11 @@ static void block_visible(total_run *run, total_batch *batch, uint32_t count)
 /* Eq. 2 for one block, the first LRCSI_LANES facets collected:
    1. normals and areas S;
    2. 4 pi f_r cos(theta), with errors;
-   3. projected areas S cos(theta), and the visible part of them. By method facet all that is within
-      the rounding of the plan's grazing threshold may be hidden;
-   4. the products with the areas, added to the sums;
+   3. projected areas S cos(theta), and the visible part of them. With method facet, facets that are
+      not proved to be steeper than the plan's grazing threshold may be hidden;
+   4. the products of 2 and 3, added to the sums;
    5. records. */
-static void block_run(total_run *run, total_batch *batch)
+static void add_block(total_run *run, total_batch *batch)
 {
     const lrcsi_view *view = run->view;
     const double threshold = run->plan->grazing_cos;
@@ -467,10 +467,10 @@ static void block_run(total_run *run, total_batch *batch)
     memmove(batch->side, batch->side + LRCSI_LANES, sizeof batch->side / 2);
 }
 
-/* Given places of facets that reflect, keeps those that blocks serve, and returns how many these
-   are. Facets of clear shapes, and those with curved normals, are summed at once; hidden ones are
-   counted. */
-static uint32_t places_filter(total_run *run, uint32_t *list, uint32_t count, int side)
+/* Given places of facets that reflect, keeps those that are evaluated in blocks, and returns how
+   many these are. Facets of clear shapes, and those with curved normals, are added at once; hidden
+   ones are counted. */
+static uint32_t keep_visible(total_run *run, uint32_t *list, uint32_t count, int side)
 {
     const uint32_t *facet = run->view->prepared->batches.facet;
     uint32_t left = count;
@@ -478,7 +478,7 @@ static uint32_t places_filter(total_run *run, uint32_t *list, uint32_t count, in
         left = 0;
         for (uint32_t k = 0; k < count; k++) {
             if (is_in_clear_shape(run, facet[list[k]])) {
-                sum_in_clear_shape(run, facet[list[k]]);
+                add_facet_of_clear_shape(run, facet[list[k]]);
             } else {
                 list[left++] = list[k];
             }
@@ -497,7 +497,7 @@ static uint32_t places_filter(total_run *run, uint32_t *list, uint32_t count, in
         left = 0;
         for (uint32_t k = 0; k < count; k++) {
             if (lrcsi_curve_applies(run->view, facet[list[k]])) {
-                sum_precisely(run, facet[list[k]]);
+                add_reflecting_facet(run, facet[list[k]]);
             } else {
                 list[left++] = list[k];
             }
@@ -506,10 +506,10 @@ static uint32_t places_filter(total_run *run, uint32_t *list, uint32_t count, in
     return left;
 }
 
-/* Collects the facets picked from `place` on for the next block, and runs it once it is full. They
-   reflect on the side towards the laser, which is 1, or -1 for their back. */
-static void batch_add(total_run *run, total_batch *batch, uint32_t place,
-                      const uint64_t pick[LRCSI_LANES], int side)
+/* Collects the facets selected from `place` on for the next block, and adds the block once it is
+   full. They reflect from the side that faces the laser: 1, or -1 for their back. */
+static void batch_collect(total_run *run, total_batch *batch, uint32_t place,
+                          const uint64_t pick[LRCSI_LANES], int side)
 {
     uint32_t *list = batch->place + batch->waiting;
     uint32_t count = 0;
@@ -518,7 +518,7 @@ static void batch_add(total_run *run, total_batch *batch, uint32_t place,
         count += (uint32_t)(pick[i] >> 63);
     }
     if (run->visible || run->curved || run->clear || run->view->prepared->batches.redundant) {
-        count = places_filter(run, list, count, side);
+        count = keep_visible(run, list, count, side);
     }
     for (uint32_t i = 0; batch->back_reflects && i < count; i++) {
         batch->side[batch->waiting + i] = (signed char)side;
@@ -526,7 +526,7 @@ static void batch_add(total_run *run, total_batch *batch, uint32_t place,
     batch->waiting += count;
     batch->seen |= count > 0;
     if (batch->waiting >= LRCSI_LANES) {
-        block_run(run, batch);
+        add_block(run, batch);
     }
 }
 
@@ -536,9 +536,9 @@ static inline double place_dot(const lrcsi_batches *b, uint32_t at, const double
     return lrcsi_view_dot(b->normal[0][at], b->normal[1][at], b->normal[2][at], d);
 }
 
-/* Adds the areas of the back sides picked that are visible and do not reflect. */
-static void batch_add_backs(total_run *run, total_batch *batch, uint32_t place,
-                            const uint64_t pick[LRCSI_LANES])
+/* Adds the areas of the selected back sides, which do not reflect, as far as they are visible. */
+static void add_back_areas(total_run *run, total_batch *batch, uint32_t place,
+                           const uint64_t pick[LRCSI_LANES])
 {
     const lrcsi_batches *b = &run->view->prepared->batches;
     const double *d = run->view->unit;
@@ -566,16 +566,16 @@ static void batch_add_backs(total_run *run, total_batch *batch, uint32_t place,
     lrcsi_sum_lanes_add(&batch->back_side, area);
 }
 
-/* Which of LRCSI_LANES places have facets that blocks serve, as sign bits: those that face the
-   laser with their front, and with their back. */
-typedef struct total_pick {
+/* Which of LRCSI_LANES places have facets that are evaluated in blocks, as sign bits: those whose
+   front faces the laser, and those whose back does. */
+typedef struct total_selection {
     uint64_t front[LRCSI_LANES], back[LRCSI_LANES];
     uint64_t any_front, any_back, any_other; /* sign bit: 1 if there is one */
-} total_pick;
+} total_selection;
 
 /* Compares cosines by the sign bits of differences: a - b is negative if a < b. */
-static void places_pick(const total_run *run, const total_batch *batch, uint32_t place,
-                        uint32_t count, total_pick *restrict pick)
+static void select_facets(const total_run *run, const total_batch *batch, uint32_t place,
+                          uint32_t count, total_selection *restrict pick)
 {
     const lrcsi_batches *b = &run->view->prepared->batches;
     const double *x = b->normal[0] + place;
@@ -606,68 +606,45 @@ static void places_pick(const total_run *run, const total_batch *batch, uint32_t
     pick->any_other = others;
 }
 
-/* Up to LRCSI_LANES facets from a place on:
-   1. which of them blocks serve; facets that stand for patches of curved walls are not served;
-   2. front sides are collected for a block;
-   3. so are back sides that reflect; of those that do not, the areas are added;
-   4. the others, near grazing or in the bright lobe of a narrow glint, are summed one by one. */
-static void sum_places(total_run *run, total_batch *batch, uint32_t place, uint32_t count)
+/* Adds up to LRCSI_LANES facets from a place on:
+   1. selects those that are evaluated in blocks: not facets that represent patches of curved walls;
+   2. collects front sides for a block;
+   3. collects back sides too if they reflect; otherwise adds their areas;
+   4. adds the others one by one: near grazing, or in the bright lobe of a narrow glint. */
+static void add_places(total_run *run, total_batch *batch, uint32_t place, uint32_t count)
 {
     const uint32_t *facet = run->view->prepared->batches.facet + place;
-    total_pick pick;
-    places_pick(run, batch, place, count, &pick);
+    total_selection pick;
+    select_facets(run, batch, place, count, &pick);
     for (uint32_t i = 0; run->plan->patches && i < count; i++) {
-        if (stands_for_patch(run, facet[i])) {
+        if (represents_patch(run, facet[i])) {
             pick.front[i] = pick.back[i] = 0;
             pick.any_other = UINT64_MAX;
         }
     }
     if (pick.any_front >> 63) {
-        batch_add(run, batch, place, pick.front, 1);
+        batch_collect(run, batch, place, pick.front, 1);
     }
-    if (!(pick.any_back >> 63)) {
-        /* nothing */
-    } else if (batch->back_reflects && batch->back_visible) {
-        batch_add(run, batch, place, pick.back, -1);
-    } else if (batch->back_visible) {
-        batch_add_backs(run, batch, place, pick.back);
-    } else if (batch->back_reflects) {
+    int back = (int)(pick.any_back >> 63);
+    if (back && batch->back_visible && batch->back_reflects) {
+        batch_collect(run, batch, place, pick.back, -1);
+    } else if (back && batch->back_visible) {
+        add_back_areas(run, batch, place, pick.back);
+    } else if (back && batch->back_reflects) {
         for (uint32_t i = 0; i < count; i++) {
             run->total.hidden += (uint32_t)(pick.back[i] >> 63);
         }
     }
     for (uint32_t i = 0; pick.any_other >> 63 && i < count; i++) {
         if (!((pick.front[i] | pick.back[i]) >> 63)) {
-            sum_facet(run, facet[i]);
-            if (run->tessellation && stands_for_patch(run, facet[i])) { /* its patch is at hand */
+            add_any_facet(run, facet[i]);
+            if (run->tessellation &&
+                represents_patch(run, facet[i])) { /* run->patch is its patch */
                 lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet[i]);
-                add_tessellation(run, facet[i], &incidence);
+                add_tessellation_error(run, facet[i], &incidence);
             }
         }
     }
-}
-
-/* Runs the last block, and adds the sums of the batch to the others. By method facet with a grazing
-   threshold of 1 nothing is known about what is hidden, and all of the batch may be. */
-static void batch_finish(total_run *run, total_batch *batch)
-{
-    if (batch->waiting > 0) {
-        block_run(run, batch);
-    }
-    total_sums *sums = &run->sums;
-    lrcsi_sum both = {0, 0};
-    lrcsi_sum_lanes_join(&both, &batch->glint);
-    lrcsi_sum_lanes_join(&both, &batch->diffuse);
-    lrcsi_sum_lanes_join(&sums->glint, &batch->glint);
-    lrcsi_sum_lanes_join(&sums->diffuse, &batch->diffuse);
-    lrcsi_sum_lanes_join(&sums->projected, &batch->projected);
-    lrcsi_sum_lanes_join(&sums->projected, &batch->back_side);
-    lrcsi_sum_lanes_join(&sums->back_side, &batch->back_side);
-    for (int k = 0; k < LRCSI_SUM_LANES; k++) {
-        sums->rounding += batch->error[k] * LRCSI_SHADE_UNIT;
-    }
-    sums->rounding += run->visible ? lrcsi_sum_value(&both) * AREA_ERROR : 0;
-    sums->visibility += !run->visible && run->plan->grazing_cos >= 1 ? lrcsi_sum_value(&both) : 0;
 }
 
 static int is_evaluated(int term, double amplitude)
@@ -675,8 +652,12 @@ static int is_evaluated(int term, double amplitude)
     return amplitude > 0 || term == LRCSI_TERM_FORCED;
 }
 
-/* All facets of a material, in their order. */
-static void sum_material(total_run *run, uint32_t material)
+/* Adds all facets of a material, in their order:
+   1. the facets, in blocks or one by one;
+   2. the last block, which may not be full;
+   3. the sums and the errors of the blocks. With method facet and a grazing threshold of 1, nothing
+      is known about what is hidden, and all of the material may be. */
+static void add_batch(total_run *run, uint32_t material)
 {
     const lrcsi_view *view = run->view;
     const lrcs_material *m = &view->prepared->scene->material[material];
@@ -684,23 +665,40 @@ static void sum_material(total_run *run, uint32_t material)
     total_batch batch = {
         .lobes = lrcsi_lobes_make(&brdf, brdf.s > 0 && is_evaluated(run->plan->glint, brdf.A),
                                   is_evaluated(run->plan->diffuse, brdf.B)),
-        .back_reflects = view->backs_reflect && m->two_sided,
-        .back_visible = view->backs_cast || run->visible};
+        .back_reflects = view->backs.reflect && m->two_sided,
+        .back_visible = view->backs.cast || run->visible};
     const uint32_t *first = view->prepared->batches.first + material;
     for (uint32_t place = first[0]; place < first[1]; place += LRCSI_LANES) {
         uint32_t left = first[1] - place;
-        sum_places(run, &batch, place, left < LRCSI_LANES ? left : LRCSI_LANES);
+        add_places(run, &batch, place, left < LRCSI_LANES ? left : LRCSI_LANES);
     }
-    batch_finish(run, &batch);
+    if (batch.waiting > 0) {
+        add_block(run, &batch);
+    }
+    total_sums *sums = &run->sums;
+    lrcsi_sum both = {0, 0};
+    lrcsi_sum_lanes_join(&both, &batch.glint);
+    lrcsi_sum_lanes_join(&both, &batch.diffuse);
+    lrcsi_sum_lanes_join(&sums->glint, &batch.glint);
+    lrcsi_sum_lanes_join(&sums->diffuse, &batch.diffuse);
+    lrcsi_sum_lanes_join(&sums->projected, &batch.projected);
+    lrcsi_sum_lanes_join(&sums->projected, &batch.back_side);
+    lrcsi_sum_lanes_join(&sums->back_side, &batch.back_side);
+    for (int k = 0; k < LRCSI_SUM_LANES; k++) {
+        sums->rounding += batch.error[k] * LRCSI_SHADE_UNIT;
+    }
+    sums->rounding += run->visible ? lrcsi_sum_value(&both) * AREA_ERROR : 0;
+    sums->visibility += !run->visible && run->plan->grazing_cos >= 1 ? lrcsi_sum_value(&both) : 0;
     if (batch.seen) {
-        add_seen(&run->sums, &brdf);
+        add_seen(sums, &brdf);
     }
 }
 
 /* --- curved shapes ---------------------------------------------------------------------------- */
 
-/* The error of facets in the place of curved shapes, but for those that stand for patches. */
-static void sum_tessellation(total_run *run)
+/* Adds the errors of the facets that replace curved shapes, except those that represent patches,
+   whose errors add_places adds. */
+static void add_tessellation_errors(total_run *run)
 {
     const lrcsi_batches *b = &run->view->prepared->batches;
     for (uint32_t place = 0; place < b->count; place += LRCSI_INCIDENCES) {
@@ -709,8 +707,8 @@ static void sum_tessellation(total_run *run)
         uint32_t count = left < LRCSI_INCIDENCES ? left : LRCSI_INCIDENCES;
         lrcsi_view_incidences(run->view, b->facet + place, count, incidence);
         for (uint32_t i = 0; i < count; i++) {
-            if (!stands_for_patch(run, b->facet[place + i])) {
-                add_tessellation(run, b->facet[place + i], &incidence[i]);
+            if (!represents_patch(run, b->facet[place + i])) {
+                add_tessellation_error(run, b->facet[place + i], &incidence[i]);
             }
         }
     }
@@ -749,7 +747,7 @@ static void record_shape(const total_run *run, const lrcs_part *part,
 }
 
 /* Adds a clear shape. The rounding of the compensated sums is part of that of the facets. */
-static void sum_shape(total_run *run, uint32_t index, double slab)
+static void add_clear_shape(total_run *run, uint32_t index, double slab)
 {
     const lrcs_prepared *p = run->view->prepared;
     const lrcs_part *part = &p->scene->part[index];
@@ -839,15 +837,15 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     run.tessellation =
         plan->method != LRCS_METHOD_CLOSED && p->curved && lrcsi_tessellation_known(p, plan);
     for (uint32_t i = 0; i < p->scene->material_count; i++) {
-        sum_material(&run, i);
+        add_batch(&run, i);
     }
     for (uint32_t i = 0; run.clear && i < p->scene->part_count; i++) {
         if (run.clear->part[i]) {
-            sum_shape(&run, i, run.clear->slab[i]);
+            add_clear_shape(&run, i, run.clear->slab[i]);
         }
     }
     if (run.tessellation) {
-        sum_tessellation(&run);
+        add_tessellation_errors(&run);
     } else if (p->curved && plan->method != LRCS_METHOD_CLOSED) {
         run.sums.tessellation = -HUGE_VAL;
     }

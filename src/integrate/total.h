@@ -20,7 +20,7 @@ typedef struct lrcsi_total {
     uint32_t seen; /* GLINT and DIFFUSE bits: the terms of facets that may be visible */
 } lrcsi_total;
 
-/* What one flat facet adds, scaled, with the factor 4 pi. */
+/* What one facet with a flat normal adds to sigma, scaled, with the factor 4 pi. */
 typedef struct lrcsi_facet_terms {
     double glint, diffuse;
     double rounding; /* bound on the rounding error of glint + diffuse, for any visible area up to
@@ -37,12 +37,12 @@ lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_pla
 /* A scaled bound on areas or on sigma in square metres, rounded outward where it underflows. */
 double lrcsi_bound_area(const lrcs_prepared *p, double scaled);
 
-/* A bound on what underflow takes from a facet's terms, scaled: some 30 operations lose at most
+/* A bound on the underflow error of a facet's terms, scaled: some 30 operations lose at most
    2^-1075 each, and no later operation enlarges a loss relative to its term. */
 #define LRCSI_FACET_UNDERFLOW 0x1p-1070
 
-/* The visible areas of facets. Where answer[] is LRCSI_QUERY_VISIBLE or LRCSI_QUERY_HIDDEN, all of
-   the facet is visible, or nothing; visible[] has the areas of the other facets, and of all facets
+/* The visible areas of facets. answer[facet] is LRCSI_QUERY_VISIBLE or LRCSI_QUERY_HIDDEN if all or
+   nothing of the facet is visible; visible[] has the areas of the other facets, and of all facets
    if answer is NULL. */
 typedef struct lrcsi_areas {
     const lrcsi_visible *visible; /* NULL: method facet, where the plan implies all areas */

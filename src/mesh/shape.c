@@ -68,7 +68,7 @@ static int shape_check_one(double value, int used, const char *item, double most
 /* A cone's height is given by exactly one of two numbers. */
 static int shape_check_cone(const lrcs_shape *shape, lrcs_where *where)
 {
-    const double radian = LRCSI_PI / 180.0;
+    const double radian = LRCS_PI / 180.0;
     if (shape->half_angle_deg > 0.0 && shape->length > 0.0) {
         return shape_fault(where, LRCS_E_ARGUMENT, "length",
                            "a half-angle or a length for a cone, not both", "both");

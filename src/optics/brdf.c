@@ -19,11 +19,11 @@
 #define BRDF_FORTESCUE "Fortescue, Swinerd and Stark (eds) 2011, Table 11.3"
 #define BRDF_LAMBERT(absorptance)                                                                  \
     {                                                                                              \
-        0.0, (1.0 - (absorptance)) / LRCSI_PI, 0.0, 0.0                                            \
+        0.0, (1.0 - (absorptance)) / LRCS_PI, 0.0, 0.0                                             \
     }
 #define BRDF_LAMBERT_ERROR(change)                                                                 \
     {                                                                                              \
-        0.0, (change) / LRCSI_PI, 0.0, 0.0,                                                        \
+        0.0, (change) / LRCS_PI, 0.0, 0.0,                                                         \
         {                                                                                          \
             0, 0, 0, 0, 0, 0                                                                       \
         }                                                                                          \
@@ -121,10 +121,10 @@ int lrcs_brdf_check(const lrcs_brdf *brdf)
     if (brdf->A > 0.0 && brdf->s > 0.7) {
         bits |= LRCS_BRDF_SLOPE_LARGE;
     }
-    if (LRCSI_PI * brdf->B > 1.0) {
+    if (LRCS_PI * brdf->B > 1.0) {
         bits |= LRCS_BRDF_DIFFUSE_GAIN;
     }
-    if (4.0 * LRCSI_PI * brdf->A * brdf->s * brdf->s > 1.0) {
+    if (4.0 * LRCS_PI * brdf->A * brdf->s * brdf->s > 1.0) {
         bits |= LRCS_BRDF_GLINT_GAIN;
     }
     if (brdf->A == 0.0 && brdf->B == 0.0) {

@@ -80,7 +80,7 @@ static void closed_add_face(const lrcs_brdf *brdf, const lrcsi_light *light, int
 static void closed_add_disc(const lrcs_brdf *brdf, const lrcsi_light *light, int sign,
                             double radius, lrcsi_amount *sum)
 {
-    closed_add_face(brdf, light, 2, sign, LRCSI_PI * radius * radius, sum);
+    closed_add_face(brdf, light, 2, sign, LRCS_PI * radius * radius, sum);
 }
 
 static void closed_add_box(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcsi_light *light,
@@ -214,7 +214,7 @@ int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_
         return status;
     }
     lrcsi_amount sum = closed_sum(shape, brdf, &light);
-    lrcsi_closed_scale(&sum, 4.0 * LRCSI_PI, 1.0);
+    lrcsi_closed_scale(&sum, 4.0 * LRCS_PI, 1.0);
     lrcs_closed out = {0.0, sum.value[LRCSI_GLINT], sum.value[LRCSI_DIFFUSE], 0.0};
     out.sigma_m2 = out.sigma_glint_m2 + out.sigma_diffuse_m2;
     out.bound_m2 = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE];

@@ -31,17 +31,18 @@
 /* Longest stretch of y sqrt(-kappa) for one Gauss rule. */
 #define CAP_STRETCH 3.0
 
-/* E = s^2 + (sqrt(pi)/2) s^3 erfcx(1/s) and 2/(m + 3): DESIGN.md section 2. */
+/* sigma = 4 pi^2 R^2 A E + 8 pi^2 R^2 B / (m + 3), E = s^2 + (sqrt(pi)/2) s^3 erfcx(1/s): the
+   integrals of F over a hemisphere of normals. */
 lrcsi_amount lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
 {
     double s = brdf->s;
-    double width = s > 0.0 ? 1.0 + 0.5 * sqrt(LRCSI_PI) * s * lrcsi_special_erfcx(1.0 / s) : 0.0;
+    double width = s > 0.0 ? 1.0 + 0.5 * sqrt(LRCS_PI) * s * lrcsi_special_erfcx(1.0 / s) : 0.0;
     const double factor[LRCSI_PARTS] = {s * s * width, 2.0 / (brdf->m + 3.0)};
     lrcsi_amount amount = {{brdf->A, brdf->B}, {0.0, 0.0}};
     amount.error[LRCSI_GLINT] = LRCSI_U * brdf->A;
     amount.error[LRCSI_DIFFUSE] = LRCSI_U * brdf->B;
     lrcsi_closed_weigh(&amount, factor, 22.0);
-    lrcsi_closed_scale(&amount, LRCSI_PI * shape->radius * shape->radius, 3.0);
+    lrcsi_closed_scale(&amount, LRCS_PI * shape->radius * shape->radius, 3.0);
     return amount;
 }
 
@@ -111,7 +112,7 @@ static double cap_weight_circle(double near, double far, double q, double n_0)
     double g = n_0 / near;
     double a = 0.5 * g * ((near + far) / far);
     double b = g * (q / far);
-    return 2.0 * LRCSI_PI * sqrt(g) * sqrt(n_0 / far) * (a * a * a + 1.5 * a * b * b);
+    return 2.0 * LRCS_PI * sqrt(g) * sqrt(n_0 / far) * (a * a * a + 1.5 * a * b * b);
 }
 
 /* Phi at theta = start + delta = end - h (outer), sine and cosine of theta given. */
@@ -135,7 +136,7 @@ static double cap_outer_weight(const lrcsi_cap *cap, double delta, double h, dou
 static double cap_inner_weight(const lrcsi_cap *cap, double h, double sine, double cosine)
 {
     if (!cap->paraboloid) {
-        return 2.0 * LRCSI_PI;
+        return 2.0 * LRCS_PI;
     }
     double near = cap->cos_alpha * cosine + cap->sin_alpha * sine;
     double far = cap->n_0 * cos(h) + cap->sin_tau * sin(h); /* cos(tau - h) */
@@ -237,7 +238,7 @@ static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light
     lrcsi_angle start, end;
     lrcsi_arc arc = {.is_cap = 1, .cap = cap_make(body, light, &start, &end)};
     lrcsi_cap *cap = &arc.cap;
-    arc.grain = body->paraboloid ? atan2(cap->n_0, cap->sin_tau) : LRCSI_PI;
+    arc.grain = body->paraboloid ? atan2(cap->n_0, cap->sin_tau) : LRCS_PI;
     if (cap->nearer) {
         cap->inner = 1;
         cap->sin_end = cap->sin_start;
@@ -264,7 +265,7 @@ lrcsi_amount lrcsi_closed_dome(const lrcs_shape *shape, const lrcs_brdf *brdf,
                                const lrcsi_light *light)
 {
     double radius = shape->radius;
-    cap_body body = {{{1.0, 0.0}, {0.0, 0.0}}, 0, radius, 2.0 * LRCSI_PI * radius * radius};
+    cap_body body = {{{1.0, 0.0}, {0.0, 0.0}}, 0, radius, 2.0 * LRCS_PI * radius * radius};
     return cap_integral(brdf, light, &body);
 }
 
@@ -278,7 +279,7 @@ lrcsi_amount lrcsi_closed_paraboloid(const lrcs_shape *shape, const lrcs_brdf *b
     double height = shape->length;
     if (height <= 0x1p-480 * radius || radius == 0.0) {
         lrcsi_amount flat = lrcsi_closed_reflect(brdf, light->aspect);
-        lrcsi_closed_scale(&flat, LRCSI_PI * radius * radius, 4.0);
+        lrcsi_closed_scale(&flat, LRCS_PI * radius * radius, 4.0);
         return flat;
     }
     lrcsi_dd r = {radius, 0.0};
@@ -287,6 +288,6 @@ lrcsi_amount lrcsi_closed_paraboloid(const lrcs_shape *shape, const lrcs_brdf *b
     cap_body body = {{lrcsi_closed_divide(h, hyp), lrcsi_closed_divide(r, hyp)},
                      1,
                      hyp.hi * (hyp.hi / h.hi),
-                     LRCSI_PI * radius * hyp.hi};
+                     LRCS_PI * radius * hyp.hi};
     return cap_integral(brdf, light, &body);
 }

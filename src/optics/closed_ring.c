@@ -3,11 +3,11 @@
    of the ring is lit; the integral of F over it is the Gauss-Legendre rule of closed_arc.c, except
    for the cylinder, which has a closed form.
 
-   With the half-angle beta (the wall's normals stand pi/2 - beta off the axis) the normal at
-   azimuth phi has cos(theta) = sin(beta) cos(alpha) + cos(beta) sin(alpha) cos(phi) = c_max (1 - k
-   sin^2(phi/2)), c_max = sin(alpha + beta), k = 2 cos(beta) sin(alpha) / c_max, and 1 - k = c_min /
-   c_max with c_min = sin(beta - alpha). The integral of F over the wall is area/pi * F(c_max) *
-   integral over phi = 0 .. phi_1 of F / F(c_max). */
+   With the half-angle beta (the wall's normals are at an angle of pi/2 - beta to the axis) the
+   normal at azimuth phi has cos(theta) = sin(beta) cos(alpha) + cos(beta) sin(alpha) cos(phi) =
+   c_max (1 - k sin^2(phi/2)), c_max = sin(alpha + beta), k = 2 cos(beta) sin(alpha) / c_max, and 1
+   - k = c_min / c_max with c_min = sin(beta - alpha). The integral of F over the wall is area/pi *
+   F(c_max) * integral over phi = 0 .. phi_1 of F / F(c_max). */
 #include <math.h>
 
 #include "base/degrees.h"
@@ -31,7 +31,7 @@ static ring_wall ring_wall_make(double top, double base, double length)
     if (slant.hi > 0.0) {
         wall.beta.sine = lrcsi_closed_divide(rise, slant);
         wall.beta.cosine = lrcsi_closed_divide(height, slant);
-        wall.area = LRCSI_PI * (top + base) * slant.hi;
+        wall.area = LRCS_PI * (top + base) * slant.hi;
     }
     return wall;
 }
@@ -41,7 +41,7 @@ static ring_wall ring_wall_from_degrees(double radius, double beta_deg)
     ring_wall wall;
     lrcsi_degrees_sincos_dd(beta_deg, 0.0, &wall.beta.sine, &wall.beta.cosine);
     wall.beta_deg = beta_deg;
-    wall.area = LRCSI_PI * radius * radius / wall.beta.sine.hi;
+    wall.area = LRCS_PI * radius * radius / wall.beta.sine.hi;
     return wall;
 }
 
@@ -88,15 +88,15 @@ static lrcsi_arc ring_arc(const lrcs_brdf *brdf, double c_max, double c_min, dou
     }
     arc.ring.k = 2.0 * b / c_max;
     arc.ring.rest = c_min / c_max;
-    arc.length = LRCSI_PI;
-    arc.left_clear = LRCSI_PI;
-    arc.grain = LRCSI_PI;
+    arc.length = LRCS_PI;
+    arc.left_clear = LRCS_PI;
+    arc.grain = LRCS_PI;
     if (c_min < 0.0) {
         arc.length = 2.0 * atan2(sqrt(c_max), sqrt(-c_min));
         arc.ring.psi_1 = 2.0 * atan2(sqrt(-c_min), sqrt(c_max));
     } else {
-        /* q varies by at most an eighth of itself, and its zeros stand at +-2 sqrt(rest/k) i */
-        arc.right_clear = fmin(LRCSI_PI, sqrt(0.5 * arc.ring.rest / arc.ring.k));
+        /* q varies by at most an eighth of itself, and its zeros are at +-2 sqrt(rest/k) i */
+        arc.right_clear = fmin(LRCS_PI, sqrt(0.5 * arc.ring.rest / arc.ring.k));
     }
     return arc;
 }
@@ -119,7 +119,7 @@ static lrcsi_amount ring_integral(const ring_wall *wall, const lrcs_brdf *brdf,
         }
         lrcsi_arc_integral(&arc, integral);
         for (int part = 0; part < LRCSI_PARTS; part++) {
-            factor[part] = arc.wanted[part] ? integral[part] / LRCSI_PI : 1.0;
+            factor[part] = arc.wanted[part] ? integral[part] / LRCS_PI : 1.0;
         }
     }
     lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 12.0);
@@ -153,7 +153,7 @@ lrcsi_amount lrcsi_closed_cylinder(const lrcs_shape *shape, const lrcs_brdf *brd
     lrcsi_angle theta = {light->aspect.cosine, light->aspect.sine};
     lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta);
     double w = brdf->s * light->aspect.sine.hi;
-    const double factor[LRCSI_PARTS] = {sqrt(LRCSI_PI) * w * (1.0 + 0.5 * w * w),
+    const double factor[LRCSI_PARTS] = {sqrt(LRCS_PI) * w * (1.0 + 0.5 * w * w),
                                         lrcsi_special_cosine_power(brdf->m + 2.0)};
     lrcsi_closed_weigh(&amount, factor, 50.0);
     lrcsi_closed_scale(&amount, shape->radius * shape->length, 1.0);

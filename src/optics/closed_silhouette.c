@@ -46,14 +46,14 @@ static double paraboloid_silhouette(const lrcs_shape *shape, double sine, double
 double lrcsi_closed_silhouette(const lrcs_shape *shape, double sine, double cosine)
 {
     double r = shape->radius;
-    double up = LRCSI_PI * fmax(0.0, cosine);    /* a unit disc that faces up, as seen */
-    double down = LRCSI_PI * fmax(0.0, -cosine); /* or down */
+    double up = LRCS_PI * fmax(0.0, cosine);    /* a unit disc that faces up, as seen */
+    double down = LRCS_PI * fmax(0.0, -cosine); /* or down */
     double ends = shape->parts == LRCS_SHAPE_ALL ? 1.0 : 0.0;
     switch (shape->kind) {
     case LRCS_SHAPE_SPHERE:
-        return LRCSI_PI * r * r;
+        return LRCS_PI * r * r;
     case LRCS_SHAPE_DOME: /* half a disc, and half an ellipse more or less */
-        return 0.5 * LRCSI_PI * r * r * (1.0 + cosine) + ends * r * r * down;
+        return 0.5 * LRCS_PI * r * r * (1.0 + cosine) + ends * r * r * down;
     case LRCS_SHAPE_CYLINDER:
         return 2.0 * r * shape->length * sine + ends * r * r * (up + down);
     case LRCS_SHAPE_CONE:

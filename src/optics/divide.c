@@ -4,12 +4,15 @@
    evaluated for each pose on the mesh, independent of the plan.
 
    The proved error of a body is 4 pi sum a_i deviation_i. Over fine facets the sum is an integral
-   over the normals, which a fixed midpoint rule estimates: round bodies (sphere, dome, paraboloid):
-   normals all about s_hat, weight sin(theta), against the same integral of F: the glint seen whole,
-   and the body's mean over attitudes; straight walls (cylinder, cone, frustum): normals on a circle
-   of constant elevation, at a fan of aspects, against the wall's own sigma there or its mean over
-   attitudes, whichever is larger. That ratio falls as 1 / around^2, and the least `around` that
-   brings it to the tolerance is found by bisection. */
+   over the normals, which a fixed midpoint rule estimates:
+   - round bodies (sphere, dome, paraboloid): over all normals about s_hat, with weight sin(theta),
+     relative to the same integral of F, in which the whole glint is visible and which is also the
+     body's mean over attitudes;
+   - straight walls (cylinder, cone, frustum): over normals on a circle of constant elevation, at a
+     set of aspects, relative to the wall's own sigma there or its mean over attitudes, whichever is
+     larger.
+   That ratio falls as 1 / around^2, and the smallest `around` that brings it to the tolerance is
+   found by guesses and bisection. */
 #include <lrcs/shape.h>
 
 #include <math.h>
@@ -21,10 +24,10 @@
 #define AROUND_LEAST 8u
 #define AROUND_LIMIT (1u << 24)
 #define PLAN_NODES   48
-#define PLAN_AIM     0.8  /* of the tolerance: aspects between the sampled ones may err more */
+#define PLAN_AIM     0.8  /* of the tolerance: the error may be larger between sampled aspects */
 #define PLAN_SAMPLE  1e-2 /* the tolerance at which dome and paraboloid are sampled */
 #define PLAN_GUESS   16.0 /* quarters of a turn's facets tried first */
-#define PLAN_TRIES   8    /* at most so many guesses */
+#define PLAN_TRIES   8    /* largest number of guesses */
 #define FACETS_LEAST 64u
 
 /* A material on a curved wall, and how coarse the wall is. */
@@ -69,15 +72,15 @@ static double plan_near(const facet_plan *plan, double end)
 static plan_value plan_round(const facet_plan *plan)
 {
     plan_value sum = {0.0, 0.0};
-    double end = fmin(0.5 * LRCSI_PI + plan->curvature.turn, LRCSI_PI);
-    double narrow = fmin(4.0 * (plan->brdf->A > 0.0 ? plan->brdf->s : 1.0), 0.25 * LRCSI_PI);
+    double end = fmin(0.5 * LRCS_PI + plan->curvature.turn, LRCS_PI);
+    double narrow = fmin(4.0 * (plan->brdf->A > 0.0 ? plan->brdf->s : 1.0), 0.25 * LRCS_PI);
     for (int k = 0; k < PLAN_NODES; k++) {
         double weight = 0.0;
         double theta = plan_node(k, plan_near(plan, end), end, &weight);
         double slope = tan(theta);
         sum.deviation +=
             0.5 * sin(theta) * weight * plan_at(plan, cos(theta), slope * slope).deviation;
-        theta = plan_node(k, narrow, 0.5 * LRCSI_PI, &weight);
+        theta = plan_node(k, narrow, 0.5 * LRCS_PI, &weight);
         slope = tan(theta);
         sum.sigma += 0.5 * sin(theta) * weight * plan_at(plan, cos(theta), slope * slope).sigma;
     }
@@ -88,19 +91,19 @@ static plan_value plan_round(const facet_plan *plan)
 static plan_value plan_circle(const facet_plan *plan, double psi, double alpha)
 {
     plan_value sum = {0.0, 0.0};
-    double near = plan_near(plan, LRCSI_PI);
+    double near = plan_near(plan, LRCS_PI);
     const double up[2] = {cos(psi), sin(psi)};
     const double laser[2] = {cos(alpha), sin(alpha)};
     for (int k = 0; k < PLAN_NODES; k++) {
         double weight = 0.0;
-        double phi = plan_node(k, near, LRCSI_PI, &weight);
+        double phi = plan_node(k, near, LRCS_PI, &weight);
         double cosine = up[1] * laser[0] + up[0] * laser[1] * cos(phi);
         double x = up[0] * sin(phi);
         double y = up[1] * laser[1] - up[0] * cos(phi) * laser[0];
         double tan2 = cosine == 0.0 ? HUGE_VAL : (x * x + y * y) / (cosine * cosine);
         plan_value value = plan_at(plan, cosine, tan2);
-        sum.sigma += weight / LRCSI_PI * value.sigma;
-        sum.deviation += weight / LRCSI_PI * value.deviation;
+        sum.sigma += weight / LRCS_PI * value.sigma;
+        sum.deviation += weight / LRCS_PI * value.deviation;
     }
     return sum;
 }
@@ -109,12 +112,12 @@ static plan_value plan_circle(const facet_plan *plan, double psi, double alpha)
 static double plan_straight(const facet_plan *plan, double psi)
 {
     double mean = plan_round(plan).sigma;
-    double glint = 0.5 * LRCSI_PI - psi;
+    double glint = 0.5 * LRCS_PI - psi;
     double step = fmin(plan->brdf->s, 0.2);
     double worst = 0.0;
     for (int k = 0; k < 21; k++) {
-        double alpha = k < 13 ? k * LRCSI_PI / 12.0 : glint + (k - 16) * 0.5 * step;
-        if (alpha >= 0.0 && alpha <= LRCSI_PI) {
+        double alpha = k < 13 ? k * LRCS_PI / 12.0 : glint + (k - 16) * 0.5 * step;
+        if (alpha >= 0.0 && alpha <= LRCS_PI) {
             plan_value value = plan_circle(plan, psi, alpha);
             double base = fmax(value.sigma, mean);
             worst = fmax(worst, base > 0.0 ? value.deviation / base : 0.0);
@@ -132,7 +135,7 @@ static double plan_elevation(const lrcs_shape *shape)
     if (shape->kind == LRCS_SHAPE_FRUSTUM) {
         return atan2(shape->radius2 - shape->radius, shape->length);
     }
-    return shape->half_angle_deg > 0.0 ? shape->half_angle_deg * (LRCSI_PI / 180.0)
+    return shape->half_angle_deg > 0.0 ? shape->half_angle_deg * (LRCS_PI / 180.0)
                                        : atan2(shape->radius, shape->length);
 }
 
@@ -147,11 +150,11 @@ static double plan_density(const lrcs_shape *shape, double theta)
 static double plan_rim(const lrcs_shape *shape)
 {
     return shape->kind == LRCS_SHAPE_PARABOLOID ? atan2(2.0 * shape->length, shape->radius)
-                                                : 0.5 * LRCSI_PI;
+                                                : 0.5 * LRCS_PI;
 }
 
-/* Error and sigma of a cap of normals from aspect alpha, and in *size the cap's area. Nodes crowd
-   about alpha, on both sides of it. */
+/* Error and sigma of a cap of normals from aspect alpha, and in *size the cap's area. Nodes are
+   denser near alpha, on both sides of it. */
 static plan_value plan_cap(const facet_plan *plan, const lrcs_shape *shape, double alpha,
                            double *size)
 {
@@ -165,7 +168,7 @@ static plan_value plan_cap(const facet_plan *plan, const lrcs_shape *shape, doub
         double off = plan_node(k % PLAN_NODES, plan_near(plan, end), end, &weight);
         double theta = k < PLAN_NODES ? middle - off : middle + off;
         weight *= sin(theta) * plan_density(shape, theta);
-        plan_value value = plan_circle(plan, 0.5 * LRCSI_PI - theta, alpha);
+        plan_value value = plan_circle(plan, 0.5 * LRCS_PI - theta, alpha);
         sum.sigma += weight * value.sigma;
         sum.deviation += weight * value.deviation;
         *size += weight;
@@ -201,7 +204,7 @@ static lrcs_divisions plan_divisions(const lrcs_shape *shape, uint32_t around)
 {
     lrcs_divisions divisions = {around, 1};
     if (shape->kind == LRCS_SHAPE_PARABOLOID) {
-        divisions.along = (uint32_t)fmax(1.0, ceil(plan_rim(shape) / (2.0 * LRCSI_PI) * around));
+        divisions.along = (uint32_t)fmax(1.0, ceil(plan_rim(shape) / (2.0 * LRCS_PI) * around));
     } else if (plan_is_round(shape)) {
         divisions.along = around / 4;
     }
@@ -220,21 +223,16 @@ static double plan_error(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_
     return value.sigma > 0.0 ? value.deviation / value.sigma : 0.0;
 }
 
-static int plan_affords(const lrcs_shape *shape, uint32_t around, uint32_t max_facets)
-{
-    lrcs_divisions divisions = plan_divisions(shape, around);
-    return lrcsi_tessellate_fits(shape, &divisions) &&
-           lrcsi_tessellate_counts(shape, &divisions).facets <= max_facets;
-}
-
-/* The largest `around` that max_facets affords. */
+/* The largest `around` that max_facets allow, by bisection. */
 static uint32_t plan_most(const lrcs_shape *shape, uint32_t max_facets)
 {
     uint32_t good = AROUND_LEAST / 4;
     uint32_t bad = AROUND_LIMIT / 4 + 1;
     while (bad - good > 1) {
         uint32_t middle = good + (bad - good) / 2;
-        if (plan_affords(shape, 4 * middle, max_facets)) {
+        lrcs_divisions divisions = plan_divisions(shape, 4 * middle);
+        if (lrcsi_tessellate_fits(shape, &divisions) &&
+            lrcsi_tessellate_counts(shape, &divisions).facets <= max_facets) {
             good = middle;
         } else {
             bad = middle;
@@ -271,7 +269,7 @@ static uint32_t plan_least(const lrcs_shape *shape, const lrcs_brdf *brdf, doubl
    r = R (1 - h^2/6 + phi^2/2), |phi| <= h: the tolerance bounds that. */
 static uint32_t plan_disc(double tolerance, uint32_t most)
 {
-    double corners = LRCSI_PI * sqrt(0.2566 / tolerance);
+    double corners = LRCS_PI * sqrt(0.2566 / tolerance);
     if (!(corners < most)) {
         return most;
     }

@@ -16,12 +16,34 @@ static int lies_across(const lrcsi_across *across, uint32_t facet, uint32_t othe
     return corner[0] == facet || corner[1] == facet || corner[2] == facet;
 }
 
+/* Moves the sides that stand for all others (lrcsi_run.links) to the front of a run's sides. */
+static void run_link(lrcsi_runs *runs, uint32_t run, uint32_t facet_count)
+{
+    lrcsi_run_side *side = runs->side + runs->run[run].first_side;
+    uint32_t count = runs->run[run + 1].first_side - runs->run[run].first_side;
+    uint32_t links = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        int is_link = 1;
+        for (uint32_t k = 0; k < links && side[i].other < facet_count; k++) {
+            is_link &= side[k].other / LRCSI_RUN != side[i].other / LRCSI_RUN ||
+                       side[k].other == facet_count;
+        }
+        if (is_link) {
+            lrcsi_run_side link = side[i];
+            side[i] = side[links];
+            side[links++] = link;
+        }
+    }
+    runs->run[run].links = (unsigned char)links;
+}
+
 /* Joins the facets of a run, and lists the sides that leave it. */
 static void run_join(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, uint32_t end)
 {
     uint32_t group[LRCSI_RUN];
     uint32_t count = p->scene->facet_count;
-    uint32_t *sides = &runs->run[start / LRCSI_RUN + 1].first_side;
+    lrcsi_run *run = &runs->run[start / LRCSI_RUN];
+    uint32_t *sides = &run[1].first_side;
     for (uint32_t f = start; f < end; f++) {
         group[f - start] = f - start;
         for (int k = 0; k < 3; k++) {
@@ -36,9 +58,12 @@ static void run_join(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, u
         }
     }
     lrcsi_join_settle(group, end - start);
+    run->whole = 1;
     for (uint32_t f = start; f < end; f++) {
         runs->first[f] = (unsigned char)group[f - start];
+        run->whole &= group[f - start] == 0;
     }
+    run_link(runs, start / LRCSI_RUN, count);
 }
 
 size_t lrcsi_runs_need(uint32_t facet_count)
@@ -84,7 +109,7 @@ int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
             run->low[k] = low[k];
             run->high[k] = high[k];
         }
-        run->has_contacts = has_contacts;
+        run->has_contacts = (unsigned char)has_contacts;
         made.run[r + 1].first_side = run->first_side;
         run_join(p, &made, start, end);
     }

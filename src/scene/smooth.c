@@ -24,7 +24,7 @@
 #include "base/length.h"
 #include "base/vec3.h"
 #include "base/work.h"
-#include "optics/comb.h"
+#include "optics/ripple.h"
 
 /* Normals this close to the facet's own leave it flat; a mean this short, relative to its weights,
    has cancelled. */
@@ -76,7 +76,7 @@ static double angle_of(const double a[3], const double b[3])
     /* tan of the half; beyond a right angle by the other formula, without cancellation */
     double t = dot >= 0.0 ? size / (whole + dot) : (whole - dot) / size;
     if (!(t < 0x1p60)) {
-        return LRCSI_PI;
+        return LRCS_PI;
     }
     for (int i = 0; i < 5; i++) {
         t = t / (1.0 + sqrt(1.0 + t * t));
@@ -256,7 +256,7 @@ static int glint_needs_normals(const smooth_job *job, uint32_t facet, const lrcs
     for (int k = 0; k < 3; k++) {
         turn = fmax(turn, angle_of(n[k].x, n[(k + 1) % 3].x));
     }
-    return brdf->A > 0.0 && turn > 0.0 && lrcsi_comb_error(turn, brdf->s) > options->tolerance;
+    return brdf->A > 0.0 && turn > 0.0 && lrcsi_ripple_error(turn, brdf->s) > options->tolerance;
 }
 
 /* Do all corners that have a normal have one that exists? Status: LRCS_OK; LRCS_E_INDEX. */

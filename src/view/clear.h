@@ -9,8 +9,9 @@
 typedef struct lrcsi_clear {
     unsigned char *part; /* part: 1 if no other part hides any of its true surface that faces the
                             laser, and no reflecting inside of it is visible; NULL: none */
-    double *slab;        /* part: if it touches a separating plane to within rounding, the largest
-                            area of that surface that can still be hidden, scaled */
+    double *slab; /* part: an upper bound of the area of that surface that may be hidden after
+                     all, scaled: not 0 if a separating plane touches the part to within
+                     rounding */
     uint32_t count;
     int all; /* every part with live facets is clear */
 } lrcsi_clear;
@@ -18,7 +19,7 @@ typedef struct lrcsi_clear {
 /* Bytes; 0 if no shape has a closed form. */
 size_t lrcsi_clear_need(const lrcs_prepared *prepared);
 
-/* For a view with backs_reflect. Status: LRCS_OK; LRCS_E_MEMORY. What it
+/* Given: a view, with or without coordinates. Status: LRCS_OK; LRCS_E_MEMORY. What it
    finds stays in the work area. Work: O(parts * clear ones). */
 int lrcsi_clear_make(const lrcsi_view *view, lrcs_work *work, lrcsi_clear *clear);
 

@@ -12,7 +12,6 @@
 #include <lrcs/pose.h>
 
 #include "base/constant.h"
-#include "base/meter.h"
 #include "base/range.h"
 #include "scene/prepared.h"
 
@@ -26,6 +25,12 @@ typedef struct lrcsi_incidence {
     double projected; /* projected area, >= 0 */
     double error;     /* relative error of projected and of the area */
 } lrcsi_incidence;
+
+/* What back sides do in a view. */
+typedef struct lrcsi_view_backs {
+    int cast;    /* 1: facets that face away from the laser hide others and can be visible */
+    int reflect; /* 1: they reflect if their material is two-sided */
+} lrcsi_view_backs;
 
 typedef struct lrcsi_view {
     const lrcs_prepared *prepared;
@@ -41,10 +46,7 @@ typedef struct lrcsi_view {
                             below 1 */
     double low[2], side; /* the square window around the projection of the live facets */
     uint32_t front, back; /* live facets facing either way */
-    int backs_cast;       /* 1: facets facing away hide others and can be visible; 0 if the scene is
-                             proved to show none, unless the options request them */
-    int backs_reflect;    /* 1: they reflect if their material is two-sided */
-    lrcsi_meter *meter;   /* limit on the steps of the visibility computation; NULL: none */
+    lrcsi_view_backs backs;
     lrcs_progress *progress; /* where a run reports its progress; NULL: nowhere */
 } lrcsi_view;
 
@@ -63,19 +65,20 @@ static inline void lrcsi_view_progress(const lrcsi_view *view, int stage, uint32
    lrcsi_view_project adds them. Status: LRCS_OK; LRCS_E_MEMORY; those of lrcsi_frame_make;
    LRCS_E_UNSUPPORTED (this thread's arithmetic: base/ieee.h). It stays in the work area. */
 size_t lrcsi_view_face_need(const lrcs_prepared *prepared);
-int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
-                    lrcsi_view *view);
+int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_view_backs backs,
+                    lrcs_work *work, lrcsi_view *view);
 int lrcsi_view_project(lrcs_work *work, lrcsi_view *view);
 
-/* Both: a whole view. */
+/* lrcsi_view_face and lrcsi_view_project together. Back sides cast and reflect unless the scene is
+   proved to show none. */
 size_t lrcsi_view_need(const lrcs_prepared *prepared);
 int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                     lrcsi_view *view);
 
 /* Bound on the error of each of the view coordinates x of a vertex, or of another point of doubles
    in scene coordinates. It grows with the distance from the origin, so that distant parts do not
-   affect the accuracy of others. Derivation: view_point in view.c. Its margin, 1.9 u of the same
-   sum, covers adding it to a coordinate, or a difference of two coordinates. */
+   affect the accuracy of others. Derivation: lrcsi_view_place in view.c. Its margin, 1.9 u of the
+   same sum, covers the rounding of adding it to a coordinate or to a difference of two. */
 static inline double lrcsi_view_off(const double x[3])
 {
     return 10 * LRCSI_U * (fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
@@ -103,14 +106,14 @@ static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *ver
 /* 1 if a facet, if visible, reflects towards the laser; else 0. */
 static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 {
-    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs_reflect &&
+    return view->facing[facet] > 0 || (view->facing[facet] < 0 && view->backs.reflect &&
                                        lrcsi_prepared_material(view->prepared, facet)->two_sided);
 }
 
 /* The incidence of a facet that is not skipped. */
 lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet);
 
-/* Only the projected area: the same bits, in a quarter of the time. */
+/* Only its projected area: the same bits, in a quarter of the time. */
 double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
 
 /* The incidence of up to LRCSI_INCIDENCES facets: the same bits, in half the time. Returned:

@@ -35,7 +35,7 @@ static inline int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
     int facing = view->facing[facet];
     int redundant = view->prepared->redundant[facet];
     return (facing > 0 && redundant < LRCSI_REDUNDANT) ||
-           (facing < 0 && redundant < LRCSI_REDUNDANT_FROM_BEHIND && view->backs_cast);
+           (facing < 0 && redundant < LRCSI_REDUNDANT_FROM_BEHIND && view->backs.cast);
 }
 
 /* Bytes at most. */

@@ -14,9 +14,10 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared);
    known to be hidden. Where an
    area is found to 1e-12 of the facet's projected area and 1e-15 of the square of the scene's
    extent, it goes to visible[facet] and open[facet] becomes 0; facets that stay open are to be
-   clipped one by one. None is found where memory does not suffice; only some where the view's meter
+   clipped one by one. None is found where memory does not suffice; only some where the meter
    is spent. Nothing stays in the work area. */
-void lrcsi_cells_areas(const lrcsi_classification *classification, lrcs_work *work,
-                       const unsigned char *answer, unsigned char *open, lrcsi_visible *visible);
+void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *meter,
+                       lrcs_work *work, const unsigned char *answer, unsigned char *open,
+                       lrcsi_visible *visible);
 
 #endif

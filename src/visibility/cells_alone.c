@@ -59,6 +59,9 @@
 /* A cell without room for a sample is halved if its area exceeds this many margins times its
    perimeter: it is then of an unfavourable shape, not narrow. */
 #define NARROW 64
+/* Nor is it halved if its area is at most this fraction of f's: of the cells that a facet may have
+   (PARTS_MOST), all together are then less than 1e-12 of it. */
+#define TRIFLE 0x1p-52
 
 /* The depth order of a facet against f: one of these, or the number of the segment in which the two
    intersect. */
@@ -191,12 +194,11 @@ static int alone_facets(lrcsi_alone *a)
     a->met[a->facet] = c->look;
     a->order[a->facet] = ORDER_APART;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        uint32_t i = grid->first[(size_t)y * grid->size + cells.x0];
-        uint32_t end = grid->first[(size_t)y * grid->size + cells.x1];
-        if (!lrcsi_meter_take(c->view->meter, end - i)) {
+        lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
+        if (!lrcsi_meter_take(c->meter, items.to - items.from)) {
             return 0;
         }
-        for (; i < end; i++) {
+        for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t other = grid->item[i];
             const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
             if (a->met[other] == c->look || lrcsi_view_box_beside(its, &box) ||
@@ -206,7 +208,8 @@ static int alone_facets(lrcsi_alone *a)
             a->met[other] = c->look;
             a->order[other] = ORDER_APART;
             if (!facet_apart(a, side, other)) {
-                a->order[other] = ORDER_NEW;
+                int front = lrcsi_view_box_behind(&box, its);
+                a->order[other] = front ? (uint32_t)ORDER_FRONT : (uint32_t)ORDER_NEW;
                 if (a->count < a->side_room) {
                     a->side[a->count][0].clear = -1; /* not made yet */
                 }
@@ -318,14 +321,14 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
             return 0;
         }
     }
-    uint32_t crossings = lrcsi_classify_crossings(a->classification, a->facet, c->view->meter);
+    uint32_t crossings = lrcsi_classify_crossings(a->classification, a->facet, c->meter);
     for (uint32_t i = 0; i < crossings; i++) {
         if (!alone_edge(a, a->classification->crossing[i])) {
             return 0;
         }
     }
     cell->segments = c->segment_count;
-    return lrcsi_meter_take(c->view->meter, (uint64_t)a->count + cell->segments);
+    return lrcsi_meter_take(c->meter, (uint64_t)a->count + cell->segments);
 }
 
 /* Leaves an area undecided: it counts as half visible. */
@@ -353,6 +356,7 @@ static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
     a->rim = frame->perimeter * (off + 16 * LRCSI_U * c->reach);
+    a->trifle = TRIFLE * lrcsi_clip_area(&cell->shape);
     cell->facets = 1;
     return lrcsi_clip_area(&cell->shape) > 8 * off * frame->diameter;
 }
@@ -642,15 +646,15 @@ static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_
                                                (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]);
 }
 
-/* Cuts a cell along a segment. Without a segment, halves it if it is not narrow. 0 if that is not
-   possible. */
+/* Cuts a cell along a segment. Without a segment, halves it if it is neither narrow nor a trifle. 0
+   if that is not possible. */
 static int cell_divide(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                        const lrcsi_cells_segment *cut)
 {
     double margin = cell->inset + alone_off(a) + s->g;
+    double least = lrcsi_most(a->trifle, NARROW * margin * s->perimeter);
     return cut ? lrcsi_cells_divide(&a->cells, cell, s, cut)
-               : lrcsi_clip_area(&cell->shape) > NARROW * margin * s->perimeter &&
-                     lrcsi_cells_halve(&a->cells, cell, s);
+               : lrcsi_clip_area(&cell->shape) > least && lrcsi_cells_halve(&a->cells, cell, s);
 }
 
 /* Processes one cell. Returns 1 if it is a visible piece; else it is hidden, cut, or undecided. */
@@ -697,7 +701,7 @@ int lrcsi_alone_next(lrcsi_alone *a)
     while (c->top > 0) {
         lrcsi_cells_cell cell = lrcsi_cells_take(c);
         uint64_t steps = (uint64_t)1 + a->count + cell.segments;
-        if (a->parts == 0 || !lrcsi_meter_take(c->view->meter, steps)) {
+        if (a->parts == 0 || !lrcsi_meter_take(c->meter, steps)) {
             facet_leave(a, lrcsi_clip_area(&cell.shape));
             continue;
         }
@@ -756,13 +760,13 @@ size_t lrcsi_alone_need(const lrcs_prepared *p)
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
 }
 
-int lrcsi_alone_make(lrcsi_classification *classification, const lrcsi_grid *grid, lrcs_work *work,
-                     lrcsi_alone *a)
+int lrcsi_alone_make(lrcsi_classification *classification, lrcsi_meter *meter,
+                     const lrcsi_grid *grid, lrcs_work *work, lrcsi_alone *a)
 {
     const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
     *a = (lrcsi_alone){.classification = classification, .grid = *grid, .side_room = sides_room(p)};
-    lrcsi_cells_work c = {.view = classification->view};
+    lrcsi_cells_work c = {.view = classification->view, .meter = meter};
     c.segment_room = (uint32_t)segments_most(p, classification->events.count);
     a->side = lrcsi_work_take(work, a->side_room, sizeof *a->side);
     a->met = lrcsi_work_take_zero(work, count, sizeof *a->met);

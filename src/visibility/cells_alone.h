@@ -33,6 +33,7 @@ typedef struct lrcsi_alone {
     lrcsi_needle needle;      /* used if f is a needle */
     lrcsi_clip_polygon piece; /* the piece last found */
     uint64_t parts;           /* the number of cells that may still be processed */
+    double trifle;            /* undecided area too small to be divided further */
     double rim;               /* area within the error of the sides of f */
     double bent;              /* additional error of the area of a needle's pieces */
     double uncertainty[2];    /* undecided area: [0] probably hidden, [1] probably visible */
@@ -45,8 +46,8 @@ size_t lrcsi_alone_need(const lrcs_prepared *prepared);
 /* Makes the data for all facets of a view; they stay in the work area. Given: a grid of facets
    whose lists are complete in the cells of every facet that will be opened. Status: LRCS_OK;
    LRCS_E_MEMORY. */
-int lrcsi_alone_make(lrcsi_classification *classification, const lrcsi_grid *grid, lrcs_work *work,
-                     lrcsi_alone *a);
+int lrcsi_alone_make(lrcsi_classification *classification, lrcsi_meter *meter,
+                     const lrcsi_grid *grid, lrcs_work *work, lrcsi_alone *a);
 
 /* One facet that can hide others (visibility/boxes.h), piece by piece: call open, then next until
    it returns 0, then close. Each `next` that returns 1 leaves one piece of the visible region in

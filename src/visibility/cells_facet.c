@@ -296,9 +296,9 @@ uint32_t lrcsi_cells_joined(const lrcsi_view *view, uint32_t facet, int k)
     if (other == facet) {
         uint32_t pair[2];
         uint32_t edge = p->topology.facet_edge[facet].corner[k]; /* irregular */
-        return lrcsi_edge_kind_of(view, edge, pair) != LRCSI_EDGE_JOINS ? LRCS_NONE
-               : pair[0] == facet                                       ? pair[1]
-                                                                        : pair[0];
+        return lrcsi_edge_kind_of(view, edge, LRCS_NONE, pair) != LRCSI_EDGE_JOINS ? LRCS_NONE
+               : pair[0] == facet                                                  ? pair[1]
+                                                                                   : pair[0];
     }
     return other < p->scene->facet_count && lrcsi_grid_casts(view, other) &&
                    view->facing[other] == view->facing[facet]

@@ -61,6 +61,9 @@ void lrcsi_box_range(const double low[2], const double high[2], const double lin
     range[1] = middle + half;
 }
 
+/* A part of a segment is short if it is less than this fraction of it. */
+#define SHORT 0x1p-20
+
 int lrcsi_cells_place_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
                            const double p[2], const double q[2], const double line[3], double w,
                            double line_w, lrcsi_cells_part *part)
@@ -91,6 +94,18 @@ int lrcsi_cells_place_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_si
     }
     if (part->from > part->to) {
         return LRCSI_CELLS_AWAY;
+    }
+    /* A short part may be in a corner of the cell, all of it near one side. Its ends are off by
+       less than w. */
+    if (part->to - part->from < SHORT && !(strip < HUGE_VAL)) {
+        for (uint32_t i = 0; i < s->count; i++) {
+            double a = lrcsi_line_at(s->line[i], p[0], p[1]);
+            double b = lrcsi_line_at(s->line[i], q[0], q[1]);
+            double deepest = lrcsi_most(a + part->from * (b - a), a + part->to * (b - a));
+            if (deepest < 2 * w) {
+                strip = lrcsi_least(strip, 2 * w + lrcsi_most(0, deepest));
+            }
+        }
     }
     part->strip = strip;
     return strip < HUGE_VAL ? LRCSI_CELLS_BORDER : LRCSI_CELLS_MEETS;

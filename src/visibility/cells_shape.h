@@ -54,7 +54,7 @@ static inline int lrcsi_cells_box_away(const lrcsi_cells_sides *s, const double 
 
 enum lrcsi_cells_place {
     LRCSI_CELLS_AWAY,   /* no point of the segment within its error of the cell */
-    LRCSI_CELLS_BORDER, /* nowhere deeper than its error within the cell */
+    LRCSI_CELLS_BORDER, /* nowhere deeper than its error within the cell; in a corner, twice that */
     LRCSI_CELLS_MEETS   /* neither is sure */
 };
 

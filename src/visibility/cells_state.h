@@ -75,6 +75,7 @@ enum {
 
 typedef struct lrcsi_cells_work {
     const lrcsi_view *view;
+    lrcsi_meter *meter; /* limit on steps; NULL: none */
     lrcsi_cells_grid grid;
     lrcsi_cells_frame frame;
     unsigned char *open;  /* facet: 1 if its area is wanted */
@@ -82,10 +83,11 @@ typedef struct lrcsi_cells_work {
     unsigned char *kind;  /* facet: LRCSI_CELLS_APART, LRCSI_CELLS_VAGUE */
     lrcsi_cells_facet *facet;
     lrcsi_cells_found *area;
-    uint32_t look;    /* the number of the sample at hand, which the next three arrays refer to */
+    uint32_t look;    /* the number of the sample at hand, which the next four arrays refer to */
     uint32_t *listed; /* facet: the last sample in whose cell it was listed */
     uint32_t *met;    /* facet: 2 look + 1 if it surely covers the sample, 2 look if it may */
     uint32_t *joined; /* facet: the last sample in whose component it was */
+    uint32_t *meets;  /* facet: the last sample whose component it met at a contact */
     uint32_t *component, components; /* facets of the component */
     uint32_t *hit, hits;             /* facets that may cover the sample */
     lrcsi_cells_border *border;      /* edges of the component at the border of the cell */

@@ -19,6 +19,9 @@
    never wrong. Most events listed near needles about one tip stand beside them. */
 #define MOST_LISTED 4096u
 #define MOST_ASKED  512u
+/* Of a facet in so many rows and columns of the grid or more, each row is limited to the cells
+   between its sides: long facets across the grid touch few of the cells of their boxes. */
+#define SLANTED 3
 /* How many rows, cells, and listed events are examined at most to tell whether any event may cross
    a run. */
 #define RUN_STEPS 1024u
@@ -183,9 +186,15 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
     uint32_t count = 0;
     int more = 0; /* an event was left out for want of steps */
     classification->along = 0;
+    const int slanted = cells.x1 - cells.x0 >= SLANTED && cells.y1 - cells.y0 >= SLANTED;
+    lrcsi_strip_segment side[3];
+    if (slanted) {
+        lrcsi_grid_sides(grid, view->prepared->scene->facet[facet].corner, 3, 0, side);
+    }
     for (uint32_t y = cells.y0; y < cells.y1 && !more; y++) {
         const uint32_t *row = grid->first + (size_t)y * grid->size;
-        for (uint32_t x = cells.x0; x < cells.x1 && !more; x++) {
+        const lrcsi_cells range = slanted ? lrcsi_grid_row(grid, side, 3, y) : cells;
+        for (uint32_t x = range.x0; x < range.x1 && !more; x++) {
             for (uint32_t i = row[x]; i < row[x + 1] && count < most; i++) {
                 lrcsi_event_box *event = &classification->event[grid->item[i]];
                 more = left == 0;
@@ -344,7 +353,7 @@ static int events_file(lrcsi_classification *c, lrcs_work *work)
 /* Can no event edge cross any facet of a run? Most runs far from events lie in rows of the grid
    whose cells list nothing, and are proved clear in one step a row. Gives up, and returns 0, where
    this takes more steps than asking the run's facets would. */
-static int run_clear(const lrcsi_classification *c, uint32_t run)
+static int run_clear(const lrcsi_classification *c, uint32_t run, lrcsi_meter *meter)
 {
     const lrcsi_grid *grid = &c->grid;
     const lrcsi_view_box box = c->boxes.run[run];
@@ -361,7 +370,7 @@ static int run_clear(const lrcsi_classification *c, uint32_t run)
         for (uint32_t x = cells.x0; x < end; x++) {
             for (uint32_t i = row[x]; i < row[x + 1]; i++) {
                 const lrcsi_view_box *event = &c->event[grid->item[i]].box;
-                if (steps-- == 0 || !lrcsi_meter_take(c->view->meter, 1)) {
+                if (steps-- == 0 || !lrcsi_meter_take(meter, 1)) {
                     return 0;
                 }
                 if (lrcsi_view_box_behind(event, &box)) {
@@ -377,15 +386,15 @@ static int run_clear(const lrcsi_classification *c, uint32_t run)
 }
 
 /* Whether a facet is undecided; and if not, whether it is alone in its region. */
-static void facet_decide(lrcsi_classification *c, uint32_t f)
+static void facet_decide(lrcsi_classification *c, uint32_t f, lrcsi_meter *meter)
 {
     uint32_t steps = MOST_LISTED;
     c->along = 0;
     c->undecided[f] =
         intersection_divides(c->view, f) ||
         (lrcsi_grid_any(&c->grid, lrcsi_grid_cells(&c->grid, lrcsi_boxes_facet(&c->boxes, f))) &&
-         crossings_find(c, f, LRCS_NONE, 1, &steps, c->view->meter) > 0) ||
-        steps == 0 || lrcsi_meter_spent(c->view->meter);
+         crossings_find(c, f, LRCS_NONE, 1, &steps, meter) > 0) ||
+        steps == 0 || lrcsi_meter_spent(meter);
     c->undecided_count += c->undecided[f];
     if (c->undecided[f] || c->along || c->view->prepared->intersections.met[f]) {
         c->joinable[f] = 0;
@@ -394,14 +403,14 @@ static void facet_decide(lrcsi_classification *c, uint32_t f)
 
 /* Which facets are undecided: none of a run that meets no contact and that no event may cross; of
    others each is asked. The grid of events then has no more cells than serve those. */
-static int facets_decide(lrcsi_classification *c, lrcs_work *work)
+static int facets_decide(lrcsi_classification *c, lrcsi_meter *meter, lrcs_work *work)
 {
     const lrcs_prepared *p = c->view->prepared;
     size_t mark = work->used;
     int status = lrcsi_grid_edges(c->events.edge, c->events.count, events_most(p), work, &c->grid);
     for (uint32_t r = 0; r < p->runs.count && status == LRCS_OK; r++) {
         if (c->boxes.state[r] == LRCSI_BOXES_RUN &&
-            (p->runs.run[r].has_contacts || !run_clear(c, r))) {
+            (p->runs.run[r].has_contacts || !run_clear(c, r, meter))) {
             lrcsi_boxes_open(&c->boxes, r);
         }
     }
@@ -413,7 +422,7 @@ static int facets_decide(lrcsi_classification *c, lrcs_work *work)
         uint32_t end = lrcsi_run_end(r * LRCSI_RUN, p->scene->facet_count);
         for (uint32_t f = r * LRCSI_RUN; f < end && c->boxes.state[r] == LRCSI_BOXES_FACETS; f++) {
             if (c->joinable[f] != 0) {
-                facet_decide(c, f);
+                facet_decide(c, f, meter);
             }
         }
     }
@@ -425,12 +434,33 @@ void lrcsi_classify_regions(const lrcsi_classification *classification)
     lrcsi_events_join(classification->view, classification->joinable, classification->region);
 }
 
+/* The direction in which each facet faces if it casts (lrcsi_grid_casts), otherwise 0; zeros behind
+   the last one. Run by run, without branches: compilers vectorise the inner loop. */
+static void facets_cast(const lrcsi_view *view, signed char *cast)
+{
+    const signed char back = view->backs.cast ? LRCSI_REDUNDANT_FROM_BEHIND : LRCSI_NOT_REDUNDANT;
+    uint32_t count = view->prepared->scene->facet_count;
+    for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
+        size_t facets = lrcsi_run_end(start, count) - start;
+        signed char facing[LRCSI_RUN] = {0};
+        signed char redundant[LRCSI_RUN] = {0};
+        memcpy(facing, view->facing + start, facets);
+        memcpy(redundant, view->prepared->redundant + start, facets);
+        for (uint32_t i = 0; i < LRCSI_RUN; i++) {
+            signed char least = facing[i] > 0 ? LRCSI_REDUNDANT : back;
+            cast[start + i] = redundant[i] < least ? facing[i] : 0;
+        }
+    }
+    cast[lrcsi_runs_room(count)] = 0;
+}
+
 size_t lrcsi_classify_need(const lrcs_prepared *prepared)
 {
     size_t edges = prepared->topology.edge_count;
     size_t facets = prepared->scene->facet_count;
-    size_t need = lrcsi_work_add(lrcsi_work_bytes(facets + 1, 1), lrcsi_work_bytes(facets, 1));
-    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    size_t room = lrcsi_runs_room(prepared->scene->facet_count);
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(room + 1, 1), lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(room, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_boxes_need(prepared));
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_event_box)));
@@ -440,30 +470,27 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared)
 
 /* Grids have a cell or so for every facet that may cast, unless facets are large: then most facets
    meet no event's cell, and need no further look. */
-int lrcsi_classify_make(const lrcsi_view *view, lrcs_work *work,
+int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
                         lrcsi_classification *classification)
 {
     size_t mark = work->used;
     uint32_t count = view->prepared->scene->facet_count;
     lrcsi_classification c = {.view = view, .crossed = LRCS_NONE};
-    c.grid = lrcsi_grid_empty(view, view->front + (view->backs_cast ? view->back : 0));
+    c.grid = lrcsi_grid_empty(view, view->front + (view->backs.cast ? view->back : 0));
     c.undecided = lrcsi_work_take_zero(work, count, 1);
-    c.joinable = lrcsi_work_take(work, (size_t)count + 1, 1);
-    c.component = lrcsi_work_take(work, count, sizeof *c.component);
-    c.region = lrcsi_work_take(work, count, sizeof *c.region);
+    c.joinable = lrcsi_work_take(work, lrcsi_runs_room(count) + 1, 1);
+    c.component = lrcsi_work_take(work, lrcsi_runs_room(count), sizeof *c.component);
+    c.region = lrcsi_work_take(work, lrcsi_runs_room(count), sizeof *c.region);
     int status = c.undecided && c.joinable && c.component && c.region ? LRCS_OK : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        for (uint32_t f = 0; f < count; f++) {
-            c.joinable[f] = lrcsi_grid_casts(view, f) ? view->facing[f] : 0;
-        }
-        c.joinable[count] = 0;
+        facets_cast(view, c.joinable);
         status = lrcsi_boxes_make(view, c.joinable, work, &c.boxes);
     }
     status = status == LRCS_OK ? lrcsi_events_make(view, c.joinable, work, &c.events) : status;
     status = status == LRCS_OK ? events_file(&c, work) : status;
     if (status == LRCS_OK) {
         lrcsi_events_join(view, c.joinable, c.component);
-        status = facets_decide(&c, work);
+        status = facets_decide(&c, meter, work);
     }
     if (status != LRCS_OK) {
         work->used = mark;

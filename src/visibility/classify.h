@@ -22,6 +22,7 @@
 #ifndef LRCSI_CLASSIFY_H
 #define LRCSI_CLASSIFY_H
 
+#include "base/meter.h"
 #include "visibility/event.h"
 #include "visibility/grid.h"
 
@@ -56,9 +57,9 @@ typedef struct lrcsi_classification {
 size_t lrcsi_classify_need(const lrcs_prepared *prepared);
 
 /* Decides every facet that faces either way (front ones only where back sides are never seen). Once
-   the view's meter is spent all others count as undecided.
+   the meter is spent all others count as undecided.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The result stays in the work area. */
-int lrcsi_classify_make(const lrcsi_view *view, lrcs_work *work,
+int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
                         lrcsi_classification *classification);
 
 /* Names the regions. */

@@ -110,6 +110,17 @@ static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1,
     return x1 - x0;
 }
 
+void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
+                      lrcsi_strip_segment *side)
+{
+    const lrcs_point *point = grid->view->point;
+    double rounding = lrcsi_grid_rounding(grid) + near * grid->view->scale;
+    for (int k = 0; k < (count == 2 ? 1 : count); k++) {
+        side[k] = lrcsi_strip_segment_make(point[corner[k]].x, point[corner[(k + 1) % count]].x,
+                                           grid->view->scale, rounding);
+    }
+}
+
 lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *side, int sides,
                            uint32_t y)
 {
@@ -142,9 +153,8 @@ static uint32_t grid_put_edge(lrcsi_grid *grid, uint32_t edge, uint32_t item)
     if (cells.y1 - cells.y0 == 1) {
         return grid_put(grid, cells.y0, cells.x0, cells.x1, item);
     }
-    const lrcs_point *point = grid->view->point;
-    lrcsi_strip_segment segment = lrcsi_strip_segment_make(
-        point[e->low].x, point[e->high].x, grid->view->scale, lrcsi_grid_rounding(grid));
+    lrcsi_strip_segment segment;
+    lrcsi_grid_sides(grid, ends, 2, 0, &segment);
     uint32_t count = 0;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         lrcsi_cells row = lrcsi_grid_row(grid, &segment, 1, y);
@@ -265,14 +275,22 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
         return LRCS_OK;
     }
     want->bit = lrcsi_work_take_zero(work, want->words * grid->size, sizeof *want->bit);
-    uint32_t count = grid->view->prepared->scene->facet_count;
-    for (uint32_t f = 0; f < count && want->bit; f++) {
-        if (boxes->state[f / LRCSI_RUN] == LRCSI_BOXES_NONE) {
-            f = lrcsi_run_end(f, count) - 1;
-        } else if ((readers->undecided[f] || readers->region[f] == f) &&
-                   lrcsi_grid_casts(grid->view, f)) {
-            lrcsi_boxes_open(boxes, f / LRCSI_RUN);
-            want_facet(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
+    const lrcs_prepared *p = grid->view->prepared;
+    for (uint32_t r = 0; r < p->runs.count && want->bit; r++) {
+        uint32_t start = r * LRCSI_RUN;
+        uint32_t end = lrcsi_run_end(start, p->scene->facet_count);
+        if (boxes->state[r] == LRCSI_BOXES_NONE) {
+            continue;
+        }
+        if (lrcsi_events_joined(p, readers->joinable, r) == LRCSI_JOINED_ALL) {
+            end = start + 1; /* the others are not the first of their region, nor undecided */
+        }
+        for (uint32_t f = start; f < end; f++) {
+            if ((readers->undecided[f] || readers->region[f] == f) &&
+                lrcsi_grid_casts(grid->view, f)) {
+                lrcsi_boxes_open(boxes, r);
+                want_facet(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
+            }
         }
     }
     return want->bit ? LRCS_OK : LRCS_E_MEMORY;

@@ -10,6 +10,7 @@
 #include "base/range.h"
 #include "view/strip.h"
 #include "visibility/boxes.h"
+#include "visibility/event.h"
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
@@ -68,6 +69,11 @@ static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_v
                          .y1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[1], 1) + 1)};
 }
 
+/* The sides of a facet (count 3), or an edge (count 2, one side), for lrcsi_grid_row; `near`: how
+   far beyond them rows should reach. */
+void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
+                      lrcsi_strip_segment *side);
+
 /* The cells of row y that a polygon with these sides, in the units of boxes, may touch; rows and
    columns on the border reach on without end. Empty (x0 == x1) if there are none. */
 lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *side, int sides,
@@ -82,12 +88,26 @@ static inline double lrcsi_grid_rounding(const lrcsi_grid *grid)
     return 0x1p-23 * (fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side);
 }
 
-/* Do the cells list any item? A row's cells lie one behind the other. */
+/* A range of grid->item: from <= i < to. */
+typedef struct lrcsi_grid_items {
+    uint32_t from, to;
+} lrcsi_grid_items;
+
+/* What the cells x0 <= x < x1 of row y list, an item once for each cell that lists it: the lists of
+   a row lie one behind the other. */
+static inline lrcsi_grid_items lrcsi_grid_row_items(const lrcsi_grid *grid, uint32_t y, uint32_t x0,
+                                                    uint32_t x1)
+{
+    const uint32_t *row = grid->first + (size_t)y * grid->size;
+    return (lrcsi_grid_items){row[x0], row[x1]};
+}
+
+/* Do the cells list any item? */
 static inline int lrcsi_grid_any(const lrcsi_grid *grid, lrcsi_cells cells)
 {
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        const uint32_t *row = grid->first + (size_t)y * grid->size;
-        if (row[cells.x0] != row[cells.x1]) {
+        lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
+        if (items.from != items.to) {
             return 1;
         }
     }
@@ -122,6 +142,7 @@ size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 typedef struct lrcsi_grid_readers {
     const unsigned char *undecided; /* of each facet */
     const uint32_t *region;         /* of each facet: the first facet of its region */
+    const signed char *joinable;    /* of each facet (visibility/classify.h) */
 } lrcsi_grid_readers;
 
 /* A grid of the facets that can hide something, in at most as many cells as another grid: it lists

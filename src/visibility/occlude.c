@@ -39,8 +39,7 @@ void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
     if (!classification->undecided[facet]) {
         o->answer = uniform_area(o, facet);
         o->whole = o->answer.low > 0;
-    } else if (!lrcsi_query_screened(classification, &o->facets, facet,
-                                     classification->view->meter)) {
+    } else if (!lrcsi_query_screened(classification, &o->facets, facet, o->meter)) {
         o->undecided = 1;
         lrcsi_alone_open(&o->alone, facet);
     }
@@ -87,25 +86,34 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 }
 
 /* Everything except the memory for single facets. */
-static int occlude_begin(lrcsi_classification *classification, lrcs_work *work, lrcsi_occluding *o)
+static int occlude_begin(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
+                         lrcsi_occluding *o)
 {
-    *o = (lrcsi_occluding){.classification = classification};
+    *o = (lrcsi_occluding){.classification = classification, .meter = meter};
     o->uniform = lrcsi_work_take(work, classification->view->prepared->scene->facet_count, 1);
-    return o->uniform ? lrcsi_query_uniform(classification, classification->view->meter, work,
-                                            &o->facets, o->uniform)
+    return o->uniform ? lrcsi_query_uniform(classification, meter, work, &o->facets, o->uniform)
                       : LRCS_E_MEMORY;
 }
 
-int lrcsi_occlude_make(lrcsi_classification *classification, lrcs_work *work, lrcsi_occluding *o)
+int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
+                       lrcsi_occluding *o)
 {
     size_t mark = work->used;
-    int status = occlude_begin(classification, work, o);
-    status =
-        status == LRCS_OK ? lrcsi_alone_make(classification, &o->facets, work, &o->alone) : status;
+    int status = occlude_begin(classification, meter, work, o);
+    status = status == LRCS_OK
+                 ? lrcsi_alone_make(classification, o->meter, &o->facets, work, &o->alone)
+                 : status;
     if (status != LRCS_OK) {
         work->used = mark;
     }
     return status;
+}
+
+/* The first facet from `from` on whose value is `wanted`, or `count`. */
+static uint32_t facet_next(const unsigned char *value, int wanted, uint32_t from, uint32_t count)
+{
+    const unsigned char *at = memchr(value + from, wanted, count - from);
+    return at ? (uint32_t)(at - value) : count;
 }
 
 /* Undecided facets: together if there are many; then one by one those that are still open. */
@@ -117,44 +125,46 @@ static int occlude_undecided(lrcsi_occluding *o, lrcs_work *work, unsigned char 
     uint32_t count = p->scene->facet_count;
     if (classification->undecided_count >= CELLS_LEAST &&
         classification->undecided_count >= count / CELLS_SHARE && cells_serve(p)) {
-        lrcsi_cells_areas(classification, work, o->uniform, open, visible);
+        lrcsi_cells_areas(classification, o->meter, work, o->uniform, open, visible);
     }
-    if (!memchr(open, 1, count)) {
+    uint32_t f = facet_next(open, 1, 0, count);
+    if (f == count) {
         return LRCS_OK;
     }
-    int status = lrcsi_alone_make(classification, &o->facets, work, &o->alone);
-    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
+    int status = lrcsi_alone_make(classification, o->meter, &o->facets, work, &o->alone);
+    for (; f < count && status == LRCS_OK; f = facet_next(open, 1, f + 1, count)) {
         lrcsi_view_progress(classification->view, LRCS_PROGRESS_VISIBILITY, f, count);
-        if (open[f]) {
-            lrcsi_occlude_open(o, f);
-            visible[f] = lrcsi_occlude_area(o);
-            if (visible[f].high == 0) {
-                o->uniform[f] = LRCSI_QUERY_HIDDEN;
-            }
+        lrcsi_occlude_open(o, f);
+        visible[f] = lrcsi_occlude_area(o);
+        if (visible[f].high == 0) {
+            o->uniform[f] = LRCSI_QUERY_HIDDEN;
         }
     }
     return status;
 }
 
-int lrcsi_occlude_all(lrcsi_classification *classification, lrcs_work *work,
+int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
                       const unsigned char **answer, lrcsi_visible *visible)
 {
     const lrcsi_view *view = classification->view;
     uint32_t count = view->prepared->scene->facet_count;
     size_t mark = work->used;
     lrcsi_occluding o;
-    int status = occlude_begin(classification, work, &o);
+    int status = occlude_begin(classification, meter, work, &o);
     unsigned char *open = lrcsi_work_take(work, count, 1);
     status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
-    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
-        open[f] = classification->undecided[f] && lrcsi_grid_casts(view, f);
-        if (open[f]) {
-            o.uniform[f] = LRCSI_QUERY_UNDECIDED;
-        } else if (o.uniform[f] == LRCSI_QUERY_UNDECIDED) {
+    if (status == LRCS_OK) { /* only facets that can hide others are ever undecided */
+        memcpy(open, classification->undecided, count);
+        for (uint32_t f = facet_next(o.uniform, LRCSI_QUERY_UNDECIDED, 0, count); f < count;
+             f = facet_next(o.uniform, LRCSI_QUERY_UNDECIDED, f + 1, count)) {
             visible[f] = uniform_area(&o, f);
         }
+        for (uint32_t f = facet_next(open, 1, 0, count); f < count;
+             f = facet_next(open, 1, f + 1, count)) {
+            o.uniform[f] = LRCSI_QUERY_UNDECIDED;
+        }
+        status = occlude_undecided(&o, work, open, visible);
     }
-    status = status == LRCS_OK ? occlude_undecided(&o, work, open, visible) : status;
     /* Either the answers, moved to the beginning of the work area used here, or all areas. */
     work->used = mark;
     if (status == LRCS_OK && answer) {

@@ -9,6 +9,7 @@
 /* Data for all facets of a view, and the current facet. */
 typedef struct lrcsi_occluding {
     lrcsi_classification *classification;
+    lrcsi_meter *meter;
     lrcsi_grid facets;
     unsigned char *uniform; /* of each uniform facet: a lrcsi_query_answer */
     lrcsi_alone alone;      /* target and piece of the current facet */
@@ -20,9 +21,11 @@ typedef struct lrcsi_occluding {
 /* Bytes at most. */
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
 
-/* Makes the data for all facets; they stay in the work area.
+/* Makes the data for all facets, which stay in the work area. Steps are taken from the meter; NULL:
+   no limit.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
-int lrcsi_occlude_make(lrcsi_classification *classification, lrcs_work *work, lrcsi_occluding *o);
+int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
+                       lrcsi_occluding *o);
 
 /* One facet piece by piece: call open, then next until it returns 0, then close. Each `next` that
    returns 1 leaves one of the disjoint convex pieces of the visible region in o->alone.piece, in
@@ -44,7 +47,7 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o);
    all of it is visible (exact); otherwise LRCSI_QUERY_UNDECIDED, and visible[facet] is its area.
    Thus most of visible[] is never written. With answer NULL, visible[] has the areas of all facets.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Only *answer stays in the work area. */
-int lrcsi_occlude_all(lrcsi_classification *classification, lrcs_work *work,
+int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
                       const unsigned char **answer, lrcsi_visible *visible);
 
 #endif

@@ -172,8 +172,8 @@ static int polygon_list(const lrcs_prepared *prepared, const lrcs_pose *pose, lr
     lrcsi_classification classification;
     lrcsi_occluding o;
     int status = lrcsi_view_make(prepared, pose, work, &view);
-    status = status == LRCS_OK ? lrcsi_classify_make(&view, work, &classification) : status;
-    status = status == LRCS_OK ? lrcsi_occlude_make(&classification, work, &o) : status;
+    status = status == LRCS_OK ? lrcsi_classify_make(&view, NULL, work, &classification) : status;
+    status = status == LRCS_OK ? lrcsi_occlude_make(&classification, NULL, work, &o) : status;
     status = status == LRCS_OK ? facets_add(list, &o) : status;
     return status == LRCS_OK ? list_fill(list, &o, work) : status;
 }

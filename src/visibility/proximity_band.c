@@ -17,10 +17,13 @@
 #define OFF_MARGIN 8.0
 /* Rounding of a facet's cosine, generously. */
 #define COS_MARGIN 1e-9
+/* The grid has so many cells for each event: rims are many short edges in few of its cells. */
+#define EVENT_CELLS 4u
 
 /* What one run needs; the edges' grid lists events by index. */
 typedef struct band_job {
     const lrcsi_view *view;
+    lrcsi_meter *meter;
     double *share, *rows;
     uint32_t *edge, *part; /* event: its topology edge, the part for which it is one */
     uint32_t *seen;        /* event: the facet + 1 that last met it */
@@ -37,24 +40,6 @@ static uint32_t band_part(const band_job *job, uint32_t facet)
 /* --- events of one part ------------------------------------------------------------------------
  */
 
-/* 1 if an edge is an event edge of a part: unless exactly two facets of the part share it, with
-   consistent winding, and face the same way. */
-static int part_event(const band_job *job, const lrcsi_edge *edge, uint32_t part)
-{
-    const lrcsi_edge_use *use = job->view->prepared->topology.use + edge->first_use;
-    uint32_t count = 0;
-    uint32_t forward = 0;
-    int facing = 0;
-    for (uint32_t i = 0; i < edge->uses; i++) {
-        if (band_part(job, use[i].facet) == part && !job->view->prepared->skip[use[i].facet]) {
-            count++;
-            forward += use[i].forward;
-            facing += job->view->facing[use[i].facet];
-        }
-    }
-    return count != 0 && !(count == 2 && forward == 1 && (facing == 2 || facing == -2));
-}
-
 /* Lists each pair of edge and part once, or only counts them if job->edge is NULL. */
 static void list_events(band_job *job)
 {
@@ -65,11 +50,12 @@ static void list_events(band_job *job)
         const lrcsi_edge_use *use = topology->use + edge->first_use;
         for (uint32_t i = 0; i < edge->uses; i++) {
             uint32_t part = band_part(job, use[i].facet);
+            uint32_t pair[2];
             int met = 0;
             for (uint32_t k = 0; k < i && !met; k++) {
                 met = band_part(job, use[k].facet) == part;
             }
-            if (met || !part_event(job, edge, part)) {
+            if (met || lrcsi_edge_kind_of(job->view, e, part, pair) != LRCSI_EDGE_EVENT) {
                 continue;
             }
             if (job->edge) {
@@ -92,7 +78,7 @@ static int band_events(band_job *job, lrcs_work *work)
     }
     job->edge = edge;
     list_events(job);
-    job->grid = lrcsi_grid_empty(job->view, job->count);
+    job->grid = lrcsi_grid_empty(job->view, EVENT_CELLS * job->count);
     return lrcsi_grid_edges(job->edge, job->count, 8 * (uint64_t)job->count, work, &job->grid);
 }
 
@@ -231,7 +217,7 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
     const lrcsi_edge_use *use = p->topology.use + edge->first_use;
     uint32_t count = 0;
     int facing = 0;
-    if (!lrcsi_meter_take(job->view->meter, edge->uses)) {
+    if (!lrcsi_meter_take(job->meter, edge->uses)) {
         return 1;
     }
     for (uint32_t i = 0; i < edge->uses; i++) {
@@ -248,15 +234,15 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
     return count == 1 && facing;
 }
 
-/* The distance within which an event edge affects a facet, unless it is behind; 0 if it cannot. */
+/* The distance within which an event edge affects a facet, unless it is behind; 0 if it cannot. Of
+   the facet's own part only the rims of openings do. */
 static double event_slack(const band_job *job, uint32_t facet, uint32_t event)
 {
     const lrcs_prepared *p = job->view->prepared;
     uint32_t part = band_part(job, facet);
     if (job->part[event] == part) {
         const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
-        int inside = job->view->facing[facet] < 0 && !lrcsi_proximity_closed(p, part);
-        return inside && own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
+        return own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
     }
     return lrcsi_proximity_slack(p, part, job->part[event]);
 }
@@ -264,11 +250,56 @@ static double event_slack(const band_job *job, uint32_t facet, uint32_t event)
 /* --- one facet -------------------------------------------------------------------------------- */
 
 /* Where to look for event edges near a facet: in a box, and in rows of the grid between the facet's
-   sides, whose errors include the largest relevant distance. */
+   sides, whose errors include the largest relevant distance. Event edges on the outer side of a
+   line along one of the sides are too far away: outward . x > limit there, errors included. */
 typedef struct band_walk {
     double low[3], high[3];
     lrcsi_strip_segment side[3];
+    double outward[3][2], limit[3];
+    int tried;  /* the side to try first: the one that the last edge was beyond */
+    int inside; /* the laser may see the facet through an opening of its own part */
 } band_walk;
+
+/* outward . x of a point, with `off` times its position's error added. */
+static double walk_height(const band_walk *walk, int side, const double x[3], double off)
+{
+    return walk->outward[side][0] * x[0] + walk->outward[side][1] * x[1] + off * lrcsi_view_off(x);
+}
+
+/* The line along a side, `near` away from the facet. Where the side has no length nothing is beyond
+   it. */
+static void walk_line(band_walk *walk, int side, const double *const corner[3], double near)
+{
+    const double *from = corner[side];
+    const double *to = corner[(side + 1) % 3];
+    const double *apex = corner[(side + 2) % 3];
+    double x = to[1] - from[1];
+    double y = from[0] - to[0];
+    double length = sqrt(x * x + y * y);
+    double turn = x * (apex[0] - from[0]) + y * (apex[1] - from[1]) > 0 ? -1 : 1;
+    walk->outward[side][0] = length > 0 ? turn * x / length : 0;
+    walk->outward[side][1] = length > 0 ? turn * y / length : 0;
+    double most = -HUGE_VAL;
+    for (int k = 0; k < 3; k++) {
+        most = lrcsi_most(most, walk_height(walk, side, corner[k], OFF_MARGIN));
+    }
+    walk->limit[side] = length > 0 ? most + near * (1 + 0x1p-40) : HUGE_VAL;
+}
+
+/* Is a whole edge beyond one of these lines? */
+static int walk_apart(band_walk *walk, const double a[3], const double b[3])
+{
+    int side = walk->tried;
+    for (int i = 0; i < 3; i++) {
+        if (walk_height(walk, side, a, -OFF_MARGIN) > walk->limit[side] &&
+            walk_height(walk, side, b, -OFF_MARGIN) > walk->limit[side]) {
+            walk->tried = side;
+            return 1;
+        }
+        side = side < 2 ? side + 1 : 0;
+    }
+    return 0;
+}
 
 static band_walk walk_make(const band_job *job, uint32_t facet)
 {
@@ -277,25 +308,30 @@ static band_walk walk_make(const band_job *job, uint32_t facet)
     const uint32_t *corner = p->scene->facet[facet].corner;
     double near =
         2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.most) + LRCSI_PROXIMITY_ERR;
-    double rounding = lrcsi_grid_rounding(&job->grid) + near * view->scale;
     double wide = near + facet_off(job, facet);
-    band_walk walk;
+    const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
+                                    view->point[corner[2]].x};
+    band_walk walk = {.tried = 0};
+    walk.inside = view->facing[facet] < 0 && !lrcsi_proximity_closed(p, band_part(job, facet));
+    lrcsi_grid_sides(&job->grid, corner, 3, near, walk.side);
     lrcsi_view_bounds(view, corner, 3, walk.low, walk.high);
     for (int k = 0; k < 3; k++) {
-        const double *from = view->point[corner[k]].x;
-        const double *to = view->point[corner[(k + 1) % 3]].x;
         walk.low[k] -= wide;
         walk.high[k] += wide;
-        walk.side[k] = lrcsi_strip_segment_make(from, to, view->scale, rounding);
+        walk_line(&walk, k, point, near);
     }
     return walk;
 }
 
 /* Adds the fractions of area and of rows near an event edge. */
-static void add_event(band_job *job, uint32_t facet, uint32_t event)
+static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *walk)
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
+    if ((job->part[event] == band_part(job, facet) && !walk->inside) ||
+        walk_apart(walk, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
+        return;
+    }
     double slack = event_slack(job, facet, event);
     if (!(slack > 0)) {
         return;
@@ -314,7 +350,7 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event)
 }
 
 /* Adds the fractions near all event edges; the whole facet if the limit of steps is reached. */
-static void add_events(band_job *job, uint32_t facet, const band_walk *walk)
+static void add_events(band_job *job, uint32_t facet, band_walk *walk)
 {
     const lrcsi_grid *grid = &job->grid;
     lrcsi_view_box box = lrcsi_view_box_round(job->view, walk->low, walk->high);
@@ -322,17 +358,16 @@ static void add_events(band_job *job, uint32_t facet, const band_walk *walk)
     int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         lrcsi_cells row = several ? lrcsi_grid_row(grid, walk->side, 3, y) : cells;
-        uint32_t i = grid->first[(size_t)y * grid->size + row.x0];
-        uint32_t end = grid->first[(size_t)y * grid->size + row.x1];
-        if (!lrcsi_meter_take(job->view->meter, (uint64_t)1 + end - i)) {
+        lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, row.x0, row.x1);
+        if (!lrcsi_meter_take(job->meter, (uint64_t)1 + items.to - items.from)) {
             job->share[facet] = 1;
             return;
         }
-        for (; i < end && job->share[facet] < 1; i++) {
+        for (uint32_t i = items.from; i < items.to && job->share[facet] < 1; i++) {
             uint32_t event = grid->item[i];
             if (job->seen[event] != facet + 1) {
                 job->seen[event] = facet + 1;
-                add_event(job, facet, event);
+                add_event(job, facet, event, walk);
             }
         }
     }
@@ -471,7 +506,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_grid_need(edges, 8 * edges));
+    return lrcsi_work_add(need, lrcsi_grid_need(EVENT_CELLS * edges, 8 * edges));
 }
 
 /* Computes all fractions; scratch memory is released. */
@@ -494,8 +529,8 @@ static int band_shares(band_job *job, lrcs_work *work)
     return status;
 }
 
-int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcs_work *work,
-                              lrcsi_proximity_band *band)
+int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
+                              lrcs_work *work, lrcsi_proximity_band *band)
 {
     const lrcsi_view *view = classification->view;
     uint32_t facets = view->prepared->scene->facet_count;
@@ -505,7 +540,7 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcs_w
     m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     m.hidden = lrcsi_work_take_zero(work, facets, 1);
-    band_job job = {.view = view, .share = m.share, .rows = m.rows};
+    band_job job = {.view = view, .meter = meter, .share = m.share, .rows = m.rows};
     int status =
         m.share && m.rows && m.region && m.hidden ? band_shares(&job, work) : LRCS_E_MEMORY;
     if (status != LRCS_OK) {

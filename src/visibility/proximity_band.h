@@ -67,8 +67,8 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 /* For a scene with prepared->proximity.reach. No region is marked hidden yet. Facets that neither
    reflect nor belong to a curved part are left out: share 0. Status: LRCS_OK;
    LRCS_E_MEMORY; LRCS_E_LIMIT. The shares stay in the work area, scratch does not. */
-int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcs_work *work,
-                              lrcsi_proximity_band *band);
+int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
+                              lrcs_work *work, lrcsi_proximity_band *band);
 
 /* Finds the hidden regions, once visible areas are known. */
 void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_visible *visible);

@@ -55,7 +55,8 @@ typedef struct query_line {
     lrcsi_view_box at;  /* the line in the view; in depth, the whole facet */
     int sense;          /* the sense of the infinitesimal by which it is moved */
     lrcsi_cells cells;
-    uint32_t y, item, end; /* the current row of cells, and its remaining items */
+    uint32_t y;             /* the next row of cells */
+    lrcsi_grid_items items; /* of the row before it, those that remain */
 } query_line;
 
 /* Finds the grid cells of the line through line->point. */
@@ -109,18 +110,16 @@ static uint32_t line_next(query_line *line)
 {
     const lrcsi_grid *grid = line->grid;
     for (;;) {
-        while (line->item == line->end) {
+        while (line->items.from == line->items.to) {
             if (line->y == line->cells.y1) {
                 return LRCS_NONE;
             }
-            size_t row = (size_t)line->y++ * grid->size;
-            line->item = grid->first[row + line->cells.x0];
-            line->end = grid->first[row + line->cells.x1];
-            if (!lrcsi_meter_take(line->meter, line->end - line->item)) {
+            line->items = lrcsi_grid_row_items(grid, line->y++, line->cells.x0, line->cells.x1);
+            if (!lrcsi_meter_take(line->meter, line->items.to - line->items.from)) {
                 return LRCS_NONE;
             }
         }
-        uint32_t other = grid->item[line->item++];
+        uint32_t other = grid->item[line->items.from++];
         const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
         if (other != line->facet && !lrcsi_view_box_beside(its, &line->at) &&
             !lrcsi_view_box_behind(its, &line->at) && line_meets(line, other)) {
@@ -176,18 +175,28 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
 static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_meter *meter,
                               const lrcsi_grid *facets, unsigned char *answer)
 {
+    const lrcs_prepared *p = classification->view->prepared;
     uint32_t undecided = 0;
-    uint32_t count = classification->view->prepared->scene->facet_count;
+    uint32_t count = p->scene->facet_count;
     memset(answer, LRCSI_QUERY_HIDDEN, count);
-    for (uint32_t f = 0; f < count; f++) {
-        uint32_t first = classification->region[f];
-        if (classification->boxes.state[f / LRCSI_RUN] == LRCSI_BOXES_NONE) {
-            f = lrcsi_run_end(f, count) - 1; /* no facet of the run is visible */
-        } else if (first != f) {
-            answer[f] = answer[first];
-        } else if (lrcsi_grid_casts(classification->view, f) && !classification->undecided[f]) {
-            answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
-            undecided += answer[f] == LRCSI_QUERY_UNDECIDED;
+    for (uint32_t r = 0; r < p->runs.count; r++) {
+        uint32_t start = r * LRCSI_RUN;
+        uint32_t end = lrcsi_run_end(start, count);
+        if (classification->boxes.state[r] == LRCSI_BOXES_NONE) {
+            continue; /* no facet of the run is visible */
+        }
+        int one = lrcsi_events_joined(p, classification->joinable, r) == LRCSI_JOINED_ALL;
+        for (uint32_t f = start; f < (one ? start + 1 : end); f++) {
+            uint32_t first = classification->region[f];
+            if (first != f) {
+                answer[f] = answer[first];
+            } else if (lrcsi_grid_casts(classification->view, f) && !classification->undecided[f]) {
+                answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
+                undecided += answer[f] == LRCSI_QUERY_UNDECIDED;
+            }
+        }
+        if (one) {
+            memset(answer + start, answer[start], end - start);
         }
     }
     return undecided;
@@ -202,7 +211,8 @@ int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter 
     size_t mark = work->used;
     uint32_t count = classification->view->prepared->scene->facet_count;
     lrcsi_classify_regions(classification);
-    const lrcsi_grid_readers readers = {classification->undecided, classification->region};
+    const lrcsi_grid_readers readers = {classification->undecided, classification->region,
+                                        classification->joinable};
     int status =
         lrcsi_grid_facets(&classification->grid, &classification->boxes, &readers, work, facets);
     if (status != LRCS_OK || query_regions(classification, meter, facets, answer) == 0) {

@@ -40,7 +40,7 @@ typedef struct lrcsi_plane {
 
 size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size);
 
-/* Draws the view, all of it. Back sides are drawn where they cast (view->backs_cast).
+/* Draws the view, all of it. Back sides are drawn where they cast (view->backs.cast).
    Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area. */
 int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster);
 

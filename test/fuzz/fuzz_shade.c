@@ -112,7 +112,8 @@ int LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
         return 0;
     }
     require(lrcs_prepare_run(&scene, &work, &prepared) == LRCS_OK);
-    require(lrcsi_view_face(prepared, &pose, &work, &view) == LRCS_OK);
+    require(lrcsi_view_face(prepared, &pose, (lrcsi_view_backs){!prepared->solid, !prepared->solid},
+                            &work, &view) == LRCS_OK);
     const lrcs_brdf *brdf = &material.brdf;
     lrcsi_lobes lobes = lrcsi_lobes_make(brdf, brdf->A > 0, brdf->B > 0);
     for (uint32_t place = 0; place < prepared->batches.count; place++) {

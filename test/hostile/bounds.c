@@ -307,8 +307,8 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
     lrcsi_classification classification;
     lrcsi_occluding o;
     if (lrcsi_view_make(prepared, pose, &work, &view) != LRCS_OK ||
-        lrcsi_classify_make(&view, &work, &classification) != LRCS_OK ||
-        lrcsi_occlude_make(&classification, &work, &o) != LRCS_OK) {
+        lrcsi_classify_make(&view, NULL, &work, &classification) != LRCS_OK ||
+        lrcsi_occlude_make(&classification, NULL, &work, &o) != LRCS_OK) {
         printf("REFUSED %s %s, areas\n", c->kind, c->name);
         out_of_bounds++;
         return;
@@ -321,7 +321,7 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
             check_bounds(c, &view, f, &alone, 0);
         }
     }
-    lrcsi_cells_areas(&classification, &work, o.uniform, open, together);
+    lrcsi_cells_areas(&classification, NULL, &work, o.uniform, open, together);
     for (uint32_t f = 0; f < c->scene.facet_count; f++) {
         if (lrcsi_grid_casts(&view, f) && !open[f]) {
             check_bounds(c, &view, f, &together[f], 1);

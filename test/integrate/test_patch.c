@@ -53,7 +53,9 @@ static void scene_make(const lrcs_shape *shape, const lrcs_place *place, const l
     assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &s->scene, NULL), LRCS_OK);
     assert_int_equal(lrcs_prepare_run(&s->scene, &work, &prepared), LRCS_OK);
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
-    assert_int_equal(lrcsi_plan_view(prepared, &pose, &run, &work, &s->view), LRCS_OK);
+    assert_int_equal(
+        lrcsi_view_face(prepared, &pose, lrcsi_plan_backs(prepared, &run), &work, &s->view),
+        LRCS_OK);
     assert_int_equal(lrcsi_view_project(&work, &s->view), LRCS_OK);
     assert_int_equal(lrcsi_clear_make(&s->view, &work, &clear), LRCS_OK);
     s->plan = lrcsi_plan_make(&s->view, &clear, &run);
@@ -232,7 +234,7 @@ static void patches_of_a_cone_add_up_to_its_closed_form(void **state)
         sum += (patch.glint + patch.diffuse) * 0.5 * s.view.prepared->normal[f].length;
     }
     assert_int_equal(lrcs_closed_eval(&shape, &brdf, &aspect, &closed), LRCS_OK);
-    check_rel(lrcsi_prepared_area(s.view.prepared, 4 * LRCSI_PI * sum), closed.sigma_m2, 1e-12);
+    check_rel(lrcsi_prepared_area(s.view.prepared, 4 * LRCS_PI * sum), closed.sigma_m2, 1e-12);
 }
 
 /* Facets that the laser sees edge-on, or nearly, and flat ones have no mean; nor has any where

@@ -237,7 +237,7 @@ static int step_convex(inner_steps *s, lrcs_work *work)
 
 static int step_margin(inner_steps *s, lrcs_work *work)
 {
-    int status = lrcsi_proximity_band_make(&s->classification, work, &s->margin);
+    int status = lrcsi_proximity_band_make(&s->classification, NULL, work, &s->margin);
     assert_true(status == LRCS_OK || work->used == 0);
     work->used = 0;
     return status;
@@ -269,7 +269,7 @@ static void steps_within_grow_until_they_fit(void **state)
     assert_int_equal(lrcs_pose_from_azel(20, 60, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(&s.prepared, &pose, &work, &s.view), LRCS_OK);
     assert_int_equal(lrcsi_view_project(&work, &s.view), LRCS_OK);
-    assert_int_equal(lrcsi_classify_make(&s.view, &work, &s.classification), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&s.view, NULL, &work, &s.classification), LRCS_OK);
     for (int i = 0; i < 4; i++) {
         int status = LRCS_E_MEMORY;
         size_t size = 0;

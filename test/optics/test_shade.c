@@ -31,7 +31,8 @@ static lrcsi_view view_of(const struct vector *v)
     scene_triangle(&scene, (const double[3]){0, 0, 0}, v->b, v->c);
     assert_int_equal(lrcs_prepare_run(&scene.scene, &work, &prepared), LRCS_OK);
     assert_int_equal(lrcs_pose_from_direction(v->d, &pose), LRCS_OK);
-    assert_int_equal(lrcsi_view_face(prepared, &pose, &work, &view), LRCS_OK);
+    assert_int_equal(lrcsi_view_face(prepared, &pose, (lrcsi_view_backs){1, 1}, &work, &view),
+                     LRCS_OK);
     return view;
 }
 

@@ -318,7 +318,7 @@ static void twins_cost_what_one_of_them_costs(void **state)
             const lrcs_prepared *p = scene_prepare(&scene, &work);
             steps[doubled] = scene_pose(&scene, p, &work, d, LRCS_METHOD_EXACT, 0).steps;
             assert_int_equal(lrcsi_view_make(p, &pose, &work, &view), LRCS_OK);
-            assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+            assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
             events[doubled] = classification.events.count;
             undecided[doubled] = classification.undecided_count;
         }

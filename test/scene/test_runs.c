@@ -8,6 +8,30 @@
 static test_scene scene;
 static uint64_t seed = 1;
 
+/* A run is whole if its facets are all connected with its first; its links are its sides without a
+   facet across and one side for each other run that sides lead to. */
+static void check_links(const lrcs_prepared *p, uint32_t r)
+{
+    const lrcsi_run *run = &p->runs.run[r];
+    uint32_t count = p->scene->facet_count;
+    uint32_t sides = run[1].first_side - run->first_side;
+    const lrcsi_run_side *side = &p->runs.side[run->first_side];
+    int whole = 1;
+    for (uint32_t f = r * LRCSI_RUN; f < lrcsi_run_end(r * LRCSI_RUN, count); f++) {
+        whole &= p->runs.first[f] == 0;
+    }
+    assert_int_equal(run->whole, whole);
+    assert_true(run->links <= sides);
+    for (uint32_t i = 0; i < sides; i++) {
+        uint32_t before = 0; /* links to the same run that come before */
+        for (uint32_t k = 0; k < run->links && k < i; k++) {
+            before += side[k].other < count && side[i].other < count &&
+                      side[k].other / LRCSI_RUN == side[i].other / LRCSI_RUN;
+        }
+        assert_int_equal(before, i < run->links ? 0 : 1);
+    }
+}
+
 /* Every side that has a facet across leads within the run, or is listed from one facet or the
    other; what is connected so is connected in the scene. */
 static void check_runs(void)
@@ -53,6 +77,9 @@ static void check_runs(void)
     }
     for (uint32_t f = 0; f < count; f++) {
         assert_int_equal(lrcsi_join_root(all, f), lrcsi_join_root(by_runs, f));
+    }
+    for (uint32_t r = 0; r < runs->count; r++) {
+        check_links(p, r);
     }
 }
 

@@ -94,7 +94,10 @@ static int clear_run(const clear_case *c, const double R[3][3], double shift)
     work = lrcs_work_make(run_area, sizeof run_area);
     assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
-    assert_int_equal(lrcsi_view_face(prepared, &pose, &work, &view), LRCS_OK);
+    assert_int_equal(lrcsi_view_face(prepared, &pose,
+                                     (lrcsi_view_backs){!prepared->solid, !prepared->solid}, &work,
+                                     &view),
+                     LRCS_OK);
     size_t before = work.used;
     work.peak = work.used;
     assert_int_equal(lrcsi_clear_make(&view, &work, &clear), LRCS_OK);

@@ -96,15 +96,15 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
     lrcs_pose pose = pose_of(number);
     work->used = 0;
     must(lrcsi_view_make(prepared, &pose, work, &view));
-    must(lrcsi_classify_make(&view, work, &classification));
+    must(lrcsi_classify_make(&view, NULL, work, &classification));
     for (uint32_t f = 0; f < count; f++) {
         open[f] = lrcsi_grid_casts(&view, f) != 0;
     }
     double start = now_ms();
-    lrcsi_cells_areas(&classification, work, NULL, open, found);
+    lrcsi_cells_areas(&classification, NULL, work, NULL, open, found);
     sums->together.ms += now_ms() - start;
     must(ref_occlude_make(&classification, work, &o));
-    must(lrcsi_alone_make(&classification, &o.cover.facets, work, &a));
+    must(lrcsi_alone_make(&classification, NULL, &o.cover.facets, work, &a));
     for (uint32_t f = 0; f < count; f++) {
         if (!lrcsi_grid_casts(&view, f)) {
             continue;

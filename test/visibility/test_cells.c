@@ -14,6 +14,7 @@ static lrcsi_view view;
 static lrcsi_classification classification;
 static lrcsi_visible found[SCENE_FACETS];
 static unsigned char open[SCENE_FACETS];
+static lrcsi_meter *limit; /* NULL: none */
 
 static void turned(const double direction[3])
 {
@@ -21,7 +22,7 @@ static void turned(const double direction[3])
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
 }
 
 /* Asks for all facets that can be seen, undecided or not. Returns how many there are; *left is how
@@ -34,7 +35,7 @@ static uint32_t ask(uint32_t *left)
         open[f] = lrcsi_grid_casts(&view, f) != 0;
         asked += open[f];
     }
-    lrcsi_cells_areas(&classification, &work, NULL, open, found);
+    lrcsi_cells_areas(&classification, limit, &work, NULL, open, found);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         *left += open[f];
     }
@@ -50,7 +51,7 @@ static uint32_t agree(const double direction[3])
     turned(direction);
     uint32_t asked = ask(&left);
     lrcsi_occluding o;
-    assert_int_equal(lrcsi_occlude_make(&classification, &work, &o), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_make(&classification, NULL, &work, &o), LRCS_OK);
     const double *bulk = view.prepared->bulk;
     double extent = 2 * fmax(bulk[0], fmax(bulk[1], bulk[2]));
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
@@ -211,6 +212,40 @@ static void plates_that_pierce_each_other(void **state)
     check_abs(first, 1, 1e-13);
 }
 
+/* Spikes that rise through a plate of two facets: most of each edge of a spike is behind the plate,
+   and its tip is in front. A strip of facets behind the plate begins at the first spike. */
+static void tips_of_spikes_through_a_plate_are_seen(void **state)
+{
+    (void)state;
+    for (int winding = 0; winding < 2; winding++) {
+        scene_start(&scene);
+        scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                    (const double[3]){0, 1, 0});
+        for (int i = 0; i < 12; i++) {
+            double x = 0.07 * i;
+            uint32_t v = scene.scene.vertex_count;
+            point(0.05 + x, 0.1, -1);
+            point(0.06 + x, 0.3, -1);
+            point(0.15 + x, 0.8, 0.05 + 0.01 * i);
+            point(0.5 + 0.01 * i, 0.05, -1.5);
+            scene_facet(&scene, v, v + 1, v + 2);
+            scene_facet(&scene, v, v + 3, v + 1);
+        }
+        if (winding) {
+            flip();
+        }
+        assert_int_equal(agree((const double[3]){0, 0, 1}), 26);
+        for (uint32_t i = 0; i < 12; i++) {
+            double above = 0.05 + 0.01 * i; /* the tip is a smaller triangle of the same shape */
+            double part = above / (1 + above);
+            check_abs(share(2 + 2 * i), part * part, 1e-13);
+            check_abs(share(3 + 2 * i), 0, 1e-13);
+        }
+        agree((const double[3]){0.2, 0.3, 1});
+        agree((const double[3]){-1, 0.1, 0.4});
+    }
+}
+
 /* A ramp that winds around an axis twice passes behind itself: one component, two layers. */
 static void ramp_that_passes_behind_itself(void **state)
 {
@@ -367,8 +402,9 @@ static void hatch_takes_steps_like_the_pieces_that_are_seen(void **state)
         lrcsi_meter meter = {.most = UINT64_MAX};
         hatch(50 << i);
         turned((const double[3]){0, 0, 1});
-        view.meter = &meter;
+        limit = &meter;
         assert_int_equal(ask(&left), 4 * (50 << i));
+        limit = NULL;
         assert_int_equal(left, 0);
         steps[i] = meter.taken;
     }
@@ -384,8 +420,9 @@ static void steps_that_run_out_leave_facets_open(void **state)
         uint32_t left;
         lrcsi_meter meter = {.most = most};
         turned((const double[3]){0, 0, 1});
-        view.meter = &meter;
+        limit = &meter;
         uint32_t asked = ask(&left);
+        limit = NULL;
         assert_true(meter.spent ? left > 0 : left == 0);
         assert_true(left <= asked && meter.taken <= most);
     }
@@ -448,7 +485,7 @@ static void hidden_facets_are_left_out_and_change_nothing(void **state)
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         open[f] = 1;
     }
-    lrcsi_cells_areas(&classification, &work, answer, open, found);
+    lrcsi_cells_areas(&classification, NULL, &work, answer, open, found);
     uint32_t hidden = 0;
     uint32_t crossed = 0;
     double seen = 0;
@@ -479,6 +516,7 @@ int main(void)
         cmocka_unit_test(folds_of_panels_that_change_order_along_a_line),
         cmocka_unit_test(square_stored_twice_with_both_diagonals),
         cmocka_unit_test(plates_that_pierce_each_other),
+        cmocka_unit_test(tips_of_spikes_through_a_plate_are_seen),
         cmocka_unit_test(ramp_that_passes_behind_itself),
         cmocka_unit_test(moebius_strip_wound_at_random),
         cmocka_unit_test(needle_along_the_line_of_sight_has_all_of_its_area),

@@ -3,6 +3,7 @@
    grids that find them. Scenes are small enough to count by hand. */
 #include "visibility/classify.h"
 
+#include "base/join.h"
 #include "scenes.h"
 #include "visibility/query.h"
 
@@ -18,7 +19,7 @@ static void look_from(double x, double y, double z)
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction((const double[3]){x, y, z}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
     lrcsi_classify_regions(&classification);
     assert_int_equal(
         lrcsi_grid_facets(&classification.grid, &classification.boxes, NULL, &work, &facets),
@@ -85,8 +86,8 @@ static void boundary_edges_in_front_make_facets_that_they_cross_undecided(void *
     assert_int_equal(classification.events.count, 8);
     assert_true(classification.undecided[0]);
     assert_false(classification.undecided[1]);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 1, view.meter), 0);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 1, NULL), 0);
     assert_int_equal(classification.undecided[2] + classification.undecided[3], 0); /* the nearer */
     assert_int_equal(lrcsi_query_facet(&facets, 1, NULL), LRCSI_QUERY_VISIBLE);
     look_from(0, 0, -1); /* from behind the large one hides the small one whole */
@@ -105,13 +106,13 @@ static void crossings_are_searched_for_once(void **state)
     look_from(0, 0, 1);
     uint32_t found[4];
     uint32_t before = classification.asked;
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
     assert_int_equal(classification.asked, before + 1);
     memcpy(found, classification.crossing, sizeof found);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 1, view.meter), 0);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 1, NULL), 0);
     assert_int_equal(classification.asked, before + 2);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 4);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
     assert_memory_equal(classification.crossing, found, sizeof found);
     assert_int_equal(classification.asked, before + 3);
 }
@@ -133,7 +134,7 @@ static void boundary_edges_behind_a_facet_do_not_make_it_undecided(void **state)
     scene_facet(&scene, v, v + 1, v + 2);
     look_from(0, 0, 1);
     assert_false(classification.undecided[0]);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, view.meter), 0);
+    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 0);
     assert_true(classification.undecided[1]);
 }
 
@@ -168,7 +169,71 @@ static void piercing_and_overlapping_facets_make_each_other_undecided(void **sta
     look_from(0, 0, 1);
     assert_false(classification.undecided[0]);
     assert_true(classification.undecided[2] && classification.undecided[3]);
-    assert_true(lrcsi_query_screened(&classification, &facets, 2, view.meter) == 0);
+    assert_true(lrcsi_query_screened(&classification, &facets, 2, NULL) == 0);
+}
+
+/* Of every edge of the scene: it is listed as an event if it is one, and joins two facets into one
+   component, and into one region if they may be, if it joins them in the view. No others are
+   joined.
+ */
+static void check_joins(void)
+{
+    static uint32_t component[SCENE_FACETS];
+    static uint32_t region[SCENE_FACETS];
+    const lrcs_prepared *p = view.prepared;
+    uint32_t events = 0;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        component[f] = region[f] = f;
+    }
+    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
+        uint32_t pair[2];
+        int kind = lrcsi_edge_kind_of(&view, e, LRCS_NONE, pair);
+        int listed = 0;
+        for (uint32_t i = 0; i < classification.events.count; i++) {
+            listed += classification.events.edge[i] == e;
+        }
+        assert_int_equal(listed, kind == LRCSI_EDGE_EVENT);
+        events += (uint32_t)listed;
+        if (kind == LRCSI_EDGE_JOINS) {
+            lrcsi_join(component, pair[0], pair[1]);
+            if (classification.joinable[pair[0]] != 0 && classification.joinable[pair[1]] != 0) {
+                lrcsi_join(region, pair[0], pair[1]);
+            }
+        }
+    }
+    assert_true(events > 0);
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        assert_int_equal(classification.component[f], lrcsi_join_root(component, f));
+        assert_int_equal(classification.region[f], lrcsi_join_root(region, f));
+    }
+}
+
+/* Runs whose facets all face alike are joined at once; spheres and boxes have such runs and others,
+   in file order and shuffled, with the winding of some facets reversed, and with open edges. */
+static void components_and_regions_are_joined_across_every_edge(void **state)
+{
+    (void)state;
+    uint64_t seed = 7;
+    for (int i = 0; i < 24; i++) {
+        scene_start(&scene);
+        scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 12);
+        scene_box(&scene, (const double[3]){1.5, -1, -1}, (const double[3]){2.5, 1, 1});
+        square(-3, -3, 2, 2);
+        for (uint32_t f = scene.scene.facet_count; i % 3 == 1 && f > 1; f--) {
+            uint32_t other = (uint32_t)random_below(&seed, f);
+            lrcs_facet swap = scene.facet[f - 1];
+            scene.facet[f - 1] = scene.facet[other];
+            scene.facet[other] = swap;
+        }
+        for (uint32_t f = 0; i % 3 == 2 && f < scene.scene.facet_count; f += 37) {
+            uint32_t corner = scene.facet[f].corner[1];
+            scene.facet[f].corner[1] = scene.facet[f].corner[2];
+            scene.facet[f].corner[2] = corner;
+        }
+        scene.scene.facet_count -= (uint32_t)i;
+        look_from(sin(i), cos(i), 0.3 * (i % 7) - 1);
+        check_joins();
+    }
 }
 
 /* A roof whose ridge stands over the y axis: facet 0 slopes down to the left, facet 1 to the
@@ -268,8 +333,8 @@ static void whole_components_screen_and_others_do_not(void **state)
     uint32_t screen = square(-1, -1, 2, 6);
     look_from(0.125, 0, 1);
     assert_true(classification.undecided[low]);
-    assert_true(lrcsi_query_screened(&classification, &facets, low, view.meter));
-    assert_false(lrcsi_query_screened(&classification, &facets, screen, view.meter));
+    assert_true(lrcsi_query_screened(&classification, &facets, low, NULL));
+    assert_false(lrcsi_query_screened(&classification, &facets, screen, NULL));
 
     scene_start(&scene);
     low = square(0, 0, 0, 4);
@@ -279,7 +344,7 @@ static void whole_components_screen_and_others_do_not(void **state)
                 (const double[3]){0, 6, 0});
     look_from(0, 0, 1);
     assert_true(classification.undecided[low]);
-    assert_false(lrcsi_query_screened(&classification, &facets, low, view.meter));
+    assert_false(lrcsi_query_screened(&classification, &facets, low, NULL));
 
     scene_start(&scene);
     low = scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
@@ -287,7 +352,7 @@ static void whole_components_screen_and_others_do_not(void **state)
     square(-1, -1, 2, 6); /* the tip looks out of it */
     look_from(0, -1, 3);
     assert_true(classification.undecided[low]);
-    assert_false(lrcsi_query_screened(&classification, &facets, low, view.meter));
+    assert_false(lrcsi_query_screened(&classification, &facets, low, NULL));
 }
 
 static int listed(const lrcsi_grid *grid, const double xy[2], uint32_t item)
@@ -356,7 +421,8 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
 {
     (void)state;
     static unsigned char reads[SCENE_FACETS];
-    static uint32_t region[SCENE_FACETS]; /* no facet is the first of its region */
+    static uint32_t region[SCENE_FACETS];                  /* no facet is the first of its region */
+    static signed char joinable[SCENE_FACETS + LRCSI_RUN]; /* no run is of one region */
     scene_start(&scene);
     scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 20);
     scene_box(&scene, (const double[3]){-3, -0.1, -0.1}, (const double[3]){3, 0.1, 0.2});
@@ -367,7 +433,7 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
             reads[f] = f % every == 0;
             region[f] = LRCS_NONE;
         }
-        const lrcsi_grid_readers readers = {reads, region};
+        const lrcsi_grid_readers readers = {reads, region, joinable};
         lrcs_work after = work;
         assert_int_equal(
             lrcsi_grid_facets(&classification.grid, &classification.boxes, &readers, &after, &some),
@@ -421,8 +487,7 @@ static void stacked_facets_are_classified_in_linear_time(void **state)
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction((const double[3]){0.3, 0.2, 0.9}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    view.meter = &meter;
-    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, &meter, &work, &classification), LRCS_OK);
     assert_true(classification.undecided_count >= 999);
     assert_true(meter.taken <= 600 * 1000);
 }
@@ -467,6 +532,7 @@ int main(void)
         cmocka_unit_test(a_rim_along_a_shared_edge_parts_regions),
         cmocka_unit_test(a_plane_through_a_shared_edge_parts_regions),
         cmocka_unit_test(components_end_at_contours),
+        cmocka_unit_test(components_and_regions_are_joined_across_every_edge),
         cmocka_unit_test(whole_components_screen_and_others_do_not),
         cmocka_unit_test(events_stand_in_order_of_depth),
         cmocka_unit_test(stacked_facets_are_classified_in_linear_time),

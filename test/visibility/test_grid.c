@@ -104,7 +104,7 @@ static uint32_t check_grids(void)
     lrcsi_view view = view_of_scene(&work);
     lrcsi_classification classification;
     lrcsi_grid facets;
-    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
     assert_int_equal(
         lrcsi_grid_facets(&classification.grid, &classification.boxes, NULL, &work, &facets),
         LRCS_OK);
@@ -259,14 +259,15 @@ static void grids_of_facets_fit_into_what_they_ask_for(void **state)
     (void)state;
     static unsigned char all[512];
     static uint32_t region[512];
+    static signed char joinable[512 + LRCSI_RUN];
     memset(all, 1, sizeof all);
-    const lrcsi_grid_readers readers = {all, region};
+    const lrcsi_grid_readers readers = {all, region, joinable};
     for (uint32_t count = 1; count <= 512; count = 3 * count / 2 + 1) {
         lrcs_work work;
         shards(count);
         lrcsi_view view = view_of_scene(&work);
         lrcsi_classification classification;
-        assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
+        assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
         size_t need = lrcsi_grid_facets_need(view.prepared);
         size_t fits = 0;
         while (facets_in(&classification, &readers, fits) != LRCS_OK) {
@@ -290,7 +291,7 @@ static void classifications_fit_into_what_they_ask_for(void **state)
         for (size_t size = 0; size <= need; size += count < 10 ? 1 : need / 50) {
             lrcsi_classification classification;
             lrcs_work few = lrcs_work_make(little, size);
-            int status = lrcsi_classify_make(&view, &few, &classification);
+            int status = lrcsi_classify_make(&view, NULL, &few, &classification);
             assert_int_equal(status, few.peak <= size ? LRCS_OK : LRCS_E_MEMORY);
             assert_true(status == LRCS_OK ? few.used != 0 : before != LRCS_OK && few.used == 0);
             before = status;

@@ -18,8 +18,8 @@ static lrcsi_occluding open_scene(void)
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction((const double[3]){0, 0, 1}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
-    assert_int_equal(lrcsi_occlude_make(&classification, &work, &o), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_make(&classification, NULL, &work, &o), LRCS_OK);
     return o;
 }
 
@@ -115,8 +115,8 @@ static double share_left(const double direction[3], double *error)
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
-    assert_int_equal(lrcsi_occlude_make(&classification, &work, &o), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_make(&classification, NULL, &work, &o), LRCS_OK);
     lrcsi_occlude_open(&o, 0);
     lrcsi_visible seen = lrcsi_occlude_area(&o);
     double whole = lrcsi_view_incidence(&view, 0).projected;
@@ -323,7 +323,7 @@ static void a_needle_shows_its_share_in_pieces(void **state)
                     (const double[3]){0, 2, 0});
         check_abs(share_left(from, &error), 0.75, 1e-14);
         check_most(error, 1e-12);
-        assert_int_equal(lrcsi_occlude_make(&classification, &work, &o), LRCS_OK);
+        assert_int_equal(lrcsi_occlude_make(&classification, NULL, &work, &o), LRCS_OK);
         lrcsi_occlude_open(&o, 0);
         double area = 0;
         while (lrcsi_occlude_next(&o)) {
@@ -398,9 +398,9 @@ static void answers_and_areas_tell_what_areas_alone_tell(void **state)
         some[f] = untouched;
     }
     size_t used = work.used;
-    assert_int_equal(lrcsi_occlude_all(&classification, &work, NULL, all), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, all), LRCS_OK);
     assert_int_equal(work.used, used);
-    assert_int_equal(lrcsi_occlude_all(&classification, &work, &answer, some), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, &answer, some), LRCS_OK);
     for (uint32_t f = 0; f < SECTORS + 3; f++) {
         double whole = lrcsi_view_projected(&view, f);
         int undecided = answer[f] == LRCSI_QUERY_UNDECIDED;

@@ -55,7 +55,7 @@ static lrcsi_view seen_from(int i)
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction(seen_along[i], &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    view.backs_cast = 1;
+    view.backs.cast = 1;
     return view;
 }
 
@@ -218,8 +218,8 @@ static void the_likely_error_is_near_the_error(void **state)
         for (int i = 0; i < DIRECTIONS; i++) {
             lrcsi_view view = seen_from(i);
             lrcsi_classification classification;
-            assert_int_equal(lrcsi_classify_make(&view, &work, &classification), LRCS_OK);
-            assert_int_equal(lrcsi_occlude_all(&classification, &work, NULL, truth), LRCS_OK);
+            assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
+            assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, truth), LRCS_OK);
             for (uint32_t size = 32; size <= 512; size *= 4) {
                 int undecided;
                 assert_int_equal(lrcsi_preview_make(&view, size, &work, visible, &undecided),

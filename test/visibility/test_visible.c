@@ -31,7 +31,7 @@ static lrcsi_view seen_from(int i)
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction(direction[i], &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-    view.backs_cast = 1;
+    view.backs.cast = 1;
     return view;
 }
 
@@ -40,7 +40,7 @@ static lrcsi_raster sampled(const lrcsi_view *view, lrcsi_classification *classi
                             lrcsi_known *known, lrcsi_visible *visible)
 {
     lrcsi_raster raster;
-    assert_int_equal(lrcsi_classify_make(view, &work, classification), LRCS_OK);
+    assert_int_equal(lrcsi_classify_make(view, NULL, &work, classification), LRCS_OK);
     assert_int_equal(lrcsi_visible_known(classification, &work, known), LRCS_OK);
     size_t need = lrcsi_visible_need(view->prepared, N);
     assert_true(work.size - work.used >= need);

@@ -66,21 +66,6 @@ static int operands_read(compare_job *job, const char **folder)
     return 0;
 }
 
-static int grade_read(compare_job *job)
-{
-    const char *text = cli_value(job->args, "class");
-    job->grade = COMPARE_RASTER;
-    for (int grade = COMPARE_EXACT; text && grade <= COMPARE_RASTER; grade++) {
-        if (strcmp(text, cli_compare_grade(grade)) == 0) {
-            job->grade = grade;
-            return 0;
-        }
-    }
-    return text ? cli_usage(job->args->command,
-                            "--class: expected exact, float or raster, found '%s'", text)
-                : 0;
-}
-
 /* Checks that no output replaces a file that is read. */
 static int outputs_check(const compare_job *job)
 {
@@ -106,7 +91,8 @@ static int options_read(compare_job *job, const char **folder)
     int code = operands_read(job, folder);
     code = code ? code : cli_whole(args, "tier", 1.0, KIT_TIERS, &job->tier);
     code = code ? code : cli_whole(args, "pixels", 2.0, PIXELS_MOST, &job->pixels);
-    code = code ? code : grade_read(job);
+    job->grade = COMPARE_RASTER;
+    code = code ? code : cli_choice(args, "class", "exact, float or raster", &job->grade);
     return code ? code : outputs_check(job);
 }
 
@@ -128,18 +114,6 @@ static int compare_make(compare_job *job, const char *folder)
     return code;
 }
 
-static int compare_report(const compare_job *job)
-{
-    const char *json = cli_value(job->args, "json");
-    const char *junit = cli_value(job->args, "junit");
-    int code = json ? cli_text_write(json, cli_compare_json, job) : 0;
-    code = code == 0 && junit ? cli_text_write(junit, cli_compare_junit, job) : code;
-    if (code == 0 && !(json && strcmp(json, "-") == 0) && !(junit && strcmp(junit, "-") == 0)) {
-        cli_compare_table(job);
-    }
-    return code ? code : cli_compare_passed(job) ? CLI_DONE : CLI_FAILED;
-}
-
 static int compare_command(const cli_args *args)
 {
     compare_job job;
@@ -148,7 +122,14 @@ static int compare_command(const cli_args *args)
     job.args = args;
     int code = options_read(&job, &folder);
     code = code ? code : compare_make(&job, folder);
-    code = code ? code : compare_report(&job);
+    const char *json = cli_value(args, "json");
+    const char *junit = cli_value(args, "junit");
+    code = code == 0 && json ? cli_text_write(json, cli_compare_json, &job) : code;
+    code = code == 0 && junit ? cli_text_write(junit, cli_compare_junit, &job) : code;
+    if (code == 0 && !(json && strcmp(json, "-") == 0) && !(junit && strcmp(junit, "-") == 0)) {
+        cli_compare_table(&job);
+    }
+    code = code ? code : cli_compare_passed(&job) ? CLI_DONE : CLI_FAILED;
     cli_compare_kit_free(&job.kit);
     return code;
 }

@@ -22,17 +22,6 @@ double cli_compare_allowed(const compare_case *one, int grade, uint32_t pixels)
     return allowed + (grade >= COMPARE_RASTER ? one->edge_m2 / pixels : 0.0);
 }
 
-static int case_class(const compare_case *one, uint32_t pixels)
-{
-    double off = fabs(one->theirs_m2 - one->sigma_m2);
-    for (int grade = COMPARE_EXACT; grade < COMPARE_FAIL; grade++) {
-        if (off <= cli_compare_allowed(one, grade, pixels)) {
-            return grade;
-        }
-    }
-    return COMPARE_FAIL;
-}
-
 int cli_compare_passed(const compare_job *job)
 {
     return job->failed == 0 && !job->biased;
@@ -104,7 +93,12 @@ int cli_compare_judge(compare_job *job)
     int code = answers_read(job);
     for (uint32_t i = 0; i < job->kit.cases && code == 0; i++) {
         compare_case *one = &job->kit.list[i];
-        one->grade = one->given ? case_class(one, job->pixels) : COMPARE_MISSING;
+        double off = fabs(one->theirs_m2 - one->sigma_m2);
+        one->grade = one->given ? COMPARE_EXACT : COMPARE_MISSING;
+        while (one->grade < COMPARE_FAIL &&
+               !(off <= cli_compare_allowed(one, one->grade, job->pixels))) {
+            one->grade++;
+        }
         if (cli_compare_asked(job, one)) {
             job->asked++;
             job->given += (uint32_t)one->given;

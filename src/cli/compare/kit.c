@@ -55,19 +55,6 @@ static const char *const case_names[CASE_COLUMNS] = {
     "qz",       "sx",       "sy",       "sz",      "az_deg", "el_deg",
     "sigma_m2", "bound_m2", "float_m2", "edge_m2", "side_m", "image"};
 
-/* The scene of a line; the lines of a scene are consecutive. */
-static compare_scene *scene_of(compare_kit *kit, const char *name, int tier)
-{
-    if (kit->scenes > 0 && strcmp(kit->scene[kit->scenes - 1].name, name) == 0) {
-        return &kit->scene[kit->scenes - 1];
-    }
-    compare_scene *next = &kit->scene[kit->scenes++];
-    memcpy(next->name, name, KIT_NAME);
-    next->tier = tier;
-    next->first = kit->cases;
-    return next;
-}
-
 static int case_read(const compare_table *table, compare_kit *kit)
 {
     double value[CASE_COLUMNS] = {0.0};
@@ -100,9 +87,14 @@ static int case_read(const compare_table *table, compare_kit *kit)
     }
     one->tier = (int)value[CASE_TIER];
     one->image = (uint32_t)value[CASE_IMAGE];
-    compare_scene *scene = scene_of(kit, name, one->tier);
-    one->scene = (uint32_t)(scene - kit->scene);
-    scene->count++;
+    if (kit->scenes == 0 || strcmp(kit->scene[kit->scenes - 1].name, name) != 0) {
+        compare_scene *next = &kit->scene[kit->scenes++]; /* a scene's lines are consecutive */
+        memcpy(next->name, name, KIT_NAME);
+        next->tier = one->tier;
+        next->first = kit->cases;
+    }
+    one->scene = kit->scenes - 1;
+    kit->scene[one->scene].count++;
     kit->cases++;
     return 0;
 }
@@ -144,8 +136,7 @@ int cli_compare_kit(const char *folder, compare_kit *kit)
         return CLI_FAILED;
     }
     if (access(path, F_OK) != 0) {
-        fprintf(stderr, "lrcs: %s: not a kit's folder (lrcs vectors DIR makes one)\n", folder);
-        return CLI_FAILED;
+        return cli_fail("%s: not a kit's folder (lrcs vectors DIR makes one)", folder);
     }
     int code = kit_table(folder, 0, kit);
     return code ? code : kit_table(folder, 1, kit);

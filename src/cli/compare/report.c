@@ -119,16 +119,6 @@ static void lack_print(const compare_job *job, int lack, uint32_t count, const c
     puts(named > NAMES_MOST ? ", .." : "");
 }
 
-static void answers_print(const compare_job *job)
-{
-    uint32_t missing = job->asked - job->given;
-    lack_print(job, LACK_ANSWER, missing, "missing", missing == 1 ? "case" : "cases");
-    lack_print(job, LACK_NUMBER, job->not_numbers, "why",
-               job->not_numbers == 1 ? "answer is not numbers" : "answers are not numbers");
-    lack_print(job, LACK_SIGN, job->negatives, "why",
-               job->negatives == 1 ? "answer is negative" : "answers are negative");
-}
-
 static void unexplained_print(const compare_job *job)
 {
     uint32_t named = 0;
@@ -189,17 +179,6 @@ static void facets_print(const compare_job *job, const compare_facets *facets)
     }
 }
 
-static void image_print(const compare_job *job, const compare_image *image)
-{
-    printf("             %s %s: %.1f %% of the pixels agree\n",
-           job->kit.scene[image->one->scene].name, image->one->attitude, 100.0 * image->agree);
-    for (uint32_t n = 0; n < COMPARE_TOP && image->lost[n] > 0; n++) {
-        printf("             facet %lu (%s): %lu of its pixels show something else\n",
-               (unsigned long)image->facet[n], material_of(job, image->one, image->facet[n]),
-               (unsigned long)image->lost[n]);
-    }
-}
-
 static void items_print(const compare_job *job, const compare_items *items)
 {
     printf("items        in %s: %lu of %lu images handed in; %lu differ\n", job->items,
@@ -212,7 +191,14 @@ static void items_print(const compare_job *job, const compare_items *items)
         }
     }
     for (uint32_t i = 0; i < items->named; i++) {
-        image_print(job, &items->image[i]);
+        const compare_image *image = &items->image[i];
+        printf("             %s %s: %.1f %% of the pixels agree\n",
+               job->kit.scene[image->one->scene].name, image->one->attitude, 100.0 * image->agree);
+        for (uint32_t n = 0; n < COMPARE_TOP && image->lost[n] > 0; n++) {
+            printf("             facet %lu (%s): %lu of its pixels show something else\n",
+                   (unsigned long)image->facet[n], material_of(job, image->one, image->facet[n]),
+                   (unsigned long)image->lost[n]);
+        }
     }
 }
 
@@ -236,7 +222,12 @@ void cli_compare_table(const compare_job *job)
     for (uint32_t tier = 1; tier <= job->tier; tier++) {
         tier_print(job, tier);
     }
-    answers_print(job);
+    uint32_t missing = job->asked - job->given;
+    lack_print(job, LACK_ANSWER, missing, "missing", missing == 1 ? "case" : "cases");
+    lack_print(job, LACK_NUMBER, job->not_numbers, "why",
+               job->not_numbers == 1 ? "answer is not numbers" : "answers are not numbers");
+    lack_print(job, LACK_SIGN, job->negatives, "why",
+               job->negatives == 1 ? "answer is negative" : "answers are negative");
     findings_print(job);
     unexplained_print(job);
     if (job->facets) {

@@ -132,35 +132,21 @@ static void short_names(const converge_job *job, chart_curves *all)
     }
 }
 
-/* The smallest value of the axis: the uncertainty of the truth, or of a double; never 0, which a
-   logarithmic axis cannot show. */
-static double chart_floor(const converge_job *job)
-{
-    double floor = cli_converge_relative(job, job->truth.bound_m2);
-    if (job->truth.sigma_m2 > 0.0) {
-        return floor > 0x1p-53 ? floor : 0x1p-53;
-    }
-    return floor > 0.0 ? floor : 1e-16; /* m2 */
-}
-
-/* The title, the scene without its folders; the note, the origin of the truth and the direction of
-   the laser. */
-static void chart_words(const converge_job *job, char title[256], char note[256])
-{
-    const double *d = job->pose.direction;
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    snprintf(title, 256, "What accuracy costs in time: %s", cli_base_name(job->title));
-    snprintf(note, 256, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)", job->truth.text,
-             job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
-}
-
 int cli_converge_chart(FILE *out, const void *context, int png, lrcs_host_error *error)
 {
     const converge_job *job = context;
     chart_curves all = {.count = 0};
+    const double *d = job->pose.direction;
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     char title[256];
     char note[256];
-    chart_words(job, title, note);
+    snprintf(title, sizeof title, "What accuracy costs in time: %s", cli_base_name(job->title));
+    snprintf(note, sizeof note, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)",
+             job->truth.text, job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
+    /* the smallest value of the axis: the uncertainty of the truth, or of a double; never 0, which
+       a logarithmic axis cannot show */
+    double floor = cli_converge_relative(job, job->truth.bound_m2);
+    floor = job->truth.sigma_m2 > 0.0 ? fmax(floor, 0x1p-53) : floor > 0.0 ? floor : 1e-16;
     short_names(job, &all);
     for (int dial = 0; dial < CONVERGE_DIALS; dial++) {
         dial_add(job, &all, dial);
@@ -174,7 +160,7 @@ int cli_converge_chart(FILE *out, const void *context, int png, lrcs_host_error 
                                             : "error of sigma (m2)",
         .x_log = 1,
         .y_log = 1,
-        .floor = chart_floor(job),
+        .floor = floor,
         .floor_name = job->truth.whole ? "truth's own bound" : "truth's bound (facets)",
         .series = all.series,
         .series_count = all.count};

@@ -64,7 +64,7 @@ static void curve_take(const fit_job *job, int parts, chart_points *points)
     points->count = CHART_CURVE;
     for (uint32_t i = 0; i < CHART_CURVE; i++) {
         double deg = first + (last - first) * i / (CHART_CURVE - 1);
-        double cosine = cos(deg * CLI_PI / 180.0);
+        double cosine = cos(deg * LRCS_PI / 180.0);
         points->x[i] = deg;
         points->y[i] = lrcs_brdf_eval(&brdf, cosine) * (job->options.cosine ? cosine : 1.0);
     }

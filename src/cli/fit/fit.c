@@ -80,7 +80,7 @@ static int fit_read(fit_job *job)
         if (!(job->panel > 0.0 && job->panel <= 1.5)) {
             return cli_expected(args, "panel", "a reflectance 0 < RHO <= 1.5");
         }
-        job->options.unit = job->panel / CLI_PI;
+        job->options.unit = job->panel / LRCS_PI;
     }
     for (int i = 0; i < args->given_count && code == 0; i++) {
         const cli_given *given = &args->given[i];

@@ -44,8 +44,8 @@ static void info_json(const cli_args *args, const cli_info *info, const cli_surf
     cli_version_json(&json);
     cli_files_json(&info->scene, &json);
     cli_json(&json, "unit=%s parts=%u vertices=%u facets=%u area_m2=%g volume_m3=%g",
-             cli_value(args, "unit"), info->parts, scene->vertex_count, scene->facet_count,
-             report->area, report->volume);
+             cli_scene_unit(args, &info->scene), info->parts, scene->vertex_count,
+             scene->facet_count, report->area, report->volume);
     cli_numbers_json(&json, "box_min_m", report->box_min, 3);
     cli_numbers_json(&json, "box_max_m", report->box_max, 3);
     cli_json(&json, "closed=%d convex=%d", report->closed, report->convex);

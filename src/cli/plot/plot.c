@@ -83,9 +83,8 @@ static void differences_list(const sweep_head *head, const sweep_head *other, in
     for (uint32_t i = 0; i < head->options && i < SWEEP_OPTIONS; i++) {
         const char *key = head->option[i].key;
         const char *text = cli_head_text(other, key);
-        size_t used = strlen(list);
         if (!text || (values && strcmp(text, head->option[i].text) != 0)) {
-            snprintf(list + used, size - used, "%s%s", used > 0 ? ", " : "", key);
+            cli_append(list, size, "%s%s", list[0] ? ", " : "", key);
         }
     }
 }
@@ -133,20 +132,6 @@ static int overlay_check(const plot_job *job)
                            (unsigned long long)curves);
 }
 
-/* Chooses the texts of the legend: titles if all differ, else the names of the files. */
-static void names_choose(plot_job *job)
-{
-    int differ = 1;
-    for (uint32_t i = 0; i < job->count; i++) {
-        for (uint32_t k = 0; k < i; k++) {
-            differ &= strcmp(job->plot[i].title, job->plot[k].title) != 0;
-        }
-    }
-    for (uint32_t i = 0; i < job->count && job->count > 1; i++) {
-        job->plot[i].name = differ ? job->plot[i].title : cli_base_name(job->data[i].path);
-    }
-}
-
 static int job_read(plot_job *job)
 {
     const cli_args *args = job->args;
@@ -186,9 +171,17 @@ static int job_run(plot_job *job)
     }
     if (code == 0 && job->plot[0].asked) {
         code = job->count > 1 ? overlay_check(job) : 0;
-        names_choose(job);
-        for (uint32_t k = 1; k < job->count && code == 0; k++) {
-            differences_say(job, k);
+        int differ = 1; /* the legend has titles if all differ, else names of files */
+        for (uint32_t k = 1; k < job->count; k++) {
+            for (uint32_t i = 0; i < k; i++) {
+                differ &= strcmp(job->plot[i].title, job->plot[k].title) != 0;
+            }
+        }
+        for (uint32_t k = 0; k < job->count && job->count > 1 && code == 0; k++) {
+            job->plot[k].name = differ ? job->plot[k].title : cli_base_name(job->data[k].path);
+            if (k > 0) {
+                differences_say(job, k);
+            }
         }
         code = code ? code : cli_plot_write(args, job->plot, job->count);
     }

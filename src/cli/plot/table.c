@@ -59,43 +59,16 @@ static int job_refuse(const table_job *job, const char *what, lrcs_host_error *e
     return LRCS_E_SYNTAX;
 }
 
-/* Copies bytes as a text. */
-static int text_copy(table_job *job, const void *bytes, size_t size, lrcs_host_error *error)
-{
-    job->text = malloc(size + 1);
-    if (!job->text) {
-        return job_refuse(job, "out of memory", error);
-    }
-    memcpy(job->text, bytes, size);
-    job->text[size] = '\0';
-    return LRCS_OK;
-}
-
-/* The first line without "# ". */
-static int about_of_line(table_job *job, lrcs_host_error *error)
-{
-    const char *line = (const char *)job->file.bytes;
-    const char *end = memchr(line, '\n', job->file.size);
-    int status = text_copy(job, line, end ? (size_t)(end - line) : job->file.size, error);
-    if (status == LRCS_OK) {
-        job->text[strcspn(job->text, "\r")] = '\0';
-        job->about = job->text + 2;
-    }
-    return status;
-}
-
 /* The text of the key CLI_ABOUT in FILE.csv.json, which must state the hash of this table. */
 static int about_of_json(table_job *job, lrcs_host_error *error)
 {
     static const char key[] = "\"" CLI_ABOUT "\": \"";
     char hash[48];
     lrcs_host_file json;
-    size_t room = strlen(job->path) + sizeof CLI_BESIDE;
-    char *name = malloc(room);
+    char *name = cli_beside_name(job->path);
     if (!name) {
         return job_refuse(job, "out of memory", error);
     }
-    snprintf(name, room, "%s" CLI_BESIDE, job->path);
     int status = lrcs_host_file_read(name, &json, error);
     free(name);
     if (status != LRCS_OK) {
@@ -104,10 +77,10 @@ static int about_of_json(table_job *job, lrcs_host_error *error)
                           "it and which states the truth",
                           error);
     }
-    status = text_copy(job, json.bytes, json.size, error);
+    job->text = strndup((const char *)json.bytes, json.size);
     lrcs_host_file_free(&json);
-    if (status != LRCS_OK) {
-        return status;
+    if (!job->text) {
+        return job_refuse(job, "out of memory", error);
     }
     snprintf(hash, sizeof hash, "\"hash\": \"fnv1a:%016llx\"",
              (unsigned long long)cli_sum_more(CLI_SUM_BEGIN, job->file.bytes, job->file.size));
@@ -311,9 +284,18 @@ static int job_read(table_job *job, lrcs_host_error *error)
     if (status != LRCS_OK) {
         return status;
     }
-    status = job->kind == TABLE_CONVERGE ? about_of_json(job, error) : about_of_line(job, error);
+    if (job->kind == TABLE_CONVERGE) {
+        status = about_of_json(job, error);
+    } else { /* the first line without "# " */
+        job->text = strndup((const char *)job->file.bytes, job->file.size);
+        status = job->text ? LRCS_OK : job_refuse(job, "out of memory", error);
+    }
     if (status != LRCS_OK) {
         return status;
+    }
+    if (job->kind != TABLE_CONVERGE) {
+        job->text[strcspn(job->text, "\r\n")] = '\0';
+        job->about = job->text + 2;
     }
     job->table = lrcs_host_table_make(job->path, &job->file);
     if (!cli_key_text(job->about, "title", job->title, sizeof job->title)) {

@@ -63,28 +63,17 @@ double cli_profile_sigma(const lrcs_profile_bin *bin)
 
 /* ---- options ---- */
 
-/* Reads a length > 0; 0 if it was not given. */
-static int length_read(const cli_args *args, const char *name, double *length)
-{
-    int code = cli_number(args, name, length);
-    if (code == 0 && cli_value(args, name) && !(*length > 0.0)) {
-        return cli_usage(args->command, "--%s: expected a length > 0, m, found '%s'", name,
-                         cli_value(args, name));
-    }
-    return code;
-}
-
 static int options_read(profile_job *job)
 {
     const cli_args *args = job->args;
     lrcs_run_options options = lrcs_run_options_default();
     job->csv = cli_value(args, "csv");
     int code = cli_pose_read(args, &job->pose);
-    code = code ? code : length_read(args, "bin", &job->bin_m);
+    code = code ? code : cli_positive(args, "bin", "a length > 0, m", &job->bin_m);
     if (code == 0 && !(job->bin_m > 0.0)) {
         return cli_usage(args->command, "give the width of the bins: --bin W, m");
     }
-    code = code ? code : length_read(args, "pulse-fwhm", &job->fwhm_m);
+    code = code ? code : cli_positive(args, "pulse-fwhm", "a length > 0, m", &job->fwhm_m);
     code = code ? code : cli_accuracy_read(args, &options);
     code = code ? code : cli_scene_options_read(args, &job->load);
     code = code ? code : cli_normals_read(args, &job->load);
@@ -130,11 +119,10 @@ static int rows_list(profile_job *job)
     const lrcs_profile *p = &job->profile.list;
     double more = ceil(PULSE_WIDTHS * job->fwhm_m / job->bin_m);
     if (p->count + 2.0 * more > LRCS_PROFILE_BINS) {
-        fprintf(stderr,
-                "lrcs: a pulse of %g m reaches over more bins of %g m than the %lu that a "
-                "profile may have\n",
-                job->fwhm_m, job->bin_m, (unsigned long)LRCS_PROFILE_BINS);
-        return CLI_FAILED;
+        return cli_fail(
+            "a pulse of %g m reaches over more bins of %g m than the %lu that a profile "
+            "may have",
+            job->fwhm_m, job->bin_m, (unsigned long)LRCS_PROFILE_BINS);
     }
     uint32_t beyond = p->count > 0 ? (uint32_t)more : 0;
     job->rows = p->count + 2 * beyond;

@@ -261,18 +261,6 @@ static int scene_choose(report_job *job, lrcs_host_scene **scene)
     return code ? code : cli_scene_prepare(&job->sweep_scene);
 }
 
-static int peaks_run(report_job *job, lrcs_host_scene *scene)
-{
-    const report_sweep *map = &job->sweep[REPORT_MAP];
-    int code = 0;
-    job->peaks = cli_peaks_find(&map->plan, (const double(*)[2])map->row, REPORT_PEAKS, job->peak);
-    for (uint32_t i = 0; i < job->peaks && code == 0; i++) {
-        code = cli_row_shares(&map->plan, job->peak[i], scene, &job->sweep_options,
-                              &job->sweep_load.build, &job->peak_shares[i]);
-    }
-    return code;
-}
-
 int cli_report_map(report_job *job)
 {
     static const uint32_t steps[] = {1, 2, 3, 5, 6, 9, 10, 15, 18, 30};
@@ -312,5 +300,13 @@ int cli_report_sweeps(report_job *job)
     }
     cli_progress_clear(&progress);
     cli_watch_stage("peaks", NULL);
-    return code ? code : peaks_run(job, scene);
+    const report_sweep *map = &job->sweep[REPORT_MAP];
+    job->peaks =
+        code ? 0
+             : cli_peaks_find(&map->plan, (const double(*)[2])map->row, REPORT_PEAKS, job->peak);
+    for (uint32_t i = 0; i < job->peaks && code == 0; i++) {
+        code = cli_row_shares(&map->plan, job->peak[i], scene, &job->sweep_options,
+                              &job->sweep_load.build, &job->peak_shares[i]);
+    }
+    return code;
 }

@@ -21,7 +21,7 @@ static void backs_find(const run_job *job, run_open *open)
         const lrcs_material *material = &scene->material[scene->facet_material[i]];
         if (record->cos_theta < 0.0 && !material->two_sided && record->visible_area_m2 > 0.0) {
             double f = lrcs_brdf_eval(&material->brdf, -record->cos_theta);
-            more += 4.0 * CLI_PI * f * -record->cos_theta * record->visible_area_m2;
+            more += LRCS_FOUR_PI * f * -record->cos_theta * record->visible_area_m2;
         }
     }
     open->back_area_m2 = job->result.back_side_area_m2;
@@ -77,7 +77,7 @@ static void unit_say(const run_job *job, FILE *out)
 {
     for (uint32_t i = 0; i < job->scene.recipe.part_count; i++) {
         const lrcs_recipe_part *part = &job->scene.recipe.part[i];
-        if (part->file && !part->unit_given) {
+        if (part->file && !(part->unit_m > 0.0)) {
             fprintf(out, "  unit       metres are assumed: no unit is stated for ");
             cli_column_to(out, part->name, 0);
             putc('\n', out);

@@ -23,74 +23,58 @@ static void bytes_put(FILE *out, uint64_t value, int count)
     }
 }
 
-static int item_raw(FILE *out, const void *context, lrcs_host_error *error)
+static void item_raw(FILE *out, const void *context)
 {
     const lrcs_image *image = ((const images_case *)context)->image;
-    (void)error;
     for (size_t i = 0; i < (size_t)image->size * image->size; i++) {
         bytes_put(out, image->facet[i], 4);
     }
-    return LRCS_OK;
 }
 
-static int depth_raw(FILE *out, const void *context, lrcs_host_error *error)
+static void depth_raw(FILE *out, const void *context)
 {
     const images_case *file = context;
-    (void)error;
     for (size_t i = 0; i < (size_t)file->image->size * file->image->size; i++) {
         uint64_t bits;
         memcpy(&bits, &file->depth[i], sizeof bits);
         bytes_put(out, isnan(file->depth[i]) ? 0x7ff8000000000000u : bits, 8);
     }
-    return LRCS_OK;
 }
 
-/* Writes pixels with colours computed by `colour` from their indices. */
-typedef void images_colour(const images_case *file, size_t i, unsigned char *pixel);
-
-static int png_make(FILE *out, const images_case *file, uint32_t channels, images_colour *colour,
-                    lrcs_host_error *error)
+/* Facets as colours: facet + 1 as red * 65536 + green * 256 + blue, black for none (3 channels); or
+   depths as greys: lighter is nearer, black for none (1 channel). */
+static int png_make(FILE *out, const images_case *file, uint32_t channels, lrcs_host_error *error)
 {
     uint32_t side = file->image->size;
     size_t count = (size_t)side * side;
+    double range = file->nearest - file->farthest;
     unsigned char *pixels = malloc(count * channels);
     if (!pixels) {
         snprintf(error->text, sizeof error->text, "out of memory");
         return LRCS_E_SYSTEM;
     }
     for (size_t i = 0; i < count; i++) {
-        colour(file, i, pixels + i * channels);
+        uint32_t id = file->image->facet[i] + 1u;
+        double rise = range > 0.0 ? (file->depth[i] - file->farthest) / range : 1.0;
+        double grey = isnan(file->depth[i]) ? 0.0 : 40.0 + 215.0 * rise;
+        for (uint32_t k = 0; k < channels; k++) {
+            pixels[i * channels + k] =
+                channels == 1 ? (unsigned char)grey : (unsigned char)(id >> (16 - 8 * k) & 255u);
+        }
     }
     int status = lrcs_host_png_write(out, pixels, side, side, channels, NULL, error);
     free(pixels);
     return status;
 }
 
-/* Facet + 1 as red * 65536 + green * 256 + blue; black for none. */
-static void item_colour(const images_case *file, size_t i, unsigned char *pixel)
-{
-    uint32_t id = file->image->facet[i] + 1u;
-    pixel[0] = (unsigned char)(id >> 16 & 255u);
-    pixel[1] = (unsigned char)(id >> 8 & 255u);
-    pixel[2] = (unsigned char)(id & 255u);
-}
-
-/* Lighter is nearer; black for none. */
-static void depth_colour(const images_case *file, size_t i, unsigned char *pixel)
-{
-    double range = file->nearest - file->farthest;
-    double rise = range > 0.0 ? (file->depth[i] - file->farthest) / range : 1.0;
-    pixel[0] = (unsigned char)(isnan(file->depth[i]) ? 0.0 : 40.0 + 215.0 * rise);
-}
-
 static int item_png(FILE *out, const void *context, lrcs_host_error *error)
 {
-    return png_make(out, context, 3, item_colour, error);
+    return png_make(out, context, 3, error);
 }
 
 static int depth_png(FILE *out, const void *context, lrcs_host_error *error)
 {
-    return png_make(out, context, 1, depth_colour, error);
+    return png_make(out, context, 1, error);
 }
 
 /* The depth at which the line of sight through a point of the view plane intersects a facet's
@@ -134,10 +118,10 @@ static void depth_fill(images_case *file)
 int cli_vectors_images(const vectors_job *job, const vectors_case *one, const lrcs_scene *scene,
                        const lrcs_image *image)
 {
-    static const vectors_file file[] = {{"item.u32", item_raw},
-                                        {"item.png", item_png},
-                                        {"depth.f64", depth_raw},
-                                        {"depth.png", depth_png}};
+    static const vectors_file file[] = {{"item.u32", item_raw, NULL},
+                                        {"item.png", NULL, item_png},
+                                        {"depth.f64", depth_raw, NULL},
+                                        {"depth.png", NULL, depth_png}};
     images_case context = {.one = one, .scene = scene, .image = image};
     char prefix[KIT_PATH];
     if (cli_kit_path(prefix, "%s/truth/%s.%s.", job->folder, one->scene->name,

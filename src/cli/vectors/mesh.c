@@ -64,30 +64,20 @@ static uint32_t point_add(mesh_build *build, const double p[3])
     return mesh->vertices++;
 }
 
-static uint32_t material_find(char letter)
-{
-    uint32_t i = 0;
-    while (cli_vectors_materials[i].name && cli_vectors_materials[i].letter != letter) {
-        i++;
-    }
-    return i;
-}
-
-/* The letter of an item's face. */
-static char face_letter(const vectors_item *item, size_t face)
-{
-    size_t last = strlen(item->material) - 1;
-    return item->material[face < last ? face : last];
-}
-
 /* Adds a triangle unless two of its corners coincide. */
 static void triangle_add(mesh_build *build, size_t face, const double *a, const double *b,
                          const double *c)
 {
     vectors_mesh *mesh = build->mesh;
-    char letter = face_letter(build->item, face);
+    const char *letters = build->item->material; /* the last one applies to all other faces */
+    char letter = letters[face < strlen(letters) ? face : strlen(letters) - 1];
+    uint32_t material = 0;
     if (letter == '-' || mesh->failed) {
         return;
+    }
+    while (cli_vectors_materials[material].name &&
+           cli_vectors_materials[material].letter != letter) {
+        material++;
     }
     uint32_t room = mesh->facet_room;
     lrcs_facet facet = {{point_add(build, a), point_add(build, b), point_add(build, c)}};
@@ -99,7 +89,7 @@ static void triangle_add(mesh_build *build, size_t face, const double *a, const 
     mesh->material = room_grow(mesh->material, &room, mesh->facets, sizeof *mesh->material);
     mesh->failed |= !mesh->facet || !mesh->material;
     if (!mesh->failed) {
-        mesh->material[mesh->facets] = material_find(letter);
+        mesh->material[mesh->facets] = material;
         mesh->facet[mesh->facets++] = facet;
     }
 }
@@ -108,14 +98,6 @@ static void quad_add(mesh_build *build, size_t face, double p[4][3])
 {
     triangle_add(build, face, p[0], p[1], p[2]);
     triangle_add(build, face, p[0], p[2], p[3]);
-}
-
-static void plate_add(mesh_build *build)
-{
-    double x = build->item->size[0] / 2;
-    double y = build->item->size[1] / 2;
-    double p[4][3] = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}};
-    quad_add(build, 0, p);
 }
 
 static void box_add(mesh_build *build)
@@ -138,7 +120,7 @@ static void box_add(mesh_build *build)
 /* A point of a circle; those at multiples of 90 deg are exact. */
 static void circle_point(double radius, int i, int count, double z, double p[3])
 {
-    double angle = 2.0 * CLI_PI * i / count;
+    double angle = 2.0 * LRCS_PI * i / count;
     p[0] = 4 * i % (2 * count) == count ? 0.0 : radius * cos(angle);
     p[1] = 2 * i % count == 0 ? 0.0 : radius * sin(angle);
     p[2] = z;
@@ -173,14 +155,6 @@ static void cap_add(mesh_build *build, size_t face, double radius, double z)
     }
 }
 
-static void round_add(mesh_build *build)
-{
-    const double *size = build->item->size;
-    belt_add(build, size[0], -size[2] / 2, size[1], size[2] / 2);
-    cap_add(build, 1, size[1], size[2] / 2);
-    cap_add(build, 2, size[0], -size[2] / 2);
-}
-
 static void ball_add(mesh_build *build)
 {
     double radius = build->item->size[0];
@@ -194,13 +168,7 @@ static void ball_add(mesh_build *build)
     }
 }
 
-/* The height of a corner of the quilt: neighbours have different heights, which are the same on
-   every machine. */
-static double quilt_height(const vectors_item *item, int i, int k)
-{
-    return item->size[2] * ((7 * i + 3 * k + i * k) % 5 - 2);
-}
-
+/* Neighbouring corners have different heights, which are the same on every machine. */
 static void quilt_add(mesh_build *build)
 {
     const vectors_item *item = build->item;
@@ -212,7 +180,7 @@ static void quilt_add(mesh_build *build)
             int y = i / count + (k >= 2);
             p[k][0] = item->size[0] * (x / (double)count - 0.5);
             p[k][1] = item->size[1] * (y / (double)count - 0.5);
-            p[k][2] = quilt_height(item, x, y);
+            p[k][2] = item->size[2] * ((7 * x + 3 * y + x * y) % 5 - 2);
         }
         quad_add(build, 0, p);
     }
@@ -231,16 +199,22 @@ static void fan_add(mesh_build *build)
 
 static void item_add(mesh_build *build)
 {
+    const double *size = build->item->size;
+    double x = size[0] / 2;
+    double y = size[1] / 2;
+    double plate[4][3] = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}};
     build->first = build->mesh->vertices;
     switch (build->item->kind) {
     case VECTORS_PLATE:
-        plate_add(build);
+        quad_add(build, 0, plate);
         break;
     case VECTORS_BOX:
         box_add(build);
         break;
     case VECTORS_ROUND:
-        round_add(build);
+        belt_add(build, size[0], -size[2] / 2, size[1], size[2] / 2);
+        cap_add(build, 1, size[1], size[2] / 2);
+        cap_add(build, 2, size[0], -size[2] / 2);
         break;
     case VECTORS_BALL:
         ball_add(build);

@@ -10,9 +10,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#define RESOLUTION         128u
-#define RESOLUTION_MOST    4096.0
-#define DEGREES_PER_RADIAN 57.295779513082320877
+#define RESOLUTION      128u
+#define RESOLUTION_MOST 4096.0
 
 static const char vectors_help[] =
     "usage: lrcs vectors DIR [options]\n"
@@ -39,12 +38,14 @@ static const cli_option vectors_options[] = {
 
 /* ---- the folder ---- */
 
-/* 1 if the folder contains files but no kit: such a folder is not written to. */
-static int folder_foreign(const char *path)
+/* Makes the folders of a kit. A folder that contains files but no kit is not written to. */
+static int folders_make(const char *path)
 {
+    static const char *const name[] = {"", "/scenes", "/truth"};
     char inside[KIT_PATH];
     struct stat about;
     int entries = 0;
+    int code = 0;
     DIR *folder = opendir(path);
     while (folder && readdir(folder)) {
         entries++;
@@ -53,23 +54,13 @@ static int folder_foreign(const char *path)
         closedir(folder);
     }
     int kit = cli_kit_path(inside, "%s/scenes", path) == 0 && stat(inside, &about) == 0;
-    return entries > 2 && !kit; /* "." and ".." */
-}
-
-static int folders_make(const char *path)
-{
-    static const char *const name[] = {"", "/scenes", "/truth"};
-    int code = 0;
-    if (folder_foreign(path)) {
-        fprintf(stderr, "lrcs: %s: holds other files, and no kit: give an empty folder\n", path);
-        return CLI_FAILED;
+    if (entries > 2 && !kit) { /* "." and ".." */
+        return cli_fail("%s: holds other files, and no kit: give an empty folder", path);
     }
     for (int i = 0; i < 3 && code == 0; i++) {
-        char folder[KIT_PATH];
-        code = cli_kit_path(folder, "%s%s", path, name[i]);
-        if (code == 0 && mkdir(folder, 0777) != 0 && errno != EEXIST) {
-            fprintf(stderr, "lrcs: %s: cannot make this folder: %s\n", folder, strerror(errno));
-            code = CLI_FAILED;
+        code = cli_kit_path(inside, "%s%s", path, name[i]);
+        if (code == 0 && mkdir(inside, 0777) != 0 && errno != EEXIST) {
+            code = cli_fail("%s: cannot make this folder: %s", inside, strerror(errno));
         }
     }
     return code;
@@ -101,8 +92,8 @@ static int case_make(const vectors_scene *scene, const vectors_attitude *attitud
         one->direction[k] = pose.direction[k] / sqrt(across);
     }
     const double *s = one->direction;
-    one->azel_deg[0] = DEGREES_PER_RADIAN * atan2(s[1], s[0]);
-    one->azel_deg[1] = DEGREES_PER_RADIAN * atan2(s[2], hypot(s[0], s[1]));
+    one->azel_deg[0] = CLI_DEGREES * atan2(s[1], s[0]);
+    one->azel_deg[1] = CLI_DEGREES * atan2(s[2], hypot(s[0], s[1]));
     return cli_kit_pose(one->quaternion, one->direction, &one->pose) == LRCS_OK ? 0 : CLI_FAILED;
 }
 
@@ -122,16 +113,6 @@ static int cases_add(vectors_job *job, const vectors_scene *scene)
         }
     }
     return code;
-}
-
-static int scene_make(vectors_job *job, const vectors_scene *scene)
-{
-    vectors_mesh mesh;
-    int code = cli_vectors_mesh(scene, &mesh);
-    code = code ? code : cli_vectors_files(job, scene, &mesh);
-    cli_vectors_mesh_free(&mesh);
-    code = code ? code : cases_add(job, scene);
-    return code ? code : cli_vectors_truth(job, scene);
 }
 
 /* Allocates memory for all cases, and makes the bindings of all materials. */
@@ -172,7 +153,12 @@ static int vectors_make(vectors_job *job, uint32_t tier)
     for (const vectors_scene *scene = cli_vectors_scenes; scene->name && code == 0; scene++) {
         if ((uint32_t)scene->tier <= tier) {
             cli_watch_stage(scene->name, NULL);
-            code = scene_make(job, scene);
+            vectors_mesh mesh;
+            code = cli_vectors_mesh(scene, &mesh);
+            code = code ? code : cli_vectors_files(job, scene, &mesh);
+            cli_vectors_mesh_free(&mesh);
+            code = code ? code : cases_add(job, scene);
+            code = code ? code : cli_vectors_truth(job, scene);
             scenes++;
         }
     }

@@ -61,7 +61,7 @@ void ref_cover_start(ref_cover *cover, const lrcsi_target *target)
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = facets->first[(size_t)y * facets->size + cells.x0];
         uint32_t end = facets->first[(size_t)y * facets->size + cells.x1];
-        if (!lrcsi_meter_take(facets->view->meter, end - i)) {
+        if (!lrcsi_meter_take(NULL, end - i)) {
             return;
         }
         for (; i < end; i++) {
@@ -112,7 +112,7 @@ static uint32_t order_of(const ref_cuts *cuts, uint32_t other)
 {
     const lrcsi_target *t = cuts->target;
     uint32_t intersections = lrcsi_intersection_of(&t->view->prepared->intersections, t->facet);
-    if (!lrcsi_meter_take(t->view->meter, (uint64_t)1 + cuts->count + intersections)) {
+    if (!lrcsi_meter_take(NULL, (uint64_t)1 + cuts->count + intersections)) {
         return ORDER_NEW;
     }
     int side = lrcsi_contact_side(t->view, t->facet, other);
@@ -324,7 +324,7 @@ static int line_ask(const cover_line *line, ref_cover *cover, ref_cover_facet *c
     if (hidden <= 0) {
         return hidden == 0 && answer == REF_COVER_NONE ? REF_COVER_UNKNOWN : answer;
     }
-    if (!lrcsi_meter_take(cover->facets.view->meter, line->count)) {
+    if (!lrcsi_meter_take(NULL, line->count)) {
         return REF_COVER_UNKNOWN;
     }
     uint32_t component = cover->classification->component[c->facet];
@@ -352,7 +352,7 @@ static int line_tells(const cover_line *line, ref_cover *cover, uint32_t *compon
         answer = line_misses(line, c) ? answer : line_ask(line, cover, c, answer, &found);
     }
     *component = found.component;
-    return lrcsi_meter_take(cover->facets.view->meter, asked) ? answer : REF_COVER_UNKNOWN;
+    return lrcsi_meter_take(NULL, asked) ? answer : REF_COVER_UNKNOWN;
 }
 
 int ref_cover_sample(ref_cover *cover, const ref_cuts *cuts, uint32_t count, ref_cover_place *place,

@@ -109,8 +109,7 @@ static void cuts_crossing(ref_cuts *cuts, const lrcsi_classification *classifica
 {
     const lrcsi_edge *edge = classification->view->prepared->topology.edge;
     for (uint32_t i = 0; i < crossings; i++) {
-        if (!lrcsi_meter_take(classification->view->meter,
-                              edge[classification->crossing[i]].uses)) {
+        if (!lrcsi_meter_take(NULL, edge[classification->crossing[i]].uses)) {
             return;
         }
         cuts_edge(cuts, classification, classification->crossing[i]);
@@ -178,8 +177,7 @@ int ref_cuts_make(lrcsi_classification *classification, const lrcsi_target *targ
     const lrcsi_intersections *intersections = &target->view->prepared->intersections;
     uint32_t first = intersections->first[target->facet];
     uint32_t end = intersections->first[target->facet + 1];
-    uint32_t crossings =
-        lrcsi_classify_crossings(classification, target->facet, classification->view->meter);
+    uint32_t crossings = lrcsi_classify_crossings(classification, target->facet, NULL);
     size_t room = crossings + 3 * (size_t)(end - first);
     *cuts = (ref_cuts){.target = target};
     cuts->cut = lrcsi_work_take(work, room, sizeof *cuts->cut);

@@ -293,7 +293,7 @@ static int cell_do(ref_occluding *o, ref_occlude_cell *cell, double area)
    cuts are gone through four times. */
 static int occlude_cells(ref_occluding *o)
 {
-    lrcsi_meter *meter = o->classification->view->meter;
+    lrcsi_meter *meter = NULL;
     while (o->top > 0) {
         ref_occlude_cell cell = o->stack[--o->top];
         double area = lrcsi_clip_area(&cell.shape);
@@ -378,8 +378,7 @@ int ref_occlude_open(ref_occluding *o, uint32_t facet)
         o->whole = o->answer.low > 0;
         return LRCS_OK;
     }
-    o->undecided =
-        !lrcsi_query_screened(classification, &o->cover.facets, facet, classification->view->meter);
+    o->undecided = !lrcsi_query_screened(classification, &o->cover.facets, facet, NULL);
     int status = o->undecided ? cells_open(o, facet) : LRCS_OK;
     if (status != LRCS_OK) {
         o->work->used = o->mark;
@@ -441,8 +440,7 @@ int ref_occlude_make(lrcsi_classification *classification, lrcs_work *work, ref_
     int status =
         o->uniform && o->stack ? ref_cover_make(classification, work, &o->cover) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        status = lrcsi_query_uniform(classification, classification->view->meter, work,
-                                     &o->cover.facets, o->uniform);
+        status = lrcsi_query_uniform(classification, NULL, work, &o->cover.facets, o->uniform);
     }
     if (status != LRCS_OK) {
         work->used = mark;
@@ -470,7 +468,7 @@ int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work, lrcsi
     if (status == LRCS_OK && classification->undecided_count >= CELLS_LEAST &&
         classification->undecided_count >= view->prepared->scene->facet_count / CELLS_SHARE &&
         cells_serve(view->prepared)) {
-        lrcsi_cells_areas(classification, work, o.uniform, open, visible);
+        lrcsi_cells_areas(classification, NULL, work, o.uniform, open, visible);
     }
     /* 2. One by one what that left open. */
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
