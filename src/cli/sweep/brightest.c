@@ -362,7 +362,7 @@ int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t
             rows_print(&shares, "materials", shares.material, shares.materials, "(default)");
             facets_print(&shares, coarse, coarse_count);
         }
-        cli_shares_free(&shares);
+        lrcs_host_shares_free(&shares);
     }
     free(peak);
     return code;
