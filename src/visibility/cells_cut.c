@@ -13,11 +13,12 @@
 
 /* Corners above which a cell is halved. */
 #define MANY_CORNERS 20u
-/* So is one with more segments than this, if few of them are then in both halves. The line of an
-   edge of a rim has all of the rim on one side: cut along it, the cell would lose one segment. */
-#define SHARED        1u
-#define HALVINGS      24u
-#define MANY_SEGMENTS 8u
+/* So is one with more segments than this, if few of them are then in both halves: the line of an
+   edge of a rim has all of the rim on one side, so that a cut along it removes just one segment. */
+#define MANY_SEGMENTS 16u
+/* So many cuts after its block a cell is not halved any more if nearly all segments stay together:
+   they may meet in a point. */
+#define HALVINGS 24u
 
 /* A segment met the cell that this one was cut from. Does it meet this one too? If not, either its
    own line or that of the cut separates them. */
@@ -249,8 +250,8 @@ int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const l
     return cell_cut(c, cell, s, line, LRCS_NONE);
 }
 
-/* Are there many segments, of which each half has three quarters at most, and both together an
-   eighth more than the cell? */
+/* Would the halves of a cell with many segments have few in common? If each has three quarters of
+   them at most, these may be an eighth; else at most one. */
 static int halves_well(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                        const lrcsi_cells_sides *s)
 {
@@ -268,7 +269,7 @@ static int halves_well(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     uint32_t both = side[0] + side[1] - cell->segments;
     return cell->segments > MANY_SEGMENTS &&
            (most <= cell->segments / 4 * 3 ? both <= cell->segments / 8
-                                           : both <= SHARED && cell->cuts < HALVINGS);
+                                           : both <= 1 && cell->cuts < HALVINGS);
 }
 
 int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
