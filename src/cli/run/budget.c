@@ -5,8 +5,9 @@
      2. in the order of their expected time (sequence.h): rasters of 256, 512 and 1024 pixels, with
         their bound or accepted by their estimate; and clipping, or method auto with the tolerance
         1e-1 if tolerances change the answer. Rasters are not tried any more after this last
-        setting, nor before it if it is expected to take at most half of the time left: clipping
-        leaves only rounding errors, less than any raster;
+        setting, nor before it if it is expected to take at most a quarter of the time left, or
+        half of it once a raster with a bound has been timed: clipping leaves only rounding errors,
+        less than any raster;
      3. if tolerances change the answer: method auto with finer ones down to 1e-12, up to the first
         that is missed; one that the answer before it meets is left out.
    The sequence ends when the time is up, when an answer meets the tolerance asked for, or after its
