@@ -70,7 +70,6 @@ static int tolerance_matters(const run_job *job)
    shapes is read again, because it depends on the setting. */
 static int setting_run(run_job *job, budget_answer *answer)
 {
-    lrcs_host_error error;
     int code = 0;
     memset(answer, 0, sizeof *answer);
     if (cli_has_curved_shapes(&job->scene.scene)) {
@@ -81,14 +80,10 @@ static int setting_run(run_job *job, budget_answer *answer)
         code = cli_scene_read(job->args, &job->load, &job->scene);
         code = code ? code : cli_run_divide(job);
     }
-    if (code == 0 && !job->scene.prepared &&
-        lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
-        code = cli_failed(&error);
-    }
-    if (code == 0 && lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &answer->result,
-                                         NULL, NULL, &answer->seconds_pose, &error) != LRCS_OK) {
-        code = cli_failed(&error);
-    }
+    code = code == 0 && !job->scene.prepared ? cli_scene_prepare(&job->scene) : code;
+    code = code ? code
+                : cli_scene_run(&job->scene, &job->pose, &job->options, &answer->result, NULL, NULL,
+                                &answer->seconds_pose);
     answer->options = job->options;
     answer->build = job->load.build;
     answer->seconds_load = job->scene.seconds_load;
@@ -258,8 +253,7 @@ int cli_run_budget_read(run_job *job)
         return code;
     }
     if (!(budget->asked_ms > 0.0)) {
-        return cli_usage(args->command, "--time-budget: expected milliseconds > 0, found '%s'",
-                         cli_value(args, "time-budget"));
+        return cli_expected(args, "time-budget", "milliseconds > 0");
     }
     for (int i = 0; i < clashes; i++) {
         if (cli_value(args, clash[i])) {

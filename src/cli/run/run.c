@@ -155,8 +155,8 @@ static int run_pose(run_job *job)
         run_patience(job);
         cli_watch_stage("preparing", &job->scene);
     }
-    if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
-        return cli_failed(&error);
+    if (!job->scene.prepared && cli_scene_prepare(&job->scene) != 0) {
+        return CLI_FAILED;
     }
     cli_watch_stage("pose", NULL);
     job->options.progress = cli_watch_run();
