@@ -10,7 +10,6 @@
 #include "base/elementary.h"
 #include "base/length.h"
 #include "base/range.h"
-#include "visibility/grid.h"
 
 /* Counts are made over all facets if there are no more than this, else over about as many, chosen
    at random. */
@@ -55,7 +54,7 @@ static void count_events(const lrcsi_view *view, uint32_t facet, double times, l
     const uint32_t *corner = p->scene->facet[facet].corner;
     for (int k = 0; k < 3; k++) {
         double events = 0;
-        if (across[k] == p->scene->facet_count || !lrcsi_grid_casts(view, across[k])) {
+        if (across[k] == p->scene->facet_count || !lrcsi_view_casts(view, across[k])) {
             events = times;
         } else if (across[k] == facet || view->facing[across[k]] != view->facing[facet]) {
             events = 0.5 * times;
@@ -82,7 +81,7 @@ lrcsi_cost lrcsi_cost_count(const lrcsi_view *view)
         random = random * 1664525u + 1013904223u;
         uint32_t left = count - first < stride ? count - first : stride;
         uint32_t f = first + (random >> 8) % left;
-        if (lrcsi_grid_casts(view, f)) {
+        if (lrcsi_view_casts(view, f)) {
             cost.casting += left;
             cost.contacts += lrcsi_intersection_of(&p->intersections, f) != 0 ? left : 0;
             count_events(view, f, left, &cost);

@@ -705,7 +705,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     status = status == LRCS_OK ? lrcsi_occlude_make(&classification, NULL, work, &o) : status;
     for (uint32_t facet = 0; facet < p->scene->facet_count && status == LRCS_OK; facet++) {
         if (view->facing[facet] != 0 && lrcsi_view_reflects(view, facet) &&
-            lrcsi_grid_casts(view, facet)) {
+            lrcsi_view_casts(view, facet)) {
             facet_add_profile(run, facet, &o);
         }
     }

@@ -24,7 +24,7 @@ static double visible_fraction(const lrcsi_view *view, const lrcsi_areas *areas,
         return areas->answer[facet] == LRCSI_QUERY_VISIBLE ? 1 : 0;
     }
     if (!areas->visible) {
-        return lrcsi_grid_casts(view, facet) ? 1 : 0;
+        return lrcsi_view_casts(view, facet) ? 1 : 0;
     }
     double area = areas->visible[facet].area;
     return area == projected ? 1 : area / projected; /* 1 even if both are 0 */

@@ -156,7 +156,7 @@ static void run_facet(lrcsi_sigma *run)
         lrcsi_curve_options options = run_curve_options(run, &run->meter);
         for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
             lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-            run->visible[f] = lrcsi_grid_casts(view, f)
+            run->visible[f] = lrcsi_view_casts(view, f)
                                   ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
                                   : (lrcsi_visible){0, 0, 0, 0, 0};
         }

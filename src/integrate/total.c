@@ -180,7 +180,7 @@ static lrcsi_visible facet_visible(const total_run *run, uint32_t facet,
     if (run->visible) {
         return run->visible[facet];
     }
-    return lrcsi_grid_casts(run->view, facet)
+    return lrcsi_view_casts(run->view, facet)
                ? lrcsi_visible_unshadowed(incidence, run->plan->grazing_cos)
                : (lrcsi_visible){0, 0, 0, 0, 0};
 }
@@ -307,7 +307,7 @@ static void add_any_facet(total_run *run, uint32_t facet)
     int reflects = lrcsi_view_reflects(run->view, facet);
     int visible =
         run->view->facing[facet] != 0 &&
-        (run->visible ? area_may_be_visible(run, facet) : lrcsi_grid_casts(run->view, facet));
+        (run->visible ? area_may_be_visible(run, facet) : lrcsi_view_casts(run->view, facet));
     if (reflects && is_in_clear_shape(run, facet)) {
         add_facet_of_clear_shape(run, facet);
     } else if (reflects && visible) {

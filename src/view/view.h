@@ -103,6 +103,15 @@ static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *ver
     }
 }
 
+/* Can a facet hide anything, and be visible? Not if it is redundant in this view. */
+static inline int lrcsi_view_casts(const lrcsi_view *view, uint32_t facet)
+{
+    int facing = view->facing[facet];
+    int redundant = view->prepared->redundant[facet];
+    return (facing > 0 && redundant < LRCSI_REDUNDANT) ||
+           (facing < 0 && redundant < LRCSI_REDUNDANT_FROM_BEHIND && view->backs.cast);
+}
+
 /* 1 if a facet, if visible, reflects towards the laser; else 0. */
 static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 {

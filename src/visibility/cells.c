@@ -395,7 +395,7 @@ static int cells_make(const lrcsi_classification *classification, const unsigned
     }
     for (uint32_t f = 0; f < count; f++) {
         c->kind[f] =
-            lrcsi_grid_casts(c->view, f) && lrcsi_cells_apart(c->view, f) ? LRCSI_CELLS_APART : 0;
+            lrcsi_view_casts(c->view, f) && lrcsi_cells_apart(c->view, f) ? LRCSI_CELLS_APART : 0;
     }
     size_t segments = lrcsi_cells_segments_most(c);
     c->segment_room = (uint32_t)segments;

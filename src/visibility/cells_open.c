@@ -164,7 +164,7 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
         for (uint32_t i = 0; i < items; i++) {
             if (events) {
                 blocks_put_edge(c, b, i);
-            } else if (lrcsi_grid_casts(c->classification->view, i) && !facet_hidden(c, i)) {
+            } else if (lrcsi_view_casts(c->classification->view, i) && !facet_hidden(c, i)) {
                 blocks_put_facet(c, b, i);
             }
         }
@@ -254,7 +254,7 @@ lrcsi_cells_segment *lrcsi_cells_edge(lrcsi_cells_work *c, uint32_t edge)
     uint32_t owners = 0;
     for (uint32_t i = 0; e && i < t->edge[edge].uses; i++) {
         uint32_t facet = t->use[t->edge[edge].first_use + i].facet;
-        if (lrcsi_grid_casts(c->view, facet)) {
+        if (lrcsi_view_casts(c->view, facet)) {
             if (owners < 2) {
                 e->owner[owners] = facet;
             }

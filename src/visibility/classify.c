@@ -272,7 +272,7 @@ int lrcsi_classify_crossed_by(lrcsi_classification *classification, uint32_t fac
 int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,
                              const lrcsi_intersection *touch)
 {
-    return lrcsi_grid_casts(view, touch->other) && !(touch->kind == LRCSI_INTERSECTION_COPLANAR &&
+    return lrcsi_view_casts(view, touch->other) && !(touch->kind == LRCSI_INTERSECTION_COPLANAR &&
                                                      lrcsi_sample_beats(view, facet, touch->other));
 }
 
@@ -434,7 +434,7 @@ void lrcsi_classify_regions(const lrcsi_classification *classification)
     lrcsi_events_join(classification->view, classification->joinable, classification->region);
 }
 
-/* The direction in which each facet faces if it casts (lrcsi_grid_casts), otherwise 0; zeros behind
+/* The direction in which each facet faces if it casts (lrcsi_view_casts), otherwise 0; zeros behind
    the last one. Run by run, without branches: compilers vectorise the inner loop. */
 static void facets_cast(const lrcsi_view *view, signed char *cast)
 {

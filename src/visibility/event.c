@@ -25,7 +25,7 @@ int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part, uin
     int left = 0;         /* facets on the left of the edge, less those on the right */
     for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
         uint32_t f = use[i].facet;
-        if (part == LRCS_NONE ? lrcsi_grid_casts(view, f)
+        if (part == LRCS_NONE ? lrcsi_view_casts(view, f)
                               : p->scene->facet_part[f] == part && !p->skip[f]) {
             pair[count < 2 ? count : 1] = f;
             count++;

@@ -210,7 +210,7 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
         for (uint32_t f = 0; f < count; f++) {
             if (boxes->state[f / LRCSI_RUN] != LRCSI_BOXES_FACETS) {
                 f += LRCSI_RUN - 1;
-            } else if (lrcsi_grid_casts(grid->view, f)) {
+            } else if (lrcsi_view_casts(grid->view, f)) {
                 filled += cells_count(lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
                 facets++;
             }
@@ -287,7 +287,7 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
         }
         for (uint32_t f = start; f < end; f++) {
             if ((readers->undecided[f] || readers->region[f] == f) &&
-                lrcsi_grid_casts(grid->view, f)) {
+                lrcsi_view_casts(grid->view, f)) {
                 lrcsi_boxes_open(boxes, r);
                 want_facet(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
             }
@@ -314,7 +314,7 @@ static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, grid_
         lrcsi_boxes_open(boxes, run);
         uint32_t end = lrcsi_run_end(start, count);
         for (uint32_t f = start; f < end; f++) {
-            if (lrcsi_grid_casts(grid->view, f) &&
+            if (lrcsi_view_casts(grid->view, f) &&
                 (!want.bit ||
                  want_meets(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f))))) {
                 list[listed++] = f;

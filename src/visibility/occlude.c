@@ -33,7 +33,7 @@ void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
     o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
     o->alone.facet = o->alone.target.facet = facet;
     o->undecided = o->whole = 0;
-    if (!lrcsi_grid_casts(classification->view, facet)) {
+    if (!lrcsi_view_casts(classification->view, facet)) {
         return;
     }
     if (!classification->undecided[facet]) {

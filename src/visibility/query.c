@@ -190,7 +190,7 @@ static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_
             uint32_t first = classification->region[f];
             if (first != f) {
                 answer[f] = answer[first];
-            } else if (lrcsi_grid_casts(classification->view, f) && !classification->undecided[f]) {
+            } else if (lrcsi_view_casts(classification->view, f) && !classification->undecided[f]) {
                 answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
                 undecided += answer[f] == LRCSI_QUERY_UNDECIDED;
             }

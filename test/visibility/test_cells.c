@@ -32,7 +32,7 @@ static uint32_t ask(uint32_t *left)
     uint32_t asked = 0;
     *left = 0;
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        open[f] = lrcsi_grid_casts(&view, f) != 0;
+        open[f] = lrcsi_view_casts(&view, f) != 0;
         asked += open[f];
     }
     lrcsi_cells_areas(&classification, limit, &work, NULL, open, found);
@@ -55,7 +55,7 @@ static uint32_t agree(const double direction[3])
     const double *bulk = view.prepared->bulk;
     double extent = 2 * fmax(bulk[0], fmax(bulk[1], bulk[2]));
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        if (!lrcsi_grid_casts(&view, f)) {
+        if (!lrcsi_view_casts(&view, f)) {
             continue;
         }
         lrcsi_occlude_open(&o, f);
@@ -79,7 +79,7 @@ static uint32_t agree(const double direction[3])
 static double share(uint32_t facet)
 {
     assert_int_equal(open[facet], 0);
-    assert_true(lrcsi_grid_casts(&view, facet));
+    assert_true(lrcsi_view_casts(&view, facet));
     return found[facet].area / lrcsi_view_projected(&view, facet);
 }
 

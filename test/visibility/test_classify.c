@@ -67,7 +67,7 @@ static void winding_that_changes_makes_no_events(void **state)
         assert_int_equal(classification.undecided_count, 0);
         uint32_t seen = 0;
         for (uint32_t f = 0; f < 12; f++) {
-            seen += lrcsi_grid_casts(&view, f) &&
+            seen += lrcsi_view_casts(&view, f) &&
                     lrcsi_query_facet(&facets, f, NULL) == LRCSI_QUERY_VISIBLE;
         }
         assert_int_equal(seen, 6);
@@ -390,7 +390,7 @@ static void grids_list_every_item_wherever_it_stands(void **state)
         for (int k = 0; k < 3; k++) {
             c[k] = view.point[scene.facet[f].corner[k]].x;
         }
-        for (int i = 0; i <= 8 && lrcsi_grid_casts(&view, f); i++) {
+        for (int i = 0; i <= 8 && lrcsi_view_casts(&view, f); i++) {
             for (int j = 0; i + j <= 8; j++) {
                 double xy[2];
                 for (int k = 0; k < 2; k++) {
@@ -442,7 +442,7 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
         assert_true(every == 1 || some.first[cells] < facets.first[cells]);
         for (uint32_t f = 0; f < scene.scene.facet_count; f += every) {
             lrcsi_cells at =
-                lrcsi_grid_casts(&view, f)
+                lrcsi_view_casts(&view, f)
                     ? lrcsi_grid_cells(&some, lrcsi_boxes_facet(&classification.boxes, f))
                     : (lrcsi_cells){0};
             for (uint32_t y = at.y0; y < at.y1; y++) {
