@@ -264,7 +264,7 @@ void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
 /* The same for pictures, which do not depend on the command, and the materials; without a scene
    (NULL), the operand as the file. NULL without memory; the caller frees it. */
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene);
-void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
+void cli_provenance_json(const cli_args *args, const lrcs_host_scene *host, lrcs_host_json *json);
 void cli_options_json(const cli_args *args, lrcs_host_json *json); /* only the options given */
 void cli_operand_json(const cli_args *args, lrcs_host_json *json); /* the operand as "files" */
 void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json);

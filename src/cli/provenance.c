@@ -216,9 +216,23 @@ void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json)
     }
 }
 
-static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
+void cli_options_json(const cli_args *args, lrcs_host_json *json)
 {
-    cli_json(json, "materials=[\n");
+    char word[1200];
+    cli_json(json, "options=[");
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        snprintf(word, sizeof word, "%s%s%s%s", cli_dashes(given->name), given->name,
+                 given->value ? "=" : "", given->value ? given->value : "");
+        lrcs_host_json_text(json, NULL, word);
+    }
+    cli_json(json, "]");
+}
+
+void cli_provenance_json(const cli_args *args, const lrcs_host_scene *host, lrcs_host_json *json)
+{
+    const lrcs_scene *scene = &host->scene;
+    cli_json(json, "title=%s materials=[\n", cli_scene_title(args, host));
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *material = &scene->material[i];
         uint32_t facets = 0;
@@ -234,25 +248,6 @@ static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
         }
     }
     cli_json(json, "]");
-}
-
-void cli_options_json(const cli_args *args, lrcs_host_json *json)
-{
-    char word[1200];
-    cli_json(json, "options=[");
-    for (int i = 0; i < args->given_count; i++) {
-        const cli_given *given = &args->given[i];
-        snprintf(word, sizeof word, "%s%s%s%s", cli_dashes(given->name), given->name,
-                 given->value ? "=" : "", given->value ? given->value : "");
-        lrcs_host_json_text(json, NULL, word);
-    }
-    cli_json(json, "]");
-}
-
-void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json)
-{
-    cli_json(json, "title=%s", cli_scene_title(args, scene));
-    materials_json(&scene->scene, json);
     cli_options_json(args, json);
 }
 

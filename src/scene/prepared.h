@@ -80,11 +80,7 @@ typedef struct lrcsi_proximity {
 typedef struct lrcsi_run {
     double low[3], high[3]; /* the box around its facets, except those always redundant */
     uint32_t first_side;
-    unsigned char links; /* this many of its sides, the first ones, stand for all: each is a side
-                            without a facet across, or the first that leads to its other run */
-    unsigned char whole; /* all facets are connected across sides within the run */
-    unsigned char has_contacts; /* some facet has a contact or is marked in `met`
-                                   (mesh/intersection.h) */
+    int has_contacts; /* some facet has a contact or is marked in `met` (mesh/intersection.h) */
 } lrcsi_run;
 
 /* A side of a facet of a run across which (scene/across.h) there is a facet of another run that
@@ -100,6 +96,11 @@ typedef struct lrcsi_runs {
     unsigned char *first; /* facet: the first of the facets connected with it across sides within
                              the run, counted from the run's first facet */
     lrcsi_run_side *side; /* those of run r: side[run[r].first_side .. run[r + 1].first_side) */
+    /* What suffices where all facets of runs are alike, in as few bytes as possible: */
+    unsigned char *whole; /* run: all facets are connected across sides within it */
+    uint32_t *link;       /* the runs that the sides of run r lead to, each once, LRCS_NONE if some
+                             side leads to no facet: link[first_link[r] .. first_link[r + 1]) */
+    uint32_t *first_link;
 } lrcsi_runs;
 
 static inline uint32_t lrcsi_runs_count(uint32_t facet_count)

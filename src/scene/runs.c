@@ -16,25 +16,22 @@ static int lies_across(const lrcsi_across *across, uint32_t facet, uint32_t othe
     return corner[0] == facet || corner[1] == facet || corner[2] == facet;
 }
 
-/* Moves the sides that stand for all others (lrcsi_run.links) to the front of a run's sides. */
+/* Lists the runs that the sides of a run lead to. */
 static void run_link(lrcsi_runs *runs, uint32_t run, uint32_t facet_count)
 {
-    lrcsi_run_side *side = runs->side + runs->run[run].first_side;
-    uint32_t count = runs->run[run + 1].first_side - runs->run[run].first_side;
-    uint32_t links = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        int is_link = 1;
-        for (uint32_t k = 0; k < links && side[i].other < facet_count; k++) {
-            is_link &= side[k].other / LRCSI_RUN != side[i].other / LRCSI_RUN ||
-                       side[k].other == facet_count;
+    uint32_t first = runs->first_link[run];
+    uint32_t end = first;
+    for (uint32_t i = runs->run[run].first_side; i < runs->run[run + 1].first_side; i++) {
+        uint32_t other = runs->side[i].other;
+        uint32_t to = other < facet_count ? other / LRCSI_RUN : LRCS_NONE;
+        uint32_t k = first;
+        while (k < end && runs->link[k] != to) {
+            k++;
         }
-        if (is_link) {
-            lrcsi_run_side link = side[i];
-            side[i] = side[links];
-            side[links++] = link;
-        }
+        runs->link[k] = to;
+        end = k == end ? end + 1 : end;
     }
-    runs->run[run].links = (unsigned char)links;
+    runs->first_link[run + 1] = end;
 }
 
 /* Joins the facets of a run, and lists the sides that leave it. */
@@ -42,8 +39,8 @@ static void run_join(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, u
 {
     uint32_t group[LRCSI_RUN];
     uint32_t count = p->scene->facet_count;
-    lrcsi_run *run = &runs->run[start / LRCSI_RUN];
-    uint32_t *sides = &run[1].first_side;
+    uint32_t *sides = &runs->run[start / LRCSI_RUN + 1].first_side;
+    int whole = 1;
     for (uint32_t f = start; f < end; f++) {
         group[f - start] = f - start;
         for (int k = 0; k < 3; k++) {
@@ -58,12 +55,11 @@ static void run_join(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, u
         }
     }
     lrcsi_join_settle(group, end - start);
-    run->whole = 1;
     for (uint32_t f = start; f < end; f++) {
         runs->first[f] = (unsigned char)group[f - start];
-        run->whole &= group[f - start] == 0;
+        whole &= group[f - start] == 0;
     }
-    run_link(runs, start / LRCSI_RUN, count);
+    runs->whole[start / LRCSI_RUN] = (unsigned char)whole;
 }
 
 size_t lrcsi_runs_need(uint32_t facet_count)
@@ -71,19 +67,24 @@ size_t lrcsi_runs_need(uint32_t facet_count)
     size_t runs = (size_t)lrcsi_runs_count(facet_count) + 1;
     size_t need =
         lrcsi_work_add(lrcsi_work_bytes(runs, sizeof(lrcsi_run)), lrcsi_work_bytes(facet_count, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(runs, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(runs, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
     return lrcsi_work_add(need, 3 * lrcsi_work_bytes(facet_count, sizeof(lrcsi_run_side)));
 }
 
-/* Memory for three sides per facet; what is not needed is released. */
+/* Memory for three sides per facet, and as many links as sides; what is not needed is released. */
 int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
 {
     uint32_t facet_count = p->scene->facet_count;
     lrcsi_runs made = {.count = lrcsi_runs_count(facet_count)};
     made.run = lrcsi_work_take(work, (size_t)made.count + 1, sizeof *made.run);
     made.first = lrcsi_work_take(work, facet_count, 1);
+    made.whole = lrcsi_work_take(work, made.count, 1);
+    made.first_link = lrcsi_work_take(work, (size_t)made.count + 1, sizeof *made.first_link);
     size_t mark = work->used;
     made.side = lrcsi_work_take(work, 3 * (size_t)facet_count, sizeof *made.side);
-    if (!made.run || !made.first || !made.side) {
+    if (!made.run || !made.first || !made.whole || !made.first_link || !made.side) {
         return LRCS_E_MEMORY;
     }
     made.run[0].first_side = 0;
@@ -109,12 +110,23 @@ int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
             run->low[k] = low[k];
             run->high[k] = high[k];
         }
-        run->has_contacts = (unsigned char)has_contacts;
+        run->has_contacts = has_contacts;
         made.run[r + 1].first_side = run->first_side;
         run_join(p, &made, start, end);
     }
     work->used = mark;
     made.side = lrcsi_work_take(work, made.run[made.count].first_side, sizeof *made.side);
+    mark = work->used;
+    made.link = lrcsi_work_take(work, made.run[made.count].first_side, sizeof *made.link);
+    if (!made.link) {
+        return LRCS_E_MEMORY;
+    }
+    made.first_link[0] = 0;
+    for (uint32_t r = 0; r < made.count; r++) {
+        run_link(&made, r, facet_count);
+    }
+    work->used = mark;
+    made.link = lrcsi_work_take(work, made.first_link[made.count], sizeof *made.link);
     *runs = made;
     return LRCS_OK;
 }

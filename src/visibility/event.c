@@ -56,15 +56,15 @@ static void mark_edge_event(uint32_t *mark, uint32_t edge)
     mark[edge / MARK_BITS] |= (uint32_t)1 << edge % MARK_BITS;
 }
 
-/* Are all facets of the other runs that a run's sides lead to, as well as its own, of the same
-   value? */
+/* Are all facets of the runs around a run of the same value as all of its own? */
 static int run_surrounded(const lrcs_prepared *p, const signed char *value, uint32_t run)
 {
-    uint32_t count = p->scene->facet_count;
-    const lrcsi_run_side *side = p->runs.side + p->runs.run[run].first_side;
-    for (uint32_t i = 0; i < p->runs.run[run].links; i++) {
-        if (value[side[i].other] != value[side[i].facet] ||
-            (side[i].other < count && !lrcsi_run_alike(value, side[i].other / LRCSI_RUN))) {
+    signed char own = value[(size_t)run * LRCSI_RUN];
+    for (uint32_t i = p->runs.first_link[run]; i < p->runs.first_link[run + 1]; i++) {
+        uint32_t other = p->runs.link[i];
+        if (other == LRCS_NONE
+                ? own != 0
+                : value[(size_t)other * LRCSI_RUN] != own || !lrcsi_run_alike(value, other)) {
             return 0;
         }
     }
@@ -179,25 +179,33 @@ static void join_within(const lrcs_prepared *p, const signed char *joinable, uin
     }
 }
 
-/* Joins a run to earlier ones. Its links stand for all of its sides if it and all runs that they
-   lead to are one item each, or have no facet that is joined. */
-static void join_across(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
-                        int joined, uint32_t *group)
+/* Joins a run that is one item to earlier ones of which the same holds. 0 if it leads to others. */
+static int join_linked(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
+                       uint32_t *group)
 {
-    const lrcsi_run_side *side = p->runs.side + p->runs.run[run].first_side;
-    uint32_t count = p->runs.run[run + 1].first_side - p->runs.run[run].first_side;
-    uint32_t needed = joined == LRCSI_JOINED_ALL ? p->runs.run[run].links : count;
-    for (uint32_t i = 0; i < needed; i++) {
-        uint32_t facet = side[i].facet;
-        uint32_t other = side[i].other;
-        if (other > facet || joinable[facet] == 0) {
-            continue;
+    uint32_t start = run * LRCSI_RUN;
+    for (uint32_t i = p->runs.first_link[run]; i < p->runs.first_link[run + 1]; i++) {
+        uint32_t other = p->runs.link[i];
+        int joined = other < run ? lrcsi_events_joined(p, joinable, other) : LRCSI_JOINED_NONE;
+        if (joined == LRCSI_JOINED_SOME) {
+            return 0;
         }
-        int others = lrcsi_events_joined(p, joinable, other / LRCSI_RUN);
-        needed = others == LRCSI_JOINED_SOME ? count : needed;
-        if (joinable[other] == joinable[facet]) {
-            lrcsi_join(group, others == LRCSI_JOINED_ALL ? other - other % LRCSI_RUN : other,
-                       joined == LRCSI_JOINED_ALL ? facet - facet % LRCSI_RUN : facet);
+        if (joined == LRCSI_JOINED_ALL && joinable[(size_t)other * LRCSI_RUN] == joinable[start]) {
+            lrcsi_join(group, other * LRCSI_RUN, start);
+        }
+    }
+    return 1;
+}
+
+/* Joins a run to earlier ones, side by side. */
+static void join_sides(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
+                       uint32_t *group)
+{
+    for (uint32_t i = p->runs.run[run].first_side; i < p->runs.run[run + 1].first_side; i++) {
+        const lrcsi_run_side *side = &p->runs.side[i];
+        if (side->other < side->facet && joinable[side->facet] != 0 &&
+            joinable[side->other] == joinable[side->facet]) {
+            lrcsi_join(group, item_of(p, joinable, side->other), item_of(p, joinable, side->facet));
         }
     }
 }
@@ -236,8 +244,9 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
         if (joined == LRCSI_JOINED_SOME) {
             join_within(p, joinable, r, group);
         }
-        if (joined != LRCSI_JOINED_NONE) {
-            join_across(p, joinable, r, joined, group);
+        if (joined == LRCSI_JOINED_SOME ||
+            (joined == LRCSI_JOINED_ALL && !join_linked(p, joinable, r, group))) {
+            join_sides(p, joinable, r, group);
         }
     }
     for (uint32_t i = 0; i < p->across.irregular_count; i++) {

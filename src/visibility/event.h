@@ -54,7 +54,7 @@ static inline int lrcsi_events_joined(const lrcs_prepared *p, const signed char 
 {
     return !lrcsi_run_alike(joinable, run)          ? LRCSI_JOINED_SOME
            : joinable[(size_t)run * LRCSI_RUN] == 0 ? LRCSI_JOINED_NONE
-           : p->runs.run[run].whole                 ? LRCSI_JOINED_ALL
+           : p->runs.whole[run]                     ? LRCSI_JOINED_ALL
                                                     : LRCSI_JOINED_SOME;
 }
 

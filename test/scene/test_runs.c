@@ -8,28 +8,28 @@
 static test_scene scene;
 static uint64_t seed = 1;
 
-/* A run is whole if its facets are all connected with its first; its links are its sides without a
-   facet across and one side for each other run that sides lead to. */
+/* A run is whole if its facets are all connected with its first. Its links are the runs that its
+   sides lead to, each once, and LRCS_NONE if some side leads to no facet. */
 static void check_links(const lrcs_prepared *p, uint32_t r)
 {
-    const lrcsi_run *run = &p->runs.run[r];
+    const lrcsi_runs *runs = &p->runs;
     uint32_t count = p->scene->facet_count;
-    uint32_t sides = run[1].first_side - run->first_side;
-    const lrcsi_run_side *side = &p->runs.side[run->first_side];
+    uint32_t met = 0; /* links that some side leads to */
     int whole = 1;
     for (uint32_t f = r * LRCSI_RUN; f < lrcsi_run_end(r * LRCSI_RUN, count); f++) {
-        whole &= p->runs.first[f] == 0;
+        whole &= runs->first[f] == 0;
     }
-    assert_int_equal(run->whole, whole);
-    assert_true(run->links <= sides);
-    for (uint32_t i = 0; i < sides; i++) {
-        uint32_t before = 0; /* links to the same run that come before */
-        for (uint32_t k = 0; k < run->links && k < i; k++) {
-            before += side[k].other < count && side[i].other < count &&
-                      side[k].other / LRCSI_RUN == side[i].other / LRCSI_RUN;
+    assert_int_equal(runs->whole[r], whole);
+    for (uint32_t i = runs->first_link[r]; i < runs->first_link[r + 1]; i++) {
+        uint32_t sides = 0;
+        for (uint32_t k = runs->run[r].first_side; k < runs->run[r + 1].first_side; k++) {
+            uint32_t other = runs->side[k].other;
+            sides += (other == count ? LRCS_NONE : other / LRCSI_RUN) == runs->link[i];
         }
-        assert_int_equal(before, i < run->links ? 0 : 1);
+        assert_true(sides > 0);
+        met += sides;
     }
+    assert_int_equal(met, runs->run[r + 1].first_side - runs->run[r].first_side);
 }
 
 /* Every side that has a facet across leads within the run, or is listed from one facet or the

@@ -45,9 +45,11 @@ static const cli_option compare_options[] = {
 
 /* ---- options ---- */
 
-/* Reads the two operands. */
-static int operands_read(compare_job *job, const char **folder)
+/* Reads the options and the two operands, and checks that no output replaces a file that is read.
+ */
+static int options_read(compare_job *job, const char **folder)
 {
+    static const char *const option[] = {"json", "junit"};
     const cli_args *args = job->args;
     const char *name[2] = {NULL, NULL};
     int count = 0;
@@ -63,37 +65,23 @@ static int operands_read(compare_job *job, const char **folder)
     }
     *folder = name[0];
     job->theirs = name[1];
-    return 0;
-}
-
-/* Checks that no output replaces a file that is read. */
-static int outputs_check(const compare_job *job)
-{
-    static const char *const option[] = {"json", "junit"};
+    job->tier = KIT_TIERS;
+    job->pixels = PIXELS;
+    job->grade = COMPARE_RASTER;
+    job->facets = cli_value(args, "facets");
+    job->items = cli_value(args, "items");
+    int code = cli_whole(args, "tier", 1.0, KIT_TIERS, &job->tier);
+    code = code ? code : cli_whole(args, "pixels", 2.0, PIXELS_MOST, &job->pixels);
+    code = code ? code : cli_choice(args, "class", "exact, float or raster", &job->grade);
     const char *const input[] = {job->theirs, job->facets};
-    for (int i = 0; i < 4; i++) {
-        const char *path = cli_value(job->args, option[i % 2]);
+    for (int i = 0; i < 4 && code == 0; i++) {
+        const char *path = cli_value(args, option[i % 2]);
         if (path && input[i / 2] && lrcs_host_output_same(path, input[i / 2])) {
-            return cli_usage(job->args->command, "--%s %s: would overwrite what is to be judged",
+            code = cli_usage(args->command, "--%s %s: would overwrite what is to be judged",
                              option[i % 2], path);
         }
     }
-    return 0;
-}
-
-static int options_read(compare_job *job, const char **folder)
-{
-    const cli_args *args = job->args;
-    job->tier = KIT_TIERS;
-    job->pixels = PIXELS;
-    job->facets = cli_value(args, "facets");
-    job->items = cli_value(args, "items");
-    int code = operands_read(job, folder);
-    code = code ? code : cli_whole(args, "tier", 1.0, KIT_TIERS, &job->tier);
-    code = code ? code : cli_whole(args, "pixels", 2.0, PIXELS_MOST, &job->pixels);
-    job->grade = COMPARE_RASTER;
-    code = code ? code : cli_choice(args, "class", "exact, float or raster", &job->grade);
-    return code ? code : outputs_check(job);
+    return code;
 }
 
 /* ---- the command ---- */

@@ -221,15 +221,6 @@ static uint32_t explained_count(const compare_search *search, uint32_t failings,
     return count;
 }
 
-/* 1 if a mistake is still promising after so many failing cases. */
-static int answers_hopeful(const compare_search *search, uint32_t failings)
-{
-    int known;
-    double least = fmax(1.0, HOPELESS * failings);
-    return explained_count(search, failings, 1.0) >= least ||
-           explained_count(search, failings, factor_median(search, failings, &known)) >= least;
-}
-
 /* Computes the answer of a mistake to one of the failing cases or, counted after them, of the
    passing ones. 0 or -1. */
 static int answer_make(const compare_search *search, const compare_mistake *mistake, uint32_t i)
@@ -248,7 +239,10 @@ static int answers_make(const compare_search *search, const compare_mistake *mis
         if (answer_make(search, mistake, i) != 0) {
             return -1;
         }
-        if (give_up && i + 1 == probe && !answers_hopeful(search, probe)) {
+        int known;
+        double least = fmax(1.0, HOPELESS * probe);
+        if (give_up && i + 1 == probe && explained_count(search, probe, 1.0) < least &&
+            explained_count(search, probe, factor_median(search, probe, &known)) < least) {
             return 0;
         }
     }

@@ -20,20 +20,6 @@ typedef struct facets_read {
 
 /* ---- reading ---- */
 
-static double *facets_room(facets_read *facets, compare_case *one)
-{
-    const compare_kit *kit = &facets->job->kit;
-    double **visible = &facets->visible[one - kit->list];
-    if (!*visible && cli_compare_records(kit, one) == 0) {
-        size_t count = kit->scene[one->scene].host.scene.facet_count;
-        *visible = calloc(count + 1, sizeof **visible);
-        if (!*visible) {
-            cli_out_of_memory();
-        }
-    }
-    return *visible;
-}
-
 enum { FACET_SCENE, FACET_ATTITUDE, FACET_INDEX, FACET_AREA, FACET_COSINE, FACET_COLUMNS };
 
 static int facet_line(facets_read *facets, const compare_table *table)
@@ -42,12 +28,19 @@ static int facet_line(facets_read *facets, const compare_table *table)
     double area;
     double cosine;
     compare_case *one = cli_compare_find(&facets->job->kit, table);
-    double *visible = one ? facets_room(facets, one) : NULL;
-    if (!visible || cli_table_number(table, FACET_INDEX, &index) != 0 ||
-        cli_table_number(table, FACET_AREA, &area) != 0) {
+    if (!one || cli_compare_records(&facets->job->kit, one) != 0) {
         return CLI_FAILED;
     }
     uint32_t count = facets->job->kit.scene[one->scene].host.scene.facet_count;
+    double **visible = &facets->visible[one - facets->job->kit.list];
+    *visible = *visible ? *visible : calloc((size_t)count + 1, sizeof **visible);
+    if (!*visible) {
+        return cli_out_of_memory();
+    }
+    if (cli_table_number(table, FACET_INDEX, &index) != 0 ||
+        cli_table_number(table, FACET_AREA, &area) != 0) {
+        return CLI_FAILED;
+    }
     if (!(index >= 0.0 && index < count) || index != floor(index)) {
         return cli_table_refuse(table, FACET_INDEX, "a facet 0 .. %lu", (unsigned long)count - 1);
     }
@@ -64,30 +57,11 @@ static int facet_line(facets_read *facets, const compare_table *table)
             facets->found->cosine_most = fmax(facets->found->cosine_most, off);
         }
     }
-    visible[(uint32_t)index] = area;
+    (*visible)[(uint32_t)index] = area;
     return 0;
 }
 
 /* ---- differing ---- */
-
-/* Keeps the worst facets: those of failing cases first, then by the change relative to what the
-   case is allowed. */
-static void worst_take(compare_facets *facets, const compare_facet *off)
-{
-    uint32_t at = facets->worsts;
-    for (; at > 0; at--) {
-        const compare_facet *before = &facets->worst[at - 1];
-        if (off->failed != before->failed ? before->failed : before->weight >= off->weight) {
-            break;
-        }
-    }
-    if (at < COMPARE_NAMED) {
-        facets->worsts += facets->worsts < COMPARE_NAMED;
-        memmove(&facets->worst[at + 1], &facets->worst[at],
-                (facets->worsts - at - 1) * sizeof *facets->worst);
-        facets->worst[at] = *off;
-    }
-}
 
 static int facet_way(double whole, double truth, double theirs, double allowed)
 {
@@ -125,8 +99,23 @@ static void facet_compare(facets_read *facets, const compare_case *one, uint32_t
     off.weight = sigma_allowed > 0.0 ? off.sigma_m2 / sigma_allowed : 0.0;
     off.failed = cli_compare_failed(job, one);
     off.way = facet_way(whole, truth, theirs, allowed);
-    facets->found->way[off.way]++;
-    worst_take(facets->found, &off);
+    compare_facets *found = facets->found;
+    found->way[off.way]++;
+    /* the worst are kept: those of failing cases first, then by the change relative to what the
+       case is allowed */
+    uint32_t at = found->worsts;
+    for (; at > 0; at--) {
+        const compare_facet *before = &found->worst[at - 1];
+        if (off.failed != before->failed ? before->failed : before->weight >= off.weight) {
+            break;
+        }
+    }
+    if (at < COMPARE_NAMED) {
+        found->worsts += found->worsts < COMPARE_NAMED;
+        memmove(&found->worst[at + 1], &found->worst[at],
+                (found->worsts - at - 1) * sizeof *found->worst);
+        found->worst[at] = off;
+    }
 }
 
 int cli_compare_facets(compare_job *job)

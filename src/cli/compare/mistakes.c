@@ -471,30 +471,22 @@ static int view_make(const compare_kit *kit, compare_case *one, const compare_mi
     return cli_compare_run(&view->scene->host, &pose, mistake->without, *own);
 }
 
-/* sigma / 4 pi with the mistake. */
-static double view_sum(const mistake_view *view, const compare_mistake *mistake, double peak)
-{
-    int corners = mistake->corners > 0 ? mistake->corners : 1;
-    double sum = 0.0;
-    for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
-        for (int corner = 0; corner < corners; corner++) {
-            mistake_point point = {.peak = peak};
-            double area = mistake_area(mistake, view, i, corner, &point);
-            sum += area > 0.0 ? area * mistake_shade(mistake, &point) / corners : 0.0;
-        }
-    }
-    return sum;
-}
-
 int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
                        double *sigma_m2)
 {
     mistake_view view;
     lrcs_facet_record *own = NULL;
     int code = view_make(kit, one, mistake, &view, &own);
-    if (code == 0) {
-        *sigma_m2 = LRCS_FOUR_PI * view_sum(&view, mistake, one->peak);
+    int corners = mistake->corners > 0 ? mistake->corners : 1;
+    double sum = 0.0; /* sigma / 4 pi */
+    for (uint32_t i = 0; code == 0 && i < view.scene->host.scene.facet_count; i++) {
+        for (int corner = 0; corner < corners; corner++) {
+            mistake_point point = {.peak = one->peak};
+            double area = mistake_area(mistake, &view, i, corner, &point);
+            sum += area > 0.0 ? area * mistake_shade(mistake, &point) / corners : 0.0;
+        }
     }
+    *sigma_m2 = code == 0 ? LRCS_FOUR_PI * sum : *sigma_m2;
     free(own);
     return code;
 }

@@ -43,25 +43,6 @@ static void scene_print(const compare_job *job, const compare_scene *scene)
     putchar('\n');
 }
 
-static void tier_print(const compare_job *job, uint32_t tier)
-{
-    uint32_t cases = 0;
-    uint32_t failed = 0;
-    for (uint32_t i = 0; i < job->kit.cases; i++) {
-        const compare_case *one = &job->kit.list[i];
-        if ((uint32_t)one->tier == tier) {
-            cases++;
-            failed += (uint32_t)cli_compare_failed(job, one);
-        }
-    }
-    if (cases > 0 && failed == 0) {
-        printf("tier %lu       passed, %lu cases\n", (unsigned long)tier, (unsigned long)cases);
-    } else if (cases > 0) {
-        printf("tier %lu       FAILED, %lu of %lu cases\n", (unsigned long)tier,
-               (unsigned long)failed, (unsigned long)cases);
-    }
-}
-
 /* The tiers that a finding concerns: " in tiers 1 2". */
 static void finding_tiers(const compare_job *job, int mark)
 {
@@ -220,7 +201,18 @@ void cli_compare_table(const compare_job *job)
     }
     putchar('\n');
     for (uint32_t tier = 1; tier <= job->tier; tier++) {
-        tier_print(job, tier);
+        unsigned long cases = 0;
+        unsigned long failed = 0;
+        for (uint32_t i = 0; i < job->kit.cases; i++) {
+            const compare_case *one = &job->kit.list[i];
+            cases += (uint32_t)one->tier == tier;
+            failed += (uint32_t)one->tier == tier && cli_compare_failed(job, one);
+        }
+        if (cases > 0 && failed == 0) {
+            printf("tier %lu       passed, %lu cases\n", (unsigned long)tier, cases);
+        } else if (cases > 0) {
+            printf("tier %lu       FAILED, %lu of %lu cases\n", (unsigned long)tier, failed, cases);
+        }
     }
     uint32_t missing = job->asked - job->given;
     lack_print(job, LACK_ANSWER, missing, "missing", missing == 1 ? "case" : "cases");

@@ -54,27 +54,9 @@ static int curve_known(const converge_job *job, int dial, int quantity)
     return 0;
 }
 
-/* "zbuffer N: bound", "exact, mesh 1e-k: error" */
-static void curve_name(const converge_job *job, int dial, int quantity, chart_curve *curve)
-{
-    static const char *const what[] = {"error", "bound", "estimate"};
-    int method = 0;
-    for (uint32_t i = 0; i < job->settings; i++) {
-        method = job->setting[i].dial == dial ? job->setting[i].method : method;
-    }
-    if (dial == CONVERGE_PREVIEW) {
-        snprintf(curve->name, sizeof curve->name, "accepted by estimate: %s", what[quantity]);
-        return;
-    }
-    const char *position = dial == CONVERGE_MESH      ? ", mesh 1e-k"
-                           : dial == CONVERGE_ZBUFFER ? " N"
-                                                      : "";
-    snprintf(curve->name, sizeof curve->name, "%s%s: %s", lrcs_method_text(method), position,
-             what[quantity]);
-}
-
 static void curve_add(const converge_job *job, chart_curves *all, int dial, int quantity, int named)
 {
+    static const char *const what[] = {"error", "bound", "estimate"};
     static const int dash[] = {LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED};
     chart_curve *curve = &all->curve[all->count];
     lrcs_host_series *series = &all->series[all->count++];
@@ -87,9 +69,10 @@ static void curve_add(const converge_job *job, chart_curves *all, int dial, int 
                                                                       : chart_dials[dial].marker,
                                  .dash = dash[quantity],
                                  .hollow = quantity == CHART_BOUND};
-    curve_name(job, dial, quantity, curve);
+    int method = 0;
     for (uint32_t i = 0; i < job->settings; i++) {
         double value = setting_quantity(&job->setting[i], quantity);
+        method = job->setting[i].dial == dial ? job->setting[i].method : method;
         if (job->setting[i].dial == dial && value >= 0.0) {
             int has_name = named && all->short_name[i][0];
             curve->x[series->count] = 1e3 * job->setting[i].pose_s;
@@ -97,6 +80,13 @@ static void curve_add(const converge_job *job, chart_curves *all, int dial, int 
             curve->label[series->count++] = has_name ? all->short_name[i] : NULL;
         }
     }
+    /* "zbuffer N: bound", "exact, mesh 1e-k: error" */
+    const char *position = dial == CONVERGE_MESH      ? ", mesh 1e-k"
+                           : dial == CONVERGE_ZBUFFER ? " N"
+                                                      : "";
+    snprintf(curve->name, sizeof curve->name, "%s%s: %s",
+             dial == CONVERGE_PREVIEW ? "accepted by estimate" : lrcs_method_text(method), position,
+             what[quantity]);
 }
 
 /* Adds the curves of a kind of setting; the upper one has the settings' names. A preview has the

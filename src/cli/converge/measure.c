@@ -149,21 +149,6 @@ static int previews_add(converge_job *job)
     return code;
 }
 
-/* The method that suffices for a mesh in this pose: facet if the planner proves it, else exact.
-   Also returns whether closed forms need no mesh at all. */
-static int method_enough(converge_job *job, uint32_t mesh, int *method, int *closed)
-{
-    lrcs_run_options options = lrcs_run_options_default();
-    lrcs_result result = {0};
-    double seconds = 0.0;
-    int code =
-        cli_scene_run(&job->mesh[mesh].scene, &job->pose, &options, &result, NULL, NULL, &seconds);
-    job->spent += seconds;
-    *closed = result.method == LRCS_METHOD_CLOSED;
-    *method = result.method == LRCS_METHOD_FACET || *closed ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
-    return code;
-}
-
 /* Adds finer and finer rasters until half of the time is used. */
 static int rasters_add(converge_job *job, uint32_t mesh)
 {
@@ -189,7 +174,16 @@ static int settings_add(converge_job *job)
     int closed = 0;
     int code = 0;
     for (uint32_t i = 0; i <= finest && job->mesh[0].digits > 0 && code == 0; i++) {
-        code = method_enough(job, i, &method, &closed);
+        /* facet suffices if the planner proves it, else exact; closed forms need no mesh at all */
+        const lrcs_run_options options = lrcs_run_options_default();
+        lrcs_result result = {0};
+        double seconds = 0.0;
+        code =
+            cli_scene_run(&job->mesh[i].scene, &job->pose, &options, &result, NULL, NULL, &seconds);
+        job->spent += seconds;
+        closed = result.method == LRCS_METHOD_CLOSED;
+        method =
+            closed || result.method == LRCS_METHOD_FACET ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
         code = code ? code : setting_add(job, CONVERGE_MESH, method, 0, i);
     }
     if (code == 0 && method != LRCS_METHOD_FACET) { /* otherwise it has already been added */

@@ -57,25 +57,6 @@ typedef struct plot_job {
     int stats;
 } plot_job;
 
-/* Checks that no output replaces a file that is read. */
-static int outputs_check(const plot_job *job)
-{
-    const cli_args *args = job->args;
-    int code = 0;
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        int written =
-            strcmp(args->given[i].name, "o") == 0 || strcmp(args->given[i].name, "stats-file") == 0;
-        for (uint32_t k = 0; k < job->count && written && code == 0; k++) {
-            if (lrcs_host_output_same(args->given[i].value, job->data[k].path)) {
-                code = cli_usage(args->command, "%s%s %s: would overwrite what is read",
-                                 cli_dashes(args->given[i].name), args->given[i].name,
-                                 args->given[i].value);
-            }
-        }
-    }
-    return code;
-}
-
 /* Appends to the list the options of `head` that `other` lacks, or, if `values`, has otherwise. */
 static void differences_list(const sweep_head *head, const sweep_head *other, int values,
                              char *list, size_t size)
@@ -161,7 +142,16 @@ static int job_run(plot_job *job)
     const cli_args *args = job->args;
     int code = job_read(job);
     cli_watch_end();
-    code = code ? code : outputs_check(job);
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        const cli_given *given = &args->given[i];
+        int written = cli_is_output(args->command, given->name);
+        for (uint32_t k = 0; k < job->count && written && code == 0; k++) {
+            if (lrcs_host_output_same(given->value, job->data[k].path)) {
+                code = cli_usage(args->command, "%s%s %s: would overwrite what is read",
+                                 cli_dashes(given->name), given->name, given->value);
+            }
+        }
+    }
     if (code == 0 && !job->plot[0].asked && !job->stats) {
         return cli_usage(args->command, "nothing to do: give -o OUT.svg, --stats or --stats-file");
     }

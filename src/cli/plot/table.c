@@ -109,40 +109,12 @@ static int columns_find(const table_job *job, const char *const *name, uint32_t 
     return LRCS_OK;
 }
 
-static int profile_row_take(table_job *job, const uint32_t column[5], lrcs_host_error *error)
-{
-    profile_job *profile = &job->profile;
-    double value[5] = {0.0}; /* near, far, glint, diffuse, pulse */
-    profile_row *more = realloc(profile->row, (profile->rows + 1) * sizeof *more);
-    if (!more) {
-        return job_refuse(job, "out of memory", error);
-    }
-    profile->row = more;
-    for (int i = 0; i < 5 && column[i] != LRCS_NONE; i++) {
-        int status = lrcs_host_field_read(&job->table, column[i], "a number", &value[i], error);
-        if (status != LRCS_OK) {
-            return status;
-        }
-    }
-    if (!(value[0] < value[1])) {
-        return lrcs_host_field_refuse(&job->table, LRCS_E_NUMBER, column[1],
-                                      "a range beyond near_m", error);
-    }
-    profile_row row = {.near_m = value[0], .far_m = value[1], .pulse_m = value[4]};
-    row.bin.sigma_glint_m2 = value[2];
-    row.bin.sigma_diffuse_m2 = value[3];
-    profile->row[profile->rows++] = row;
-    profile->bin_m = value[1] - value[0];
-    return LRCS_OK;
-}
-
 static int profile_read(table_job *job, lrcs_host_error *error)
 {
     static const char *const name[4] = {"near_m", "far_m", "sigma_glint_m2", "sigma_diffuse_m2"};
     char text[TABLE_TEXT];
     uint32_t column[5];
     profile_job *profile = &job->profile;
-    int more;
     int status = columns_find(job, name, 4, column, error);
     column[4] = lrcs_host_table_column(&job->table, "pulse_m");
     profile->title = job->title;
@@ -150,10 +122,31 @@ static int profile_read(table_job *job, lrcs_host_error *error)
     profile->open = cli_key_text(job->about, "materials", text, sizeof text);
     profile->profile.list.sigma_diffuse_m2 = cli_key_number(job->about, "sigma_m2");
     profile->fwhm_m = column[4] != LRCS_NONE ? cli_key_number(job->about, "pulse_fwhm_m") : 0.0;
-    while (status == LRCS_OK && (more = lrcs_host_table_read(&job->table, error)) != 0) {
-        status = more < 0 ? more : profile_row_take(job, column, error);
+    int more = status == LRCS_OK ? lrcs_host_table_read(&job->table, error) : status;
+    for (; more > 0; more = lrcs_host_table_read(&job->table, error)) {
+        double value[5] = {0.0}; /* near, far, glint, diffuse, pulse */
+        profile_row *grown = realloc(profile->row, (profile->rows + 1) * sizeof *grown);
+        if (!grown) {
+            return job_refuse(job, "out of memory", error);
+        }
+        profile->row = grown;
+        for (int i = 0; i < 5 && column[i] != LRCS_NONE && status == LRCS_OK; i++) {
+            status = lrcs_host_field_read(&job->table, column[i], "a number", &value[i], error);
+        }
+        if (status == LRCS_OK && !(value[0] < value[1])) {
+            status = lrcs_host_field_refuse(&job->table, LRCS_E_NUMBER, column[1],
+                                            "a range beyond near_m", error);
+        }
+        if (status != LRCS_OK) {
+            return status;
+        }
+        profile_row row = {.near_m = value[0], .far_m = value[1], .pulse_m = value[4]};
+        row.bin.sigma_glint_m2 = value[2];
+        row.bin.sigma_diffuse_m2 = value[3];
+        profile->row[profile->rows++] = row;
+        profile->bin_m = value[1] - value[0];
     }
-    return status;
+    return more;
 }
 
 /* The columns of a comparison that the chart needs. */

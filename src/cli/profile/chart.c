@@ -16,7 +16,7 @@
 static uint32_t points_take(const profile_job *job, uint32_t group, double *x, double *density,
                             double *middle, double *pulse)
 {
-    uint32_t count = 0;
+    size_t count = 0;
     for (uint32_t i = 0; i < job->rows; i += group, count++) {
         uint32_t end = job->rows - i < group ? job->rows : i + group;
         double sigma = 0.0;
@@ -31,7 +31,7 @@ static uint32_t points_take(const profile_job *job, uint32_t group, double *x, d
         middle[count] = 0.5 * near + 0.5 * job->row[i].far_m;
         pulse[count] = job->row[i].pulse_m;
     }
-    return count;
+    return (uint32_t)count;
 }
 
 static int chart_draw(const profile_job *job, double *number, size_t room, int png, FILE *out,

@@ -142,46 +142,11 @@ static int rows_list(profile_job *job)
     return job->fwhm_m > 0.0 ? pulse_run(job) : 0;
 }
 
-static int profile_run(profile_job *job)
-{
-    lrcs_host_error error;
-    cli_watch_stage("preparing", &job->scene);
-    int status = lrcs_host_scene_prepare(&job->scene, &error);
-    cli_watch_stage("range profile", NULL);
-    if (status == LRCS_OK) {
-        status = lrcs_host_profile_make(&job->scene, &job->pose, job->bin_m, &job->profile, &error);
-    }
-    if (status != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    const lrcs_profile *p = &job->profile.list;
-    job->met = fmax(p->bound_m2, p->curvature_estimate_m2) <=
-               job->asked * (p->sigma_glint_m2 + p->sigma_diffuse_m2);
-    return rows_list(job);
-}
-
 /* ---- the command ---- */
-
-static int outputs_write(const profile_job *job)
-{
-    int code = job->csv ? cli_text_write(job->csv, cli_profile_csv, job) : 0;
-    code = code ? code : cli_charts_write(job->args, "plot", cli_profile_chart, job);
-    if (code != 0) {
-        return code;
-    }
-    if (cli_value(job->args, "json")) {
-        cli_profile_json(job);
-    } else {
-        cli_notices_print(stderr, &job->scene.notices);
-        if (!job->csv || strcmp(job->csv, "-") != 0) {
-            cli_profile_table(job);
-        }
-    }
-    return job->asked > 0.0 && !job->met ? CLI_DEGRADED : CLI_DONE;
-}
 
 static int profile_command(const cli_args *args)
 {
+    lrcs_host_error error;
     profile_job job;
     memset(&job, 0, sizeof job);
     job.args = args;
@@ -193,11 +158,31 @@ static int profile_command(const cli_args *args)
         job.title = cli_scene_title(args, &job.scene);
         job.open = cli_materials_open(&job.scene.scene);
     }
-    code = code ? code : profile_run(&job);
+    cli_watch_stage("preparing", &job.scene);
+    code = code ? code : cli_scene_prepare(&job.scene);
+    cli_watch_stage("range profile", NULL);
+    if (code == 0 &&
+        lrcs_host_profile_make(&job.scene, &job.pose, job.bin_m, &job.profile, &error) != LRCS_OK) {
+        code = cli_failed(&error);
+    }
+    const lrcs_profile *p = &job.profile.list;
+    job.met = fmax(p->bound_m2, p->curvature_estimate_m2) <=
+              job.asked * (p->sigma_glint_m2 + p->sigma_diffuse_m2);
+    code = code ? code : rows_list(&job);
     cli_watch_end();
     char *about = code == 0 ? cli_text_of(cli_profile_about, &job) : NULL;
     job.about = about;
-    code = code ? code : outputs_write(&job);
+    code = code == 0 && job.csv ? cli_text_write(job.csv, cli_profile_csv, &job) : code;
+    code = code ? code : cli_charts_write(args, "plot", cli_profile_chart, &job);
+    if (code == 0 && cli_value(args, "json")) {
+        cli_profile_json(&job);
+    } else if (code == 0) {
+        cli_notices_print(stderr, &job.scene.notices);
+        if (!job.csv || strcmp(job.csv, "-") != 0) {
+            cli_profile_table(&job);
+        }
+    }
+    code = code == 0 && job.asked > 0.0 && !job.met ? CLI_DEGRADED : code;
     free(about);
     free(job.row);
     lrcs_host_profile_free(&job.profile);

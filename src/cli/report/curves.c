@@ -83,17 +83,6 @@ static void cuts_section(FILE *out, const report_job *job)
     fputs("</div>\n</section>\n", out);
 }
 
-static void map_section(FILE *out, const report_job *job)
-{
-    const report_sweep *sweep = &job->sweep[REPORT_MAP];
-    cli_page_section(out, "map", "All directions");
-    figure_begin(out, sweep, "Map of sigma in dBsm over azimuth and elevation", chart_box);
-    cli_page(out, "Steps of %u\xc2\xb0.", job->map_step);
-    extremes_say(out, sweep);
-    cli_page_figure_end(out);
-    fputs("</section>\n", out);
-}
-
 /* ---- peaks ---- */
 
 /* The few rows that contribute most to a peak. */
@@ -156,7 +145,13 @@ static void peaks_section(FILE *out, const report_job *job)
 
 void cli_report_curves(FILE *out, const report_job *job)
 {
-    map_section(out, job);
+    const report_sweep *map = &job->sweep[REPORT_MAP];
+    cli_page_section(out, "map", "All directions");
+    figure_begin(out, map, "Map of sigma in dBsm over azimuth and elevation", chart_box);
+    cli_page(out, "Steps of %u\xc2\xb0.", job->map_step);
+    extremes_say(out, map);
+    cli_page_figure_end(out);
+    fputs("</section>\n", out);
     peaks_section(out, job);
     cuts_section(out, job);
 }

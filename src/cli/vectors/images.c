@@ -77,26 +77,8 @@ static int depth_png(FILE *out, const void *context, lrcs_host_error *error)
     return png_make(out, context, 1, error);
 }
 
-/* The depth at which the line of sight through a point of the view plane intersects a facet's
-   plane. */
-static double facet_depth(const images_case *file, uint32_t facet, double x, double y)
-{
-    const lrcs_pose *pose = &file->one->pose;
-    double v[3][3];
-    for (int k = 0; k < 3; k++) {
-        const double *p = file->scene->vertex[file->scene->facet[facet].corner[k]].x;
-        for (int row = 0; row < 3; row++) {
-            const double *r = pose->R[row];
-            v[k][row] = r[0] * p[0] + r[1] * p[1] + r[2] * p[2];
-        }
-    }
-    const double a[3] = {v[1][0] - v[0][0], v[1][1] - v[0][1], v[1][2] - v[0][2]};
-    const double b[3] = {v[2][0] - v[0][0], v[2][1] - v[0][1], v[2][2] - v[0][2]};
-    const double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                         a[0] * b[1] - a[1] * b[0]};
-    return v[0][2] - (n[0] * (x - v[0][0]) + n[1] * (y - v[0][1])) / n[2];
-}
-
+/* The depth of each pixel: where the line of sight through its centre intersects the plane of the
+   facet that is seen there. */
 static void depth_fill(images_case *file)
 {
     const lrcs_image *image = file->image;
@@ -108,10 +90,25 @@ static void depth_fill(images_case *file)
         size_t column = i % image->size;
         double x = image->left_m + ((double)column + 0.5) * step;
         double y = image->top_m - ((double)row + 0.5) * step;
-        int seen = image->facet[i] != LRCS_NONE;
-        file->depth[i] = seen ? facet_depth(file, image->facet[i], x, y) : (double)NAN;
-        file->nearest = seen ? fmax(file->nearest, file->depth[i]) : file->nearest;
-        file->farthest = seen ? fmin(file->farthest, file->depth[i]) : file->farthest;
+        double v[3][3];
+        file->depth[i] = (double)NAN;
+        if (image->facet[i] == LRCS_NONE) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            const double *p = file->scene->vertex[file->scene->facet[image->facet[i]].corner[k]].x;
+            for (int axis = 0; axis < 3; axis++) {
+                const double *r = file->one->pose.R[axis];
+                v[k][axis] = r[0] * p[0] + r[1] * p[1] + r[2] * p[2];
+            }
+        }
+        const double a[3] = {v[1][0] - v[0][0], v[1][1] - v[0][1], v[1][2] - v[0][2]};
+        const double b[3] = {v[2][0] - v[0][0], v[2][1] - v[0][1], v[2][2] - v[0][2]};
+        const double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                             a[0] * b[1] - a[1] * b[0]};
+        file->depth[i] = v[0][2] - (n[0] * (x - v[0][0]) + n[1] * (y - v[0][1])) / n[2];
+        file->nearest = fmax(file->nearest, file->depth[i]);
+        file->farthest = fmin(file->farthest, file->depth[i]);
     }
 }
 

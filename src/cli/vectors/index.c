@@ -84,22 +84,6 @@ static void cases_write(FILE *out, const void *context)
     }
 }
 
-static void case_json(lrcs_host_json *json, const vectors_job *job, const vectors_case *one)
-{
-    const double *value[CASE_NUMBERS];
-    case_values(one, value);
-    cli_json(json, "{scene=%s attitude=%s tier=%u", one->scene->name, one->attitude->name,
-             one->scene->tier);
-    for (int k = 0; k < CASE_NUMBERS; k++) {
-        if (case_numbers[k].count == 1) {
-            lrcs_host_json_number(json, case_numbers[k].key, *value[k]);
-        } else {
-            cli_numbers_json(json, case_numbers[k].key, value[k], (uint32_t)case_numbers[k].count);
-        }
-    }
-    cli_json(json, "image=%u}", one->image ? job->resolution : 0);
-}
-
 /* ---- kit.json ---- */
 
 static void kit_write(FILE *out, const void *context)
@@ -122,7 +106,20 @@ static void kit_write(FILE *out, const void *context)
     }
     cli_json(&json, "] cases=[\n");
     for (uint32_t i = 0; i < job->cases; i++) {
-        case_json(&json, job, &job->list[i]);
+        const vectors_case *one = &job->list[i];
+        const double *value[CASE_NUMBERS];
+        case_values(one, value);
+        cli_json(&json, "{scene=%s attitude=%s tier=%u", one->scene->name, one->attitude->name,
+                 one->scene->tier);
+        for (int k = 0; k < CASE_NUMBERS; k++) {
+            if (case_numbers[k].count == 1) {
+                lrcs_host_json_number(&json, case_numbers[k].key, *value[k]);
+            } else {
+                cli_numbers_json(&json, case_numbers[k].key, value[k],
+                                 (uint32_t)case_numbers[k].count);
+            }
+        }
+        cli_json(&json, "image=%u}", one->image ? job->resolution : 0);
     }
     cli_json(&json, "]}");
 }

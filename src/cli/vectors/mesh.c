@@ -31,25 +31,19 @@ static void *room_grow(void *list, uint32_t *room, uint32_t used, size_t size)
     return grown;
 }
 
-/* The scene's coordinates of a point of the item, in single precision. */
-static lrcs_point point_place(const mesh_build *build, const double p[3])
-{
-    lrcs_point placed;
-    for (int k = 0; k < 3; k++) {
-        const double *row = build->turn.R[k];
-        double x = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + build->item->at[k];
-        x = fabs(x) < 1e-12 && build->item->at[k] == 0.0 ? 0.0
-                                                         : x; /* rounding error of a rotation */
-        placed.x[k] = (double)(float)((x + build->scene->move[k]) * build->scene->scale);
-    }
-    return placed;
-}
-
-/* The index of a point; points of the same item are shared. */
+/* The index of a point of the item, in the scene's coordinates and in single precision; points of
+   the same item are shared. */
 static uint32_t point_add(mesh_build *build, const double p[3])
 {
     vectors_mesh *mesh = build->mesh;
-    lrcs_point placed = point_place(build, p);
+    lrcs_point placed;
+    for (int k = 0; k < 3; k++) {
+        const double *row = build->turn.R[k];
+        double at = build->item->at[k];
+        double x = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + at;
+        x = fabs(x) < 1e-12 && at == 0.0 ? 0.0 : x; /* rounding error of a rotation */
+        placed.x[k] = (double)(float)((x + build->scene->move[k]) * build->scene->scale);
+    }
     for (uint32_t i = build->first; i < mesh->vertices; i++) {
         if (memcmp(&mesh->vertex[i], &placed, sizeof placed) == 0) {
             return i;

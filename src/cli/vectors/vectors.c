@@ -73,24 +73,16 @@ static int case_make(const vectors_scene *scene, const vectors_attitude *attitud
                      vectors_case *one)
 {
     lrcs_pose pose;
-    double length = 0.0;
-    double across = 0.0;
+    const double *q = attitude->quaternion;
+    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     *one = (vectors_case){.scene = scene, .attitude = attitude};
-    if (lrcs_pose_from_quaternion(attitude->quaternion, &pose) != LRCS_OK) {
+    if (lrcs_pose_from_quaternion(q, &pose) != LRCS_OK) {
         return CLI_FAILED;
     }
     for (int k = 0; k < 4; k++) {
-        length += attitude->quaternion[k] * attitude->quaternion[k];
+        one->quaternion[k] = q[k] / length;
     }
-    for (int k = 0; k < 4; k++) {
-        one->quaternion[k] = attitude->quaternion[k] / sqrt(length);
-    }
-    for (int k = 0; k < 3; k++) {
-        across += pose.direction[k] * pose.direction[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        one->direction[k] = pose.direction[k] / sqrt(across);
-    }
+    cli_pose_unit(&pose, one->direction);
     const double *s = one->direction;
     one->azel_deg[0] = CLI_DEGREES * atan2(s[1], s[0]);
     one->azel_deg[1] = CLI_DEGREES * atan2(s[2], hypot(s[0], s[1]));
