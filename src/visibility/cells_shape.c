@@ -41,17 +41,6 @@ void lrcsi_cells_sides_make(const lrcsi_clip_polygon *p, double g, lrcsi_cells_s
     }
 }
 
-void lrcsi_line_range(const lrcsi_clip_polygon *shape, const double line[3], double range[2])
-{
-    range[0] = HUGE_VAL;
-    range[1] = -HUGE_VAL;
-    for (uint32_t i = 0; i < shape->count; i++) {
-        double d = lrcsi_line_at(line, shape->corner[i][0], shape->corner[i][1]);
-        range[0] = lrcsi_least(range[0], d);
-        range[1] = lrcsi_most(range[1], d);
-    }
-}
-
 void lrcsi_box_range(const double low[2], const double high[2], const double line[3],
                      double range[2])
 {

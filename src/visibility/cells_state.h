@@ -21,7 +21,8 @@ typedef struct lrcsi_cells_grid {
     uint32_t side;            /* blocks along a side, with a ring of blocks for what is outside */
     double low[2], high[2];   /* of the blocks within the ring */
     double least[2], most[2]; /* of these and of all facets, with the errors of their corners */
-    double size;              /* of a block */
+    double size, per;         /* of a block, and 1 / size */
+    double rounding;          /* more than the rounding errors of places among the blocks */
     lrcsi_cells_lists facets, events;
 } lrcsi_cells_grid;
 
