@@ -185,7 +185,7 @@ static void facet_offer(const shares_plan *plan, uint32_t facet, const lrcs_face
 
 /* Adds every facet to the row of its part and to that of its material. */
 static void records_add(const shares_plan *plan, const lrcs_facet_record *records,
-                       shares_tally *tally, lrcs_host_shares *shares)
+                        shares_tally *tally, lrcs_host_shares *shares)
 {
     for (uint32_t i = 0; i < plan->scene->facet_count; i++) {
         const lrcs_facet_record *one = &records[i];
