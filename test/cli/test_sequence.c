@@ -102,12 +102,23 @@ static void of_completed_settings_the_best_answers_not_the_last(void **state)
     assert_int_equal(out.best, 0);
 }
 
-static void clipping_comes_first_if_half_of_the_time_suffices(void **state)
+static void clipping_comes_first_if_a_quarter_of_the_time_suffices(void **state)
 {
     (void)state;
     const machine m = machine_make(1);
-    outcome out = tried(&m, forecast, 104.5); /* 4 for the first, then 2 x 50 */
+    outcome out = tried(&m, forecast, 204.5); /* 4 for the first, then 4 x 50 */
     assert_int_equal(out.count, 2);
+    assert_int_equal(out.best, SETTINGS - 1);
+    assert_int_equal(out.unfinished, -1);
+}
+
+static void or_half_of_it_once_a_proof_has_been_timed(void **state)
+{
+    (void)state;
+    const machine m = machine_make(1);
+    outcome out = tried(&m, forecast, 153); /* 4 + 6 + 12 + 30, then 2 x 50 */
+    assert_int_equal(out.count, 5);
+    assert_int_equal(out.order[3], 0);
     assert_int_equal(out.best, SETTINGS - 1);
     assert_int_equal(out.unfinished, -1);
 }
@@ -188,7 +199,8 @@ int main(void)
         cmocka_unit_test(settings_run_from_the_quickest_to_the_slowest),
         cmocka_unit_test(a_raster_answers_where_clipping_is_not_completed),
         cmocka_unit_test(of_completed_settings_the_best_answers_not_the_last),
-        cmocka_unit_test(clipping_comes_first_if_half_of_the_time_suffices),
+        cmocka_unit_test(clipping_comes_first_if_a_quarter_of_the_time_suffices),
+        cmocka_unit_test(or_half_of_it_once_a_proof_has_been_timed),
         cmocka_unit_test(a_slower_machine_is_noticed_by_its_first_setting),
         cmocka_unit_test(measured_proofs_move_clipping_before_rasters),
         cmocka_unit_test(after_clipping_no_raster_is_tried_unless_it_fell_back),

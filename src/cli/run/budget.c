@@ -5,8 +5,9 @@
      2. in the order of their expected time (sequence.h): rasters of 256, 512 and 1024 pixels, with
         their bound or accepted by their estimate; and clipping, or method auto with the tolerance
         1e-1 if tolerances change the answer. Rasters are not tried any more after this last
-        setting, nor before it if it is expected to take at most half of the time left: clipping
-        leaves only rounding errors, less than any raster;
+        setting, nor before it if it is expected to take at most a quarter of the time left, or
+        half of it once a raster with a bound has been timed: clipping leaves only rounding errors,
+        less than any raster;
      3. if tolerances change the answer: method auto with finer ones down to 1e-12, up to the first
         that is missed; one that the answer before it meets is left out.
    The sequence ends when the time is up, when an answer meets the tolerance asked for, or after its
@@ -69,7 +70,6 @@ static int tolerance_matters(const run_job *job)
    shapes is read again, because it depends on the setting. */
 static int setting_run(run_job *job, budget_answer *answer)
 {
-    lrcs_host_error error;
     int code = 0;
     memset(answer, 0, sizeof *answer);
     if (cli_has_curved_shapes(&job->scene.scene)) {
@@ -80,14 +80,10 @@ static int setting_run(run_job *job, budget_answer *answer)
         code = cli_scene_read(job->args, &job->load, &job->scene);
         code = code ? code : cli_run_divide(job);
     }
-    if (code == 0 && !job->scene.prepared &&
-        lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
-        code = cli_failed(&error);
-    }
-    if (code == 0 && lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &answer->result,
-                                         NULL, NULL, &answer->seconds_pose, &error) != LRCS_OK) {
-        code = cli_failed(&error);
-    }
+    code = code == 0 && !job->scene.prepared ? cli_scene_prepare(&job->scene) : code;
+    code = code ? code
+                : cli_scene_run(&job->scene, &job->pose, &job->options, &answer->result, NULL, NULL,
+                                &answer->seconds_pose);
     answer->options = job->options;
     answer->build = job->load.build;
     answer->seconds_load = job->scene.seconds_load;
@@ -257,8 +253,7 @@ int cli_run_budget_read(run_job *job)
         return code;
     }
     if (!(budget->asked_ms > 0.0)) {
-        return cli_usage(args->command, "--time-budget: expected milliseconds > 0, found '%s'",
-                         cli_value(args, "time-budget"));
+        return cli_expected(args, "time-budget", "milliseconds > 0");
     }
     for (int i = 0; i < clashes; i++) {
         if (cli_value(args, clash[i])) {

@@ -28,8 +28,9 @@ static const char run_help[] =
     "method\n"
     "                        exact (or tolerances 1e-1 to 1e-12, if these change anything), "
     "which\n"
-    "                        comes before rasters if half of the time left is expected to "
-    "suffice.\n"
+    "                        comes before rasters where time for it is ample (two to four times "
+    "as\n"
+    "                        much as expected).\n"
     "                        What is expected to take less than the answer was completed, except\n"
     "                        rasters where exact answers. No completed setting has a smaller "
     "bound\n"
@@ -154,8 +155,8 @@ static int run_pose(run_job *job)
         run_patience(job);
         cli_watch_stage("preparing", &job->scene);
     }
-    if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
-        return cli_failed(&error);
+    if (!job->scene.prepared && cli_scene_prepare(&job->scene) != 0) {
+        return CLI_FAILED;
     }
     cli_watch_stage("pose", NULL);
     job->options.progress = cli_watch_run();

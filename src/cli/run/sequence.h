@@ -38,7 +38,8 @@ double cli_sequence_expected(const cli_sequence *sequence, int setting);
 /* The setting that is tried next, with `left` seconds to go: the one with the least expected time
    among those not yet over (the first of equal ones), or -1 if there are none. But once the clock
    of this machine is known from a completed setting, the last kind comes before rasters whose
-   result it makes needless, if it is expected to take at most half of the time left. */
+   result it makes needless, if it is expected to take at most a quarter of the time left; or half
+   of it, once a raster with a bound has been timed. */
 int cli_sequence_next(const cli_sequence *sequence, double left);
 
 /* Records that a setting took so many seconds. Once the last kind is completed without a fallback
