@@ -50,7 +50,8 @@ HOST_OBJ = $(HOST_SRC:%.c=$(BUILD)/%.o)
 CLI_OBJ  = $(CLI_SRC:%.c=$(BUILD)/%.o)
 TESTS    = $(TEST_SRC:%.c=$(BUILD)/%)
 EXAMPLES = $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c))) $(STUDY)
-INCLUDED = $(BUILD)/demo.inc $(BUILD)/explore.inc $(BUILD)/readme.inc
+INCLUDED = $(BUILD)/demo.inc $(BUILD)/explore.inc $(BUILD)/explore_style.inc $(BUILD)/explore_controls.inc \
+           $(BUILD)/style.inc $(BUILD)/readme.inc
 STUDY    = $(BUILD)/examples/study/study
 CORE_TESTS = $(patsubst %.c,$(BUILD)/%,$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 JOINED   = $(BUILD)/amalgamation
@@ -364,9 +365,12 @@ $(FLIGHT)/task.elf: $(wildcard examples/flight/*) $(JOINED)/lrcs.c
 	    -T examples/flight/board_m7.ld -o $@ examples/flight/task.c examples/flight/main.c \
 	    examples/flight/board_m7.c $(JOINED)/lrcs.c -lm
 
-# The built-in scene, the explorer's script and the text of a kit, as the bytes of C arrays.
+# The built-in scene, the fixed parts of HTML pages and the text of a kit, as the bytes of C arrays.
 $(BUILD)/demo.inc: examples/satellite.toml
 $(BUILD)/explore.inc: src/cli/report/explore.js
+$(BUILD)/explore_style.inc: src/cli/report/explore.css
+$(BUILD)/explore_controls.inc: src/cli/report/explore.html
+$(BUILD)/style.inc: src/cli/report/style.css
 $(BUILD)/readme.inc: src/cli/vectors/readme.md
 $(INCLUDED):
 	@mkdir -p $(@D)
@@ -377,7 +381,8 @@ $(INCLUDED):
 $(CORE_OBJ) $(ABOVE_OBJ) $(HOST_OBJ): Makefile
 
 $(BUILD)/src/host/demo.o: $(BUILD)/demo.inc
-$(BUILD)/src/cli/report/explore.o: $(BUILD)/explore.inc
+$(BUILD)/src/cli/report/explore.o: $(BUILD)/explore.inc $(BUILD)/explore_style.inc $(BUILD)/explore_controls.inc
+$(BUILD)/src/cli/report/page.o: $(BUILD)/style.inc
 $(BUILD)/src/cli/vectors/index.o: $(BUILD)/readme.inc
 
 $(BUILD)/src/%.o: src/%.c

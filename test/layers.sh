@@ -1,15 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Proves the order of the rooms: a file includes its own layer or earlier ones, the tool only the
-# public headers, the core nothing of the system but freestanding-like headers; and that every
-# header compiles alone, no includes are cyclic, and the map names every file. Prints FILE:LINE and
-# the reason for each breach.
+# Checks the order of the layers: a file includes its own layer or earlier ones, the tool only the
+# public headers, the core no system header that needs an operating system. Also: every header
+# compiles alone, no includes are cyclic, src/README.md names every file and, in its trace of one
+# facet, only what exists. Prints FILE:LINE and the reason for each breach.
 # usage: layers.sh    (in the root; CC names the compiler)
 core='base mesh optics scene view visibility integrate'
 layers="$core analysis host cli"
 # Public headers above the core: of analysis, and of the host layer.
-analysis_headers="emulate|fit"
-host_headers="chart|file|glint|host|load|picture|readings|sweep|table|write"
+analysis_headers="emulate|fit|quadric"
+host_headers="chart|file|glint|host|load|picture|readings|shares|sweep|table|write"
 core_headers='float.h limits.h math.h stddef.h stdint.h string.h'
 public_headers='stddef.h stdint.h'
 CC=${CC:-cc}
@@ -161,6 +161,13 @@ for file in src/*/*.c src/*/*/*.c; do
         case $stem in "$pattern"*) continue 2 ;; esac
     done
     echo "src/README.md: does not name $file" >>"$log"
+done
+
+# Its trace of one facet names functions and files that exist.
+for name in $(sed -n '/^## One facet/,$p' src/README.md | grep -oE '`[a-z0-9_]+`' | tr -d '`' |
+    LC_ALL=C sort -u); do
+    grep -qE "^[a-z].*[ *]$name\\(" $files || [ -d "src/$name" ] || ls src/*/"$name".c >/dev/null 2>&1 ||
+        echo "src/README.md: the trace of one facet names $name, which does not exist" >>"$log"
 done
 
 if [ -s "$log" ]; then

@@ -37,7 +37,7 @@ int lrcs_host_number_read(const char *text, size_t size, double *value);
 unsigned lrcs_host_name_distance(const char *text, const char *name);
 
 /* The names most like what was typed, best first, each once: those that contain the text or are
-   contained in it, then those with the fewest edits, upper and lower case alike.
+   contained in it, then those with the fewest edits, ignoring case.
    Given: name[count]; most, the size of `near`. Returned: near, pointers into name; how many. */
 uint32_t lrcs_host_names_near(const char *text, const char *const *name, uint32_t count,
                               const char **near, uint32_t most);

@@ -9,8 +9,8 @@
    turn is the median angle between neighbouring facets that share a smoothing group; in a scene
    built with curved normals, for facets in no group, between the normals at their corners; for
    engine shapes, twice the proved turn. The error is that of a cylinder of such facets at
-   broadside: (dphi/2)^2 / 6 for the chords and 2 exp(-(pi s / dphi)^2) for the comb (the ripple
-   of the sum over discrete normals). */
+   broadside: (dphi/2)^2 / 6 for the chords and 2 exp(-(pi s / dphi)^2) for the ripple of
+   the sum over discrete normals. */
 typedef struct lrcs_host_glint {
     uint32_t part, material; /* of the scene */
     double s;                /* the material's slope */

@@ -37,7 +37,7 @@ typedef struct lrcs_profile {
     double curvature_estimate_m2; /* ESTIMATE: of that sum; -1 if all normals are flat, as in
                                      lrcs_result */
     int tessellation_known; /* 0: the bounds refer to the facets, not to the curved shapes that they
-                               stand for: lrcs_result.budget */
+                               replace: lrcs_result.budget */
     double range_err_m;     /* proved: bound on the error of the range of a point within its bin */
 } lrcs_profile;
 

@@ -29,7 +29,8 @@ typedef struct lrcs_recipe_part {
     const char *file; /* model file, or NULL for a shape */
     lrcs_shape shape; /* used where file is NULL */
     lrcs_place place;
-    int unit_given; /* model file: 1 if its unit was stated; else metres are assumed */
+    double unit_m; /* model file: metres per unit, as stated; 0: not stated, metres are assumed. The
+                      place's scale contains it */
     lrcs_joint joint;
     const char *material;   /* name of a material for the whole part, or NULL: the model's own */
     int material_index;     /* the same, as an index into the recipe's materials; -1 for none,
@@ -44,7 +45,7 @@ typedef struct lrcs_recipe_material {
     lrcs_brdf brdf;
     int two_sided; /* -1: keeps what the model says */
     uint32_t line;
-    int assumed; /* the numbers are nobody's: facets are as if unbound, but for the numbers */
+    int assumed; /* the numbers are assumed, not given: apart from them, facets count as unbound */
     lrcs_brdf_error error; /* of brdf */
 } lrcs_recipe_material;
 

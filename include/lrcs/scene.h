@@ -17,7 +17,7 @@ typedef struct lrcs_material {
     unsigned char has_colour;
     unsigned char two_sided;
     unsigned char omitted; /* fully transparent: its facets are left out of the scene */
-    unsigned char bound;   /* 0: nobody gives its numbers: brdf is lrcs_brdf_default, or what a
+    unsigned char bound;   /* 0: its numbers are not given: brdf is lrcs_brdf_default, or what a
                               scene file calls assumed */
     lrcs_brdf_error error; /* of brdf; all zero where none was stated */
     uint32_t source; /* materials of equal source > 0 got the same numbers from one place: their
@@ -98,8 +98,8 @@ enum lrcs_facets_only {
 /* How shapes are tessellated; the material comes from the recipe. */
 typedef struct lrcs_build_options {
     double tolerance;    /* relative, > 0, for a shape alone; among other parts, small shapes may be
-                            coarser. There the mean over the true surface counts for each facet of a
-                            curved wall, so that only shadows call for facets: a sphere, dome
+                            coarser. There each facet of a curved wall counts with the mean over the
+                            true surface, so that only shadows require facets: a sphere, dome
                             or paraboloid is tessellated for 1e-4 at the finest. Where a scale
                             differs between axes the facets' normals count, and those are
                             tessellated for ten times the tolerance, at least 1e-4 */

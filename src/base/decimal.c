@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Decimal text to double, correctly rounded. Decides what a number looks like and its rounding;
-   whether a value is acceptable (finite, in range) is the caller's business.
+   the caller decides whether a value is acceptable (finite, in range).
 
    The value is 0.d1 d2 ... dn * 10^point. Up to 15 digits with a power of ten up to 10^22 both
    are doubles exactly, so one multiplication or division rounds once and correctly (Clinger

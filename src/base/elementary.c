@@ -23,11 +23,11 @@
    The series' rest, 2 s z^11/23 (1 + ...), is below 2^-59 of 2 s.
    Double-double: the quotient of f - 1 and f + 1 = b + b' exactly, with its remainder, is accurate
    to 2^-100; s z Q to 10 relative units (s, z, Q and products), and it is at most 0.01 of log(f):
-   0.1. What is added to it (k LN2_LOW, what 2 s and k LN2_HIGH lose) is below it or below 2^-31
-   |k|: three sums of at most 0.01 each. |log x| >= 0.34 for k != 0: below 0.15 in all. Lanes: s to
-   2 units (b' left out), 2 s + s z Q to 3.1; k LN2_LOW and that sum: 0.35 absolute; the sum with k
-   LN2_HIGH 1 relative: for k = 0, 3.1 + 1; else |log(f)| <= 0.34658 <= |log x|: 3.1 + 1.1 + 1.
-   LRCSI_LOG_LANES_ERROR is 6. */
+   0.1. The terms added to it (k LN2_LOW, and the rounding error of 2 s + k LN2_HIGH) are below it
+   or below 2^-31 |k|: three sums of at most 0.01 each. |log x| >= 0.34 for k != 0: below 0.15 in
+   all. Lanes: s to 2 units (b' left out), 2 s + s z Q to 3.1; k LN2_LOW and that sum: 0.35
+   absolute; the sum with k LN2_HIGH 1 relative: for k = 0, 3.1 + 1; else |log(f)| <= 0.34658 <=
+   |log x|: 3.1 + 1.1 + 1. LRCSI_LOG_LANES_ERROR is 6. */
 #include "base/elementary.h"
 
 #include <math.h>
@@ -38,7 +38,7 @@
 #define LN2_HIGH 0x1.62e42ff000000p-1
 #define LN2_LOW  (-0x1.718432a1b0e26p-35)
 
-/* Adding it rounds to an integer, which then stands in the lowest bits. */
+/* Adding it rounds to an integer, which is then in the lowest bits. */
 #define ROUND_TO_INTEGER 0x1.8p52
 
 /* e^x for |x| <= 708. */
@@ -135,8 +135,8 @@ lrcsi_dd lrcsi_log1p(double u)
     return lrcsi_dd_quick_sum(log.hi, log.lo + w.lo / w.hi);
 }
 
-/* The product exactly, but for y times the low part, u^2 of it. The scale is exact, and keeps the
-   product in range. */
+/* The product is exact except for y times the low part, u^2 of it. The scale is exact, and keeps
+   the product in range. */
 double lrcsi_power(lrcsi_dd log, double y)
 {
     if (!(fabs(y * log.hi) < 800.0)) {

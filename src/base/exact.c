@@ -13,7 +13,7 @@
        |computed - det| <= ((1 + u)^8 - 1) P <= 8.001 u P,
    P = sum |d_k| (|u_i v_j| + |u_j v_i|) of the true vectors. P is computed from the same rounded
    quantities without cancellation, hence is at least (1 - u)^8 P; 10 u times it, itself rounded,
-   is above the error. A 2 x 2 minor has 4 roundings; 10 u serves it too.
+   is above the error. A 2 x 2 minor has 4 roundings; 10 u suffices for it too.
 
    Underflow and overflow. With coordinates below 2^332 (1e100 is) every product stays below
    2^1003. With coordinates zero or above 2^-300, each is a multiple of 2^-352, every triple

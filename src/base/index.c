@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The index from names to numbers. Decides the slot of a name; the meaning of its number
-   is the caller's. */
+/* The index from names to numbers. Decides the slot of a name; its number has a meaning only for
+   the caller. */
 #include "base/index.h"
 
 #include <string.h>

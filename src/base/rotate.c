@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Rotation matrices. Decides how angles, axes and quaternions become nine numbers; what the
-   matrix then turns is the caller's business. */
+/* Rotation matrices. Decides how angles, axes and quaternions become nine numbers. */
 #include "base/rotate.h"
 
 #include <lrcs/status.h>

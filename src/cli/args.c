@@ -78,26 +78,13 @@ static int unknown_option(const cli_command *command, const char *word, size_t s
     char name[NAME_MOST];
     size_t dashes = strspn(word, "-");
     const char *best = NULL;
-    dashes = dashes < size ? dashes : size;
-    size_t rest = size - dashes < NAME_MOST - 1 ? size - dashes : NAME_MOST - 1;
-    memcpy(name, word + dashes, rest);
-    name[rest] = '\0';
+    snprintf(name, sizeof name, "%.*s", (int)(size > dashes ? size - dashes : 0), word + dashes);
     for (const cli_option *option = command->option; option->name; option++) {
         best = cli_nearest(name, best, option->name);
     }
     best = best ? best : "help";
     return cli_usage(command, "unknown option '%.*s'; the nearest is %s%s", (int)size, word,
                      cli_dashes(best), best);
-}
-
-static const cli_option *option_find(const cli_command *command, const char *name, size_t size)
-{
-    for (const cli_option *option = command->option; option->name; option++) {
-        if (strlen(option->name) == size && strncmp(option->name, name, size) == 0) {
-            return option;
-        }
-    }
-    return NULL;
 }
 
 /* Reads the option at word[i]; advances *i if its value is a separate word. A value may begin with
@@ -109,9 +96,12 @@ static int option_read(cli_args *args, int count, char **word, int *i)
     const char *equals = strchr(at, '=');
     size_t size = equals ? (size_t)(equals - at) : strlen(at);
     size_t dashes = strncmp(at, "--", 2) == 0 ? 2 : 1;
-    const cli_option *option =
-        (size == 2) == (dashes == 1) ? option_find(command, at + dashes, size - dashes) : NULL;
-    if (!option) {
+    const cli_option *option = command->option;
+    while (option->name && (strlen(option->name) != size - dashes ||
+                            strncmp(option->name, at + dashes, size - dashes) != 0)) {
+        option++;
+    }
+    if (!option->name || (size == 2) != (dashes == 1)) {
         return unknown_option(command, at, size);
     }
     if (!option->repeats && cli_value(args, option->name)) {
@@ -184,6 +174,13 @@ int cli_number(const cli_args *args, const char *name, double *value)
     return text && lrcs_host_number_read(text, strlen(text), value) != LRCS_OK
                ? cli_expected(args, name, "a finite number")
                : 0;
+}
+
+int cli_positive(const cli_args *args, const char *name, const char *what, double *value)
+{
+    int code = cli_number(args, name, value);
+    return code == 0 && cli_value(args, name) && !(*value > 0.0) ? cli_expected(args, name, what)
+                                                                 : code;
 }
 
 int cli_whole(const cli_args *args, const char *name, double least, double most, uint32_t *value)

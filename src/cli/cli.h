@@ -119,6 +119,9 @@ const char *cli_value(const cli_args *args, const char *name);
 /* Reads an option's number, which is unchanged if the option was not given. 0 or CLI_USAGE. */
 int cli_number(const cli_args *args, const char *name, double *value);
 
+/* The same for a number > 0; `what` says so in a message: "a time > 0". */
+int cli_positive(const cli_args *args, const char *name, const char *what, double *value);
+
 /* The same for a whole number from `least` to `most`. */
 int cli_whole(const cli_args *args, const char *name, double least, double most, uint32_t *value);
 
@@ -200,6 +203,13 @@ void cli_scene_options_free(lrcs_host_options *options);
    matches nothing is a usage error. */
 int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene);
 
+/* A unit of length (lrcs_host_input.unit_m) in words: "mm", .., metres per unit, "m assumed", or
+   NULL for none. The unit of the scene's own coordinates: the one given for a model file, NULL if
+   none was; "m" for scene files and demo. */
+#define CLI_UNIT_TEXT 32
+const char *cli_unit_text(double unit_m, char text[CLI_UNIT_TEXT]);
+const char *cli_scene_unit(const cli_args *args, const lrcs_host_scene *scene);
+
 /* lrcs_host_scene_prepare; lrcs_host_scene_run. 0, or CLI_FAILED with the message printed. */
 int cli_scene_prepare(lrcs_host_scene *scene);
 int cli_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
@@ -223,9 +233,10 @@ void cli_table_head(FILE *out, const cli_args *args, const char *title,
 /* Writes `before` as it is, and a text with its control characters as '?': it stays one line. */
 void cli_line_put(FILE *out, const char *before, const char *text);
 
-/* A file as such lines name it: its last name and the hash of its bytes. */
-#define CLI_FILE_TEXT 336
-void cli_file_text(const char *path, uint64_t hash, char text[CLI_FILE_TEXT]);
+/* A file as such lines name it: its last name, the hash of its bytes, and the unit of its lengths.
+ */
+#define CLI_FILE_TEXT 384
+void cli_file_text(const lrcs_host_input *input, char text[CLI_FILE_TEXT]);
 
 /* Such a line read back. The place of the next "; key=" in a line, or NULL; the text of a key, cut
    at the size: 1, or 0 if the key is missing; its number, or NAN. */
@@ -253,7 +264,7 @@ void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
 /* The same for pictures, which do not depend on the command, and the materials; without a scene
    (NULL), the operand as the file. NULL without memory; the caller frees it. */
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene);
-void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json);
+void cli_provenance_json(const cli_args *args, const lrcs_host_scene *host, lrcs_host_json *json);
 void cli_options_json(const cli_args *args, lrcs_host_json *json); /* only the options given */
 void cli_operand_json(const cli_args *args, lrcs_host_json *json); /* the operand as "files" */
 void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json);
@@ -262,6 +273,7 @@ void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json);
    about, the first line that a table would have, may be NULL. 0 or CLI_FAILED. */
 #define CLI_BESIDE ".json"
 #define CLI_ABOUT  "about"
+char *cli_beside_name(const char *path); /* NULL without memory; the caller frees it */
 int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
                           const lrcs_pose *pose, const char *about);
 
@@ -291,6 +303,10 @@ void cli_number_put(FILE *out, const char *before, double value);
 
 /* The same for a text as a field of CSV: in quotes if it contains one of the special characters. */
 void cli_csv_text(FILE *out, const char *before, const char *text, const char *special);
+
+/* Appends to a text, truncated to its size. */
+__attribute__((format(printf, 3, 4))) void cli_append(char *text, size_t size, const char *format,
+                                                      ...);
 
 /* Prints text on stdout, padded with blanks to `width`; control characters are printed as '?'. */
 void cli_column(const char *text, int width);

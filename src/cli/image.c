@@ -70,8 +70,7 @@ typedef struct image_job {
 
 /* ---- options ---- */
 
-/* Reads the files to write, each with one of the endings of its kind. */
-static int files_read(image_job *job)
+static int image_read(image_job *job)
 {
     static const struct {
         const char *ending, *other, *expected;
@@ -80,25 +79,17 @@ static int files_read(image_job *job)
                            {".vtp", ".vtk", "FILE.vtp or FILE.vtk"}};
     const cli_args *args = job->args;
     int given = 0;
-    int wrong = IMAGE_FILES;
-    for (int i = IMAGE_FILES; i-- > 0;) {
+    int code = cli_pose_read(args, &job->pose);
+    for (int i = 0; i < IMAGE_FILES && code == 0; i++) {
         const char *path = job->path[i] = cli_value(args, image_file[i]);
         given += path != NULL;
         if (path && !cli_extension(path, kind[i].ending) && !cli_extension(path, kind[i].other)) {
-            wrong = i;
+            code = cli_expected(args, image_file[i], kind[i].expected);
         }
     }
-    if (given == 0) {
+    if (code == 0 && given == 0) {
         return cli_usage(args->command, "give -o FILE.png, --visible FILE.svg or --vtk FILE.vtp");
     }
-    return wrong < IMAGE_FILES ? cli_expected(args, image_file[wrong], kind[wrong].expected) : 0;
-}
-
-static int image_read(image_job *job)
-{
-    const cli_args *args = job->args;
-    int code = cli_pose_read(args, &job->pose);
-    code = code ? code : files_read(job);
     job->ground_asked = cli_value(args, "ground") != NULL;
     job->colouring = LRCS_HOST_BY_SIGMA;
     job->size = CLI_PICTURE_DEFAULT;

@@ -92,31 +92,17 @@ static int help_print(const cli_command *command)
 
 /* ---- the manual page (man 7 macros) ---- */
 
-/* One line of text, escaped so that roff reads no request and no escape in it. */
-static const char *roff_line(const char *text)
-{
-    if (*text == '.' || *text == '\'') {
-        fputs("\\&", stdout);
-    }
-    for (; *text && *text != '\n'; text++) {
-        if (*text == '\\') {
-            fputs("\\e", stdout);
-        } else if (*text == '-') {
-            fputs("\\-", stdout);
-        } else if (*text == '\'') {
-            fputs("\\(aq", stdout);
-        } else {
-            putchar(*text);
-        }
-    }
-    putchar('\n');
-    return *text ? text + 1 : text;
-}
-
+/* A text, escaped so that roff reads no request and no escape in it. */
 static void roff_as_is(const char *text)
 {
-    while (*text) {
-        text = roff_line(text);
+    for (int begins = 1; *text; text++) {
+        fputs(begins && (*text == '.' || *text == '\'') ? "\\&" : "", stdout);
+        fputs(*text == '\\'   ? "\\e"
+              : *text == '-'  ? "\\-"
+              : *text == '\'' ? "\\(aq"
+                              : (const char[2]){*text, '\0'},
+              stdout);
+        begins = *text == '\n';
     }
 }
 

@@ -149,21 +149,46 @@ static int binding_read(const cli_command *command, const char *text, lrcs_bindi
     return cli_brdf_error_read(command, value, "--material", &binding->brdf, &binding->error);
 }
 
+static const struct {
+    const char *name;
+    double m;
+} units[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}, {"ft", 0.3048}};
+
+#define UNITS (sizeof units / sizeof units[0])
+
+const char *cli_unit_text(double unit_m, char text[CLI_UNIT_TEXT])
+{
+    if (!(unit_m > 0.0)) {
+        return unit_m < 0.0 ? "m assumed" : NULL;
+    }
+    for (size_t i = 0; i < UNITS; i++) {
+        if (unit_m == units[i].m) {
+            return units[i].name;
+        }
+    }
+    snprintf(text, CLI_UNIT_TEXT, "%.17g", unit_m);
+    return text;
+}
+
+const char *cli_scene_unit(const cli_args *args, const lrcs_host_scene *scene)
+{
+    const lrcs_recipe *recipe = &scene->recipe;
+    int model = recipe->part_count == 1 && recipe->part[0].file &&
+                strcmp(recipe->part[0].file, args->operand) == 0;
+    return model ? cli_value(args, "unit") : "m";
+}
+
 int cli_scene_options_read(const cli_args *args, lrcs_host_options *options)
 {
-    static const struct {
-        const char *name;
-        double m;
-    } unit[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}, {"ft", 0.3048}};
     const char *text = cli_value(args, "unit");
     int code = 0;
     *options = lrcs_host_options_default();
     options->keep_transparent = cli_value(args, "keep-transparent") != NULL;
     options->two_sided = cli_value(args, "two-sided");
     int known = text == NULL;
-    for (size_t i = 0; i < sizeof unit / sizeof unit[0] && !known; i++) {
-        known = strcmp(text, unit[i].name) == 0;
-        options->unit_m = known ? unit[i].m : options->unit_m;
+    for (size_t i = 0; i < UNITS && !known; i++) {
+        known = strcmp(text, units[i].name) == 0;
+        options->unit_m = known ? units[i].m : options->unit_m;
     }
     if (!known && (lrcs_host_number_read(text, strlen(text), &options->unit_m) != LRCS_OK ||
                    !(options->unit_m > 0.0))) {
@@ -237,12 +262,8 @@ static uint32_t colours_near(const lrcs_scene *scene, const unsigned char rgb[3]
 /* Appends a name to a list, "a, then b, c". */
 static void list_add(char *list, size_t size, uint32_t index, const char *quote, const char *name)
 {
-    size_t used = strlen(list);
-    snprintf(list + used, size - used, "%s%s%.60s%s",
-             index > 1   ? ", "
-             : index > 0 ? ", then "
-                         : "",
-             quote, name, quote);
+    static const char *const before[] = {"", ", then ", ", "};
+    cli_append(list, size, "%s%s%.60s%s", before[index < 2 ? index : 2], quote, name, quote);
 }
 
 /* Reports a --material that matches no facet: the message lists the names or colours most like

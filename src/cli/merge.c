@@ -99,22 +99,18 @@ static int merge_next(void *context, sweep_row *row)
     return 0;
 }
 
-/* Writes bytes to the output and adds them to its checksum. */
-static uint64_t sum_write(FILE *out, const char *bytes, size_t size, uint64_t sum)
-{
-    fwrite(bytes, 1, size, out);
-    return cli_sum_more(sum, bytes, size);
-}
-
+/* Writes the output, and adds up the checksum of its bytes. */
 static void rows_write(FILE *out, merge_rows *rows)
 {
     const sweep_text *head = &rows->shard[0].text;
     sweep_tally tally = {0};
     sweep_row row;
-    uint64_t sum = sum_write(out, head->head, head->head_size, CLI_SUM_BEGIN);
+    uint64_t sum = cli_sum_more(CLI_SUM_BEGIN, head->head, head->head_size);
+    fwrite(head->head, 1, head->head_size, out);
     while (merge_next(rows, &row) == 1) {
         cli_tally_add(&tally, &row);
-        sum = sum_write(out, rows->line, rows->size, sum);
+        fwrite(rows->line, 1, rows->size, out);
+        sum = cli_sum_more(sum, rows->line, rows->size);
     }
     if (head->has_mean) {
         char mean[256] = "";
@@ -123,7 +119,8 @@ static void rows_write(FILE *out, merge_rows *rows)
             cli_rows_mean(text, head->format, &tally);
             fclose(text);
         }
-        sum = sum_write(out, mean, strlen(mean), sum);
+        fputs(mean, out);
+        sum = cli_sum_more(sum, mean, strlen(mean));
     }
     cli_rows_sum(out, head->format, sum);
 }

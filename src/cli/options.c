@@ -10,78 +10,63 @@
 
 /* ---- the pose ---- */
 
-static int pose_direction(const cli_args *args, const char *text, lrcs_pose *pose)
-{
-    double v[3];
-    if (cli_list(text, v, 3) != 0) {
-        return cli_expected(args, "direction", "x,y,z (to the laser, body frame)");
-    }
-    return lrcs_pose_from_direction(v, pose) == LRCS_OK
-               ? 0
-               : cli_expected(args, "direction", "a vector that is not zero");
-}
+/* The options that give a pose: how many numbers they have, what a message expects of their form,
+   and of numbers of that form. */
+enum { POSE_DIRECTION, POSE_AZEL, POSE_EULER, POSE_QUATERNION, POSE_WAYS };
+static const struct {
+    const char *name;
+    int numbers;
+    const char *form, *value;
+} pose_way[POSE_WAYS] = {
+    {"direction", 3, "x,y,z (to the laser, body frame)", "a vector that is not zero"},
+    {"azel", 2, "AZ,EL in degrees", "AZ,EL in degrees"},
+    {"euler", 3, "SEQ:a,b,c with SEQ three letters and a, b, c in degrees (XYZ:10,20,30)", NULL},
+    {"quaternion", 4, "w,x,y,z (body to observation)", "one that is not zero"}};
 
-static int pose_azel(const cli_args *args, const char *text, lrcs_pose *pose)
+static int pose_make(const cli_args *args, int way, const char *text, lrcs_pose *pose)
 {
-    double v[2];
-    return cli_list(text, v, 2) == 0 && lrcs_pose_from_azel(v[0], v[1], pose) == LRCS_OK
-               ? 0
-               : cli_expected(args, "azel", "AZ,EL in degrees");
-}
-
-static int pose_euler(const cli_args *args, const char *text, lrcs_pose *pose)
-{
-    const char *colon = strchr(text, ':');
+    double v[4];
     char sequence[4] = "";
-    double v[3];
-    if (!colon || colon - text != 3 || cli_list(colon + 1, v, 3) != 0) {
-        return cli_expected(args, "euler",
-                            "SEQ:a,b,c with SEQ three letters and a, b, c in degrees "
-                            "(XYZ:10,20,30)");
+    const char *numbers = text;
+    if (way == POSE_EULER) {
+        const char *colon = strchr(text, ':');
+        int three = colon && colon - text == 3;
+        memcpy(sequence, three ? text : "", three ? 3 : 0);
+        numbers = three ? colon + 1 : "";
     }
-    memcpy(sequence, text, 3);
-    int status = lrcs_pose_from_euler(sequence, v, pose);
-    if (status == LRCS_E_NAME) {
+    if (cli_list(numbers, v, pose_way[way].numbers) != 0) {
+        return cli_expected(args, pose_way[way].name, pose_way[way].form);
+    }
+    int status = way == POSE_DIRECTION ? lrcs_pose_from_direction(v, pose)
+                 : way == POSE_AZEL    ? lrcs_pose_from_azel(v[0], v[1], pose)
+                 : way == POSE_EULER   ? lrcs_pose_from_euler(sequence, v, pose)
+                                       : lrcs_pose_from_quaternion(v, pose);
+    if (way == POSE_EULER && status == LRCS_E_NAME) {
         return cli_usage(args->command,
                          "--euler: expected three of XYZ (intrinsic) or of xyz (extrinsic), "
                          "neighbours different, found '%s'",
                          sequence);
     }
-    return status == LRCS_OK ? 0
-                             : cli_usage(args->command, "--euler: %s", lrcs_status_text(status));
-}
-
-static int pose_quaternion(const cli_args *args, const char *text, lrcs_pose *pose)
-{
-    double v[4];
-    if (cli_list(text, v, 4) != 0) {
-        return cli_expected(args, "quaternion", "w,x,y,z (body to observation)");
+    if (way == POSE_EULER && status != LRCS_OK) {
+        return cli_usage(args->command, "--euler: %s", lrcs_status_text(status));
     }
-    return lrcs_pose_from_quaternion(v, pose) == LRCS_OK
-               ? 0
-               : cli_expected(args, "quaternion", "one that is not zero");
+    return status == LRCS_OK ? 0 : cli_expected(args, pose_way[way].name, pose_way[way].value);
 }
 
 int cli_pose_read(const cli_args *args, lrcs_pose *pose)
 {
-    static const struct {
-        const char *name;
-        int (*read)(const cli_args *args, const char *text, lrcs_pose *pose);
-    } way[] = {{"direction", pose_direction},
-               {"azel", pose_azel},
-               {"euler", pose_euler},
-               {"quaternion", pose_quaternion}};
     const char *first = NULL;
     int code = 0;
     *pose = lrcs_pose_default();
-    for (size_t i = 0; i < sizeof way / sizeof way[0] && code == 0; i++) {
-        const char *text = cli_value(args, way[i].name);
+    for (int way = 0; way < POSE_WAYS && code == 0; way++) {
+        const char *name = pose_way[way].name;
+        const char *text = cli_value(args, name);
         if (text && first) {
             return cli_usage(args->command, "--%s and --%s both give the pose: give one", first,
-                             way[i].name);
+                             name);
         }
-        first = text ? way[i].name : first;
-        code = text ? way[i].read(args, text, pose) : 0;
+        first = text ? name : first;
+        code = text ? pose_make(args, way, text, pose) : 0;
     }
     return code;
 }
@@ -100,10 +85,7 @@ void cli_pose_unit(const lrcs_pose *pose, double s_hat[3])
 int cli_accuracy_read(const cli_args *args, lrcs_run_options *options)
 {
     *options = lrcs_run_options_default();
-    int code = cli_number(args, "tolerance", &options->tolerance);
-    if (code == 0 && !(options->tolerance > 0.0)) {
-        return cli_expected(args, "tolerance", "a relative error > 0");
-    }
+    int code = cli_positive(args, "tolerance", "a relative error > 0", &options->tolerance);
     code =
         code ? code : cli_choice(args, "method", "auto, facet, zbuffer or exact", &options->method);
     code = code ? code : cli_choice(args, "accept", "bound, estimate or any", &options->accept);

@@ -55,6 +55,15 @@ void cli_csv_text(FILE *out, const char *before, const char *text, const char *s
     fputs(quote, out);
 }
 
+void cli_append(char *text, size_t size, const char *format, ...)
+{
+    size_t used = strlen(text);
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text + used, size - used, format, list);
+    va_end(list);
+}
+
 /* The width is counted in code points: every byte except the continuation bytes of UTF-8. */
 void cli_column_to(FILE *out, const char *text, int width)
 {

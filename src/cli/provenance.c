@@ -96,10 +96,18 @@ void cli_line_put(FILE *out, const char *before, const char *text)
     }
 }
 
-void cli_file_text(const char *path, uint64_t hash, char text[CLI_FILE_TEXT])
+void cli_file_text(const lrcs_host_input *input, char text[CLI_FILE_TEXT])
 {
-    snprintf(text, CLI_FILE_TEXT, "%.300s fnv1a:%016llx", cli_base_name(path),
-             (unsigned long long)hash);
+    char words[CLI_UNIT_TEXT];
+    const char *unit = cli_unit_text(input->unit_m, words);
+    snprintf(text, CLI_FILE_TEXT, "%.300s fnv1a:%016llx%s%s", cli_base_name(input->path),
+             (unsigned long long)input->hash, unit ? " unit=" : "", unit ? unit : "");
+}
+
+/* The operand as a file that holds no lengths. */
+static lrcs_host_input operand_input(const cli_args *args)
+{
+    return (lrcs_host_input){.path = args->operand, .hash = file_hash(args->operand)};
 }
 
 /* "; key=text" for the scene, or if that is NULL for the operand as a file; options; files. */
@@ -122,11 +130,12 @@ static void source_put(FILE *out, const cli_args *args, const char *title,
         }
     }
     if (!scene) {
-        cli_file_text(args->operand, file_hash(args->operand), text);
+        const lrcs_host_input input = operand_input(args);
+        cli_file_text(&input, text);
         cli_line_put(out, "; file=", text);
     }
     for (const lrcs_host_input *input = scene ? scene->input : NULL; input; input = input->next) {
-        cli_file_text(input->path, input->hash, text);
+        cli_file_text(input, text);
         cli_line_put(out, "; file=", text);
     }
 }
@@ -153,28 +162,36 @@ void cli_hash_json(uint64_t hash, lrcs_host_json *json)
     lrcs_host_json_text(json, "scene_hash", text);
 }
 
-/* A file as an item of an open array (key NULL) or as a member. */
-static void file_json(const char *key, const char *name, uint64_t hash, lrcs_host_json *json)
+/* The members of a file, which an object is open for. */
+static void file_json(const char *name, uint64_t hash, lrcs_host_json *json)
 {
     char text[32];
     snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)hash);
-    lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
-    cli_json(json, "name=%s hash=%s}", name, text);
+    cli_json(json, "name=%s hash=%s", name, text);
+}
+
+static void input_json(const lrcs_host_input *input, lrcs_host_json *json)
+{
+    char words[CLI_UNIT_TEXT];
+    lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
+    file_json(input->path, input->hash, json);
+    cli_json(json, "unit=%s}", cli_unit_text(input->unit_m, words));
 }
 
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json)
 {
     cli_json(json, "files=[\n");
     for (const lrcs_host_input *input = scene->input; input; input = input->next) {
-        file_json(NULL, input->path, input->hash, json);
+        input_json(input, json);
     }
     cli_json(json, "]");
 }
 
 void cli_operand_json(const cli_args *args, lrcs_host_json *json)
 {
+    const lrcs_host_input input = operand_input(args);
     cli_json(json, "files=[\n");
-    file_json(NULL, args->operand, file_hash(args->operand), json);
+    input_json(&input, json);
     cli_json(json, "]");
 }
 
@@ -199,9 +216,23 @@ void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json)
     }
 }
 
-static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
+void cli_options_json(const cli_args *args, lrcs_host_json *json)
 {
-    cli_json(json, "materials=[\n");
+    char word[1200];
+    cli_json(json, "options=[");
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        snprintf(word, sizeof word, "%s%s%s%s", cli_dashes(given->name), given->name,
+                 given->value ? "=" : "", given->value ? given->value : "");
+        lrcs_host_json_text(json, NULL, word);
+    }
+    cli_json(json, "]");
+}
+
+void cli_provenance_json(const cli_args *args, const lrcs_host_scene *host, lrcs_host_json *json)
+{
+    const lrcs_scene *scene = &host->scene;
+    cli_json(json, "title=%s materials=[\n", cli_scene_title(args, host));
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *material = &scene->material[i];
         uint32_t facets = 0;
@@ -217,25 +248,6 @@ static void materials_json(const lrcs_scene *scene, lrcs_host_json *json)
         }
     }
     cli_json(json, "]");
-}
-
-void cli_options_json(const cli_args *args, lrcs_host_json *json)
-{
-    char word[1200];
-    cli_json(json, "options=[");
-    for (int i = 0; i < args->given_count; i++) {
-        const cli_given *given = &args->given[i];
-        snprintf(word, sizeof word, "%s%s%s%s", cli_dashes(given->name), given->name,
-                 given->value ? "=" : "", given->value ? given->value : "");
-        lrcs_host_json_text(json, NULL, word);
-    }
-    cli_json(json, "]");
-}
-
-void cli_provenance_json(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_json *json)
-{
-    cli_json(json, "title=%s", cli_scene_title(args, scene));
-    materials_json(&scene->scene, json);
     cli_options_json(args, json);
 }
 
@@ -256,14 +268,16 @@ static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
     lrcs_host_json json = lrcs_host_json_make(out);
     cli_json(&json, "{\nlrcs=%s", from->args->command->name);
     cli_version_json(&json);
-    file_json("file", cli_base_name(from->path), file_hash(from->path), &json);
+    lrcs_host_json_begin(&json, "file", LRCS_HOST_ROW_OBJECT);
+    file_json(cli_base_name(from->path), file_hash(from->path), &json);
+    cli_json(&json, "}");
     if (from->about) {
         cli_json(&json, CLI_ABOUT "=%s", from->about);
     }
     if (from->scene) {
         cli_hash_json(lrcs_scene_hash(&from->scene->scene), &json);
         cli_files_json(from->scene, &json);
-        cli_json(&json, "unit=%s", cli_value(from->args, "unit"));
+        cli_json(&json, "unit=%s", cli_scene_unit(from->args, from->scene));
     } else {
         cli_operand_json(from->args, &json);
     }
@@ -279,6 +293,16 @@ static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
     return LRCS_OK;
 }
 
+char *cli_beside_name(const char *path)
+{
+    size_t room = strlen(path) + sizeof CLI_BESIDE;
+    char *name = malloc(room);
+    if (name) {
+        snprintf(name, room, "%s" CLI_BESIDE, path);
+    }
+    return name;
+}
+
 int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
                           const lrcs_pose *pose, const char *about)
 {
@@ -287,13 +311,11 @@ int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_hos
     if (strcmp(path, "-") == 0 || stat(path, &kind) != 0 || !S_ISREG(kind.st_mode)) {
         return 0; /* nothing stands beside standard output or a device */
     }
-    size_t room = strlen(path) + sizeof CLI_BESIDE;
-    char *name = malloc(room);
+    char *name = cli_beside_name(path);
     if (!name) {
         return cli_out_of_memory();
     }
     lrcs_host_error error;
-    snprintf(name, room, "%s" CLI_BESIDE, path);
     int code = scene && lrcs_host_output_check(name, scene, &error) != LRCS_OK
                    ? cli_failed(&error)
                    : cli_output_write(name, beside_write, &from);
@@ -303,14 +325,9 @@ int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_hos
 
 /* ---- in one line ---- */
 
-typedef struct picture_source {
-    const cli_args *args;
-    const lrcs_host_scene *scene; /* NULL: made from the operand alone */
-} picture_source;
-
 static void picture_put(FILE *out, const void *context)
 {
-    const picture_source *from = context;
+    const beside *from = context;
     const lrcs_host_scene *scene = from->scene;
     fprintf(out, "lrcs %s", lrcs_version());
     source_put(out, from->args, scene ? cli_scene_title(from->args, scene) : NULL, scene);
@@ -325,7 +342,7 @@ static void picture_put(FILE *out, const void *context)
 
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
 {
-    const picture_source from = {args, scene};
+    const beside from = {.args = args, .scene = scene};
     return cli_text_of(picture_put, &from);
 }
 

@@ -78,20 +78,6 @@ static int dimension_read(const cli_args *args, const char *name, int wanted, do
     return code == 0 && *value < 0.0 ? cli_expected(args, name, "a number >= 0") : code;
 }
 
-static int size_read(const cli_args *args, const shape_form *form, lrcs_shape *shape)
-{
-    int code = 0;
-    double *size = shape->size;
-    const char *sizes = form->sizes == 2 ? " a,b" : " a,b,c";
-    if (is_given(args, "size", form->sizes, sizes, &code) &&
-        (cli_list(cli_value(args, "size"), size, form->sizes) != 0 || size[0] < 0.0 ||
-         size[1] < 0.0 || size[2] < 0.0)) {
-        return cli_expected(args, "size",
-                            form->sizes == 2 ? "a,b (metres, >= 0)" : "a,b,c (metres, >= 0)");
-    }
-    return code;
-}
-
 /* Reads a cone's height or its half-angle; exactly one must be given. */
 static int cone_read(const cli_args *args, const shape_form *form, lrcs_shape *shape)
 {
@@ -149,7 +135,14 @@ static int shape_read(const cli_args *args, lrcs_shape *shape, lrcs_aspect *aspe
                          best);
     }
     const shape_form *form = &shape_forms[shape->kind];
-    int code = size_read(args, form, shape);
+    const double *size = shape->size;
+    int code = 0;
+    if (is_given(args, "size", form->sizes, form->sizes == 2 ? " a,b" : " a,b,c", &code) &&
+        (cli_list(cli_value(args, "size"), shape->size, form->sizes) != 0 || size[0] < 0.0 ||
+         size[1] < 0.0 || size[2] < 0.0)) {
+        return cli_expected(args, "size",
+                            form->sizes == 2 ? "a,b (metres, >= 0)" : "a,b,c (metres, >= 0)");
+    }
     code = code ? code : dimension_read(args, "radius", form->radius, &shape->radius);
     code = code ? code : dimension_read(args, "radius2", form->radius2, &shape->radius2);
     code = code ? code : cone_read(args, form, shape);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "base/constant.h"
-#include "optics/comb.h"
+#include "optics/ripple.h"
 
 /* Neighbours that turn by less are treated as halves of one flat polygon; those that turn by more
    (60 deg), as faces of a box with a smoothing group. */
@@ -167,9 +167,9 @@ static lrcs_host_glint glint_entry(const lrcs_scene *scene, uint32_t part, uint3
                              material,
                              s,
                              turn,
-                             lrcsi_comb_error(turn, s),
-                             lrcsi_comb_around(s, 1e-2),
-                             lrcsi_comb_around(s, 1e-3)};
+                             lrcsi_ripple_error(turn, s),
+                             lrcsi_ripple_around(s, 1e-2),
+                             lrcsi_ripple_around(s, 1e-3)};
 }
 
 /* One entry per run of facets with equal part and material: the median turn. */
@@ -281,7 +281,9 @@ void lrcs_host_glint_sum_make(const lrcs_scene *scene, const lrcs_facet_record *
             scene->facet_material[i] != scene->facet_material[i - 1]) {
             double s = scene->material[scene->facet_material[i]].brdf.s;
             entry = entry_of(scene, i, list, count);
-            error = !entry ? 0.0 : s == entry->s ? entry->error : lrcsi_comb_error(entry->turn, s);
+            error = !entry          ? 0.0
+                    : s == entry->s ? entry->error
+                                    : lrcsi_ripple_error(entry->turn, s);
         }
         double glint = records[i].sigma_glint_m2;
         if (!entry || !(error > LRCS_HOST_GLINT_COARSE) || !(glint > 0.0)) {

@@ -40,7 +40,7 @@ int lrcsi_host_input_read(lrcs_host_scene *scene, const char *path, lrcs_host_fi
     for (size_t i = 0; i < file->size; i++) {
         hash = lrcsi_fnv_byte(hash, file->bytes[i]);
     }
-    *input = (lrcs_host_input){name, hash, about.st_dev, about.st_ino, scene->input};
+    *input = (lrcs_host_input){name, hash, about.st_dev, about.st_ino, 0.0, scene->input};
     scene->input = input;
     return LRCS_OK;
 }

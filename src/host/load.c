@@ -81,7 +81,7 @@ static int recipe_from_model(lrcs_host_scene *scene, const char *path, double un
     for (int k = 0; k < 3; k++) {
         part->place.scale[k] = unit_m > 0.0 ? unit_m : 1.0;
     }
-    part->unit_given = unit_m > 0.0;
+    part->unit_m = unit_m;
     scene->recipe.part = part;
     scene->recipe.part_count = 1;
     return LRCS_OK;
@@ -181,7 +181,9 @@ static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host
         if (!recipe->part[i].file) {
             continue;
         }
+        const double unit_m = recipe->part[i].unit_m > 0.0 ? recipe->part[i].unit_m : -1.0;
         if (strcmp(recipe->part[i].file, path) == 0) { /* the given model is already in memory */
+            scene->input->unit_m = unit_m;
             status = lrcsi_host_model_read(scene, path, given, &scene->model[i], error);
             continue;
         }
@@ -190,6 +192,7 @@ static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host
         status = name ? lrcsi_host_input_read(scene, name, &file, error)
                       : lrcsi_host_fail_memory(error, 1);
         if (status == LRCS_OK) {
+            scene->input->unit_m = unit_m;
             status = lrcsi_host_model_read(scene, name, &file, &scene->model[i], error);
             lrcs_host_file_free(&file);
         } else if (error && recipe->part[i].line != 0) {
@@ -315,6 +318,7 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
     } else {
         status = lrcsi_host_input_read(scene, path, &file, error);
         if (status == LRCS_OK) {
+            scene->input->unit_m = 1.0; /* of a scene file; a model's own is set where it is read */
             status = recipe_from_file(scene, path, &file, options, error);
         }
     }

@@ -65,7 +65,7 @@ static void unit_note(lrcs_host_scene *host, uint32_t part)
     double size = part_size(&host->scene, &host->scene.part[part]);
     char others[200] = "";
     size_t used = 0;
-    if (!given->file || given->unit_given || !(size > 0.0)) {
+    if (!given->file || given->unit_m > 0.0 || !(size > 0.0)) {
         return;
     }
     if (size >= SIZE_LEAST && size <= SIZE_MOST) {

@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 
+#include "analysis/forecast.h"
 #include "host/refine.h"
 #include "integrate/sigma.h"
 #include "scene/prepare.h"
@@ -246,6 +247,33 @@ int lrcs_host_scene_run_until(const lrcs_host_scene *scene, const lrcs_pose *pos
     }
     lrcsi_host_area_free(&area);
     return run_fail(error, status, "sigma");
+}
+
+typedef struct forecast_step {
+    const lrcs_prepared *prepared;
+    const lrcs_pose *pose;
+    const lrcs_run_options *options;
+    uint32_t count;
+    double *seconds;
+} forecast_step;
+
+static int run_forecast(void *context, lrcs_work *work)
+{
+    forecast_step *step = context;
+    return lrcsi_forecast_run(step->prepared, step->pose, step->options, step->count, work,
+                              step->seconds);
+}
+
+int lrcs_host_scene_forecast(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                             const lrcs_run_options *options, uint32_t count, double *seconds,
+                             lrcs_host_error *error)
+{
+    forecast_step step = {scene->prepared, pose, options, count, seconds};
+    lrcsi_host_area area = {NULL, 0};
+    int status = lrcsi_host_area_run(&area, lrcsi_forecast_need(scene->prepared), run_forecast,
+                                     &step, error);
+    lrcsi_host_area_free(&area);
+    return run_fail(error, status, "forecast");
 }
 
 typedef struct emulate_step {

@@ -10,7 +10,6 @@
 #include "base/elementary.h"
 #include "base/length.h"
 #include "base/range.h"
-#include "visibility/grid.h"
 
 /* Counts are made over all facets if there are no more than this, else over about as many, chosen
    at random. */
@@ -45,15 +44,6 @@
 /* The ratio of the estimate of sampling_error.h, which is on the safe side, to the random error. */
 #define ESTIMATE_SAFETY 4.0
 
-/* Twice the projected area of a facet, from view coordinates. */
-static double area_twice(const lrcsi_view *view, const uint32_t *corner)
-{
-    const double *a = view->point[corner[0]].x;
-    const double *b = view->point[corner[1]].x;
-    const double *c = view->point[corner[2]].x;
-    return fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-}
-
 /* Adds the sides of a facet that are event edges, `times` over. Where back sides cast shadows too,
    a contour edge is a side of two facets, and counts by half for each; irregular edges count as
    event edges. */
@@ -64,7 +54,7 @@ static void count_events(const lrcsi_view *view, uint32_t facet, double times, l
     const uint32_t *corner = p->scene->facet[facet].corner;
     for (int k = 0; k < 3; k++) {
         double events = 0;
-        if (across[k] == p->scene->facet_count || !lrcsi_grid_casts(view, across[k])) {
+        if (across[k] == p->scene->facet_count || !lrcsi_view_casts(view, across[k])) {
             events = times;
         } else if (across[k] == facet || view->facing[across[k]] != view->facing[facet]) {
             events = 0.5 * times;
@@ -91,11 +81,16 @@ lrcsi_cost lrcsi_cost_count(const lrcsi_view *view)
         random = random * 1664525u + 1013904223u;
         uint32_t left = count - first < stride ? count - first : stride;
         uint32_t f = first + (random >> 8) % left;
-        if (lrcsi_grid_casts(view, f)) {
+        if (lrcsi_view_casts(view, f)) {
             cost.casting += left;
             cost.contacts += lrcsi_intersection_of(&p->intersections, f) != 0 ? left : 0;
             count_events(view, f, left, &cost);
-            cost.overdraw += left * area_twice(view, p->scene->facet[f].corner);
+            const uint32_t *corner = p->scene->facet[f].corner;
+            const double *a = view->point[corner[0]].x;
+            const double *b = view->point[corner[1]].x;
+            const double *c = view->point[corner[2]].x;
+            double twice = fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+            cost.overdraw += left * twice; /* the area */
         }
         if (count - first <= stride) {
             break;
@@ -155,7 +150,7 @@ uint64_t lrcsi_cost_steps(double ns)
 
 /* Visible borders of length L, in sides of the window, pass through L N pixels of area 1 / N^2.
    Each of these has a random error of half its area: sqrt(L N) / (2 N^2) in all, of a visible area
-   A. If borders would pass through more pixels than there are, this model says nothing, and a
+   A. If borders would pass through more pixels than there are, this model does not apply, and a
    coarse raster is chosen, whose estimate does. */
 uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t largest)
 {

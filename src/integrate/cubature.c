@@ -21,7 +21,7 @@
    - Where the normals turn by less than a small fraction p of those widths, and of the angle to the
      edge where n . s_hat = 0, the rule alone suffices: its error is of the order of p^6, which then
      is the estimate; p^5 if a linear function of the caller's is integrated as well.
-   Where halvings run out, the upper bound on the cell serves as the estimate. Where cells run out,
+   Where halvings run out, the upper bound on the cell is the estimate. Where cells run out,
    the triangle is done again with a larger tolerance: all of it slightly less accurate is better
    than a part not done. Where steps run out, cells that should be divided are left as they are, and
    what this may cost is a bound and not an estimate. */
@@ -97,13 +97,13 @@ static double node_position_err(const lrcsi_cubature *sum, double u, double d, c
     if (glint_change <= 0.25 && diffuse_change <= 0.25) {
         return 2 * (at->glint * glint_change + at->diffuse * diffuse_change);
     }
-    lrcsi_reflection bound = lrcsi_reflect_most(brdf, atan(sqrt(u)), 2 * d);
+    lrcsi_reflection bound = lrcsi_reflect_bound(brdf, atan(sqrt(u)), 2 * d);
     return (glint_change <= 0.25 ? 2 * at->glint * glint_change : bound.glint) +
            (diffuse_change <= 0.25 ? 2 * at->diffuse * diffuse_change : bound.diffuse);
 }
 
-/* f_r cos at one normal. Rounding: lrcsi_reflect's own, and a square root and a product; tan^2 is
-   good to 6 u, which is at most 2 u in theta and part of the position error. */
+/* f_r cos at one normal. Rounding: lrcsi_reflect's own, and a square root and a product; tan^2 has
+   a relative error of 6 u, which is at most 2 u in theta and part of the position error. */
 static cube_value node_value(const lrcsi_cubature *sum, const double n[3])
 {
     cube_value at = {0, 0, 0, 0, 0, 0};
@@ -257,18 +257,18 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
     int glint_resolved = !(brdf->A > 0) || turn <= width;
     int diffuse_resolved =
         !(brdf->B > 0) || (turn * turn * (brdf->m + 1) <= 1 && turn * steepness <= 4);
-    int serves = glint_resolved && diffuse_resolved;
+    int is_trusted = glint_resolved && diffuse_resolved;
     cell->skipped = 0;
-    if (turn <= TURN_MAX && !serves) {
-        lrcsi_reflection bound = lrcsi_reflect_most(brdf, cell->theta, turn);
+    if (turn <= TURN_MAX && !is_trusted) {
+        lrcsi_reflection bound = lrcsi_reflect_bound(brdf, cell->theta, turn);
         cell->skipped = (glint_resolved ? 0 : bound.glint) + (diffuse_resolved ? 0 : bound.diffuse);
         double sum_so_far =
             lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse) + sum->estimate;
         double scale = lrcsi_most(sum_so_far, sum->diffuse_min * sum->area);
-        serves = cell->skipped <= negligible_below(sum) ||
-                 cell->skipped * sum->area <= sum->tolerance * scale;
+        is_trusted = cell->skipped <= negligible_below(sum) ||
+                     cell->skipped * sum->area <= sum->tolerance * scale;
     }
-    cell->trusted = turn <= TURN_MAX && serves;
+    cell->trusted = turn <= TURN_MAX && is_trusted;
     double p = lrcsi_most(turn * sqrt(brdf->m + 1), 0.25 * turn * (brdf->m + 1) * t);
     p = lrcsi_most(p, brdf->A > 0 && glint_resolved ? turn / width : 0);
     double fifth = p * p * p * p * p;
@@ -458,7 +458,7 @@ static double cube_upper_bound(const lrcsi_cubature *sum, const cube_cell *cell)
 {
     double err = 2 * sum->position_err / cube_shortest(cell);
     double turn = err <= 1 ? cube_turn(cell) + err : LRCS_PI;
-    lrcsi_reflection bound = lrcsi_reflect_most(sum->brdf, cell->theta, turn);
+    lrcsi_reflection bound = lrcsi_reflect_bound(sum->brdf, cell->theta, turn);
     return bound.glint + bound.diffuse;
 }
 
@@ -601,7 +601,7 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     lrcsi_cubature sum = {.brdf = brdf, .tolerance = tolerance, .stack = stack};
     cube_cell cell = cube_of(normal, NULL, 0);
     cube_measure(&cell);
-    sum.upper_bound = lrcsi_reflect_most(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
+    sum.upper_bound = lrcsi_reflect_bound(brdf, cell.theta, cube_turn(&cell) + 0x1p-40);
     double farthest = cell.theta + cube_turn(&cell);
     sum.diffuse_min =
         farthest < LRCS_PI / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(farthest)), brdf->m + 1) : 0;
@@ -616,7 +616,7 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
    an error of position_err, does not. The angle of such a normal to the plane n . s_hat = 0 is at
    highest position_err over its length, which is at lowest that of the shortest corner normal times
    the cosine of the turn. */
-static double dark_position_err(const lrcsi_cubature *sum, const cube_cell *whole)
+static double unlit_position_err(const lrcsi_cubature *sum, const cube_cell *whole)
 {
     double lowest = HUGE_VAL;
     double highest = -HUGE_VAL;
@@ -630,7 +630,7 @@ static double dark_position_err(const lrcsi_cubature *sum, const cube_cell *whol
     double turn = cube_turn(whole);
     double length = turn < LRCS_PI / 2 ? cube_shortest(whole) * cos(turn) : 0;
     double err = 2 * sum->position_err / length;
-    lrcsi_reflection seen = lrcsi_reflect_most(sum->brdf, LRCS_PI / 2, err <= 1 ? err : LRCS_PI);
+    lrcsi_reflection seen = lrcsi_reflect_bound(sum->brdf, LRCS_PI / 2, err <= 1 ? err : LRCS_PI);
     return seen.glint + seen.diffuse;
 }
 
@@ -646,7 +646,7 @@ void lrcsi_cubature_add(lrcsi_cubature *sum, const double normal[3][3], double a
         level[i] = normal[i][2];
     }
     cube_cut(&whole, level, 1, &lit);
-    sum->rounding += area * dark_position_err(sum, &whole);
+    sum->rounding += area * unlit_position_err(sum, &whole);
     if (lit.count < 3) {
         return;
     }

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* The mean of F = f_r cos^2 over the patch of a facet, by Gauss-Legendre rules with a proved
-   remainder. Whether the patch is seen is decided elsewhere (integrate/tessellation.c).
+   remainder. Whether the patch is visible is decided elsewhere (integrate/tessellation.c).
 
    The patch in the shape's frame. The normal at azimuth phi, at an angle alpha from the axis, is
        N = (sin alpha cos phi, sin alpha sin phi, cos alpha).
-   With h half a sector's azimuth, the patch has these areas (mesh/profile.c):
-       straight wall      alpha constant; (rho0 + rho1) / 2 times the slant height, d phi
-       sphere, dome       R^2 sin alpha, d alpha d phi
-       paraboloid         (R / y_rim)^2 sin alpha / cos^4 alpha, d alpha d phi: rho = R y / y_rim at
-                          slope y = tan alpha, and d rho sqrt(1 + y^2) is the element of the
-   meridian Rows are at equal steps of alpha. With g the direction to the laser in that frame, c = g
-   . N and p = |g x N|, F is a function of u = p^2 / c^2 = tan^2 theta: A w^2 exp(-u / s^2) + B
-   w^(-m/2 - 1), w = 1 + u = 1 / c^2.
+   The patch extends over the azimuths of one sector and has these elements of area
+   (mesh/profile.c): straight wall      (rho0 + rho1) / 2 times the slant height, d phi; alpha is
+   constant sphere, dome       R^2 sin alpha, d alpha d phi paraboloid         (R / y_rim)^2 sin
+   alpha / cos^4 alpha, d alpha d phi: at slope y = tan alpha, rho = R y / y_rim, and the element of
+   the meridian is d rho sqrt(1 + y^2) Rows are at equal steps of alpha. With g the direction to the
+   laser in that frame, c = g . N and p = |g x N|, F is a function of u = p^2 / c^2 = tan^2 theta
+   and w = 1 + u = 1 / c^2: F = A w^2 exp(-u / s^2) + B w^(-m/2 - 1).
 
    Remainder. On [-1, 1] let f have a Taylor series about 0 whose radius exceeds r > 1, and |f| <= M
    on the disc of radius r: its coefficients are at most M r^-k. A rule of n points is exact for odd
@@ -19,24 +18,28 @@
    since the error of Gauss's rule is f^(2n)(xi) times a positive number. So its mean of f errs by
        at most M sum over even k >= 2 n of r^-k / (k+1) <= M r^(-2n) / ((2n+1) (1 - r^-2)).
    Of a product of rules in alpha and phi, I - QQ' = (I - Q) I' + Q (I' - Q') errs by at most the
-   sum of the two, M being taken over one complex and one real variable.
+   sum of the two, where M is taken over one complex and one real variable.
 
    M. Turning by a complex angle of size a moves a unit vector by at most e^a - 1, and N is a turn
    about z by phi of a turn by alpha of the axis; the turn about z moves only the part of N across
    z, at most (|sin alpha| + a) e^a. So where |d alpha| <= a, |d phi| <= b, N moves by at most
        kappa = (e^b - 1) (|sin alpha| + a) e^a + e^a - 1        (alpha constant: a = 0),
-   and so do c and the vector g x N; (g x N) . (g x N) = 1 - c^2 holds there too. With c, p, u of
-   the patch's middle and kappa <= c / 2, |w| = |c'|^-2 <= (c - kappa)^-2,                |w|^-1 <=
-   (c + kappa)^2, Re u' >= u - [2 p kappa + kappa^2 + u (2 c kappa + kappa^2)] / (c - kappa)^2,
-   which bounds both terms of F; the weights by |sin alpha'| <= (|sin alpha| + a) e^a and |cos
-   alpha'| >= |cos alpha| - (e^a - 1).
+   and so do c and the vector g x N; (g x N) . (g x N) = 1 - c^2 holds for complex angles too. With
+   c, p, u of the patch's middle and kappa <= c / 2,
+       |w| = |c'|^-2 <= (c - kappa)^-2,
+       |w|^-1 <= (c + kappa)^2,
+       Re u' >= u - [2 p kappa + kappa^2 + u (2 c kappa + kappa^2)] / (c - kappa)^2,
+   which bounds both terms of F. The weights are bounded by
+       |sin alpha'| <= (|sin alpha| + a) e^a,
+       |cos alpha'| >= |cos alpha| - (e^a - 1).
 
-   Rounding. N and g are off by at most TURN_OFF = 64 u together: azimuths and angles below 7 are
-   good to 4 u of that, a sine or cosine to 2 u, axes and direction to a few u. So c and p are off
-   by as much, u by at most du = (2 p TURN_OFF + TURN_OFF^2 + 2 u c TURN_OFF) / c^2 up to 1 %, and
-   with |d log glint / du| <= 2 + 1/s^2 and |d log diffuse / du| <= m/2 + 1 each term by the factor
-   exp of that times du. Areas, weights and sums are good to AREA_OFF relative, a paraboloid's to
-   that over cos alpha.
+   Rounding. N and g together have an error of at most e = PATCH_NORMAL_ERR: azimuths and angles
+   below 7 are accurate to 4 u of that, a sine or cosine to 2 u, axes and direction to a few u. So c
+   and p have the same error, and u has one of at most
+       du = (2 p e + e^2 + 2 u c e) / c^2,
+   up to 1 %. Since |d log glint / du| <= 2 + 1/s^2 and |d log diffuse / du| <= m/2 + 1, each term
+   changes by at most the factor exp of that times du. Areas, weights and sums are accurate to
+   PATCH_AREA_ERR, relative, and a paraboloid's to that divided by cos alpha.
    Called: lrcsi_tessellate_patch, lrcsi_profile_make, lrcsi_reflect. */
 #include "integrate/patch.h"
 
@@ -47,17 +50,17 @@
 #include "mesh/profile.h"
 #include "optics/reflect.h"
 
-#define TURN_OFF (64 * LRCSI_U)
-#define AREA_OFF (512 * LRCSI_U)
-/* What the rule may err by, relative to F in the middle of the patch, if it has enough points. */
-#define REMAINDER_ENOUGH 0x1p-26
-/* The same, of the mean, beyond which the rule is of no use. */
+#define PATCH_NORMAL_ERR (64 * LRCSI_U)
+#define PATCH_AREA_ERR   (512 * LRCSI_U)
+/* The remainder that a rule should have, relative to F in the middle of the patch. */
+#define REMAINDER_TARGET 0x1p-26
+/* The largest remainder, relative to the mean, with which the mean is used. */
 #define REMAINDER_MOST 0x1p-10
-/* The most pieces of a patch, in each variable. */
+/* The largest number of pieces into which a patch is divided in each variable. */
 #define PIECES_MOST 4
-/* The most points of a rule. */
+/* The largest number of points of a rule. */
 #define POINTS_MOST 8
-/* Below this slope of the glint, a double is too coarse for its flank. */
+/* With a smaller slope s the flank of the glint is too steep for the rounding error of u. */
 #define GLINT_SLOPE_LEAST 1e-3
 
 /* Rules for the mean over [-1, 1]: the points >= 0 of those with 2, 3, 4, 6 and 8 points, and their
@@ -86,19 +89,19 @@ static const gauss_rule rules[] = {
       0.050614268145188129576}}};
 #define RULES ((int)(sizeof rules / sizeof *rules))
 
-/* Radii r at which M is tried. */
+/* The radii r for which M is computed; the smallest remainder is used. */
 static const double radii[] = {1.5, 2.5, 4.0, 7.0, 12.0};
 #define RADII ((int)(sizeof radii / sizeof *radii))
 
-/* A patch in the shape's frame, and the laser. */
+/* A patch and the direction to the laser in the shape's frame. */
 typedef struct patch_frame {
     double g[3];         /* the direction to the laser, from the side that is lit */
     double alpha, step;  /* of the middle, and half the width; step 0: straight wall */
     double phi, half;    /* the same of the azimuth */
     double sine, cosine; /* of alpha */
-    double c, p, u;      /* in the middle */
+    double c, p, u;      /* in the middle of the patch */
     int fourth;          /* the weight has cos^-4 alpha */
-    double area;         /* of the patch, where the weight is 1, over that of its facets */
+    double area;         /* of the patch, for a weight of 1, divided by that of its facets */
 } patch_frame;
 
 int lrcsi_patch_exists(const lrcs_prepared *p, uint32_t facet)
@@ -123,7 +126,7 @@ static double patch_tan2(const patch_frame *f, double sine, double cosine, doubl
     return square / (*c * *c);
 }
 
-/* The frame of patch->at. Returns 0 if rounding left one of its facets without area. */
+/* The frame of patch->at. Returns 0 if rounding left its facets without area. */
 static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lrcsi_patch *patch)
 {
     const lrcs_prepared *prepared = view->prepared;
@@ -161,24 +164,24 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lr
     f->cosine = at->mirrored ? -f->cosine : f->cosine;
     f->area /= facets;
     f->u = patch_tan2(f, f->sine, f->cosine, f->phi, &f->c, &f->p);
-    patch->blur = 2 * (lrcsi_profile_blur(&profile, at->row) + part->tilted);
+    patch->area_err = 2 * (lrcsi_profile_rounding(&profile, at->row) + part->tilted);
     return isfinite(f->area) && (!f->fourth || profile.step > 0);
 }
 
 /* --- the remainder ---------------------------------------------------------------------------- */
 
-/* kappa, from a and the exponentials of a and b. */
-static double normal_moved(const patch_frame *f, double a, double exp_a, double exp_b)
+/* kappa, from a and the exponentials of a and b; the error of the normal is added. */
+static double normal_shift(const patch_frame *f, double a, double exp_a, double exp_b)
 {
-    return (exp_b - 1) * (f->sine + a) * exp_a + (exp_a - 1) + TURN_OFF;
+    return (exp_b - 1) * (f->sine + a) * exp_a + (exp_a - 1) + PATCH_NORMAL_ERR;
 }
 
-/* M, weights included; infinite if the laser may see a point of that neighbourhood edge-on. With
-   x = c + kappa, x^(m+2) <= x^2 exp(m (x - 1)), or x^2 if x <= 1. */
-static double patch_most(const patch_frame *f, const lrcs_brdf *brdf, double a, double exp_a,
-                         double exp_b)
+/* M, with the weights; infinite if the surface may be edge-on to the laser somewhere in the
+   neighbourhood. With x = c + kappa, x^(m+2) <= x^2 exp(m (x - 1)), or x^2 if x <= 1. */
+static double integrand_bound(const patch_frame *f, const lrcs_brdf *brdf, double a, double exp_a,
+                              double exp_b)
 {
-    double kappa = normal_moved(f, a, exp_a, exp_b);
+    double kappa = normal_shift(f, a, exp_a, exp_b);
     double near = f->c - kappa;
     double far = f->c + kappa;
     double most = 0;
@@ -186,9 +189,10 @@ static double patch_most(const patch_frame *f, const lrcs_brdf *brdf, double a, 
         return HUGE_VAL;
     }
     if (brdf->A > 0) {
-        double less =
+        double decrease =
             (2 * f->p * kappa + kappa * kappa + f->u * kappa * (2 * f->c + kappa)) / (near * near);
-        double exponent = (less - f->u + 16 * LRCSI_U * (less + f->u)) / (brdf->s * brdf->s);
+        double exponent =
+            (decrease - f->u + 16 * LRCSI_U * (decrease + f->u)) / (brdf->s * brdf->s);
         most += brdf->A * lrcsi_exp(exponent) / (near * near * near * near);
     }
     if (brdf->B > 0) {
@@ -201,8 +205,8 @@ static double patch_most(const patch_frame *f, const lrcs_brdf *brdf, double a, 
     return 1.000001 * most;
 }
 
-/* The rule in one variable that is enough, or the one with the most points; *error is its
-   remainder. */
+/* The rule in one variable with the fewest points whose remainder is at most `enough`, or the one
+   with the most points; *error is its remainder. along: 1 for alpha, 0 for phi. */
 static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf, int along,
                                      double enough, double *error)
 {
@@ -214,8 +218,8 @@ static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf
     for (int i = RADII - 1; i >= 0 && !(best[0] <= enough); i--) {
         double r = radii[i];
         double wide = lrcsi_exp(r * (along ? f->step : f->half));
-        double most = along ? patch_most(f, brdf, r * f->step, wide, other)
-                            : patch_most(f, brdf, f->step, other, wide);
+        double most = along ? integrand_bound(f, brdf, r * f->step, wide, other)
+                            : integrand_bound(f, brdf, f->step, other, wide);
         double q = 1 / (r * r);
         for (int n = 0, k = 0; n < RULES && most < HUGE_VAL; n++) {
             for (; k < rules[n].points; k++) {
@@ -234,7 +238,7 @@ static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf
 
 /* --- the mean --------------------------------------------------------------------------------- */
 
-/* Adds F at one normal. Returns 0 if rounding says too much about it. */
+/* Adds F at one normal. Returns 0 if its rounding error is too large. */
 static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double alpha, double phi,
                            double weight, lrcsi_patch *patch)
 {
@@ -248,10 +252,13 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double a
         weight *= f->fourth ? sine / (cosine * cosine * cosine * cosine) : sine;
     }
     double u = patch_tan2(f, sine, cosine, phi, &c, &p);
-    double du = 1.01 * (2 * p * TURN_OFF + TURN_OFF * TURN_OFF + 2 * u * c * TURN_OFF) / (c * c);
-    double glint_off = brdf->A > 0 ? du * (2 + 1 / (brdf->s * brdf->s)) : 0;
-    double diffuse_off = du * (0.5 * brdf->m + 1);
-    if (!(glint_off <= 1 && diffuse_off <= 1)) {
+    double du = 1.01 *
+                (2 * p * PATCH_NORMAL_ERR + PATCH_NORMAL_ERR * PATCH_NORMAL_ERR +
+                 2 * u * c * PATCH_NORMAL_ERR) /
+                (c * c);
+    double glint_err = brdf->A > 0 ? du * (2 + 1 / (brdf->s * brdf->s)) : 0;
+    double diffuse_err = du * (0.5 * brdf->m + 1);
+    if (!(glint_err <= 1 && diffuse_err <= 1)) {
         return 0;
     }
     lrcsi_reflection at = lrcsi_reflect(brdf, u, 0);
@@ -259,20 +266,20 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double a
     patch->diffuse += weight * at.diffuse;
     patch->glint_u += weight * at.glint * u;
     patch->diffuse_log += weight * at.diffuse * log1p(u);
-    patch->rounding += weight * (at.error + at.glint * (glint_off + glint_off * glint_off) +
-                                 at.diffuse * (diffuse_off + diffuse_off * diffuse_off));
+    patch->rounding += weight * (at.error + at.glint * (glint_err + glint_err * glint_err) +
+                                 at.diffuse * (diffuse_err + diffuse_err * diffuse_err));
     return 1;
 }
 
-/* The sum over the points of both rules, times `share`. */
+/* Adds the sum over the points of both rules, times `fraction`. Returns 0 as patch_add_point. */
 static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf, const gauss_rule *along,
-                            const gauss_rule *around, double share, lrcsi_patch *patch)
+                            const gauss_rule *around, double fraction, lrcsi_patch *patch)
 {
     int known = 1;
     int rows = f->step > 0 ? 2 * along->half : 1;
     for (int i = 0; i < rows && known; i++) {
         double x = i % 2 ? -along->x[i / 2] : along->x[i / 2];
-        double weight = f->step > 0 ? share * along->weight[i / 2] : share;
+        double weight = f->step > 0 ? fraction * along->weight[i / 2] : fraction;
         if (i % 2 && f->step > 0 && x == 0) {
             continue;
         }
@@ -288,7 +295,7 @@ static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf, const g
     return known;
 }
 
-/* Piece (i, k) of n x n: with half the width of the patch over n in either variable. */
+/* Piece (i, k) of n x n equal ones in alpha and phi. */
 static patch_frame frame_piece(const patch_frame *whole, int n, int i, int k)
 {
     patch_frame f = *whole;
@@ -304,11 +311,12 @@ static patch_frame frame_piece(const patch_frame *whole, int n, int i, int k)
     return f;
 }
 
-/* Adds one piece, `share` of the patch in those variables. Returns 0 if the laser may see some of
-   it edge-on, or if rounding says too much about it. */
-static int patch_add(const patch_frame *f, const lrcs_brdf *brdf, double share, lrcsi_patch *patch)
+/* Adds one piece, which is `fraction` of the patch in these variables. Returns 0 if some of it may
+   be edge-on to the laser, or if its rounding error is too large. */
+static int patch_add(const patch_frame *f, const lrcs_brdf *brdf, double fraction,
+                     lrcsi_patch *patch)
 {
-    if (!(normal_moved(f, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half)) < 0.25 * f->c)) {
+    if (!(normal_shift(f, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half)) < 0.25 * f->c)) {
         return 0;
     }
     double along_error = 0;
@@ -316,16 +324,16 @@ static int patch_add(const patch_frame *f, const lrcs_brdf *brdf, double share, 
     lrcsi_reflection middle = lrcsi_reflect(brdf, f->u, 0);
     double cosine4 = f->cosine * f->cosine * f->cosine * f->cosine;
     double weight = f->step > 0 ? f->sine / (f->fourth ? cosine4 : 1) : 1;
-    double enough = REMAINDER_ENOUGH * weight * (middle.glint + middle.diffuse);
+    double enough = REMAINDER_TARGET * weight * (middle.glint + middle.diffuse);
     const gauss_rule *around = rule_choose(f, brdf, 0, enough, &around_error);
     const gauss_rule *along =
         f->step > 0 ? rule_choose(f, brdf, 1, enough, &along_error) : &rules[0];
-    patch->remainder += share * (along_error + around_error);
-    return patch_add_points(f, brdf, along, around, share, patch);
+    patch->remainder += fraction * (along_error + around_error);
+    return patch_add_points(f, brdf, along, around, fraction, patch);
 }
 
-/* The mean over the patch that patch->at names: in one piece, or in 4 or 16, if more are needed for
-   the remainder. */
+/* The mean over the patch that patch->at identifies: in one piece or, if its remainder is too
+   large, in 4 or 16. */
 static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32_t facet,
                            lrcsi_patch *patch)
 {
@@ -345,13 +353,13 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
             known = patch_add(&piece, brdf, 1.0 / (rows * n), patch);
         }
         enough =
-            known && patch->remainder <= 4 * REMAINDER_ENOUGH * (patch->glint + patch->diffuse);
+            known && patch->remainder <= 4 * REMAINDER_TARGET * (patch->glint + patch->diffuse);
     }
     if (!known) {
         return 0;
     }
-    double off = f.fourth ? AREA_OFF / (fabs(f.cosine) - f.step) : AREA_OFF;
-    patch->rounding += off * (patch->glint + patch->diffuse);
+    double area_err = f.fourth ? PATCH_AREA_ERR / (fabs(f.cosine) - f.step) : PATCH_AREA_ERR;
+    patch->rounding += area_err * (patch->glint + patch->diffuse);
     patch->glint *= f.area;
     patch->diffuse *= f.area;
     patch->glint_u *= f.area;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Eq. 2 over the true surface that a facet of a shape's curved wall stands for: its patch. */
+/* Eq. 2 over the patch of a facet on a shape's curved wall: the part of the true surface that the
+   facet represents. */
 #ifndef LRCSI_PATCH_H
 #define LRCSI_PATCH_H
 
@@ -13,20 +14,20 @@ typedef struct lrcsi_patch {
     double diffuse_log;  /* the mean of log(1 + u) times the diffuse part */
     double remainder;    /* a bound on the error of glint + diffuse from the quadrature rule */
     double rounding;     /* a bound on their rounding error */
-    double blur;         /* rounding of the facets' corners changes a share of their area by at most
-                            this, relative */
-    lrcsi_wall_patch at; /* where it is, */
-    uint32_t part;       /* on which part, */
+    double area_err;     /* bound on the relative change of the area of a part of the facets by
+                            rounding of their corners */
+    lrcsi_wall_patch at; /* where it is on the shape */
+    uint32_t part;       /* the shape */
     int side;            /* 1: from outside, -1: from inside; 0: this is no patch yet */
     int known;           /* lrcsi_patch_make returned 1 */
 } lrcsi_patch;
 
-/* 1 if a facet may stand for a patch: one of the curved wall of a shape placed without distortion.
+/* 1 if a facet may represent a patch: one of the curved wall of a shape placed without distortion.
  */
 int lrcsi_patch_exists(const lrcs_prepared *prepared, uint32_t facet);
 
 /* Given: a facet that is not skipped; the BRDF; what `patch` holds from the last call with the same
-   BRDF, which serves again for the other facet of the same patch, or side = 0.
+   BRDF, which is used again for the other facet of the same patch, or side = 0.
    Returned: 1 and the patch; or 0: the plan asks for facets, the facet has no patch, the laser may
    see the patch edge-on or from its other side in part, or it is too large for the rules. */
 int lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcs_brdf *brdf,

@@ -31,7 +31,7 @@ typedef struct lrcsi_plan {
     int no_back_hidden; /* no facet hides a back side that could be visible */
     int proximity_band; /* what curved shapes may hide or show beyond their facets is bounded by a
                            proximity band (visibility/proximity_band.h) */
-    int patches;        /* facets of curved walls stand for the true surface (integrate/patch.h) */
+    int patches;        /* facets of curved walls represent the true surface (integrate/patch.h) */
     int glint, diffuse; /* lrcsi_term */
 } lrcsi_plan;
 

@@ -2,12 +2,12 @@
 /* sigma over range. What is visible is decided in visibility/occlude.c, and what a facet reflects
    in integrate/total.c; this file decides how the visible projected area of a facet divides among
    bins of range, and bounds the error of that. The stages of profile_sum:
-   1. the view (lrcsi_plan_view, lrcsi_view_project) and the bins (bins_number);
+   1. the view (lrcsi_view_face, lrcsi_view_project) and the bins (bins_number);
    2. the classification (lrcsi_classify_make), and the proximity band where curved shapes need one;
    3. each facet that reflects (facet_add_profile): its sigma per area (lrcsi_facet_terms_make, or
       lrcsi_curve_integral_make for curved normals), the bins of its corners (facet_ranges), and its
       visible pieces (lrcsi_occlude_open, _next, _close), triangle by triangle (triangle_add);
-   4. the error of facets in place of curved shapes (tessellation_charge).
+   4. the error of facets in place of curved shapes (tessellation_add_error).
 
    Let s be a facet's sigma per visible projected area, which is constant on a flat facet, and P one
    of the triangles of a fan over its visible pieces. The computed range z~ is linear over P, from
@@ -17,18 +17,19 @@
 
    Error of a bin: the sum of the following parts, each times the largest s except (1).
      (1) The error of s: lrcsi_facet_terms.
-     (2) Let D be the area by which the pieces differ from what is visible. It may lie anywhere on
-   the facet, so that all of it is charged to every bin that the facet reaches into.
+     (2) Let D be the area by which the pieces differ from the visible region. It may lie anywhere
+   on the facet, so that all of it is added to the error of every bin that the facet reaches into.
      (3) The true range z of a point differs from z~ by at most e, so that the true and the computed
    part of P in a bin differ only where z~ is within e of an edge of the bin. That part of P has at
    most the fraction 4 e / (z2 - z0) of its area, where z0 and z2 are the smallest and the largest
    range of P: the density nowhere exceeds 2 / (z2 - z0) times the area, and the part is 2 e wide.
-   It is charged to the bins on both sides of the edge.
+   It is added to the error of the bins on both sides of the edge.
      (4) Rounding of the trapezia: some ten operations on terms of one sign, 16 u.
    (3) applies only to edges between bins that the facet reaches into. These bins are found from the
    ranges of its corners in double-double, so that a facet normal to the line of sight is in one
-   bin. (5) Where facets stand for curved shapes, the difference between facets and shapes in a bin.
-   A point of the shape is within its part's reach of its image on the facet:
+   bin.
+     (5) Where facets replace curved shapes, the difference between facets and shapes in a bin. A
+   point of the shape is within its part's reach of its image on the facet:
    lrcsi_tessellation_parts. If both facets of a sector are visible as a whole and lie in one bin,
    reach included, it is the error of the whole patches.
    The sum of all bins has only (1), (2), (4) and the error of the whole patches.
@@ -96,7 +97,7 @@ typedef struct profile_run {
     double bound, additions, range_err, estimate;
     lrcsi_curve_options curve_options; /* its stack is NULL if all normals are flat */
     lrcsi_curve_context curves;
-    lrcsi_visible *visible; /* of every facet; NULL if no facet stands for a curved shape */
+    lrcsi_visible *visible; /* of every facet; NULL if no facet replaces a curved shape */
     lrcsi_proximity_band band_memory;
     const lrcsi_proximity_band *band; /* NULL: none was made */
     lrcsi_patch patch;                /* of the last facet that has one */
@@ -344,17 +345,17 @@ static void part_add_smooth(profile_run *run, const profile_facet *f, const prof
 
 /* Adds part (3) of the error: at each edge within range_err of the triangle, the fraction of its
    area that may lie on the other side. */
-static void edges_charge(profile_run *run, const profile_facet *f, const profile_triangle *t,
-                         double range_err)
+static void edges_add_error(profile_run *run, const profile_facet *f, const profile_triangle *t,
+                            double range_err)
 {
     double extent = t->z[2] - t->z[0];
     double fraction = 4 * range_err < extent ? lrcsi_least(1, 4 * range_err / extent) : 1;
-    double charge = f->upper_bound * t->area * fraction;
+    double error = f->upper_bound * t->area * fraction;
     uint32_t begin = bin_within(run, f, t->z[0] - range_err);
     uint32_t end = bin_within(run, f, t->z[2] + range_err);
     for (uint32_t i = begin + 1; i <= end; i++) {
-        run->bin[i - 1].bound += charge;
-        run->bin[i].bound += charge;
+        run->bin[i - 1].bound += error;
+        run->bin[i].bound += error;
         run->additions++;
     }
     run->range_err = lrcsi_most(run->range_err, lrcsi_least(range_err, f->extent));
@@ -394,7 +395,7 @@ static void triangle_add(profile_run *run, const profile_facet *f, double area,
         part_add(&t, middle, to, centre_of(run, i), &part, &moment);
         bin_add_flat(run, f, i, part, moment);
     }
-    edges_charge(run, f, &t, range_err);
+    edges_add_error(run, f, &t, range_err);
 }
 
 /* --- one facet -------------------------------------------------------------------------------- */
@@ -541,14 +542,6 @@ static double fraction_between(const double corner[3], double from, double to)
     return to < corner[0] || from > corner[2] ? 0 : lrcsi_least(1, fraction);
 }
 
-/* The reach of a facet's part, scaled, plus the error of the ranges of its corners. */
-static double reach_of(const profile_run *run, uint32_t facet, const profile_facet *f)
-{
-    const lrcs_scene *scene = run->prepared->scene;
-    double reach = scene->part[scene->facet_part[facet]].reach;
-    return ldexp(reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) + 8 * LRCSI_U * f->range_max;
-}
-
 /* Adds part (5) of the error for one facet:
    1. the bins that the facet or its partner reaches into, enlarged by the reach;
    2. the error of the whole patches, which is that of the sum of all bins, and of a bin that
@@ -557,7 +550,7 @@ static double reach_of(const profile_run *run, uint32_t facet, const profile_fac
       that may be in the bin on only one of facet and patch; or from the larger of the two values,
       because the difference of two numbers >= 0 is at most the larger one. Weights that depend on
       range may turn that difference into the sum, at most twice the larger one. */
-static void tessellation_charge(profile_run *run, uint32_t facet)
+static void tessellation_add_error(profile_run *run, uint32_t facet)
 {
     profile_facet f;
     profile_facet other;
@@ -566,7 +559,9 @@ static void tessellation_charge(profile_run *run, uint32_t facet)
                                                        run->visible, run->band, &run->patch);
     facet_ranges(run, facet, &f);
     facet_ranges(run, parts.partner, &other);
-    double reach = reach_of(run, facet, &f);
+    const lrcs_part *part = &run->prepared->scene->part[run->prepared->scene->facet_part[facet]];
+    double reach = ldexp(part->reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
+                   8 * LRCSI_U * f.range_max; /* with the error of the ranges of corners */
     profile_triangle t = triangle_of(1, f.range, NULL);
     double low = lrcsi_least(
         t.z[0], lrcsi_least(other.range[0], lrcsi_least(other.range[1], other.range[2])));
@@ -585,8 +580,8 @@ static void tessellation_charge(profile_run *run, uint32_t facet)
         double to = edge_of(run, i + 1);
         double fraction = fraction_between(t.z, from - reach, to + reach);
         double shifted = fraction_between(t.z, from - reach, from + reach) +
-                         fraction_between(t.z, to - reach, to + reach) + parts.share;
-        double general = LRCS_FOUR_PI * (parts.bend * fraction + parts.shift * shifted);
+                         fraction_between(t.z, to - reach, to + reach) + parts.mismatch;
+        double general = LRCS_FOUR_PI * (parts.deviation * fraction + parts.shift * shifted);
         double larger = parts.lit ? LRCS_FOUR_PI * parts.most * fraction : whole;
         general = parts.lit ? general : HUGE_VAL;
         run->bin[i].tessellation_variation += lrcsi_least(general, 2 * larger);
@@ -609,18 +604,12 @@ static double max_reach(const lrcs_prepared *prepared)
     return reach;
 }
 
-/* The largest number of bins of a scene in any pose. */
-static size_t bins_max(const lrcs_prepared *prepared, double bin_m)
-{
-    double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent) +
-                   2 * max_reach(prepared);
-    double bins = depth / bin_m + 4;
-    return bins < LRCS_PROFILE_BINS ? (size_t)bins + 1 : (size_t)LRCS_PROFILE_BINS + 4;
-}
-
 size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
 {
-    size_t bins = bins_max(prepared, bin_m);
+    double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent) +
+                   2 * max_reach(prepared); /* of the scene, in any pose */
+    double most = depth / bin_m + 4;
+    size_t bins = most < LRCS_PROFILE_BINS ? (size_t)most + 1 : (size_t)LRCS_PROFILE_BINS + 4;
     size_t need = lrcsi_work_bytes(bins, sizeof(lrcs_profile_bin));
     need = lrcsi_work_add(need, lrcsi_work_bytes(bins, sizeof(bin_sums)));
     need = lrcsi_work_add(need, lrcsi_view_need(prepared));
@@ -716,7 +705,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     status = status == LRCS_OK ? lrcsi_occlude_make(&classification, NULL, work, &o) : status;
     for (uint32_t facet = 0; facet < p->scene->facet_count && status == LRCS_OK; facet++) {
         if (view->facing[facet] != 0 && lrcsi_view_reflects(view, facet) &&
-            lrcsi_grid_casts(view, facet)) {
+            lrcsi_view_casts(view, facet)) {
             facet_add_profile(run, facet, &o);
         }
     }
@@ -728,7 +717,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     }
     for (uint32_t facet = 0; facet < p->scene->facet_count; facet++) {
         if (!p->skip[facet]) {
-            tessellation_charge(run, facet);
+            tessellation_add_error(run, facet);
         }
     }
     return status;

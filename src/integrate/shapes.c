@@ -18,31 +18,17 @@
 
 #define AXES_ERR 0x1p-95
 
-/* An upper bound of (1 + u)^2 exp(-u / s^2) over u >= 0: its largest value without the factor
-   exp(2 / q - 2), which is at most 1. */
-static double glint_peak_bound(double s)
-{
-    double q = 2 * s * s;
-    return q <= 1 ? 1 : q * q;
-}
-
-/* An upper bound of the surface of a shape. */
-static double shape_surface_bound(const lrcs_shape *shape)
-{
-    double radius = fmax(shape->radius, shape->radius2);
-    return 4 * LRCS_PI * radius * (radius + lrcsi_closed_length(shape));
-}
-
 /* Adds the error that eta causes. */
 static void add_axis_error(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcsi_amount *amount)
 {
     double s = brdf->s;
+    double radius = fmax(shape->radius, shape->radius2);
+    double surface = 4 * LRCS_PI * radius * (radius + lrcsi_closed_length(shape)); /* at most */
     if (amount->value[LRCSI_GLINT] > 0) {
         double flank = 64 * s * (4 + 2 * (1 + 4096 * s * s) / s / s);
         amount->error[LRCSI_GLINT] += 2 * AXES_ERR * flank * amount->value[LRCSI_GLINT];
     }
-    amount->error[LRCSI_DIFFUSE] +=
-        2 * AXES_ERR * (brdf->m + 2) * brdf->B * shape_surface_bound(shape);
+    amount->error[LRCSI_DIFFUSE] += 2 * AXES_ERR * (brdf->m + 2) * brdf->B * surface;
 }
 
 /* The direction to the laser in the shape's frame. */
@@ -57,6 +43,8 @@ static void shape_direction(const lrcsi_view *view, const lrcs_part *placed, lrc
     }
 }
 
+/* The bound on what the slab may hide is the largest value of F times its area: the glint (1 + u)^2
+   exp(-u / s^2) is at most q^2 for q = 2 s^2 > 1, else 1. */
 lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t part, double slab)
 {
@@ -76,7 +64,8 @@ lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_pla
     }
     lrcsi_closed_scale(&sum, unit * unit, 1);
     lrcsi_closed_scale(&sum, LRCS_FOUR_PI, 1);
-    double bound = (brdf.A > 0 ? brdf.A * glint_peak_bound(brdf.s) : 0) + brdf.B;
+    double q = 2 * brdf.s * brdf.s;
+    double bound = (brdf.A > 0 ? brdf.A * (q <= 1 ? 1 : q * q) : 0) + brdf.B;
     return (lrcsi_shape_terms){.glint = sum.value[LRCSI_GLINT],
                                .diffuse = sum.value[LRCSI_DIFFUSE],
                                .rounding = sum.error[LRCSI_GLINT] + sum.error[LRCSI_DIFFUSE],

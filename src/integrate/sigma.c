@@ -44,24 +44,10 @@ int lrcsi_sigma_check(const lrcs_run_options *options, const lrcs_image *image)
 
 /* --- memory ----------------------------------------------------------------------------------- */
 
-/* Bytes for visible areas; under auto, for the method that needs more. With samples, facets with
-   curved normals that are partly visible are clipped as well. */
-static size_t method_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
-{
-    uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
-    size_t raster =
-        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
-    size_t exact = lrcsi_occlude_need(prepared);
-    raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
-    if (options->accept != LRCS_ACCEPT_BOUND) {
-        size_t preview = lrcsi_preview_need(prepared, size);
-        raster = preview > raster ? preview : raster;
-    }
-    return options->method == LRCS_METHOD_EXACT                       ? exact
-           : options->method == LRCS_METHOD_ZBUFFER || raster > exact ? raster
-                                                                      : exact;
-}
-
+/* 1. Results by facet: areas, integrals over curved normals;
+   2. the view, clear shapes, the classification, the proximity band;
+   3. visible areas: by clipping, or by a raster, after which facets with curved normals that are
+      partly visible are clipped as well; under auto, the larger of the two. */
 size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
 {
     size_t facets = prepared->scene->facet_count;
@@ -80,7 +66,18 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
-    return lrcsi_work_add(need, method_need(prepared, options));
+    uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
+    size_t exact = lrcsi_occlude_need(prepared);
+    size_t raster =
+        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
+    raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
+    if (options->accept != LRCS_ACCEPT_BOUND) {
+        size_t preview = lrcsi_preview_need(prepared, size);
+        raster = preview > raster ? preview : raster;
+    }
+    int clips = options->method == LRCS_METHOD_EXACT ||
+                (options->method != LRCS_METHOD_ZBUFFER && exact >= raster);
+    return lrcsi_work_add(need, clips ? exact : raster);
 }
 
 /* Is no search for shadows made? */
@@ -159,7 +156,7 @@ static void run_facet(lrcsi_sigma *run)
         lrcsi_curve_options options = run_curve_options(run, &run->meter);
         for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
             lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-            run->visible[f] = lrcsi_grid_casts(view, f)
+            run->visible[f] = lrcsi_view_casts(view, f)
                                   ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
                                   : (lrcsi_visible){0, 0, 0, 0, 0};
         }
@@ -180,7 +177,8 @@ static int run_has_proofs(const lrcsi_sigma *run)
       was made for fronts all the same, the proved interval is joined with the one found: bodies
       that are convex by construction have no contacts, so that the search alone proves nothing.
    2. Back sides that are proved never to be seen, but were searched for, may show nothing.
-   3. The fronts of clear shapes are visible; this serves what is reported about their facets. */
+   3. The fronts of clear shapes are visible; this is needed only for what is reported about their
+      facets. */
 static void areas_apply_proofs(const lrcsi_sigma *run)
 {
     const lrcsi_view *view = &run->view;

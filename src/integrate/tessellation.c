@@ -1,32 +1,40 @@
 /* SPDX-License-Identifier: MIT */
-/* The tessellation error of one facet under shadowing. It combines how F strays over the facet's
-   patch (optics/deviation.c) with where truth and facets may differ about what is seen
-   (visibility/proximity_band.h), and decides neither.
+/* The tessellation error of one facet under shadowing. It combines the deviation of F = f_r cos^2
+   over the facet's patch (optics/deviation.c) with the fraction of the facet on which the true
+   shapes and the facets may differ in what is visible (visibility/proximity_band.h).
 
-   Let U be the facet's patch and f the facet, of area S, |U| within a S of it; v and w say what is
-   seen of them, off a share b of both alike. Truth T = Int_U F v, the facets' M = F_i Int_f w; F_i
-   is F at the facet's normal or, where that is known, its mean over the patch (patch_deviation).
-     seen all over, b = 0: T - M is the whole patch's deviation; its numbers hold for the two facets
-   of a sector together, so both must be seen; hidden but for a share h: M <= S h F_i and T <= (1 +
-   a) S (b + h) sup F, neither below 0; else |T - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f
-   w|
-                  <= (1 + a) S sup |F - F_i| + F_i S (a + (1 + a) b), and <= (1 + a) S sup F;
-         where neither facet of the sector is hidden or dark, the first term together is at most
-   what (F - F_i) integrates to over any part of both. Patches of facets that face away from the
-   laser may see it in part: T is at most their deviation. Where a scale that differs between axes
-   stretches areas within a patch unevenly, parts of it err by more than the whole: then a is
-   patch_area_error, and the whole's deviation has the whole's. On flat facets a = 0 and F = F_i.
-   A sector of a straight wall (cylinder, cone, frustum) is better known. Its map onto the facets
-   takes rows to rows and stretches area evenly (mesh/profile.c), also after an affine map; F and
-   what such a map adds to the stretch depend on azimuth alone. So over any set of whole rows, a
-   share q of the sector, F - F_i integrates to q times what it does over all of it, and every bound
-   of the whole's deviation and of a part's holds q times over. Rows that meet no band are seen all
-   along or not at all (visibility/proximity_band.h): at most q = 1 of them. Others are a share m of
-   the area, at most twice their share of the height, since a trapezoid's rows are no longer than
-   twice their mean. Together, of a sector none of which is hidden or dark:
-                  <= S (whole + m part + F_i (m a + (1 + a) b)).
-   Without a margin the facets count as seen: what of it may be hidden is then in the visible area's
-   bounds, for truth and facets alike. */
+   Let f be the facet, of area S, and U its patch, of an area within a S of S. Let v and w be 1
+   where a point of U or of f is visible and 0 where it is not; they agree except on a fraction b of
+   both. The truth is T = Int_U F v, and the facets' sum M = F_i Int_f w, where F_i is F at the
+   facet's normal or, where that is known, its mean over the patch (patch_deviation). Bounds on |T -
+   M|:
+   - The facet is visible everywhere, and b = 0: the deviation of the whole patch. Its numbers hold
+     for the two facets of a sector together, so both must be visible.
+   - It is hidden except for a fraction h: M <= S h F_i and T <= (1 + a) S (b + h) sup F, and
+   neither is negative.
+   - Otherwise |T - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f w|
+                       <= (1 + a) S sup |F - F_i| + F_i S (a + (1 + a) b),
+     and |T - M| <= (1 + a) S sup F. Where neither facet of the sector is hidden or unlit, the first
+     term of both together is at most the integral of F - F_i over some region of both patches.
+   - The facet faces away from the laser: its patch may be lit in part, and T is at most the
+     deviation.
+   Where a scale that differs between axes stretches areas within a patch unevenly, regions of it
+   deviate by more than the whole patch: a is then patch_area_error, except in the deviation of the
+   whole patch. On flat facets a = 0 and F = F_i.
+
+   More is known of a sector of a straight wall (cylinder, cone, frustum). Its map onto the facets
+   takes rows to rows and stretches area evenly (mesh/profile.c), also after an affine map; F, and
+   the additional stretch of an affine map, depend on azimuth alone. So over any set of whole rows,
+   a fraction q of the sector, the integral of F - F_i is q times its integral over the sector, and
+   every bound on the deviation of the whole patch, or of a region, holds q times. Rows that meet no
+   proximity band are visible over their whole length or nowhere (visibility/proximity_band.h):
+   these are a fraction q <= 1. The other rows are a fraction m of the area, at most twice their
+   fraction of the height, since no row of a trapezoid is longer than twice the mean. Together, for
+   a sector of which no facet is hidden or unlit: |T - M| <= S (whole + m region + F_i (m a + (1 +
+   a) b)).
+
+   Without a proximity band the facets count as visible: what may be hidden of them is then in the
+   bounds of the visible area, for both the truth and the facets. */
 #include "integrate/tessellation.h"
 
 #include <math.h>
@@ -36,17 +44,18 @@
 #include "optics/reflect.h"
 #include "scene/proximity.h"
 
-/* Of a flat facet: wider than the error of its angle. */
+/* The turn of a flat facet's patch: larger than the error of its angle. */
 #define FLAT_TILT 1e-12
-/* A facet of which no larger share can be seen counts as hidden, and this share is charged. */
-#define HIDDEN_SHARE 0x1p-20
+/* A facet of which at most this fraction can be visible counts as hidden, and the fraction is
+   added to its error. */
+#define HIDDEN_FRACTION 0x1p-20
 
 /* What is known of a facet and its patch. */
 enum patch_state {
-    PATCH_DARK,   /* no side of it that reflects faces the laser */
-    PATCH_SEEN,   /* all of it is seen, in truth too */
-    PATCH_HIDDEN, /* no more of the facet is seen than its visible area's bounds leave open */
-    PATCH_MIXED
+    PATCH_UNLIT,   /* no side of it that reflects faces the laser */
+    PATCH_VISIBLE, /* all of it is visible, on the true surface too */
+    PATCH_HIDDEN,  /* no more of the facet is visible than the bounds of its visible area allow */
+    PATCH_PARTIAL
 };
 
 static const lrcs_part *patch_part(const lrcs_prepared *p, uint32_t facet)
@@ -54,8 +63,8 @@ static const lrcs_part *patch_part(const lrcs_prepared *p, uint32_t facet)
     return &p->scene->part[p->scene->facet_part[facet]];
 }
 
-/* The numbers of a facet's patch: a curved wall's, or those of a disc that placing may have tilted.
- */
+/* The curvature of a facet's patch: that of the curved wall, or of a disc that rounding in placing
+   may have tilted. */
 static lrcs_curvature patch_curvature(const lrcs_prepared *p, uint32_t facet)
 {
     const lrcs_part *part = patch_part(p, facet);
@@ -63,90 +72,92 @@ static lrcs_curvature patch_curvature(const lrcs_prepared *p, uint32_t facet)
     if (p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0) {
         return part->curvature;
     }
-    return part->tilted > 0 ? lrcsi_profile_blurred(&flat, part->tilted) : flat;
+    return part->tilted > 0 ? lrcsi_profile_rounded(&flat, part->tilted) : flat;
 }
 
-/* A curved closed part's inside never faces the laser unhidden, whatever rounding made of it. */
-static int back_reflects(const lrcsi_view *view, uint32_t facet)
+/* Does the back of a facet face the laser and reflect? The inside of a closed curved part is always
+   hidden, even if rounding has turned a facet of it towards the laser. */
+static int back_is_lit(const lrcsi_view *view, uint32_t facet)
 {
     const lrcs_part *part = patch_part(view->prepared, facet);
     return view->facing[facet] < 0 && lrcsi_view_reflects(view, facet) &&
            !(part->reach > 0 && part->solid);
 }
 
-static int patch_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
-                       const lrcsi_proximity_band *margin)
+static int patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                          const lrcsi_proximity_band *band)
 {
-    if (margin && margin->hidden[margin->region[facet]]) {
+    if (band && band->hidden[band->region[facet]]) {
         return PATCH_HIDDEN;
     }
-    if (view->facing[facet] <= 0 && !back_reflects(view, facet)) {
-        return PATCH_DARK;
+    if (view->facing[facet] <= 0 && !back_is_lit(view, facet)) {
+        return PATCH_UNLIT;
     }
-    if (!margin || (margin->share[facet] == 0 && !margin->classification->undecided[facet] &&
-                    visible[facet].low > 0)) {
-        return PATCH_SEEN;
+    if (!band || (band->share[facet] == 0 && !band->classification->undecided[facet] &&
+                  visible[facet].low > 0)) {
+        return PATCH_VISIBLE;
     }
-    return visible[facet].high > HIDDEN_SHARE * lrcsi_view_projected(view, facet) ? PATCH_MIXED
-                                                                                  : PATCH_HIDDEN;
+    return visible[facet].high > HIDDEN_FRACTION * lrcsi_view_projected(view, facet) ? PATCH_PARTIAL
+                                                                                     : PATCH_HIDDEN;
 }
 
-/* The share of a hidden facet that may be seen. */
-static double share_seen(const lrcsi_incidence *incidence, uint32_t facet,
-                         const lrcsi_visible *visible, const lrcsi_proximity_band *margin)
+/* An upper bound of the visible fraction of a facet that counts as hidden. */
+static double fraction_visible(const lrcsi_incidence *incidence, uint32_t facet,
+                               const lrcsi_visible *visible, const lrcsi_proximity_band *band)
 {
-    return !margin || margin->hidden[margin->region[facet]] || !(visible[facet].high > 0)
+    return !band || band->hidden[band->region[facet]] || !(visible[facet].high > 0)
                ? 0
                : fmin(1, visible[facet].high / incidence->projected * (1 + 2 * incidence->error));
 }
 
-/* The state of the other facet of the sector. The two lie side by side in a part's list, which
-   every strip of a wall begins at an even place (mesh/tessellate.c); where a strip ends in an apex,
-   its facets have sectors of their own and a neighbour stands in. */
+/* The state of the other facet of the sector. The two are neighbours in the part's list of facets,
+   in which every strip of a wall begins at an even index (mesh/tessellate.c). In a strip that ends
+   in an apex each facet has a sector of its own, and its neighbour in the list is used instead. */
 static int partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
-                         const lrcsi_proximity_band *margin)
+                         const lrcsi_proximity_band *band)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t first = patch_part(p, facet)->first_facet;
     uint32_t other = first + ((facet - first) ^ 1);
-    return p->skip[other] ? PATCH_HIDDEN : patch_state(view, other, visible, margin);
+    return p->skip[other] ? PATCH_HIDDEN : patch_state_of(view, other, visible, band);
 }
 
 static int is_lit(int state)
 {
-    return state == PATCH_SEEN || state == PATCH_MIXED;
+    return state == PATCH_VISIBLE || state == PATCH_PARTIAL;
 }
 
-/* The share of a facet that is hidden or undecided, at most. */
-static double share_lost(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
-                         const lrcsi_proximity_band *margin)
+/* An upper bound of the fraction of a facet that is hidden or undecided. */
+static double fraction_hidden(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                              const lrcsi_proximity_band *band)
 {
     lrcsi_incidence incidence = lrcsi_view_incidence(view, facet);
     double hidden = 0;
-    if (margin->classification->undecided[facet] || !(visible[facet].low > 0)) {
+    if (band->classification->undecided[facet] || !(visible[facet].low > 0)) {
         hidden = 1 + incidence.error + 8 * LRCSI_U - visible[facet].low / incidence.projected;
     }
-    return hidden >= 0 ? fmin(1, margin->share[facet] + hidden) : 1;
+    return hidden >= 0 ? fmin(1, band->share[facet] + hidden) : 1;
 }
 
-/* The share by which a part of a patch may be larger or smaller than the facet's own part: on top
-   of the whole patch's, that of a stretch that differs from place to place. */
+/* A bound on the relative difference between the area of a region of a patch and that of its image
+   on the facet: that of the whole patch, and that of a stretch that varies over the patch. */
 static double patch_area_error(const lrcs_prepared *p, uint32_t facet, const lrcs_curvature *c)
 {
     double uneven = patch_part(p, facet)->uneven;
     return c->area_error + uneven + c->area_error * uneven;
 }
 
-/* How F strays over a patch from the value F_i that the sum takes for its facet; *stretch: the
-   share by which a part of a patch may be larger or smaller than the facet's own part, in a term
-   that F_i multiplies. Where the sum takes the mean over the patch (integrate/patch.h), F_i = (1 +
-   a') F^ with F^ the mean per unit of the patch's own area, which is 1 + a' times the facet's. The
-   map stretches area evenly, but for rounding (patch->blur): so over a part E, T - M = Int_E (F -
-   F^), and no stretch is left. With h = F - F(facet normal), max(Int h+, Int h-) <= S part, so that
-       Int_U |h| = 2 max - |Int_U h| <= S (2 part) - (1 + a') S |F^ - F(facet normal)|,
-       Int_U |F - F^| <= Int_U |h| + (1 + a') S |F^ - F(facet normal)| <= S (2 part),
-       |Int_E (F - F^)| <= (Int_U |F - F^| + |Int_U (F - F^)|) / 2 <= S (part + remainder / 2).
-   At single points F^ differs from F(facet normal) by at most |F_i - F(facet normal)| + a F_i. */
+/* The deviation of F over a patch from F_i, the value that the sum uses for the facet. *stretch: a
+   bound on the relative difference of areas, as patch_area_error, to be multiplied by F_i.
+
+   Where the sum uses the mean over the patch (integrate/patch.h), F_i = (1 + a') F^, where F^ is
+   the mean per unit of the patch's own area, which is 1 + a' times the facet's. The map stretches
+   area evenly, except for rounding (patch->area_err): so over a region E, T - M = Int_E (F - F^),
+   and the stretch drops out. With h = F - F(facet normal), max(Int h+, Int h-) <= S region, so that
+       Int_U |h| = 2 max - |Int_U h| <= S (2 region) - (1 + a') S |F^ - F(facet normal)|,
+       Int_U |F - F^| <= Int_U |h| + (1 + a') S |F^ - F(facet normal)| <= S (2 region),
+       |Int_E (F - F^)| <= (Int_U |F - F^| + |Int_U (F - F^)|) / 2 <= S (region + remainder / 2).
+   At a single point F^ differs from F(facet normal) by at most |F_i - F(facet normal)| + a F_i. */
 static lrcsi_deviation patch_deviation(const lrcsi_view *view, const lrcsi_plan *plan,
                                        uint32_t facet, const lrcsi_incidence *incidence,
                                        const lrcs_curvature *c, lrcsi_patch *patch, double *stretch)
@@ -158,41 +169,41 @@ static lrcsi_deviation patch_deviation(const lrcsi_view *view, const lrcsi_plan 
     if (c->turn > FLAT_TILT && lrcsi_patch_make(view, plan, &brdf, facet, patch)) {
         double mean = patch->glint + patch->diffuse;
         double error = patch->remainder + patch->rounding;
-        double apart = fabs(mean - deviation.here) + error + 2e-10 * deviation.here;
-        deviation.whole = fmin(patch->remainder, deviation.whole + apart);
-        deviation.part += error;
-        deviation.apart += apart + *stretch * (mean + error);
-        deviation.here = mean + error;
-        *stretch = patch->blur;
+        double difference = fabs(mean - deviation.value) + error + 2e-10 * deviation.value;
+        deviation.whole = fmin(patch->remainder, deviation.whole + difference);
+        deviation.region += error;
+        deviation.point += difference + *stretch * (mean + error);
+        deviation.value = mean + error;
+        *stretch = patch->area_err;
     }
     return deviation;
 }
 
-/* How a sector none of which is hidden or dark is bounded. */
-typedef struct sector_way {
-    double lost; /* by what the facet loses of its whole patch; 2: not this way */
-    double rows; /* by the share of the sector in rows that are not seen all along; 2: not so */
-} sector_way;
+/* Which bound is used for a sector of which no facet is hidden or unlit; with both fields NOT_USED,
+   the one by regions, facet by facet. */
+typedef struct sector_bound {
+    double hidden; /* the fraction of the facet that is hidden, subtracted from the whole patch */
+    double rows;   /* the fraction of the sector in rows that meet a proximity band */
+} sector_bound;
+#define NOT_USED 2
 
-/* The share of a facet's sector in rows that meet a band, at most; 1 if it has no rows. A cone's
-   facets have sectors of their own. */
-static double sector_rows(const lrcsi_view *view, uint32_t facet,
-                          const lrcsi_proximity_band *margin)
+/* An upper bound of the fraction of a facet's sector in rows that meet a proximity band; 1 if it
+   has no rows. Each facet of a cone has a sector of its own. */
+static double sector_rows(const lrcsi_view *view, uint32_t facet, const lrcsi_proximity_band *band)
 {
     const lrcs_part *part = patch_part(view->prepared, facet);
     uint32_t other = part->first_facet + ((facet - part->first_facet) ^ 1);
     if (!lrcsi_proximity_has_rows(view->prepared, facet)) {
         return 1;
     }
-    double rows = margin->rows[facet] + (part->kind == LRCS_SHAPE_CONE ? 0 : margin->rows[other]);
+    double rows = band->rows[facet] + (part->kind == LRCS_SHAPE_CONE ? 0 : band->rows[other]);
     return fmin(1, 2 * rows);
 }
 
-/* The way with the least bound; the third is that of parts, facet by facet. Numbers of the sector's
-   first facet decide for both. */
-static sector_way sector_choose(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
-                                const lrcs_curvature *c, const lrcsi_visible *visible,
-                                const lrcsi_proximity_band *margin, lrcsi_patch *patch)
+/* The smallest of the three bounds. The numbers of the sector's first facet decide for both. */
+static sector_bound sector_choose(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
+                                  const lrcs_curvature *c, const lrcsi_visible *visible,
+                                  const lrcsi_proximity_band *band, lrcsi_patch *patch)
 {
     const lrcs_part *part = patch_part(view->prepared, facet);
     uint32_t begin = part->first_facet;
@@ -200,56 +211,58 @@ static sector_way sector_choose(const lrcsi_view *view, const lrcsi_plan *plan, 
     lrcsi_incidence incidence = lrcsi_view_incidence(view, first);
     double stretch;
     lrcsi_deviation deviation = patch_deviation(view, plan, first, &incidence, c, patch, &stretch);
-    double lost = fmax(share_lost(view, first, visible, margin),
-                       share_lost(view, first + 1, visible, margin));
+    double hidden = fmax(fraction_hidden(view, first, visible, band),
+                         fraction_hidden(view, first + 1, visible, band));
     double a = patch_area_error(view->prepared, facet, c);
-    double rows = sector_rows(view, part->kind == LRCS_SHAPE_CONE ? facet : first, margin);
-    double share = fmax(margin->share[first], margin->share[first + 1]);
-    double by_lost = deviation.whole + (1 + a) * lost * deviation.most;
-    double by_rows = deviation.whole + rows * (deviation.part + stretch * deviation.here) +
-                     (1 + a) * share * deviation.here;
-    double by_parts = fmin(deviation.part + (stretch + (1 + a) * share) * deviation.here,
-                           (1 + a) * deviation.most);
-    sector_way way = {2, 2};
-    if (by_rows < fmin(by_lost, by_parts)) {
-        way.rows = rows;
-    } else if (by_lost < deviation.part) {
-        way.lost = share_lost(view, facet, visible, margin);
+    double rows = sector_rows(view, part->kind == LRCS_SHAPE_CONE ? facet : first, band);
+    double b = fmax(band->share[first], band->share[first + 1]);
+    double by_hidden = deviation.whole + (1 + a) * hidden * deviation.most;
+    double by_rows = deviation.whole + rows * (deviation.region + stretch * deviation.value) +
+                     (1 + a) * b * deviation.value;
+    double by_regions = fmin(deviation.region + (stretch + (1 + a) * b) * deviation.value,
+                             (1 + a) * deviation.most);
+    sector_bound bound = {NOT_USED, NOT_USED};
+    if (by_rows < fmin(by_hidden, by_regions)) {
+        bound.rows = rows;
+    } else if (by_hidden < deviation.region) {
+        bound.hidden = fraction_hidden(view, facet, visible, band);
     }
-    return way;
+    return bound;
 }
 
-/* The error of a facet on a curved wall, per unit of its area. */
-static double wall_error(const lrcsi_deviation *deviation, double a, double stretch, double share,
-                         int state, int partner, const sector_way *way)
+/* The error of a facet on a curved wall, per unit of its area. Given: a, b and the states of the
+   facet and of the other facet of its sector. */
+static double wall_error(const lrcsi_deviation *deviation, double a, double stretch, double b,
+                         int state, int partner, const sector_bound *bound)
 {
-    double lit = is_lit(partner) ? deviation->part : (1 + a) * deviation->apart;
+    double lit = is_lit(partner) ? deviation->region : (1 + a) * deviation->point;
     if (state == PATCH_HIDDEN) {
-        return (1 + a) * share * deviation->most;
+        return (1 + a) * b * deviation->most;
     }
-    if (state == partner && state != PATCH_MIXED) {
+    if (state == partner && state != PATCH_PARTIAL) {
         return deviation->whole;
     }
-    if (state == PATCH_DARK) {
+    if (state == PATCH_UNLIT) {
         return (1 + a) * deviation->most;
     }
-    if (way->lost <= 1) {
-        return deviation->whole + (1 + a) * way->lost * deviation->most;
+    if (bound->hidden <= 1) {
+        return deviation->whole + (1 + a) * bound->hidden * deviation->most;
     }
-    if (way->rows <= 1) {
-        return deviation->whole + way->rows * deviation->part +
-               deviation->here * (stretch * way->rows + (1 + a) * share);
+    if (bound->rows <= 1) {
+        return deviation->whole + bound->rows * deviation->region +
+               deviation->value * (stretch * bound->rows + (1 + a) * b);
     }
-    return fmin(lit + deviation->here * (stretch + (1 + a) * share), (1 + a) * deviation->most);
+    return fmin(lit + deviation->value * (stretch + (1 + a) * b), (1 + a) * deviation->most);
 }
 
-/* What the facets may show of a closed part's inside, by rounding. */
-static double inside_shown(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+/* The error, per unit of area, of a facet of a closed part whose inside appears visible because of
+   rounding. */
+static double inside_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
                            const lrcsi_incidence *incidence, const lrcsi_visible *visible,
-                           const lrcsi_proximity_band *margin)
+                           const lrcsi_proximity_band *band)
 {
     const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
-    if (!margin || view->facing[facet] >= 0 || !lrcsi_view_reflects(view, facet) ||
+    if (!band || view->facing[facet] >= 0 || !lrcsi_view_reflects(view, facet) ||
         !(visible[facet].high > 0)) {
         return 0;
     }
@@ -270,77 +283,75 @@ int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
 
 double lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
                                 const lrcsi_incidence *incidence, const lrcsi_visible *visible,
-                                const lrcsi_proximity_band *margin, lrcsi_patch *patch)
+                                const lrcsi_proximity_band *band, lrcsi_patch *patch)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_brdf assigned = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, facet));
     const lrcs_brdf *brdf = &assigned;
     const lrcs_curvature c = patch_curvature(p, facet);
-    int curve = c.turn > FLAT_TILT;
-    int state = patch_state(view, facet, visible, margin);
-    double share = margin ? margin->share[facet] : 0;
+    int is_curved = c.turn > FLAT_TILT;
+    int state = patch_state_of(view, facet, visible, band);
+    double b = band ? band->share[facet] : 0;
     double area = 0.5 * p->normal[facet].length;
-    if (curve && state == PATCH_HIDDEN) {
-        share += share_seen(incidence, facet, visible, margin);
+    if (is_curved && state == PATCH_HIDDEN) {
+        b += fraction_visible(incidence, facet, visible, band);
     }
-    if (share == 0 && (!curve || state == PATCH_HIDDEN)) {
-        return state == PATCH_DARK
-                   ? area * inside_shown(view, facet, brdf, incidence, visible, margin)
+    if (b == 0 && (!is_curved || state == PATCH_HIDDEN)) {
+        return state == PATCH_UNLIT
+                   ? area * inside_error(view, facet, brdf, incidence, visible, band)
                    : 0;
     }
-    int partner = curve && margin ? partner_state(view, facet, visible, margin) : state;
-    if (curve && state == PATCH_SEEN && partner == PATCH_SEEN && share == 0 &&
+    int partner = is_curved && band ? partner_state(view, facet, visible, band) : state;
+    if (is_curved && state == PATCH_VISIBLE && partner == PATCH_VISIBLE && b == 0 &&
         lrcsi_patch_make(view, plan, brdf, facet, patch)) {
         return area * patch->remainder;
     }
     double stretch = 0;
     lrcsi_deviation deviation =
-        state == PATCH_DARK ? lrcsi_deviation_make(brdf, incidence->cos_theta, incidence->tan2, &c)
-                            : patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
-    double error = state == PATCH_DARK ? 0 : share * deviation.most;
-    if (curve) {
-        int mixed =
-            is_lit(state) && is_lit(partner) && (state == PATCH_MIXED || partner == PATCH_MIXED);
-        sector_way way = {2, 2};
-        if (mixed) {
-            way = sector_choose(view, plan, facet, &c, visible, margin, patch);
+        state == PATCH_UNLIT ? lrcsi_deviation_make(brdf, incidence->cos_theta, incidence->tan2, &c)
+                             : patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
+    double error = state == PATCH_UNLIT ? 0 : b * deviation.most;
+    if (is_curved) {
+        sector_bound bound = {NOT_USED, NOT_USED};
+        if (is_lit(state) && is_lit(partner) &&
+            (state == PATCH_PARTIAL || partner == PATCH_PARTIAL)) {
+            bound = sector_choose(view, plan, facet, &c, visible, band, patch);
         }
         double a = patch_area_error(p, facet, &c);
-        error = wall_error(&deviation, a, stretch, share, state, partner, &way);
+        error = wall_error(&deviation, a, stretch, b, state, partner, &bound);
     }
-    if (state == PATCH_DARK) {
-        error += inside_shown(view, facet, brdf, incidence, visible, margin);
+    if (state == PATCH_UNLIT) {
+        error += inside_error(view, facet, brdf, incidence, visible, band);
     }
     return area * error;
 }
 
-/* Let c say which points x of the patch lie in the interval, and k which points of the facet do.
-   Pulled back to the facet, c v and k w differ on a share d at most: that which v and w differ on,
-   and that within the reach of an end of the interval. With m the share of the facet on which c may
-   be 1, and the patch's area that of the facet times 1 + a at most, place by place,
-       |Int_U F c v - F_i Int_f k w| <= Int_U |F - F_i| c v + F_i |Int_U c v - Int_f k w|
+/* Let c be 1 at the points of the patch in the interval and k at those of the facet, and 0
+   elsewhere. Mapped to the facet, c v and k w differ on at most a fraction d: that on which v and w
+   differ, and that within the reach of an end of the interval. Let m be the fraction of the facet
+   on which c may be 1. Since every region of the patch has at most 1 + a times the area of its
+   image, |Int_U F c v - F_i Int_f k w| <= Int_U |F - F_i| c v + F_i |Int_U c v - Int_f k w|
                                      <= S [(1 + a) sup |F - F_i| m + F_i (a m + (1 + a) d)],
-   and both integrals are at most (1 + a) S sup F m. On a flat facet F = F_i and a = 0. Where the
-   facet is not lit it counts nothing, but for what `whole` has, and the truth in an interval is at
-   most the truth. The bound of the whole patch may hold for two facets of a sector together only.
- */
+   and both integrals are at most (1 + a) S sup F m. On a flat facet F = F_i and a = 0. A facet that
+   is not lit adds nothing beyond `whole`, and the truth in an interval is at most the whole truth.
+   The bound of the whole patch may hold only for the two facets of a sector together. */
 lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_plan *plan,
                                            uint32_t facet, const lrcsi_incidence *incidence,
                                            const lrcsi_visible *visible,
-                                           const lrcsi_proximity_band *margin, lrcsi_patch *patch)
+                                           const lrcsi_proximity_band *band, lrcsi_patch *patch)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_curvature c = patch_curvature(p, facet);
-    int curve = c.turn > FLAT_TILT;
-    int state = patch_state(view, facet, visible, margin);
+    int is_curved = c.turn > FLAT_TILT;
+    int state = patch_state_of(view, facet, visible, band);
     lrcsi_patch_parts parts = {
-        .whole = lrcsi_tessellation_error(view, plan, facet, incidence, visible, margin, patch),
+        .whole = lrcsi_tessellation_error(view, plan, facet, incidence, visible, band, patch),
         .lit = is_lit(state),
-        .share = margin ? margin->share[facet] : 0,
+        .mismatch = band ? band->share[facet] : 0,
         .partner = facet};
     uint32_t first = patch_part(p, facet)->first_facet;
     uint32_t other = first + ((facet - first) ^ 1);
-    if (curve && other < first + patch_part(p, facet)->facet_count && !p->skip[other]) {
+    if (is_curved && other < first + patch_part(p, facet)->facet_count && !p->skip[other]) {
         parts.partner = other;
     }
     if (parts.lit) {
@@ -348,9 +359,10 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_p
         lrcsi_deviation deviation =
             patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
         double area = 0.5 * p->normal[facet].length;
-        double a = curve ? patch_area_error(p, facet, &c) : 0;
-        parts.bend = curve ? area * ((1 + a) * deviation.apart + stretch * deviation.here) : 0;
-        parts.shift = area * (1 + a) * deviation.here;
+        double a = is_curved ? patch_area_error(p, facet, &c) : 0;
+        parts.deviation =
+            is_curved ? area * ((1 + a) * deviation.point + stretch * deviation.value) : 0;
+        parts.shift = area * (1 + a) * deviation.value;
         parts.most = area * (1 + a) * deviation.most;
     }
     return parts;

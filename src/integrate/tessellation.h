@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What flat facets in the place of curved shapes may cost: Eq. 2 over the true shapes, with their
-   true shadows, against Eq. 2 over the facets. */
+/* The tessellation error: the difference between Eq. 2 over the true curved shapes, with their true
+   shadows, and Eq. 2 over the facets that replace them. */
 #ifndef LRCSI_TESSELLATION_H
 #define LRCSI_TESSELLATION_H
 
@@ -14,32 +14,35 @@
 int lrcsi_tessellation_known(const lrcs_prepared *prepared, const lrcsi_plan *plan);
 
 /* A bound on it for one facet that is not skipped and its patch, scaled, without the 4 pi.
-   Given: what the facet has; the visible areas of all facets; the proximity band, or NULL if
-   every front is wholly visible or what could be hidden is in the visible area's bounds; the patch
-   of the last facet, or one with side = 0. */
+   Given: the facet's incidence; the visible areas of all facets; the proximity band, or NULL if
+   every front is entirely visible or the bounds of the visible area include what could be hidden;
+   the patch of the last facet, or one with side = 0. */
 double lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
                                 const lrcsi_incidence *incidence, const lrcsi_visible *visible,
-                                const lrcsi_proximity_band *margin, lrcsi_patch *patch);
+                                const lrcsi_proximity_band *band, lrcsi_patch *patch);
 
-/* What may be wrong in a part of a patch: of the points of facet and patch, those in some interval
-   of a coordinate, which the map between facet and patch changes by at most the part's reach.
-   Scaled, without the 4 pi. */
+/* Factors of the tessellation error of a facet within an interval of a coordinate: the points of
+   the facet and of its patch whose coordinate lies in the interval. The map between facet and patch
+   changes the coordinate by at most the part's reach. Scaled, without the 4 pi. */
 typedef struct lrcsi_patch_parts {
     double whole; /* lrcsi_tessellation_error */
-    int lit;      /* the facet is seen, in part at least; else `whole` bounds any part, too */
-    double bend;  /* lit: F on the patch against F on the facet, times the share of the facet whose
-                     points may be in the interval */
-    double shift; /* lit: times the share whose points may be in the interval in truth and not on
-                     the facet, or the other way round, or are seen only in one of the two: */
-    double share; /* of these last */
-    double most;  /* what the truth reflects, times the share that may be in the interval */
-    uint32_t partner; /* `whole` needs this facet's `whole`, too: both hold together */
+    int lit;      /* the facet is visible, at least in part; else `whole` bounds any interval too */
+    double deviation; /* lit: the difference between F on the patch and on the facet; to be
+                         multiplied by the fraction of the facet whose points may be in the
+                         interval */
+    double shift;     /* lit: what the facet reflects; to be multiplied by the fraction whose points
+                         may be in the interval on only one of patch and facet, or visible on only
+                         one of them: */
+    double mismatch;  /* the latter fraction */
+    double most;      /* an upper bound of what the true surface reflects; to be multiplied by the
+                         fraction that may be in the interval */
+    uint32_t partner; /* `whole` holds for the sum over this facet and the given one */
 } lrcsi_patch_parts;
 
 /* For one facet that is not skipped; what is given is as for lrcsi_tessellation_error. */
 lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_plan *plan,
                                            uint32_t facet, const lrcsi_incidence *incidence,
                                            const lrcsi_visible *visible,
-                                           const lrcsi_proximity_band *margin, lrcsi_patch *patch);
+                                           const lrcsi_proximity_band *band, lrcsi_patch *patch);
 
 #endif

@@ -133,7 +133,7 @@ static double fraction_of(double part, double whole)
     return part == whole ? 1 : part / whole;
 }
 
-/* The reflectance is the mean over the facet's patch if it stands for a part of a curved wall, else
+/* The reflectance is the mean over the facet's patch if it represents a part of a curved wall, else
    that of its normal. Rounding: S, 4 pi, two products and the fraction, 8 u; the relative error of
    areas; and the error of f_r cos^2, times the upper bound of the visible area. */
 lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
@@ -180,7 +180,7 @@ static lrcsi_visible facet_visible(const total_run *run, uint32_t facet,
     if (run->visible) {
         return run->visible[facet];
     }
-    return lrcsi_grid_casts(run->view, facet)
+    return lrcsi_view_casts(run->view, facet)
                ? lrcsi_visible_unshadowed(incidence, run->plan->grazing_cos)
                : (lrcsi_visible){0, 0, 0, 0, 0};
 }
@@ -307,7 +307,7 @@ static void add_any_facet(total_run *run, uint32_t facet)
     int reflects = lrcsi_view_reflects(run->view, facet);
     int visible =
         run->view->facing[facet] != 0 &&
-        (run->visible ? area_may_be_visible(run, facet) : lrcsi_grid_casts(run->view, facet));
+        (run->visible ? area_may_be_visible(run, facet) : lrcsi_view_casts(run->view, facet));
     if (reflects && is_in_clear_shape(run, facet)) {
         add_facet_of_clear_shape(run, facet);
     } else if (reflects && visible) {

@@ -55,12 +55,6 @@ lrcs_uncertainty_options lrcs_uncertainty_options_default(void)
     return (lrcs_uncertainty_options){4096, 1};
 }
 
-static int has_error(const lrcs_material *material)
-{
-    const lrcs_brdf_error *e = &material->error;
-    return e->A > 0 || e->B > 0 || e->s > 0 || e->m > 0;
-}
-
 /* --- nodes ------------------------------------------------------------------------------------ */
 
 /* How many nodes a sample needs. sigma is linear in A and B: if nothing else is uncertain, the
@@ -125,7 +119,7 @@ static void correlation_fill(const double c[6], double out[4][4])
     memcpy(out, full, sizeof full);
 }
 
-/* The Cholesky factor L of C = L L'. If C is singular, so that a pivot is 0 but for rounding, the
+/* The Cholesky factor L of C = L L'. If C is singular, so that a pivot is 0 up to rounding, the
    column of that pivot is 0. */
 static void correlation_root(const double c[6], double root[4][4])
 {
@@ -163,7 +157,8 @@ static uint32_t sources_make(const lrcs_scene *scene, const response_node *node,
         while (at < sources && !(m->source > 0 && list[at].material->source == m->source)) {
             at++;
         }
-        if (!has_error(m)) {
+        const lrcs_brdf_error *e = &m->error;
+        if (!(e->A > 0 || e->B > 0 || e->s > 0 || e->m > 0)) {
             continue;
         }
         if (at == sources) {
@@ -387,14 +382,6 @@ static void sample_make(const source *list, uint32_t sources, uint32_t count, do
 
 /* --- first order and the sample --------------------------------------------------------------- */
 
-static size_t estimate_need(const lrcs_scene *scene, const lrcs_uncertainty_options *options)
-{
-    size_t need = lrcsi_work_bytes(scene->material_count, sizeof(source));
-    need = lrcsi_work_add(
-        need, lrcsi_work_bytes((size_t)scene->material_count * NODES, sizeof(response_node)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(options->draws, sizeof(double)));
-}
-
 /* Steps 4 to 6. Given: sigma, m2; node[count][material_count], in which the responses of terms that
    the plan leaves out are 0. Status: LRCS_OK; LRCS_E_MEMORY. */
 static int estimate_make(const lrcs_scene *scene, double sigma, const response_node *node,
@@ -446,7 +433,10 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
     need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcs_brdf)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcsi_response)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcs_material)));
-    return lrcsi_work_add(need, estimate_need(prepared->scene, how));
+    /* estimate_make */
+    need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(source)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(count * NODES, sizeof(response_node)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(how->draws, sizeof(double)));
 }
 
 static int responses_take(lrcs_work *work, uint32_t nodes, uint32_t materials,

@@ -16,7 +16,7 @@
 #include "base/dd.h"
 #include "base/work.h"
 #include "mesh/convex.h"
-#include "mesh/same.h"
+#include "mesh/duplicate.h"
 #include "mesh/topology.h"
 
 /* The mesh to be measured. */
@@ -156,11 +156,11 @@ static int count_duplicates(const measured_mesh *m, const lrcsi_topology *t, lrc
 {
     const uint32_t *order = NULL;
     uint32_t count = 0;
-    int status = lrcsi_same_order(t, m->facet, m->facet_count, work, &order, &count);
-    lrcsi_same_key first = {LRCS_NONE, LRCS_NONE, LRCS_NONE, 0};
+    int status = lrcsi_duplicate_order(t, m->facet, m->facet_count, work, &order, &count);
+    lrcsi_duplicate_key first = {LRCS_NONE, LRCS_NONE, LRCS_NONE, 0};
     for (uint32_t i = 0; i < count; i++) {
-        lrcsi_same_key key = lrcsi_same_key_of(t, &m->facet[order[i]]);
-        if (lrcsi_same_place(&key, &first)) {
+        lrcsi_duplicate_key key = lrcsi_duplicate_key_of(t, &m->facet[order[i]]);
+        if (lrcsi_duplicate_place(&key, &first)) {
             report->duplicate++;
             report->opposite_pairs += key.odd != first.odd;
         } else {
@@ -195,7 +195,7 @@ static int count_used_points(const measured_mesh *m, const lrcsi_topology *t, ui
 size_t lrcs_mesh_check_need(uint32_t vertex_count, uint32_t facet_count)
 {
     size_t convex = lrcsi_convex_need(vertex_count, facet_count);
-    size_t duplicates = lrcsi_same_need(facet_count);
+    size_t duplicates = lrcsi_duplicate_need(facet_count);
     size_t points = lrcsi_work_bytes(vertex_count, 1);
     size_t most = convex > duplicates ? convex : duplicates;
     return lrcsi_work_add(lrcsi_topology_need(vertex_count, facet_count),

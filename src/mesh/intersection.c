@@ -43,7 +43,7 @@ typedef struct contact_search {
     unsigned char *proved; /* welded vertex: 1 if its ring is proved */
     lrcsi_tree tree;
     search_leaf *leaf;
-    uint64_t crowded;     /* leaves that were met beyond the first MANY_LEAVES of a leaf, in all */
+    uint64_t excess;      /* leaves that were met beyond the first MANY_LEAVES of a leaf, in all */
     int slabs_pay;        /* slabs separated at least BLOCKS_APART blocks from the last leaf */
     found_contact *found; /* above the tree in the work area */
     uint32_t count;
@@ -269,8 +269,8 @@ static int join_leaf(contact_search *search, uint32_t leaf)
     }
     uint32_t other;
     for (int met = 0; status == LRCS_OK && (other = lrcsi_tree_next(&walk)) != LRCS_NONE; met++) {
-        search->crowded += met >= MANY_LEAVES;
-        if (!tree->has_slabs && search->crowded > (uint64_t)FILL_COST * tree->blocks[0]) {
+        search->excess += met >= MANY_LEAVES;
+        if (!tree->has_slabs && search->excess > (uint64_t)FILL_COST * tree->blocks[0]) {
             lrcsi_tree_fill_slabs(search->vertex, search->facet, tree);
         }
         if (tree->has_slabs && met == MANY_LEAVES && walk.leaf == LRCS_NONE) {

@@ -9,8 +9,8 @@
 #include "mesh/topology.h"
 
 /* A contact: `other`, with its boundary, meets the relative interior of `facet`. Contacts are
-   directed: a strut that stands on a plate meets the plate's interior, but the plate meets only the
-   strut's boundary, so there is an entry for the plate alone. */
+   directed: a strut whose end touches a plate meets the plate's interior, but the plate meets only
+   the strut's boundary, so there is an entry for the plate alone. */
 typedef struct lrcsi_intersection {
     uint32_t other;
     uint32_t kind;

@@ -2,13 +2,13 @@
 /* Bodies of revolution as facets: the positions of the rows of vertices, and proofs about the
    facets between them. It makes no mesh (tessellate.c does).
 
-   Sectors. Every row is a regular N-gon; with h = pi/N its vertices stand at mu = sqrt(2 h / sin
-   2h) times the true radius rho, its sides' middles at kappa = mu cos h times it. The N-gon then
-   has exactly the area pi rho^2 of its circle, so that discs, caps and bases are exact.
+   Sectors. Every row is a regular N-gon. With h = pi/N its vertices are at mu = sqrt(2 h / sin 2h)
+   times the true radius rho, and the middles of its sides at kappa = mu cos h times rho. The N-gon
+   then has exactly the area pi rho^2 of its circle, so that discs, caps and bases are exact.
 
-   Rings. Two neighbouring rows are joined by planar trapezoids, one a sector, each cut into two
-   facets. Its patch is the true surface between the two true circles and the two half-planes of the
-   sector; its two facets are coplanar and share that patch in proportion to their areas. Vector
+   Rings. Two neighbouring rows are joined by planar trapezoids, one for each sector, each cut into
+   two facets. Its patch is the true surface between the two true circles and the two half-planes of
+   the sector; its two facets are coplanar and share that patch in proportion to their areas. Vector
    areas (integral of the normal, in the sector's middle plane) of patch and trapezoid:
        outward   patch X = 2 sin h  Int rho dz      trapezoid tan h kappa (rho0 + rho1) dz'
        upward    patch V = h (rho0^2 - rho1^2)      trapezoid the same, by the choice of kappa
@@ -16,7 +16,7 @@
    kappa tan h / sin h = mu times the patch's. Curved walls (sphere, dome, paraboloid) take the rise
    dz' = 2 / (mu (rho0 + rho1)) Int rho dz, for which it is the same too: then the facet's normal is
    the mean normal of its patch and the first-order error vanishes. Rows of such a body lie on a
-   convex curve, because the mean normals of successive patches turn one way.
+   convex curve, because the mean normals of successive patches turn in one direction.
 
    Numbers. A = patch area, A' = facet area = |(X', V)|, n' = (X', V)/A', gamma = turn:
        mean of 1 - cos gamma = D = 1 - (X X' + V V) / (A A');
@@ -26,50 +26,51 @@
        gamma^2 <= q 4 sin^2(gamma/2) = 2 q (1 - cos gamma), q = (turn/2)^2 / sin^2(turn/2), as
        x / sin x grows: spread^2 = (A/A') 2 q D;
        gamma - sin gamma <= gamma^3/6: bias = (A/A') T + turn spread^2 / 6.
-   Each is evaluated to a few units of rounding; SLACK covers those. `blur` then adds what rounding
-   the vertices does to a facet's plane and area.
+   Each is evaluated to a few units of rounding; SLACK covers those. `rounding` then adds what
+   rounding the vertices does to a facet's plane and area.
 
-   Reach. The patch of a trapezoid goes onto it so that equal azimuth goes to equal shares of its
-   width and equal shares of area below to equal shares of area below: area is then stretched by
-   A'/A everywhere. On the trapezoid r^2 (r the radius of the true circle whose side's middle lies
-   at kappa r) grows evenly with that share, from rho1^2 at the top row to rho0^2:
-     straight walls: so does rho^2 on the patch: r = rho, and heights agree;
-     sphere: cos theta does, and rho^2 - r^2 = R^2 a (1 - a) (cos theta1 - cos theta0)^2 at share a;
-     paraboloid: w^3, w^2 = 1 + y^2, does: w^2 exceeds its chord by at most 1/8 of the largest
-   second derivative, (w0^3 - w1^3)^2 / (36 w1^4). With b that `bulge`, rho - r <= min(sqrt(b), b /
-   (2 rho1), rho0 - rho1). In height the trapezoid stands at a share beta = (r - rho1)/(rho0 - rho1)
-   from the top, which exceeds a by at most (rho0 - rho1) / (4 (rho0 + rho1)); the sphere stands at
-   a, the paraboloid between a and a + b/(rho0^2 - rho1^2); and the rows themselves stand off the
-   true circles' heights. Across, with v in -1 .. 1, (cos vh, sin vh) goes to kappa (1, v tan h):
-   off by at most max(1 - kappa, kappa - cos h) inward or outward and max(h^3/6, (mu - 1) sin h)
-   sideways, times r. A disc is the last alone; that map keeps areas everywhere, so that it serves
-   facets of a disc however its polygon is cut into them. */
+   Reach. The patch of a trapezoid is mapped onto it so that a fraction of the azimuth becomes the
+   same fraction of its width, and a fraction a of the area, counted from the top, the same fraction
+   of its area: area is then stretched by A'/A everywhere. On the trapezoid r^2 (r is the radius of
+   the true circle for which the middle of a side is at kappa r) is linear in a, from rho1^2 at the
+   top row to rho0^2. On the patch
+     straight walls: rho^2 is linear in a: r = rho, and heights agree;
+     sphere: cos theta is, and rho^2 - r^2 = R^2 a (1 - a) (cos theta1 - cos theta0)^2;
+     paraboloid: w^3 is, w^2 = 1 + y^2: w^2 exceeds its chord by at most 1/8 of the largest second
+   derivative, (w0^3 - w1^3)^2 / (36 w1^4). With b a bound on rho^2 - r^2 (strip_bulge), rho - r <=
+   min(sqrt(b), b / (2 rho1), rho0 - rho1). In height, as a fraction from the top, the trapezoid's
+   point is at beta = (r - rho1)/(rho0 - rho1), which exceeds a by at most (rho0 - rho1) / (4 (rho0
+   + rho1)); the sphere's is at a, the paraboloid's between a and a + b/(rho0^2 - rho1^2); to that
+   the differences in height between the rows and the true circles are added. Across, with v in -1
+   .. 1, (cos vh, sin vh) is mapped to kappa (1, v tan h): a distance of at most max(1 - kappa,
+   kappa - cos h) inward or outward and max(h^3/6, (mu - 1) sin h) sideways, times r. For a disc
+   only the last applies; that map preserves areas everywhere, so that it holds for any division of
+   the polygon into facets. */
 #include "mesh/profile.h"
 
 #include <math.h>
 
 #include "base/constant.h"
 
-/* D is 1 minus a quotient of sums of positive products: 20 roundings or functions accurate to 2
-   units reach it, and so A/A' - 1. */
+/* D is 1 minus a quotient of sums of positive products, computed with 20 roundings or functions
+   accurate to 2 units; A/A' - 1 likewise. */
 #define SLACK (64.0 * LRCSI_U)
 /* A paraboloid's slope is clamped to these limits. It exceeds them only if the radius or the length
    is below 1e-300 of the other: a flatter one is flat, and a narrower one is indistinguishable from
    a line. */
 #define SLOPE_LEAST 1e-300
 #define SLOPE_MOST  1e300
-/* A generous bound on the absolute error of a coordinate near the lower end of the range of
-   doubles. */
+/* An upper bound of the absolute error of a subnormal coordinate. */
 #define COARSE 1e-322
-/* Facets that rounding changes by more than this fraction of themselves get USELESS numbers. These
-   are finite, because they may be multiplied by a facet area of zero. */
-#define BLUR_MOST 0x1p-6
-#define USELESS   1e300
-/* Rounding of a reach, relative: terms are positive and accurate to 1e-9 even if 2^24 rings make
-   differences of neighbours small. */
+/* Facets that rounding changes by more than this fraction of themselves get UNBOUNDED numbers.
+   These are finite, because they may be multiplied by a facet area of zero. */
+#define ROUNDING_MOST 0x1p-6
+#define UNBOUNDED     1e300
+/* Covers the relative rounding error of a reach: its terms are positive and accurate to 1e-9, even
+   if 2^24 rings make the differences between neighbours small. */
 #define REACH_MARGIN (1.0 + 1e-6)
 
-/* A strip's patch and facet: areas and vector areas, all in the same arbitrary unit. */
+/* A strip's patch and facet: areas and vector areas, all in the same unit, which is arbitrary. */
 typedef struct profile_strip {
     double area, across, up; /* A, X, V */
     double gain;             /* X' / X */
@@ -85,7 +86,7 @@ static int profile_straight(const lrcsi_profile *profile)
 
 /* x - sin x for 0 <= x <= pi/2, to 4 units: the alternating series, 12 terms (pi/2^27 / 27! is
    below 2^-70 of x^3/6). */
-static double sine_rest(double x)
+static double angle_minus_sine(double x)
 {
     double square = x * x;
     double sum = 0.0;
@@ -123,7 +124,7 @@ static profile_strip strip_straight(const lrcsi_profile *profile)
     double elevation = atan2(fall, profile->height);
     double sinc = sin(profile->half) / profile->half;
     return (profile_strip){slant / unit, sinc * profile->height / unit,
-                           fall / unit,  profile->swell,
+                           fall / unit,  profile->vertex_ratio,
                            elevation,    elevation};
 }
 
@@ -135,13 +136,14 @@ static profile_strip strip_round(const lrcsi_profile *profile, uint32_t i)
     double d = profile->step;
     double theta = profile_polar(profile, i) - 0.5 * d;
     double sinc = sin(profile->half) / profile->half;
-    double outward = sine_rest(d) / (4.0 * sin(theta) * sin(0.5 * d)) + sin(theta) * cos(0.5 * d);
+    double outward =
+        angle_minus_sine(d) / (4.0 * sin(theta) * sin(0.5 * d)) + sin(theta) * cos(0.5 * d);
     return (profile_strip){1.0,
                            sinc * outward,
                            cos(theta) * cos(0.5 * d),
                            1.0,
-                           (0.5 * LRCS_PI) - profile_polar(profile, i),
-                           (0.5 * LRCS_PI) - profile_polar(profile, i + 1)};
+                           0.5 * LRCS_PI - profile_polar(profile, i),
+                           0.5 * LRCS_PI - profile_polar(profile, i + 1)};
 }
 
 /* y = tan of the angle from the top = slope rho/R, y1 below, y0 = t y1 above. In units of
@@ -174,32 +176,32 @@ static profile_strip strip_make(const lrcsi_profile *profile, uint32_t i)
                                                   : strip_round(profile, i);
 }
 
-/* A corner displaced by e tilts its facet by at most e over
-   the altitude that stands on the opposite side, and changes its area by at most that fraction.
-   Coordinates are accurate to a relative `e` (straight walls have exact z); all corners of a row
-   share one z. With l the slant height, two corners of a facet lie on a row of radius r, their
-   altitudes at least w l / (w + l), w >= 2 r sin h (r over that: 1/(2 sin h) + r/l), the third's is
-   l. Rows of equal radius have equal x and y, which cancels all but the error along the row. */
-double lrcsi_profile_blur(const lrcsi_profile *profile, uint32_t i)
+/* A corner displaced by e tilts its facet by at most e divided by the altitude through that corner,
+   and changes its area by at most that fraction. Coordinates have a relative error of at most e
+   (straight walls have exact z); all corners of a row have the same z. Let l be the slant height.
+   Two corners of a facet lie on a row of radius r, with altitudes of at least w l / (w + l),
+   w >= 2 r sin h (r divided by that is at most 1/(2 sin h) + r/l); the altitude of the third is l.
+   Rows of equal radius have the same x and y, so that only the error along the row remains. */
+double lrcsi_profile_rounding(const lrcsi_profile *profile, uint32_t i)
 {
     double below = lrcsi_profile_radius(profile, i);
     double above = lrcsi_profile_radius(profile, i + 1);
-    double kappa = profile->swell * cos(profile->half);
+    double kappa = profile->vertex_ratio * cos(profile->half);
     double slant = hypot(kappa * (below - above), lrcsi_profile_rise(profile, i));
     double e = (16.0 + (double)profile->strips) * LRCSI_U;
     double along = 1.0 / sin(profile->half);
     double narrow = above > 0.0 ? fmin(below, above) : below;
-    double blur = e * along;
+    double rounding = e * along;
     if (below > 0.0 || above > 0.0) {
-        blur += COARSE / (narrow > 0.0 ? narrow : above) * along;
+        rounding += COARSE / (narrow > 0.0 ? narrow : above) * along;
     }
     if (slant > 0.0 && below != above) {
-        blur += 3.0 * (e * fmax(below, above) + COARSE) / slant;
+        rounding += 3.0 * (e * fmax(below, above) + COARSE) / slant;
     }
     if (slant > 0.0 && !profile_straight(profile)) {
-        blur += 2.0 * (e * profile->height + COARSE) / slant;
+        rounding += 2.0 * (e * profile->height + COARSE) / slant;
     }
-    return blur;
+    return rounding;
 }
 
 static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
@@ -212,10 +214,10 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
         return c;
     }
     double nu = atan2(s.up, across);
-    double off = fmax(fabs(s.low - nu), fabs(s.high - nu)) + SLACK;
+    double elevation = fmax(fabs(s.low - nu), fabs(s.high - nu)) + SLACK; /* largest difference */
     double nearest = fmax(0.0, fmin(fabs(s.low), fabs(s.high)) - SLACK);
     double level = s.low * s.high <= 0.0 ? 1.0 : cos(nearest);
-    double a = sin(0.5 * off);
+    double a = sin(0.5 * elevation);
     double b = sin(0.5 * profile->half);
     c.turn = 2.0 * asin(fmin(1.0, sqrt(a * a + level * cos(nu) * b * b))) + SLACK;
     double x = 0.5 * c.turn;
@@ -226,18 +228,19 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
     double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
     c.bias = fabs(shift) + c.turn * c.spread * c.spread / 6.0;
     c.area_error = fabs(ratio - 1.0);
-    return lrcsi_profile_blurred(&c, lrcsi_profile_blur(profile, i) * (1.0 + c.area_error) + SLACK);
+    return lrcsi_profile_rounded(&c,
+                                 lrcsi_profile_rounding(profile, i) * (1.0 + c.area_error) + SLACK);
 }
 
 lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *divisions)
 {
-    double h = 2.0 * (0.5 * LRCS_PI) / (double)divisions->around;
+    double h = LRCS_PI / (double)divisions->around;
     lrcsi_profile profile = {.kind = shape->kind,
                              .base = shape->radius,
                              .around = divisions->around,
                              .strips = divisions->along,
                              .half = h,
-                             .swell = sqrt(2.0 * h / sin(2.0 * h))};
+                             .vertex_ratio = sqrt(2.0 * h / sin(2.0 * h))};
     double rings = (double)divisions->along;
     if (shape->kind == LRCS_SHAPE_DISC) {
         profile.strips = 0;
@@ -250,7 +253,7 @@ lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *
         profile.height = shape->length;
     } else if (shape->kind == LRCS_SHAPE_CONE) {
         profile.height = shape->half_angle_deg > 0.0
-                             ? shape->radius / tan(shape->half_angle_deg * ((0.5 * LRCS_PI) / 90.0))
+                             ? shape->radius / tan(shape->half_angle_deg * (LRCS_PI / 180.0))
                              : shape->length;
     } else if (shape->kind == LRCS_SHAPE_PARABOLOID) {
         profile.height = shape->length;
@@ -259,7 +262,7 @@ lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *
         profile.step = atan(profile.slope) / rings;
     } else {
         profile.height = shape->radius;
-        profile.step = (0.5 * LRCS_PI) / rings;
+        profile.step = 0.5 * LRCS_PI / rings;
     }
     return profile;
 }
@@ -288,12 +291,12 @@ double lrcsi_profile_rise(const lrcsi_profile *profile, uint32_t i)
         double x0 = profile_fraction(profile, i + 1);
         double t = x0 / x1;
         double cubes = x1 * (1.0 + t + t * t) / (1.0 + t);
-        return profile->height * (4.0 / 3.0) * (x1 - x0) * cubes / profile->swell;
+        return profile->height * (4.0 / 3.0) * (x1 - x0) * cubes / profile->vertex_ratio;
     }
     double d = profile->step;
     double theta = profile_polar(profile, i) - 0.5 * d;
-    double twice = sine_rest(d) + 2.0 * sin(theta) * sin(theta) * sin(d);
-    return profile->height * twice / (2.0 * sin(theta) * cos(0.5 * d)) / profile->swell;
+    double twice = angle_minus_sine(d) + 2.0 * sin(theta) * sin(theta) * sin(d);
+    return profile->height * twice / (2.0 * sin(theta) * cos(0.5 * d)) / profile->vertex_ratio;
 }
 
 lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
@@ -309,16 +312,15 @@ lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
     return most;
 }
 
-/* The numbers for a facet tilted and resized by rounding. The turn vector changes by at most gamma
-   / sin gamma < 2 times the tilt. A facet that rounding moves by a large fraction of its own size
-   has no meaningful numbers. */
-lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *c, double blur)
+/* The turn vector changes by at most gamma / sin gamma < 2 times the tilt. A facet that rounding
+   moves by a large fraction of its own size has no meaningful numbers. */
+lrcs_curvature lrcsi_profile_rounded(const lrcs_curvature *c, double rounding)
 {
-    if (!(blur <= BLUR_MOST)) {
-        return (lrcs_curvature){2.0 * (0.5 * LRCS_PI), USELESS, USELESS, sqrt(USELESS)};
+    if (!(rounding <= ROUNDING_MOST)) {
+        return (lrcs_curvature){LRCS_PI, UNBOUNDED, UNBOUNDED, sqrt(UNBOUNDED)};
     }
-    return (lrcs_curvature){fmin(c->turn + blur, 2.0 * (0.5 * LRCS_PI)), c->area_error + 2.0 * blur,
-                            c->bias + 2.0 * blur, c->spread + 2.0 * blur};
+    return (lrcs_curvature){fmin(c->turn + rounding, LRCS_PI), c->area_error + 2.0 * rounding,
+                            c->bias + 2.0 * rounding, c->spread + 2.0 * rounding};
 }
 
 /* A linear map takes normals n to N n / |N n|, N being its inverse transpose, and areas dA to
@@ -340,7 +342,7 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
     double h = 0.5 * (k - 1.0) * (k + 1.0);
     double G = g + h * c->turn;
     double square = c->spread * c->spread;
-    double turn = fmin(k * c->turn, 2.0 * (0.5 * LRCS_PI));
+    double turn = fmin(k * c->turn, LRCS_PI);
     double outward = 1.0 + SLACK;
     if (!(G * c->turn <= 1.0)) {
         double area = (1.0 + c->area_error) * k * outward;
@@ -359,9 +361,9 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
 static double sector_reach(const lrcsi_profile *profile)
 {
     double h = profile->half;
-    double kappa = profile->swell * cos(h);
+    double kappa = profile->vertex_ratio * cos(h);
     double inward = fmax(1.0 - kappa, kappa - cos(h));
-    double sideways = fmax(h * h * h / 6.0, (profile->swell - 1.0) * sin(h));
+    double sideways = fmax(h * h * h / 6.0, (profile->vertex_ratio - 1.0) * sin(h));
     return hypot(inward, sideways) + SLACK;
 }
 
@@ -402,39 +404,39 @@ static double strip_bulge(const lrcsi_profile *profile, uint32_t i)
     return fmin(whole, rise * rise / 36.0); /* fmin ignores a NaN */
 }
 
-/* An upper bound of the distance by which points of strip i move, given that its rows are at most
-   `off` off their true heights. */
-static double strip_reach(const lrcsi_profile *profile, uint32_t i, double off)
+/* An upper bound of the distance by which points of strip i move, if its rows differ from their
+   true heights by at most height_err. */
+static double strip_reach(const lrcsi_profile *profile, uint32_t i, double height_err)
 {
     double below = lrcsi_profile_radius(profile, i);
     double above = lrcsi_profile_radius(profile, i + 1);
     double bulge = strip_bulge(profile, i);
     double across = fmax(below, above) * sector_reach(profile);
-    double share = 0.0;
+    double fraction = 0.0; /* the largest difference of fractions of the height */
     if (bulge > 0.0) {
         double out = fmin(sqrt(bulge), below - above);
         across += above > 0.0 ? fmin(out, 0.5 * bulge / above) : out;
     }
     if (!profile_straight(profile) && below > above) {
-        share = 0.25 * (below - above) / (below + above);
+        fraction = 0.25 * (below - above) / (below + above);
         if (profile->kind == LRCS_SHAPE_PARABOLOID) {
-            share = fmax(share, bulge / (below - above) / (below + above));
+            fraction = fmax(fraction, bulge / (below - above) / (below + above));
         }
     }
     double rise = profile_height(profile, i + 1) - profile_height(profile, i);
-    return hypot(across, off + fmin(1.0, share) * rise);
+    return hypot(across, height_err + fmin(1.0, fraction) * rise);
 }
 
 double lrcsi_profile_reach(const lrcsi_profile *profile)
 {
     double most = fmax(profile->base, profile->top) * sector_reach(profile);
     double z = 0.0;
-    double off = 0.0;
+    double height_err = 0.0;
     for (uint32_t i = 0; i < profile->strips; i++) {
-        double before = off;
+        double before = height_err;
         z += lrcsi_profile_rise(profile, i);
-        off = fabs(z - profile_height(profile, i + 1));
-        most = fmax(most, strip_reach(profile, i, fmax(before, off)));
+        height_err = fabs(z - profile_height(profile, i + 1));
+        most = fmax(most, strip_reach(profile, i, fmax(before, height_err)));
     }
     double size = fmax(profile->base, profile->top) + profile->height;
     return most * REACH_MARGIN + (32.0 + 2.0 * (double)profile->strips) * LRCSI_U * size;

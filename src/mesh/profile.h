@@ -13,7 +13,7 @@ typedef struct lrcsi_profile {
     double base, top, height; /* m: radii at z = 0 and at the upper end, and the end's z */
     uint32_t around, strips;  /* sectors; strips of facets in the wall (0: a disc) */
     double half;              /* h = pi / around, half a sector */
-    double swell;             /* vertex radius / true radius: the polygon has the circle's area */
+    double vertex_ratio;      /* vertex radius / true radius: the polygon has the circle's area */
     double slope;             /* paraboloid: 2 H / R, the tangent of the angle at its rim */
     double step;              /* rad of meridian between rings; 0 for straight walls */
 } lrcsi_profile;
@@ -31,23 +31,23 @@ double lrcsi_profile_rise(const lrcsi_profile *profile, uint32_t i);
 /* The numbers of lrcs_curvature, proved, over all facets of the wall. */
 lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile);
 
-/* An upper bound of the tilt (rad) that rounding the vertices gives to the facets between rows i
-   and i + 1, and of the relative change of their areas. */
-double lrcsi_profile_blur(const lrcsi_profile *profile, uint32_t i);
+/* An upper bound of the angle (rad) by which rounding of the vertices tilts the facets between rows
+   i and i + 1, and of the relative change of their areas. */
+double lrcsi_profile_rounding(const lrcsi_profile *profile, uint32_t i);
 
-/* The numbers for facets that rounding tilts by at most `blur` rad, and whose areas it changes by
-   at most that fraction. */
-lrcs_curvature lrcsi_profile_blurred(const lrcs_curvature *curvature, double blur);
+/* The numbers for facets that rounding tilts by at most `rounding` rad, and whose areas it changes
+   by at most that fraction. */
+lrcs_curvature lrcsi_profile_rounded(const lrcs_curvature *curvature, double rounding);
 
 /* The numbers after a linear map whose largest singular value is `ratio` times its least, applied
-   to patches and facets alike. Also returned: `uneven`. 1 + uneven bounds the factor by which the
+   to both patches and facets. Also returned: `uneven`. 1 + uneven bounds the factor by which the
    map stretches areas at one place of a patch more, or less, than on average over the facet. */
 lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *curvature, double ratio,
                                        double *uneven);
 
-/* A map of the true surface, caps included, onto the facets carries every facet's patch to it,
-   stretches area evenly over a facet (before any
-   lrcsi_profile_stretched), and moves no point farther than this, m. */
+/* An upper bound of the distance, m, by which a map of the true surface, caps included, onto the
+   facets moves any point. The map takes every facet's patch to it, and stretches area evenly over a
+   facet (before any lrcsi_profile_stretched). */
 double lrcsi_profile_reach(const lrcsi_profile *profile);
 
 #endif

@@ -34,9 +34,9 @@
    m, roughly the mean normal, is rounded to whole numbers up to M = 2^20 and w is (5, 3, 7), so
    that g is exact and |g_k| <= 12 M. Errors, u = 2^-53: in g . d a difference rounds once, a
    product once, their sum twice, in all less than 10 u 12 M (|d_x| + |d_y| + |d_z|). Of the
-   determinant of 1, a component of the normal q x p is off by at most 5 u (|q_i p_j| + |q_j p_i|)
-   (base/exact.c), and the sum of three products by 3 u of its terms: less than 10 u M times the sum
-   of the components' |q_i p_j| + |q_j p_i|. */
+   determinant of 1, a component of the normal q x p has an error of at most 5 u (|q_i p_j| + |q_j
+   p_i|) (base/exact.c), and the sum of three products by 3 u of its terms: less than 10 u M times
+   the sum of the components' |q_i p_j| + |q_j p_i|. */
 #include "mesh/ring.h"
 
 #include <math.h>

@@ -19,12 +19,12 @@ lrcsi_slice lrcsi_slice_start(const double a[3], const double b[3], const double
    error that it must exclude. */
 void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[3], double most);
 
-/* The polygon's share, 0 .. 1, of the triangle whose longest side is `longest` and whose area is
-   `whole`: rounded up, and 1 if the triangle is too thin to decide. */
+/* The fraction, 0 .. 1, that the polygon is of the triangle whose longest side is `longest` and
+   whose area is `whole`: rounded up, and 1 if the triangle is too thin to decide. */
 double lrcsi_slice_share(const lrcsi_slice *slice, double whole, double longest);
 
 /* The interval of heights over the side p q that the polygon, part of the triangle o p q, covers:
-   as a share of the height of o, 0 .. 1, rounded up. */
+   as a fraction of the height of o, 0 .. 1, rounded up. */
 double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const double p[3],
                           const double q[3]);
 

@@ -232,8 +232,8 @@ static double wall_add(row_builder *row, const lrcsi_profile *profile, int apex)
     for (uint32_t i = 0; i < profile->strips; i++) {
         z = lrcsi_dd_add(z, (lrcsi_dd){lrcsi_profile_rise(profile, i), 0.0});
         int last = i + 1 == profile->strips;
-        row_add(row, profile->swell * lrcsi_profile_radius(profile, i + 1), lrcsi_dd_value(z),
-                last && apex ? 1 : around);
+        row_add(row, profile->vertex_ratio * lrcsi_profile_radius(profile, i + 1),
+                lrcsi_dd_value(z), last && apex ? 1 : around);
     }
     return lrcsi_dd_value(z);
 }
@@ -242,7 +242,7 @@ static void revolve(const lrcs_shape *shape, const lrcs_divisions *divisions, lr
 {
     lrcsi_profile profile = lrcsi_profile_make(shape, divisions);
     uint32_t caps = shape_caps(shape);
-    double base = profile.swell * profile.base;
+    double base = profile.vertex_ratio * profile.base;
     row_builder row = {mesh, 0, 0, 1.0, 0};
     if (caps > 0) {
         disc_open(&row, base, 0.0, divisions->around);
@@ -262,7 +262,7 @@ static void revolve(const lrcs_shape *shape, const lrcs_divisions *divisions, lr
     if (caps == 2 || shape->kind == LRCS_SHAPE_DISC) {
         double r = shape->kind == LRCS_SHAPE_DISC
                        ? base
-                       : profile.swell * lrcsi_profile_radius(&profile, profile.strips);
+                       : profile.vertex_ratio * lrcsi_profile_radius(&profile, profile.strips);
         disc_close(&row, r, top);
     }
 }

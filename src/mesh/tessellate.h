@@ -18,8 +18,8 @@ lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_di
 /* The distance of lrcsi_profile_reach; 0 for plate and box. O(along). */
 double lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
-/* The true surface that a facet of a wall stands for: all of it between two rows and two
-   half-planes through the axis. */
+/* The part of the true surface that a facet of a wall represents: all of it between two rows and
+   two half-planes through the axis. */
 typedef struct lrcsi_wall_patch {
     uint32_t row;    /* the lower one, as in lrcsi_profile */
     uint32_t sector; /* between the azimuths of corners `sector` and `sector` + 1 of the rows */

@@ -16,17 +16,19 @@
    the first bounded by B's own slab, the second by B's box. If the mean normals of A and B are
    almost equal, e is almost 0, and thin layers are separated however wide they are. The slab of
    each is also compared with the box of the other. Errors: |d_k|, |d_Bk| <= 1; let W be the sum of
-   the boxes' largest |x_k|. Slabs are sums of three products, within 4 u W; e is off by u |e_k| <=
-   2 u, its products and four sums round by less than 20 u W in all: 64 u W covers both sides.
+   the boxes' largest |x_k|. Slabs are sums of three products, within 4 u W; e has an error of u
+   |e_k| <= 2 u, its products and four sums round by less than 20 u W in all: 64 u W covers both
+   sides.
 
    Cones. Let v be a corner of every facet in two blocks, and let the directions from v to their
    other corners lie within alpha of an axis a in the one, within beta of b in the other, both less
    than 90 degrees. A facet is, as seen from v, an arc between two such directions: within alpha
    too, for caps that small are convex. So if the angle between a and b exceeds alpha + beta, that
    is if a . b < cos(alpha + beta) = cos(alpha) cos(beta) - sin(alpha) sin(beta), facets of one
-   block meet those of the other in v only. Errors, u = 2^-53: axes and directions are off by 6 u,
-   so that cosines computed from them are off by 16 u; CONE_MARGIN, 512 u, covers each. A stored
-   cosine counts as exact: the sine, the root of (1 - c) (1 + c), then has an error of 3 u. */
+   block meet those of the other in v only. Errors, u = 2^-53: axes and directions have errors of 6
+   u, so that cosines computed from them have errors of 16 u; CONE_MARGIN, 512 u, covers each. A
+   stored cosine counts as exact: the sine, the root of (1 - c) (1 + c), then has an error of 3 u.
+ */
 #include "mesh/tree.h"
 
 #include <math.h>

@@ -150,7 +150,7 @@ void lrcsi_tree_narrow_by_slabs(lrcsi_tree_walk *walk, uint32_t leaf);
 
 /* Fills the cones of blocks that have a vertex as label, unless proved[label]. Then narrow_by_cones
    leaves out of the traversal of a leaf with such a label the blocks of the same label whose facets
-   are proved to meet those of the leaf in that vertex only. This serves fans whose ring is not
+   are proved to meet those of the leaf in that vertex only. This is used for fans whose ring is not
    proved (mesh/ring.h): all their boxes intersect. */
 void lrcsi_tree_fill_cones(const lrcs_point *vertex, const lrcs_facet *facet,
                            const unsigned char *proved, lrcsi_tree *tree);

@@ -52,8 +52,8 @@ double lrcsi_closed_radians(lrcsi_angle a);
 /* F per unit of surface at that angle to its normal; 0 if the cosine is not positive. */
 lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta);
 
-/* amount *= factor, by part; the factors' relative error is `units` of 2^-53, or they are off by
-   2^-1070 if they are subnormal. A factor of 0 is exact: no area. */
+/* amount *= factor, by part; the factors have a relative error of `units` of 2^-53, or an absolute
+   one of 2^-1070 if they are subnormal. A factor of 0 is exact: no area. */
 void lrcsi_closed_weigh(lrcsi_amount *amount, const double factor[LRCSI_PARTS], double units);
 
 /* The same factor for both parts. */

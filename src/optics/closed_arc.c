@@ -4,7 +4,7 @@
    integrand.
 
    Truncation. All singularities of the integrands lie at an end, behind it, or on the imaginary
-   axis through it, and every peak stands at an end or is as wide as its distance from one. On a
+   axis through it, and every peak is at an end or is as wide as its distance from one. On a
    panel [h/2, h] such a function is analytic inside the ellipse with foci at the panel's ends that
    reaches to rho = 2.2 (the one through the end itself has rho = 5.8), and there |F| is bounded by
    its own size on the axis: arguments stay within 18 degrees, where exp(-z^2), z^nu and

@@ -31,7 +31,8 @@
 /* Longest stretch of y sqrt(-kappa) for one Gauss rule. */
 #define CAP_STRETCH 3.0
 
-/* E = s^2 + (sqrt(pi)/2) s^3 erfcx(1/s) and 2/(m + 3): DESIGN.md section 2. */
+/* sigma = 4 pi^2 R^2 A E + 8 pi^2 R^2 B / (m + 3), E = s^2 + (sqrt(pi)/2) s^3 erfcx(1/s): the
+   integrals of F over a hemisphere of normals. */
 lrcsi_amount lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
 {
     double s = brdf->s;

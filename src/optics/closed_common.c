@@ -70,15 +70,15 @@ lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta)
         return out;
     }
     double change = u.hi > 0.0 ? u.lo / u.hi : 0.0;
-    double share = u.hi / (1.0 + u.hi);
+    double sine2 = u.hi / (1.0 + u.hi); /* sin^2(theta) */
     lrcs_brdf glint = {brdf->A, 0.0, brdf->s, 0.0};
     lrcsi_reflection r = lrcsi_reflect(&glint, u.hi, 0.0);
-    double flank = r.glint > 0.0 ? 2.0 * share - u.hi / brdf->s / brdf->s : 0.0;
+    double flank = r.glint > 0.0 ? 2.0 * sine2 - u.hi / brdf->s / brdf->s : 0.0;
     out.value[LRCSI_GLINT] = r.glint * (1.0 + flank * change);
     out.error[LRCSI_GLINT] = r.error + 2.0 * LRCSI_U * out.value[LRCSI_GLINT];
     lrcs_brdf diffuse = {0.0, brdf->B, 0.0, brdf->m};
     r = lrcsi_reflect(&diffuse, u.hi, 0.0);
-    flank = r.diffuse > 0.0 ? -(0.5 * brdf->m + 1.0) * share : 0.0;
+    flank = r.diffuse > 0.0 ? -(0.5 * brdf->m + 1.0) * sine2 : 0.0;
     out.value[LRCSI_DIFFUSE] = r.diffuse * (1.0 + flank * change);
     out.error[LRCSI_DIFFUSE] = r.error + 2.0 * LRCSI_U * out.value[LRCSI_DIFFUSE];
     return out;

@@ -3,11 +3,11 @@
    of the ring is lit; the integral of F over it is the Gauss-Legendre rule of closed_arc.c, except
    for the cylinder, which has a closed form.
 
-   With the half-angle beta (the wall's normals stand pi/2 - beta off the axis) the normal at
-   azimuth phi has cos(theta) = sin(beta) cos(alpha) + cos(beta) sin(alpha) cos(phi) = c_max (1 - k
-   sin^2(phi/2)), c_max = sin(alpha + beta), k = 2 cos(beta) sin(alpha) / c_max, and 1 - k = c_min /
-   c_max with c_min = sin(beta - alpha). The integral of F over the wall is area/pi * F(c_max) *
-   integral over phi = 0 .. phi_1 of F / F(c_max). */
+   With the half-angle beta (the wall's normals are at an angle of pi/2 - beta to the axis) the
+   normal at azimuth phi has cos(theta) = sin(beta) cos(alpha) + cos(beta) sin(alpha) cos(phi) =
+   c_max (1 - k sin^2(phi/2)), c_max = sin(alpha + beta), k = 2 cos(beta) sin(alpha) / c_max, and 1
+   - k = c_min / c_max with c_min = sin(beta - alpha). The integral of F over the wall is area/pi *
+   F(c_max) * integral over phi = 0 .. phi_1 of F / F(c_max). */
 #include <math.h>
 
 #include "base/degrees.h"
@@ -95,7 +95,7 @@ static lrcsi_arc ring_arc(const lrcs_brdf *brdf, double c_max, double c_min, dou
         arc.length = 2.0 * atan2(sqrt(c_max), sqrt(-c_min));
         arc.ring.psi_1 = 2.0 * atan2(sqrt(-c_min), sqrt(c_max));
     } else {
-        /* q varies by at most an eighth of itself, and its zeros stand at +-2 sqrt(rest/k) i */
+        /* q varies by at most an eighth of itself, and its zeros are at +-2 sqrt(rest/k) i */
         arc.right_clear = fmin(LRCS_PI, sqrt(0.5 * arc.ring.rest / arc.ring.k));
     }
     return arc;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* How far F = f_r cos^2 deviates over the normals of a curved patch from its value at the facet's
-   normal: the proved tessellation error of one facet. Four numbers describe the patch.
+/* Bounds on the deviation of F = f_r cos^2 over the normals of a curved patch from its value at the
+   facet's normal: the proved tessellation error of one facet. Four numbers describe the patch
+   (lrcs_curvature).
 
    On the sphere of normals F(n) = G(theta), theta the angle between n and s_hat. Along the geodesic
    from the facet's normal by the turn vector t
@@ -13,12 +14,12 @@
        first    a F_i + sqrt(1 + a) spread sup |G'|        (Cauchy-Schwarz on the integral of |t|)
        range    a F_i + (1 + a) max(sup G - F_i, F_i)      (inf G >= 0)
    and the least of the three holds. At single points |F - F_i| is at most turn sup |G'|, and at
-   most max(sup G - F_i, F_i). Over any part of the patch h = F - F_i integrates to at most the
-   integral of its positive part, or of its negative one: with h = g . t + R, either is within (Int
-   |g . t| + |Int g . t|)/2 + Int |R|, that is |G'_i| (sqrt(1 + a) spread + bias)/2 + spread^2/2 sup
-   of the bend. If both sides of a surface reflect, F continues as G(180 deg - theta) beyond 90
-   deg: once continuously differentiable there too, with the same suprema, so that each bound also
-   holds if some points beyond 90 deg count and others do not.
+   most max(sup G - F_i, F_i). Over any region of the patch the integral of h = F - F_i is at most
+   that of its positive part or of its negative part over the whole patch: with h = g . t + R, both
+   are at most (Int |g . t| + |Int g . t|)/2 + Int |R|, that is |G'_i| (sqrt(1 + a) spread + bias)/2
+   + spread^2/2 sup max(|G''|, |cot G'|). If both sides of a surface reflect, F continues as G(180
+   deg - theta) beyond 90 deg: once continuously differentiable there too, with the same suprema, so
+   that each bound also holds if some points beyond 90 deg count and others do not.
 
    With u = tan^2 theta, w = 1 + u, E = exp(-u/s^2), nu = m + 2:
        glint/A    G = w^2 E                              G' = 2 sqrt(u) (2 w^2 - w^3/s^2) E
@@ -30,7 +31,8 @@
    u^a w^b E / s^(2c) is unimodal in u (its logarithm is concave in u, E included), so its supremum
    over an interval is its value at the clamped peak, the root of u^2 + (1 - (a + b) s^2) u = a s^2.
    Terms are evaluated as the exponential of a sum of logarithms, none of them above 1e4 if the
-   result is in double range: relative error below 1e4 * 2^-50, which MARGIN covers. */
+   result is in double range: the relative error is below 1e4 * 2^-50, which DEVIATION_MARGIN
+   covers. */
 #include "base/constant.h"
 #include "optics/reflect.h"
 
@@ -38,11 +40,11 @@
 
 #include "base/elementary.h"
 
-#define HALF_PI_BELOW 1.57079632679489655800 /* the double below pi/2 */
-#define STRAY_MARGIN  (1.0 + 1e-10)
-#define EXPONENT_LOW  (-700.0)
-#define STRAY_TINY    0x1p-1009 /* above e^-700: replaces all smaller values */
-#define SLOPE_HUGE    1e75 /* for larger s the peaks lie beyond every finite u that occurs here */
+#define HALF_PI_BELOW    1.57079632679489655800 /* the double below pi/2 */
+#define DEVIATION_MARGIN (1.0 + 1e-10)
+#define EXPONENT_LOW     (-700.0)
+#define DEVIATION_TINY   0x1p-1009 /* above e^-700: replaces all smaller values */
+#define SLOPE_HUGE       1e75 /* for larger s the peaks lie beyond every finite u that occurs here */
 
 /* u = tan^2(theta), and the logarithms that the terms there consist of: computed at first use,
    because they are most of the work. */
@@ -56,19 +58,19 @@ typedef struct tan2_range {
     tan2_point low, high;
 } tan2_range;
 
-/* Bounds on |.| of G and its derivatives, at the facet's normal and over the patch. */
+/* Upper bounds of G, |G'| and max(|G''|, |cot G'|). */
 typedef struct deviation_size {
-    double value, slope;                 /* at the facet's normal */
-    double value_most, slope_most, bend; /* over the patch */
+    double value, slope;                   /* at the facet's normal */
+    double value_most, slope_most, second; /* over the patch */
 } deviation_size;
 
-/* An upper bound of e^x, without the margin. */
+/* An upper bound of e^x, up to DEVIATION_MARGIN. */
 static double exp_above(double x)
 {
-    return x < EXPONENT_LOW ? STRAY_TINY : lrcsi_exp(x);
+    return x < EXPONENT_LOW ? DEVIATION_TINY : lrcsi_exp(x);
 }
 
-/* 0 times infinity is 0 here. */
+/* a b, where 0 times infinity is 0. */
 static double times(double a, double b)
 {
     return a > 0.0 && b > 0.0 ? a * b : 0.0;
@@ -79,8 +81,8 @@ static tan2_point tan2_at(double u)
     return (tan2_point){u, 0.0, 0.0, 0};
 }
 
-/* At a finite u; log_u is 0 if u is. */
-static void point_know(tan2_point *at)
+/* Computes the logarithms, for a finite u; log_u is 0 if u is. */
+static void point_logarithms(tan2_point *at)
 {
     if (!at->known) {
         at->log_w = lrcsi_log1p(at->u).hi;
@@ -113,7 +115,7 @@ static double glint_term(double a, double b, double c, const glint_slope *slope,
     if (at->u == 0.0 && a > 0.0) {
         return 0.0;
     }
-    point_know(at);
+    point_logarithms(at);
     double x = b * at->log_w - at->u / slope->s / slope->s - 2.0 * c * slope->log_s;
     return exp_above(x + a * at->log_u);
 }
@@ -153,7 +155,7 @@ static deviation_size glint_size(double s, int front, tan2_point *here, tan2_ran
                 4.0 * glint_sup(1.0, 4.0, 2.0, &slope, range);
     double down = 2.0 * glint_sup(0.0, 4.0, 1.0, &slope, range) +
                   20.0 * glint_sup(1.0, 3.0, 1.0, &slope, range);
-    size.bend = fmax(level, fmax(up, down));
+    size.second = fmax(level, fmax(up, down));
     return size;
 }
 
@@ -166,7 +168,7 @@ static double diffuse_term(double a, double nu, tan2_point *at)
     if (!isfinite(at->u)) {
         return 1.0; /* a <= 1 <= nu/2: u^a <= w^(nu/2) */
     }
-    point_know(at);
+    point_logarithms(at);
     return exp_above(a * at->log_u - 0.5 * nu * at->log_w);
 }
 
@@ -188,7 +190,7 @@ static deviation_size diffuse_size(double m, int front, tan2_point *here, tan2_r
     }
     size.value_most = diffuse_sup(0.0, nu, range);
     size.slope_most = nu * diffuse_sup(0.5, nu, range);
-    size.bend = fmax(nu * size.value_most, nu * (nu - 1.0) * diffuse_sup(1.0, nu, range));
+    size.second = fmax(nu * size.value_most, nu * (nu - 1.0) * diffuse_sup(1.0, nu, range));
     return size;
 }
 
@@ -198,7 +200,7 @@ static void size_add(deviation_size *sum, double amplitude, const deviation_size
     sum->slope += times(amplitude, part->slope);
     sum->value_most += times(amplitude, part->value_most);
     sum->slope_most += times(amplitude, part->slope_most);
-    sum->bend += times(amplitude, part->bend);
+    sum->second += times(amplitude, part->second);
 }
 
 /* tan^2 over the angles within `turn` of theta that face the laser; 0 if none does. */
@@ -220,22 +222,22 @@ static int range_around(double theta, double turn, tan2_range *range)
 /* The least of the three bounds, and the bound for every single point of the patch. */
 static lrcsi_deviation deviation_of(const deviation_size *all, const lrcs_curvature *c)
 {
-    double second = times(c->bias, all->slope) + times(0.5 * c->spread * c->spread, all->bend);
+    double second = times(c->bias, all->slope) + times(0.5 * c->spread * c->spread, all->second);
     double first = times(c->spread * sqrt(1.0 + c->area_error), all->slope_most);
     double range = fmax(all->value_most - all->value, all->value);
     double slope = times(c->turn, all->slope_most);
-    double half = 0.5 * times(c->spread * sqrt(1.0 + c->area_error) + c->bias, all->slope) +
-                  times(0.5 * c->spread * c->spread, all->bend);
+    double region = 0.5 * times(c->spread * sqrt(1.0 + c->area_error) + c->bias, all->slope) +
+                    times(0.5 * c->spread * c->spread, all->second);
     double least = fmin(second, first);
-    double apart = slope;
+    double point = slope;
     if (isfinite(all->value_most)) {
         least = fmin(least, times(1.0 + c->area_error, range));
-        apart = fmin(slope, range);
+        point = fmin(slope, range);
     }
-    return (lrcsi_deviation){(times(c->area_error, all->value) + least) * STRAY_MARGIN,
-                             apart * STRAY_MARGIN,
-                             fmin(half, times(1.0 + c->area_error, apart)) * STRAY_MARGIN,
-                             all->value * STRAY_MARGIN, all->value_most * STRAY_MARGIN};
+    return (lrcsi_deviation){(times(c->area_error, all->value) + least) * DEVIATION_MARGIN,
+                             point * DEVIATION_MARGIN,
+                             fmin(region, times(1.0 + c->area_error, point)) * DEVIATION_MARGIN,
+                             all->value * DEVIATION_MARGIN, all->value_most * DEVIATION_MARGIN};
 }
 
 lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
@@ -274,7 +276,7 @@ double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double t
 }
 
 /* f_r cos is w^(5/2) E, one of the glint terms, and w^(-(m+1)/2), which decreases. */
-lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double turn)
+lrcsi_reflection lrcsi_reflect_bound(const lrcs_brdf *brdf, double theta, double turn)
 {
     lrcsi_reflection most = {0.0, 0.0, 0.0};
     tan2_range range;
@@ -283,10 +285,10 @@ lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double 
     }
     if (brdf->A > 0.0) {
         const glint_slope slope = {brdf->s, 0.0}; /* a term with c = 0 needs no logarithm */
-        most.glint = brdf->A * glint_sup(0.0, 2.5, 0.0, &slope, &range) * STRAY_MARGIN;
+        most.glint = brdf->A * glint_sup(0.0, 2.5, 0.0, &slope, &range) * DEVIATION_MARGIN;
     }
     if (brdf->B > 0.0) {
-        most.diffuse = brdf->B * diffuse_sup(0.0, brdf->m + 1.0, &range) * STRAY_MARGIN;
+        most.diffuse = brdf->B * diffuse_sup(0.0, brdf->m + 1.0, &range) * DEVIATION_MARGIN;
     }
     return most;
 }

@@ -4,12 +4,15 @@
    evaluated for each pose on the mesh, independent of the plan.
 
    The proved error of a body is 4 pi sum a_i deviation_i. Over fine facets the sum is an integral
-   over the normals, which a fixed midpoint rule estimates: round bodies (sphere, dome, paraboloid):
-   normals all about s_hat, weight sin(theta), against the same integral of F: the glint seen whole,
-   and the body's mean over attitudes; straight walls (cylinder, cone, frustum): normals on a circle
-   of constant elevation, at a fan of aspects, against the wall's own sigma there or its mean over
-   attitudes, whichever is larger. That ratio falls as 1 / around^2, and the least `around` that
-   brings it to the tolerance is found by bisection. */
+   over the normals, which a fixed midpoint rule estimates:
+   - round bodies (sphere, dome, paraboloid): over all normals about s_hat, with weight sin(theta),
+     relative to the same integral of F, in which the whole glint is visible and which is also the
+     body's mean over attitudes;
+   - straight walls (cylinder, cone, frustum): over normals on a circle of constant elevation, at a
+     set of aspects, relative to the wall's own sigma there or its mean over attitudes, whichever is
+     larger.
+   That ratio falls as 1 / around^2, and the smallest `around` that brings it to the tolerance is
+   found by guesses and bisection. */
 #include <lrcs/shape.h>
 
 #include <math.h>
@@ -21,10 +24,10 @@
 #define AROUND_LEAST 8u
 #define AROUND_LIMIT (1u << 24)
 #define PLAN_NODES   48
-#define PLAN_AIM     0.8  /* of the tolerance: aspects between the sampled ones may err more */
+#define PLAN_AIM     0.8  /* of the tolerance: the error may be larger between sampled aspects */
 #define PLAN_SAMPLE  1e-2 /* the tolerance at which dome and paraboloid are sampled */
 #define PLAN_GUESS   16.0 /* quarters of a turn's facets tried first */
-#define PLAN_TRIES   8    /* at most so many guesses */
+#define PLAN_TRIES   8    /* largest number of guesses */
 #define FACETS_LEAST 64u
 
 /* A material on a curved wall, and how coarse the wall is. */
@@ -150,8 +153,8 @@ static double plan_rim(const lrcs_shape *shape)
                                                 : 0.5 * LRCS_PI;
 }
 
-/* Error and sigma of a cap of normals from aspect alpha, and in *size the cap's area. Nodes crowd
-   about alpha, on both sides of it. */
+/* Error and sigma of a cap of normals from aspect alpha, and in *size the cap's area. Nodes are
+   denser near alpha, on both sides of it. */
 static plan_value plan_cap(const facet_plan *plan, const lrcs_shape *shape, double alpha,
                            double *size)
 {
@@ -220,21 +223,16 @@ static double plan_error(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_
     return value.sigma > 0.0 ? value.deviation / value.sigma : 0.0;
 }
 
-static int plan_affords(const lrcs_shape *shape, uint32_t around, uint32_t max_facets)
-{
-    lrcs_divisions divisions = plan_divisions(shape, around);
-    return lrcsi_tessellate_fits(shape, &divisions) &&
-           lrcsi_tessellate_counts(shape, &divisions).facets <= max_facets;
-}
-
-/* The largest `around` that max_facets affords. */
+/* The largest `around` that max_facets allow, by bisection. */
 static uint32_t plan_most(const lrcs_shape *shape, uint32_t max_facets)
 {
     uint32_t good = AROUND_LEAST / 4;
     uint32_t bad = AROUND_LIMIT / 4 + 1;
     while (bad - good > 1) {
         uint32_t middle = good + (bad - good) / 2;
-        if (plan_affords(shape, 4 * middle, max_facets)) {
+        lrcs_divisions divisions = plan_divisions(shape, 4 * middle);
+        if (lrcsi_tessellate_fits(shape, &divisions) &&
+            lrcsi_tessellate_counts(shape, &divisions).facets <= max_facets) {
             good = middle;
         } else {
             bad = middle;

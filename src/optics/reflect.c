@@ -36,7 +36,7 @@
 #define REFLECT_X_FAR  1400.0
 #define REFLECT_X_NONE 3000.0
 
-/* One part and its relative error, `flank` being |d log(part) / d log(u)| at most. */
+/* One part; a bound on its relative error; and `flank`, a bound on |d log(part) / d log(u)|. */
 typedef struct reflect_part {
     double value, relative, flank;
 } reflect_part;
@@ -104,7 +104,7 @@ static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
 
 /* A bound on the glint for every u in [low, high]: (1 + u)^2 grows and the exponential falls; and
    on the glint anywhere, with its peak at 1 + u = 2 s^2 if s^2 > 1/2. */
-static double glint_most(const lrcs_brdf *brdf, double low, double high)
+static double glint_bound(const lrcs_brdf *brdf, double low, double high)
 {
     double s2 = brdf->s * brdf->s;
     double q = s2 > 0.5 ? 2.0 * s2 * lrcsi_exp(-1.0 + 0.5 / s2) : 1.0;
@@ -116,7 +116,7 @@ static double glint_most(const lrcs_brdf *brdf, double low, double high)
 
 /* Is the first-order error valid? If not (the error of u is large, or the part is so small that one
    of its factors may have underflowed), a bound on the part itself replaces it. */
-static int part_is_plain(const reflect_part *part, double e)
+static int first_order_holds(const reflect_part *part, double e)
 {
     return e <= 0.25 && part->relative + 2.0 * e * part->flank <= 0.25 && part->value > 0x1p-900;
 }
@@ -129,18 +129,19 @@ static double part_error(const reflect_part *part, double e)
     return part->value * delta * (1.0 + delta);
 }
 
-/* May a glint whose first-order error is not valid serve as its own bound? If tan^2 is exact, only
-   underflow affects it. A
-   value of at most 2^-900 has q < 2^-200 for these A, so that (A q) q loses 2^-1074 q and 2^-1074;
-   a q below 2^-1022, accurate to 2^-1074, makes it lose 2^-1071. `relative` is above 1 only if
-   both the true and the computed value are negligible. All of this is below 2^-1000. */
-static int glint_is_most(const lrcs_brdf *brdf, const reflect_part *glint, double e)
+/* Is a glint whose first-order error is not valid a bound on itself? If tan^2 is exact, only
+   underflow affects it. A value of at most 2^-900 has q < 2^-200 for these A, so that (A q) q loses
+   2^-1074 q and 2^-1074; a q below 2^-1022, accurate to 2^-1074, makes it lose 2^-1071. `relative`
+   is above 1 only if both the true and the computed value are negligible. All of this is below
+   2^-1000. */
+static int glint_bounds_itself(const lrcs_brdf *brdf, const reflect_part *glint, double e)
 {
     return e == 0.0 && glint->value <= 0x1p-900 && brdf->A >= 0x1p-500;
 }
 
-/* For a bound `most` on the part: twice that, which covers its own underflow and rounding. */
-static double part_error_all(const reflect_part *part, double most)
+/* A bound on the error from a bound `most` on the part: twice that covers underflow and rounding.
+ */
+static double part_error_bound(const reflect_part *part, double most)
 {
     return 2.0 * fmax(part->value, most) + 0x1p-1000;
 }
@@ -148,26 +149,26 @@ static double part_error_all(const reflect_part *part, double most)
 /* tan^2 is in [tan2 / (1 + e), tan2 / (1 - e)], or anywhere. */
 static double glint_error(const lrcs_brdf *brdf, const reflect_part *glint, double tan2, double e)
 {
-    if (part_is_plain(glint, e)) {
+    if (first_order_holds(glint, e)) {
         return part_error(glint, e);
     }
-    if (glint_is_most(brdf, glint, e)) {
-        return part_error_all(glint, glint->value);
+    if (glint_bounds_itself(brdf, glint, e)) {
+        return part_error_bound(glint, glint->value);
     }
     double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
     double high = e <= 0.25 ? tan2 / (1.0 - e) : HUGE_VAL;
-    return part_error_all(glint, glint_most(brdf, low, high));
+    return part_error_bound(glint, glint_bound(brdf, low, high));
 }
 
 /* The diffuse part decreases with u. */
 static double diffuse_error(const lrcs_brdf *brdf, const reflect_part *diffuse, double tan2,
                             double e)
 {
-    if (part_is_plain(diffuse, e)) {
+    if (first_order_holds(diffuse, e)) {
         return part_error(diffuse, e);
     }
     double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
-    return part_error_all(diffuse, reflect_diffuse(brdf, low).value);
+    return part_error_bound(diffuse, reflect_diffuse(brdf, low).value);
 }
 
 lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error)

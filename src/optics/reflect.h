@@ -25,28 +25,28 @@ lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_e
      | integral over the patch of F dA / (facet area)  -  F(facet normal) |,
    F(n) = f_r cos^2 if n . s_hat > 0, else 0 (the 4 pi is the caller's).
    Given: brdf; the facet normal's cos and tan^2 to s_hat (cos <= 0: it faces away, though part of
-   the patch may not); the patch's curvature. Proved; 0 for a flat patch (all three zero). */
+   the patch may not); the patch's curvature. Proved; 0 for a flat patch (all four numbers 0). */
 double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double tan2,
                                const lrcs_curvature *curvature);
 
 /* The variation of F over a patch, for patches that are only partly visible. All fields except
-   `here` are upper bounds. */
+   `value` are upper bounds. */
 typedef struct lrcsi_deviation {
-    double whole; /* lrcsi_reflect_deviation; also if F counts on both sides, by |cos(theta)| */
-    double apart; /* |F - F(facet normal)| at any point of the patch */
-    double part;  /* | integral of F - F(facet normal) over any part of the patch | / facet area */
-    double here;  /* F(facet normal) */
-    double most;  /* F at any point of the patch */
+    double whole;  /* lrcsi_reflect_deviation; also if F counts on both sides, by |cos(theta)| */
+    double point;  /* |F - F(facet normal)| at any point of the patch */
+    double region; /* |integral of F - F(facet normal) over any region of the patch| / facet area */
+    double value;  /* F(facet normal) */
+    double most;   /* F at any point of the patch */
 } lrcsi_deviation;
 
-/* The same bounds for any curvature. For a flat patch all fields except `here` and `most` may be of
-   the size of rounding errors instead of 0. */
+/* The same bounds for any curvature. For a flat patch `whole`, `point` and `region` may be of the
+   size of rounding errors instead of 0. */
 lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
                                      const lrcs_curvature *curvature);
 
-/* Proved upper bounds of the parts of f_r cos (not cos^2) over all normals within `turn` of a
+/* Proved upper bounds of the two terms of f_r cos (not cos^2) over all normals within `turn` of a
    normal at angle theta to s_hat, both in rad, theta <= pi. `error` is 0.
    Notes: 1. Infinite only if f_r itself is near the largest double. */
-lrcsi_reflection lrcsi_reflect_most(const lrcs_brdf *brdf, double theta, double turn);
+lrcsi_reflection lrcsi_reflect_bound(const lrcs_brdf *brdf, double theta, double turn);
 
 #endif

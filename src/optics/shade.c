@@ -5,13 +5,12 @@
    so that everything is a function of q, and near normal incidence v is accurate: n and d are then
    subtracted exactly.
 
-   Error of q, with u = 2^-53 and r = |v|: n is off by at most 1.01 u in all, d is exact, the two
-   subtractions add 2 u of v; squares and their sums add 3 u of q. Together
-       |dq| <= 2.02 u r + 7 u q + 8 u^2,
-   also with r and q as computed. As dc = -dq/2, this changes the logarithm
-       of c^-5 exp(-tan^2/s^2) by at most (2.5/c + 1/(s^2 c^3)) |dq|,
-       of c^(m+1)              by at most (m + 2)/(2 c) |dq|,
-   and by no more those of c^-4 exp(-tan^2/s^2) and c^(m+2), which apply to an area S c.
+   Error of q, with u = 2^-53 and r = |v|: n has an error of at most 1.01 u in all, d is exact, the
+   two subtractions add 2 u of v; squares and their sums add 3 u of q. Together |dq| <= 2.02 u r + 7
+   u q + 8 u^2, also with r and q as computed. As dc = -dq/2, this changes the logarithm of c^-5
+   exp(-tan^2/s^2) by at most (2.5/c + 1/(s^2 c^3)) |dq|, of c^(m+1)              by at most (m +
+   2)/(2 c) |dq|, and by no more those of c^-4 exp(-tan^2/s^2) and c^(m+2), which apply to an area S
+   c.
 
    All else is rounding in functions of q as computed, relative, in units of u:
 
@@ -29,11 +28,11 @@
           with what 1 - q/2 loses in being rounded 1, m + 1 and the product 2: 9 |y|; exp 2,
           4 pi B 2, two products 2, S and S c, with its c, 5: 11
 
-   The constants below leave room for terms in u^2. A logarithm that is off by delta makes the value
-   off by at most delta (1 + delta), and LRCSI_SHADE_UNIT has room for delta < 2^-11: its largest
-   part is (2.02 r + 7 q) u/(s^2 c^3). If r >= 2^-12, 1/(s^2 c^2) <= 2 x/q and x <= 700 make it
-   at most (2.02/r + 7) (1400/c) u < 2^-23; otherwise c is almost 1, and s >= 2^-20 makes it at
-   most (2.02 r + 7 q) 2^41 u < 2^-22.
+   The constants below leave room for terms in u^2. An error delta of the logarithm
+   gives the value a relative error of at most delta (1 + delta), and LRCSI_SHADE_UNIT has room for
+   delta < 2^-11: its largest part is (2.02 r + 7 q) u/(s^2 c^3). If r >= 2^-12, 1/(s^2 c^2) <= 2
+   x/q and x <= 700 make it at most (2.02/r + 7) (1400/c) u < 2^-23; otherwise c is almost 1, and s
+   >= 2^-20 makes it at most (2.02 r + 7 q) 2^41 u < 2^-22.
 
    Exponents beyond 700 count as 0: the part is then below 4 pi A c^-5 e^-699, or 4 pi B e^-699.
    What underflows in between loses 2^-1075 at most. */
@@ -43,11 +42,11 @@
 
 #include "base/bits.h"
 
-#define SHADE_GLINT_UNITS 25.0
-#define SHADE_POWER_UNITS 18.0 /* m = 0, 1/2, 1, 2 */
-#define SHADE_ANY_UNITS   12.0 /* other m */
-#define SHADE_EXPONENT    700.0
-#define SHADE_NOTHING     0x1p-924 /* 2^53 times 2^31 e^-699 */
+#define SHADE_GLINT_UNITS   25.0
+#define SHADE_POWER_UNITS   18.0 /* m = 0, 1/2, 1, 2 */
+#define SHADE_GENERAL_UNITS 12.0 /* other m */
+#define SHADE_EXPONENT      700.0
+#define SHADE_CUTOFF        0x1p-924 /* 2^53 times 2^31 e^-699 */
 
 /* Closer to grazing incidence than this the errors grow. */
 #define SHADE_GRAZING 0x1p-6
@@ -57,9 +56,9 @@
 #define SHADE_NARROW_M 800.0
 #define SHADE_BRIGHT   6.0
 
-/* sqrt(q) or up to 6.1 % more, q >= 0: half the exponent, the mantissa by the secant 1 + f/2 of
-   sqrt(1 + f), or 3/2 + f/2 for sqrt(2 + 2 f). */
-static inline double root_above(double q)
+/* An upper bound of sqrt(q), at most 6.1 % above it, q >= 0: half the exponent, the mantissa by the
+   secant 1 + f/2 of sqrt(1 + f), or 3/2 + f/2 for sqrt(2 + 2 f). */
+static inline double sqrt_bound(double q)
 {
     return lrcsi_bits_double((lrcsi_bits_of(q) >> 1) + UINT64_C(0x1ff8000000000000));
 }
@@ -67,7 +66,7 @@ static inline double root_above(double q)
 /* sqrt(c) for c in [2^-7, 2]. The bits give y = c^(-1/2) to 3.5 %; with h = 1 - c y^2, y (1 + h/2 +
    3 h^2/8) leaves 5/16 h^3: 1.2e-4, 5e-12, and the third step, without its last term, 3/8 h^2:
    below 2^-70. Rounding: h to 2 u of 1, so y to 1 + 1 units, and c y: 3 in all. */
-static inline double root_of(double c)
+static inline double sqrt_iterated(double c)
 {
     double y = lrcsi_bits_double(UINT64_C(0x5fe6eb50c7b537a9) - (lrcsi_bits_of(c) >> 1));
     double h = 1 - c * y * y;
@@ -93,7 +92,7 @@ lrcsi_lobes lrcsi_lobes_make(const lrcs_brdf *brdf, int glint, int diffuse)
                          .high = 2,
                          .glint = glint,
                          .diffuse = diffuse};
-    lobes.nothing = (lobes.A + lobes.B) * SHADE_NOTHING;
+    lobes.cutoff = (lobes.A + lobes.B) * SHADE_CUTOFF;
     if ((glint && !(in_range(brdf->s, 0x1p-20, 0x1p20) &&
                     (brdf->A == 0 || in_range(brdf->A, 0x1p-100, 0x1p100)))) ||
         (diffuse &&
@@ -113,7 +112,7 @@ lrcsi_lobes lrcsi_lobes_make(const lrcs_brdf *brdf, int glint, int diffuse)
 
 /* Quantities from the chord, and the part of the errors that both lobes share: |dq|/c. */
 typedef struct shade_chord {
-    double q[LRCSI_LANES], inverse[LRCSI_LANES], off[LRCSI_LANES];
+    double q[LRCSI_LANES], inverse[LRCSI_LANES], err[LRCSI_LANES];
 } shade_chord;
 
 static void chords_make(const lrcsi_lobes *restrict lobes, const double *restrict d,
@@ -128,10 +127,10 @@ static void chords_make(const lrcsi_lobes *restrict lobes, const double *restric
         double c = 1 - 0.5 * q;
         double inverse = 1 / c;
         shades->cosine[i] = c;
-        shades->error[i] = lobes->nothing;
+        shades->error[i] = lobes->cutoff;
         chord->q[i] = q;
         chord->inverse[i] = inverse;
-        chord->off[i] = (2.02 * root_above(q) + (7 * q + 0x1p-50)) * inverse;
+        chord->err[i] = (2.02 * sqrt_bound(q) + (7 * q + 0x1p-50)) * inverse;
     }
 }
 
@@ -161,7 +160,7 @@ static void lobe_glint(const lrcsi_lobes *restrict lobes, const shade_chord *res
         double glint = lrcsi_bits_masked(lobes->A * (square * square * inverse * e[i]), keep[i]);
         shades->glint[i] = glint;
         shades->error[i] += glint * ((SHADE_GLINT_UNITS - 11 * x[i]) +
-                                     chord->off[i] * (2.5 + lobes->inverse_s2 * square));
+                                     chord->err[i] * (2.5 + lobes->inverse_s2 * square));
     }
 }
 
@@ -177,7 +176,7 @@ static void lobe_power(const lrcsi_lobes *restrict lobes, const shade_chord *res
         double c = shades->cosine[i];
         double diffuse = lobes->B * (c * (one + c * (first + c * second)));
         shades->diffuse[i] = diffuse;
-        shades->error[i] += diffuse * (SHADE_POWER_UNITS + chord->off[i] * half_nu);
+        shades->error[i] += diffuse * (SHADE_POWER_UNITS + chord->err[i] * half_nu);
     }
 }
 
@@ -186,14 +185,14 @@ static void lobe_root(const lrcsi_lobes *restrict lobes, const shade_chord *rest
 {
     for (int i = 0; i < LRCSI_LANES; i++) {
         double c = shades->cosine[i];
-        double diffuse = lobes->B * (c * root_of(c));
+        double diffuse = lobes->B * (c * sqrt_iterated(c));
         shades->diffuse[i] = diffuse;
-        shades->error[i] += diffuse * (SHADE_POWER_UNITS + chord->off[i] * 1.25);
+        shades->error[i] += diffuse * (SHADE_POWER_UNITS + chord->err[i] * 1.25);
     }
 }
 
-static void lobe_any(const lrcsi_lobes *restrict lobes, const shade_chord *restrict chord,
-                     lrcsi_shades *restrict shades)
+static void lobe_general(const lrcsi_lobes *restrict lobes, const shade_chord *restrict chord,
+                         lrcsi_shades *restrict shades)
 {
     double y[LRCSI_LANES];
     double e[LRCSI_LANES];
@@ -211,7 +210,7 @@ static void lobe_any(const lrcsi_lobes *restrict lobes, const shade_chord *restr
     for (int i = 0; i < LRCSI_LANES; i++) {
         double diffuse = lrcsi_bits_masked(lobes->B * e[i], keep[i]);
         shades->diffuse[i] = diffuse;
-        shades->error[i] += diffuse * ((SHADE_ANY_UNITS - 9 * y[i]) + chord->off[i] * half_nu);
+        shades->error[i] += diffuse * ((SHADE_GENERAL_UNITS - 9 * y[i]) + chord->err[i] * half_nu);
     }
 }
 
@@ -232,6 +231,6 @@ void lrcsi_shade(const lrcsi_lobes *lobes, const double d[3], const double d_low
     } else if (lobes->m == 0 || lobes->m == 1 || lobes->m == 2) {
         lobe_power(lobes, &chord, shades);
     } else {
-        lobe_any(lobes, &chord, shades);
+        lobe_general(lobes, &chord, shades);
     }
 }

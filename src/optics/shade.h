@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* f_r cos(theta) of a block of facets of one material, in plain doubles, with an a priori bound on
-   its error. It serves nearly every facet of a view, except facets near grazing incidence and
+   its error. It is used for nearly every facet of a view, except facets near grazing incidence and
    facets in the bright lobe of a narrow glint: these need tan^2 to more digits than unit vectors
    of doubles provide (reflect.h). */
 #ifndef LRCSI_SHADE_H
@@ -16,7 +16,7 @@ typedef struct lrcsi_lobes {
     double A, B; /* 4 pi times those of the material */
     double inverse_s2;
     double m;
-    double nothing;   /* bound of a part that is set to 0, in units of u */
+    double cutoff;    /* bound on a part that is set to 0, in units of u */
     double low, high; /* the range of cosines for which blocks may be used; empty if low >= high */
     int glint, diffuse;
 } lrcsi_lobes;

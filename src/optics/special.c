@@ -52,11 +52,9 @@ double lrcsi_special_cosine_power(double nu)
     return SPECIAL_SQRT_PI / sqrt(w) * sum * (above / below);
 }
 
-/* The quantile 0.975: infinite for 0 degrees of freedom, eight values from 30 digits, then the
-   expansion in 1/freedom
-   about the normal distribution's (Abramowitz and Stegun 1964, 26.7.5), which is off by 7e-6 at 9
-   and less beyond.
- */
+/* The quantile 0.975: infinite for 0 degrees of freedom; eight values rounded from 30 digits; then
+   the expansion in 1/freedom about that of the normal distribution (Abramowitz and Stegun 1964,
+   26.7.5), which has an error of 7e-6 at 9 degrees of freedom and a smaller one beyond. */
 double lrcsi_special_student(uint32_t freedom)
 {
     static const double few[] = {HUGE_VAL,

@@ -111,18 +111,13 @@ int lrcsi_binder_make(const lrcs_recipe *recipe, lrcs_work *work, lrcsi_binder *
     return LRCS_OK;
 }
 
-static uint32_t library_count(void)
-{
-    uint32_t count = 0;
-    while (lrcs_brdf_library(count)) {
-        count++;
-    }
-    return count;
-}
-
 uint32_t lrcsi_binder_material_count(const lrcs_recipe *recipe)
 {
-    return recipe->material_count + library_count();
+    uint32_t library = 0;
+    while (lrcs_brdf_library(library)) {
+        library++;
+    }
+    return recipe->material_count + library;
 }
 
 int lrcsi_binder_assigned(const lrcsi_binder *binder, const lrcs_recipe_part *part,

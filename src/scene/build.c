@@ -13,7 +13,7 @@
 #include "scene/bind.h"
 #include "scene/fineness.h"
 #include "scene/place.h"
-#include "scene/shaped.h"
+#include "scene/placed_shape.h"
 #include "scene/smooth.h"
 
 /* Coordinates beyond this are refused, because their squares and cubes must not overflow. */
@@ -46,7 +46,7 @@ lrcs_build_options lrcs_build_options_default(void)
     return options;
 }
 
-/* --- complaints ---------------------------------------------------------------------------- */
+/* --- errors -------------------------------------------------------------------------------- */
 
 static int refuse_part(const scene_builder *builder, int status, const lrcs_recipe_part *part,
                        const char *expected)
@@ -333,11 +333,12 @@ static int add_shape(scene_builder *builder, scene_piece *piece, const lrcs_divi
                    : refuse_part(builder, status, piece->part, "a shape that can be meshed");
     }
     lrcs_part *part = &scene->part[scene->part_count];
-    double extent = lrcsi_shaped_extent(&mesh);
-    lrcsi_shaped_describe(&piece->part->shape, divisions, &curvature, &piece->placer, extent, part);
+    double extent = lrcsi_placed_shape_extent(&mesh);
+    lrcsi_placed_shape_describe(&piece->part->shape, divisions, &curvature, &piece->placer, extent,
+                                part);
     status = add_piece(builder, &mesh, piece, scene);
     if (status == LRCS_OK) {
-        lrcsi_shaped_tilt(&piece->placer, scene, extent, part);
+        lrcsi_placed_shape_tilt(&piece->placer, scene, extent, part);
     }
     work->used = mark;
     return status;
@@ -415,7 +416,11 @@ static void settle_normals(lrcs_scene *scene)
     scene->corner_normal = curved ? scene->corner_normal : NULL;
 }
 
-/* Does everything, in a work area whose `used` the caller resets on failure. */
+/* The steps, in a work area whose `used` the caller resets on failure:
+   1. counts (count_scene), the divisions of shapes included, and the scene's arrays (take_scene);
+   2. an index of names (lrcsi_binder_make);
+   3. each part: materials, vertices, facets, normals (add_part);
+   4. the first binding that matched nothing. */
 static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
 {
     const lrcs_recipe *recipe = builder->recipe;

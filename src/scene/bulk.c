@@ -10,8 +10,9 @@
 
 /* The largest number of vertices sampled, evenly spaced in the list. */
 #define SAMPLE 256u
-/* The bulk is less than all only if that reduces the work of a grid by at least this factor. */
-#define WORTH 8.0
+/* Vertices are left out of the bulk only if that reduces the work of a grid by at least this
+   factor. */
+#define WORK_RATIO 8.0
 
 /* A sample of the vertices of live facets. */
 typedef struct bulk_sample {
@@ -77,12 +78,12 @@ static double bulk_radius(const bulk_sample *s, double whole, uint32_t vertices)
     bulk_sort(sorted, s->count);
     double half = sorted[s->count / 2];
     double all = (whole / half) * (whole / half);
-    double least = all / WORTH;
+    double least = all / WORK_RATIO;
     double radius = 0;
     for (uint32_t out = 0; out < s->count / 2 && half > 0; out++) {
         double reach = sorted[s->count - 1 - out] / half;
-        double share = (double)out / s->count;
-        double cost = reach * reach + share * share * vertices;
+        double left_out = (double)out / s->count;
+        double cost = reach * reach + left_out * left_out * vertices;
         if (cost < least) {
             least = cost;
             radius = sorted[s->count - 1 - out];

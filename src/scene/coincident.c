@@ -189,8 +189,8 @@ static uint64_t count_entries(const lrcs_prepared *p)
     return count;
 }
 
-/* What `met` says of a facet, from that of the facet for which it was computed: sides of the two
-   correspond if they are the same edge, for the order of corners differs. */
+/* intersections.met of a facet, from that of the facet for which it was computed. The two list
+   their corners in different orders; their sides correspond if they are the same edge. */
 static unsigned char met_of(const lrcs_prepared *p, uint32_t facet, uint32_t of)
 {
     const uint32_t *edge = p->topology.facet_edge[facet].corner;
@@ -206,8 +206,8 @@ static unsigned char met_of(const lrcs_prepared *p, uint32_t facet, uint32_t of)
     return (unsigned char)met;
 }
 
-/* In place, from the end: no entry moves down, and the list of the first of a pair has not moved
-   when the second, which comes after it, gets a copy. */
+/* Copies the lists in place, from the end: no entry moves to a smaller index, and the list of the
+   first facet of a pair has not moved when the second, which comes after it, gets a copy. */
 static void spread_entries(lrcs_prepared *p, uint32_t count)
 {
     lrcsi_intersections *t = &p->intersections;

@@ -9,7 +9,7 @@
 enum lrcsi_table {
     LRCSI_TABLE_TOP = 0,
     LRCSI_TABLE_PART,
-    LRCSI_TABLE_JOINT, /* goes on with the draft of its part */
+    LRCSI_TABLE_JOINT, /* continues the draft of its part */
     LRCSI_TABLE_MATERIAL,
     LRCSI_TABLE_MAP,
     LRCSI_TABLES
@@ -67,11 +67,11 @@ typedef struct lrcsi_draft {
 /* Begins the top of the file. */
 void lrcsi_draft_start(const lrcsi_toml *toml, lrcsi_draft *draft);
 
-/* The table that a header opens (lrcsi_table), or LRCS_E_NAME. Draft: the one it ends or, for a
-   joint, goes on with. */
+/* The table that a header opens (lrcsi_table), or LRCS_E_NAME. Draft: the one that it ends or, for
+   a joint, continues. */
 int lrcsi_draft_table(const lrcsi_draft *draft, const lrcsi_toml_event *header);
 
-/* Begins a table, or goes on with a part's joint. */
+/* Begins a table, or continues that of a part with its joint. */
 void lrcsi_draft_open(lrcsi_draft *draft, int table, const lrcsi_toml_event *header);
 
 /* Adds a key. Status: LRCS_OK; LRCS_E_NAME (unknown, given twice); LRCS_E_ARGUMENT (type). */

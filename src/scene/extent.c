@@ -8,7 +8,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "optics/closed.h"
-#include "scene/shaped.h"
+#include "scene/placed_shape.h"
 
 /* Parts smaller than this, scaled, have coordinates near those that count as 0. */
 #define EXTENT_LEAST 0x1p-200
@@ -18,7 +18,7 @@ static int some_closed_form(const lrcs_scene *scene)
 {
     int some = 0;
     for (uint32_t i = 0; i < scene->part_count; i++) {
-        some |= scene->part[i].rigid && lrcsi_shaped_closed_form(&scene->part[i].shape, 0);
+        some |= scene->part[i].rigid && lrcsi_placed_shape_closed_form(&scene->part[i].shape, 0);
     }
     return some;
 }
@@ -28,7 +28,7 @@ static int has_closed_form(const lrcs_prepared *p, uint32_t index)
 {
     const lrcs_part *part = &p->scene->part[index];
     if (part->kind < 0 || !part->rigid || !part->curvature_known ||
-        !lrcsi_shaped_closed_form(&part->shape, 0) || part->facet_count == 0) {
+        !lrcsi_placed_shape_closed_form(&part->shape, 0) || part->facet_count == 0) {
         return 0;
     }
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {

@@ -1,25 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* How finely a shape among other parts is divided: coarser if it is small among them, and as finely
-   as the edges of shadows need. It only chooses and proves nothing: the error of the facets is
-   computed for each pose from the mesh. */
+/* How finely a shape among other parts is divided: coarser if it is small compared with them, and
+   as finely as the edges of shadows require. It chooses, and proves nothing: the error of the
+   facets is computed from the mesh for each pose. */
 #include "scene/fineness.h"
 
 #include <math.h>
 
 #include "base/vec3.h"
-
 #include "mesh/tessellate.h"
-#include "scene/shaped.h"
+#include "scene/placed_shape.h"
 
-/* The least number of shares into which a scene's tolerance is divided, and the largest factor by
-   which a small part may be coarser than requested. */
-#define SHARES_LEAST 16.0
-#define LEAVE_MOST   100.0
+/* The tolerance of a scene is divided among its parts, and among at least this many. The largest
+   factor by which a small part may be coarser than requested. */
+#define PARTS_LEAST     16.0
+#define COARSENING_MOST 100.0
 
-/* How far a round body's surface may be from its facets, in units of its radius and the tolerance:
-   with 0.3, 14 of 20 directions to examples/satellites/spinner.toml and 11 of 20 to lander.toml
-   meet 1e-4; with 1.0, 25 and 17 of 60 in half the time. The number of its facets grows as
-   1/tolerance. */
+/* The largest distance of a round body's surface from its facets, in units of its radius times the
+   tolerance. Measured: with 0.3, 14 of 20 directions to examples/satellites/spinner.toml and 11 of
+   20 to lander.toml meet 1e-4; with 1.0, 25 and 17 of 60 in half the time. The number of its facets
+   grows as 1/tolerance. */
 #define REACH_ROUND 0.3
 
 /* Divisions of a shape whose facets only pictures and records show: neighbours differ by 7.5 and 9
@@ -27,10 +26,10 @@
 #define BASE_AROUND 48
 #define BASE_ALONG  10
 
-/* Divisions of a shape alone whose facets stand for patches of its true surface. Only patches that
-   the laser sees nearly edge-on, or partly from behind, have a large error. Measured with nine
-   materials at 37 aspects, the bounds relative to the mean of sigma over the aspects are at most
-   20/N^2 for straight walls and 300/N^3 for round shapes of N sectors, if the rules of
+/* Divisions of a shape alone whose facets represent patches of its true surface. Only patches that
+   are nearly edge-on to the laser, or partly face away from it, have a large error. Measured with
+   nine materials at 37 aspects, the bounds relative to the mean of sigma over the aspects are at
+   most 20/N^2 for straight walls and 300/N^3 for round shapes of N sectors, if the rules of
    integrate/patch.h hold: for that a facet's turn in azimuth must not exceed 4 s or 0.1 rad, nor m
    a limit. */
 #define ALONE_STRAIGHT      20.0
@@ -43,7 +42,7 @@
 /* Beyond this ratio of a scale's components no number of facets suffices. */
 #define RATIO_MOST 1e3
 
-/* 0 if a corner is out of range. */
+/* The area of a facet, in units of the mesh; 0 if a corner is out of range. */
 static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
 {
     const uint32_t *corner = mesh->facet[f].corner;
@@ -80,11 +79,11 @@ double lrcsi_fineness_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh)
 /* The factor by which a part that is small among the others may be coarser than requested. If the
    brightness of each part were proportional to its surface, all parts together would add at most
    the error that the scene is allowed. */
-static double part_leave(const lrcsi_fineness *fineness, const lrcs_recipe_part *part)
+static double part_coarsening(const lrcsi_fineness *fineness, const lrcs_recipe_part *part)
 {
-    double parts = fmax(SHARES_LEAST, fineness->parts);
-    double leave = fineness->area / (lrcsi_fineness_area(part, NULL) * parts);
-    return leave > 1.0 ? fmin(leave, LEAVE_MOST) : 1.0;
+    double parts = fmax(PARTS_LEAST, fineness->parts);
+    double factor = fineness->area / (lrcsi_fineness_area(part, NULL) * parts);
+    return factor > 1.0 ? fmin(factor, COARSENING_MOST) : 1.0;
 }
 
 static int shape_is_round(const lrcs_shape *shape)
@@ -102,7 +101,7 @@ static double shape_tolerance(const lrcsi_fineness *fineness, const lrcs_recipe_
     if (fineness->parts == 1) {
         return tolerance;
     }
-    tolerance = fmin(tolerance * part_leave(fineness, part), fmax(1.0, tolerance));
+    tolerance = fmin(tolerance * part_coarsening(fineness, part), fmax(1.0, tolerance));
     return shape_is_round(&part->shape) ? fmax(fmin(10.0 * tolerance, 1.0), fineness->round_least)
                                         : tolerance;
 }
@@ -126,15 +125,15 @@ static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *p
     }
 }
 
-/* Divisions of a shape whose facets stand for patches of its true surface (integrate/patch.h):
-   these add no error of their own, so that only the uncertainty of shadows counts, in proportion to
-   how far the true surface may be from the facets. Straight walls as above; of round bodies sectors
-   and rings are chosen for the same distance. */
+/* Divisions of a shape whose facets represent patches of its true surface (integrate/patch.h):
+   these have no error of their own, so that only the uncertainty of shadows counts, in proportion
+   to the distance of the true surface from the facets. Straight walls are divided as above; for
+   round bodies sectors and rings are chosen for the same distance. */
 static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                               lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     const lrcs_shape *shape = &part->shape;
-    double tolerance = fmin(fineness->tolerance * part_leave(fineness, part), 1.0);
+    double tolerance = fmin(fineness->tolerance * part_coarsening(fineness, part), 1.0);
     int is_round = shape_is_round(shape);
     double reach = REACH_ROUND * fmax(tolerance, fineness->round_least) * shape->radius;
     double corners =
@@ -154,7 +153,7 @@ static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_
     return counts->facets <= fineness->max_facets;
 }
 
-/* Divisions of a shape alone whose facets stand for patches: as coarse as the tolerance allows.
+/* Divisions of a shape alone whose facets represent patches: as coarse as the tolerance allows.
    Returns 0 if that does not suffice, or if these facets would need to be finer than those without
    patches. */
 static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
@@ -178,17 +177,7 @@ static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *
     return counts->facets <= fineness->max_facets;
 }
 
-/* The ratio of a scale between axes: it multiplies the turns of normals by that factor, and the
-   error of a facet by slightly more than its square (mesh/profile.c). */
-static double scale_ratio(const lrcs_recipe_part *part)
-{
-    const double *scale = part->place.scale;
-    double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
-    double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
-    return small > 0.0 && large / small < RATIO_MOST ? large / small : 1.0;
-}
-
-/* Do the facets of a shape stand for patches of it? */
+/* Do the facets of a shape represent patches of it? */
 static int has_patches(const lrcs_recipe_part *part)
 {
     lrcsi_placer placer;
@@ -207,16 +196,24 @@ static int is_closed_form(const lrcsi_fineness *fineness, const lrcs_recipe_part
     lrcsi_placer placer;
     lrcsi_axes axes;
     return fineness->parts == 1 && !fineness->facets_only &&
-           lrcsi_shaped_closed_form(&part->shape, material->two_sided) &&
+           lrcsi_placed_shape_closed_form(&part->shape, material->two_sided) &&
            lrcsi_placer_make(&part->place, &part->joint, &placer) == LRCS_OK &&
            lrcsi_placer_axes(&placer, &axes);
 }
 
+/* The first of these that applies:
+   1. facets for pictures only, if the closed form holds for the shape;
+   2. facets that represent patches of the true surface;
+   3. flat facets. The ratio of the scales along two axes multiplies the turns of normals, and the
+      error of a facet by slightly more than its square (mesh/profile.c). */
 int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                           const lrcs_material *material, lrcs_divisions *divisions,
                           lrcs_mesh_counts *counts)
 {
-    double ratio = scale_ratio(part);
+    const double *scale = part->place.scale;
+    double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    double ratio = small > 0.0 && large / small < RATIO_MOST ? large / small : 1.0;
     double spread = ratio > 1.0 ? 1.5 * ratio * ratio : 1.0;
     const lrcs_fineness wanted = {shape_tolerance(fineness, part) / spread, material->brdf,
                                   fineness->max_facets};

@@ -65,19 +65,6 @@ static int scene_check(const lrcs_scene *scene, double *most)
     return LRCS_OK;
 }
 
-/* Scaled in two steps, so that neither power overflows: exact, unless it becomes 0. */
-static void scale_vertices(lrcs_prepared *p)
-{
-    double first = ldexp(1, -p->exponent / 2);
-    double second = ldexp(1, -p->exponent - -p->exponent / 2);
-    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
-        for (int k = 0; k < 3; k++) {
-            double x = p->scene->vertex[v].x[k] * first * second;
-            p->vertex[v].x[k] = fabs(x) < LRCSI_COORDINATE_LEAST ? 0 : x;
-        }
-    }
-}
-
 /* Normals computed side by side. */
 enum { CROSS_LANES = 8 };
 
@@ -122,8 +109,8 @@ static void lanes_cross(cross_lanes *n)
     }
 }
 
-/* The three components together are off by at most 10 u^2 2 |p| |q| in norm; |p| |q| is computed
-   within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
+/* The error of the three components together is at most 10 u^2 2 |p| |q| in norm; |p| |q| is
+   computed within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
 static void store_normal(lrcs_prepared *prepared, uint32_t facet, const cross_lanes *lanes, int at)
 {
     lrcsi_normal *n = &prepared->normal[facet];
@@ -212,6 +199,8 @@ static void find_box(lrcs_prepared *p)
 
 /* ---- stages ---- */
 
+/* Vertices are scaled in two steps, so that neither power overflows: exactly, unless they become 0.
+ */
 static int prepare_edges(lrcs_prepared *p, lrcs_work *work)
 {
     const lrcs_scene *scene = p->scene;
@@ -219,12 +208,19 @@ static int prepare_edges(lrcs_prepared *p, lrcs_work *work)
     if (!p->vertex) {
         return LRCS_E_MEMORY;
     }
-    scale_vertices(p);
+    double first = ldexp(1, -p->exponent / 2);
+    double second = ldexp(1, -p->exponent - -p->exponent / 2);
+    for (uint32_t v = 0; v < scene->vertex_count; v++) {
+        for (int k = 0; k < 3; k++) {
+            double x = scene->vertex[v].x[k] * first * second;
+            p->vertex[v].x[k] = fabs(x) < LRCSI_COORDINATE_LEAST ? 0 : x;
+        }
+    }
     return lrcsi_topology_make(p->vertex, scene->vertex_count, scene->facet, scene->facet_count,
                                work, &p->topology);
 }
 
-/* Coincident facets come before neighbours: a redundant facet is nobody's neighbour. */
+/* Coincident facets come before neighbours: a redundant facet is not a neighbour of any other. */
 static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
 {
     const lrcs_scene *scene = p->scene;
@@ -258,10 +254,10 @@ static int contacts_of_convex(lrcs_prepared *p, lrcs_work *work)
     return LRCS_OK;
 }
 
-/* Pieces of surface are distinguished first, for contacts within one piece. Not searched are
-   redundant facets, and of opposite pairs the second, which gets a copy of the first one's list.
-   Then whether the scene is solid. This stage comes before the normals: they use the memory of its
-   scratch. */
+/* Pieces of surface are distinguished first, for contacts within one piece. Redundant facets are
+   not searched, nor the second facet of an opposite pair, which gets a copy of the first one's
+   list. Then the proof that the scene is solid. This stage comes before the normals, which use the
+   memory of its scratch. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 {
     uint32_t facets = p->scene->facet_count;
@@ -304,8 +300,8 @@ static int prepare_normals(lrcs_prepared *p, lrcs_work *work)
     return lrcsi_batches_make(p, work);
 }
 
-/* Is a solid scene convex (one piece of surface, as a convex body is)? How close are curved shapes
-   to each other, and what is the extent of parts? Last, the runs of facets. */
+/* Proves that a solid scene is convex, if it is one piece of surface; finds which facets are close
+   to curved shapes, and the extents of parts; last, makes the runs of facets. */
 static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
 {
     int status = LRCS_OK;

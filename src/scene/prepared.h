@@ -36,11 +36,12 @@ enum lrcsi_redundant {
 
 /* Across the sides of facets (scene/across.h). */
 typedef struct lrcsi_across {
-    lrcs_facet *facet;   /* facet -> across its side from corner k to k + 1: the other facet there,
-                            or that one of two coincident facets, that traverses the side in the
-                            opposite sense; the number of facets if there is no other; the facet
-                            itself if the edge is irregular or the facet redundant */
-    uint32_t *irregular; /* irregular edges: any others that have facets; ascending */
+    lrcs_facet *facet; /* facet: across its side from corner k to k + 1, the other facet there that
+                          traverses the side in the opposite direction (if two coincident facets
+                          are there, the one that does); the number of facets if there is no
+                          other; the facet itself if the edge is irregular or the facet redundant
+                        */
+    uint32_t *irregular; /* irregular edges: all other edges that have facets; ascending */
     uint32_t irregular_count;
 } lrcsi_across;
 
@@ -50,13 +51,14 @@ typedef struct lrcsi_batches {
     uint32_t count;
     uint32_t *first;   /* material i: places first[i] .. first[i + 1] */
     uint32_t *facet;   /* at each place */
-    double *normal[3]; /* unit; component k is off by at most 1.01 u of itself */
+    double *normal[3]; /* unit; relative error of each component at most 1.01 u */
     double *area;      /* S, scaled; relative error at most 3 u */
     int redundant;     /* some are, on one side at least */
 } lrcsi_batches;
 
-/* At most this share of the facet's area is within their parts' slack of `other`, and at most this
-   share of its rows (lrcsi_proximity_rows) holds such points. Rounded up. */
+/* At most the fraction `share` of the facet's area is within the slack of the two parts of `other`,
+   and at most the fraction `rows` of its rows (lrcsi_proximity_rows) has such points. Rounded up.
+ */
 typedef struct lrcsi_proximity_pair {
     uint32_t facet, other;
     float share, rows;
@@ -65,9 +67,8 @@ typedef struct lrcsi_proximity_pair {
 typedef struct lrcsi_proximity {
     double *reach; /* part: lrcs_part.reach, scaled; NULL if this was not requested, or some part's
                       curvature is not known */
-    double *
-        grazing_cos; /* part: a facet with |cos(theta)| above this keeps its side of its own part */
-    double most;     /* of reach */
+    double *grazing_cos; /* part: rounding cannot reverse a facet with |cos(theta)| above this */
+    double most;         /* of reach */
     lrcsi_proximity_pair *pair; /* in no order */
     size_t count;
 } lrcsi_proximity;
@@ -95,11 +96,23 @@ typedef struct lrcsi_runs {
     unsigned char *first; /* facet: the first of the facets connected with it across sides within
                              the run, counted from the run's first facet */
     lrcsi_run_side *side; /* those of run r: side[run[r].first_side .. run[r + 1].first_side) */
+    /* What suffices where all facets of runs are alike, in as few bytes as possible: */
+    unsigned char *whole; /* run: all facets are connected across sides within it */
+    uint32_t *link;       /* the runs that the sides of run r lead to, each once, LRCS_NONE if some
+                             side leads to no facet: link[first_link[r] .. first_link[r + 1]) */
+    uint32_t *first_link;
 } lrcsi_runs;
 
 static inline uint32_t lrcsi_runs_count(uint32_t facet_count)
 {
     return facet_count / LRCSI_RUN + (facet_count % LRCSI_RUN != 0);
+}
+
+/* The facets that all runs had if the last one had as many as the others. Arrays of so many entries
+   can be processed a whole run at a time. */
+static inline size_t lrcsi_runs_room(uint32_t facet_count)
+{
+    return (size_t)lrcsi_runs_count(facet_count) * LRCSI_RUN;
 }
 
 /* The end of a run that starts at a facet. */
@@ -150,7 +163,7 @@ struct lrcs_prepared {
     lrcsi_proximity
         proximity; /* if there are curved shapes among other parts; else proximity.reach is NULL */
     const lrcsi_extent *extent; /* part: its extent; NULL if no shape has a closed form */
-    int articulated;            /* some part stands on a joint */
+    int articulated;            /* some part has a joint */
     int smooth;                 /* some live facet has curved normals */
 };
 

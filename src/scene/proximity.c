@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The slack between parts and the facets within it. visibility/proximity_band.h proves that these
-   distances suffice. Shares are rounded outward: coordinates here are below 1 and doubles accurate
-   to 2^-48, so every distance is widened by LRCSI_PROXIMITY_ERR. */
+   distances suffice. Fractions are rounded outward: coordinates here are below 1 and computed
+   values accurate to 2^-48, so every distance is increased by LRCSI_PROXIMITY_ERR. */
 #include "scene/proximity.h"
 
 #include <math.h>
@@ -13,8 +13,9 @@
 #include "mesh/slice.h"
 #include "mesh/tree.h"
 
-/* See scene/solid.c: beyond this the rounding of vertices cannot reverse a facet. */
-#define NEAR_GRAZE 16.0
+/* The rounding of vertices cannot reverse a facet whose |cos(theta)| exceeds this times their error
+   over its altitude (scene/solid.c). */
+#define GRAZING_FACTOR 16.0
 
 int lrcsi_proximity_closed(const lrcs_prepared *p, uint32_t part)
 {
@@ -84,7 +85,7 @@ double lrcsi_proximity_rows(const lrcs_prepared *p, uint32_t facet, const double
 
 /* The part of a facet within `slack` of the prism over `other`: between two planes at that distance
    from the plane of `other`, and inside three at that distance outside its sides. */
-static lrcsi_slice near_slice(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
+static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
 {
     const lrcsi_normal *normal = &p->normal[other];
     lrcsi_slice slice =
@@ -110,7 +111,7 @@ static lrcsi_slice near_slice(const lrcs_prepared *p, uint32_t facet, uint32_t o
 }
 
 /* Are all corners of `other` farther than `slack` from the plane of a facet, on one side of it? */
-static int near_plane_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
+static int pair_is_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
 {
     const lrcsi_normal *n = &p->normal[facet];
     const double *a = lrcsi_prepared_corner(p, facet, 0);
@@ -129,41 +130,41 @@ static int near_plane_apart(const lrcs_prepared *p, uint32_t facet, uint32_t oth
 
 /* --- all pairs -------------------------------------------------------------------------------- */
 
-/* A share as a float, rounded up. */
-static float share_float(double share)
+/* A fraction as a float, rounded up. */
+static float fraction_float(double fraction)
 {
-    return (float)lrcsi_least(1, share * (1 + 0x1p-22));
+    return (float)lrcsi_least(1, fraction * (1 + 0x1p-22));
 }
 
 /* Entries are allocated one by one and are contiguous. */
 _Static_assert(sizeof(lrcsi_proximity_pair) % LRCS_WORK_ALIGN == 0, "no gaps between entries");
 
-static int near_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work *work)
+static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work *work)
 {
     lrcsi_proximity *proximity = &p->proximity;
     const uint32_t *part = p->scene->facet_part;
     double slack = lrcsi_proximity_slack(p, part[facet], part[other]);
-    if (near_plane_apart(p, facet, other, slack) || near_plane_apart(p, other, facet, slack)) {
+    if (pair_is_apart(p, facet, other, slack) || pair_is_apart(p, other, facet, slack)) {
         return LRCS_OK;
     }
-    lrcsi_slice slice = near_slice(p, facet, other, slack);
+    lrcsi_slice slice = pair_slice(p, facet, other, slack);
     if (slice.count == 0) {
         return LRCS_OK;
     }
     const double *const corner[3] = {lrcsi_prepared_corner(p, facet, 0),
                                      lrcsi_prepared_corner(p, facet, 1),
                                      lrcsi_prepared_corner(p, facet, 2)};
-    double share =
+    double fraction =
         lrcsi_slice_share(&slice, 0.5 * p->normal[facet].length, lrcsi_proximity_longest(p, facet));
     double rows = lrcsi_proximity_rows(p, facet, corner, &slice);
-    if (!(share > 0)) {
+    if (!(fraction > 0)) {
         return LRCS_OK;
     }
     lrcsi_proximity_pair *pair = lrcsi_work_take(work, 1, sizeof *pair);
     if (!pair) {
         return LRCS_E_MEMORY;
     }
-    *pair = (lrcsi_proximity_pair){facet, other, share_float(share), share_float(rows)};
+    *pair = (lrcsi_proximity_pair){facet, other, fraction_float(fraction), fraction_float(rows)};
     proximity->pair = proximity->pair ? proximity->pair : pair;
     proximity->count++;
     return LRCS_OK;
@@ -171,7 +172,7 @@ static int near_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work 
 
 /* The pairs of a facet of a curved part with all facets of other parts, in both orders; if both
    parts are curved, each order is found from its own facet. */
-static int near_around(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree, lrcs_work *work)
+static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree, lrcs_work *work)
 {
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
@@ -189,9 +190,9 @@ static int near_around(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree,
         if (scene->facet_part[other] == part) {
             continue;
         }
-        status = near_add(p, facet, other, work);
+        status = proximity_add(p, facet, other, work);
         if (status == LRCS_OK && p->proximity.reach[scene->facet_part[other]] == 0) {
-            status = near_add(p, other, facet, work);
+            status = proximity_add(p, other, facet, work);
         }
     }
     return status;
@@ -208,7 +209,7 @@ static int pairs_find(lrcs_prepared *p, lrcs_work *work)
                                  scene->facet_part, 0, work, &tree);
     for (uint32_t f = 0; f < scene->facet_count && status == LRCS_OK; f++) {
         if (!p->skip[f] && p->proximity.reach[scene->facet_part[f]] > 0) {
-            status = near_around(p, f, &tree, work);
+            status = pairs_of_facet(p, f, &tree, work);
         }
     }
     work->used = mark;
@@ -240,9 +241,9 @@ static int parts_known(const lrcs_prepared *p)
     return 1;
 }
 
-/* A facet of a convex part whose vertices are off by `off` keeps its orientation to the laser, and
-   its order among the part's other facets, if |cos(theta)| exceeds 16 off over its least altitude
-   (scene/solid.c). */
+/* A facet of a convex part whose vertices have errors of at most `off` keeps its facing, and its
+   depth order among the part's other facets, if |cos(theta)| exceeds GRAZING_FACTOR off divided by
+   its smallest altitude (scene/solid.c). */
 static void parts_fill(lrcs_prepared *p)
 {
     lrcsi_proximity *proximity = &p->proximity;
@@ -260,7 +261,7 @@ static void parts_fill(lrcs_prepared *p)
         double off = ldexp(scene->part[i].misplaced, -p->exponent) + 4 * LRCSI_U;
         double altitude = p->normal[f].length / lrcsi_proximity_longest(p, f);
         proximity->grazing_cos[i] =
-            lrcsi_most(proximity->grazing_cos[i], NEAR_GRAZE * off / altitude);
+            lrcsi_most(proximity->grazing_cos[i], GRAZING_FACTOR * off / altitude);
     }
 }
 

@@ -8,11 +8,13 @@
 #include "mesh/slice.h"
 #include "scene/prepared.h"
 
-/* Every slack is widened by this: coordinates are below 1, and doubles accurate to 2^-48. */
+/* Every slack is increased by this, for rounding: coordinates are below 1, and computed values
+   accurate to 2^-48. */
 #define LRCSI_PROXIMITY_ERR 0x1p-44
 
-/* The distance between a facet of `part` and one of `other`, or in projection its rims and
-   contours, below which the true visibility may differ: 0 if both parts' facets are exact. */
+/* The distance from a facet of `part` to a facet of `other`, or in projection to its rims and
+   contours, below which the visibility of the true shapes may differ from that of the facets: 0 if
+   the facets of both parts are exact. */
 double lrcsi_proximity_slack(const lrcs_prepared *prepared, uint32_t part, uint32_t other);
 
 /* 1 if a part is a closed outward solid by construction: its back sides never hide anything by
@@ -20,9 +22,9 @@ double lrcsi_proximity_slack(const lrcs_prepared *prepared, uint32_t part, uint3
 int lrcsi_proximity_closed(const lrcs_prepared *prepared, uint32_t part);
 
 /* The rows of a facet on the straight wall of a cylinder, cone or frustum are the lines parallel to
-   its side on one of the wall's two circles. With the facet's corners given in any coordinates: the
-   share of its rows, by height over that side, that a polygon within the facet may meet. 1 if the
-   facet has no rows, or if no row is certainly outside. */
+   its side on one of the wall's two circles. Given: the facet's corners, in any coordinates.
+   Returned: an upper bound of the fraction of its rows, by height over that side, that a polygon
+   within the facet meets; 1 if the facet has no rows. */
 double lrcsi_proximity_rows(const lrcs_prepared *prepared, uint32_t facet,
                             const double *const corner[3], const lrcsi_slice *slice);
 

@@ -262,7 +262,8 @@ static int read_tables(recipe_reader *reader)
         }
         if (event.kind == LRCSI_TOML_KEY) {
             status = lrcsi_draft_add(&reader->draft, &event);
-        } else { /* a header: it ends the table before, unless it goes on with a part's joint */
+        } else { /* a header: it ends the table before it, unless it opens the joint of the same
+                    part */
             int table = lrcsi_draft_table(&reader->draft, &event);
             status = table < 0                    ? table
                      : table == LRCSI_TABLE_JOINT ? LRCS_OK

@@ -245,7 +245,7 @@ static int read_place(const lrcsi_draft *draft, double unit, lrcs_recipe_part *p
     const lrcsi_toml_event *translate = lrcsi_draft_find(draft, LRCSI_KEY_TRANSLATE);
     part->place = lrcs_place_default();
     int status = lrcsi_recipe_unit(draft, part->file ? unit : 0.0, &unit);
-    part->unit_given = part->file && unit > 0.0;
+    part->unit_m = part->file ? unit : 0.0;
     unit = unit > 0.0 ? unit : 1.0;
     if (status == LRCS_OK) {
         status = read_scale(draft, unit, part->place.scale);

@@ -24,7 +24,7 @@
 #include "base/length.h"
 #include "base/vec3.h"
 #include "base/work.h"
-#include "optics/comb.h"
+#include "optics/ripple.h"
 
 /* Normals this close to the facet's own leave it flat; a mean this short, relative to its weights,
    has cancelled. */
@@ -256,7 +256,7 @@ static int glint_needs_normals(const smooth_job *job, uint32_t facet, const lrcs
     for (int k = 0; k < 3; k++) {
         turn = fmax(turn, angle_of(n[k].x, n[(k + 1) % 3].x));
     }
-    return brdf->A > 0.0 && turn > 0.0 && lrcsi_comb_error(turn, brdf->s) > options->tolerance;
+    return brdf->A > 0.0 && turn > 0.0 && lrcsi_ripple_error(turn, brdf->s) > options->tolerance;
 }
 
 /* Do all corners that have a normal have one that exists? Status: LRCS_OK; LRCS_E_INDEX. */

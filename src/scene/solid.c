@@ -165,14 +165,15 @@ int lrcsi_convex_by_construction(const lrcs_prepared *p, int *solid)
     return made;
 }
 
-/* The part's exact vertices lie on a convex surface, the placed ones within `off` of them. Let x on
-   a front facet i be hidden by y = x + t d. The body lies below the true surface's tangent plane,
-   so y is within sagitta / cos(theta) of x. Where cos(theta) exceeds three turns that distance is
-   less than a facet, and every normal in reach has a positive component along d: the surface there
-   is a graph over the view plane, met once: x is not hidden. Without dents beyond rounding
-   (plane-faced and singly curved bodies, Delaunay diagonals) the exact mesh is itself convex and
-   only the tilt by rounding counts, at most 2 off / altitude for either facet; 16 covers both and
-   the margin. */
+/* The part's exact vertices lie on a convex surface, and the placed ones are within `off` of them.
+   Suppose that a point x of a front facet is hidden by y = x + t d. The body lies below the tangent
+   plane of the true surface, so y is within sagitta / cos(theta) of x. Where cos(theta) exceeds
+   three turns, that distance is less than a facet, and every normal in that neighbourhood has a
+   positive component along d: the surface there is a graph over the view plane, which a line of
+   sight meets once, so x is not hidden. Without dents larger than rounding (bodies with plane
+   faces, singly curved bodies, Delaunay diagonals) the exact mesh is itself convex, and only the
+   tilt by rounding matters, at most 2 off / altitude for either facet; 16 covers both, with a
+   margin. */
 double lrcsi_convex_grazing(const lrcs_prepared *p)
 {
     const lrcs_part *part = &p->scene->part[only_part(p)];

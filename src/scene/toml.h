@@ -42,7 +42,7 @@ typedef struct lrcsi_toml_event {
     uint32_t line;
     uint32_t name_count;
     lrcsi_toml_name name[2];
-    const char *raw; /* the key or header as it stands in the file, and its value */
+    const char *raw; /* the key or header as it is in the file, and its value */
     size_t raw_size;
     const char *value_raw;
     size_t value_size;

@@ -5,13 +5,13 @@
    Claim. Let the true surface P of a part lie on the boundary of a convex body, d the direction to
    the laser, and n a vector with n . d >= 0. If n . x >= c on P and n . x <= c on another part Q,
    then Q hides no part of P that has a projected area.
-   Proof. A point q of Q that hides p in P is q = p + t d with t > 0. Then c >= n . q = n . p + t n
-   . d
-   >= c + t n . d: so n . d = 0, and p lies in the plane n . x = c. That plane contains d, so the
-   part of P in it is seen edge-on. QED. P hides none of its own front, because it lies on a convex
-   body. So P is clear if there is such a plane for each other part. A plane that contains d
-   separates the silhouettes; n = d means that Q is behind P; planes in between serve parts that
-   stand on one another.
+   Proof. A point q of Q that hides p in P is q = p + t d with t > 0. Then
+       c >= n . q = n . p + t n . d >= c + t n . d,
+   so that n . d = 0, and p lies in the plane n . x = c. That plane contains d, so the part of P in
+   it is seen edge-on. QED. P hides none of its own front, because it lies on a convex body. So P is
+   clear if there is such a plane for each other part. A plane that contains d separates the
+   silhouettes; n = d means that Q is behind P; planes in between separate parts that stand on one
+   another.
 
    Rounding. Let the errors of the supports (the largest n . x over a body) be e_P and e_Q, that of
    n . d 8 u, and all distances below LENGTH. Then the gap between P and Q along n must exceed e_P +
@@ -29,14 +29,17 @@
 #include "base/work.h"
 #include "optics/closed.h"
 
+/* With a larger slope s the slab is not known: slab_surface. */
 #define GLINT_SLOPE_MOST 0x1p20
-#define LENGTH           5.0 /* coordinates are below 1, and true shapes not much larger than facets */
+/* An upper bound of distances: coordinates are below 1, and true shapes not much larger than
+ * facets. */
+#define LENGTH 5.0
 
 /* The support of parts with fewer facets is computed from their corners, that of others from the
    box around them. */
 #define CORNERS_MOST 32u
 
-/* A part as a body with supports. */
+/* A part as a convex body, of which supports are computed. */
 typedef struct clear_body {
     const lrcs_prepared *prepared;
     const lrcs_part *part;
@@ -45,7 +48,7 @@ typedef struct clear_body {
                    or of the box around the part */
     double radius, radius2, length, origin[3];
     double centre[3]; /* of its box */
-    double off;       /* of a support along a unit vector */
+    double err;       /* bound on the error of a support along a unit vector */
 } clear_body;
 
 /* The error of a support: 64 u covers about 30 operations on magnitudes below the sum of the
@@ -54,7 +57,7 @@ static clear_body body_make(const lrcs_prepared *p, uint32_t index)
 {
     const lrcs_part *part = &p->scene->part[index];
     clear_body body = {
-        .prepared = p, .part = part, .extent = &p->extent[index], .off = 64 * LRCSI_U};
+        .prepared = p, .part = part, .extent = &p->extent[index], .err = 64 * LRCSI_U};
     body.curved = body.extent->closed_form;
     for (int k = 0; k < 3; k++) {
         body.centre[k] = 0.5 * body.extent->low[k] + 0.5 * body.extent->high[k];
@@ -70,7 +73,7 @@ static clear_body body_make(const lrcs_prepared *p, uint32_t index)
             size += fabs(body.origin[k]);
         }
         size += body.radius + body.radius2 + body.length;
-        body.off = 64 * LRCSI_U * size + ldexp(part->misplaced, -p->exponent);
+        body.err = 64 * LRCSI_U * size + ldexp(part->misplaced, -p->exponent);
     }
     return body;
 }
@@ -128,12 +131,12 @@ static double support(const clear_body *body, const double n[3])
     return body->curved ? support_curved(body, n) : support_facets(body, n);
 }
 
-/* The lit surface of a closed form within `height` of its end along its axis, or of a sphere's
-   anywhere: rings of the wall no wider than the widest; and for the end itself, where F is below B
-   (20 u)^2 if the glint's slope is below GLINT_SLOPE_MOST, an area that covers it. */
+/* An upper bound of the lit surface within `height` of an end of a shape along its axis, or of a
+   sphere in any direction: rings of the wall, each at most as long as the longest; and an area that
+   covers the end itself, where F is below B (20 u)^2 if s is at most GLINT_SLOPE_MOST. */
 static double slab_surface(const clear_body *body, double height)
 {
-    const double turn = 6.2832;
+    const double two_pi = 6.2832; /* rounded up */
     double wide = lrcsi_most(body->radius, body->radius2);
     double slant = 1;
     if (body->part->kind == LRCS_SHAPE_CONE || body->part->kind == LRCS_SHAPE_FRUSTUM) {
@@ -142,15 +145,15 @@ static double slab_surface(const clear_body *body, double height)
     } else if (body->part->kind == LRCS_SHAPE_PARABOLOID) {
         slant += 0.5 * wide / body->length;
     }
-    return 1.001 * turn * wide * slant * height + 32 * LRCSI_U * wide * wide;
+    return 1.001 * two_pi * wide * slant * height + 32 * LRCSI_U * wide * wide;
 }
 
-/* Does the direction n, a unit vector to 8 u, separate a pair? If so, *slab is the area that may
-   nevertheless be hidden. `knows`: slabs of P across n are known. */
+/* Does a plane across n, a unit vector to 8 u, separate a pair? If so, *slab is the area that may
+   nevertheless be hidden. has_slab: the area of slabs of P across n is known. */
 static int is_separating(const clear_body *P, const clear_body *Q, const double d[3],
-                         const double n[3], int knows, double *slab)
+                         const double n[3], int has_slab, double *slab)
 {
-    double error = P->off + Q->off + LENGTH * lrcsi_most(0, 8 * LRCSI_U - lrcsi_vec3_dot(n, d));
+    double error = P->err + Q->err + LENGTH * lrcsi_most(0, 8 * LRCSI_U - lrcsi_vec3_dot(n, d));
     const double down[3] = {-n[0], -n[1], -n[2]};
     double gap = -support(P, down) - support(Q, n);
     if (gap > error) {
@@ -158,12 +161,12 @@ static int is_separating(const clear_body *P, const clear_body *Q, const double 
         return 1;
     }
     *slab = slab_surface(P, 2 * error);
-    return knows && gap >= -error && support(P, n) + support(P, down) > 8 * error;
+    return has_slab && gap >= -error && support(P, n) + support(P, down) > 8 * error;
 }
 
-/* Tries n and -n, unless they face away from the laser; n need not have length 1. */
+/* Tries planes across n and -n, unless these face away from the laser; n need not have length 1. */
 static int is_separated_along(const clear_body *P, const clear_body *Q, const double d[3],
-                              const double n[3], int knows, double *slab)
+                              const double n[3], int has_slab, double *slab)
 {
     double length = sqrt(lrcsi_vec3_dot(n, n));
     if (!(length > 0x1p-30)) {
@@ -172,19 +175,19 @@ static int is_separated_along(const clear_body *P, const clear_body *Q, const do
     const double up[3] = {n[0] / length, n[1] / length, n[2] / length};
     const double down[3] = {-up[0], -up[1], -up[2]};
     double toward = lrcsi_vec3_dot(up, d);
-    return (toward >= -8 * LRCSI_U && is_separating(P, Q, d, up, knows, slab)) ||
-           (toward <= 8 * LRCSI_U && is_separating(P, Q, d, down, knows, slab));
+    return (toward >= -8 * LRCSI_U && is_separating(P, Q, d, up, has_slab, slab)) ||
+           (toward <= 8 * LRCSI_U && is_separating(P, Q, d, down, has_slab, slab));
 }
 
-/* The directions that are tried: P's axis; that to the laser; from centre to centre, as it is and
-   in projection; the axes of Q, and all axes turned into the view plane across themselves: those
-   that separate long bodies and boxes. */
+/* Tries these directions: P's axis; that to the laser; from centre to centre, and its projection
+   into the view plane; the axes of Q; and, for long bodies and boxes, the directions in the view
+   plane across each of these axes. */
 static int is_separated(const clear_body *P, const clear_body *Q, const double d[3], double *slab)
 {
     static const double body_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const lrcs_brdf *brdf = &lrcsi_prepared_material(P->prepared, P->part->first_facet)->brdf;
-    int knows = brdf->A == 0 || brdf->s <= GLINT_SLOPE_MOST;
-    int round = knows && P->part->kind == LRCS_SHAPE_SPHERE;
+    int has_slab = brdf->A == 0 || brdf->s <= GLINT_SLOPE_MOST;
+    int sphere_slab = has_slab && P->part->kind == LRCS_SHAPE_SPHERE;
     double between[3];
     double flat[3];
     double across[3];
@@ -196,18 +199,18 @@ static int is_separated(const clear_body *P, const clear_body *Q, const double d
         flat[k] = between[k] - along * d[k];
     }
     lrcsi_vec3_cross(P->part->axis[2], d, across);
-    if (is_separated_along(P, Q, d, flat, round, slab) ||
-        is_separated_along(P, Q, d, P->part->axis[2], knows, slab) ||
-        is_separated_along(P, Q, d, d, round, slab) ||
-        is_separated_along(P, Q, d, between, round, slab) ||
-        is_separated_along(P, Q, d, across, round, slab)) {
+    if (is_separated_along(P, Q, d, flat, sphere_slab, slab) ||
+        is_separated_along(P, Q, d, P->part->axis[2], has_slab, slab) ||
+        is_separated_along(P, Q, d, d, sphere_slab, slab) ||
+        is_separated_along(P, Q, d, between, sphere_slab, slab) ||
+        is_separated_along(P, Q, d, across, sphere_slab, slab)) {
         return 1;
     }
     const double(*axis)[3] = Q->part->rigid ? (const double(*)[3])Q->part->axis : body_axis;
     for (int k = Q->curved ? 2 : 0; k < 3; k++) {
         lrcsi_vec3_cross(axis[k], d, across);
-        if (is_separated_along(P, Q, d, axis[k], round, slab) ||
-            is_separated_along(P, Q, d, across, round, slab)) {
+        if (is_separated_along(P, Q, d, axis[k], sphere_slab, slab) ||
+            is_separated_along(P, Q, d, across, sphere_slab, slab)) {
             return 1;
         }
     }

@@ -9,8 +9,9 @@
 typedef struct lrcsi_clear {
     unsigned char *part; /* part: 1 if no other part hides any of its true surface that faces the
                             laser, and no reflecting inside of it is visible; NULL: none */
-    double *slab;        /* part: if it touches a separating plane to within rounding, the largest
-                            area of that surface that can still be hidden, scaled */
+    double *slab; /* part: an upper bound of the area of that surface that may be hidden after
+                     all, scaled: not 0 if a separating plane touches the part to within
+                     rounding */
     uint32_t count;
     int all; /* every part with live facets is clear */
 } lrcsi_clear;

@@ -50,9 +50,9 @@ static int pose_check(const lrcs_pose *pose)
 
 /* Let e be the unit vector along the computed first row without its component along d. The row's
    component along d consists of the rounding errors of a - t d (t is accurate to 4 u and below
-   2^-19), u, and of the quotients, u; its length is off by 2.5 u. The second row: d x the first is
-   exactly along d x e, its components are rounded once, u, and `unit` adds 2.5 u. The third: 2.5 u.
-   All below 4 u. */
+   2^-19), u, and of the quotients, u; its length has an error of 2.5 u. The second row: d x the
+   first is exactly along d x e, its components are rounded once, u, and `unit` adds 2.5 u. The
+   third: 2.5 u. All below 4 u. */
 int lrcsi_frame_make(const lrcs_pose *pose, double direction[3], double R[3][3])
 {
     int status = pose_check(pose);

@@ -6,11 +6,13 @@
 
 #include "base/dd.h"
 
-/* N . d, N being high + low. Products and sums are split into rounded values and
-   their errors, and only the sum of the errors is rounded: with P = sum |N_k d_k|, at most
-   |N| |d|, the three pairs of up to 2 u P and their products 3 u^2 P, the pairs' sums 4 u^2 P,
-   those of the sums' own lost parts 2 u^2 P, the two together 4 u^2 P. Off by at most N's own error
-   times |d|, 14 u^2 |N| |d|, and the last rounding, u |N . d|. */
+/* N . d, where N is high + low. Products and sums are split into rounded values and their errors,
+   and only the sum of these errors is rounded. With P = sum |N_k d_k|, at most |N| |d|, that loses
+       3 u^2 P in the three terms error + low d, each at most 2 u P;
+       4 u^2 P in their sum;
+       2 u^2 P in the sum of the errors of the two sums;
+       4 u^2 P in the sum of both.
+   The error is at most N's own times |d|, 14 u^2 |N| |d|, and the last rounding, u |N . d|. */
 static inline double lrcsi_product_dot(const double *high, const double *low, const double *d)
 {
     lrcsi_dd x = lrcsi_dd_two_product(high[0], d[0]);
@@ -22,11 +24,11 @@ static inline double lrcsi_product_dot(const double *high, const double *low, co
     return xyz.hi + (lost + (xy.lo + xyz.lo));
 }
 
-/* N_i d_j - N_j d_i in the same way: with Q = |N_i d_j| + |N_j d_i|, the products' lost parts and
-   that of their difference 3 u^2 Q, N's low parts 2 u^2 Q, all together 3 u^2 Q: 8 u^2 Q and the
-   last rounding. The three Q of N x d are at most sqrt(2) |N| |d| in norm: |N x d| is off by at
-   most N's own error times |d|, 12 u^2 |N| |d|, and 3.5 u |N x d| for the last roundings and the
-   norm's. */
+/* N_i d_j - N_j d_i in the same way. With Q = |N_i d_j| + |N_j d_i|, the sum of the errors of the
+   two products and of their difference loses 3 u^2 Q, the terms with low 2 u^2 Q, and their sum 3
+   u^2 Q: together 8 u^2 Q, and the last rounding. The three Q of N x d are at most sqrt(2) |N| |d|
+   in norm: the error of |N x d| is at most N's own times |d|, 12 u^2 |N| |d|, and 3.5 u |N x d| for
+   the last roundings and that of the norm. */
 static inline double lrcsi_product_turn(const double *high, const double *low, const double *d,
                                         int i, int j)
 {

@@ -15,8 +15,8 @@ enum { LRCSI_VIEW_UNSURE = 2 };
 typedef struct lrcsi_view_side {
     double at[2], to[2];
     double length; /* of `to`, in the 1-norm */
-    double at_err; /* of `at`, in each coordinate, */
-    double to_err; /* and of `to` */
+    double at_err; /* bound on the error of `at`, in each coordinate */
+    double to_err; /* of `to` */
 } lrcsi_view_side;
 
 static inline lrcsi_view_side lrcsi_view_side_of(const lrcsi_view *view, uint32_t a, uint32_t b)

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* How far a segment of the view plane reaches in x within a range of y, where its ends are known
-   with errors that may differ by many orders of magnitude. */
+/* The range of x of a segment of the view plane within a range of y. The errors of its ends may
+   differ by many orders of magnitude. */
 #ifndef LRCSI_STRIP_H
 #define LRCSI_STRIP_H
 
 #include "base/range.h"
 #include "view/view.h"
 
-/* The point from + t to, 0 <= t <= 1, is off by at most off + t grow. */
+/* The point from + t to, 0 <= t <= 1, has an error of at most off + t grow in each coordinate. */
 typedef struct lrcsi_strip_segment {
     double from[2], to[2];
     double off, grow;
 } lrcsi_strip_segment;
 
 /* The segment between two points of the view, in units of 1 / scale. It begins at the point with
-   the smaller error; errors are taken four times, and `rounding` is added: what is left of that has
-   to cover the rounding of everything that is computed of it. */
+   the smaller error. Errors are multiplied by four, and `rounding` is added: together these must
+   cover the rounding of everything that is computed from the segment. */
 static inline lrcsi_strip_segment lrcsi_strip_segment_make(const double a[3], const double b[3],
                                                            double scale, double rounding)
 {
@@ -41,8 +41,8 @@ static inline void lrcsi_strip_narrow(double value, double slope, double range[2
     }
 }
 
-/* The range of x of the points that may have low <= y <= high; 0 if there are none. Where a point
-   is and what it is off are both linear in t, so that limits are met at the ends of a range. */
+/* The range of x of the points that may have low <= y <= high. Returns 0 if there are none.
+   Positions and their errors are linear in t, so that extrema are at the ends of the range of t. */
 static inline int lrcsi_strip_range(const lrcsi_strip_segment *s, double low, double high,
                                     double x[2])
 {

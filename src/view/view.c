@@ -27,7 +27,7 @@ static inline double normal_products(const double *high, const double *low, cons
     return lrcsi_product_dot(high, low, d);
 }
 
-/* The absolute error of both, per unit of |d|. */
+/* A bound on the absolute errors of |N x d| and N . d, per unit of |d|. */
 static double normal_off(const lrcsi_normal *n)
 {
     return 21 * LRCSI_U * LRCSI_U * n->length + n->error;
@@ -50,24 +50,17 @@ static signed char facing_of(const lrcsi_view *view, uint32_t facet)
                                          lrcsi_prepared_corner(view->prepared, facet, 2), d);
 }
 
-static double grazing_dot(const lrcsi_view *view, uint32_t facet)
-{
-    return lrcsi_exact_dot(lrcsi_prepared_corner(view->prepared, facet, 0),
-                           lrcsi_prepared_corner(view->prepared, facet, 1),
-                           lrcsi_prepared_corner(view->prepared, facet, 2), view->direction);
-}
-
-/* A dot product below this multiple of its error is taken exactly. */
+/* A dot product below this multiple of its error is computed exactly. */
 #define GRAZING_DOT 0x1p50
 /* Closer to edge-on than this, only a lower bound of tan^2 is known: about 2^1000, still a double.
  */
 #define GRAZING_LEAST 0x1p-500
 
-/* |N . d| and its error: the computed value, or near grazing incidence the exact one, to 2 u; too
-   close to edge-on to be decided, only a lower bound. */
+/* |N . d| and a bound on its error: the computed value or, near grazing incidence, the exact one to
+   2 u. Closer to edge-on than GRAZING_LEAST it is replaced by that bound. */
 typedef struct incidence_dot {
-    double value, off;
-    int least;
+    double value, err;
+    int replaced;
 } incidence_dot;
 
 static incidence_dot incidence_dot_of(const lrcsi_view *view, uint32_t facet, double product,
@@ -75,13 +68,16 @@ static incidence_dot incidence_dot_of(const lrcsi_view *view, uint32_t facet, do
 {
     incidence_dot dot = {fabs(product), off, 0};
     if (!(dot.value > GRAZING_DOT * off)) {
-        dot.value = fabs(grazing_dot(view, facet));
-        dot.off = 2 * LRCSI_U * dot.value;
+        dot.value =
+            fabs(lrcsi_exact_dot(lrcsi_prepared_corner(view->prepared, facet, 0),
+                                 lrcsi_prepared_corner(view->prepared, facet, 1),
+                                 lrcsi_prepared_corner(view->prepared, facet, 2), view->direction));
+        dot.err = 2 * LRCSI_U * dot.value;
     }
     double least = GRAZING_LEAST * view->prepared->normal[facet].length * view->length;
     if (dot.value < least) {
         dot.value = least;
-        dot.least = 1;
+        dot.replaced = 1;
     }
     return dot;
 }
@@ -106,8 +102,8 @@ static lrcsi_incidence incidence_make(const lrcsi_view *view, uint32_t facet, do
     double off = normal_off(n) * view->length;
     double cross = lrcsi_length(cross_product);
     incidence_dot dot = incidence_dot_of(view, facet, product, off);
-    double relative = dot.off / dot.value;
-    incidence.error = dot.least ? 2 : 2 * relative + n->error / n->length + 8 * LRCSI_U;
+    double relative = dot.err / dot.value;
+    incidence.error = dot.replaced ? 2 : 2 * relative + n->error / n->length + 8 * LRCSI_U;
     incidence.tan2_err = 4 * relative + 12 * LRCSI_U;
     if (cross > 1000 * off) {
         incidence.tan2_err += 2.1 * off / cross;
@@ -115,7 +111,7 @@ static lrcsi_incidence incidence_make(const lrcsi_view *view, uint32_t facet, do
         cross += off;
         incidence.tan2_err = 1;
     }
-    incidence.tan2_err = dot.least ? HUGE_VAL : incidence.tan2_err;
+    incidence.tan2_err = dot.replaced ? HUGE_VAL : incidence.tan2_err;
     incidence.tan2 = (cross / dot.value) * (cross / dot.value);
     incidence.cos_theta = facing * lrcsi_least(1, dot.value / (n->length * view->length));
     incidence.projected = incidence_projected(view, dot);
@@ -179,16 +175,21 @@ void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32
     }
 }
 
-/* Let p be the point as seen from the origin, both doubles. The rounded difference is off by u |p|,
-   the row by 4 u (view/frame.h), which moves the coordinate by 4 u |p|, and three products and two
-   sums add 3 u |p|: together 8.01 u |p|, at most 8.1 u of the sum of |coordinates|. */
-void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3])
+/* Let p be the point as seen from the origin, both doubles. The rounded difference has an error of
+   u |p|, the row by 4 u (view/frame.h), which moves the coordinate by 4 u |p|, and three products
+   and two sums add 3 u |p|: together 8.01 u |p|, at most 8.1 u of the sum of |coordinates|. */
+static inline void point_place(const lrcsi_view *view, const double point[3], double x[3])
 {
     const double *o = view->prepared->origin;
     const double p[3] = {point[0] - o[0], point[1] - o[1], point[2] - o[2]};
-    for (int k = 0; k < 3; k++) {
-        x[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
-    }
+    x[0] = view->R[0][0] * p[0] + view->R[0][1] * p[1] + view->R[0][2] * p[2];
+    x[1] = view->R[1][0] * p[0] + view->R[1][1] * p[1] + view->R[1][2] * p[2];
+    x[2] = view->R[2][0] * p[0] + view->R[2][1] * p[1] + view->R[2][2] * p[2];
+}
+
+void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3])
+{
+    point_place(view, point, x);
 }
 
 void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3])
@@ -198,8 +199,8 @@ void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]
     }
 }
 
-/* As vectors: the rows are off by 4 u each, two products and a sum by 2 u (|x| + |y|), and the last
-   sum by u of its result, of length below |x| + |y| and sqrt(3) times the origin's largest. */
+/* As vectors: the rows have errors of 4 u each, two products and a sum by 2 u (|x| + |y|), and the
+   last sum by u of its result, of length below |x| + |y| and sqrt(3) times the origin's largest. */
 double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y)
 {
     const double *o = view->prepared->origin;
@@ -208,7 +209,7 @@ double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y)
 }
 
 /* By the sign of the dot product of unit vectors; exactly if its error may hide the sign, which is
-   rare: one test serves a block. */
+   rare: one test suffices for a block. */
 static void view_facings(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
@@ -250,38 +251,6 @@ static void view_facings(lrcsi_view *view)
     }
 }
 
-static void view_unit(lrcsi_view *view)
-{
-    static const double no_low[3] = {0, 0, 0};
-    lrcsi_inverse inverse = lrcsi_length_inverse(view->direction, no_low, view->length);
-    for (int k = 0; k < 3; k++) {
-        lrcsi_dd d = lrcsi_inverse_times(&inverse, view->direction[k], 0);
-        view->unit[k] = d.hi;
-        view->unit_low[k] = d.lo;
-    }
-}
-
-/* The window: the square over the longer side of the projected box, centred. */
-static void view_window(lrcsi_view *view)
-{
-    const lrcs_prepared *p = view->prepared;
-    double low[2] = {HUGE_VAL, HUGE_VAL};
-    double high[2] = {-HUGE_VAL, -HUGE_VAL};
-    for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
-        const double *x = view->point[v].x;
-        for (int k = 0; k < 2 && p->referenced[v]; k++) {
-            low[k] = lrcsi_least(low[k], x[k]);
-            high[k] = lrcsi_most(high[k], x[k]);
-        }
-    }
-    if (p->live > 0) {
-        view->side = lrcsi_most(high[0] - low[0], high[1] - low[1]);
-        for (int k = 0; k < 2; k++) {
-            view->low[k] = 0.5 * (low[k] + high[k]) - 0.5 * view->side;
-        }
-    }
-}
-
 size_t lrcsi_view_face_need(const lrcs_prepared *prepared)
 {
     return lrcsi_work_bytes(prepared->scene->facet_count, 1);
@@ -300,7 +269,13 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_
         return LRCS_E_MEMORY;
     }
     v.length = sqrt(lrcsi_vec3_dot(v.direction, v.direction));
-    view_unit(&v);
+    static const double no_low[3] = {0, 0, 0};
+    lrcsi_inverse inverse = lrcsi_length_inverse(v.direction, no_low, v.length);
+    for (int k = 0; k < 3; k++) {
+        lrcsi_dd d = lrcsi_inverse_times(&inverse, v.direction[k], 0);
+        v.unit[k] = d.hi;
+        v.unit_low[k] = d.lo;
+    }
     view_facings(&v);
     *view = v;
     return LRCS_OK;
@@ -313,12 +288,27 @@ int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
     if (!view->point) {
         return LRCS_E_MEMORY;
     }
+    /* The window: the square over the longer side of the projected box, centred. */
+    double low[2] = {HUGE_VAL, HUGE_VAL};
+    double high[2] = {-HUGE_VAL, -HUGE_VAL};
     for (uint32_t i = 0; i < p->scene->vertex_count; i++) {
-        lrcsi_view_place(view, p->vertex[i].x, view->point[i].x);
+        double x[3];
+        point_place(view, p->vertex[i].x, x);
+        memcpy(view->point[i].x, x, sizeof x);
+        if (p->referenced[i]) {
+            low[0] = lrcsi_least(low[0], x[0]);
+            low[1] = lrcsi_least(low[1], x[1]);
+            high[0] = lrcsi_most(high[0], x[0]);
+            high[1] = lrcsi_most(high[1], x[1]);
+        }
+    }
+    if (p->live > 0) {
+        view->side = lrcsi_most(high[0] - low[0], high[1] - low[1]);
+        view->low[0] = 0.5 * (low[0] + high[0]) - 0.5 * view->side;
+        view->low[1] = 0.5 * (low[1] + high[1]) - 0.5 * view->side;
     }
     double bulk = p->bulk[0] + p->bulk[1] + p->bulk[2];
     view->scale = bulk > 0 ? ldexp(1, -ilogb(bulk) - 1) : 1;
-    view_window(view);
     return LRCS_OK;
 }
 

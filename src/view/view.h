@@ -69,16 +69,16 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_
                     lrcs_work *work, lrcsi_view *view);
 int lrcsi_view_project(lrcs_work *work, lrcsi_view *view);
 
-/* Both: a whole view, in which back sides cast and reflect unless the scene is proved to show
-   none. */
+/* lrcsi_view_face and lrcsi_view_project together. Back sides cast and reflect unless the scene is
+   proved to show none. */
 size_t lrcsi_view_need(const lrcs_prepared *prepared);
 int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                     lrcsi_view *view);
 
 /* Bound on the error of each of the view coordinates x of a vertex, or of another point of doubles
    in scene coordinates. It grows with the distance from the origin, so that distant parts do not
-   affect the accuracy of others. Derivation: view_point in view.c. Its margin, 1.9 u of the same
-   sum, covers adding it to a coordinate, or a difference of two coordinates. */
+   affect the accuracy of others. Derivation: lrcsi_view_place in view.c. Its margin, 1.9 u of the
+   same sum, covers the rounding of adding it to a coordinate or to a difference of two. */
 static inline double lrcsi_view_off(const double x[3])
 {
     return 10 * LRCSI_U * (fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
@@ -103,6 +103,15 @@ static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *ver
     }
 }
 
+/* Can a facet hide anything, and be visible? Not if it is redundant in this view. */
+static inline int lrcsi_view_casts(const lrcsi_view *view, uint32_t facet)
+{
+    int facing = view->facing[facet];
+    int redundant = view->prepared->redundant[facet];
+    return (facing > 0 && redundant < LRCSI_REDUNDANT) ||
+           (facing < 0 && redundant < LRCSI_REDUNDANT_FROM_BEHIND && view->backs.cast);
+}
+
 /* 1 if a facet, if visible, reflects towards the laser; else 0. */
 static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 {
@@ -113,7 +122,7 @@ static inline int lrcsi_view_reflects(const lrcsi_view *view, uint32_t facet)
 /* The incidence of a facet that is not skipped. */
 lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet);
 
-/* Only the projected area: the same bits, in a quarter of the time. */
+/* Only its projected area: the same bits, in a quarter of the time. */
 double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet);
 
 /* The incidence of up to LRCSI_INCIDENCES facets: the same bits, in half the time. Returned:

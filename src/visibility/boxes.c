@@ -79,7 +79,7 @@ void lrcsi_boxes_open(const lrcsi_boxes *boxes, uint32_t run)
         uint32_t end = lrcsi_run_end(first, scene->facet_count);
         lrcsi_view_box *box = &boxes->facet[*boxes->opened];
         for (uint32_t f = first; f < end; f++) {
-            if (lrcsi_grid_casts(boxes->view, f)) {
+            if (lrcsi_view_casts(boxes->view, f)) {
                 box[f - first] = lrcsi_view_box_of(boxes->view, scene->facet[f].corner, 3);
             }
         }

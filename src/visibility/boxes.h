@@ -29,15 +29,6 @@ static inline const lrcsi_view_box *lrcsi_boxes_facet(const lrcsi_boxes *boxes, 
     return &boxes->facet[boxes->start[facet / LRCSI_RUN] + facet % LRCSI_RUN];
 }
 
-/* Can a facet hide anything, and be visible? Not if it is redundant in this view. */
-static inline int lrcsi_grid_casts(const lrcsi_view *view, uint32_t facet)
-{
-    int facing = view->facing[facet];
-    int redundant = view->prepared->redundant[facet];
-    return (facing > 0 && redundant < LRCSI_REDUNDANT) ||
-           (facing < 0 && redundant < LRCSI_REDUNDANT_FROM_BEHIND && view->backs.cast);
-}
-
 /* Bytes at most. */
 size_t lrcsi_boxes_need(const lrcs_prepared *prepared);
 

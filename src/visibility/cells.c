@@ -13,9 +13,10 @@
    3. lrcsi_cells_look takes a sample at a point P of the cell: it finds the facet nearest to the
       laser there. lrcsi_cells_component follows the surface around that facet across edges that are
       no events, as far as the cell goes: the component (visibility/cells_cover.c has the proof).
-   4. If an event edge or a contact of the component crosses the cell, lrcsi_cells_divide cuts the
-      cell along its line. If none does, the component covers the cell: lrcsi_cells_drop removes the
-      facets and events behind it from the lists, for this cell and all that are cut from it.
+   4. If no event edge of the component crosses the cell, the component covers it: lrcsi_cells_drop
+      removes the facets and events behind it from the lists, for this cell and all that are cut
+      from it. If an event edge or a contact of the component crosses the cell, lrcsi_cells_divide
+      cuts the cell along its line.
    5. If no event edge is left, nothing but the component is visible in the cell, and its areas are
       added up. If one is left, the cell is cut along it.
    6. Area that rounding leaves undecided along events is charged to the facets near them
@@ -131,11 +132,13 @@ static void cells_decide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 
 enum { CHOOSE_OWN, CHOOSE_EDGES, CHOOSE_ANY };
 
-/* Of the segments of a kind, the one whose line divides the cell most evenly, or NULL: measured by
-   the cell's width on the narrower side of the line. So cells shrink fast, and few become long and
-   narrow. */
+/* Of the segments of a kind, the one whose line divides the cell best, or NULL: the product of the
+   cell's width on the narrower side of the line, and of the root of how far the segment itself
+   reaches through the cell, is largest. So cells shrink fast, few become long and narrow, and few
+   are cut where nothing changes. */
 static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
-                                               const lrcsi_cells_cell *cell, int which)
+                                               const lrcsi_cells_cell *cell,
+                                               const lrcsi_cells_sides *s, int which)
 {
     const lrcsi_cells_segment *best = NULL;
     double most = -HUGE_VAL;
@@ -144,10 +147,15 @@ static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
         if (which == CHOOSE_ANY || (which == CHOOSE_EDGES && !e->contact) ||
             (which == CHOOSE_OWN && lrcsi_cells_owned(c, e))) {
             double range[2];
+            double reach = 0;
+            for (int k = 0; k < 2; k++) {
+                reach += lrcsi_least(s->high[k], lrcsi_most(e->end[0][k], e->end[1][k])) -
+                         lrcsi_most(s->low[k], lrcsi_least(e->end[0][k], e->end[1][k]));
+            }
             lrcsi_line_range(&cell->shape, e->line, range);
-            double less = lrcsi_least(-range[0], range[1]);
-            best = less > most ? e : best;
-            most = lrcsi_most(most, less);
+            double good = lrcsi_least(-range[0], range[1]) * sqrt(lrcsi_most(0, reach));
+            best = good > most ? e : best;
+            most = lrcsi_most(most, good);
         }
     }
     return best;
@@ -160,36 +168,29 @@ typedef struct cell_sample {
     double clear;
 } cell_sample;
 
-/* Removes what is behind surfaces that cover the cell. Returns 1 if the component around the
-   nearest facet covers it; else *cut is the segment of the component along which to cut, or NULL.
+/* Removes what is behind the component around the nearest facet, if it covers the cell, or else
+   behind a single facet that covers it. Returns 1 if the component does, and no contact of it
+   crosses the cell; else *cut is the segment of the component along which to cut, or NULL.
    *uncertainty: how wrong the area of any facet may be because the cell is thin. */
 static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                        const cell_sample *sample, double *uncertainty,
                        const lrcsi_cells_segment **cut)
 {
-    /* 1. A single facet that covers the cell. */
-    uint32_t screen = lrcsi_cells_screen(c, cell, s, sample->at);
-    if (screen != LRCS_NONE) {
-        lrcsi_cells_component_of(c, screen);
-        *uncertainty = lrcsi_cells_thin(cell, s, sample->clear, cell->struck + c->borders, c->off);
-        lrcsi_cells_drop(c, cell, s, screen == sample->nearest ? NULL : sample->at, *uncertainty);
-        if (screen == sample->nearest) {
-            return 1;
-        }
-        c->joined[screen] = 0;
-    }
-    /* 2. The component around the nearest facet. */
     int covers = lrcsi_cells_component(c, cell, s, sample->nearest);
-    *cut = cells_choose(c, cell, CHOOSE_OWN);
-    if (!covers || *cut) {
+    *cut = covers ? NULL : cells_choose(c, cell, s, CHOOSE_OWN);
+    if (!covers && !lrcsi_cells_screen(c, cell, s, sample->at)) {
         return 0;
     }
     for (uint32_t i = 0; i < c->borders; i++) {
         lrcsi_cells_charge_border(c, cell, s, &c->border[i]);
     }
-    *uncertainty = lrcsi_cells_thin(cell, s, sample->clear, cell->struck + c->borders, c->off);
-    lrcsi_cells_drop(c, cell, s, NULL, *uncertainty);
-    return 1;
+    double thin = lrcsi_cells_thin(cell, s, sample->clear, cell->struck + c->borders, c->off);
+    lrcsi_cells_drop(c, cell, s, covers ? NULL : sample->at, thin);
+    if (covers) {
+        *uncertainty = thin;
+        *cut = cells_choose(c, cell, s, CHOOSE_OWN);
+    }
+    return covers && !*cut;
 }
 
 /* One cell: returns 1 if it is decided; else it is cut, or left undecided. */
@@ -219,7 +220,7 @@ static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 
     /* 3. It is decided, or cut. */
     if (!cut) {
-        cut = cells_choose(c, cell, covered ? CHOOSE_EDGES : CHOOSE_ANY);
+        cut = cells_choose(c, cell, &s, covered ? CHOOSE_EDGES : CHOOSE_ANY);
         if (!cut && covered) {
             cells_decide(c, cell, &s, cell->uncertainty + uncertainty);
             return 1;
@@ -359,7 +360,7 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_found)));
     need = lrcsi_work_add(
         need, lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcsi_cells_point)));
-    need = lrcsi_work_add(need, 6 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, 7 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_BORDERS, sizeof(lrcsi_cells_border)));
@@ -380,6 +381,7 @@ static int cells_make(const lrcsi_classification *classification, const unsigned
     c->listed = lrcsi_work_take_zero(work, count, sizeof *c->listed);
     c->met = lrcsi_work_take_zero(work, count, sizeof *c->met);
     c->joined = lrcsi_work_take_zero(work, count, sizeof *c->joined);
+    c->meets = lrcsi_work_take_zero(work, count, sizeof *c->meets);
     c->frame.point = lrcsi_work_take_zero(work, p->scene->vertex_count, sizeof *c->frame.point);
     c->component = lrcsi_work_take(work, count, sizeof *c->component);
     c->hit = lrcsi_work_take(work, count, sizeof *c->hit);
@@ -387,13 +389,13 @@ static int cells_make(const lrcsi_classification *classification, const unsigned
     c->border = lrcsi_work_take(work, LRCSI_CELLS_BORDERS, sizeof *c->border);
     c->stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c->stack);
     if (!c->found || !c->kind || !c->facet || !c->area || !c->listed || !c->met || !c->joined ||
-        !c->frame.point || !c->component || !c->hit || !c->facets || !c->border || !c->stack ||
-        !lrcsi_cells_grid_make(classification, answer, work, &c->grid)) {
+        !c->meets || !c->frame.point || !c->component || !c->hit || !c->facets || !c->border ||
+        !c->stack || !lrcsi_cells_grid_make(classification, answer, work, &c->grid)) {
         return 0;
     }
     for (uint32_t f = 0; f < count; f++) {
         c->kind[f] =
-            lrcsi_grid_casts(c->view, f) && lrcsi_cells_apart(c->view, f) ? LRCSI_CELLS_APART : 0;
+            lrcsi_view_casts(c->view, f) && lrcsi_cells_apart(c->view, f) ? LRCSI_CELLS_APART : 0;
     }
     size_t segments = lrcsi_cells_segments_most(c);
     c->segment_room = (uint32_t)segments;

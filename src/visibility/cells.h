@@ -9,7 +9,7 @@
 /* Bytes at most. */
 size_t lrcsi_cells_need(const lrcs_prepared *prepared);
 
-/* Visible areas of the facets with open[facet] not 0, which must cast (visibility/grid.h).
+/* Visible areas of the facets with open[facet] not 0, which must cast (lrcsi_view_casts).
    answer: of lrcsi_query_uniform; facets that it proves to be hidden are left out. NULL: none is
    known to be hidden. Where an
    area is found to 1e-12 of the facet's projected area and 1e-15 of the square of the scene's

@@ -208,7 +208,8 @@ static int alone_facets(lrcsi_alone *a)
             a->met[other] = c->look;
             a->order[other] = ORDER_APART;
             if (!facet_apart(a, side, other)) {
-                a->order[other] = ORDER_NEW;
+                int front = lrcsi_view_box_behind(&box, its);
+                a->order[other] = front ? (uint32_t)ORDER_FRONT : (uint32_t)ORDER_NEW;
                 if (a->count < a->side_room) {
                     a->side[a->count][0].clear = -1; /* not made yet */
                 }

@@ -49,7 +49,7 @@ size_t lrcsi_alone_need(const lrcs_prepared *prepared);
 int lrcsi_alone_make(lrcsi_classification *classification, lrcsi_meter *meter,
                      const lrcsi_grid *grid, lrcs_work *work, lrcsi_alone *a);
 
-/* One facet that can hide others (visibility/boxes.h), piece by piece: call open, then next until
+/* One facet that can hide others (lrcsi_view_casts), piece by piece: call open, then next until
    it returns 0, then close. Each `next` that returns 1 leaves one piece of the visible region in
    a->piece, in the frame of a->target; `close` returns the area. */
 void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet);

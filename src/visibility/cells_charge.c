@@ -14,14 +14,15 @@
    u times the largest coordinate of the block, and the drift. If the computed distance of a segment
    from the cell exceeds w, the segment does not meet the cell. If the segment is nowhere deeper
    than w within the cell (LRCSI_CELLS_BORDER), its part in the cell lies within 2 w of the line
-   along a side of the cell; or within 2 w of its own line, with the cell on one side of that. Let c
-   be the distance of the sample P from these lines. The path from P to x then crosses the segment
-   only if x lies within 2 w of that line, and no farther along it from the segment than 2 w / c
-   times the cell's diameter. That is below CELLS_FAR w if c exceeds LRCSI_CELLS_THIN times the
-   perimeter. The area of this strip is undecided. It is charged to the facets of the list, to each
-   as much as it has of the strip, when the segment is removed from the list; the cells cut from
-   this one then need not consider the segment. In a thin cell the strips of all segments removed
-   are taken to run along the whole cell.
+   along a side of the cell, or 4 w in a corner; or within 2 w of its own line, with the cell on one
+   side of that. Let c be the distance of the sample P from these lines; it is more than 4 w. The
+   path from P to x then crosses the segment only if x lies within 4 w of that line, and no farther
+   along it from the segment than 4 w / c times the cell's diameter. That is below CELLS_FAR w if c
+   exceeds LRCSI_CELLS_THIN times the perimeter. The area of this strip is undecided. It is charged
+   to the facets of the list, to each as much as it has of the strip, when the segment is removed
+   from the list; the cells cut from this one then need not consider the segment. A segment shorter
+   than CELLS_FAR w may lie across the side: its strip is charged to all facets of the cell. In a
+   thin cell the strips of all segments removed are taken to run along the whole cell.
 
    The part of a facet in a strip is no longer than the facet is within the strip. The facet's
    corners have the error `off`, the line w; so the facet is intersected with a strip that is wider
@@ -46,7 +47,7 @@
 /* 4 / LRCSI_CELLS_THIN. */
 #define CELLS_FAR 0x1p34
 /* A cell that is no wider than so many strips may be charged whole. */
-#define SLIVER 8
+#define SLIVER 64
 
 /* The interval that a facet covers along a line, measured from `start`. */
 static inline void corners_along(const lrcsi_cells_facet *f, const double line[3],
@@ -98,8 +99,9 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
                                const lrcsi_cells_sides *s, const lrcsi_cells_border *e)
 {
     double strip = e->part.strip;
-    double uncertainty = strip * ((e->part.to - e->part.from) * e->length + CELLS_FAR * strip);
-    if (uncertainty < 0x1p-58 * c->reach * c->reach) {
+    double length = (e->part.to - e->part.from) * e->length;
+    double uncertainty = strip * (length + CELLS_FAR * strip);
+    if (uncertainty < 0x1p-58 * c->reach * c->reach || length < CELLS_FAR * strip) {
         cell->uncertainty += uncertainty;
         return;
     }
@@ -173,7 +175,7 @@ double lrcsi_cells_thin(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s
     if (!(clear < LRCSI_CELLS_THIN * s->perimeter)) {
         return 0;
     }
-    double strips = 2 * (double)segments * (cell->inset + off + s->g) * s->perimeter;
+    double strips = 4 * (double)segments * (cell->inset + off + s->g) * s->perimeter;
     return lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s->g * s->perimeter);
 }
 

@@ -4,29 +4,27 @@
 
    Proof. P is the sample. x is any other point of the cell in general position. "The path" is the
    straight line from P to x. Everything said here excludes the strips that
-   visibility/cells_charge.c accounts for.
-     (1) Let K be a set of facets with this property: each of its edges that crosses the cell is no
-   event edge, and joins two facets of K. Then K covers x as many times as it covers P: along the
-   path this number cannot change, because where one facet of K ends the next begins. So if exactly
-   one facet of K surely covers P, and the others surely do not, K covers the cell once. It does not
-   matter how K was found.
-     (2) Let K cover the cell once and be nearest at P, and let no contact between a facet of K and
-   another facet cross the cell. The number of surfaces in front of K is 0 at P. Along the path it
-   can change only at an event edge in front of K: at any other edge one facet ends and the next
-   begins. So if there is no event edge in front of K, all of K is visible in the cell, and nothing
-   else is.
-     (3) Let K be as in (2), except that it may not be nearest at P, and that there may be event
-   edges in front of it. A facet that is behind K at one place of the cell is behind K wherever it
-   is in the cell, because the two do not meet there. So it can be removed from the cell's list: it
-   is nearest nowhere. (2) remains true of the facets that are left: an edge that joins one of them
-   with a removed facet is behind K; and a component that is nearest at P, and has no contact with
-   K, is nowhere behind K.
+   visibility/cells_charge.c accounts for. Facets that are removed from the list are nowhere the
+   nearest: at every point of the cell where such a facet is, a facet of the list is in front of it.
+   (2) preserves this, and facets that are hidden everywhere need not be listed to begin with.
+     (1) Let K be a set of listed facets with this property: each of its edges that crosses the cell
+   is no event edge, and joins two facets of K. Then K covers x as many times as it covers P: along
+   the path this number cannot change, because where one facet of K ends the next begins. So if
+   exactly one facet of K surely covers P, and the others surely do not, K covers the cell once. It
+   does not matter how K was found.
+     (2) Let K cover the cell once, and let G be a facet that is behind K at one point of the cell.
+   If no contact between G and a facet of K crosses the cell, G is behind K wherever it is in the
+   cell, because the two do not meet there and what G has in the cell is connected. So G can be
+   removed, even if K meets other facets. The same is true of an event edge that is behind K at one
+   point of the cell, and has a facet that no contact in the cell joins with K: K does not cross
+   that edge. (3) Let K cover the cell once and be nearest at P, and let no contact between a facet
+   of K and another facet cross the cell. If no event edge is left in the list, all of K is visible
+   in the cell, and nothing else is. For let y be the first point of the path at which K is no
+   longer the nearest of all facets. The facet H that is nearest just beyond y is listed. It begins
+   at y at an edge, or passes through K there at a contact; the latter is excluded. The edge is an
+   event edge, since a facet that ended there would have been in front of K before y. It is in front
+   of K at y, and H has been listed all the time, so the edge has not been removed from the list.
      (4) If no facet covers P, and no event edge crosses the cell, no facet is visible in it.
-     (5) Facets that are hidden everywhere need not be listed. Let K be as in (2), considering only
-   listed facets, and let y be the first point of the path at which K is no longer the nearest of
-   all facets. A facet that is nearest just beyond y is visible there, so it is listed. It begins at
-   y at an edge, or passes through K there at a contact; both are excluded. The edge is an event
-   edge, since a facet that ended there would have been in front of K before y.
 
    A contact is where two facets meet in space other than along a common edge or in a point: along a
    segment in the interior of one (mesh/intersection.h), along parts of edges of both (the facets
@@ -34,7 +32,12 @@
    another facet in their plane, count as event edges, so that no component continues across them. A
    facet with a contact that could not be computed (LRCSI_CELLS_VAGUE) is never part of a component
    that covers a cell. Contacts in points do not matter: paths to points in general position miss
-   them. */
+   them.
+
+   An edge between a facet of K and a removed one, G, is behind K', behind which G was removed. Near
+   the line in which K and K' meet, at the border of the cell, it can be as far inside as the strip
+   of that contact is wide. So it is compared with the cell again, with that width added to its
+   error. */
 #include "visibility/cells_cover.h"
 
 #include <math.h>
@@ -139,31 +142,42 @@ int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lr
     return answer;
 }
 
-/* Does a facet cover the cell, and no contact of it cross the cell? */
+/* Do all segments of the component in the list belong to contacts? Marks the facets that meet the
+   component there. */
+static int contacts_only(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
+{
+    int only = 1;
+    for (uint32_t i = 0; i < cell->segments; i++) {
+        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        if (lrcsi_cells_owned(c, e)) {
+            only &= e->contact != 0;
+            c->meets[e->owner[0]] = c->look;
+            if (e->owner[1] != LRCS_NONE) {
+                c->meets[e->owner[1]] = c->look;
+            }
+        }
+    }
+    return only;
+}
+
+/* Does a facet alone cover the cell? */
 static int covers_alone(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                         const lrcsi_cells_sides *s, uint32_t index)
 {
     const lrcsi_cells_facet *f = &c->facet[index];
     double w = f->off + s->g;
     for (int k = 0; k < 3; k++) {
-        for (uint32_t i = 0; i < cell->shape.count; i++) {
-            const double *p = cell->shape.corner[i];
-            if (!(lrcsi_line_at(f->side[k], p[0], p[1]) > w)) {
-                return 0;
-            }
-        }
-    }
-    for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
-        if (e->contact && (e->owner[0] == index || e->owner[1] == index)) {
+        double range[2];
+        lrcsi_line_range(&cell->shape, f->side[k], range);
+        if (!(range[0] > w)) {
             return 0;
         }
     }
     return (c->kind[index] & LRCSI_CELLS_VAGUE) == 0;
 }
 
-uint32_t lrcsi_cells_screen(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                            const lrcsi_cells_sides *s, const double at[2])
+int lrcsi_cells_screen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                       const lrcsi_cells_sides *s, const double at[2])
 {
     uint32_t screen = LRCS_NONE;
     double most = -HUGE_VAL;
@@ -177,7 +191,15 @@ uint32_t lrcsi_cells_screen(const lrcsi_cells_work *c, const lrcsi_cells_cell *c
             most = range[0];
         }
     }
-    return screen;
+    if (screen == LRCS_NONE) {
+        return 0;
+    }
+    c->borders = 0;
+    c->component[0] = screen;
+    c->components = 1;
+    c->joined[screen] = c->look;
+    contacts_only(c, cell);
+    return 1;
 }
 
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
@@ -217,6 +239,10 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             if (place == LRCSI_CELLS_AWAY) {
                 continue;
             }
+            if (place == LRCSI_CELLS_MEETS && next != LRCS_NONE && c->listed[next] != c->look) {
+                place = lrcsi_cells_place_near(&cell->shape, s, p, q, line, w + cell->inset,
+                                               line_w + cell->inset, &part);
+            }
             if (place == LRCSI_CELLS_BORDER && next != LRCS_NONE) {
                 whole &= c->borders < LRCSI_CELLS_BORDERS;
                 if (whole) {
@@ -236,7 +262,7 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             }
         }
     }
-    return whole;
+    return whole && contacts_only(c, cell);
 }
 
 int lrcsi_cells_segment_of(const lrcs_prepared *prepared, const lrcsi_cells_segment *e,
@@ -272,9 +298,15 @@ static int segment_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
     return !lrcsi_cells_segment_of(c->view->prepared, e, c->listed, c->look);
 }
 
+/* Is a facet in the list, and does no contact in the cell join it with the component? */
+static int stays_apart(const lrcsi_cells_work *c, uint32_t facet)
+{
+    return facet != LRCS_NONE && c->listed[facet] == c->look && c->meets[facet] != c->look;
+}
+
 /* Is the part of an edge in the cell behind the component, which covers the cell? If the component
-   is one facet, both ends of the part are compared with its plane; else one point of the part is
-   compared with the facet that covers it. */
+   is one facet, both ends of the part are compared with its plane; else, if a facet of the edge
+   does not meet the component, one point of the part is compared with the facet that covers it. */
 static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, const lrcsi_cells_segment *e, double w,
                           double low)
@@ -300,6 +332,9 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
         double off = f->z_off[0] + f->z_off[1] * w + z_off;
         return at[0][2] + off < f->z[0] * at[0][0] + f->z[1] * at[0][1] + f->z[2] &&
                at[1][2] + off < f->z[0] * at[1][0] + f->z[1] * at[1][1] + f->z[2];
+    }
+    if (!stays_apart(c, e->owner[0]) && !stays_apart(c, e->owner[1])) {
+        return 0;
     }
     double middle[3];
     for (int k = 0; k < 3; k++) {
@@ -329,14 +364,6 @@ static void facet_charge(lrcsi_cells_work *c, uint32_t facet, double uncertainty
     c->area[facet].uncertainty += c->open[facet] ? uncertainty : 0;
 }
 
-void lrcsi_cells_component_of(lrcsi_cells_work *c, uint32_t facet)
-{
-    c->borders = 0;
-    c->component[0] = facet;
-    c->components = 1;
-    c->joined[facet] = c->look;
-}
-
 /* Is a facet that surely covers the sample behind the component there? */
 static int behind_at(const lrcsi_cells_work *c, const lrcsi_cells_sides *s, const double *at,
                      uint32_t facet)
@@ -361,8 +388,9 @@ void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = c->facets[i];
-        if (c->joined[f] != c->look && ((c->met[f] == 2 * c->look + 1 && behind_at(c, s, at, f)) ||
-                                        lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
+        if (c->joined[f] != c->look &&
+            ((c->met[f] == 2 * c->look + 1 && c->meets[f] != c->look && behind_at(c, s, at, f)) ||
+             lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
             c->listed[f] = 0;
             c->found[f] |= LRCSI_CELLS_HIDDEN;
             facet_charge(c, f, cell->uncertainty + uncertainty);

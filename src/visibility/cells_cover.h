@@ -18,15 +18,9 @@ enum { LRCSI_CELLS_UNSURE, LRCSI_CELLS_NONE, LRCSI_CELLS_FOUND };
 int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                      uint32_t *best, double at[2], double *clear);
 
-/* Of the single facets that cover the cell and are crossed by no contact there, the one nearest at
-   the sample; LRCS_NONE if there is none. */
-uint32_t lrcsi_cells_screen(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                            const lrcsi_cells_sides *s, const double at[2]);
-
-/* Finds the component around a facet within the cell. 1 if it covers the cell once, provided that
-   no event edge or contact of the list crosses it; its edges at the border of the cell are
-   recorded.
- */
+/* Finds the component around a facet within the cell. 1 if it covers the cell once and no event
+   edge of it is left in the list; its edges at the border of the cell are then recorded, and the
+   facets that it meets at a contact of the list are marked. */
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, uint32_t best);
 
@@ -37,8 +31,10 @@ int lrcsi_cells_segment_of(const lrcs_prepared *prepared, const lrcsi_cells_segm
 /* Is any facet of a segment in the component? */
 int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e);
 
-/* Makes the component a single facet, which covers the cell. */
-void lrcsi_cells_component_of(lrcsi_cells_work *c, uint32_t facet);
+/* Of the facets that each cover the cell alone, takes the one nearest at the sample as the
+   component. 0 if there is none. */
+int lrcsi_cells_screen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                       const lrcsi_cells_sides *s, const double at[2]);
 
 /* Removes the facets and edges behind the component, which covers the cell, from the cell's lists.
    Given: the sample if other facets may be nearer there than the component, which is then a single

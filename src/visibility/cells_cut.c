@@ -22,9 +22,15 @@ static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment
         !(cell->sign * lrcsi_line_at(cell->cut, e->end[1][0], e->end[1][1]) > w)) {
         return 0;
     }
-    double range[2];
-    lrcsi_line_range(&cell->shape, e->line, range);
-    return range[0] < -w && range[1] > w;
+    int left = 0;
+    int right = 0;
+    for (uint32_t i = 0; i < cell->shape.count && !(left && right); i++) {
+        const double *corner = cell->shape.corner[i];
+        double distance = lrcsi_line_at(e->line, corner[0], corner[1]);
+        left |= distance > w;
+        right |= distance < -w;
+    }
+    return left && right;
 }
 
 void lrcsi_cells_strike(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
@@ -56,7 +62,7 @@ void lrcsi_cells_strike(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi
 }
 
 /* The least and the greatest signed distance of a facet's corners from a line. */
-static void facet_range(const lrcsi_cells_facet *f, const double line[3], double range[2])
+static inline void facet_range(const lrcsi_cells_facet *f, const double line[3], double range[2])
 {
     double a = lrcsi_line_at(line, f->x[0], f->y[0]);
     double b = lrcsi_line_at(line, f->x[1], f->y[1]);

@@ -282,7 +282,7 @@ int lrcsi_cells_apart(const lrcsi_view *view, uint32_t facet)
     const lrcsi_intersections *intersections = &view->prepared->intersections;
     for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
         if (intersections->entry[i].kind == LRCSI_INTERSECTION_COPLANAR &&
-            lrcsi_grid_casts(view, intersections->entry[i].other)) {
+            lrcsi_view_casts(view, intersections->entry[i].other)) {
             return 1;
         }
     }
@@ -300,7 +300,7 @@ uint32_t lrcsi_cells_joined(const lrcsi_view *view, uint32_t facet, int k)
                : pair[0] == facet                                                  ? pair[1]
                                                                                    : pair[0];
     }
-    return other < p->scene->facet_count && lrcsi_grid_casts(view, other) &&
+    return other < p->scene->facet_count && lrcsi_view_casts(view, other) &&
                    view->facing[other] == view->facing[facet]
                ? other
                : LRCS_NONE;

@@ -52,6 +52,8 @@ static void blocks_place(lrcsi_cells_grid *c, uint32_t cells)
         c->least[k] = c->low[k];
         c->most[k] = c->high[k];
     }
+    c->per = 1 / c->size;
+    c->rounding = 64 * LRCSI_U * (fabs(c->low[0]) + fabs(c->low[1]) + c->side * c->size);
 }
 
 /* The first coordinate of block i of a row, i from 1 to the last but one, or the last. */
@@ -63,7 +65,7 @@ static double block_edge(const lrcsi_cells_grid *c, uint32_t i, int k)
 /* The block of a coordinate; possibly the adjacent one for a coordinate nearly on the border. */
 static uint32_t block_of(const lrcsi_cells_grid *c, double x, int k)
 {
-    double i = (x - c->low[k]) / c->size + 1;
+    double i = (x - c->low[k]) * c->per + 1;
     return (uint32_t)lrcsi_least(c->side - 1.0, lrcsi_most(0, i));
 }
 
@@ -71,9 +73,8 @@ static uint32_t block_of(const lrcsi_cells_grid *c, double x, int k)
 static void block_range(const lrcsi_cells_grid *c, double low, double high, int k, uint32_t *from,
                         uint32_t *to)
 {
-    double near = 64 * LRCSI_U * (fabs(c->low[k]) + c->side * c->size);
-    *from = block_of(c, low - near, k);
-    *to = block_of(c, high + near, k) + 1;
+    *from = block_of(c, low - c->rounding, k);
+    *to = block_of(c, high + c->rounding, k) + 1;
 }
 
 /* A polygon of at most three corners, row by row: in the blocks that it may touch in that row. What
@@ -82,7 +83,6 @@ static void block_range(const lrcsi_cells_grid *c, double low, double high, int 
 static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *const corner[3],
                        int corners, uint32_t item)
 {
-    double rounding = 64 * LRCSI_U * (fabs(c->low[0]) + fabs(c->low[1]) + c->side * c->size);
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
     lrcsi_strip_segment side[3];
@@ -103,13 +103,13 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *
     block_range(c, low[1], high[1], 1, &y[0], &y[1]);
     int several = y[1] - y[0] > 1 && x[1] - x[0] > 1; /* rows and columns */
     for (int i = 0; several && i < corners; i++) {
-        side[i] = lrcsi_strip_segment_make(corner[i], corner[(i + 1) % corners], 1, rounding);
+        side[i] = lrcsi_strip_segment_make(corner[i], corner[(i + 1) % corners], 1, c->rounding);
     }
     for (uint32_t row = y[0]; row < y[1]; row++) {
         double from = several ? HUGE_VAL : low[0];
         double to = several ? -HUGE_VAL : high[0];
-        double bottom = row > 0 ? block_edge(c, row, 1) - rounding : -HUGE_VAL;
-        double top = row + 1 < c->side ? block_edge(c, row + 1, 1) + rounding : HUGE_VAL;
+        double bottom = row > 0 ? block_edge(c, row, 1) - c->rounding : -HUGE_VAL;
+        double top = row + 1 < c->side ? block_edge(c, row + 1, 1) + c->rounding : HUGE_VAL;
         for (int i = 0; several && i < corners; i++) {
             double range[2];
             if (lrcsi_strip_range(&side[i], bottom, top, range)) {
@@ -164,7 +164,7 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
         for (uint32_t i = 0; i < items; i++) {
             if (events) {
                 blocks_put_edge(c, b, i);
-            } else if (lrcsi_grid_casts(c->classification->view, i) && !facet_hidden(c, i)) {
+            } else if (lrcsi_view_casts(c->classification->view, i) && !facet_hidden(c, i)) {
                 blocks_put_facet(c, b, i);
             }
         }
@@ -254,7 +254,7 @@ lrcsi_cells_segment *lrcsi_cells_edge(lrcsi_cells_work *c, uint32_t edge)
     uint32_t owners = 0;
     for (uint32_t i = 0; e && i < t->edge[edge].uses; i++) {
         uint32_t facet = t->use[t->edge[edge].first_use + i].facet;
-        if (lrcsi_grid_casts(c->view, facet)) {
+        if (lrcsi_view_casts(c->view, facet)) {
             if (owners < 2) {
                 e->owner[owners] = facet;
             }

@@ -41,17 +41,6 @@ void lrcsi_cells_sides_make(const lrcsi_clip_polygon *p, double g, lrcsi_cells_s
     }
 }
 
-void lrcsi_line_range(const lrcsi_clip_polygon *shape, const double line[3], double range[2])
-{
-    range[0] = HUGE_VAL;
-    range[1] = -HUGE_VAL;
-    for (uint32_t i = 0; i < shape->count; i++) {
-        double d = lrcsi_line_at(line, shape->corner[i][0], shape->corner[i][1]);
-        range[0] = lrcsi_least(range[0], d);
-        range[1] = lrcsi_most(range[1], d);
-    }
-}
-
 void lrcsi_box_range(const double low[2], const double high[2], const double line[3],
                      double range[2])
 {
@@ -60,6 +49,9 @@ void lrcsi_box_range(const double low[2], const double high[2], const double lin
     range[0] = middle - half;
     range[1] = middle + half;
 }
+
+/* A part of a segment is short if it is less than this fraction of it. */
+#define SHORT 0x1p-20
 
 int lrcsi_cells_place_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
                            const double p[2], const double q[2], const double line[3], double w,
@@ -91,6 +83,18 @@ int lrcsi_cells_place_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_si
     }
     if (part->from > part->to) {
         return LRCSI_CELLS_AWAY;
+    }
+    /* A short part may be in a corner of the cell, all of it near one side. Its ends are off by
+       less than w. */
+    if (part->to - part->from < SHORT && !(strip < HUGE_VAL)) {
+        for (uint32_t i = 0; i < s->count; i++) {
+            double a = lrcsi_line_at(s->line[i], p[0], p[1]);
+            double b = lrcsi_line_at(s->line[i], q[0], q[1]);
+            double deepest = lrcsi_most(a + part->from * (b - a), a + part->to * (b - a));
+            if (deepest < 2 * w) {
+                strip = lrcsi_least(strip, 2 * w + lrcsi_most(0, deepest));
+            }
+        }
     }
     part->strip = strip;
     return strip < HUGE_VAL ? LRCSI_CELLS_BORDER : LRCSI_CELLS_MEETS;

@@ -4,6 +4,8 @@
 #ifndef LRCSI_CELLS_SHAPE_H
 #define LRCSI_CELLS_SHAPE_H
 
+#include <math.h>
+
 #include "base/range.h"
 #include "visibility/clip.h"
 
@@ -31,7 +33,17 @@ typedef struct lrcsi_cells_sides {
 void lrcsi_cells_sides_make(const lrcsi_clip_polygon *p, double g, lrcsi_cells_sides *s);
 
 /* The least and the largest signed distance of a cell's corners from a line. */
-void lrcsi_line_range(const lrcsi_clip_polygon *shape, const double line[3], double range[2]);
+static inline void lrcsi_line_range(const lrcsi_clip_polygon *shape, const double line[3],
+                                    double range[2])
+{
+    range[0] = HUGE_VAL;
+    range[1] = -HUGE_VAL;
+    for (uint32_t i = 0; i < shape->count; i++) {
+        double d = lrcsi_line_at(line, shape->corner[i][0], shape->corner[i][1]);
+        range[0] = lrcsi_least(range[0], d);
+        range[1] = lrcsi_most(range[1], d);
+    }
+}
 
 /* The same for a box: if it contains the cell, its range contains that of the cell. */
 void lrcsi_box_range(const double low[2], const double high[2], const double line[3],
@@ -54,7 +66,7 @@ static inline int lrcsi_cells_box_away(const lrcsi_cells_sides *s, const double 
 
 enum lrcsi_cells_place {
     LRCSI_CELLS_AWAY,   /* no point of the segment within its error of the cell */
-    LRCSI_CELLS_BORDER, /* nowhere deeper than its error within the cell */
+    LRCSI_CELLS_BORDER, /* nowhere deeper than its error within the cell; in a corner, twice that */
     LRCSI_CELLS_MEETS   /* neither is sure */
 };
 

@@ -21,7 +21,8 @@ typedef struct lrcsi_cells_grid {
     uint32_t side;            /* blocks along a side, with a ring of blocks for what is outside */
     double low[2], high[2];   /* of the blocks within the ring */
     double least[2], most[2]; /* of these and of all facets, with the errors of their corners */
-    double size;              /* of a block */
+    double size, per;         /* of a block, and 1 / size */
+    double rounding;          /* more than the rounding errors of places among the blocks */
     lrcsi_cells_lists facets, events;
 } lrcsi_cells_grid;
 
@@ -83,10 +84,11 @@ typedef struct lrcsi_cells_work {
     unsigned char *kind;  /* facet: LRCSI_CELLS_APART, LRCSI_CELLS_VAGUE */
     lrcsi_cells_facet *facet;
     lrcsi_cells_found *area;
-    uint32_t look;    /* the number of the sample at hand, which the next three arrays refer to */
+    uint32_t look;    /* the number of the sample at hand, which the next four arrays refer to */
     uint32_t *listed; /* facet: the last sample in whose cell it was listed */
     uint32_t *met;    /* facet: 2 look + 1 if it surely covers the sample, 2 look if it may */
     uint32_t *joined; /* facet: the last sample in whose component it was */
+    uint32_t *meets;  /* facet: the last sample whose component it met at a contact */
     uint32_t *component, components; /* facets of the component */
     uint32_t *hit, hits;             /* facets that may cover the sample */
     lrcsi_cells_border *border;      /* edges of the component at the border of the cell */

@@ -272,7 +272,7 @@ int lrcsi_classify_crossed_by(lrcsi_classification *classification, uint32_t fac
 int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,
                              const lrcsi_intersection *touch)
 {
-    return lrcsi_grid_casts(view, touch->other) && !(touch->kind == LRCSI_INTERSECTION_COPLANAR &&
+    return lrcsi_view_casts(view, touch->other) && !(touch->kind == LRCSI_INTERSECTION_COPLANAR &&
                                                      lrcsi_sample_beats(view, facet, touch->other));
 }
 
@@ -434,12 +434,33 @@ void lrcsi_classify_regions(const lrcsi_classification *classification)
     lrcsi_events_join(classification->view, classification->joinable, classification->region);
 }
 
+/* The direction in which each facet faces if it casts (lrcsi_view_casts), otherwise 0; zeros behind
+   the last one. Run by run, without branches: compilers vectorise the inner loop. */
+static void facets_cast(const lrcsi_view *view, signed char *cast)
+{
+    const signed char back = view->backs.cast ? LRCSI_REDUNDANT_FROM_BEHIND : LRCSI_NOT_REDUNDANT;
+    uint32_t count = view->prepared->scene->facet_count;
+    for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
+        size_t facets = lrcsi_run_end(start, count) - start;
+        signed char facing[LRCSI_RUN] = {0};
+        signed char redundant[LRCSI_RUN] = {0};
+        memcpy(facing, view->facing + start, facets);
+        memcpy(redundant, view->prepared->redundant + start, facets);
+        for (uint32_t i = 0; i < LRCSI_RUN; i++) {
+            signed char least = facing[i] > 0 ? LRCSI_REDUNDANT : back;
+            cast[start + i] = redundant[i] < least ? facing[i] : 0;
+        }
+    }
+    cast[lrcsi_runs_room(count)] = 0;
+}
+
 size_t lrcsi_classify_need(const lrcs_prepared *prepared)
 {
     size_t edges = prepared->topology.edge_count;
     size_t facets = prepared->scene->facet_count;
-    size_t need = lrcsi_work_add(lrcsi_work_bytes(facets + 1, 1), lrcsi_work_bytes(facets, 1));
-    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    size_t room = lrcsi_runs_room(prepared->scene->facet_count);
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(room + 1, 1), lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(room, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_boxes_need(prepared));
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_event_box)));
@@ -457,15 +478,12 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *w
     lrcsi_classification c = {.view = view, .crossed = LRCS_NONE};
     c.grid = lrcsi_grid_empty(view, view->front + (view->backs.cast ? view->back : 0));
     c.undecided = lrcsi_work_take_zero(work, count, 1);
-    c.joinable = lrcsi_work_take(work, (size_t)count + 1, 1);
-    c.component = lrcsi_work_take(work, count, sizeof *c.component);
-    c.region = lrcsi_work_take(work, count, sizeof *c.region);
+    c.joinable = lrcsi_work_take(work, lrcsi_runs_room(count) + 1, 1);
+    c.component = lrcsi_work_take(work, lrcsi_runs_room(count), sizeof *c.component);
+    c.region = lrcsi_work_take(work, lrcsi_runs_room(count), sizeof *c.region);
     int status = c.undecided && c.joinable && c.component && c.region ? LRCS_OK : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        for (uint32_t f = 0; f < count; f++) {
-            c.joinable[f] = lrcsi_grid_casts(view, f) ? view->facing[f] : 0;
-        }
-        c.joinable[count] = 0;
+        facets_cast(view, c.joinable);
         status = lrcsi_boxes_make(view, c.joinable, work, &c.boxes);
     }
     status = status == LRCS_OK ? lrcsi_events_make(view, c.joinable, work, &c.events) : status;

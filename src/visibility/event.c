@@ -7,7 +7,7 @@
 
 #include "base/join.h"
 #include "base/work.h"
-#include "visibility/grid.h"
+#include "visibility/boxes.h"
 
 /* --- one edge --------------------------------------------------------------------------------- */
 
@@ -25,7 +25,7 @@ int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part, uin
     int left = 0;         /* facets on the left of the edge, less those on the right */
     for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
         uint32_t f = use[i].facet;
-        if (part == LRCS_NONE ? lrcsi_grid_casts(view, f)
+        if (part == LRCS_NONE ? lrcsi_view_casts(view, f)
                               : p->scene->facet_part[f] == part && !p->skip[f]) {
             pair[count < 2 ? count : 1] = f;
             count++;
@@ -56,21 +56,31 @@ static void mark_edge_event(uint32_t *mark, uint32_t edge)
     mark[edge / MARK_BITS] |= (uint32_t)1 << edge % MARK_BITS;
 }
 
-/* Do the facets of a run all have the same value? */
-static int run_alike(const signed char *value, uint32_t start, uint32_t end)
+/* Are all facets of the runs around a run of the same value as all of its own? */
+static int run_surrounded(const lrcs_prepared *p, const signed char *value, uint32_t run)
 {
-    return memcmp(value + start, value + start + 1, end - start - 1) == 0;
+    signed char own = value[(size_t)run * LRCSI_RUN];
+    for (uint32_t i = p->runs.first_link[run]; i < p->runs.first_link[run + 1]; i++) {
+        uint32_t other = p->runs.link[i];
+        if (other == LRCS_NONE
+                ? own != 0
+                : value[(size_t)other * LRCSI_RUN] != own || !lrcsi_run_alike(value, other)) {
+            return 0;
+        }
+    }
+    return 1;
 }
 
 /* Marks events among the plain edges (scene/across.h): two facets continue each other across such
-   an edge if both cast shadows and face the same way. Within a run whose facets all have the same
-   value there are none. */
+   an edge if both cast shadows and face the same way. A run that is like all around it has none. */
 static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t *mark)
 {
     uint32_t count = p->scene->facet_count;
-    for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
+    for (uint32_t r = 0; r < p->runs.count; r++) {
+        uint32_t start = r * LRCSI_RUN;
         uint32_t end = lrcsi_run_end(start, count);
-        for (uint32_t f = start; f < end && !run_alike(cast, start, end); f++) {
+        int alike = lrcsi_run_alike(cast, r);
+        for (uint32_t f = start; f < end && !alike; f++) {
             for (int k = 0; k < 3; k++) {
                 uint32_t other = p->across.facet[f].corner[k];
                 if (other >= start && other < end && cast[f] != 0 && cast[other] != cast[f]) {
@@ -78,12 +88,15 @@ static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t
                 }
             }
         }
-    }
-    const lrcsi_run_side *side = p->runs.side;
-    for (uint32_t i = p->runs.run[p->runs.count].first_side; i > 0; i--, side++) {
-        if (cast[side->facet] != cast[side->other] &&
-            (cast[side->facet] != 0 || side->other < side->facet)) {
-            mark_edge_event(mark, side->edge);
+        if (alike && run_surrounded(p, cast, r)) {
+            continue;
+        }
+        for (uint32_t i = p->runs.run[r].first_side; i < p->runs.run[r + 1].first_side; i++) {
+            const lrcsi_run_side *side = &p->runs.side[i];
+            if (cast[side->facet] != cast[side->other] &&
+                (cast[side->facet] != 0 || side->other < side->facet)) {
+                mark_edge_event(mark, side->edge);
+            }
         }
     }
 }
@@ -141,11 +154,20 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
 
 /* --- groups ----------------------------------------------------------------------------------- */
 
-/* Joins the facets of a run among themselves. */
-static void join_within(const lrcs_prepared *p, const signed char *joinable, uint32_t start,
-                        uint32_t end, uint32_t *group)
+/* The item that stands for a facet: of a run all of which is joined, its first one. */
+static inline uint32_t item_of(const lrcs_prepared *p, const signed char *joinable, uint32_t facet)
 {
-    int alike = run_alike(joinable, start, end);
+    uint32_t run = facet / LRCSI_RUN;
+    return lrcsi_events_joined(p, joinable, run) == LRCSI_JOINED_ALL ? run * LRCSI_RUN : facet;
+}
+
+/* Joins the facets of a run among themselves, each an item. */
+static void join_within(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
+                        uint32_t *group)
+{
+    uint32_t start = run * LRCSI_RUN;
+    uint32_t end = lrcsi_run_end(start, p->scene->facet_count);
+    int alike = lrcsi_run_alike(joinable, run);
     for (uint32_t f = start; f < end; f++) {
         group[f] = alike ? start + p->runs.first[f] : f;
         for (int k = 0; k < 3 && !alike && joinable[f] != 0; k++) {
@@ -157,43 +179,82 @@ static void join_within(const lrcs_prepared *p, const signed char *joinable, uin
     }
 }
 
-/* Run by run: each is joined within and then to earlier runs, while its facets are in the cache.
-   The groups do not depend on the order. Nothing is joined in a run without joinable facets. */
-void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group)
+/* Joins a run that is one item to earlier ones of which the same holds. 0 if it leads to others. */
+static int join_linked(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
+                       uint32_t *group)
 {
-    const lrcs_prepared *p = view->prepared;
+    uint32_t start = run * LRCSI_RUN;
+    for (uint32_t i = p->runs.first_link[run]; i < p->runs.first_link[run + 1]; i++) {
+        uint32_t other = p->runs.link[i];
+        int joined = other < run ? lrcsi_events_joined(p, joinable, other) : LRCSI_JOINED_NONE;
+        if (joined == LRCSI_JOINED_SOME) {
+            return 0;
+        }
+        if (joined == LRCSI_JOINED_ALL && joinable[(size_t)other * LRCSI_RUN] == joinable[start]) {
+            lrcsi_join(group, other * LRCSI_RUN, start);
+        }
+    }
+    return 1;
+}
+
+/* Joins a run to earlier ones, side by side. */
+static void join_sides(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
+                       uint32_t *group)
+{
+    for (uint32_t i = p->runs.run[run].first_side; i < p->runs.run[run + 1].first_side; i++) {
+        const lrcsi_run_side *side = &p->runs.side[i];
+        if (side->other < side->facet && joinable[side->facet] != 0 &&
+            joinable[side->other] == joinable[side->facet]) {
+            lrcsi_join(group, item_of(p, joinable, side->other), item_of(p, joinable, side->facet));
+        }
+    }
+}
+
+/* Sets the group of each facet to the first one of its group. Earlier runs are settled already, and
+   the groups of later ones are not named by theirs. */
+static void join_finish(const lrcs_prepared *p, const signed char *joinable, uint32_t *group)
+{
     uint32_t count = p->scene->facet_count;
-    uint32_t last[2] = {0, 0}; /* the groups joined last: two runs mostly share many sides */
     for (uint32_t r = 0; r < p->runs.count; r++) {
         uint32_t start = r * LRCSI_RUN;
-        uint32_t end = lrcsi_run_end(start, count);
-        if (joinable[start] == 0 && run_alike(joinable, start, end)) {
-            for (uint32_t f = start; f < end; f++) {
-                group[f] = f;
+        int joined = lrcsi_events_joined(p, joinable, r);
+        if (joined == LRCSI_JOINED_SOME) {
+            for (uint32_t f = start; f < lrcsi_run_end(start, count); f++) {
+                group[f] = group[group[f]];
             }
             continue;
         }
-        join_within(p, joinable, start, end, group);
-        for (uint32_t i = p->runs.run[r].first_side; i < p->runs.run[r + 1].first_side; i++) {
-            const lrcsi_run_side *side = &p->runs.side[i];
-            if (side->other < side->facet && joinable[side->facet] != 0 &&
-                joinable[side->other] == joinable[side->facet]) {
-                uint32_t a = group[side->other];
-                uint32_t b = group[side->facet];
-                if (a != b && (a != last[0] || b != last[1])) {
-                    lrcsi_join(group, a, b);
-                    last[0] = a;
-                    last[1] = b;
-                }
-            }
+        uint32_t step = joined == LRCSI_JOINED_NONE;
+        uint32_t root = group[group[start]];
+        for (uint32_t i = 0; i < LRCSI_RUN; i++) {
+            group[start + i] = root + step * i;
+        }
+    }
+}
+
+/* Run by run: each is joined within and then to earlier runs, while its facets are in the cache.
+   The groups do not depend on the order. */
+void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group)
+{
+    const lrcs_prepared *p = view->prepared;
+    for (uint32_t r = 0; r < p->runs.count; r++) {
+        uint32_t start = r * LRCSI_RUN;
+        int joined = lrcsi_events_joined(p, joinable, r);
+        group[start] = start;
+        if (joined == LRCSI_JOINED_SOME) {
+            join_within(p, joinable, r, group);
+        }
+        if (joined == LRCSI_JOINED_SOME ||
+            (joined == LRCSI_JOINED_ALL && !join_linked(p, joinable, r, group))) {
+            join_sides(p, joinable, r, group);
         }
     }
     for (uint32_t i = 0; i < p->across.irregular_count; i++) {
         uint32_t pair[2];
         if (lrcsi_edge_kind_of(view, p->across.irregular[i], LRCS_NONE, pair) == LRCSI_EDGE_JOINS &&
             joinable[pair[0]] != 0 && joinable[pair[1]] != 0) {
-            lrcsi_join(group, pair[0], pair[1]);
+            lrcsi_join(group, item_of(p, joinable, pair[0]), item_of(p, joinable, pair[1]));
         }
     }
-    lrcsi_join_settle(group, count);
+    join_finish(p, joinable, group);
 }

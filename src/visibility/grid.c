@@ -210,7 +210,7 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
         for (uint32_t f = 0; f < count; f++) {
             if (boxes->state[f / LRCSI_RUN] != LRCSI_BOXES_FACETS) {
                 f += LRCSI_RUN - 1;
-            } else if (lrcsi_grid_casts(grid->view, f)) {
+            } else if (lrcsi_view_casts(grid->view, f)) {
                 filled += cells_count(lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
                 facets++;
             }
@@ -275,14 +275,22 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
         return LRCS_OK;
     }
     want->bit = lrcsi_work_take_zero(work, want->words * grid->size, sizeof *want->bit);
-    uint32_t count = grid->view->prepared->scene->facet_count;
-    for (uint32_t f = 0; f < count && want->bit; f++) {
-        if (boxes->state[f / LRCSI_RUN] == LRCSI_BOXES_NONE) {
-            f = lrcsi_run_end(f, count) - 1;
-        } else if ((readers->undecided[f] || readers->region[f] == f) &&
-                   lrcsi_grid_casts(grid->view, f)) {
-            lrcsi_boxes_open(boxes, f / LRCSI_RUN);
-            want_facet(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
+    const lrcs_prepared *p = grid->view->prepared;
+    for (uint32_t r = 0; r < p->runs.count && want->bit; r++) {
+        uint32_t start = r * LRCSI_RUN;
+        uint32_t end = lrcsi_run_end(start, p->scene->facet_count);
+        if (boxes->state[r] == LRCSI_BOXES_NONE) {
+            continue;
+        }
+        if (lrcsi_events_joined(p, readers->joinable, r) == LRCSI_JOINED_ALL) {
+            end = start + 1; /* the others are not the first of their region, nor undecided */
+        }
+        for (uint32_t f = start; f < end; f++) {
+            if ((readers->undecided[f] || readers->region[f] == f) &&
+                lrcsi_view_casts(grid->view, f)) {
+                lrcsi_boxes_open(boxes, r);
+                want_facet(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
+            }
         }
     }
     return want->bit ? LRCS_OK : LRCS_E_MEMORY;
@@ -306,7 +314,7 @@ static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, grid_
         lrcsi_boxes_open(boxes, run);
         uint32_t end = lrcsi_run_end(start, count);
         for (uint32_t f = start; f < end; f++) {
-            if (lrcsi_grid_casts(grid->view, f) &&
+            if (lrcsi_view_casts(grid->view, f) &&
                 (!want.bit ||
                  want_meets(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f))))) {
                 list[listed++] = f;

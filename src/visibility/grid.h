@@ -10,6 +10,7 @@
 #include "base/range.h"
 #include "view/strip.h"
 #include "visibility/boxes.h"
+#include "visibility/event.h"
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
@@ -141,6 +142,7 @@ size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 typedef struct lrcsi_grid_readers {
     const unsigned char *undecided; /* of each facet */
     const uint32_t *region;         /* of each facet: the first facet of its region */
+    const signed char *joinable;    /* of each facet (visibility/classify.h) */
 } lrcsi_grid_readers;
 
 /* A grid of the facets that can hide something, in at most as many cells as another grid: it lists

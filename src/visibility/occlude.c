@@ -33,7 +33,7 @@ void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
     o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
     o->alone.facet = o->alone.target.facet = facet;
     o->undecided = o->whole = 0;
-    if (!lrcsi_grid_casts(classification->view, facet)) {
+    if (!lrcsi_view_casts(classification->view, facet)) {
         return;
     }
     if (!classification->undecided[facet]) {
@@ -109,6 +109,13 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
     return status;
 }
 
+/* The first facet from `from` on whose value is `wanted`, or `count`. */
+static uint32_t facet_next(const unsigned char *value, int wanted, uint32_t from, uint32_t count)
+{
+    const unsigned char *at = memchr(value + from, wanted, count - from);
+    return at ? (uint32_t)(at - value) : count;
+}
+
 /* Undecided facets: together if there are many; then one by one those that are still open. */
 static int occlude_undecided(lrcsi_occluding *o, lrcs_work *work, unsigned char *open,
                              lrcsi_visible *visible)
@@ -120,18 +127,17 @@ static int occlude_undecided(lrcsi_occluding *o, lrcs_work *work, unsigned char 
         classification->undecided_count >= count / CELLS_SHARE && cells_serve(p)) {
         lrcsi_cells_areas(classification, o->meter, work, o->uniform, open, visible);
     }
-    if (!memchr(open, 1, count)) {
+    uint32_t f = facet_next(open, 1, 0, count);
+    if (f == count) {
         return LRCS_OK;
     }
     int status = lrcsi_alone_make(classification, o->meter, &o->facets, work, &o->alone);
-    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
+    for (; f < count && status == LRCS_OK; f = facet_next(open, 1, f + 1, count)) {
         lrcsi_view_progress(classification->view, LRCS_PROGRESS_VISIBILITY, f, count);
-        if (open[f]) {
-            lrcsi_occlude_open(o, f);
-            visible[f] = lrcsi_occlude_area(o);
-            if (visible[f].high == 0) {
-                o->uniform[f] = LRCSI_QUERY_HIDDEN;
-            }
+        lrcsi_occlude_open(o, f);
+        visible[f] = lrcsi_occlude_area(o);
+        if (visible[f].high == 0) {
+            o->uniform[f] = LRCSI_QUERY_HIDDEN;
         }
     }
     return status;
@@ -147,15 +153,18 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
     int status = occlude_begin(classification, meter, work, &o);
     unsigned char *open = lrcsi_work_take(work, count, 1);
     status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
-    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
-        open[f] = classification->undecided[f] && lrcsi_grid_casts(view, f);
-        if (open[f]) {
-            o.uniform[f] = LRCSI_QUERY_UNDECIDED;
-        } else if (o.uniform[f] == LRCSI_QUERY_UNDECIDED) {
+    if (status == LRCS_OK) { /* only facets that can hide others are ever undecided */
+        memcpy(open, classification->undecided, count);
+        for (uint32_t f = facet_next(o.uniform, LRCSI_QUERY_UNDECIDED, 0, count); f < count;
+             f = facet_next(o.uniform, LRCSI_QUERY_UNDECIDED, f + 1, count)) {
             visible[f] = uniform_area(&o, f);
         }
+        for (uint32_t f = facet_next(open, 1, 0, count); f < count;
+             f = facet_next(open, 1, f + 1, count)) {
+            o.uniform[f] = LRCSI_QUERY_UNDECIDED;
+        }
+        status = occlude_undecided(&o, work, open, visible);
     }
-    status = status == LRCS_OK ? occlude_undecided(&o, work, open, visible) : status;
     /* Either the answers, moved to the beginning of the work area used here, or all areas. */
     work->used = mark;
     if (status == LRCS_OK && answer) {

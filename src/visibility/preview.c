@@ -238,10 +238,10 @@ static void preview_facets(preview_job *job)
     uint32_t left = 0; /* facets that are not ordinary */
     uint32_t count = job->view->prepared->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
-        left += lrcsi_grid_casts(job->view, f) && !preview_draw(job, f, 1);
+        left += lrcsi_view_casts(job->view, f) && !preview_draw(job, f, 1);
     }
     for (uint32_t f = 0; f < count && left > 0; f++) {
-        left -= lrcsi_grid_casts(job->view, f) && !preview_draw(job, f, 0);
+        left -= lrcsi_view_casts(job->view, f) && !preview_draw(job, f, 0);
     }
 }
 
@@ -406,7 +406,7 @@ static void preview_shares(preview_job *job)
         for (uint32_t f = 0; f < facets; f++) {
             preview_counts *c = &job->counts[f];
             float share;
-            if (c->round == LRCS_NONE && lrcsi_grid_casts(job->view, f) &&
+            if (c->round == LRCS_NONE && lrcsi_view_casts(job->view, f) &&
                 (preview_by_neighbours(job, f, round, &share) || round > SHARE_ROUNDS)) {
                 c->share = round > SHARE_ROUNDS ? preview_by_depth(job, f) : share;
                 c->round = round;
@@ -450,7 +450,7 @@ static preview_bias preview_bias_of(const preview_job *job)
     double room = 0;   /* their hidden area */
     for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
         const preview_counts *c = &job->counts[f];
-        if (lrcsi_grid_casts(job->view, f) && c->share > 0 && lrcsi_view_reflects(job->view, f)) {
+        if (lrcsi_view_casts(job->view, f) && c->share > 0 && lrcsi_view_reflects(job->view, f)) {
             double area = lrcsi_view_projected(job->view, f);
             double shown = area * (double)c->share;
             over += shown - pixel * c->owned;
@@ -542,7 +542,7 @@ int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
         preview_shares(&job);
         preview_bias bias = preview_bias_of(&job);
         for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-            visible[f] = lrcsi_grid_casts(view, f) ? preview_area(&job, f, &bias)
+            visible[f] = lrcsi_view_casts(view, f) ? preview_area(&job, f, &bias)
                                                    : (lrcsi_visible){0, 0, 0, 0, 0};
         }
         *undecided = job.undecided;

@@ -175,18 +175,28 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
 static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_meter *meter,
                               const lrcsi_grid *facets, unsigned char *answer)
 {
+    const lrcs_prepared *p = classification->view->prepared;
     uint32_t undecided = 0;
-    uint32_t count = classification->view->prepared->scene->facet_count;
+    uint32_t count = p->scene->facet_count;
     memset(answer, LRCSI_QUERY_HIDDEN, count);
-    for (uint32_t f = 0; f < count; f++) {
-        uint32_t first = classification->region[f];
-        if (classification->boxes.state[f / LRCSI_RUN] == LRCSI_BOXES_NONE) {
-            f = lrcsi_run_end(f, count) - 1; /* no facet of the run is visible */
-        } else if (first != f) {
-            answer[f] = answer[first];
-        } else if (lrcsi_grid_casts(classification->view, f) && !classification->undecided[f]) {
-            answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
-            undecided += answer[f] == LRCSI_QUERY_UNDECIDED;
+    for (uint32_t r = 0; r < p->runs.count; r++) {
+        uint32_t start = r * LRCSI_RUN;
+        uint32_t end = lrcsi_run_end(start, count);
+        if (classification->boxes.state[r] == LRCSI_BOXES_NONE) {
+            continue; /* no facet of the run is visible */
+        }
+        int one = lrcsi_events_joined(p, classification->joinable, r) == LRCSI_JOINED_ALL;
+        for (uint32_t f = start; f < (one ? start + 1 : end); f++) {
+            uint32_t first = classification->region[f];
+            if (first != f) {
+                answer[f] = answer[first];
+            } else if (lrcsi_view_casts(classification->view, f) && !classification->undecided[f]) {
+                answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
+                undecided += answer[f] == LRCSI_QUERY_UNDECIDED;
+            }
+        }
+        if (one) {
+            memset(answer + start, answer[start], end - start);
         }
     }
     return undecided;
@@ -201,7 +211,8 @@ int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter 
     size_t mark = work->used;
     uint32_t count = classification->view->prepared->scene->facet_count;
     lrcsi_classify_regions(classification);
-    const lrcsi_grid_readers readers = {classification->undecided, classification->region};
+    const lrcsi_grid_readers readers = {classification->undecided, classification->region,
+                                        classification->joinable};
     int status =
         lrcsi_grid_facets(&classification->grid, &classification->boxes, &readers, work, facets);
     if (status != LRCS_OK || query_regions(classification, meter, facets, answer) == 0) {

@@ -484,7 +484,7 @@ int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lr
     lrcsi_raster_clear(raster);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, f, view->prepared->scene->facet_count);
-        if (lrcsi_grid_casts(view, f)) {
+        if (lrcsi_view_casts(view, f)) {
             lrcsi_raster_draw(raster, f);
         }
     }

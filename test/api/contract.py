@@ -20,6 +20,8 @@ NEVER = {
     # a direction made of a sine and a cosine, or a rotation, is never zero
     "lrcs_pose_from_azel": {"LRCS_E_ARGUMENT"},
     "lrcs_pose_from_euler": {"LRCS_E_ARGUMENT"},
+    # a surface that is refused is not claimed
+    "lrcs_quadric_find": {"LRCS_E_ARGUMENT", "LRCS_E_NUMBER"},
     # the pictures they write are of one size, and not too large
     "lrcs_host_chart_png": {"LRCS_E_ARGUMENT", "LRCS_E_LIMIT"},
     "lrcs_host_map_png": {"LRCS_E_ARGUMENT", "LRCS_E_LIMIT"},

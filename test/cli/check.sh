@@ -93,7 +93,7 @@ failure() {
     fi
 }
 
-# near NAME GOT WANT: equal to 1e-11 of it, for values that DESIGN.md gives with 12 digits.
+# near NAME GOT WANT: equal to 1e-11 of it, for values that are known to 12 digits.
 near() {
     if awk -v a="$2" -v b="$3" 'BEGIN { d = a - b; exit !(a != "" && d * d <= 1e-22 * b * b) }'; then
         ok "$1"

@@ -5,7 +5,7 @@
 
 run info demo --json
 same info_exits_0 "$rc" 0
-same info_keys_in_order "$(keys)" "schema version files unit parts vertices facets area_m2 volume_m3 box_min_m box_max_m closed convex materials defects glint notices title options "
+same info_keys_in_order "$(keys)" "schema version files unit parts vertices facets area_m2 volume_m3 box_min_m box_max_m closed convex materials defects glint surfaces notices title options "
 same defects_keys "$(value defects | grep -cE '^\{"degenerate": [0-9]+, "duplicate": [0-9]+, "opposite_pairs": [0-9]+, "boundary_edges": [0-9]+, "nonmanifold_edges": [0-9]+\}$')" 1
 same library_values_are_called_illustrative "$(printf '%s\n' "$out" | grep -c illustrative | sed 's/[1-9][0-9]*/some/')" some
 run info demo
@@ -39,6 +39,33 @@ near cone_spot_value "$(value sigma_m2)" 0.324888321144
 run shape disc --radius 1 --material solar-cell --aspect 10
 same people_get_dbsm "$(printf '%s\n' "$out" | grep -c dBsm)" 1
 same shape_exits_0 "$rc" 0
+
+# A tube of 16 sides, 2 m long, radius 1 m, 2 m above the origin, in millimetres: along y, from
+# inside.
+awk 'BEGIN {
+    for (i = 0; i < 32; i++) {
+        t = 2 * atan2(0, -1) * int(i / 2) / 16
+        printf "v %.17g %d %.17g\n", 1000 * cos(t), 2000 * (i % 2), 2000 + 1000 * sin(t)
+    }
+    for (i = 0; i < 32; i += 2) {
+        j = (i + 2) % 32
+        printf "f %d %d %d %d\n", i + 1, j + 1, j + 2, i + 2
+    }
+}' >"$scratch/tube.obj"
+run info "$scratch/tube.obj" --unit mm --json
+tube=$(printf '%s\n' "$out" | grep '"surface": "cylinder"')
+same a_tube_is_one_cylinder "$(printf '%s\n' "$out" | grep -c '"surface":')" 1
+field() { printf '%s\n' "$tube" | sed "s/.*\"$1\": \([^,}]*\).*/\1/"; }
+near its_radius "$(field radius_m)" 1
+near its_displacement "$(field displacement_bound_m)" 0.0192147195967696
+near its_normals_deviate_by_half_a_turn "$(field normal_angle_bound_deg)" 11.25
+same its_facets "$(field facets) $(field first_facet) $(field inside)" "32 0 true"
+same its_half_angle_is_null "$(field half_angle_deg) $(field half_angle_tangent)" "null null"
+run info "$scratch/tube.obj" --unit mm
+same people_see_it_too "$(printf '%s\n' "$out" | grep -cE '^ +cylinder .*radius 1, axis 0,1,0 through 0,1,2, inside$')" 1
+same a_coarse_tube_is_marked "$(printf '%s\n' "$out" | grep -cE '^ +cylinder .* 0\.[0-9]+! ')" 1
+run info "$scratch/box.toml" --json
+same shapes_are_not_searched "$(value surfaces)" "[]"
 
 if [ -d "$models" ]; then
     run info "$models/kepler.obj" --json

@@ -226,7 +226,7 @@ body = comment("plotted.png")
 check("so_does_a_png", body.startswith(b"Comment\0lrcs ") and sys.argv[1].encode() in body, body)
 END
 "$tool" image linear.toml --material 'foil=1,0.1,0.2,0.3' -o shown.png >/dev/null 2>&1
-same a_picture_names_its_materials "$(LC_ALL=C tr -d '\0' <shown.png | LC_ALL=C grep -a -c 'Commentlrcs .*; scene_hash=.*; title=[^;]*; options=--material=foil=1,0.1,0.2,0.3; file=linear.toml fnv1a:[0-9a-f]*; material=foil 1,0.1,0.2,0.3 given')" 1
+same a_picture_names_its_materials "$(LC_ALL=C tr -d '\0' <shown.png | LC_ALL=C grep -a -c 'Commentlrcs .*; scene_hash=.*; title=[^;]*; options=--material=foil=1,0.1,0.2,0.3; file=linear.toml fnv1a:[0-9a-f]* unit=m; material=foil 1,0.1,0.2,0.3 given')" 1
 
 run run negative.toml
 same a_negative_error_is_refused "$rc $(printf '%s\n' "$err" | grep -c 'A_error.*0 or more')" "1 1"

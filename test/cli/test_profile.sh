@@ -13,7 +13,7 @@ same two_plates_have_two_ranges "$(printf '%s\n' "$out" | awk '/^  +-?[0-9.]+ +-
 run profile pair.toml --bin 0.5 --csv - --azel 20,30
 same rows_have_a_header "$(printf '%s\n' "$out" | sed -n 2p)" "near_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m"
 run profile pair.toml --bin 0.5 --csv rows.csv --azel 20,30 --plot chart.svg --pulse-fwhm 0.3
-same the_first_line_says_what_of "$(sed -n 1p rows.csv | grep -cE '^# lrcs [0-9.]+ profile; scene_hash=[0-9a-f]{16}; title=pair.toml; options=--[^;]*; file=pair.toml fnv1a:[0-9a-f]{16}; direction=[-0-9.e]+,[-0-9.e]+,[-0-9.e]+; sigma_m2=[0-9.e]+; pulse_fwhm_m=[0-9.e-]+; bound_of_the_sum_m2=[-0-9.e]+; materials=illustrative or assumed$')" 1
+same the_first_line_says_what_of "$(sed -n 1p rows.csv | grep -cE '^# lrcs [0-9.]+ profile; scene_hash=[0-9a-f]{16}; title=pair.toml; options=--[^;]*; file=pair.toml fnv1a:[0-9a-f]{16} unit=m; direction=[-0-9.e]+,[-0-9.e]+,[-0-9.e]+; sigma_m2=[0-9.e]+; pulse_fwhm_m=[0-9.e-]+; bound_of_the_sum_m2=[-0-9.e]+; materials=illustrative or assumed$')" 1
 same csv_and_chart_are_written "$rc $(sed -n 2p rows.csv | tr ',' '\n' | tail -2 | tr '\n' ' ')$(grep -c '</svg>' chart.svg)" "0 pulse_m pulse_bound_m 1"
 run profile pair.toml --bin 0.5 --plot chart.png
 same a_png_is_one "$rc $(head -c 4 chart.png | tail -c 3)" "0 PNG"

@@ -19,7 +19,7 @@ beside() {
     file=$1 input=$2 hash=$3
     shift 3
     run "$@"
-    same "${file}_is_written_with_what_it_was_made_from" "$(sed -n '2,5p; s/^    {"name": \(.*\), "hash": \(.*\)}.*/\1 \2/p' "$file.json")" \
+    same "${file}_is_written_with_what_it_was_made_from" "$(sed -n '2,5p; s/^    {"name": \(.*\), "hash": \("[^"]*"\).*/\1 \2/p' "$file.json")" \
 "  \"lrcs\": \"$1\",
   \"schema\": 1,
   \"version\": \"$("$tool" --version | cut -c6-)\",
@@ -76,6 +76,44 @@ for file in rows.csv rows.svg stats.csv stats.svg stats.png; do
 done
 same drawings_of_a_sweep_name_its_scene_by_hash "$(grep -l "scene_hash=$(sed -n '1s/.*scene_hash=\([0-9a-f]*\).*/\1/p' rows.csv)" rows.svg stats.svg | wc -l | tr -d ' ')" 2
 
+# ---- units ----
+printf 'v 0 0 0\nv 2000 0 0\nv 0 2000 0\nmtllib plate.mtl\nusemtl skin\nf 1 2 3\n' >plate.obj
+printf 'newmtl skin\nKd 1 0 0\n' >plate.mtl
+cp plate.obj other.obj
+# units: of every file of the JSON in $out, by name, and of the scene.
+units() { printf '%s\n' "$out" | sed -n 's/^    {"name": "\([^"]*\)", "hash": "[^"]*", "unit": \(.*\)},*$/\1=\2/p' | LC_ALL=C sort | tr '\n' ' '; value unit; }
+for command in 'run' 'info' 'profile --bin 100' 'converge --seconds 0.02'; do
+    # shellcheck disable=SC2086 # a command and its options
+    set -- $command
+    name=$1
+    shift
+    run "$name" plate.obj "$@" --json
+    same "${name}_states_what_was_assumed" "$(units)" 'plate.mtl=null plate.obj="m assumed" null'
+    run "$name" plate.obj "$@" --json --unit mm
+    same "${name}_states_the_unit_given" "$(units)" 'plate.mtl=null plate.obj="mm" "mm"'
+done
+run run plate.obj --unit 0.001 --json
+same a_known_unit_has_its_name "$(units)" 'plate.mtl=null plate.obj="mm" "0.001"'
+printf 'unit = "ft"\n[[part]]\nname = "a"\nfile = "plate.obj"\nunit = "mm"\n[[part]]\nname = "b"\nfile = "other.obj"\ntranslate = [0, 0, 5]\n[[part]]\nname = "c"\nfile = "plate.obj"\nunit = 0.5\n[[part]]\nname = "d"\nshape = "box"\nsize = [1, 1, 1]\n' >units.toml
+run run units.toml --json
+same every_part_of_a_scene_has_its_own "$(units)" 'other.obj="ft" plate.mtl=null plate.mtl=null plate.mtl=null plate.obj="0.5" plate.obj="mm" units.toml="m" "m"'
+printf '[[part]]\nname = "a"\nfile = "plate.obj"\n' >silent.toml
+run run silent.toml --json
+same a_scene_file_that_states_none_says_so "$(units)" 'plate.mtl=null plate.obj="m assumed" silent.toml="m" "m"'
+run run demo --json
+same the_built_in_scene_is_in_metres "$(units)" '"m"'
+"$tool" sweep units.toml --az 0:20:10 --el 0 -o units.csv 2>/dev/null
+same the_first_line_of_a_sweep_names_them "$(head -1 units.csv | grep -o 'fnv1a:[0-9a-f]* unit=[a-z0-9.]*' | sed 's/.*=//' | LC_ALL=C sort | tr '\n' ' ')" "0.5 ft m mm "
+"$tool" profile plate.obj --unit in --bin 10 --csv inches.csv --plot inches.svg >/dev/null 2>&1
+same and_that_of_a_profile "$(head -1 inches.csv | grep -c 'file=plate.obj fnv1a:[0-9a-f]* unit=in;')" 1
+same and_its_chart "$(grep -c 'file=plate.obj fnv1a:[0-9a-f]* unit=in;' inches.svg)" 1
+run plot units.csv -o again.svg
+same a_table_that_names_them_is_drawn_again "$rc" 0
+run sweep units.toml --az 0:20:10 --el 0 --shard 1/2 -o first.csv
+run sweep units.toml --az 0:20:10 --el 0 --shard 2/2 -o second.csv
+run merge first.csv second.csv -o merged.csv
+same shards_that_name_them_are_merged "$rc $(cmp merged.csv units.csv && echo same)" "0 same"
+
 # ---- every JSON ----
 # stated NAME ARGUMENTS...: its first keys are the schema and the version.
 stated() {
@@ -85,7 +123,7 @@ stated() {
     same "json_of_${name}_has_schema_and_version" "$(printf '%s\n' "$out" | grep -E '^ *"(schema|version)":' | head -2 | tr -d ' \n')" "\"schema\":1,\"version\":\"$("$tool" --version | cut -c6-)\","
 }
 stated run run pair.toml --json
-same json_of_run_names_its_file "$(printf '%s\n' "$out" | grep -c "\"pair.toml\", \"hash\": \"$pair\"")" 1
+same json_of_run_names_its_file "$(printf '%s\n' "$out" | grep -c "\"pair.toml\", \"hash\": \"$pair\", \"unit\": \"m\"")" 1
 stated info info pair.toml --json
 same json_of_info_names_its_file "$(printf '%s\n' "$out" | grep -c "\"pair.toml\", \"hash\": \"$pair\"")" 1
 stated shape shape sphere --radius 1 --json

@@ -22,7 +22,7 @@ alike() {
 run sweep pair.toml --az 0:30:10 --el 0
 same a_cut_exits_0 "$rc" 0
 same the_first_line_says_what_it_is "$(printf '%s\n' "$out" | head -1)" \
-    "# lrcs $("$tool" --version | cut -d' ' -f2) sweep; scene_hash=$("$tool" run pair.toml --json 2>/dev/null | sed -n 's/.*"scene_hash": "\(.*\)",/\1/p'); rows=4; shape=4; az=0:30:10; el=0; tolerance=0.0001; method=auto; resolution=auto; normals=flat; title=pair.toml; materials=illustrative or assumed; files=pair.toml $("$tool" run pair.toml --json 2>/dev/null | sed -n 's/.*"hash": "\(.*\)".*/\1/p')"
+    "# lrcs $("$tool" --version | cut -d' ' -f2) sweep; scene_hash=$("$tool" run pair.toml --json 2>/dev/null | sed -n 's/.*"scene_hash": "\(.*\)",/\1/p'); rows=4; shape=4; az=0:30:10; el=0; tolerance=0.0001; method=auto; resolution=auto; normals=flat; title=pair.toml; materials=illustrative or assumed; files=pair.toml $("$tool" run pair.toml --json 2>/dev/null | sed -n 's/.*"hash": "\(fnv1a:[0-9a-f]*\)".*/\1/p') unit=m"
 same the_second_line_names_columns "$(printf '%s\n' "$out" | sed -n 2p)" "index,az_deg,el_deg,sigma_m2,sigma_dbsm,bound_m2,sigma_glint_m2,sigma_diffuse_m2,flags"
 same both_ends_are_in "$(printf '%s\n' "$out" | sed '1,2d;$d' | column 2 | tr '\n' ' ')" "0 10 20 30 "
 

@@ -314,7 +314,7 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
         return;
     }
     for (uint32_t f = 0; f < c->scene.facet_count; f++) {
-        open[f] = lrcsi_grid_casts(&view, f) != 0;
+        open[f] = lrcsi_view_casts(&view, f) != 0;
         if (open[f]) {
             lrcsi_occlude_open(&o, f);
             lrcsi_visible alone = lrcsi_occlude_area(&o);
@@ -323,7 +323,7 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
     }
     lrcsi_cells_areas(&classification, NULL, &work, o.uniform, open, together);
     for (uint32_t f = 0; f < c->scene.facet_count; f++) {
-        if (lrcsi_grid_casts(&view, f) && !open[f]) {
+        if (lrcsi_view_casts(&view, f) && !open[f]) {
             check_bounds(c, &view, f, &together[f], 1);
         }
     }

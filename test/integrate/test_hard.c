@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The hard cases of DESIGN.md, section 5, line by line: each test's name begins with the line's
-   words. References: test/vectors/hard.py at 50 digits, hand arithmetic, exact symmetry. A mesh of
-   10^7 facets is in test_large.c. */
+/* Hard cases, one a test, named by what is hard about it. References: test/vectors/hard.py at 50
+   digits, hand arithmetic, exact symmetry. A mesh of 10^7 facets is in test_large.c. */
 #include "scenes.h"
 
 static test_scene scene;

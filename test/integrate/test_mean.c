@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The mean of sigma over all attitudes of a convex body of one material, by quadrature over whole
    sweeps, against its closed form S (pi A E + 2 pi B / (m + 3)), E = s^2 + (sqrt(pi) / 2) s^3
-   erfcx(1/s) (DESIGN.md, section 2; Cauchy's theorem, facet by facet). Facet meshes obey it as they
+   erfcx(1/s) (lrcs/brdf.h has f_r; Cauchy's theorem, facet by facet). Facet meshes obey it as they
    stand. How far the quadrature itself is off is measured on each facet alone, in long double: so
    much and the engine's bounds, and nothing more, is allowed. */
 #include "scenes.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* sigma of whole scenes against closed forms and hand arithmetic: plates, boxes, and the shadows of
-   DESIGN.md. Its hard cases are in test_hard.c. */
+   solar arrays and a cube. Hard cases are in test_hard.c. */
 #include "scenes.h"
 
 static test_scene scene;
@@ -148,7 +148,7 @@ static void arrays_and_cube_shade_each_other(void **state)
     }
 }
 
-/* The two fractions as DESIGN.md prints them. */
+/* The two fractions, worked out by hand to six digits. */
 static void arrays_and_cube_at_sixty_and_eighty_degrees(void **state)
 {
     (void)state;

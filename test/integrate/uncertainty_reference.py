@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The references of test_uncertainty.c, by mpmath at 40 digits from the formulas of DESIGN.md, section 2:
+# The references of test_uncertainty.c, by mpmath at 40 digits from the closed forms of these shapes:
 # d sigma / dA, dB, ds, dm of shapes. usage: python3 uncertainty_reference.py
 from mpmath import mp, mpf, pi, sqrt, exp, erfc, gamma, cos, sin, tan, cot, diff, radians
 

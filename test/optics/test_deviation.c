@@ -272,7 +272,7 @@ static void the_most_of_f_r_cos_is_its_largest_value_over_the_range(void **state
         lrcs_brdf brdf = {2, 0.25, slope[i % 5], 3};
         double theta = centre[i / 5 % 5];
         double half = turn[i / 25];
-        lrcsi_reflection most = lrcsi_reflect_most(&brdf, theta, half);
+        lrcsi_reflection most = lrcsi_reflect_bound(&brdf, theta, half);
         double glint = 0;
         double diffuse = 0;
         for (int k = 0; k <= 20000; k++) {
@@ -317,10 +317,10 @@ static void a_patch_nearly_edge_on_deviates_by_what_it_reflects(void **state)
     lrcsi_deviation deviation = lrcsi_deviation_make(&brdf, 1e-200, HUGE_VAL, &c);
     double t = 1 / tan(0.1);
     lrcsi_reflection f = lrcsi_reflect(&brdf, t * t, 0);
-    check_same(deviation.here, 0.0);
+    check_same(deviation.value, 0.0);
     assert_true(deviation.most >= f.glint + f.diffuse &&
                 deviation.most <= 1.5 * (f.glint + f.diffuse));
-    assert_true(deviation.apart >= f.glint + f.diffuse && isfinite(deviation.whole));
+    assert_true(deviation.point >= f.glint + f.diffuse && isfinite(deviation.whole));
 }
 
 int main(void)

@@ -114,7 +114,7 @@ static void any_number_of_copies_is_the_work_of_one(void **state)
         assert_int_equal(lrcsi_view_make(p, &pose, &work, &view), LRCS_OK);
         uint32_t cast = 0;
         for (uint32_t f = 0; f < 2000; f++) {
-            cast += lrcsi_grid_casts(&view, f) != 0;
+            cast += lrcsi_view_casts(&view, f) != 0;
         }
         assert_int_equal(cast, both ? 1 : 2);
     }

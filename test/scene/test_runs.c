@@ -8,6 +8,30 @@
 static test_scene scene;
 static uint64_t seed = 1;
 
+/* A run is whole if its facets are all connected with its first. Its links are the runs that its
+   sides lead to, each once, and LRCS_NONE if some side leads to no facet. */
+static void check_links(const lrcs_prepared *p, uint32_t r)
+{
+    const lrcsi_runs *runs = &p->runs;
+    uint32_t count = p->scene->facet_count;
+    uint32_t met = 0; /* links that some side leads to */
+    int whole = 1;
+    for (uint32_t f = r * LRCSI_RUN; f < lrcsi_run_end(r * LRCSI_RUN, count); f++) {
+        whole &= runs->first[f] == 0;
+    }
+    assert_int_equal(runs->whole[r], whole);
+    for (uint32_t i = runs->first_link[r]; i < runs->first_link[r + 1]; i++) {
+        uint32_t sides = 0;
+        for (uint32_t k = runs->run[r].first_side; k < runs->run[r + 1].first_side; k++) {
+            uint32_t other = runs->side[k].other;
+            sides += (other == count ? LRCS_NONE : other / LRCSI_RUN) == runs->link[i];
+        }
+        assert_true(sides > 0);
+        met += sides;
+    }
+    assert_int_equal(met, runs->run[r + 1].first_side - runs->run[r].first_side);
+}
+
 /* Every side that has a facet across leads within the run, or is listed from one facet or the
    other; what is connected so is connected in the scene. */
 static void check_runs(void)
@@ -53,6 +77,9 @@ static void check_runs(void)
     }
     for (uint32_t f = 0; f < count; f++) {
         assert_int_equal(lrcsi_join_root(all, f), lrcsi_join_root(by_runs, f));
+    }
+    for (uint32_t r = 0; r < runs->count; r++) {
+        check_links(p, r);
     }
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 # sigma of every shape from the definition, 4 pi times the integral of f_r cos^2 over the lit surface
-# (DESIGN.md, Eq. 2), at inputs that are exact doubles, by mpmath at 50 digits. Writes closed.inc.
+# (Eq. 2), at inputs that are exact doubles, by mpmath at 50 digits. Writes closed.inc.
 #
 # Plane faces: area times f_r cos^2. Walls of revolution: the integral over azimuth of the cosine
 # a + b cos(phi) between the terminators. Sphere, dome: over the angle theta from the light, times

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-# Glint and diffuse part of f_r cos^2 (DESIGN.md section 2) at exact doubles A, B, s, m, tan^2, by
+# Glint and diffuse part of f_r cos^2 at exact doubles A, B, s, m, tan^2, by
 # mpmath at 60 digits from the definition A cos^-4 exp(-tan^2/s^2), B cos^(m+2). Writes reflect.inc.
 import random
 from mpmath import mp, mpf, exp, sqrt, log

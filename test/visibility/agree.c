@@ -98,7 +98,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
     must(lrcsi_view_make(prepared, &pose, work, &view));
     must(lrcsi_classify_make(&view, NULL, work, &classification));
     for (uint32_t f = 0; f < count; f++) {
-        open[f] = lrcsi_grid_casts(&view, f) != 0;
+        open[f] = lrcsi_view_casts(&view, f) != 0;
     }
     double start = now_ms();
     lrcsi_cells_areas(&classification, NULL, work, NULL, open, found);
@@ -106,7 +106,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
     must(ref_occlude_make(&classification, work, &o));
     must(lrcsi_alone_make(&classification, NULL, &o.cover.facets, work, &a));
     for (uint32_t f = 0; f < count; f++) {
-        if (!lrcsi_grid_casts(&view, f)) {
+        if (!lrcsi_view_casts(&view, f)) {
             continue;
         }
         double projected = lrcsi_view_projected(&view, f);

@@ -32,7 +32,7 @@ static uint32_t ask(uint32_t *left)
     uint32_t asked = 0;
     *left = 0;
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        open[f] = lrcsi_grid_casts(&view, f) != 0;
+        open[f] = lrcsi_view_casts(&view, f) != 0;
         asked += open[f];
     }
     lrcsi_cells_areas(&classification, limit, &work, NULL, open, found);
@@ -55,7 +55,7 @@ static uint32_t agree(const double direction[3])
     const double *bulk = view.prepared->bulk;
     double extent = 2 * fmax(bulk[0], fmax(bulk[1], bulk[2]));
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        if (!lrcsi_grid_casts(&view, f)) {
+        if (!lrcsi_view_casts(&view, f)) {
             continue;
         }
         lrcsi_occlude_open(&o, f);
@@ -79,7 +79,7 @@ static uint32_t agree(const double direction[3])
 static double share(uint32_t facet)
 {
     assert_int_equal(open[facet], 0);
-    assert_true(lrcsi_grid_casts(&view, facet));
+    assert_true(lrcsi_view_casts(&view, facet));
     return found[facet].area / lrcsi_view_projected(&view, facet);
 }
 
@@ -210,6 +210,40 @@ static void plates_that_pierce_each_other(void **state)
     assert_int_equal(agree((const double[3]){0, 0, 1}), 4);
     double first = share(0) + share(1); /* z = 0 beyond x = 1/2 is behind */
     check_abs(first, 1, 1e-13);
+}
+
+/* Spikes that rise through a plate of two facets: most of each edge of a spike is behind the plate,
+   and its tip is in front. A strip of facets behind the plate begins at the first spike. */
+static void tips_of_spikes_through_a_plate_are_seen(void **state)
+{
+    (void)state;
+    for (int winding = 0; winding < 2; winding++) {
+        scene_start(&scene);
+        scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                    (const double[3]){0, 1, 0});
+        for (int i = 0; i < 12; i++) {
+            double x = 0.07 * i;
+            uint32_t v = scene.scene.vertex_count;
+            point(0.05 + x, 0.1, -1);
+            point(0.06 + x, 0.3, -1);
+            point(0.15 + x, 0.8, 0.05 + 0.01 * i);
+            point(0.5 + 0.01 * i, 0.05, -1.5);
+            scene_facet(&scene, v, v + 1, v + 2);
+            scene_facet(&scene, v, v + 3, v + 1);
+        }
+        if (winding) {
+            flip();
+        }
+        assert_int_equal(agree((const double[3]){0, 0, 1}), 26);
+        for (uint32_t i = 0; i < 12; i++) {
+            double above = 0.05 + 0.01 * i; /* the tip is a smaller triangle of the same shape */
+            double part = above / (1 + above);
+            check_abs(share(2 + 2 * i), part * part, 1e-13);
+            check_abs(share(3 + 2 * i), 0, 1e-13);
+        }
+        agree((const double[3]){0.2, 0.3, 1});
+        agree((const double[3]){-1, 0.1, 0.4});
+    }
 }
 
 /* A ramp that winds around an axis twice passes behind itself: one component, two layers. */
@@ -482,6 +516,7 @@ int main(void)
         cmocka_unit_test(folds_of_panels_that_change_order_along_a_line),
         cmocka_unit_test(square_stored_twice_with_both_diagonals),
         cmocka_unit_test(plates_that_pierce_each_other),
+        cmocka_unit_test(tips_of_spikes_through_a_plate_are_seen),
         cmocka_unit_test(ramp_that_passes_behind_itself),
         cmocka_unit_test(moebius_strip_wound_at_random),
         cmocka_unit_test(needle_along_the_line_of_sight_has_all_of_its_area),

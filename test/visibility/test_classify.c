@@ -3,6 +3,7 @@
    grids that find them. Scenes are small enough to count by hand. */
 #include "visibility/classify.h"
 
+#include "base/join.h"
 #include "scenes.h"
 #include "visibility/query.h"
 
@@ -66,7 +67,7 @@ static void winding_that_changes_makes_no_events(void **state)
         assert_int_equal(classification.undecided_count, 0);
         uint32_t seen = 0;
         for (uint32_t f = 0; f < 12; f++) {
-            seen += lrcsi_grid_casts(&view, f) &&
+            seen += lrcsi_view_casts(&view, f) &&
                     lrcsi_query_facet(&facets, f, NULL) == LRCSI_QUERY_VISIBLE;
         }
         assert_int_equal(seen, 6);
@@ -169,6 +170,70 @@ static void piercing_and_overlapping_facets_make_each_other_undecided(void **sta
     assert_false(classification.undecided[0]);
     assert_true(classification.undecided[2] && classification.undecided[3]);
     assert_true(lrcsi_query_screened(&classification, &facets, 2, NULL) == 0);
+}
+
+/* Of every edge of the scene: it is listed as an event if it is one, and joins two facets into one
+   component, and into one region if they may be, if it joins them in the view. No others are
+   joined.
+ */
+static void check_joins(void)
+{
+    static uint32_t component[SCENE_FACETS];
+    static uint32_t region[SCENE_FACETS];
+    const lrcs_prepared *p = view.prepared;
+    uint32_t events = 0;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        component[f] = region[f] = f;
+    }
+    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
+        uint32_t pair[2];
+        int kind = lrcsi_edge_kind_of(&view, e, LRCS_NONE, pair);
+        int listed = 0;
+        for (uint32_t i = 0; i < classification.events.count; i++) {
+            listed += classification.events.edge[i] == e;
+        }
+        assert_int_equal(listed, kind == LRCSI_EDGE_EVENT);
+        events += (uint32_t)listed;
+        if (kind == LRCSI_EDGE_JOINS) {
+            lrcsi_join(component, pair[0], pair[1]);
+            if (classification.joinable[pair[0]] != 0 && classification.joinable[pair[1]] != 0) {
+                lrcsi_join(region, pair[0], pair[1]);
+            }
+        }
+    }
+    assert_true(events > 0);
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        assert_int_equal(classification.component[f], lrcsi_join_root(component, f));
+        assert_int_equal(classification.region[f], lrcsi_join_root(region, f));
+    }
+}
+
+/* Runs whose facets all face alike are joined at once; spheres and boxes have such runs and others,
+   in file order and shuffled, with the winding of some facets reversed, and with open edges. */
+static void components_and_regions_are_joined_across_every_edge(void **state)
+{
+    (void)state;
+    uint64_t seed = 7;
+    for (int i = 0; i < 24; i++) {
+        scene_start(&scene);
+        scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 12);
+        scene_box(&scene, (const double[3]){1.5, -1, -1}, (const double[3]){2.5, 1, 1});
+        square(-3, -3, 2, 2);
+        for (uint32_t f = scene.scene.facet_count; i % 3 == 1 && f > 1; f--) {
+            uint32_t other = (uint32_t)random_below(&seed, f);
+            lrcs_facet swap = scene.facet[f - 1];
+            scene.facet[f - 1] = scene.facet[other];
+            scene.facet[other] = swap;
+        }
+        for (uint32_t f = 0; i % 3 == 2 && f < scene.scene.facet_count; f += 37) {
+            uint32_t corner = scene.facet[f].corner[1];
+            scene.facet[f].corner[1] = scene.facet[f].corner[2];
+            scene.facet[f].corner[2] = corner;
+        }
+        scene.scene.facet_count -= (uint32_t)i;
+        look_from(sin(i), cos(i), 0.3 * (i % 7) - 1);
+        check_joins();
+    }
 }
 
 /* A roof whose ridge stands over the y axis: facet 0 slopes down to the left, facet 1 to the
@@ -325,7 +390,7 @@ static void grids_list_every_item_wherever_it_stands(void **state)
         for (int k = 0; k < 3; k++) {
             c[k] = view.point[scene.facet[f].corner[k]].x;
         }
-        for (int i = 0; i <= 8 && lrcsi_grid_casts(&view, f); i++) {
+        for (int i = 0; i <= 8 && lrcsi_view_casts(&view, f); i++) {
             for (int j = 0; i + j <= 8; j++) {
                 double xy[2];
                 for (int k = 0; k < 2; k++) {
@@ -356,7 +421,8 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
 {
     (void)state;
     static unsigned char reads[SCENE_FACETS];
-    static uint32_t region[SCENE_FACETS]; /* no facet is the first of its region */
+    static uint32_t region[SCENE_FACETS];                  /* no facet is the first of its region */
+    static signed char joinable[SCENE_FACETS + LRCSI_RUN]; /* no run is of one region */
     scene_start(&scene);
     scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 20);
     scene_box(&scene, (const double[3]){-3, -0.1, -0.1}, (const double[3]){3, 0.1, 0.2});
@@ -367,7 +433,7 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
             reads[f] = f % every == 0;
             region[f] = LRCS_NONE;
         }
-        const lrcsi_grid_readers readers = {reads, region};
+        const lrcsi_grid_readers readers = {reads, region, joinable};
         lrcs_work after = work;
         assert_int_equal(
             lrcsi_grid_facets(&classification.grid, &classification.boxes, &readers, &after, &some),
@@ -376,7 +442,7 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
         assert_true(every == 1 || some.first[cells] < facets.first[cells]);
         for (uint32_t f = 0; f < scene.scene.facet_count; f += every) {
             lrcsi_cells at =
-                lrcsi_grid_casts(&view, f)
+                lrcsi_view_casts(&view, f)
                     ? lrcsi_grid_cells(&some, lrcsi_boxes_facet(&classification.boxes, f))
                     : (lrcsi_cells){0};
             for (uint32_t y = at.y0; y < at.y1; y++) {
@@ -466,6 +532,7 @@ int main(void)
         cmocka_unit_test(a_rim_along_a_shared_edge_parts_regions),
         cmocka_unit_test(a_plane_through_a_shared_edge_parts_regions),
         cmocka_unit_test(components_end_at_contours),
+        cmocka_unit_test(components_and_regions_are_joined_across_every_edge),
         cmocka_unit_test(whole_components_screen_and_others_do_not),
         cmocka_unit_test(events_stand_in_order_of_depth),
         cmocka_unit_test(stacked_facets_are_classified_in_linear_time),

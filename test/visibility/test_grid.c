@@ -259,8 +259,9 @@ static void grids_of_facets_fit_into_what_they_ask_for(void **state)
     (void)state;
     static unsigned char all[512];
     static uint32_t region[512];
+    static signed char joinable[512 + LRCSI_RUN];
     memset(all, 1, sizeof all);
-    const lrcsi_grid_readers readers = {all, region};
+    const lrcsi_grid_readers readers = {all, region, joinable};
     for (uint32_t count = 1; count <= 512; count = 3 * count / 2 + 1) {
         lrcs_work work;
         shards(count);

@@ -78,7 +78,7 @@ static void check_shares(const lrcsi_view *view, uint32_t size, unsigned *parted
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         double area = lrcsi_view_projected(view, f);
         const lrcsi_visible *v = &visible[f];
-        if (!lrcsi_grid_casts(view, f)) {
+        if (!lrcsi_view_casts(view, f)) {
             assert_true(v->area == 0 && v->high == 0);
             continue;
         }

@@ -45,9 +45,11 @@ static const cli_option compare_options[] = {
 
 /* ---- options ---- */
 
-/* Reads the two operands. */
-static int operands_read(compare_job *job, const char **folder)
+/* Reads the options and the two operands, and checks that no output replaces a file that is read.
+ */
+static int options_read(compare_job *job, const char **folder)
 {
+    static const char *const option[] = {"json", "junit"};
     const cli_args *args = job->args;
     const char *name[2] = {NULL, NULL};
     int count = 0;
@@ -63,51 +65,23 @@ static int operands_read(compare_job *job, const char **folder)
     }
     *folder = name[0];
     job->theirs = name[1];
-    return 0;
-}
-
-static int grade_read(compare_job *job)
-{
-    const char *text = cli_value(job->args, "class");
+    job->tier = KIT_TIERS;
+    job->pixels = PIXELS;
     job->grade = COMPARE_RASTER;
-    for (int grade = COMPARE_EXACT; text && grade <= COMPARE_RASTER; grade++) {
-        if (strcmp(text, cli_compare_grade(grade)) == 0) {
-            job->grade = grade;
-            return 0;
-        }
-    }
-    return text ? cli_usage(job->args->command,
-                            "--class: expected exact, float or raster, found '%s'", text)
-                : 0;
-}
-
-/* Checks that no output replaces a file that is read. */
-static int outputs_check(const compare_job *job)
-{
-    static const char *const option[] = {"json", "junit"};
+    job->facets = cli_value(args, "facets");
+    job->items = cli_value(args, "items");
+    int code = cli_whole(args, "tier", 1.0, KIT_TIERS, &job->tier);
+    code = code ? code : cli_whole(args, "pixels", 2.0, PIXELS_MOST, &job->pixels);
+    code = code ? code : cli_choice(args, "class", "exact, float or raster", &job->grade);
     const char *const input[] = {job->theirs, job->facets};
-    for (int i = 0; i < 4; i++) {
-        const char *path = cli_value(job->args, option[i % 2]);
+    for (int i = 0; i < 4 && code == 0; i++) {
+        const char *path = cli_value(args, option[i % 2]);
         if (path && input[i / 2] && lrcs_host_output_same(path, input[i / 2])) {
-            return cli_usage(job->args->command, "--%s %s: would overwrite what is to be judged",
+            code = cli_usage(args->command, "--%s %s: would overwrite what is to be judged",
                              option[i % 2], path);
         }
     }
-    return 0;
-}
-
-static int options_read(compare_job *job, const char **folder)
-{
-    const cli_args *args = job->args;
-    job->tier = KIT_TIERS;
-    job->pixels = PIXELS;
-    job->facets = cli_value(args, "facets");
-    job->items = cli_value(args, "items");
-    int code = operands_read(job, folder);
-    code = code ? code : cli_whole(args, "tier", 1.0, KIT_TIERS, &job->tier);
-    code = code ? code : cli_whole(args, "pixels", 2.0, PIXELS_MOST, &job->pixels);
-    code = code ? code : grade_read(job);
-    return code ? code : outputs_check(job);
+    return code;
 }
 
 /* ---- the command ---- */
@@ -128,18 +102,6 @@ static int compare_make(compare_job *job, const char *folder)
     return code;
 }
 
-static int compare_report(const compare_job *job)
-{
-    const char *json = cli_value(job->args, "json");
-    const char *junit = cli_value(job->args, "junit");
-    int code = json ? cli_text_write(json, cli_compare_json, job) : 0;
-    code = code == 0 && junit ? cli_text_write(junit, cli_compare_junit, job) : code;
-    if (code == 0 && !(json && strcmp(json, "-") == 0) && !(junit && strcmp(junit, "-") == 0)) {
-        cli_compare_table(job);
-    }
-    return code ? code : cli_compare_passed(job) ? CLI_DONE : CLI_FAILED;
-}
-
 static int compare_command(const cli_args *args)
 {
     compare_job job;
@@ -148,7 +110,14 @@ static int compare_command(const cli_args *args)
     job.args = args;
     int code = options_read(&job, &folder);
     code = code ? code : compare_make(&job, folder);
-    code = code ? code : compare_report(&job);
+    const char *json = cli_value(args, "json");
+    const char *junit = cli_value(args, "junit");
+    code = code == 0 && json ? cli_text_write(json, cli_compare_json, &job) : code;
+    code = code == 0 && junit ? cli_text_write(junit, cli_compare_junit, &job) : code;
+    if (code == 0 && !(json && strcmp(json, "-") == 0) && !(junit && strcmp(junit, "-") == 0)) {
+        cli_compare_table(&job);
+    }
+    code = code ? code : cli_compare_passed(&job) ? CLI_DONE : CLI_FAILED;
     cli_compare_kit_free(&job.kit);
     return code;
 }

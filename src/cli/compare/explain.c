@@ -59,14 +59,6 @@ static const factor_entry *factor_find(double factor)
     return NULL;
 }
 
-/* The known factor near a factor, or the factor itself if there is none. */
-static double factor_known(double factor, int *known)
-{
-    const factor_entry *entry = factor_find(factor);
-    *known = entry != NULL;
-    return entry ? entry->value : factor;
-}
-
 const char *cli_factor_name(double factor)
 {
     const factor_entry *entry = factor_find(factor);
@@ -159,13 +151,6 @@ static int case_touched(const compare_search *search, const compare_case *one, d
     return fabs(expected - one->sigma_m2) > case_room(search, one, expected);
 }
 
-/* An answer of 0 is no evidence if other failing cases have other answers: many mistakes make
-   facets vanish. */
-static int case_mute(const compare_search *search, const compare_case *one)
-{
-    return search->telling && one->theirs_m2 == 0.0;
-}
-
 /* How well a mistake explains the submitted answers. */
 typedef struct search_score {
     const compare_mistake *first, *second; /* second: NULL, or a second mistake made in addition */
@@ -188,8 +173,8 @@ static search_score mistake_score(const compare_search *search, double factor)
         double left = fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
         int right = cli_search_explained(search, one, expected);
         score.explained += (uint32_t)right;
-        if (right && case_mute(search, one)) {
-            mute++;
+        if (right && search->telling && one->theirs_m2 == 0.0) {
+            mute++; /* no evidence if others are not 0: many mistakes make facets vanish */
             continue;
         }
         touched += right || case_touched(search, one, expected);
@@ -218,7 +203,10 @@ static double factor_median(const compare_search *search, uint32_t failings, int
             search->room[count++] = search->failing[i]->theirs_m2 / search->answer[i];
         }
     }
-    return factor_known(cli_search_median(search->room, count), known);
+    double median = cli_search_median(search->room, count);
+    const factor_entry *entry = factor_find(median);
+    *known = entry != NULL;
+    return entry ? entry->value : median;
 }
 
 /* ---- the answers of a mistake ---- */
@@ -231,15 +219,6 @@ static uint32_t explained_count(const compare_search *search, uint32_t failings,
             (uint32_t)cli_search_explained(search, search->failing[i], factor * search->answer[i]);
     }
     return count;
-}
-
-/* 1 if a mistake is still promising after so many failing cases. */
-static int answers_hopeful(const compare_search *search, uint32_t failings)
-{
-    int known;
-    double least = fmax(1.0, HOPELESS * failings);
-    return explained_count(search, failings, 1.0) >= least ||
-           explained_count(search, failings, factor_median(search, failings, &known)) >= least;
 }
 
 /* Computes the answer of a mistake to one of the failing cases or, counted after them, of the
@@ -260,7 +239,10 @@ static int answers_make(const compare_search *search, const compare_mistake *mis
         if (answer_make(search, mistake, i) != 0) {
             return -1;
         }
-        if (give_up && i + 1 == probe && !answers_hopeful(search, probe)) {
+        int known;
+        double least = fmax(1.0, HOPELESS * probe);
+        if (give_up && i + 1 == probe && explained_count(search, probe, 1.0) < least &&
+            explained_count(search, probe, factor_median(search, probe, &known)) < least) {
             return 0;
         }
     }
@@ -337,34 +319,24 @@ static double finding_rest(const compare_search *search, const search_score *bes
     return cli_search_median(search->room, count);
 }
 
-/* Appends to a text, truncated to its size. */
-__attribute__((format(printf, 2, 3))) static void text_add(char text[COMPARE_TEXT],
-                                                           const char *format, ...)
-{
-    size_t used = strlen(text);
-    va_list list;
-    va_start(list, format);
-    vsnprintf(text + used, COMPARE_TEXT - used, format, list);
-    va_end(list);
-}
-
 static void finding_say(const compare_job *job, const search_score *best, compare_finding *finding)
 {
     char *text = finding->text;
+    size_t size = sizeof finding->text;
     finding->factor = best->factor;
     if (best->first == cli_compare_mistakes) {
         finding->name = cli_factor_name(best->factor);
-        text_add(text, "%.6g times the truth everywhere: %s", best->factor,
-                 cli_factor_text(job, best->factor));
+        cli_append(text, size, "%.6g times the truth everywhere: %s", best->factor,
+                   cli_factor_text(job, best->factor));
         return;
     }
-    text_add(text, "%s", best->first->text);
+    cli_append(text, size, "%s", best->first->text);
     if (best->second) {
-        text_add(text, "; and %s", best->second->text);
+        cli_append(text, size, "; and %s", best->second->text);
     }
     if (best->factor != 1.0) {
-        text_add(text, "; and %.6g times that: %s", best->factor,
-                 cli_factor_text(job, best->factor));
+        cli_append(text, size, "; and %.6g times that: %s", best->factor,
+                   cli_factor_text(job, best->factor));
     }
 }
 
@@ -405,7 +377,8 @@ static int ties_say(const compare_search *search, const search_score *best,
         }
         double score = fits ? mistake_score(search, best->factor).score - best->price : 0.0;
         if (fits && fabs(score - best->score) <= TIED) {
-            text_add(finding->text, "%s%s", ties++ > 0 ? "; " : "; or, equally well: ", a->text);
+            cli_append(finding->text, sizeof finding->text, "%s%s",
+                       ties++ > 0 ? "; " : "; or, equally well: ", a->text);
         }
     }
     return 0;
@@ -433,9 +406,9 @@ static void clipped_say(const compare_search *search, const search_score *best,
         one->explained = cut ? mark : one->explained;
     }
     finding->explained += less;
-    text_add(finding->text,
-             "; in %lu cases less than that: part of the scene is outside the window",
-             (unsigned long)less);
+    cli_append(finding->text, sizeof finding->text,
+               "; in %lu cases less than that: part of the scene is outside the window",
+               (unsigned long)less);
 }
 
 /* Makes the best explanation a finding and marks its cases. 0, or -1 with the message printed. */

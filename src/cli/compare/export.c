@@ -4,17 +4,6 @@
 
 #include <math.h>
 
-static void case_json(lrcs_host_json *json, const compare_job *job, const compare_case *one)
-{
-    int finding = one->explained;
-    cli_json(json, "{scene=%s attitude=%s tier=%u sigma_m2=%g theirs_m2=%g allowed_m2=%g",
-             job->kit.scene[one->scene].name, one->attitude, one->tier, one->sigma_m2,
-             one->given ? one->theirs_m2 : (double)NAN,
-             cli_compare_allowed(one, job->grade, job->pixels));
-    cli_json(json, "class=%s passed=%d finding=%s}", cli_compare_grade(one->grade),
-             !cli_compare_failed(job, one), finding > 0 ? job->finding[finding - 1].name : NULL);
-}
-
 /* How many facets or images differ, and in which way: those that do. */
 static void way_json(lrcs_host_json *json, const char *text, uint32_t count)
 {
@@ -89,9 +78,17 @@ void cli_compare_json(FILE *out, const void *context)
     }
     cli_json(&json, "cases=[\n");
     for (uint32_t i = 0; i < job->kit.cases; i++) {
-        if (cli_compare_asked(job, &job->kit.list[i])) {
-            case_json(&json, job, &job->kit.list[i]);
+        const compare_case *one = &job->kit.list[i];
+        if (!cli_compare_asked(job, one)) {
+            continue;
         }
+        cli_json(&json, "{scene=%s attitude=%s tier=%u sigma_m2=%g theirs_m2=%g allowed_m2=%g",
+                 job->kit.scene[one->scene].name, one->attitude, one->tier, one->sigma_m2,
+                 one->given ? one->theirs_m2 : (double)NAN,
+                 cli_compare_allowed(one, job->grade, job->pixels));
+        cli_json(&json, "class=%s passed=%d finding=%s}", cli_compare_grade(one->grade),
+                 !cli_compare_failed(job, one),
+                 one->explained ? job->finding[one->explained - 1].name : NULL);
     }
     cli_json(&json, "]}");
 }

@@ -20,31 +20,6 @@ typedef struct facets_read {
 
 /* ---- reading ---- */
 
-static double *facets_room(facets_read *facets, compare_case *one)
-{
-    const compare_kit *kit = &facets->job->kit;
-    double **visible = &facets->visible[one - kit->list];
-    if (!*visible && cli_compare_records(kit, one) == 0) {
-        size_t count = kit->scene[one->scene].host.scene.facet_count;
-        *visible = calloc(count + 1, sizeof **visible);
-        if (!*visible) {
-            cli_out_of_memory();
-        }
-    }
-    return *visible;
-}
-
-static void cosine_take(compare_facets *facets, double theirs, double truth)
-{
-    double off = fabs(theirs - truth);
-    facets->cosines++;
-    if (off > COSINE_WRONG && fabs(theirs + truth) < COSINE_WRONG) {
-        facets->turned++;
-    } else {
-        facets->cosine_most = fmax(facets->cosine_most, off);
-    }
-}
-
 enum { FACET_SCENE, FACET_ATTITUDE, FACET_INDEX, FACET_AREA, FACET_COSINE, FACET_COLUMNS };
 
 static int facet_line(facets_read *facets, const compare_table *table)
@@ -53,12 +28,19 @@ static int facet_line(facets_read *facets, const compare_table *table)
     double area;
     double cosine;
     compare_case *one = cli_compare_find(&facets->job->kit, table);
-    double *visible = one ? facets_room(facets, one) : NULL;
-    if (!visible || cli_table_number(table, FACET_INDEX, &index) != 0 ||
-        cli_table_number(table, FACET_AREA, &area) != 0) {
+    if (!one || cli_compare_records(&facets->job->kit, one) != 0) {
         return CLI_FAILED;
     }
     uint32_t count = facets->job->kit.scene[one->scene].host.scene.facet_count;
+    double **visible = &facets->visible[one - facets->job->kit.list];
+    *visible = *visible ? *visible : calloc((size_t)count + 1, sizeof **visible);
+    if (!*visible) {
+        return cli_out_of_memory();
+    }
+    if (cli_table_number(table, FACET_INDEX, &index) != 0 ||
+        cli_table_number(table, FACET_AREA, &area) != 0) {
+        return CLI_FAILED;
+    }
     if (!(index >= 0.0 && index < count) || index != floor(index)) {
         return cli_table_refuse(table, FACET_INDEX, "a facet 0 .. %lu", (unsigned long)count - 1);
     }
@@ -66,59 +48,20 @@ static int facet_line(facets_read *facets, const compare_table *table)
         if (cli_table_number(table, FACET_COSINE, &cosine) != 0) {
             return CLI_FAILED;
         }
-        cosine_take(facets->found, cosine, one->records[(uint32_t)index].cos_theta);
+        double truth = one->records[(uint32_t)index].cos_theta;
+        double off = fabs(cosine - truth);
+        facets->found->cosines++;
+        if (off > COSINE_WRONG && fabs(cosine + truth) < COSINE_WRONG) {
+            facets->found->turned++;
+        } else {
+            facets->found->cosine_most = fmax(facets->found->cosine_most, off);
+        }
     }
-    visible[(uint32_t)index] = area;
+    (*visible)[(uint32_t)index] = area;
     return 0;
 }
 
-static int facets_file(facets_read *facets)
-{
-    static const char *const name[FACET_COLUMNS] = {"scene", "attitude", "facet", "visible_area_m2",
-                                                    "cos_theta"};
-    compare_table table;
-    int code = cli_table_open(facets->job->facets, name, FACET_COLUMNS, FACET_COSINE, &table);
-    while (cli_table_next(&table, &code)) {
-        code = facet_line(facets, &table);
-    }
-    cli_table_close(&table);
-    return code;
-}
-
 /* ---- differing ---- */
-
-/* Facets of failing cases come first, then those with the largest change relative to what the case
-   is allowed. */
-static int facet_before(const compare_facet *a, const compare_facet *b)
-{
-    return a->failed != b->failed ? a->failed : a->weight > b->weight;
-}
-
-static void worst_take(compare_facets *facets, const compare_facet *off)
-{
-    uint32_t at = facets->worsts;
-    while (at > 0 && facet_before(off, &facets->worst[at - 1])) {
-        at--;
-    }
-    if (at < COMPARE_NAMED) {
-        facets->worsts += facets->worsts < COMPARE_NAMED;
-        memmove(&facets->worst[at + 1], &facets->worst[at],
-                (facets->worsts - at - 1) * sizeof *facets->worst);
-        facets->worst[at] = *off;
-    }
-}
-
-/* The allowed error of an area: a share of the facet; or, if a raster was asked for, a pixel along
-   its outline (two if outlines of other facets cross it) and a pixel. */
-static double area_allowed(const compare_job *job, const compare_case *one, uint32_t facet,
-                           double whole, double truth)
-{
-    const lrcs_scene *scene = &job->kit.scene[one->scene].host.scene;
-    double pixel = one->side_m / job->pixels;
-    double outlines = truth >= (1.0 - NONE_SEEN) * whole ? 1.0 : 2.0;
-    double raster = outlines * cli_kit_outline(scene, facet, &one->pose) * pixel + pixel * pixel;
-    return job->grade == COMPARE_RASTER ? fmax(SEEN * whole, raster) : SEEN * whole;
-}
 
 static int facet_way(double whole, double truth, double theirs, double allowed)
 {
@@ -141,7 +84,12 @@ static void facet_compare(facets_read *facets, const compare_case *one, uint32_t
     double c = fabs(record->cos_theta);
     double whole = record->area_m2 * c;
     double truth = record->visible_area_m2;
-    double allowed = area_allowed(job, one, facet, whole, truth);
+    /* Allowed is a share of the facet; or, if a raster was asked for, a pixel along its outline
+       (two if outlines of other facets cross it) and a pixel. */
+    double pixel = one->side_m / job->pixels;
+    double outlines = truth >= (1.0 - NONE_SEEN) * whole ? 1.0 : 2.0;
+    double raster = outlines * cli_kit_outline(scene, facet, &one->pose) * pixel + pixel * pixel;
+    double allowed = job->grade == COMPARE_RASTER ? fmax(SEEN * whole, raster) : SEEN * whole;
     compare_facet off = {.one = one, .facet = facet, .theirs_m2 = theirs, .truth_m2 = truth};
     if (fabs(theirs - truth) <= allowed) {
         return;
@@ -151,38 +99,51 @@ static void facet_compare(facets_read *facets, const compare_case *one, uint32_t
     off.weight = sigma_allowed > 0.0 ? off.sigma_m2 / sigma_allowed : 0.0;
     off.failed = cli_compare_failed(job, one);
     off.way = facet_way(whole, truth, theirs, allowed);
-    facets->found->way[off.way]++;
-    worst_take(facets->found, &off);
-}
-
-static void facets_all(facets_read *facets)
-{
-    const compare_kit *kit = &facets->job->kit;
-    for (uint32_t i = 0; i < kit->cases; i++) {
-        const compare_case *one = &kit->list[i];
-        uint32_t count = kit->scene[one->scene].host.scene.facet_count;
-        facets->found->cases += facets->visible[i] != NULL;
-        for (uint32_t k = 0; facets->visible[i] && k < count; k++) {
-            facet_compare(facets, one, k, facets->visible[i][k]);
+    compare_facets *found = facets->found;
+    found->way[off.way]++;
+    /* the worst are kept: those of failing cases first, then by the change relative to what the
+       case is allowed */
+    uint32_t at = found->worsts;
+    for (; at > 0; at--) {
+        const compare_facet *before = &found->worst[at - 1];
+        if (off.failed != before->failed ? before->failed : before->weight >= off.weight) {
+            break;
         }
+    }
+    if (at < COMPARE_NAMED) {
+        found->worsts += found->worsts < COMPARE_NAMED;
+        memmove(&found->worst[at + 1], &found->worst[at],
+                (found->worsts - at - 1) * sizeof *found->worst);
+        found->worst[at] = off;
     }
 }
 
 int cli_compare_facets(compare_job *job)
 {
+    static const char *const name[FACET_COLUMNS] = {"scene", "attitude", "facet", "visible_area_m2",
+                                                    "cos_theta"};
+    const compare_kit *kit = &job->kit;
     facets_read facets = {.job = job, .found = &job->by_facet};
+    compare_table table;
     if (!job->facets) {
         return 0;
     }
-    facets.visible = calloc((size_t)job->kit.cases + 1, sizeof *facets.visible);
+    facets.visible = calloc((size_t)kit->cases + 1, sizeof *facets.visible);
     if (!facets.visible) {
         return cli_out_of_memory();
     }
-    int code = facets_file(&facets);
-    if (code == 0) {
-        facets_all(&facets);
+    int code = cli_table_open(job->facets, name, FACET_COLUMNS, FACET_COSINE, &table);
+    while (cli_table_next(&table, &code)) {
+        code = facet_line(&facets, &table);
     }
-    for (uint32_t i = 0; i < job->kit.cases; i++) {
+    cli_table_close(&table);
+    for (uint32_t i = 0; i < kit->cases; i++) {
+        const compare_case *one = &kit->list[i];
+        uint32_t count = kit->scene[one->scene].host.scene.facet_count;
+        facets.found->cases += code == 0 && facets.visible[i] != NULL;
+        for (uint32_t k = 0; code == 0 && facets.visible[i] && k < count; k++) {
+            facet_compare(&facets, one, k, facets.visible[i][k]);
+        }
         free(facets.visible[i]);
     }
     free(facets.visible);

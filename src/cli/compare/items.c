@@ -109,8 +109,8 @@ static int image_read(const char *path, uint32_t side, items_image *image)
     }
     image->bytes = image->file.bytes;
     if (image->file.size != size) {
-        fprintf(stderr, "lrcs: %s: expected %lu x %lu pixels of 4 bytes, found %zu bytes\n", path,
-                (unsigned long)side, (unsigned long)side, image->file.size);
+        cli_fail("%s: expected %lu x %lu pixels of 4 bytes, found %zu bytes", path,
+                 (unsigned long)side, (unsigned long)side, image->file.size);
         lrcs_host_file_free(&image->file);
         return -1;
     }
@@ -162,7 +162,7 @@ static int case_judge(compare_job *job, const compare_case *one)
     }
     found = image_read(path[0], one->image, &image[0]);
     if (found == 0) {
-        fprintf(stderr, "lrcs: %s: not there\n", path[0]);
+        cli_fail("%s: not there", path[0]);
     }
     int good = found > 0 && cli_compare_scene(&job->kit, &job->kit.scene[one->scene]) == 0;
     good = good && image_judge(job, one, &image[0], &image[1]) == 0;
@@ -175,8 +175,7 @@ int cli_compare_items(compare_job *job)
 {
     DIR *folder = job->items ? opendir(job->items) : NULL;
     if (job->items && !folder) {
-        fprintf(stderr, "lrcs: %s: cannot open folder: %s\n", job->items, strerror(errno));
-        return CLI_FAILED;
+        return cli_fail("%s: cannot open folder: %s", job->items, strerror(errno));
     }
     if (folder) {
         closedir(folder);

@@ -22,17 +22,6 @@ double cli_compare_allowed(const compare_case *one, int grade, uint32_t pixels)
     return allowed + (grade >= COMPARE_RASTER ? one->edge_m2 / pixels : 0.0);
 }
 
-static int case_class(const compare_case *one, uint32_t pixels)
-{
-    double off = fabs(one->theirs_m2 - one->sigma_m2);
-    for (int grade = COMPARE_EXACT; grade < COMPARE_FAIL; grade++) {
-        if (off <= cli_compare_allowed(one, grade, pixels)) {
-            return grade;
-        }
-    }
-    return COMPARE_FAIL;
-}
-
 int cli_compare_passed(const compare_job *job)
 {
     return job->failed == 0 && !job->biased;
@@ -59,30 +48,7 @@ int cli_compare_lack(const compare_job *job, const compare_case *one)
 
 enum { ANSWER_SCENE, ANSWER_ATTITUDE, ANSWER_SIGMA, ANSWER_DBSM, ANSWER_COLUMNS };
 
-/* Reads a submitted line: sigma, or dBsm, where an empty field stands for sigma = 0. */
-static int answer_read(compare_job *job, const compare_table *table)
-{
-    int at = job->decibels ? ANSWER_DBSM : ANSWER_SIGMA;
-    compare_case *one = cli_compare_find(&job->kit, table);
-    double value = -HUGE_VAL;
-    if (!one) {
-        return CLI_FAILED;
-    }
-    if (one->given) {
-        return cli_table_refuse(table, ANSWER_ATTITUDE, "every case once");
-    }
-    if (!job->decibels || cli_table_field(table, at)->size > 0) {
-        int code = cli_table_answer(table, at, &value);
-        if (code != 0) {
-            return code;
-        }
-    }
-    one->printed = value;
-    one->theirs_m2 = job->decibels ? pow(10.0, value / 10.0) : value;
-    one->given = 1;
-    return 0;
-}
-
+/* Reads the submitted lines: sigma, or dBsm, where an empty field stands for sigma = 0. */
 static int answers_read(compare_job *job)
 {
     static const char *const name[ANSWER_COLUMNS] = {"scene", "attitude", "sigma_m2", "sigma_dbsm"};
@@ -92,8 +58,21 @@ static int answers_read(compare_job *job)
     if (job->decibels && !cli_table_has(&table, ANSWER_DBSM)) {
         code = cli_table_missing(&table, "sigma_m2 or sigma_dbsm");
     }
+    int at = job->decibels ? ANSWER_DBSM : ANSWER_SIGMA;
     while (cli_table_next(&table, &code)) {
-        code = answer_read(job, &table);
+        compare_case *one = cli_compare_find(&job->kit, &table);
+        double value = -HUGE_VAL;
+        code = one ? 0 : CLI_FAILED;
+        if (one && one->given) {
+            code = cli_table_refuse(&table, ANSWER_ATTITUDE, "every case once");
+        } else if (one && (!job->decibels || cli_table_field(&table, at)->size > 0)) {
+            code = cli_table_answer(&table, at, &value);
+        }
+        if (code == 0) {
+            one->printed = value;
+            one->theirs_m2 = job->decibels ? pow(10.0, value / 10.0) : value;
+            one->given = 1;
+        }
     }
     cli_table_close(&table);
     return code;
@@ -104,7 +83,12 @@ int cli_compare_judge(compare_job *job)
     int code = answers_read(job);
     for (uint32_t i = 0; i < job->kit.cases && code == 0; i++) {
         compare_case *one = &job->kit.list[i];
-        one->grade = one->given ? case_class(one, job->pixels) : COMPARE_MISSING;
+        double off = fabs(one->theirs_m2 - one->sigma_m2);
+        one->grade = one->given ? COMPARE_EXACT : COMPARE_MISSING;
+        while (one->grade < COMPARE_FAIL &&
+               !(off <= cli_compare_allowed(one, one->grade, job->pixels))) {
+            one->grade++;
+        }
         if (cli_compare_asked(job, one)) {
             job->asked++;
             job->given += (uint32_t)one->given;

@@ -55,19 +55,6 @@ static const char *const case_names[CASE_COLUMNS] = {
     "qz",       "sx",       "sy",       "sz",      "az_deg", "el_deg",
     "sigma_m2", "bound_m2", "float_m2", "edge_m2", "side_m", "image"};
 
-/* The scene of a line; the lines of a scene are consecutive. */
-static compare_scene *scene_of(compare_kit *kit, const char *name, int tier)
-{
-    if (kit->scenes > 0 && strcmp(kit->scene[kit->scenes - 1].name, name) == 0) {
-        return &kit->scene[kit->scenes - 1];
-    }
-    compare_scene *next = &kit->scene[kit->scenes++];
-    memcpy(next->name, name, KIT_NAME);
-    next->tier = tier;
-    next->first = kit->cases;
-    return next;
-}
-
 static int case_read(const compare_table *table, compare_kit *kit)
 {
     double value[CASE_COLUMNS] = {0.0};
@@ -100,9 +87,14 @@ static int case_read(const compare_table *table, compare_kit *kit)
     }
     one->tier = (int)value[CASE_TIER];
     one->image = (uint32_t)value[CASE_IMAGE];
-    compare_scene *scene = scene_of(kit, name, one->tier);
-    one->scene = (uint32_t)(scene - kit->scene);
-    scene->count++;
+    if (kit->scenes == 0 || strcmp(kit->scene[kit->scenes - 1].name, name) != 0) {
+        compare_scene *next = &kit->scene[kit->scenes++]; /* a scene's lines are consecutive */
+        memcpy(next->name, name, KIT_NAME);
+        next->tier = one->tier;
+        next->first = kit->cases;
+    }
+    one->scene = kit->scenes - 1;
+    kit->scene[one->scene].count++;
     kit->cases++;
     return 0;
 }
@@ -144,8 +136,7 @@ int cli_compare_kit(const char *folder, compare_kit *kit)
         return CLI_FAILED;
     }
     if (access(path, F_OK) != 0) {
-        fprintf(stderr, "lrcs: %s: not a kit's folder (lrcs vectors DIR makes one)\n", folder);
-        return CLI_FAILED;
+        return cli_fail("%s: not a kit's folder (lrcs vectors DIR makes one)", folder);
     }
     int code = kit_table(folder, 0, kit);
     return code ? code : kit_table(folder, 1, kit);
@@ -168,15 +159,22 @@ void cli_compare_kit_free(compare_kit *kit)
 
 /* ---- scenes ---- */
 
-/* The mean of the normals of the adjacent facets at each vertex, weighted by area. */
-static int normals_make(compare_scene *scene)
+int cli_compare_scene(const compare_kit *kit, compare_scene *scene)
 {
     const lrcs_scene *mesh = &scene->host.scene;
+    if (scene->loaded) {
+        return 0;
+    }
+    scene->loaded = 1;
+    int code = cli_kit_scene(kit->folder, scene->name, kit->binding, kit->bindings, &scene->host);
+    if (code != 0) {
+        return code;
+    }
     scene->normal = calloc((size_t)mesh->vertex_count + 1, sizeof *scene->normal);
     if (!scene->normal) {
         return cli_out_of_memory();
     }
-    for (uint32_t i = 0; i < mesh->facet_count; i++) {
+    for (uint32_t i = 0; i < mesh->facet_count; i++) { /* means weighted by area */
         const uint32_t *v = mesh->facet[i].corner;
         const double *p[3] = {mesh->vertex[v[0]].x, mesh->vertex[v[1]].x, mesh->vertex[v[2]].x};
         for (int k = 0; k < 3; k++) {
@@ -184,22 +182,12 @@ static int normals_make(compare_scene *scene)
             int b = (k + 2) % 3;
             double n = (p[1][a] - p[0][a]) * (p[2][b] - p[0][b]) -
                        (p[1][b] - p[0][b]) * (p[2][a] - p[0][a]);
-            scene->normal[v[0]].x[k] += n;
-            scene->normal[v[1]].x[k] += n;
-            scene->normal[v[2]].x[k] += n;
+            for (int corner = 0; corner < 3; corner++) {
+                scene->normal[v[corner]].x[k] += n;
+            }
         }
     }
     return 0;
-}
-
-int cli_compare_scene(const compare_kit *kit, compare_scene *scene)
-{
-    if (scene->loaded) {
-        return 0;
-    }
-    scene->loaded = 1;
-    int code = cli_kit_scene(kit->folder, scene->name, kit->binding, kit->bindings, &scene->host);
-    return code ? code : normals_make(scene);
 }
 
 int cli_compare_run(const lrcs_host_scene *host, const lrcs_pose *pose, uint32_t without,
@@ -228,34 +216,30 @@ int cli_compare_records(const compare_kit *kit, compare_case *one)
 
 /* ---- lines of others ---- */
 
-static compare_scene *scene_find(const compare_kit *kit, const compare_table *table,
-                                 const char *name)
-{
-    const char *best = NULL;
-    int tiers = 0;
-    for (uint32_t i = 0; i < kit->scenes; i++) {
-        if (strcmp(kit->scene[i].name, name) == 0) {
-            return &kit->scene[i];
-        }
-        best = cli_nearest(name, best, kit->scene[i].name);
-        tiers = kit->scene[i].tier > tiers ? kit->scene[i].tier : tiers;
-    }
-    cli_table_refuse(table, 0, "a scene of the kit, which has tiers 1 .. %d (the nearest is %s)",
-                     tiers, best ? best : "none");
-    return NULL;
-}
-
 compare_case *cli_compare_find(const compare_kit *kit, const compare_table *table)
 {
     char name[KIT_NAME];
     const char *best = NULL;
+    const compare_scene *scene = NULL;
+    int tiers = 0;
     if (cli_table_name(table, 0, name) != 0) {
         return NULL;
     }
-    compare_scene *scene = scene_find(kit, table, name);
-    if (!scene || cli_table_name(table, 1, name) != 0) {
+    for (uint32_t i = 0; i < kit->scenes && !scene; i++) {
+        scene = strcmp(kit->scene[i].name, name) == 0 ? &kit->scene[i] : NULL;
+        best = cli_nearest(name, best, kit->scene[i].name);
+        tiers = kit->scene[i].tier > tiers ? kit->scene[i].tier : tiers;
+    }
+    if (!scene) {
+        cli_table_refuse(table, 0,
+                         "a scene of the kit, which has tiers 1 .. %d (the nearest is %s)", tiers,
+                         best ? best : "none");
         return NULL;
     }
+    if (cli_table_name(table, 1, name) != 0) {
+        return NULL;
+    }
+    best = NULL;
     for (uint32_t i = scene->first; i < scene->first + scene->count; i++) {
         if (strcmp(kit->list[i].attitude, name) == 0) {
             return &kit->list[i];

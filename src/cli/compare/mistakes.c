@@ -86,15 +86,6 @@ static double shade_as(lrcs_brdf brdf, double cosine, double c)
     return lrcs_brdf_eval(&brdf, cosine) * c;
 }
 
-/* f_r from a table in steps of `step` deg, interpolated linearly. */
-static double shade_table(const mistake_point *point, double theta_deg, double step)
-{
-    double low = step * floor(theta_deg / step);
-    double from = lrcs_brdf_eval(point->brdf, cos(low / CLI_DEGREES));
-    double to = lrcs_brdf_eval(point->brdf, cos((low + step) / CLI_DEGREES));
-    return (from + (theta_deg - low) / step * (to - from)) * point->c;
-}
-
 /* f_r cos. */
 static double mistake_shade(const compare_mistake *mistake, const mistake_point *point)
 {
@@ -105,7 +96,7 @@ static double mistake_shade(const compare_mistake *mistake, const mistake_point 
     double tan2 = 1.0 / (c * c) - 1.0;
     double right = lrcs_brdf_eval(point->brdf, c) * c;
     double white = at > 0.0 ? at : point->peak;
-    double wrong;
+    double wrong, from, to;
     lrcs_brdf brdf = *point->brdf;
     switch (mistake->shade) {
     case SHADE_COSINE:
@@ -133,7 +124,10 @@ static double mistake_shade(const compare_mistake *mistake, const mistake_point 
         brdf.B *= 1.0 - at;
         return shade_as(brdf, c, c);
     case SHADE_LINES:
-        return shade_table(point, theta * CLI_DEGREES, at);
+        wrong = theta * CLI_DEGREES / at; /* f_r from a table in steps of `at` deg, interpolated */
+        from = lrcs_brdf_eval(&brdf, cos(at * floor(wrong) / CLI_DEGREES));
+        to = lrcs_brdf_eval(&brdf, cos((at * floor(wrong) + at) / CLI_DEGREES));
+        return (from + (theta * CLI_DEGREES - at * floor(wrong)) / at * (to - from)) * c;
     case SHADE_STEPS:
         wrong = at * floor(theta * CLI_DEGREES / at + 0.5);
         return shade_as(brdf, cos(wrong / CLI_DEGREES), c);
@@ -162,24 +156,18 @@ static double corner_cosine(const mistake_view *view, uint32_t facet, int corner
     return view->records[facet].cos_theta < 0.0 ? -c : c;
 }
 
-static int facets_coincide(const lrcs_scene *scene, uint32_t a, uint32_t b)
-{
-    for (int k = 0; k < 3; k++) {
-        if (memcmp(&scene->vertex[scene->facet[a].corner[k]],
-                   &scene->vertex[scene->facet[b].corner[k]], sizeof *scene->vertex) != 0) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 /* The last of the facets that coincide with a facet. */
 static uint32_t facet_last(const lrcs_scene *scene, uint32_t facet)
 {
     uint32_t last = facet;
     uint32_t count = scene->facet_count <= TWINS_MOST ? scene->facet_count : 0;
     for (uint32_t i = facet + 1; i < count; i++) {
-        last = facets_coincide(scene, facet, i) ? i : last;
+        int same = 1;
+        for (int k = 0; k < 3; k++) {
+            same &= memcmp(&scene->vertex[scene->facet[facet].corner[k]],
+                           &scene->vertex[scene->facet[i].corner[k]], sizeof *scene->vertex) == 0;
+        }
+        last = same ? i : last;
     }
     return last;
 }
@@ -394,23 +382,17 @@ const compare_mistake cli_compare_mistakes[] = {
 /* Relative to the scene's size: more than rounding, less than any distance in it. */
 #define MOVED 0x1p-30
 
-static double scene_size(const lrcs_scene *scene)
-{
-    double size = 0.0;
-    for (uint32_t i = 0; i < scene->vertex_count; i++) {
-        for (int k = 0; k < 3; k++) {
-            double x = scene->vertex[i].x[k];
-            size = x > size ? x : -x > size ? -x : size;
-        }
-    }
-    return size;
-}
-
 /* Moves every facet towards the laser by a share of the distance: backs by all of it, fronts by up
    to half, later ones by more. Corners are no longer shared. */
 static void facets_move(const compare_case *one, const lrcs_scene *from, lrcs_scene *scene)
 {
-    double most = MOVED * scene_size(from);
+    double size = 0.0;
+    for (uint32_t i = 0; i < from->vertex_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            size = fmax(size, fabs(from->vertex[i].x[k]));
+        }
+    }
+    double most = MOVED * size;
     for (uint32_t i = 0; i < from->facet_count; i++) {
         int back = one->records[i].cos_theta < 0.0;
         double by = most * (back ? 1.0 : 0.5 * i / from->facet_count);
@@ -454,67 +436,39 @@ static int run_wrong_coplanar(const compare_kit *kit, const compare_case *one,
 
 /* ---- the answer ---- */
 
-/* The largest f_r cos of the case. */
-static double view_peak(const mistake_view *view)
+/* The records of a case with a mistake: the truth's, or those of another run. 0 or CLI_FAILED. */
+static int view_make(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
+                     mistake_view *view, lrcs_facet_record **own)
 {
-    double peak = 0.0;
-    for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
+    lrcs_pose pose = one->pose;
+    double peak = 0.0; /* the largest f_r cos of the case */
+    int code = cli_compare_records(kit, one);
+    view->scene = &kit->scene[one->scene];
+    view->direction = one->direction;
+    view->records = one->records;
+    uint32_t facets = view->scene->host.scene.facet_count;
+    for (uint32_t i = 0; code == 0 && one->peak == 0.0 && i < facets; i++) {
         mistake_point point = {.peak = 0.0};
         if (mistake_area(cli_compare_mistakes, view, i, 0, &point) > 0.0) {
             peak = fmax(peak, mistake_shade(cli_compare_mistakes, &point));
         }
     }
-    return peak;
-}
-
-/* The records of a run of its own, for mistakes that change the run. 0 or CLI_FAILED. */
-static int records_own(const compare_kit *kit, const compare_case *one,
-                       const compare_mistake *mistake, lrcs_facet_record *own)
-{
-    lrcs_pose pose;
-    if (mistake->wrong_coplanar) {
-        return run_wrong_coplanar(kit, one, own);
-    }
-    int turned = mistake->turn && mistake_turn(mistake, one, &pose) == LRCS_OK;
-    return cli_compare_run(&kit->scene[one->scene].host, turned ? &pose : &one->pose,
-                           mistake->without, own);
-}
-
-/* The records of a case with a mistake: the truth's, or those of another run. 0 or CLI_FAILED. */
-static int view_make(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
-                     mistake_view *view, lrcs_facet_record **own)
-{
-    int code = cli_compare_records(kit, one);
-    view->scene = &kit->scene[one->scene];
-    view->direction = one->direction;
-    view->records = one->records;
-    if (code == 0 && one->peak == 0.0) {
-        one->peak = view_peak(view);
-    }
+    one->peak = fmax(one->peak, peak);
     if (code != 0 || (!mistake->turn && !mistake->without && !mistake->wrong_coplanar)) {
         return code;
     }
-    *own = calloc((size_t)view->scene->host.scene.facet_count + 1, sizeof **own);
+    *own = calloc((size_t)facets + 1, sizeof **own);
     if (!*own) {
         return cli_out_of_memory();
     }
     view->records = *own;
-    return records_own(kit, one, mistake, *own);
-}
-
-/* sigma / 4 pi with the mistake. */
-static double view_sum(const mistake_view *view, const compare_mistake *mistake, double peak)
-{
-    int corners = mistake->corners > 0 ? mistake->corners : 1;
-    double sum = 0.0;
-    for (uint32_t i = 0; i < view->scene->host.scene.facet_count; i++) {
-        for (int corner = 0; corner < corners; corner++) {
-            mistake_point point = {.peak = peak};
-            double area = mistake_area(mistake, view, i, corner, &point);
-            sum += area > 0.0 ? area * mistake_shade(mistake, &point) / corners : 0.0;
-        }
+    if (mistake->wrong_coplanar) {
+        return run_wrong_coplanar(kit, one, *own);
     }
-    return sum;
+    if (mistake->turn && mistake_turn(mistake, one, &pose) != LRCS_OK) {
+        pose = one->pose;
+    }
+    return cli_compare_run(&view->scene->host, &pose, mistake->without, *own);
 }
 
 int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
@@ -523,9 +477,16 @@ int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_
     mistake_view view;
     lrcs_facet_record *own = NULL;
     int code = view_make(kit, one, mistake, &view, &own);
-    if (code == 0) {
-        *sigma_m2 = LRCS_FOUR_PI * view_sum(&view, mistake, one->peak);
+    int corners = mistake->corners > 0 ? mistake->corners : 1;
+    double sum = 0.0; /* sigma / 4 pi */
+    for (uint32_t i = 0; code == 0 && i < view.scene->host.scene.facet_count; i++) {
+        for (int corner = 0; corner < corners; corner++) {
+            mistake_point point = {.peak = one->peak};
+            double area = mistake_area(mistake, &view, i, corner, &point);
+            sum += area > 0.0 ? area * mistake_shade(mistake, &point) / corners : 0.0;
+        }
     }
+    *sigma_m2 = code == 0 ? LRCS_FOUR_PI * sum : *sigma_m2;
     free(own);
     return code;
 }

@@ -43,25 +43,6 @@ static void scene_print(const compare_job *job, const compare_scene *scene)
     putchar('\n');
 }
 
-static void tier_print(const compare_job *job, uint32_t tier)
-{
-    uint32_t cases = 0;
-    uint32_t failed = 0;
-    for (uint32_t i = 0; i < job->kit.cases; i++) {
-        const compare_case *one = &job->kit.list[i];
-        if ((uint32_t)one->tier == tier) {
-            cases++;
-            failed += (uint32_t)cli_compare_failed(job, one);
-        }
-    }
-    if (cases > 0 && failed == 0) {
-        printf("tier %lu       passed, %lu cases\n", (unsigned long)tier, (unsigned long)cases);
-    } else if (cases > 0) {
-        printf("tier %lu       FAILED, %lu of %lu cases\n", (unsigned long)tier,
-               (unsigned long)failed, (unsigned long)cases);
-    }
-}
-
 /* The tiers that a finding concerns: " in tiers 1 2". */
 static void finding_tiers(const compare_job *job, int mark)
 {
@@ -117,16 +98,6 @@ static void lack_print(const compare_job *job, int lack, uint32_t count, const c
         }
     }
     puts(named > NAMES_MOST ? ", .." : "");
-}
-
-static void answers_print(const compare_job *job)
-{
-    uint32_t missing = job->asked - job->given;
-    lack_print(job, LACK_ANSWER, missing, "missing", missing == 1 ? "case" : "cases");
-    lack_print(job, LACK_NUMBER, job->not_numbers, "why",
-               job->not_numbers == 1 ? "answer is not numbers" : "answers are not numbers");
-    lack_print(job, LACK_SIGN, job->negatives, "why",
-               job->negatives == 1 ? "answer is negative" : "answers are negative");
 }
 
 static void unexplained_print(const compare_job *job)
@@ -189,17 +160,6 @@ static void facets_print(const compare_job *job, const compare_facets *facets)
     }
 }
 
-static void image_print(const compare_job *job, const compare_image *image)
-{
-    printf("             %s %s: %.1f %% of the pixels agree\n",
-           job->kit.scene[image->one->scene].name, image->one->attitude, 100.0 * image->agree);
-    for (uint32_t n = 0; n < COMPARE_TOP && image->lost[n] > 0; n++) {
-        printf("             facet %lu (%s): %lu of its pixels show something else\n",
-               (unsigned long)image->facet[n], material_of(job, image->one, image->facet[n]),
-               (unsigned long)image->lost[n]);
-    }
-}
-
 static void items_print(const compare_job *job, const compare_items *items)
 {
     printf("items        in %s: %lu of %lu images handed in; %lu differ\n", job->items,
@@ -212,7 +172,14 @@ static void items_print(const compare_job *job, const compare_items *items)
         }
     }
     for (uint32_t i = 0; i < items->named; i++) {
-        image_print(job, &items->image[i]);
+        const compare_image *image = &items->image[i];
+        printf("             %s %s: %.1f %% of the pixels agree\n",
+               job->kit.scene[image->one->scene].name, image->one->attitude, 100.0 * image->agree);
+        for (uint32_t n = 0; n < COMPARE_TOP && image->lost[n] > 0; n++) {
+            printf("             facet %lu (%s): %lu of its pixels show something else\n",
+                   (unsigned long)image->facet[n], material_of(job, image->one, image->facet[n]),
+                   (unsigned long)image->lost[n]);
+        }
     }
 }
 
@@ -234,9 +201,25 @@ void cli_compare_table(const compare_job *job)
     }
     putchar('\n');
     for (uint32_t tier = 1; tier <= job->tier; tier++) {
-        tier_print(job, tier);
+        unsigned long cases = 0;
+        unsigned long failed = 0;
+        for (uint32_t i = 0; i < job->kit.cases; i++) {
+            const compare_case *one = &job->kit.list[i];
+            cases += (uint32_t)one->tier == tier;
+            failed += (uint32_t)one->tier == tier && cli_compare_failed(job, one);
+        }
+        if (cases > 0 && failed == 0) {
+            printf("tier %lu       passed, %lu cases\n", (unsigned long)tier, cases);
+        } else if (cases > 0) {
+            printf("tier %lu       FAILED, %lu of %lu cases\n", (unsigned long)tier, failed, cases);
+        }
     }
-    answers_print(job);
+    uint32_t missing = job->asked - job->given;
+    lack_print(job, LACK_ANSWER, missing, "missing", missing == 1 ? "case" : "cases");
+    lack_print(job, LACK_NUMBER, job->not_numbers, "why",
+               job->not_numbers == 1 ? "answer is not numbers" : "answers are not numbers");
+    lack_print(job, LACK_SIGN, job->negatives, "why",
+               job->negatives == 1 ? "answer is negative" : "answers are negative");
     findings_print(job);
     unexplained_print(job);
     if (job->facets) {

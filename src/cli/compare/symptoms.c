@@ -22,39 +22,33 @@
 #define BIAS_SPREADS 4.0   /* more than half by so many deviations of a fair coin, */
 #define BIAS_LEAST   1e-4  /* and the factor differs from 1 by this much */
 
-/* The answer to a case, interpreted in another way; NaN if not possible. */
-typedef double format_way(const compare_job *job, const compare_case *one, double at);
-
-/* ---- ways ---- */
-
-/* The number taken as `at` times log10 of m2, whichever its column. */
-static double way_decibels(const compare_job *job, const compare_case *one, double at)
-{
-    (void)job;
-    return pow(10.0, one->printed / at);
-}
-
-static double way_plain(const compare_job *job, const compare_case *one, double at)
-{
-    (void)job;
-    (void)at;
-    return one->printed;
-}
-
-/* The answer `at` lines below. */
-static double way_moved(const compare_job *job, const compare_case *one, double at)
-{
-    double line = (double)(one - job->kit.list) + at;
-    int inside = line >= 0.0 && line < job->kit.cases;
-    const compare_case *other = inside ? &job->kit.list[(uint32_t)line] : NULL;
-    return other && other->given ? other->theirs_m2 : (double)NAN;
-}
+/* Another meaning of the submitted numbers: `decade` times log10 of m2 instead of what their column
+   states (0: m2), in a line so many lines below. */
+static const struct symptom_reading {
+    const char *name, *text;
+    double decade;
+    int lines;
+    int column; /* of sigma_m2 (1), of sigma_dbsm (2), of either (3) */
+} symptom_readings[] = {{"m2-as-dbsm", "the column sigma_dbsm holds m2, not dBsm", 0.0, 0, 2},
+                        {"dbsm-as-m2", "the column sigma_m2 holds dBsm, not m2", 10.0, 0, 1},
+                        {"20-log10", "decibels: 20 log10 in place of 10 log10", 20.0, 0, 3},
+                        {"row-before", "rows: every answer stands one line too early", 0.0, -1, 3},
+                        {"row-after", "rows: every answer stands one line too late", 0.0, 1, 3}};
 
 /* ---- findings ---- */
 
-/* Is sigma_m2 within the allowed deviation of the case's true value? */
-static int answer_matches(const compare_job *job, const compare_case *one, double sigma_m2)
+/* 1 if a case's answer, read in another way, is within what the case is allowed. */
+static int reading_matches(const compare_job *job, const compare_case *one,
+                           const struct symptom_reading *reading)
 {
+    double sigma_m2 =
+        reading->decade > 0.0 ? pow(10.0, one->printed / reading->decade) : one->printed;
+    if (reading->lines != 0) {
+        double line = (double)(one - job->kit.list) + reading->lines;
+        int inside = line >= 0.0 && line < job->kit.cases;
+        const compare_case *other = inside ? &job->kit.list[(uint32_t)line] : NULL;
+        sigma_m2 = other && other->given ? other->theirs_m2 : (double)NAN;
+    }
     return fabs(sigma_m2 - one->sigma_m2) <= cli_compare_allowed(one, job->grade, job->pixels);
 }
 
@@ -65,24 +59,21 @@ static int holds_most(const compare_search *search)
     return right >= LEAST && right >= MOST * search->failings;
 }
 
-/* Makes a finding if most answers are right when interpreted in another way. */
-static void format_say(compare_search *search, const char *name, const char *text, format_way *way,
-                       double at)
+/* Makes a finding if most answers are right when read in another way. Answers that are no numbers
+   may become numbers then. */
+static void reading_try(compare_search *search, const struct symptom_reading *reading)
 {
+    compare_job *job = search->job;
     for (uint32_t i = 0; i < search->failings; i++) {
-        const compare_case *one = search->failing[i];
-        search->holds[i] =
-            (unsigned char)answer_matches(search->job, one, way(search->job, one, at));
+        search->holds[i] = (unsigned char)reading_matches(job, search->failing[i], reading);
     }
     compare_finding *finding =
-        holds_most(search) ? cli_search_find(search, name, "%s", text) : NULL;
-    for (uint32_t i = 0; finding && i < search->job->kit.cases; i++) {
-        compare_case *one =
-            &search->job->kit.list[i]; /* an invalid number may become a valid one */
+        holds_most(search) ? cli_search_find(search, reading->name, "%s", reading->text) : NULL;
+    for (uint32_t i = 0; finding && i < job->kit.cases; i++) {
+        compare_case *one = &job->kit.list[i];
         if (one->given && !isfinite(one->theirs_m2) && one->explained == 0 &&
-            cli_compare_failed(search->job, one) &&
-            answer_matches(search->job, one, way(search->job, one, at))) {
-            one->explained = (int)search->job->findings;
+            cli_compare_failed(job, one) && reading_matches(job, one, reading)) {
+            one->explained = (int)job->findings;
             finding->explained++;
         }
     }
@@ -113,43 +104,35 @@ static int digits_all(const compare_job *job, int digits, int significant)
     return 1;
 }
 
-/* Makes a finding if all answers have so few digits and rounding, by half a unit of the last digit,
-   explains most failures. */
-static int digits_say(compare_search *search, int digits, int significant)
-{
-    const compare_job *job = search->job;
-    for (uint32_t i = 0; i < search->failings; i++) {
-        const compare_case *one = search->failing[i];
-        double value = job->decibels ? 10.0 * log10(one->sigma_m2) : one->sigma_m2;
-        double half = 0.5 * digit_step(value, digits, significant);
-        double room = job->decibels ? one->sigma_m2 * (pow(10.0, half / 10.0) - 1.0) : half;
-        search->holds[i] = fabs(one->theirs_m2 - one->sigma_m2) <=
-                           room + cli_compare_allowed(one, job->grade, job->pixels);
-    }
-    return holds_most(search) &&
-           cli_search_find(search, "few-digits",
-                           "few digits: every answer is rounded to %d %s%s: print %%.9g or more",
-                           digits, significant ? "digit" : "decimal", digits == 1 ? "" : "s");
-}
-
-/* Finds the smallest number of digits that suffices for all answers. */
+/* Finds the smallest number of digits, of decimals or significant ones, that suffices for all
+   answers. Makes a finding if rounding, by half a unit of the last digit, explains most failures.
+ */
 static void digits_try(compare_search *search)
 {
+    const compare_job *job = search->job;
     for (int significant = 0; significant < 2; significant++) {
         int digits = significant;
-        while (digits < DIGITS && !digits_all(search->job, digits, significant)) {
+        while (digits < DIGITS && !digits_all(job, digits, significant)) {
             digits++;
         }
-        if (digits < DIGITS && digits_say(search, digits, significant)) {
+        for (uint32_t i = 0; i < search->failings; i++) {
+            const compare_case *one = search->failing[i];
+            double value = job->decibels ? 10.0 * log10(one->sigma_m2) : one->sigma_m2;
+            double half = 0.5 * digit_step(value, digits, significant);
+            double room = job->decibels ? one->sigma_m2 * (pow(10.0, half / 10.0) - 1.0) : half;
+            search->holds[i] = fabs(one->theirs_m2 - one->sigma_m2) <=
+                               room + cli_compare_allowed(one, job->grade, job->pixels);
+        }
+        if (digits < DIGITS && holds_most(search) &&
+            cli_search_find(search, "few-digits",
+                            "few digits: every answer is rounded to %d %s%s: print %%.9g or more",
+                            digits, significant ? "digit" : "decimal", digits == 1 ? "" : "s")) {
             return;
         }
     }
 }
 
-/* ---- nothing ---- */
-
-/* 1 if every answer is 0 although something is visible. */
-static int answers_blank(const compare_search *search)
+void cli_compare_format(compare_search *search)
 {
     const compare_job *job = search->job;
     uint32_t given = 0;
@@ -160,43 +143,19 @@ static int answers_blank(const compare_search *search)
         given += (uint32_t)counts;
         blank &= !counts || one->theirs_m2 == 0.0;
     }
-    return given > 0 && blank;
-}
-
-void cli_compare_format(compare_search *search)
-{
-    if (answers_blank(search)) {
+    if (given > 0 && blank) {
         memset(search->holds, 1, search->failings);
         cli_search_find(search, "blank",
                         "every answer is 0: nothing drawn, everything culled or outside the "
                         "window, or the buffer never read back");
         return;
     }
-    if (search->job->decibels) {
-        format_say(search, "m2-as-dbsm", "the column sigma_dbsm holds m2, not dBsm", way_plain,
-                   0.0);
-    } else {
-        format_say(search, "dbsm-as-m2", "the column sigma_m2 holds dBsm, not m2", way_decibels,
-                   10.0);
+    for (size_t i = 0; i < sizeof symptom_readings / sizeof symptom_readings[0]; i++) {
+        if (symptom_readings[i].column & (job->decibels ? 2 : 1)) {
+            reading_try(search, &symptom_readings[i]);
+        }
     }
-    format_say(search, "20-log10", "decibels: 20 log10 in place of 10 log10", way_decibels, 20.0);
-    format_say(search, "row-before", "rows: every answer stands one line too early", way_moved,
-               -1.0);
-    format_say(search, "row-after", "rows: every answer stands one line too late", way_moved, 1.0);
     digits_try(search);
-}
-
-/* ---- classes ---- */
-
-/* Makes a finding of the failing cases of a class. */
-static void class_say(compare_search *search, int grade, const char *name, const char *text)
-{
-    for (uint32_t i = 0; i < search->failings; i++) {
-        search->holds[i] = search->failing[i]->grade == grade;
-    }
-    if (cli_search_holds(search) > 0) {
-        cli_search_find(search, name, "%s", text);
-    }
 }
 
 /* ---- a coarser raster ---- */
@@ -209,32 +168,25 @@ static double case_pixels(const compare_case *one)
     return rest > 0.0 ? one->edge_m2 / rest : HUGE_VAL;
 }
 
-/* The share of the allowed difference that the answers use: the median over those that are no
-   better than a raster's and have no other cause; 0 if there are few. */
-static double raster_share(const compare_search *search, double pixels)
+/* Makes a finding if all failing cases would pass with fewer pixels, and the other cases are
+   consistent with that: the median share of what such a raster is allowed, over the answers that
+   are no better than a raster's and have no other cause, is one that rasters usually need. */
+static void coarse_try(compare_search *search)
 {
     const compare_job *job = search->job;
+    double pixels = job->grade == COMPARE_RASTER && search->failings > 0 ? job->pixels : 0.0;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < job->kit.cases; i++) {
+    for (uint32_t i = 0; i < search->failings; i++) {
+        pixels = fmin(pixels, floor(case_pixels(search->failing[i])));
+    }
+    for (uint32_t i = 0; i < job->kit.cases && pixels >= COARSEST; i++) {
         const compare_case *one = &job->kit.list[i];
         if (one->given && cli_compare_asked(job, one) && one->grade >= COMPARE_RASTER &&
             one->explained == 0 && isfinite(one->theirs_m2)) {
             search->room[count++] = pixels / case_pixels(one);
         }
     }
-    return 2 * count > job->given ? cli_search_median(search->room, count) : 0.0;
-}
-
-/* Makes a finding if all failing cases would pass with fewer pixels and the other cases are
-   consistent with that. */
-static void coarse_say(compare_search *search)
-{
-    const compare_job *job = search->job;
-    double pixels = job->grade == COMPARE_RASTER && search->failings > 0 ? job->pixels : 0.0;
-    for (uint32_t i = 0; i < search->failings; i++) {
-        pixels = fmin(pixels, floor(case_pixels(search->failing[i])));
-    }
-    if (pixels >= COARSEST && raster_share(search, pixels) >= COARSE_SHARE) {
+    if (2 * count > job->given && cli_search_median(search->room, count) >= COARSE_SHARE) {
         memset(search->holds, 1, search->failings);
         cli_search_find(search, "coarse-raster",
                         "a raster of fewer than %lu x %lu pixels: all these pass as one of %.0f x "
@@ -256,7 +208,7 @@ static int skins_of(const compare_job *job, const compare_case *one)
 }
 
 /* If most of the failing cases are skins close to each other, the depths are too coarse. */
-static void depth_say(compare_search *search)
+static void depth_try(compare_search *search)
 {
     int coarsest = SKINS_TOUCH;
     for (uint32_t i = 0; i < search->failings; i++) {
@@ -297,7 +249,7 @@ static int case_fights(const compare_search *search, compare_case *one)
 }
 
 /* Makes a finding of such cases. 0, or -1 on failure. */
-static int fights_say(compare_search *search)
+static int fights_try(compare_search *search)
 {
     for (uint32_t i = 0; i < search->failings && search->job->findings < (uint32_t)COMPARE_FINDINGS;
          i++) {
@@ -321,7 +273,7 @@ static int fights_say(compare_search *search)
 /* Finds a factor that all answers share although each of them is within its class: the median ratio
    of the answers that are not exact. Most ratios must lie nearer to it than to 1, more of them than
    could be due to chance. */
-static void bias_say(compare_search *search)
+static void bias_try(compare_search *search)
 {
     compare_job *job = search->job;
     double *ratio = search->room;
@@ -359,18 +311,29 @@ static void bias_say(compare_search *search)
 
 int cli_compare_symptoms(compare_search *search)
 {
+    static const struct {
+        int grade;
+        const char *name, *text;
+    } class[] = {{COMPARE_FLOAT, "single-precision",
+                  "single precision: off by no more than some of its roundings"},
+                 {COMPARE_RASTER, "raster",
+                  "a raster's pixels: off by no more than half a pixel along the outlines"}};
     if (search->job->findings == 0) {
-        bias_say(search);
+        bias_try(search);
     }
-    coarse_say(search);
-    depth_say(search);
-    if (fights_say(search) != 0) {
+    coarse_try(search);
+    depth_try(search);
+    if (fights_try(search) != 0) {
         return -1;
     }
-    coarse_say(search);
-    class_say(search, COMPARE_FLOAT, "single-precision",
-              "single precision: off by no more than some of its roundings");
-    class_say(search, COMPARE_RASTER, "raster",
-              "a raster's pixels: off by no more than half a pixel along the outlines");
+    coarse_try(search);
+    for (int k = 0; k < 2; k++) {
+        for (uint32_t i = 0; i < search->failings; i++) {
+            search->holds[i] = search->failing[i]->grade == class[k].grade;
+        }
+        if (cli_search_holds(search) > 0) {
+            cli_search_find(search, class[k].name, "%s", class[k].text);
+        }
+    }
     return 0;
 }

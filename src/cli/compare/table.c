@@ -21,9 +21,8 @@ int cli_table_refuse(const compare_table *table, int name, const char *format, .
 
 int cli_table_missing(const compare_table *table, const char *name)
 {
-    fprintf(stderr, "lrcs: %s: line %llu: no column is named %s\n", table->text.path,
-            (unsigned long long)table->text.line, name);
-    return CLI_FAILED;
+    return cli_fail("%s: line %llu: no column is named %s", table->text.path,
+                    (unsigned long long)table->text.line, name);
 }
 
 int cli_table_open(const char *path, const char *const *name, int count, int needed,
@@ -43,8 +42,7 @@ int cli_table_open(const char *path, const char *const *name, int count, int nee
         return cli_failed(&error);
     }
     if (status == 0) {
-        fprintf(stderr, "lrcs: %s: expected a line that names the columns, found nothing\n", path);
-        return CLI_FAILED;
+        return cli_fail("%s: expected a line that names the columns, found nothing", path);
     }
     lrcs_host_table_names(&table->text);
     for (int i = 0; i < count; i++) {

@@ -54,27 +54,9 @@ static int curve_known(const converge_job *job, int dial, int quantity)
     return 0;
 }
 
-/* "zbuffer N: bound", "exact, mesh 1e-k: error" */
-static void curve_name(const converge_job *job, int dial, int quantity, chart_curve *curve)
-{
-    static const char *const what[] = {"error", "bound", "estimate"};
-    int method = 0;
-    for (uint32_t i = 0; i < job->settings; i++) {
-        method = job->setting[i].dial == dial ? job->setting[i].method : method;
-    }
-    if (dial == CONVERGE_PREVIEW) {
-        snprintf(curve->name, sizeof curve->name, "accepted by estimate: %s", what[quantity]);
-        return;
-    }
-    const char *position = dial == CONVERGE_MESH      ? ", mesh 1e-k"
-                           : dial == CONVERGE_ZBUFFER ? " N"
-                                                      : "";
-    snprintf(curve->name, sizeof curve->name, "%s%s: %s", lrcs_method_text(method), position,
-             what[quantity]);
-}
-
 static void curve_add(const converge_job *job, chart_curves *all, int dial, int quantity, int named)
 {
+    static const char *const what[] = {"error", "bound", "estimate"};
     static const int dash[] = {LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED};
     chart_curve *curve = &all->curve[all->count];
     lrcs_host_series *series = &all->series[all->count++];
@@ -87,9 +69,10 @@ static void curve_add(const converge_job *job, chart_curves *all, int dial, int 
                                                                       : chart_dials[dial].marker,
                                  .dash = dash[quantity],
                                  .hollow = quantity == CHART_BOUND};
-    curve_name(job, dial, quantity, curve);
+    int method = 0;
     for (uint32_t i = 0; i < job->settings; i++) {
         double value = setting_quantity(&job->setting[i], quantity);
+        method = job->setting[i].dial == dial ? job->setting[i].method : method;
         if (job->setting[i].dial == dial && value >= 0.0) {
             int has_name = named && all->short_name[i][0];
             curve->x[series->count] = 1e3 * job->setting[i].pose_s;
@@ -97,6 +80,13 @@ static void curve_add(const converge_job *job, chart_curves *all, int dial, int 
             curve->label[series->count++] = has_name ? all->short_name[i] : NULL;
         }
     }
+    /* "zbuffer N: bound", "exact, mesh 1e-k: error" */
+    const char *position = dial == CONVERGE_MESH      ? ", mesh 1e-k"
+                           : dial == CONVERGE_ZBUFFER ? " N"
+                                                      : "";
+    snprintf(curve->name, sizeof curve->name, "%s%s: %s",
+             dial == CONVERGE_PREVIEW ? "accepted by estimate" : lrcs_method_text(method), position,
+             what[quantity]);
 }
 
 /* Adds the curves of a kind of setting; the upper one has the settings' names. A preview has the
@@ -132,35 +122,21 @@ static void short_names(const converge_job *job, chart_curves *all)
     }
 }
 
-/* The smallest value of the axis: the uncertainty of the truth, or of a double; never 0, which a
-   logarithmic axis cannot show. */
-static double chart_floor(const converge_job *job)
-{
-    double floor = cli_converge_relative(job, job->truth.bound_m2);
-    if (job->truth.sigma_m2 > 0.0) {
-        return floor > 0x1p-53 ? floor : 0x1p-53;
-    }
-    return floor > 0.0 ? floor : 1e-16; /* m2 */
-}
-
-/* The title, the scene without its folders; the note, the origin of the truth and the direction of
-   the laser. */
-static void chart_words(const converge_job *job, char title[256], char note[256])
-{
-    const double *d = job->pose.direction;
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    snprintf(title, 256, "What accuracy costs in time: %s", cli_base_name(job->title));
-    snprintf(note, 256, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)", job->truth.text,
-             job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
-}
-
 int cli_converge_chart(FILE *out, const void *context, int png, lrcs_host_error *error)
 {
     const converge_job *job = context;
     chart_curves all = {.count = 0};
+    const double *d = job->pose.direction;
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     char title[256];
     char note[256];
-    chart_words(job, title, note);
+    snprintf(title, sizeof title, "What accuracy costs in time: %s", cli_base_name(job->title));
+    snprintf(note, sizeof note, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)",
+             job->truth.text, job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
+    /* the smallest value of the axis: the uncertainty of the truth, or of a double; never 0, which
+       a logarithmic axis cannot show */
+    double floor = cli_converge_relative(job, job->truth.bound_m2);
+    floor = job->truth.sigma_m2 > 0.0 ? fmax(floor, 0x1p-53) : floor > 0.0 ? floor : 1e-16;
     short_names(job, &all);
     for (int dial = 0; dial < CONVERGE_DIALS; dial++) {
         dial_add(job, &all, dial);
@@ -174,7 +150,7 @@ int cli_converge_chart(FILE *out, const void *context, int png, lrcs_host_error 
                                             : "error of sigma (m2)",
         .x_log = 1,
         .y_log = 1,
-        .floor = chart_floor(job),
+        .floor = floor,
         .floor_name = job->truth.whole ? "truth's own bound" : "truth's bound (facets)",
         .series = all.series,
         .series_count = all.count};

@@ -35,35 +35,6 @@ static const cli_option converge_options[] = {
     {"material", 1, 1},         {"json", 0, 0},       {"seconds", 1, 0},      {"help", 0, 0},
     {"keep-transparent", 0, 0}, {NULL, 0, 0}};
 
-/* ---- options ---- */
-
-static int converge_read(converge_job *job)
-{
-    const cli_args *args = job->args;
-    job->seconds = 20.0;
-    job->csv = cli_value(args, "csv");
-    int code = cli_pose_read(args, &job->pose);
-    code = code ? code : cli_number(args, "seconds", &job->seconds);
-    if (code == 0 && !(job->seconds > 0.0)) {
-        return cli_usage(args->command, "--seconds: expected a time > 0, found '%s'",
-                         cli_value(args, "seconds"));
-    }
-    return code ? code : cli_scene_options_read(args, &job->load);
-}
-
-/* ---- files ---- */
-
-static int files_write(const converge_job *job)
-{
-    const cli_args *args = job->args;
-    int code = job->csv ? cli_text_write(job->csv, cli_converge_csv, job) : 0;
-    if (code == 0 && job->csv) {
-        code = cli_provenance_beside(args, job->csv, &cli_converge_finest(job)->scene, &job->pose,
-                                     job->about);
-    }
-    return code ? code : cli_charts_write(args, "plot", cli_converge_chart, job);
-}
-
 /* ---- the command ---- */
 
 /* Checks the errors against their bounds: an error above its bound is a fault of the engine. */
@@ -73,9 +44,8 @@ static int settings_check(const converge_job *job)
     for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
         if (one->bound_m2 >= 0.0 && one->error_m2 > one->bound_m2 + job->truth.bound_m2) {
-            fprintf(stderr, "lrcs: %s: the error, %.3g m2, exceeds its bound, %.3g m2\n", one->name,
-                    one->error_m2, one->bound_m2);
-            return CLI_FAILED;
+            return cli_fail("%s: the error, %.3g m2, exceeds its bound, %.3g m2", one->name,
+                            one->error_m2, one->bound_m2);
         }
         code = one->short_of_memory ? CLI_DEGRADED : code;
     }
@@ -84,12 +54,18 @@ static int settings_check(const converge_job *job)
 
 static int converge_report(const converge_job *job)
 {
-    int code = files_write(job);
+    const cli_args *args = job->args;
+    int code = job->csv ? cli_text_write(job->csv, cli_converge_csv, job) : 0;
+    if (code == 0 && job->csv) {
+        code = cli_provenance_beside(args, job->csv, &cli_converge_finest(job)->scene, &job->pose,
+                                     job->about);
+    }
+    code = code ? code : cli_charts_write(args, "plot", cli_converge_chart, job);
     cli_watch_end();
     if (code != 0) {
         return code;
     }
-    if (cli_value(job->args, "json")) {
+    if (cli_value(args, "json")) {
         cli_converge_json(job);
         return settings_check(job);
     }
@@ -112,7 +88,11 @@ static int converge_command(const cli_args *args)
     memset(&job, 0, sizeof job);
     job.args = args;
     job.title = args->operand;
-    int code = converge_read(&job);
+    job.seconds = 20.0;
+    job.csv = cli_value(args, "csv");
+    int code = cli_pose_read(args, &job.pose);
+    code = code ? code : cli_positive(args, "seconds", "a time > 0", &job.seconds);
+    code = code ? code : cli_scene_options_read(args, &job.load);
     code = code ? code : cli_converge_meshes(&job);
     code = code ? code : cli_outputs_spare(args, &job.mesh[0].scene);
     code = code ? code : cli_converge_measure(&job);

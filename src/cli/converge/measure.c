@@ -149,21 +149,6 @@ static int previews_add(converge_job *job)
     return code;
 }
 
-/* The method that suffices for a mesh in this pose: facet if the planner proves it, else exact.
-   Also returns whether closed forms need no mesh at all. */
-static int method_enough(converge_job *job, uint32_t mesh, int *method, int *closed)
-{
-    lrcs_run_options options = lrcs_run_options_default();
-    lrcs_result result = {0};
-    double seconds = 0.0;
-    int code =
-        cli_scene_run(&job->mesh[mesh].scene, &job->pose, &options, &result, NULL, NULL, &seconds);
-    job->spent += seconds;
-    *closed = result.method == LRCS_METHOD_CLOSED;
-    *method = result.method == LRCS_METHOD_FACET || *closed ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
-    return code;
-}
-
 /* Adds finer and finer rasters until half of the time is used. */
 static int rasters_add(converge_job *job, uint32_t mesh)
 {
@@ -171,10 +156,8 @@ static int rasters_add(converge_job *job, uint32_t mesh)
     double last = 0.0;
     for (uint32_t n = RASTER_LEAST; n <= RASTER_MOST && code == 0; n *= 2) {
         if (job->spent + last > 0.5 * job->seconds) { /* this one would not be faster */
-            size_t used = strlen(job->left_out);
-            snprintf(job->left_out + used, sizeof job->left_out - used,
-                     "%szbuffer %lu and finer, for time",
-                     used ? "; " : "left out: ", (unsigned long)n);
+            cli_append(job->left_out, sizeof job->left_out, "%szbuffer %lu and finer, for time",
+                       job->left_out[0] ? "; " : "left out: ", (unsigned long)n);
             break;
         }
         code = setting_add(job, CONVERGE_ZBUFFER, LRCS_METHOD_ZBUFFER, n, mesh);
@@ -191,7 +174,16 @@ static int settings_add(converge_job *job)
     int closed = 0;
     int code = 0;
     for (uint32_t i = 0; i <= finest && job->mesh[0].digits > 0 && code == 0; i++) {
-        code = method_enough(job, i, &method, &closed);
+        /* facet suffices if the planner proves it, else exact; closed forms need no mesh at all */
+        const lrcs_run_options options = lrcs_run_options_default();
+        lrcs_result result = {0};
+        double seconds = 0.0;
+        code =
+            cli_scene_run(&job->mesh[i].scene, &job->pose, &options, &result, NULL, NULL, &seconds);
+        job->spent += seconds;
+        closed = result.method == LRCS_METHOD_CLOSED;
+        method =
+            closed || result.method == LRCS_METHOD_FACET ? LRCS_METHOD_FACET : LRCS_METHOD_EXACT;
         code = code ? code : setting_add(job, CONVERGE_MESH, method, 0, i);
     }
     if (code == 0 && method != LRCS_METHOD_FACET) { /* otherwise it has already been added */
@@ -280,21 +272,6 @@ static int truth_closed(converge_job *job)
     return 1;
 }
 
-static void truth_exact(converge_job *job)
-{
-    for (uint32_t i = 0; i < job->settings; i++) {
-        const converge_setting *setting = &job->setting[i];
-        if (setting->dial == CONVERGE_EXACT) {
-            job->truth.sigma_m2 = setting->sigma_m2;
-            job->truth.bound_m2 = setting->bound_m2;
-            job->truth.whole = setting->whole;
-        }
-    }
-    snprintf(job->truth.text, sizeof job->truth.text, "exact on the %s, %lu facets",
-             job->meshes > 1 ? "finest mesh" : "mesh",
-             (unsigned long)cli_converge_finest(job)->scene.scene.facet_count);
-}
-
 /* Compares each setting with the truth. A bound counts if both are against the true shapes, or if
    the truth is exact on the same mesh; such a truth cannot judge its own mesh, which is therefore
    not listed. */
@@ -318,32 +295,35 @@ static void settings_judge(converge_job *job, int closed)
     job->settings = kept;
 }
 
-/* Writes a note if the runs waited for the processor, because their times are then too long. */
-static void busy_note(converge_job *job)
+int cli_converge_measure(converge_job *job)
 {
     double waited = 0.0;
-    for (uint32_t i = 0; i < job->settings; i++) {
-        waited += job->setting[i].spent_s;
+    int code = settings_add(job);
+    code = code ? code : settings_repeat(job);
+    cli_watch_stage("converge", NULL);
+    if (code != 0) {
+        return code;
     }
-    if (job->processor < BUSY_SHARE * waited) {
+    int closed = truth_closed(job);
+    for (uint32_t i = 0; i < job->settings; i++) {
+        const converge_setting *setting = &job->setting[i];
+        waited += setting->spent_s;
+        if (!closed && setting->dial == CONVERGE_EXACT) {
+            job->truth.sigma_m2 = setting->sigma_m2;
+            job->truth.bound_m2 = setting->bound_m2;
+            job->truth.whole = setting->whole;
+        }
+    }
+    if (!closed) {
+        snprintf(job->truth.text, sizeof job->truth.text, "exact on the %s, %lu facets",
+                 job->meshes > 1 ? "finest mesh" : "mesh",
+                 (unsigned long)cli_converge_finest(job)->scene.scene.facet_count);
+    }
+    if (job->processor < BUSY_SHARE * waited) { /* then their times are too long */
         snprintf(job->busy, sizeof job->busy,
                  "the machine is busy: the runs had %.0f %% of a processor; times are too long",
                  100.0 * job->processor / waited);
     }
-}
-
-int cli_converge_measure(converge_job *job)
-{
-    int code = settings_add(job);
-    code = code ? code : settings_repeat(job);
-    cli_watch_stage("converge", NULL);
-    if (code == 0) {
-        busy_note(job);
-        int closed = truth_closed(job);
-        if (!closed) {
-            truth_exact(job);
-        }
-        settings_judge(job, closed);
-    }
-    return code;
+    settings_judge(job, closed);
+    return 0;
 }

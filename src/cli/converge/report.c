@@ -5,7 +5,6 @@
 #include "cli/converge/converge.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
 
 static const struct {
@@ -63,16 +62,6 @@ static const converge_setting *setting_best(const converge_job *job)
     return best;
 }
 
-__attribute__((format(printf, 2, 3))) static void sentence_add(converge_sentence *sentence,
-                                                               const char *format, ...)
-{
-    size_t used = strlen(sentence->text);
-    va_list list;
-    va_start(list, format);
-    vsnprintf(sentence->text + used, sizeof sentence->text - used, format, list);
-    va_end(list);
-}
-
 converge_sentence cli_converge_sentence(const converge_job *job)
 {
     converge_sentence sentence = {"The cheapest setting by pose time for a bound of "};
@@ -80,41 +69,43 @@ converge_sentence cli_converge_sentence(const converge_job *job)
     const char *verb = " is";
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {
         const converge_setting *one = setting_cheapest(job, report_tolerance[i].value);
-        sentence_add(&sentence, "%s", report_tolerance[i].text);
+        cli_append(sentence.text, sizeof sentence.text, "%s", report_tolerance[i].text);
         if (i + 1 < REPORT_TOLERANCES &&
             one == setting_cheapest(job, report_tolerance[i + 1].value)) {
-            sentence_add(&sentence, ", ");
+            cli_append(sentence.text, sizeof sentence.text, ", ");
             continue;
         }
-        sentence_add(&sentence, "%s %s", verb, one ? one->name : "none of these");
+        cli_append(sentence.text, sizeof sentence.text, "%s %s", verb,
+                   one ? one->name : "none of these");
         if (one) {
-            sentence_add(&sentence, " (%.3g ms)", 1e3 * one->pose_s);
+            cli_append(sentence.text, sizeof sentence.text, " (%.3g ms)", 1e3 * one->pose_s);
         }
-        sentence_add(&sentence, i + 1 < REPORT_TOLERANCES ? ", for " : "; ");
+        cli_append(sentence.text, sizeof sentence.text,
+                   i + 1 < REPORT_TOLERANCES ? ", for " : "; ");
         verb = "";
     }
     if (best) {
-        sentence_add(&sentence, "the best bound, %.2g%s, is that of %s (%.3g ms).",
-                     cli_converge_relative(job, best->bound_m2),
-                     job->truth.sigma_m2 > 0.0 ? " of sigma" : " m2", best->name,
-                     1e3 * best->pose_s);
+        cli_append(sentence.text, sizeof sentence.text,
+                   "the best bound, %.2g%s, is that of %s (%.3g ms).",
+                   cli_converge_relative(job, best->bound_m2),
+                   job->truth.sigma_m2 > 0.0 ? " of sigma" : " m2", best->name, 1e3 * best->pose_s);
     } else {
-        sentence_add(&sentence, "no bound is known.");
+        cli_append(sentence.text, sizeof sentence.text, "no bound is known.");
     }
     const char *before = " By estimate, unproved, a tolerance of ";
     for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
         if (one->dial == CONVERGE_PREVIEW) {
             int estimated = one->accepted_by && strcmp(one->accepted_by, "estimate") == 0;
-            sentence_add(&sentence, "%s1e-%d takes %.3g ms%s", before, one->digits,
-                         1e3 * one->pose_s,
-                         estimated          ? ""
-                         : one->accepted_by ? " (and is proved)"
-                                            : " (and is missed)");
+            cli_append(sentence.text, sizeof sentence.text, "%s1e-%d takes %.3g ms%s", before,
+                       one->digits, 1e3 * one->pose_s,
+                       estimated          ? ""
+                       : one->accepted_by ? " (and is proved)"
+                                          : " (and is missed)");
             before = ", ";
         }
     }
-    sentence_add(&sentence, before[0] == ',' ? "." : "");
+    cli_append(sentence.text, sizeof sentence.text, before[0] == ',' ? "." : "");
     return sentence;
 }
 
@@ -238,20 +229,6 @@ void cli_converge_csv(FILE *out, const void *context)
 
 /* ---- JSON ---- */
 
-static void setting_json(const converge_job *job, const converge_setting *one, lrcs_host_json *json)
-{
-    double number[NUMBERS];
-    numbers_make(job, one, number);
-    cli_json(json, "{setting=%s method=%s", one->name, lrcs_method_text(one->method));
-    for (int k = 0; k < NUMBERS; k++) {
-        lrcs_host_json_number(json, number_name[k], number[k]);
-    }
-    if (one->digits > 0) {
-        cli_json(json, "tolerance=%g accepted_by=%s", pow(10.0, -one->digits), one->accepted_by);
-    }
-    cli_json(json, "}");
-}
-
 /* The setting, in an open object, which it ends. */
 static void cheapest_json(const converge_setting *one, lrcs_host_json *json)
 {
@@ -268,12 +245,23 @@ void cli_converge_json(const converge_job *job)
     cli_version_json(&json);
     cli_hash_json(lrcs_scene_hash(&scene->scene), &json);
     cli_files_json(scene, &json);
-    cli_json(&json, "unit=%s", cli_value(job->args, "unit"));
+    cli_json(&json, "unit=%s", cli_scene_unit(job->args, scene));
     cli_direction_json(&job->pose, &json);
     cli_json(&json, "truth={from=%s sigma_m2=%g bound_m2=%g of_facets=%d} settings=[\n",
              job->truth.text, job->truth.sigma_m2, job->truth.bound_m2, !job->truth.whole);
     for (uint32_t i = 0; i < job->settings; i++) {
-        setting_json(job, &job->setting[i], &json);
+        const converge_setting *one = &job->setting[i];
+        double number[NUMBERS];
+        numbers_make(job, one, number);
+        cli_json(&json, "{setting=%s method=%s", one->name, lrcs_method_text(one->method));
+        for (int k = 0; k < NUMBERS; k++) {
+            lrcs_host_json_number(&json, number_name[k], number[k]);
+        }
+        if (one->digits > 0) {
+            cli_json(&json, "tolerance=%g accepted_by=%s", pow(10.0, -one->digits),
+                     one->accepted_by);
+        }
+        cli_json(&json, "}");
     }
     cli_json(&json, "] cheapest=[\n");
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {

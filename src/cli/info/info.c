@@ -2,15 +2,20 @@
 /* lrcs info: the content of a scene, and its defects and peculiarities. */
 #include "cli/info/info.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+#include "cli/info/surfaces.h"
 
 static const char info_help[] =
     "usage: lrcs info SCENE [--unit U] [--material [WHAT=]BRDF] [--two-sided WHAT]\n"
     "                 [--keep-transparent] [--json]\n"
     "\n"
     "What SCENE holds: parts, materials, area (m2), volume (m3), box (m), defects of the mesh,\n"
-    "and whether its facets are fine enough for the glint of their materials. Counts are of what\n"
-    "the file stores; notices say what a run leaves out.\n"
+    "and whether its facets are fine enough for the glint of their materials: where facets of a\n"
+    "model are proved to lie on a plane, cylinder, sphere or cone, which one, and how close. "
+    "Counts\n"
+    "are of what the file stores; notices say what a run leaves out.\n"
     "\n"
     "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"
     "  --material [WHAT=]BRDF  as in lrcs run: shows which material each facet would have\n"
@@ -29,7 +34,7 @@ static const cli_option info_options[] = {
 
 /* ---- JSON ---- */
 
-static void info_json(const cli_args *args, const cli_info *info)
+static void info_json(const cli_args *args, const cli_info *info, const cli_surfaces *surfaces)
 {
     const lrcs_scene *scene = &info->scene.scene;
     const lrcs_mesh_report *report = &info->report;
@@ -39,8 +44,8 @@ static void info_json(const cli_args *args, const cli_info *info)
     cli_version_json(&json);
     cli_files_json(&info->scene, &json);
     cli_json(&json, "unit=%s parts=%u vertices=%u facets=%u area_m2=%g volume_m3=%g",
-             cli_value(args, "unit"), info->parts, scene->vertex_count, scene->facet_count,
-             report->area, report->volume);
+             cli_scene_unit(args, &info->scene), info->parts, scene->vertex_count,
+             scene->facet_count, report->area, report->volume);
     cli_numbers_json(&json, "box_min_m", report->box_min, 3);
     cli_numbers_json(&json, "box_max_m", report->box_max, 3);
     cli_json(&json, "closed=%d convex=%d", report->closed, report->convex);
@@ -70,7 +75,9 @@ static void info_json(const cli_args *args, const cli_info *info)
         cli_json(&json, "facets_around_for_1e-2=%g facets_around_for_1e-3=%g}",
                  glint->around_1_percent, glint->around_01_percent);
     }
-    cli_json(&json, "] notices=[\n");
+    cli_json(&json, "]");
+    cli_surfaces_json(surfaces, scene, &json);
+    cli_json(&json, "notices=[\n");
     cli_notices_json(&info->scene.notices, &json);
     for (int i = 0; i < INFO_NOTICES; i++) {
         const char *notice = cli_info_notice(info, i, text);
@@ -130,7 +137,7 @@ static void table_glint(const cli_info *info)
     }
 }
 
-static void info_table(const cli_info *info, const char *operand)
+static void info_table(const cli_info *info, const cli_surfaces *surfaces, const char *operand)
 {
     const lrcs_scene *scene = &info->scene.scene;
     const lrcs_mesh_report *r = &info->report;
@@ -151,6 +158,7 @@ static void info_table(const cli_info *info, const char *operand)
            (unsigned long)r->opposite_pairs, (unsigned long)r->boundary_edges,
            (unsigned long)r->nonmanifold_edges);
     table_glint(info);
+    cli_surfaces_table(surfaces, scene);
     cli_notices_print(stdout, &info->scene.notices);
     for (int i = 0; i < INFO_NOTICES; i++) {
         const char *notice = cli_info_notice(info, i, text);
@@ -163,16 +171,19 @@ static void info_table(const cli_info *info, const char *operand)
 static int info_command(const cli_args *args)
 {
     cli_info info;
+    cli_surfaces surfaces = {NULL, 0};
     lrcs_host_options options;
     memset(&info, 0, sizeof info);
     int code = cli_scene_options_read(args, &options);
     code = code ? code : cli_info_read(args, &options, &info);
+    code = code ? code : cli_surfaces_find(&info.scene.scene, &surfaces);
     cli_watch_end();
     if (code == 0 && cli_value(args, "json")) {
-        info_json(args, &info);
+        info_json(args, &info, &surfaces);
     } else if (code == 0) {
-        info_table(&info, args->operand);
+        info_table(&info, &surfaces, args->operand);
     }
+    free(surfaces.region);
     cli_info_free(&info);
     cli_scene_options_free(&options);
     return code;

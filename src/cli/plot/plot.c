@@ -57,25 +57,6 @@ typedef struct plot_job {
     int stats;
 } plot_job;
 
-/* Checks that no output replaces a file that is read. */
-static int outputs_check(const plot_job *job)
-{
-    const cli_args *args = job->args;
-    int code = 0;
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        int written =
-            strcmp(args->given[i].name, "o") == 0 || strcmp(args->given[i].name, "stats-file") == 0;
-        for (uint32_t k = 0; k < job->count && written && code == 0; k++) {
-            if (lrcs_host_output_same(args->given[i].value, job->data[k].path)) {
-                code = cli_usage(args->command, "%s%s %s: would overwrite what is read",
-                                 cli_dashes(args->given[i].name), args->given[i].name,
-                                 args->given[i].value);
-            }
-        }
-    }
-    return code;
-}
-
 /* Appends to the list the options of `head` that `other` lacks, or, if `values`, has otherwise. */
 static void differences_list(const sweep_head *head, const sweep_head *other, int values,
                              char *list, size_t size)
@@ -83,9 +64,8 @@ static void differences_list(const sweep_head *head, const sweep_head *other, in
     for (uint32_t i = 0; i < head->options && i < SWEEP_OPTIONS; i++) {
         const char *key = head->option[i].key;
         const char *text = cli_head_text(other, key);
-        size_t used = strlen(list);
         if (!text || (values && strcmp(text, head->option[i].text) != 0)) {
-            snprintf(list + used, size - used, "%s%s", used > 0 ? ", " : "", key);
+            cli_append(list, size, "%s%s", list[0] ? ", " : "", key);
         }
     }
 }
@@ -133,20 +113,6 @@ static int overlay_check(const plot_job *job)
                            (unsigned long long)curves);
 }
 
-/* Chooses the texts of the legend: titles if all differ, else the names of the files. */
-static void names_choose(plot_job *job)
-{
-    int differ = 1;
-    for (uint32_t i = 0; i < job->count; i++) {
-        for (uint32_t k = 0; k < i; k++) {
-            differ &= strcmp(job->plot[i].title, job->plot[k].title) != 0;
-        }
-    }
-    for (uint32_t i = 0; i < job->count && job->count > 1; i++) {
-        job->plot[i].name = differ ? job->plot[i].title : cli_base_name(job->data[i].path);
-    }
-}
-
 static int job_read(plot_job *job)
 {
     const cli_args *args = job->args;
@@ -176,7 +142,16 @@ static int job_run(plot_job *job)
     const cli_args *args = job->args;
     int code = job_read(job);
     cli_watch_end();
-    code = code ? code : outputs_check(job);
+    for (int i = 0; i < args->given_count && code == 0; i++) {
+        const cli_given *given = &args->given[i];
+        int written = cli_is_output(args->command, given->name);
+        for (uint32_t k = 0; k < job->count && written && code == 0; k++) {
+            if (lrcs_host_output_same(given->value, job->data[k].path)) {
+                code = cli_usage(args->command, "%s%s %s: would overwrite what is read",
+                                 cli_dashes(given->name), given->name, given->value);
+            }
+        }
+    }
     if (code == 0 && !job->plot[0].asked && !job->stats) {
         return cli_usage(args->command, "nothing to do: give -o OUT.svg, --stats or --stats-file");
     }
@@ -186,9 +161,17 @@ static int job_run(plot_job *job)
     }
     if (code == 0 && job->plot[0].asked) {
         code = job->count > 1 ? overlay_check(job) : 0;
-        names_choose(job);
-        for (uint32_t k = 1; k < job->count && code == 0; k++) {
-            differences_say(job, k);
+        int differ = 1; /* the legend has titles if all differ, else names of files */
+        for (uint32_t k = 1; k < job->count; k++) {
+            for (uint32_t i = 0; i < k; i++) {
+                differ &= strcmp(job->plot[i].title, job->plot[k].title) != 0;
+            }
+        }
+        for (uint32_t k = 0; k < job->count && job->count > 1 && code == 0; k++) {
+            job->plot[k].name = differ ? job->plot[k].title : cli_base_name(job->data[k].path);
+            if (k > 0) {
+                differences_say(job, k);
+            }
         }
         code = code ? code : cli_plot_write(args, job->plot, job->count);
     }

@@ -59,43 +59,16 @@ static int job_refuse(const table_job *job, const char *what, lrcs_host_error *e
     return LRCS_E_SYNTAX;
 }
 
-/* Copies bytes as a text. */
-static int text_copy(table_job *job, const void *bytes, size_t size, lrcs_host_error *error)
-{
-    job->text = malloc(size + 1);
-    if (!job->text) {
-        return job_refuse(job, "out of memory", error);
-    }
-    memcpy(job->text, bytes, size);
-    job->text[size] = '\0';
-    return LRCS_OK;
-}
-
-/* The first line without "# ". */
-static int about_of_line(table_job *job, lrcs_host_error *error)
-{
-    const char *line = (const char *)job->file.bytes;
-    const char *end = memchr(line, '\n', job->file.size);
-    int status = text_copy(job, line, end ? (size_t)(end - line) : job->file.size, error);
-    if (status == LRCS_OK) {
-        job->text[strcspn(job->text, "\r")] = '\0';
-        job->about = job->text + 2;
-    }
-    return status;
-}
-
 /* The text of the key CLI_ABOUT in FILE.csv.json, which must state the hash of this table. */
 static int about_of_json(table_job *job, lrcs_host_error *error)
 {
     static const char key[] = "\"" CLI_ABOUT "\": \"";
     char hash[48];
     lrcs_host_file json;
-    size_t room = strlen(job->path) + sizeof CLI_BESIDE;
-    char *name = malloc(room);
+    char *name = cli_beside_name(job->path);
     if (!name) {
         return job_refuse(job, "out of memory", error);
     }
-    snprintf(name, room, "%s" CLI_BESIDE, job->path);
     int status = lrcs_host_file_read(name, &json, error);
     free(name);
     if (status != LRCS_OK) {
@@ -104,10 +77,10 @@ static int about_of_json(table_job *job, lrcs_host_error *error)
                           "it and which states the truth",
                           error);
     }
-    status = text_copy(job, json.bytes, json.size, error);
+    job->text = strndup((const char *)json.bytes, json.size);
     lrcs_host_file_free(&json);
-    if (status != LRCS_OK) {
-        return status;
+    if (!job->text) {
+        return job_refuse(job, "out of memory", error);
     }
     snprintf(hash, sizeof hash, "\"hash\": \"fnv1a:%016llx\"",
              (unsigned long long)cli_sum_more(CLI_SUM_BEGIN, job->file.bytes, job->file.size));
@@ -136,40 +109,12 @@ static int columns_find(const table_job *job, const char *const *name, uint32_t 
     return LRCS_OK;
 }
 
-static int profile_row_take(table_job *job, const uint32_t column[5], lrcs_host_error *error)
-{
-    profile_job *profile = &job->profile;
-    double value[5] = {0.0}; /* near, far, glint, diffuse, pulse */
-    profile_row *more = realloc(profile->row, (profile->rows + 1) * sizeof *more);
-    if (!more) {
-        return job_refuse(job, "out of memory", error);
-    }
-    profile->row = more;
-    for (int i = 0; i < 5 && column[i] != LRCS_NONE; i++) {
-        int status = lrcs_host_field_read(&job->table, column[i], "a number", &value[i], error);
-        if (status != LRCS_OK) {
-            return status;
-        }
-    }
-    if (!(value[0] < value[1])) {
-        return lrcs_host_field_refuse(&job->table, LRCS_E_NUMBER, column[1],
-                                      "a range beyond near_m", error);
-    }
-    profile_row row = {.near_m = value[0], .far_m = value[1], .pulse_m = value[4]};
-    row.bin.sigma_glint_m2 = value[2];
-    row.bin.sigma_diffuse_m2 = value[3];
-    profile->row[profile->rows++] = row;
-    profile->bin_m = value[1] - value[0];
-    return LRCS_OK;
-}
-
 static int profile_read(table_job *job, lrcs_host_error *error)
 {
     static const char *const name[4] = {"near_m", "far_m", "sigma_glint_m2", "sigma_diffuse_m2"};
     char text[TABLE_TEXT];
     uint32_t column[5];
     profile_job *profile = &job->profile;
-    int more;
     int status = columns_find(job, name, 4, column, error);
     column[4] = lrcs_host_table_column(&job->table, "pulse_m");
     profile->title = job->title;
@@ -177,10 +122,31 @@ static int profile_read(table_job *job, lrcs_host_error *error)
     profile->open = cli_key_text(job->about, "materials", text, sizeof text);
     profile->profile.list.sigma_diffuse_m2 = cli_key_number(job->about, "sigma_m2");
     profile->fwhm_m = column[4] != LRCS_NONE ? cli_key_number(job->about, "pulse_fwhm_m") : 0.0;
-    while (status == LRCS_OK && (more = lrcs_host_table_read(&job->table, error)) != 0) {
-        status = more < 0 ? more : profile_row_take(job, column, error);
+    int more = status == LRCS_OK ? lrcs_host_table_read(&job->table, error) : status;
+    for (; more > 0; more = lrcs_host_table_read(&job->table, error)) {
+        double value[5] = {0.0}; /* near, far, glint, diffuse, pulse */
+        profile_row *grown = realloc(profile->row, (profile->rows + 1) * sizeof *grown);
+        if (!grown) {
+            return job_refuse(job, "out of memory", error);
+        }
+        profile->row = grown;
+        for (int i = 0; i < 5 && column[i] != LRCS_NONE && status == LRCS_OK; i++) {
+            status = lrcs_host_field_read(&job->table, column[i], "a number", &value[i], error);
+        }
+        if (status == LRCS_OK && !(value[0] < value[1])) {
+            status = lrcs_host_field_refuse(&job->table, LRCS_E_NUMBER, column[1],
+                                            "a range beyond near_m", error);
+        }
+        if (status != LRCS_OK) {
+            return status;
+        }
+        profile_row row = {.near_m = value[0], .far_m = value[1], .pulse_m = value[4]};
+        row.bin.sigma_glint_m2 = value[2];
+        row.bin.sigma_diffuse_m2 = value[3];
+        profile->row[profile->rows++] = row;
+        profile->bin_m = value[1] - value[0];
     }
-    return status;
+    return more;
 }
 
 /* The columns of a comparison that the chart needs. */
@@ -311,9 +277,18 @@ static int job_read(table_job *job, lrcs_host_error *error)
     if (status != LRCS_OK) {
         return status;
     }
-    status = job->kind == TABLE_CONVERGE ? about_of_json(job, error) : about_of_line(job, error);
+    if (job->kind == TABLE_CONVERGE) {
+        status = about_of_json(job, error);
+    } else { /* the first line without "# " */
+        job->text = strndup((const char *)job->file.bytes, job->file.size);
+        status = job->text ? LRCS_OK : job_refuse(job, "out of memory", error);
+    }
     if (status != LRCS_OK) {
         return status;
+    }
+    if (job->kind != TABLE_CONVERGE) {
+        job->text[strcspn(job->text, "\r\n")] = '\0';
+        job->about = job->text + 2;
     }
     job->table = lrcs_host_table_make(job->path, &job->file);
     if (!cli_key_text(job->about, "title", job->title, sizeof job->title)) {

@@ -11,34 +11,27 @@
 /* The response is known at points: they are marked if there are no more. */
 #define CHART_MARKED 100u
 
-/* Two points for each group of bins. Returns their count. */
-static uint32_t steps_take(const profile_job *job, uint32_t group, double *x, double *y)
+/* The density of each group of bins as two points, and the pulse at its first bin as one. Returns
+   the number of groups. */
+static uint32_t points_take(const profile_job *job, uint32_t group, double *x, double *density,
+                            double *middle, double *pulse)
 {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < job->rows; i += group) {
+    size_t count = 0;
+    for (uint32_t i = 0; i < job->rows; i += group, count++) {
         uint32_t end = job->rows - i < group ? job->rows : i + group;
         double sigma = 0.0;
         for (uint32_t k = i; k < end; k++) {
             sigma += cli_profile_sigma(&job->row[k].bin);
         }
-        double density = sigma / (job->row[end - 1].far_m - job->row[i].near_m);
-        x[count] = job->row[i].near_m;
-        x[count + 1] = job->row[end - 1].far_m;
-        y[count] = y[count + 1] = density;
-        count += 2;
+        double near = job->row[i].near_m;
+        double far = job->row[end - 1].far_m;
+        x[2 * count] = near;
+        x[2 * count + 1] = far;
+        density[2 * count] = density[2 * count + 1] = sigma / (far - near);
+        middle[count] = 0.5 * near + 0.5 * job->row[i].far_m;
+        pulse[count] = job->row[i].pulse_m;
     }
-    return count;
-}
-
-static uint32_t pulse_take(const profile_job *job, uint32_t group, double *x, double *y)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < job->rows; i += group) {
-        x[count] = 0.5 * job->row[i].near_m + 0.5 * job->row[i].far_m;
-        y[count] = job->row[i].pulse_m;
-        count++;
-    }
-    return count;
+    return (uint32_t)count;
 }
 
 static int chart_draw(const profile_job *job, double *number, size_t room, int png, FILE *out,
@@ -58,9 +51,10 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
                                    .y = number + 3 * room,
                                    .colour = LRCS_HOST_VERMILION,
                                    .marker = LRCS_HOST_NO_MARKER}};
-    series[0].count = steps_take(job, group, number, number + room);
-    series[1].count =
-        job->fwhm_m > 0.0 ? pulse_take(job, group, number + 2 * room, number + 3 * room) : 0;
+    uint32_t groups =
+        points_take(job, group, number, number + room, number + 2 * room, number + 3 * room);
+    series[0].count = 2 * groups;
+    series[1].count = job->fwhm_m > 0.0 ? groups : 0;
     if (series[1].count <= CHART_MARKED) {
         series[1].marker = LRCS_HOST_DISC;
     }

@@ -63,28 +63,17 @@ double cli_profile_sigma(const lrcs_profile_bin *bin)
 
 /* ---- options ---- */
 
-/* Reads a length > 0; 0 if it was not given. */
-static int length_read(const cli_args *args, const char *name, double *length)
-{
-    int code = cli_number(args, name, length);
-    if (code == 0 && cli_value(args, name) && !(*length > 0.0)) {
-        return cli_usage(args->command, "--%s: expected a length > 0, m, found '%s'", name,
-                         cli_value(args, name));
-    }
-    return code;
-}
-
 static int options_read(profile_job *job)
 {
     const cli_args *args = job->args;
     lrcs_run_options options = lrcs_run_options_default();
     job->csv = cli_value(args, "csv");
     int code = cli_pose_read(args, &job->pose);
-    code = code ? code : length_read(args, "bin", &job->bin_m);
+    code = code ? code : cli_positive(args, "bin", "a length > 0, m", &job->bin_m);
     if (code == 0 && !(job->bin_m > 0.0)) {
         return cli_usage(args->command, "give the width of the bins: --bin W, m");
     }
-    code = code ? code : length_read(args, "pulse-fwhm", &job->fwhm_m);
+    code = code ? code : cli_positive(args, "pulse-fwhm", "a length > 0, m", &job->fwhm_m);
     code = code ? code : cli_accuracy_read(args, &options);
     code = code ? code : cli_scene_options_read(args, &job->load);
     code = code ? code : cli_normals_read(args, &job->load);
@@ -130,11 +119,10 @@ static int rows_list(profile_job *job)
     const lrcs_profile *p = &job->profile.list;
     double more = ceil(PULSE_WIDTHS * job->fwhm_m / job->bin_m);
     if (p->count + 2.0 * more > LRCS_PROFILE_BINS) {
-        fprintf(stderr,
-                "lrcs: a pulse of %g m reaches over more bins of %g m than the %lu that a "
-                "profile may have\n",
-                job->fwhm_m, job->bin_m, (unsigned long)LRCS_PROFILE_BINS);
-        return CLI_FAILED;
+        return cli_fail(
+            "a pulse of %g m reaches over more bins of %g m than the %lu that a profile "
+            "may have",
+            job->fwhm_m, job->bin_m, (unsigned long)LRCS_PROFILE_BINS);
     }
     uint32_t beyond = p->count > 0 ? (uint32_t)more : 0;
     job->rows = p->count + 2 * beyond;
@@ -154,46 +142,11 @@ static int rows_list(profile_job *job)
     return job->fwhm_m > 0.0 ? pulse_run(job) : 0;
 }
 
-static int profile_run(profile_job *job)
-{
-    lrcs_host_error error;
-    cli_watch_stage("preparing", &job->scene);
-    int status = lrcs_host_scene_prepare(&job->scene, &error);
-    cli_watch_stage("range profile", NULL);
-    if (status == LRCS_OK) {
-        status = lrcs_host_profile_make(&job->scene, &job->pose, job->bin_m, &job->profile, &error);
-    }
-    if (status != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    const lrcs_profile *p = &job->profile.list;
-    job->met = fmax(p->bound_m2, p->curvature_estimate_m2) <=
-               job->asked * (p->sigma_glint_m2 + p->sigma_diffuse_m2);
-    return rows_list(job);
-}
-
 /* ---- the command ---- */
-
-static int outputs_write(const profile_job *job)
-{
-    int code = job->csv ? cli_text_write(job->csv, cli_profile_csv, job) : 0;
-    code = code ? code : cli_charts_write(job->args, "plot", cli_profile_chart, job);
-    if (code != 0) {
-        return code;
-    }
-    if (cli_value(job->args, "json")) {
-        cli_profile_json(job);
-    } else {
-        cli_notices_print(stderr, &job->scene.notices);
-        if (!job->csv || strcmp(job->csv, "-") != 0) {
-            cli_profile_table(job);
-        }
-    }
-    return job->asked > 0.0 && !job->met ? CLI_DEGRADED : CLI_DONE;
-}
 
 static int profile_command(const cli_args *args)
 {
+    lrcs_host_error error;
     profile_job job;
     memset(&job, 0, sizeof job);
     job.args = args;
@@ -205,11 +158,31 @@ static int profile_command(const cli_args *args)
         job.title = cli_scene_title(args, &job.scene);
         job.open = cli_materials_open(&job.scene.scene);
     }
-    code = code ? code : profile_run(&job);
+    cli_watch_stage("preparing", &job.scene);
+    code = code ? code : cli_scene_prepare(&job.scene);
+    cli_watch_stage("range profile", NULL);
+    if (code == 0 &&
+        lrcs_host_profile_make(&job.scene, &job.pose, job.bin_m, &job.profile, &error) != LRCS_OK) {
+        code = cli_failed(&error);
+    }
+    const lrcs_profile *p = &job.profile.list;
+    job.met = fmax(p->bound_m2, p->curvature_estimate_m2) <=
+              job.asked * (p->sigma_glint_m2 + p->sigma_diffuse_m2);
+    code = code ? code : rows_list(&job);
     cli_watch_end();
     char *about = code == 0 ? cli_text_of(cli_profile_about, &job) : NULL;
     job.about = about;
-    code = code ? code : outputs_write(&job);
+    code = code == 0 && job.csv ? cli_text_write(job.csv, cli_profile_csv, &job) : code;
+    code = code ? code : cli_charts_write(args, "plot", cli_profile_chart, &job);
+    if (code == 0 && cli_value(args, "json")) {
+        cli_profile_json(&job);
+    } else if (code == 0) {
+        cli_notices_print(stderr, &job.scene.notices);
+        if (!job.csv || strcmp(job.csv, "-") != 0) {
+            cli_profile_table(&job);
+        }
+    }
+    code = code == 0 && job.asked > 0.0 && !job.met ? CLI_DEGRADED : code;
     free(about);
     free(job.row);
     lrcs_host_profile_free(&job.profile);

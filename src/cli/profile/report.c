@@ -23,11 +23,46 @@ static int is_curved(const profile_job *job)
 
 /* ---- CSV ---- */
 
-static void fields_write(FILE *out, const double *value, int count)
+/* What CSV and JSON hold of a row, in the order of CSV; some only if there is a pulse, or if
+   normals are curved. */
+enum { NEEDS_PULSE = 1, NEEDS_CURVES = 2, ROW_FIELDS = 11 };
+static const struct {
+    const char *name;
+    int needs;
+    int json; /* the field that is the key at this place of JSON */
+} row_field[ROW_FIELDS] = {{"near_m", 0, 0},
+                           {"far_m", 0, 1},
+                           {"sigma_m2", 0, 2},
+                           {"bound_m2", 0, 3},
+                           {"sigma_glint_m2", 0, 4},
+                           {"sigma_diffuse_m2", 0, 5},
+                           {"density_m", 0, 6},
+                           {"pulse_m", NEEDS_PULSE, 9},
+                           {"pulse_bound_m", NEEDS_PULSE, 7},
+                           {"curvature_estimate_m2", NEEDS_CURVES, 8},
+                           {"pulse_estimate_m", NEEDS_PULSE | NEEDS_CURVES, 10}};
+
+static int field_holds(const profile_job *job, int k)
 {
-    for (int i = 0; i < count; i++) {
-        cli_number_put(out, i > 0 ? "," : "", value[i]);
-    }
+    int has = (job->fwhm_m > 0.0 ? NEEDS_PULSE : 0) | (is_curved(job) ? NEEDS_CURVES : 0);
+    return (row_field[k].needs & ~has) == 0;
+}
+
+static void row_values(const profile_job *job, const profile_row *row, double value[ROW_FIELDS])
+{
+    double sigma = cli_profile_sigma(&row->bin);
+    const double all[ROW_FIELDS] = {row->near_m,
+                                    row->far_m,
+                                    sigma,
+                                    row->bin.bound_m2,
+                                    row->bin.sigma_glint_m2,
+                                    row->bin.sigma_diffuse_m2,
+                                    sigma / job->bin_m,
+                                    row->pulse_m,
+                                    row->pulse_bound_m,
+                                    row->bin.curvature_estimate_m2,
+                                    row->pulse_estimate_m};
+    memcpy(value, all, sizeof all);
 }
 
 void cli_profile_about(FILE *out, const void *context)
@@ -49,30 +84,20 @@ void cli_profile_csv(FILE *out, const void *context)
     const profile_job *job = context;
     fputs("# ", out);
     cli_profile_about(out, job);
-    fputs("\nnear_m,far_m,sigma_m2,bound_m2,sigma_glint_m2,sigma_diffuse_m2,density_m", out);
-    fputs(job->fwhm_m > 0.0 ? ",pulse_m,pulse_bound_m" : "", out);
-    fputs(!is_curved(job)     ? ""
-          : job->fwhm_m > 0.0 ? ",curvature_estimate_m2,pulse_estimate_m"
-                              : ",curvature_estimate_m2",
-          out);
+    putc('\n', out);
+    for (int k = 0; k < ROW_FIELDS; k++) {
+        if (field_holds(job, k)) {
+            fprintf(out, "%s%s", k > 0 ? "," : "", row_field[k].name);
+        }
+    }
     putc('\n', out);
     for (uint32_t i = 0; i < job->rows; i++) {
-        const profile_row *row = &job->row[i];
-        double sigma = cli_profile_sigma(&row->bin);
-        const double value[9] = {row->near_m,
-                                 row->far_m,
-                                 sigma,
-                                 row->bin.bound_m2,
-                                 row->bin.sigma_glint_m2,
-                                 row->bin.sigma_diffuse_m2,
-                                 sigma / job->bin_m,
-                                 row->pulse_m,
-                                 row->pulse_bound_m};
-        const double estimate[2] = {row->bin.curvature_estimate_m2, row->pulse_estimate_m};
-        fields_write(out, value, job->fwhm_m > 0.0 ? 9 : 7);
-        if (is_curved(job)) {
-            putc(',', out);
-            fields_write(out, estimate, job->fwhm_m > 0.0 ? 2 : 1);
+        double value[ROW_FIELDS];
+        row_values(job, &job->row[i], value);
+        for (int k = 0; k < ROW_FIELDS; k++) {
+            if (field_holds(job, k)) {
+                cli_number_put(out, k > 0 ? "," : "", value[k]);
+            }
         }
         putc('\n', out);
     }
@@ -86,7 +111,7 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
     cli_version_json(json);
     cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
-    cli_json(json, "unit=%s", cli_value(job->args, "unit"));
+    cli_json(json, "unit=%s", cli_scene_unit(job->args, &job->scene));
     cli_direction_json(&job->pose, json);
     cli_json(
         json,
@@ -116,21 +141,14 @@ void cli_profile_json(const profile_job *job)
     cli_provenance_json(job->args, &job->scene, &json);
     cli_json(&json, "bins=[\n");
     for (uint32_t i = 0; i < job->rows; i++) {
-        const profile_row *row = &job->row[i];
-        cli_json(&json,
-                 "{near_m=%g far_m=%g sigma_m2=%g bound_m2=%g sigma_glint_m2=%g "
-                 "sigma_diffuse_m2=%g density_m=%g",
-                 row->near_m, row->far_m, cli_profile_sigma(&row->bin), row->bin.bound_m2,
-                 row->bin.sigma_glint_m2, row->bin.sigma_diffuse_m2,
-                 cli_profile_sigma(&row->bin) / job->bin_m);
-        if (is_curved(job)) {
-            cli_json(&json, "curvature_estimate_m2=%g", row->bin.curvature_estimate_m2);
-        }
-        if (job->fwhm_m > 0.0) {
-            cli_json(&json, "pulse_m=%g pulse_bound_m=%g", row->pulse_m, row->pulse_bound_m);
-        }
-        if (job->fwhm_m > 0.0 && is_curved(job)) {
-            cli_json(&json, "pulse_estimate_m=%g", row->pulse_estimate_m);
+        double value[ROW_FIELDS];
+        row_values(job, &job->row[i], value);
+        cli_json(&json, "{");
+        for (int k = 0; k < ROW_FIELDS; k++) {
+            int field = row_field[k].json;
+            if (field_holds(job, field)) {
+                lrcs_host_json_number(&json, row_field[field].name, value[field]);
+            }
         }
         cli_json(&json, "}");
     }

@@ -22,20 +22,16 @@ static void word_quote(FILE *out, const char *word)
     putc('\'', out);
 }
 
-static int is_one_of(const char *name, const char *const *list)
-{
-    while (*list && strcmp(*list, name) != 0) {
-        list++;
-    }
-    return *list != NULL;
-}
-
 /* Adds those of the options in a list that were given. */
 static void given_add(FILE *out, const cli_args *args, const char *const *list)
 {
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *one = &args->given[i];
-        if (is_one_of(one->name, list)) {
+        int k = 0;
+        while (list[k] && strcmp(list[k], one->name) != 0) {
+            k++;
+        }
+        if (list[k]) {
             fprintf(out, " %s%s", cli_dashes(one->name), one->name);
             if (one->value) {
                 word_quote(out, one->value);
@@ -52,26 +48,16 @@ static const char *const again_accuracy[] = {"tolerance",  "accept",  "method",
 static const char *const again_sweep[] = {"accept", "method", "resolution", "normals", NULL};
 static const char *const again_report[] = {"o", "seconds", NULL};
 
-static void run_line(FILE *out, const report_job *job, const char *command, const char *more)
+/* "lrcs COMMAND SCENE" with the options of pose, accuracy and scene that were given. */
+static void line_begin(FILE *out, const report_job *job, const char *command, int pose,
+                       int accuracy)
 {
+    static const char *const none[] = {NULL};
     fprintf(out, "lrcs %s", command);
     word_quote(out, job->args->operand);
-    given_add(out, job->args, again_pose);
-    given_add(out, job->args, again_accuracy);
+    given_add(out, job->args, pose ? again_pose : none);
+    given_add(out, job->args, accuracy ? again_accuracy : none);
     given_add(out, job->args, again_scene);
-    fprintf(out, "%s\n", more);
-}
-
-static void report_line(FILE *out, const report_job *job)
-{
-    fputs("lrcs report", out);
-    word_quote(out, job->args->operand);
-    given_add(out, job->args, again_pose);
-    given_add(out, job->args, again_accuracy);
-    given_add(out, job->args, again_scene);
-    given_add(out, job->args, again_report);
-    fprintf(out, " --cut-step %lu --map-step %lu\n", (unsigned long)job->cut_step,
-            (unsigned long)job->map_step);
 }
 
 static void sweep_line(FILE *out, const report_job *job, int kind)
@@ -95,13 +81,17 @@ static void sweep_line(FILE *out, const report_job *job, int kind)
 static void lines_write(FILE *out, const void *context)
 {
     const report_job *job = context;
-    report_line(out, job);
-    run_line(out, job, "run", " --shares --facets facets.csv");
-    run_line(out, job, "image", " --by sigma -o sigma.png");
-    run_line(out, job, "image", " --by material -o material.png");
-    fputs("lrcs info", out);
-    word_quote(out, job->args->operand);
-    given_add(out, job->args, again_scene);
+    line_begin(out, job, "report", 1, 1);
+    given_add(out, job->args, again_report);
+    fprintf(out, " --cut-step %lu --map-step %lu\n", (unsigned long)job->cut_step,
+            (unsigned long)job->map_step);
+    line_begin(out, job, "run", 1, 1);
+    fputs(" --shares --facets facets.csv\n", out);
+    line_begin(out, job, "image", 1, 1);
+    fputs(" --by sigma -o sigma.png\n", out);
+    line_begin(out, job, "image", 1, 1);
+    fputs(" --by material -o material.png\n", out);
+    line_begin(out, job, "info", 0, 0);
     fputs(cli_has_curved_shapes(&job->scene.scene) &&
                   job->load.build.tolerance != lrcs_build_options_default().tolerance
               ? " # shapes as fine as by default\n"
@@ -110,10 +100,7 @@ static void lines_write(FILE *out, const void *context)
     for (int kind = 0; kind < REPORT_SWEEPS; kind++) {
         sweep_line(out, job, kind);
     }
-    fputs("lrcs converge", out);
-    word_quote(out, job->args->operand);
-    given_add(out, job->args, again_pose);
-    given_add(out, job->args, again_scene);
+    line_begin(out, job, "converge", 1, 0);
     fprintf(out, " --seconds %.3g --plot accuracy.svg\n", job->converge.seconds);
 }
 
@@ -122,9 +109,15 @@ void cli_report_again(FILE *out, const report_job *job)
     cli_page_section(out, "again", "How to make it again");
     fputs("<dl class=\"facts\">\n", out);
     cli_page_fact(out, "Version", "lrcs %s", lrcs_version());
+    for (const lrcs_host_input *input = job->scene.input; input; input = input->next) {
+        char text[CLI_FILE_TEXT];
+        cli_file_text(input, text);
+        cli_page_fact(out, "File", "%s", text);
+    }
     fprintf(out,
             "<div><dt>Scene hash</dt><dd><code id=\"scene_hash\">%016llx</code></dd></div>\n"
-            "</dl>\n<p>The first line makes this page again, the others what stands on it, one by "
+            "</dl>\n"
+            "<p>The first line makes this page again, the others what stands on it, one by "
             "one.</p>\n",
             (unsigned long long)lrcs_scene_hash(&job->scene.scene));
     char *lines = cli_text_of(lines_write, job);

@@ -17,23 +17,16 @@ static const double chart_box[4] = {0.0, LRCS_HOST_CHART_TITLE, LRCS_HOST_CHART_
                                     LRCS_HOST_CHART_HEIGHT - LRCS_HOST_CHART_TITLE};
 
 /* The smallest and largest sigma, and the largest bound, of a sweep. */
-static void extremes(const report_sweep *sweep, double *least, double *most, double *bound)
-{
-    *least = HUGE_VAL;
-    *most = *bound = 0.0;
-    for (uint64_t i = 0; i < sweep->plan.rows; i++) {
-        *least = fmin(*least, sweep->row[i][0]);
-        *most = fmax(*most, sweep->row[i][0]);
-        *bound = fmax(*bound, sweep->row[i][1]);
-    }
-}
-
 static void extremes_say(FILE *out, const report_sweep *sweep)
 {
-    double least;
-    double most;
-    double bound;
-    extremes(sweep, &least, &most, &bound);
+    double least = HUGE_VAL;
+    double most = 0.0;
+    double bound = 0.0;
+    for (uint64_t i = 0; i < sweep->plan.rows; i++) {
+        least = fmin(least, sweep->row[i][0]);
+        most = fmax(most, sweep->row[i][0]);
+        bound = fmax(bound, sweep->row[i][1]);
+    }
     if (most > 0.0 && least > 0.0) {
         cli_page(out, " From %.4g to %.4g dBsm; each", cli_dbsm(least), cli_dbsm(most));
     } else if (most > 0.0) {
@@ -52,51 +45,42 @@ static void extremes_say(FILE *out, const report_sweep *sweep)
     }
 }
 
-static void cut_figure(FILE *out, const report_sweep *sweep, const char *plane, const char *angle)
+/* A sweep's drawing; nothing is drawn where sigma is 0 everywhere. */
+static void figure_begin(FILE *out, const report_sweep *sweep, const char *label,
+                         const double box[4])
 {
-    char label[160];
-    snprintf(label, sizeof label, "Polar chart of sigma in dBsm in the plane of %s", plane);
     if (sweep->svg.bytes) {
-        cli_page_figure(out, &sweep->svg, label, polar_box);
+        cli_page_figure(out, &sweep->svg, label, box);
     } else {
         fputs("<figure><figcaption>", out);
     }
-    fprintf(out, "<b>Plane of %s</b>; %s.", plane, angle);
-    extremes_say(out, sweep);
-    cli_page_figure_end(out);
 }
 
 static void cuts_section(FILE *out, const report_job *job)
 {
+    static const struct {
+        int kind;
+        const char *plane, *angle;
+    } cut[] = {{REPORT_CUT_XY, "x and y", "the angle is the azimuth, at elevation 0"},
+               {REPORT_CUT_XZ, "x and z", "the angle is the elevation, from +x over +z"},
+               {REPORT_CUT_YZ, "y and z", "the angle is the elevation, from +y over +z"}};
     cli_page_section(out, "cuts", "Cuts through three planes");
     cli_page(out,
              "<p>Away from the middle \xcf\x83 grows, in dBsm: the numbers stand on the rings. "
              "The laser goes around the body in steps of %u\xc2\xb0; what is narrower than "
              "that may stand between them.</p>\n<div class=\"pair\">\n",
              job->cut_step);
-    cut_figure(out, &job->sweep[REPORT_CUT_XY], "x and y",
-               "the angle is the azimuth, at elevation 0");
-    cut_figure(out, &job->sweep[REPORT_CUT_XZ], "x and z",
-               "the angle is the elevation, from +x over +z");
-    cut_figure(out, &job->sweep[REPORT_CUT_YZ], "y and z",
-               "the angle is the elevation, from +y over +z");
-    fputs("</div>\n</section>\n", out);
-}
-
-static void map_section(FILE *out, const report_job *job)
-{
-    const report_sweep *sweep = &job->sweep[REPORT_MAP];
-    cli_page_section(out, "map", "All directions");
-    if (sweep->svg.bytes) {
-        cli_page_figure(out, &sweep->svg, "Map of sigma in dBsm over azimuth and elevation",
-                        chart_box);
-    } else {
-        fputs("<figure><figcaption>", out);
+    for (int i = 0; i < 3; i++) {
+        const report_sweep *sweep = &job->sweep[cut[i].kind];
+        char label[160];
+        snprintf(label, sizeof label, "Polar chart of sigma in dBsm in the plane of %s",
+                 cut[i].plane);
+        figure_begin(out, sweep, label, polar_box);
+        fprintf(out, "<b>Plane of %s</b>; %s.", cut[i].plane, cut[i].angle);
+        extremes_say(out, sweep);
+        cli_page_figure_end(out);
     }
-    cli_page(out, "Steps of %u\xc2\xb0.", job->map_step);
-    extremes_say(out, sweep);
-    cli_page_figure_end(out);
-    fputs("</section>\n", out);
+    fputs("</div>\n</section>\n", out);
 }
 
 /* ---- peaks ---- */
@@ -161,34 +145,18 @@ static void peaks_section(FILE *out, const report_job *job)
 
 void cli_report_curves(FILE *out, const report_job *job)
 {
-    map_section(out, job);
+    const report_sweep *map = &job->sweep[REPORT_MAP];
+    cli_page_section(out, "map", "All directions");
+    figure_begin(out, map, "Map of sigma in dBsm over azimuth and elevation", chart_box);
+    cli_page(out, "Steps of %u\xc2\xb0.", job->map_step);
+    extremes_say(out, map);
+    cli_page_figure_end(out);
+    fputs("</section>\n", out);
     peaks_section(out, job);
     cuts_section(out, job);
 }
 
 /* ---- accuracy ---- */
-
-static void accuracy_row(FILE *out, const converge_job *job, const converge_setting *one)
-{
-    cli_page_row(out, "%s%u%.3g%.8g%.2g%.2e%.2g", one->name,
-                 cli_converge_scene(job, one)->scene.facet_count, 1e3 * one->pose_s, one->sigma_m2,
-                 cli_converge_relative(job, one->error_m2),
-                 cli_converge_relative(job, one->bound_m2),
-                 cli_converge_known(cli_converge_relative(job, one->estimate_m2)));
-}
-
-static void accuracy_table(FILE *out, const converge_job *job)
-{
-    cli_page_table(out, "Accuracy against time",
-                   job->truth.sigma_m2 > 0.0
-                       ? "Setting|#Facets|#Pose, ms|#\xcf\x83, m\xc2\xb2|#Error|#Bound|#Estimate"
-                       : "Setting|#Facets|#Pose, ms|#\xcf\x83, m\xc2\xb2|#Error, m\xc2\xb2|#Bound, "
-                         "m\xc2\xb2|#Estimate, m\xc2\xb2");
-    for (uint32_t i = 0; i < job->settings; i++) {
-        accuracy_row(out, job, &job->setting[i]);
-    }
-    cli_page_table_end(out);
-}
 
 void cli_report_accuracy(FILE *out, const report_job *job)
 {
@@ -203,6 +171,19 @@ void cli_report_accuracy(FILE *out, const report_job *job)
                  compare->busy[0] ? "; " : "", compare->busy);
     cli_page_figure_end(out);
     cli_page_fold(out, "All settings");
-    accuracy_table(out, compare);
+    cli_page_table(out, "Accuracy against time",
+                   compare->truth.sigma_m2 > 0.0
+                       ? "Setting|#Facets|#Pose, ms|#\xcf\x83, m\xc2\xb2|#Error|#Bound|#Estimate"
+                       : "Setting|#Facets|#Pose, ms|#\xcf\x83, m\xc2\xb2|#Error, m\xc2\xb2|#Bound, "
+                         "m\xc2\xb2|#Estimate, m\xc2\xb2");
+    for (uint32_t i = 0; i < compare->settings; i++) {
+        const converge_setting *one = &compare->setting[i];
+        cli_page_row(out, "%s%u%.3g%.8g%.2g%.2e%.2g", one->name,
+                     cli_converge_scene(compare, one)->scene.facet_count, 1e3 * one->pose_s,
+                     one->sigma_m2, cli_converge_relative(compare, one->error_m2),
+                     cli_converge_relative(compare, one->bound_m2),
+                     cli_converge_known(cli_converge_relative(compare, one->estimate_m2)));
+    }
+    cli_page_table_end(out);
     fputs("</details>\n</section>\n", out);
 }

@@ -14,8 +14,15 @@
 #define EXPLORE_FACETS 20000u
 #define EXPLORE_GRID   1024.0 /* initial number of cells along the longest side of the box */
 
+/* The parts of the page that no scene changes. */
 static const char explore_script[] = {
 #include "explore.inc"
+};
+static const char explore_style[] = {
+#include "explore_style.inc"
+    '\0'};
+static const char explore_controls[] = {
+#include "explore_controls.inc"
 };
 
 /* ---- the mesh to look at ---- */
@@ -235,48 +242,10 @@ static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
 
 /* ---- the page ---- */
 
-static const char explore_style[] =
-    ".explore{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,22rem),1fr));"
-    "gap:1.25rem;align-items:start;margin:1rem 0}\n"
-    "canvas{display:block;width:100%;border-radius:6px;touch-action:pan-y;cursor:grab;"
-    "color:var(--ink)}\n"
-    "#body{aspect-ratio:1;background:#0d111c}#map{aspect-ratio:4/3;cursor:crosshair}\n"
-    "canvas:focus-visible,button:focus-visible{outline:3px solid var(--mark);outline-offset:2px}\n"
-    "#readout{display:block;font-size:1.1rem;min-height:4.6em;font-variant-numeric:tabular-nums}\n"
-    ".keys{display:flex;flex-wrap:wrap;gap:.5rem;margin:.8rem 0}\n"
-    "button{font:inherit;padding:.3rem .8rem;border:1px solid var(--faint);border-radius:6px;"
-    "background:var(--card);color:var(--ink);cursor:pointer}\n";
-
 /* Nothing may be loaded. */
 static const char explore_policy[] =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
     "'unsafe-inline'; script-src 'unsafe-inline'\" />\n";
-
-static void page_controls(FILE *out)
-{
-    fputs(
-        "<p id=\"where\"></p>\n"
-        "<output id=\"readout\" aria-live=\"polite\"></output>\n"
-        "<noscript><p>This page needs JavaScript; lrcs report without --explore writes one that "
-        "does not.</p></noscript>\n"
-        "<div class=\"explore\">\n"
-        "<canvas id=\"body\" width=\"560\" height=\"560\" tabindex=\"0\" role=\"application\" "
-        "aria-label=\"The body as the laser sees it\" aria-describedby=\"keys\"></canvas>\n"
-        "<canvas id=\"map\" width=\"560\" height=\"420\" tabindex=\"0\" role=\"application\" "
-        "aria-label=\"Map of sigma over azimuth and elevation, with the place of the view\" "
-        "aria-describedby=\"keys\"></canvas>\n</div>\n"
-        "<div class=\"keys\"><button id=\"brightest\">Brightest direction</button>"
-        "<button id=\"back\">Where it began</button>"
-        "<button id=\"nearer\" aria-label=\"Zoom in\">+</button>"
-        "<button id=\"farther\" aria-label=\"Zoom out\">\xe2\x88\x92</button></div>\n"
-        "<p id=\"keys\" class=\"faint\">Drag the body to turn it, or choose a direction on the map "
-        "(azimuth to the right, elevation upwards). Keys: arrows go along the map\xe2\x80\x99s "
-        "grid, "
-        "with Shift by one degree; + and \xe2\x88\x92 zoom; Home goes back. On a touch screen: one "
-        "finger sideways turns the body (up and down scrolls the page), two fingers turn it freely "
-        "and zoom, a tap on the map chooses a direction.</p>\n",
-        out);
-}
 
 static void page_notes(FILE *out, const report_job *job, const explore_mesh *mesh)
 {
@@ -311,7 +280,7 @@ int cli_report_explore_page(FILE *out, const void *context, lrcs_host_error *err
     memset(&mesh, 0, sizeof mesh);
     cli_report_head(out, job, "", ", explorer", explore_policy, explore_style);
     fputs("</header>\n<main>\n", out);
-    page_controls(out);
+    fwrite(explore_controls, 1, sizeof explore_controls, out);
     int code = data_put(out, job, &mesh);
     page_notes(out, job, &mesh);
     fputs("<script>\n", out);

@@ -45,9 +45,17 @@ void cli_page_name(FILE *out, const char *name, const char *nameless)
     cli_page(out, name[0] ? "%s" : "<i>%s</i>", name[0] ? name : nameless);
 }
 
-/* Writes "-2.5e-06" with a minus sign and a power of ten. */
-static void number_put(FILE *out, const char *text)
+/* Writes a number for scripts and, as its text "-2.5e-06" with a minus sign and a power of ten, for
+   people. */
+static void data_put(FILE *out, const char *id, double value, const char *text)
 {
+    char exact[LRCS_HOST_NUMBER_SIZE];
+    lrcs_host_number_text(value, exact);
+    fputs("<data", out);
+    if (id) {
+        fprintf(out, " id=\"%s\"", id);
+    }
+    fprintf(out, " value=\"%s\">", exact);
     for (; *text && *text != 'e'; text++) {
         fputs(*text == '-' ? "\xe2\x88\x92" : (const char[2]){*text, '\0'}, out);
     }
@@ -58,18 +66,6 @@ static void number_put(FILE *out, const char *text)
                 "10<sup>%s%ld</sup>",
                 power < 0 ? "\xe2\x88\x92" : "", labs(power));
     }
-}
-
-static void data_put(FILE *out, const char *id, double value, const char *text)
-{
-    char exact[LRCS_HOST_NUMBER_SIZE];
-    lrcs_host_number_text(value, exact);
-    fputs("<data", out);
-    if (id) {
-        fprintf(out, " id=\"%s\"", id);
-    }
-    fprintf(out, " value=\"%s\">", exact);
-    number_put(out, text);
     fputs("</data>", out);
 }
 

@@ -4,12 +4,9 @@
 
 #include <math.h>
 
-static const struct {
-    const char *id, *name;
-} page_places[] = {{"sigma", "Certificate"}, {"notices", "Notices"},     {"map", "Map"},
-                   {"peaks", "Peaks"},       {"cuts", "Cuts"},           {"shares", "Shares"},
-                   {"model", "Model"},       {"materials", "Materials"}, {"effects", "Effects"},
-                   {"accuracy", "Accuracy"}, {"again", "Reproduce"}};
+static const char page_style[] = {
+#include "style.inc"
+};
 
 void cli_report_head(FILE *out, const report_job *job, const char *attribute, const char *more,
                      const char *meta, const char *style)
@@ -22,21 +19,12 @@ void cli_report_head(FILE *out, const report_job *job, const char *attribute, co
             attribute, meta);
     cli_page(out, "<title>%s: laser radar cross-section%s</title>\n<style>\n",
              cli_report_title(job), more);
-    cli_report_style(out);
+    fwrite(page_style, 1, sizeof page_style, out);
     fputs(style, out);
     cli_page(out,
              "</style>\n</head>\n<body>\n<header>\n"
              "<p class=\"kind\">Laser radar cross-section</p>\n<h1>%s</h1>\n",
              cli_report_title(job));
-}
-
-static void page_way(FILE *out)
-{
-    fputs("<nav aria-label=\"Contents\"><ul>\n", out);
-    for (size_t i = 0; i < sizeof page_places / sizeof page_places[0]; i++) {
-        fprintf(out, "<li><a href=\"#%s\">%s</a></li>\n", page_places[i].id, page_places[i].name);
-    }
-    fputs("</ul></nav>\n", out);
 }
 
 /* sigma and its accuracy in one sentence. */
@@ -65,43 +53,46 @@ static void lead_sigma(FILE *out, const report_job *job)
           out);
 }
 
-static void lead_materials(FILE *out, const report_job *job)
-{
-    double deviation = job->uncertainty.deviation_m2;
-    if (!job->uncertainty.stated) {
-        return;
-    }
-    cli_page(out, " The stated errors of materials leave it uncertain by <b>%.3g m\xc2\xb2",
-             deviation);
-    if (job->result.sigma_m2 > 0.0) {
-        cli_page(out, ", %.3g %%", 100.0 * deviation / job->result.sigma_m2);
-    }
-    fputs("</b> (one standard deviation).", out);
-}
-
-static void lead_direction(FILE *out, const report_job *job)
+/* sigma, what its materials leave open, where the laser stands, the verdict. */
+static void page_lead(FILE *out, const report_job *job)
 {
     const double *d = job->pose.direction;
     double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double deviation = job->uncertainty.deviation_m2;
+    lead_sigma(out, job);
+    if (job->uncertainty.stated) {
+        cli_page(out, " The stated errors of materials leave it uncertain by <b>%.3g m\xc2\xb2",
+                 deviation);
+        if (job->result.sigma_m2 > 0.0) {
+            cli_page(out, ", %.3g %%", 100.0 * deviation / job->result.sigma_m2);
+        }
+        fputs("</b> (one standard deviation).", out);
+    }
     cli_page(out,
              " The laser stands at azimuth %.6g\xc2\xb0, elevation %.6g\xc2\xb0 of the body frame, "
              "in the direction (%.6g, %.6g, %.6g).</p>\n",
              atan2(d[1], d[0]) * CLI_DEGREES, atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES,
              d[0] / length, d[1] / length, d[2] / length);
-}
-
-static void page_lead(FILE *out, const report_job *job)
-{
-    lead_sigma(out, job);
-    lead_materials(out, job);
-    lead_direction(out, job);
     cli_report_verdict(out, job);
     fputs("</header>\n", out);
 }
 
-static void page_pictures(FILE *out, const report_job *job)
+int cli_report_page(FILE *out, const void *context, lrcs_host_error *error)
 {
-    fputs("<div class=\"pair\">\n", out);
+    static const char *const place[][2] = {
+        {"sigma", "Certificate"}, {"notices", "Notices"},     {"map", "Map"},
+        {"peaks", "Peaks"},       {"cuts", "Cuts"},           {"shares", "Shares"},
+        {"model", "Model"},       {"materials", "Materials"}, {"effects", "Effects"},
+        {"accuracy", "Accuracy"}, {"again", "Reproduce"}};
+    const report_job *job = context;
+    (void)error;
+    cli_report_head(out, job, " xmlns=\"http://www.w3.org/1999/xhtml\"", "", "", "");
+    page_lead(out, job);
+    fputs("<nav aria-label=\"Contents\"><ul>\n", out);
+    for (size_t i = 0; i < sizeof place / sizeof place[0]; i++) {
+        fprintf(out, "<li><a href=\"#%s\">%s</a></li>\n", place[i][0], place[i][1]);
+    }
+    fputs("</ul></nav>\n<main>\n<div class=\"pair\">\n", out);
     cli_page_picture(out, job->picture[REPORT_BY_SIGMA],
                      "What the laser sees, coloured by sigma per projected area in dB");
     fputs("What the laser sees: brighter colours return more per projected area.", out);
@@ -111,17 +102,6 @@ static void page_pictures(FILE *out, const report_job *job)
     fputs("The same by material, in false colours.", out);
     cli_page_figure_end(out);
     fputs("</div>\n", out);
-}
-
-int cli_report_page(FILE *out, const void *context, lrcs_host_error *error)
-{
-    const report_job *job = context;
-    (void)error;
-    cli_report_head(out, job, " xmlns=\"http://www.w3.org/1999/xhtml\"", "", "", "");
-    page_lead(out, job);
-    page_way(out);
-    fputs("<main>\n", out);
-    page_pictures(out, job);
     cli_report_sigma(out, job);
     cli_report_notices(out, job);
     cli_report_curves(out, job);

@@ -52,54 +52,35 @@ static const cli_option report_options[] = {
 
 /* ---- options ---- */
 
-static int path_read(report_job *job)
-{
-    const cli_args *args = job->args;
-    job->path = cli_value(args, "o");
-    if (!job->path) {
-        return cli_usage(args->command, "give -o FILE.html");
-    }
-    if (strcmp(job->path, "-") != 0 && !cli_extension(job->path, ".html") &&
-        !cli_extension(job->path, ".htm")) {
-        return cli_usage(args->command, "-o: expected FILE.html, found '%s'", job->path);
-    }
-    return 0;
-}
-
 /* Reads a step that divides 90 deg, so that 0, 90, 180 and 270 deg are included. */
 static int step_read(const cli_args *args, const char *name, uint32_t *step)
 {
     int code = cli_whole(args, name, 1.0, 90.0, step);
-    return code == 0 && *step > 0 && 90 % *step != 0
-               ? cli_usage(args->command, "--%s: expected a divisor of 90, found '%s'", name,
-                           cli_value(args, name))
-               : code;
-}
-
-static int time_read(report_job *job)
-{
-    const cli_args *args = job->args;
-    job->seconds = REPORT_SECONDS;
-    int code = cli_number(args, "seconds", &job->seconds);
-    if (code == 0 && !(job->seconds > 0.0)) {
-        return cli_usage(args->command, "--seconds: expected a time > 0, found '%s'",
-                         cli_value(args, "seconds"));
-    }
-    if (code == 0 && cli_value(args, "explore") && cli_value(args, "cut-step")) {
-        return cli_usage(args->command, "--cut-step: there are no cuts with --explore");
-    }
-    code = code ? code : step_read(args, "cut-step", &job->cut_step);
-    code = code ? code : step_read(args, "map-step", &job->map_step);
-    return code ? code : cli_whole(args, "jobs", 1.0, REPORT_JOBS, &job->threads);
+    return code == 0 && *step > 0 && 90 % *step != 0 ? cli_expected(args, name, "a divisor of 90")
+                                                     : code;
 }
 
 static int report_read(report_job *job)
 {
     const cli_args *args = job->args;
-    int code = path_read(job);
-    code = code ? code : cli_pose_read(args, &job->pose);
+    job->path = cli_value(args, "o");
+    job->seconds = REPORT_SECONDS;
+    if (!job->path) {
+        return cli_usage(args->command, "give -o FILE.html");
+    }
+    if (strcmp(job->path, "-") != 0 && !cli_extension(job->path, ".html") &&
+        !cli_extension(job->path, ".htm")) {
+        return cli_expected(args, "o", "FILE.html");
+    }
+    int code = cli_pose_read(args, &job->pose);
     code = code ? code : cli_accuracy_read(args, &job->options);
-    code = code ? code : time_read(job);
+    code = code ? code : cli_positive(args, "seconds", "a time > 0", &job->seconds);
+    if (code == 0 && cli_value(args, "explore") && cli_value(args, "cut-step")) {
+        return cli_usage(args->command, "--cut-step: there are no cuts with --explore");
+    }
+    code = code ? code : step_read(args, "cut-step", &job->cut_step);
+    code = code ? code : step_read(args, "map-step", &job->map_step);
+    code = code ? code : cli_whole(args, "jobs", 1.0, REPORT_JOBS, &job->threads);
     code = code ? code : cli_scene_options_read(args, &job->load);
     code = code ? code : cli_normals_read(args, &job->load);
     job->load.build.tolerance = job->options.tolerance;
@@ -148,10 +129,16 @@ static int report_compare(report_job *job)
 
 /* ---- the command ---- */
 
-static int report_measure(report_job *job)
+/* Computes all that the page shows; of an interactive page, the map alone. */
+static int report_measure(report_job *job, int explore)
 {
     int code = cli_scene_read(job->args, &job->load, &job->scene);
     code = code ? code : cli_outputs_spare(job->args, &job->scene);
+    if (code == 0 && explore) {
+        cli_watch_stage("preparing", &job->scene);
+        code = cli_scene_prepare(&job->scene);
+        return code ? code : cli_report_map(job);
+    }
     code = code ? code : cli_info_make(job->args, &job->scene, &job->load.build, &job->info);
     cli_watch_stage("pose and pictures", &job->scene);
     code = code ? code : cli_report_run(job);
@@ -159,15 +146,6 @@ static int report_measure(report_job *job)
     code = code ? code : cli_report_sweeps(job);
     cli_watch_stage("comparing accuracy", NULL);
     return code ? code : report_compare(job);
-}
-
-static int explore_measure(report_job *job)
-{
-    int code = cli_scene_read(job->args, &job->load, &job->scene);
-    code = code ? code : cli_outputs_spare(job->args, &job->scene);
-    cli_watch_stage("preparing", &job->scene);
-    code = code ? code : cli_scene_prepare(&job->scene);
-    return code ? code : cli_report_map(job);
 }
 
 static void report_free(report_job *job)
@@ -178,7 +156,7 @@ static void report_free(report_job *job)
         free(job->sweep[i].svg.bytes);
     }
     for (uint32_t i = 0; i < REPORT_PEAKS; i++) {
-        cli_shares_free(&job->peak_shares[i]);
+        lrcs_host_shares_free(&job->peak_shares[i]);
     }
     for (int i = 0; i < REPORT_PICTURES; i++) {
         free(job->picture[i][0].bytes);
@@ -191,7 +169,7 @@ static void report_free(report_job *job)
     free(job->verdict.bytes);
     free(job->records);
     free(job->image.facet);
-    cli_shares_free(&job->shares);
+    lrcs_host_shares_free(&job->shares);
     cli_info_free(&job->info);
     lrcs_host_scene_free(&job->sweep_scene);
     lrcs_host_scene_free(&job->scene);
@@ -207,7 +185,7 @@ static int report_command(const cli_args *args)
     job->args = args;
     int code = report_read(job);
     int explore = cli_value(args, "explore") != NULL;
-    code = code ? code : explore ? explore_measure(job) : report_measure(job);
+    code = code ? code : report_measure(job, explore);
     code = code ? code
                 : cli_output_write(job->path, explore ? cli_report_explore_page : cli_report_page,
                                    job);

@@ -94,11 +94,8 @@ cli_writer cli_report_page;
 /* Writes the interactive page: a cli_writer. */
 cli_writer cli_report_explore_page;
 
-/* Its style sheet. */
-void cli_report_style(FILE *out);
-
 /* The beginning of a page, to the scene's title inside <header>: an attribute of <html>, more of
-   its title, of its head and of its style. */
+   its title, of its head and of its style (style.css). */
 void cli_report_head(FILE *out, const report_job *job, const char *attribute, const char *more,
                      const char *meta, const char *style);
 

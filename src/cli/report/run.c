@@ -11,35 +11,19 @@ const char *cli_report_title(const report_job *job)
     return name == job->args->operand ? cli_base_name(name) : name;
 }
 
-static lrcs_host_picture picture_of(const report_job *job, int kind, int white)
+/* Draws what the laser sees on a dark and on a white background, which share one image: of the size
+   that the legend leaves. */
+static int pictures_make(report_job *job, int kind)
 {
     static const int look[REPORT_PICTURES] = {LRCS_HOST_BY_SIGMA, LRCS_HOST_BY_MATERIAL};
-    return (lrcs_host_picture){.scene = &job->scene.scene,
-                               .pose = &job->pose,
-                               .records = job->records,
-                               .title = cli_report_title(job),
-                               .colouring = look[kind],
-                               .white = white,
-                               .annotated = 1};
-}
-
-static int picture_draw(report_job *job, const lrcs_host_picture *picture, report_bytes *bytes)
-{
     lrcs_host_error error;
-    FILE *out = cli_report_bytes_begin(bytes);
-    if (!out) {
-        return CLI_FAILED;
-    }
-    int status = lrcs_host_picture_png(out, picture, &job->image, CLI_PICTURE_DEFAULT, &error);
-    int code = cli_report_bytes_end(out);
-    return status == LRCS_OK ? code : cli_failed(&error);
-}
-
-/* All pictures of the same size share one image: the size that the legend leaves. */
-static int picture_make(report_job *job, int kind)
-{
     lrcs_result result;
-    lrcs_host_picture picture = picture_of(job, kind, 0);
+    lrcs_host_picture picture = {.scene = &job->scene.scene,
+                                 .pose = &job->pose,
+                                 .records = job->records,
+                                 .title = cli_report_title(job),
+                                 .colouring = look[kind],
+                                 .annotated = 1};
     uint32_t side = lrcs_host_picture_need(&picture, CLI_PICTURE_DEFAULT);
     free(job->image.facet);
     job->image.size = side;
@@ -51,8 +35,14 @@ static int picture_make(report_job *job, int kind)
     coarse.method = LRCS_METHOD_FACET; /* only its image is used */
     int code = cli_scene_run(&job->scene, &job->pose, &coarse, &result, NULL, &job->image, NULL);
     for (int white = 0; white < 2 && code == 0; white++) {
-        picture = picture_of(job, kind, white);
-        code = picture_draw(job, &picture, &job->picture[kind][white]);
+        FILE *out = cli_report_bytes_begin(&job->picture[kind][white]);
+        if (!out) {
+            return CLI_FAILED;
+        }
+        picture.white = white;
+        int status = lrcs_host_picture_png(out, &picture, &job->image, CLI_PICTURE_DEFAULT, &error);
+        code = cli_report_bytes_end(out);
+        code = status == LRCS_OK ? code : cli_failed(&error);
     }
     return code;
 }
@@ -79,7 +69,7 @@ int cli_report_run(report_job *job)
     code = cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
                            &job->shares);
     for (int kind = 0; kind < REPORT_PICTURES && code == 0; kind++) {
-        code = picture_make(job, kind);
+        code = pictures_make(job, kind);
     }
     return code;
 }

@@ -153,20 +153,6 @@ static void share_table(FILE *out, const cli_shares *shares, const char *label, 
     cli_page_table_end(out);
 }
 
-static void share_facets(FILE *out, const cli_shares *shares)
-{
-    cli_page_table(
-        out, "The brightest facets",
-        "#Facet|Part|Material|#\xce\xb8, deg|#Seen, m\xc2\xb2|#\xcf\x83, m\xc2\xb2|#Share|");
-    for (uint32_t i = 0; i < shares->facets; i++) {
-        const shares_facet *facet = &shares->facet[i];
-        cli_page_row(out, "%u%s(no name)%s(default)%.4g%.3g%.5g%f", facet->facet, facet->part,
-                     facet->material, facet->theta_deg, facet->visible_area_m2, facet->sigma_m2,
-                     cli_share_of(shares, facet->sigma_m2));
-    }
-    cli_page_table_end(out);
-}
-
 void cli_report_shares(FILE *out, const report_job *job)
 {
     const cli_shares *shares = &job->shares;
@@ -183,7 +169,16 @@ void cli_report_shares(FILE *out, const report_job *job)
     fputs("</details>\n", out);
     if (shares->facets > 0) {
         cli_page_fold(out, "The brightest facets");
-        share_facets(out, shares);
+        cli_page_table(
+            out, "The brightest facets",
+            "#Facet|Part|Material|#\xce\xb8, deg|#Seen, m\xc2\xb2|#\xcf\x83, m\xc2\xb2|#Share|");
+        for (uint32_t i = 0; i < shares->facets; i++) {
+            const shares_facet *facet = &shares->facet[i];
+            cli_page_row(out, "%u%s(no name)%s(default)%.4g%.3g%.5g%f", facet->facet, facet->part,
+                         facet->material, facet->theta_deg, facet->visible_area_m2, facet->sigma_m2,
+                         cli_share_of(shares, facet->sigma_m2));
+        }
+        cli_page_table_end(out);
         fputs("</details>\n", out);
     }
     fputs("</section>\n", out);

@@ -32,15 +32,16 @@ static double steps_poses(uint32_t cut, uint32_t map)
     return 3.0 * (360.0 / cut) + map_poses(map);
 }
 
-/* The processor time of a pose in the scene of the sweeps, measured in the second run, because the
-   first finds out how much memory it needs. */
-static int pose_measure(report_job *job, const lrcs_host_scene *scene, double *seconds)
+/* The approximate number of poses that can be computed in a time: by the processor time of a pose's
+   second run, because the first finds out how much memory it needs. */
+static int poses_count(report_job *job, const lrcs_host_scene *scene, double time, double *poses)
 {
     const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
     lrcs_host_error error;
     lrcs_result result;
     lrcs_uncertainty uncertainty;
     int stated = cli_errors_stated(&scene->scene);
+    double seconds = 0.0;
     lrcs_sensitivity *each = calloc(scene->scene.material_count + 1, sizeof *each);
     int status = LRCS_OK;
     if (!each) {
@@ -52,21 +53,13 @@ static int pose_measure(report_job *job, const lrcs_host_scene *scene, double *s
                                                       &result, each, &uncertainty, &error)
                         : lrcs_host_scene_run(scene, &job->pose, &job->sweep_options, &result, NULL,
                                               NULL, NULL, &error);
-        *seconds = (double)(clock() - begun) / CLOCKS_PER_SEC;
+        seconds = (double)(clock() - begun) / CLOCKS_PER_SEC;
     }
     free(each);
-    return status == LRCS_OK ? 0 : cli_failed(&error);
-}
-
-/* The approximate number of poses that can be computed in a time. */
-static int poses_count(report_job *job, const lrcs_host_scene *scene, double time, double *poses)
-{
-    double seconds = 0.0;
-    int code = pose_measure(job, scene, &seconds);
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     double threads = job->threads > 0 ? job->threads : processors > 0 ? (double)processors : 1.0;
     *poses = time * threads / fmax(seconds, 1e-6);
-    return code;
+    return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
 static int steps_choose(report_job *job, const lrcs_host_scene *scene)
@@ -87,39 +80,28 @@ static int steps_choose(report_job *job, const lrcs_host_scene *scene)
 
 /* ---- one sweep ---- */
 
-static void word_add(report_sweep *sweep, const char *name, const char *value)
-{
-    sweep->given[sweep->args.given_count++] = (cli_given){name, value};
-}
-
-/* Writes the command line of a sweep. */
-static void words_make(const report_job *job, int kind, report_sweep *sweep)
-{
-    unsigned long cut = job->cut_step;
-    unsigned long map = job->map_step;
-    sweep->args = (cli_args){&cli_sweep_command, job->args->operand, sweep->given, 0};
-    snprintf(sweep->az, sizeof sweep->az, "%s", kind == REPORT_CUT_YZ ? "90" : "0");
-    snprintf(sweep->el, sizeof sweep->el, "0");
-    if (kind == REPORT_MAP) {
-        snprintf(sweep->az, sizeof sweep->az, "0:360:%lu", map);
-        snprintf(sweep->el, sizeof sweep->el, "-90:90:%lu", map);
-    } else if (kind == REPORT_CUT_XY) {
-        snprintf(sweep->az, sizeof sweep->az, "0:360:%lu", cut);
-    } else {
-        snprintf(sweep->el, sizeof sweep->el, "0:360:%lu", cut);
-    }
-    word_add(sweep, "az", sweep->az);
-    word_add(sweep, "el", sweep->el);
-    word_add(sweep, "dbsm", NULL);
-    if (kind != REPORT_MAP) {
-        word_add(sweep, "polar", NULL);
-    }
-    word_add(sweep, "plot", kind == REPORT_MAP ? "map.svg" : "cut.svg");
-}
-
+/* Makes the plan of a sweep from its command line, which it writes. */
 static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
 {
-    words_make(job, kind, sweep);
+    unsigned long step = kind == REPORT_MAP ? job->map_step : job->cut_step;
+    int turns_az = kind == REPORT_MAP || kind == REPORT_CUT_XY;
+    snprintf(sweep->az, sizeof sweep->az, kind == REPORT_CUT_YZ ? "90" : "0");
+    snprintf(sweep->el, sizeof sweep->el, "0");
+    if (turns_az) {
+        snprintf(sweep->az, sizeof sweep->az, "0:360:%lu", step);
+    }
+    if (kind != REPORT_CUT_XY) {
+        snprintf(sweep->el, sizeof sweep->el, kind == REPORT_MAP ? "-90:90:%lu" : "0:360:%lu",
+                 step);
+    }
+    const cli_given given[] = {{"az", sweep->az},
+                               {"el", sweep->el},
+                               {"dbsm", NULL},
+                               {"plot", kind == REPORT_MAP ? "map.svg" : "cut.svg"},
+                               {"polar", NULL}}; /* not of a map */
+    memcpy(sweep->given, given, sizeof given);
+    sweep->args = (cli_args){&cli_sweep_command, job->args->operand, sweep->given,
+                             kind == REPORT_MAP ? 4 : 5};
     int code = cli_plan_read(&sweep->args, NULL, &sweep->plan);
     code = code ? code : cli_plot_read(&sweep->args, &sweep->plan, &sweep->plot);
     sweep->plot.title = cli_report_title(job);
@@ -261,18 +243,6 @@ static int scene_choose(report_job *job, lrcs_host_scene **scene)
     return code ? code : cli_scene_prepare(&job->sweep_scene);
 }
 
-static int peaks_run(report_job *job, lrcs_host_scene *scene)
-{
-    const report_sweep *map = &job->sweep[REPORT_MAP];
-    int code = 0;
-    job->peaks = cli_peaks_find(&map->plan, (const double(*)[2])map->row, REPORT_PEAKS, job->peak);
-    for (uint32_t i = 0; i < job->peaks && code == 0; i++) {
-        code = cli_row_shares(&map->plan, job->peak[i], scene, &job->sweep_options,
-                              &job->sweep_load.build, &job->peak_shares[i]);
-    }
-    return code;
-}
-
 int cli_report_map(report_job *job)
 {
     static const uint32_t steps[] = {1, 2, 3, 5, 6, 9, 10, 15, 18, 30};
@@ -312,5 +282,13 @@ int cli_report_sweeps(report_job *job)
     }
     cli_progress_clear(&progress);
     cli_watch_stage("peaks", NULL);
-    return code ? code : peaks_run(job, scene);
+    const report_sweep *map = &job->sweep[REPORT_MAP];
+    job->peaks =
+        code ? 0
+             : cli_peaks_find(&map->plan, (const double(*)[2])map->row, REPORT_PEAKS, job->peak);
+    for (uint32_t i = 0; i < job->peaks && code == 0; i++) {
+        code = cli_row_shares(&map->plan, job->peak[i], scene, &job->sweep_options,
+                              &job->sweep_load.build, &job->peak_shares[i]);
+    }
+    return code;
 }

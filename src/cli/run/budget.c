@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /* lrcs run --time-budget: the most accurate answer that can be computed in a given time. Settings
-   are tried one after the other, in the order of their expected cost:
-     1. no self-shadowing,
-     2. rasters of 256 and 1024 pixels that are accepted by their estimate,
-     3. tolerances from 1e-1 to 1e-12, by the method that suffices, up to the first that is missed;
-        one that the answer before it meets is left out. If no tolerance changes anything, clipping
-        instead.
-   Rasters with a bound are not tried: clipping takes from a half to four times their time, and
-   their bounds are some per cent of sigma. The sequence ends when the time is up, when an answer
-   meets the tolerance asked for, or after its last setting.
+   are tried one after the other:
+     1. no self-shadowing;
+     2. in the order of their expected time (sequence.h): rasters of 256, 512 and 1024 pixels, with
+        their bound or accepted by their estimate; and clipping, or method auto with the tolerance
+        1e-1 if tolerances change the answer. Rasters are not tried any more after this last
+        setting, nor before it if it is expected to take at most a quarter of the time left, or
+        half of it once a raster with a bound has been timed: clipping leaves only rounding errors,
+        less than any raster;
+     3. if tolerances change the answer: method auto with finer ones down to 1e-12, up to the first
+        that is missed; one that the answer before it meets is left out.
+   The sequence ends when the time is up, when an answer meets the tolerance asked for, or after its
+   last setting.
 
-   Claim: every setting that stands before the answer in this sequence has been completed, and the
-   error (answer_error) of the answer is at most 1.001 times that of any setting completed.
+   Claim: every setting of this list that is expected to take less time than the answer's has been
+   completed, except for rasters where the answer is that of clipping or of method auto; and the
+   error (cli_sequence_error) of the answer is the least of all completed ones.
 
    The first setting runs in this process, because there must be an answer whatever the time. The
    others run in one child process: the library cannot be interrupted, but a process can end itself.
@@ -19,6 +23,7 @@
    This file decides which settings are tried; each is an ordinary run, which the same options
    reproduce. */
 #include "cli/run/run.h"
+#include "cli/run/sequence.h"
 
 #include <errno.h>
 #include <math.h>
@@ -29,17 +34,12 @@
 #include <time.h>
 #include <unistd.h>
 
-/* A bound above this share of sigma says little: beyond it a likely error decides. */
-#define BOUND_TELLS 0.1
-
 /* The tolerances that are tried. */
 static const double rungs[] = {1e-1, 3e-2,  1e-2,  3e-3,  1e-3,  3e-4,  1e-4, 3e-5,
                                1e-5, 3e-6,  1e-6,  3e-7,  1e-7,  3e-8,  1e-8, 3e-9,
                                1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12, 1e-12};
 
 #define RUNGS (sizeof rungs / sizeof rungs[0])
-
-static const uint32_t rasters[] = {256, 1024};
 
 /* How often the child process looks at the clock, us. */
 #define CHILD_TICK 5000
@@ -70,7 +70,6 @@ static int tolerance_matters(const run_job *job)
    shapes is read again, because it depends on the setting. */
 static int setting_run(run_job *job, budget_answer *answer)
 {
-    lrcs_host_error error;
     int code = 0;
     memset(answer, 0, sizeof *answer);
     if (cli_has_curved_shapes(&job->scene.scene)) {
@@ -81,14 +80,10 @@ static int setting_run(run_job *job, budget_answer *answer)
         code = cli_scene_read(job->args, &job->load, &job->scene);
         code = code ? code : cli_run_divide(job);
     }
-    if (code == 0 && !job->scene.prepared &&
-        lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
-        code = cli_failed(&error);
-    }
-    if (code == 0 && lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &answer->result,
-                                         NULL, NULL, &answer->seconds_pose, &error) != LRCS_OK) {
-        code = cli_failed(&error);
-    }
+    code = code == 0 && !job->scene.prepared ? cli_scene_prepare(&job->scene) : code;
+    code = code ? code
+                : cli_scene_run(&job->scene, &job->pose, &job->options, &answer->result, NULL, NULL,
+                                &answer->seconds_pose);
     answer->options = job->options;
     answer->build = job->load.build;
     answer->seconds_load = job->scene.seconds_load;
@@ -105,26 +100,64 @@ static int setting_send(run_job *job, int answers, budget_answer *answer)
            !cli_run_meets(&answer->result, job->asked);
 }
 
-/* All settings after the first, in order, as long as each can be completed. */
+/* The options of a setting of the sequence. */
+static lrcs_run_options setting_options(const run_job *job, const cli_setting *setting)
+{
+    lrcs_run_options options = job->options;
+    options.method = setting->kind != CLI_SETTING_LAST ? LRCS_METHOD_ZBUFFER
+                     : tolerance_matters(job)          ? LRCS_METHOD_AUTO
+                                                       : LRCS_METHOD_EXACT;
+    options.resolution = setting->resolution;
+    options.accept =
+        setting->kind == CLI_SETTING_SAMPLES ? LRCS_ACCEPT_ESTIMATE : LRCS_ACCEPT_BOUND;
+    return options;
+}
+
+/* The settings with their forecasts. Without these (no memory) they keep the order of the list. */
+static cli_sequence sequence_forecast(const run_job *job)
+{
+    cli_sequence sequence = cli_sequence_make();
+    lrcs_run_options options[CLI_SEQUENCE_MOST];
+    double seconds[CLI_SEQUENCE_MOST];
+    lrcs_host_error error;
+    for (int i = 0; i < sequence.count; i++) {
+        options[i] = setting_options(job, &sequence.setting[i]);
+    }
+    if (lrcs_host_scene_forecast(&job->scene, &job->pose, options, (uint32_t)sequence.count,
+                                 seconds, &error) == LRCS_OK) {
+        for (int i = 0; i < sequence.count; i++) {
+            sequence.setting[i].forecast = seconds[i];
+        }
+    }
+    return sequence;
+}
+
+/* All settings after the first, as long as each can be completed. */
 static void settings_run(run_job *job, int answers)
 {
     const lrcs_run_options plain = job->options;
-    const int scales = tolerance_matters(job);
+    cli_sequence sequence = sequence_forecast(job);
     budget_answer answer;
-    int on = 1;
-    for (size_t i = 0; i < sizeof rasters / sizeof rasters[0] && on; i++) {
-        job->options.method = LRCS_METHOD_ZBUFFER;
-        job->options.resolution = rasters[i];
-        job->options.accept = LRCS_ACCEPT_ESTIMATE;
+    int on = 1, finer = 0;
+    double again = 0.0; /* time of reading and preparing the scene again */
+    for (int i;
+         on && (i = cli_sequence_next(&sequence, child_deadline - cli_seconds() - again)) >= 0;) {
+        job->options = plain;
+        job->options = setting_options(job, &sequence.setting[i]);
         on = setting_send(job, answers, &answer);
+        cli_sequence_done(&sequence, i, answer.seconds_pose,
+                          answer.result.method != LRCS_METHOD_ZBUFFER);
+        again = cli_has_curved_shapes(&job->scene.scene)
+                    ? answer.seconds_load + answer.seconds_prepare
+                    : 0.0;
+        finer = job->options.method == LRCS_METHOD_AUTO &&
+                !(answer.result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
     }
-    job->options = plain;
-    job->options.method = scales ? LRCS_METHOD_AUTO : LRCS_METHOD_EXACT;
-    for (size_t i = 0; i < (scales ? RUNGS : 1) && on; i++) {
-        job->options.tolerance = scales ? rungs[i] : plain.tolerance;
-        if (i == 0 || !cli_run_meets(&answer.result, rungs[i])) {
-            on = setting_send(job, answers, &answer) &&
-                 !(answer.result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+    for (size_t i = 1; i < RUNGS && on && finer; i++) {
+        job->options.tolerance = rungs[i];
+        if (!cli_run_meets(&answer.result, rungs[i])) {
+            on = setting_send(job, answers, &answer);
+            finer = !(answer.result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
         }
     }
 }
@@ -173,26 +206,15 @@ static int child_start(run_job *job, pid_t *child)
     return end[0];
 }
 
-/* The error that an answer may have: its bound, and the contribution of curved normals. If that
-   says little, the likely error of a raster instead, ranked after every informative bound and
-   before the others. */
-static double answer_error(const budget_answer *answer)
-{
-    const lrcs_result *r = &answer->result;
-    double bound = r->bound_m2 + fmax(0.0, r->curvature_estimate_m2);
-    double tells = BOUND_TELLS * r->sigma_m2;
-    return bound > tells && r->estimate_m2 >= 0.0 ? fmin(bound, tells + r->estimate_m2) : bound;
-}
-
-/* Is an answer better than the best so far? Of equal answers the first is kept, which costs less.
-   But errors of a raster accepted by estimate and of a later setting count as equal within a
-   thousandth, and then the later one is preferred; this happens once, because the rasters come
-   first. */
+/* Is an answer better than the best so far? Of equal answers the first is kept, which costs less;
+   but one with a bound is preferred to one that was accepted by its estimate. */
 static int answer_beats(const budget_answer *answer, const budget_answer *best)
 {
-    int sampled =
-        best->options.accept == LRCS_ACCEPT_ESTIMATE && answer->options.accept == LRCS_ACCEPT_BOUND;
-    return answer_error(answer) < (sampled ? 1.001 : 1.0) * answer_error(best);
+    double error = cli_sequence_error(&answer->result);
+    double least = cli_sequence_error(&best->result);
+    int proved =
+        answer->options.accept == LRCS_ACCEPT_BOUND && best->options.accept != LRCS_ACCEPT_BOUND;
+    return error < least || (error == least && proved);
 }
 
 /* Reads the child's answers until it ends. */
@@ -231,8 +253,7 @@ int cli_run_budget_read(run_job *job)
         return code;
     }
     if (!(budget->asked_ms > 0.0)) {
-        return cli_usage(args->command, "--time-budget: expected milliseconds > 0, found '%s'",
-                         cli_value(args, "time-budget"));
+        return cli_expected(args, "time-budget", "milliseconds > 0");
     }
     for (int i = 0; i < clashes; i++) {
         if (cli_value(args, clash[i])) {

@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-#define DEPTHS 3
-
 /* Rejects methods that draw nothing and outputs that would show another answer. */
 static int emulation_alone(const run_job *job)
 {
@@ -37,17 +35,10 @@ static int emulation_alone(const run_job *job)
 
 static int depth_read(const cli_args *args, uint32_t *bits)
 {
-    static const char *const name[DEPTHS] = {"16", "24", "32"};
-    const char *given = cli_value(args, "depth-bits");
-    for (int i = 0; given && i < DEPTHS; i++) {
-        if (strcmp(given, name[i]) == 0) {
-            *bits = 16 + 8 * (uint32_t)i;
-            return 0;
-        }
-    }
-    return given
-               ? cli_usage(args->command, "--depth-bits: expected 16, 24 or 32, found '%s'", given)
-               : 0;
+    int place = -1;
+    int code = cli_choice(args, "depth-bits", "16, 24 or 32", &place);
+    *bits = place >= 0 ? 16 + 8 * (uint32_t)place : *bits;
+    return code;
 }
 
 int cli_run_emulation_read(run_job *job)
@@ -64,8 +55,7 @@ int cli_run_emulation_read(run_job *job)
         options->precision = lrcs_precision_find(precision);
     }
     if (options->precision < 0) {
-        return cli_usage(args->command, "--precision: expected float32 or float64, found '%s'",
-                         precision);
+        return cli_expected(args, "precision", "float32 or float64");
     }
     options->depth_bits = options->precision == LRCS_PRECISION_FLOAT32 ? 32 : 64;
     options->resolution = job->options.resolution ? job->options.resolution : options->resolution;

@@ -60,12 +60,10 @@ static double processor_seconds(void)
 static int explain_pose(const run_job *job, const lrcs_run_options *options, lrcs_result *result,
                         double *seconds)
 {
-    lrcs_host_error error;
     double start = processor_seconds();
-    int status =
-        lrcs_host_scene_run(&job->scene, &job->pose, options, result, NULL, NULL, NULL, &error);
+    int code = cli_scene_run(&job->scene, &job->pose, options, result, NULL, NULL, NULL);
     *seconds = processor_seconds() - start;
-    return status == LRCS_OK ? 0 : cli_failed(&error);
+    return code;
 }
 
 /* Runs the pose up to a stage, by the method and raster that gave the answer; likewise. */

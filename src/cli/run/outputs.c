@@ -34,7 +34,7 @@ static int image_check(const cli_args *args, const char *path)
     static const char *const other[] = {".jpg", ".jpeg", ".gif", ".svg", ".pdf"};
     for (size_t i = 0; path && i < sizeof other / sizeof other[0]; i++) {
         if (cli_extension(path, other[i])) {
-            return cli_usage(args->command, "--image: expected FILE.png, found '%s'", path);
+            return cli_expected(args, "image", "FILE.png");
         }
     }
     return 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The output of lrcs run. The keys and their order are the contract of DESIGN.md, section 4. */
+/* The output of lrcs run. The keys and their order are a contract: scripts rely on them. */
 #include "cli/run/run.h"
 
 #include <math.h>
@@ -43,8 +43,9 @@ static void json_head(const run_job *job, lrcs_host_json *json)
     cli_version_json(json);
     cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
-    cli_json(json, "unit=%s sigma_m2=%g sigma_dbsm=%g tolerance={", cli_value(job->args, "unit"),
-             result->sigma_m2, result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN);
+    cli_json(json, "unit=%s sigma_m2=%g sigma_dbsm=%g tolerance={",
+             cli_scene_unit(job->args, &job->scene), result->sigma_m2,
+             result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN);
     if (!(job->asked > 0.0)) {
         cli_json(json, "asked=null met=null accepted_by=null}");
     } else if (result->flags & LRCS_FLAG_ACCEPTED_UNJUDGED) {

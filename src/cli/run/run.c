@@ -20,14 +20,24 @@ static const char run_help[] =
     "\n" CLI_POSE_HELP "\n"
     "options\n" CLI_ACCURACY_HELP "  --time-budget MS      instead of these: the best answer of "
     "the settings that MS milliseconds\n"
-    "                        suffice for, loading and preparing included. In this order: no\n"
-    "                        self-shadowing, rasters of 256 and 1024 by their estimate, "
-    "tolerances\n"
-    "                        1e-1 to 1e-12 (or method exact, if tolerances change nothing). All\n"
-    "                        settings before the answer's were completed, and none is better, by\n"
-    "                        its bound, or by its estimate where the bound exceeds sigma / 10.\n"
-    "                        Prints the options that reproduce the answer. Exit 3 if it took\n"
-    "                        longer, misses a --tolerance, or the bound exceeds sigma\n"
+    "                        suffice for, loading and preparing included. Tried first is no "
+    "self-\n"
+    "                        shadowing; then, the quickest first as far as it can be forecast, "
+    "rasters\n"
+    "                        of 256, 512 and 1024 with their bound or by their estimate, and "
+    "method\n"
+    "                        exact (or tolerances 1e-1 to 1e-12, if these change anything), "
+    "which\n"
+    "                        comes before rasters where time for it is ample (two to four times "
+    "as\n"
+    "                        much as expected).\n"
+    "                        What is expected to take less than the answer was completed, except\n"
+    "                        rasters where exact answers. No completed setting has a smaller "
+    "bound\n"
+    "                        (or estimate, where the bound exceeds sigma / 10). Prints the "
+    "options\n"
+    "                        that reproduce the answer. Exit 3 if it took longer, misses a\n"
+    "                        --tolerance, or the bound exceeds sigma\n"
     "  --steps N             at most N steps of finding what is seen, counted the same on every\n"
     "                        machine; what they leave open is in the bound. A raster's pixels are\n"
     "                        not counted\n" CLI_SCENE_HELP;
@@ -145,8 +155,8 @@ static int run_pose(run_job *job)
         run_patience(job);
         cli_watch_stage("preparing", &job->scene);
     }
-    if (!job->scene.prepared && lrcs_host_scene_prepare(&job->scene, &error) != LRCS_OK) {
-        return cli_failed(&error);
+    if (!job->scene.prepared && cli_scene_prepare(&job->scene) != 0) {
+        return CLI_FAILED;
     }
     cli_watch_stage("pose", NULL);
     job->options.progress = cli_watch_run();
@@ -264,7 +274,7 @@ static int run_command(const cli_args *args)
     free(job.records);
     free(job.image.facet);
     free(job.sensitivity);
-    cli_shares_free(&job.shares);
+    lrcs_host_shares_free(&job.shares);
     lrcs_host_polygons_free(&job.polygons);
     lrcs_host_scene_free(&job.scene);
     cli_scene_options_free(&job.load);

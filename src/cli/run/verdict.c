@@ -77,7 +77,7 @@ static void unit_say(const run_job *job, FILE *out)
 {
     for (uint32_t i = 0; i < job->scene.recipe.part_count; i++) {
         const lrcs_recipe_part *part = &job->scene.recipe.part[i];
-        if (part->file && !part->unit_given) {
+        if (part->file && !(part->unit_m > 0.0)) {
             fprintf(out, "  unit       metres are assumed: no unit is stated for ");
             cli_column_to(out, part->name, 0);
             putc('\n', out);

@@ -248,10 +248,8 @@ int cli_row_shares(const sweep_plan *plan, uint64_t row, lrcs_host_scene *base,
     lrcs_facet_record *records = calloc((size_t)scene->scene.facet_count + 1, sizeof *records);
     int code = records ? 0 : cli_out_of_memory();
     if (code == 0) {
-        status = lrcs_host_scene_run(scene, &pose, options, &result, records, NULL, NULL, &error);
-        code = status == LRCS_OK
-                   ? cli_shares_make(base, &scene->scene, records, result.sigma_m2, shares)
-                   : cli_failed(&error);
+        code = cli_scene_run(scene, &pose, options, &result, records, NULL, NULL);
+        code = code ? code : cli_shares_make(base, &scene->scene, records, result.sigma_m2, shares);
     }
     free(records);
     if (varied) {
@@ -362,7 +360,7 @@ int cli_brightest_print(const sweep_plan *plan, const double (*row)[2], uint32_t
             rows_print(&shares, "materials", shares.material, shares.materials, "(default)");
             facets_print(&shares, coarse, coarse_count);
         }
-        cli_shares_free(&shares);
+        lrcs_host_shares_free(&shares);
     }
     free(peak);
     return code;

@@ -125,7 +125,7 @@ static int head_scene(const cli_args *args, const lrcs_host_scene *scene, sweep_
         head_add(head, "materials", "illustrative or assumed");
     }
     for (const lrcs_host_input *input = scene->input; input; input = input->next) {
-        cli_file_text(input->path, input->hash, text);
+        cli_file_text(input, text);
         if (!head_add(head, "files", text)) {
             break; /* the scene's hash stands for all of them */
         }

@@ -283,7 +283,7 @@ static int job_run(sweep_job *job)
         }
     } else if (job->file.next < job->plan.end) {
         cli_watch_stage("preparing", &job->scene);
-        code = lrcs_host_scene_prepare(&job->scene, &error) == LRCS_OK ? 0 : cli_failed(&error);
+        code = cli_scene_prepare(&job->scene);
         job->progress = cli_progress_make(done, all);
         code = code ? code : rows_run(job, &job->scene, job->plan.end);
     }

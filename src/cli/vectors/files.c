@@ -16,11 +16,10 @@ static void point_print(FILE *out, const lrcs_point *point)
     putc('\n', out);
 }
 
-static int obj_write(FILE *out, const void *context, lrcs_host_error *error)
+static void obj_write(FILE *out, const void *context)
 {
     const files_scene *file = context;
     const vectors_mesh *mesh = file->mesh;
-    (void)error;
     fprintf(out, "# %s: %s; metres\nmtllib %s.mtl\no %s\n", file->scene->name, file->scene->about,
             file->scene->name, file->scene->name);
     for (uint32_t i = 0; i < mesh->vertices; i++) {
@@ -34,7 +33,6 @@ static int obj_write(FILE *out, const void *context, lrcs_host_error *error)
         }
         fprintf(out, "f %lu %lu %lu\n", v[0] + 1UL, v[1] + 1UL, v[2] + 1UL);
     }
-    return LRCS_OK;
 }
 
 int cli_vectors_write(const char *prefix, const vectors_file *file, int count, const void *context)
@@ -43,7 +41,9 @@ int cli_vectors_write(const char *prefix, const vectors_file *file, int count, c
     for (int i = 0; i < count && code == 0; i++) {
         char path[KIT_PATH];
         code = cli_kit_path(path, "%s%s", prefix, file[i].name);
-        code = code ? code : cli_output_write(path, file[i].write, context);
+        code = code            ? code
+               : file[i].write ? cli_text_write(path, file[i].write, context)
+                               : cli_output_write(path, file[i].picture, context);
     }
     return code;
 }
@@ -57,10 +57,9 @@ static int mesh_uses(const vectors_mesh *mesh, uint32_t material)
     return i < mesh->facets;
 }
 
-static int mtl_write(FILE *out, const void *context, lrcs_host_error *error)
+static void mtl_write(FILE *out, const void *context)
 {
     const files_scene *file = context;
-    (void)error;
     fputs("# colours for viewers; how a material reflects is in materials.csv\n", out);
     for (uint32_t i = 0; cli_vectors_materials[i].name; i++) {
         const vectors_material *material = &cli_vectors_materials[i];
@@ -72,14 +71,12 @@ static int mtl_write(FILE *out, const void *context, lrcs_host_error *error)
             putc('\n', out);
         }
     }
-    return LRCS_OK;
 }
 
 /* Normals are zero: in this format the reader then computes them. */
-static int stl_write(FILE *out, const void *context, lrcs_host_error *error)
+static void stl_write(FILE *out, const void *context)
 {
     const files_scene *file = context;
-    (void)error;
     fprintf(out, "solid %s\n", file->scene->name);
     for (uint32_t i = 0; i < file->mesh->facets; i++) {
         fputs("facet normal 0 0 0\nouter loop\n", out);
@@ -90,15 +87,13 @@ static int stl_write(FILE *out, const void *context, lrcs_host_error *error)
         fputs("endloop\nendfacet\n", out);
     }
     fprintf(out, "endsolid %s\n", file->scene->name);
-    return LRCS_OK;
 }
 
-static int json_write(FILE *out, const void *context, lrcs_host_error *error)
+static void json_write(FILE *out, const void *context)
 {
     const files_scene *file = context;
     const vectors_mesh *mesh = file->mesh;
     lrcs_host_json json = lrcs_host_json_make(out);
-    (void)error;
     cli_json(&json, "{\nschema=%u name=%s tier=%u about=%s materials=[\n", CLI_SCHEMA,
              file->scene->name, file->scene->tier, file->scene->about);
     for (const vectors_material *one = cli_vectors_materials; one->name; one++) {
@@ -120,13 +115,14 @@ static int json_write(FILE *out, const void *context, lrcs_host_error *error)
         lrcs_host_json_count(&json, NULL, mesh->material[i]);
     }
     cli_json(&json, "]}");
-    return LRCS_OK;
 }
 
 int cli_vectors_files(const vectors_job *job, const vectors_scene *scene, const vectors_mesh *mesh)
 {
-    static const vectors_file file[] = {
-        {"obj", obj_write}, {"mtl", mtl_write}, {"stl", stl_write}, {"json", json_write}};
+    static const vectors_file file[] = {{"obj", obj_write, NULL},
+                                        {"mtl", mtl_write, NULL},
+                                        {"stl", stl_write, NULL},
+                                        {"json", json_write, NULL}};
     const files_scene context = {scene, mesh};
     char prefix[KIT_PATH];
     int code = cli_kit_path(prefix, "%s/scenes/%s.", job->folder, scene->name);

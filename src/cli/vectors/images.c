@@ -23,96 +23,62 @@ static void bytes_put(FILE *out, uint64_t value, int count)
     }
 }
 
-static int item_raw(FILE *out, const void *context, lrcs_host_error *error)
+static void item_raw(FILE *out, const void *context)
 {
     const lrcs_image *image = ((const images_case *)context)->image;
-    (void)error;
     for (size_t i = 0; i < (size_t)image->size * image->size; i++) {
         bytes_put(out, image->facet[i], 4);
     }
-    return LRCS_OK;
 }
 
-static int depth_raw(FILE *out, const void *context, lrcs_host_error *error)
+static void depth_raw(FILE *out, const void *context)
 {
     const images_case *file = context;
-    (void)error;
     for (size_t i = 0; i < (size_t)file->image->size * file->image->size; i++) {
         uint64_t bits;
         memcpy(&bits, &file->depth[i], sizeof bits);
         bytes_put(out, isnan(file->depth[i]) ? 0x7ff8000000000000u : bits, 8);
     }
-    return LRCS_OK;
 }
 
-/* Writes pixels with colours computed by `colour` from their indices. */
-typedef void images_colour(const images_case *file, size_t i, unsigned char *pixel);
-
-static int png_make(FILE *out, const images_case *file, uint32_t channels, images_colour *colour,
-                    lrcs_host_error *error)
+/* Facets as colours: facet + 1 as red * 65536 + green * 256 + blue, black for none (3 channels); or
+   depths as greys: lighter is nearer, black for none (1 channel). */
+static int png_make(FILE *out, const images_case *file, uint32_t channels, lrcs_host_error *error)
 {
     uint32_t side = file->image->size;
     size_t count = (size_t)side * side;
+    double range = file->nearest - file->farthest;
     unsigned char *pixels = malloc(count * channels);
     if (!pixels) {
         snprintf(error->text, sizeof error->text, "out of memory");
         return LRCS_E_SYSTEM;
     }
     for (size_t i = 0; i < count; i++) {
-        colour(file, i, pixels + i * channels);
+        uint32_t id = file->image->facet[i] + 1u;
+        double rise = range > 0.0 ? (file->depth[i] - file->farthest) / range : 1.0;
+        double grey = isnan(file->depth[i]) ? 0.0 : 40.0 + 215.0 * rise;
+        for (uint32_t k = 0; k < channels; k++) {
+            pixels[i * channels + k] =
+                channels == 1 ? (unsigned char)grey : (unsigned char)(id >> (16 - 8 * k) & 255u);
+        }
     }
     int status = lrcs_host_png_write(out, pixels, side, side, channels, NULL, error);
     free(pixels);
     return status;
 }
 
-/* Facet + 1 as red * 65536 + green * 256 + blue; black for none. */
-static void item_colour(const images_case *file, size_t i, unsigned char *pixel)
-{
-    uint32_t id = file->image->facet[i] + 1u;
-    pixel[0] = (unsigned char)(id >> 16 & 255u);
-    pixel[1] = (unsigned char)(id >> 8 & 255u);
-    pixel[2] = (unsigned char)(id & 255u);
-}
-
-/* Lighter is nearer; black for none. */
-static void depth_colour(const images_case *file, size_t i, unsigned char *pixel)
-{
-    double range = file->nearest - file->farthest;
-    double rise = range > 0.0 ? (file->depth[i] - file->farthest) / range : 1.0;
-    pixel[0] = (unsigned char)(isnan(file->depth[i]) ? 0.0 : 40.0 + 215.0 * rise);
-}
-
 static int item_png(FILE *out, const void *context, lrcs_host_error *error)
 {
-    return png_make(out, context, 3, item_colour, error);
+    return png_make(out, context, 3, error);
 }
 
 static int depth_png(FILE *out, const void *context, lrcs_host_error *error)
 {
-    return png_make(out, context, 1, depth_colour, error);
+    return png_make(out, context, 1, error);
 }
 
-/* The depth at which the line of sight through a point of the view plane intersects a facet's
-   plane. */
-static double facet_depth(const images_case *file, uint32_t facet, double x, double y)
-{
-    const lrcs_pose *pose = &file->one->pose;
-    double v[3][3];
-    for (int k = 0; k < 3; k++) {
-        const double *p = file->scene->vertex[file->scene->facet[facet].corner[k]].x;
-        for (int row = 0; row < 3; row++) {
-            const double *r = pose->R[row];
-            v[k][row] = r[0] * p[0] + r[1] * p[1] + r[2] * p[2];
-        }
-    }
-    const double a[3] = {v[1][0] - v[0][0], v[1][1] - v[0][1], v[1][2] - v[0][2]};
-    const double b[3] = {v[2][0] - v[0][0], v[2][1] - v[0][1], v[2][2] - v[0][2]};
-    const double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                         a[0] * b[1] - a[1] * b[0]};
-    return v[0][2] - (n[0] * (x - v[0][0]) + n[1] * (y - v[0][1])) / n[2];
-}
-
+/* The depth of each pixel: where the line of sight through its centre intersects the plane of the
+   facet that is seen there. */
 static void depth_fill(images_case *file)
 {
     const lrcs_image *image = file->image;
@@ -124,20 +90,35 @@ static void depth_fill(images_case *file)
         size_t column = i % image->size;
         double x = image->left_m + ((double)column + 0.5) * step;
         double y = image->top_m - ((double)row + 0.5) * step;
-        int seen = image->facet[i] != LRCS_NONE;
-        file->depth[i] = seen ? facet_depth(file, image->facet[i], x, y) : (double)NAN;
-        file->nearest = seen ? fmax(file->nearest, file->depth[i]) : file->nearest;
-        file->farthest = seen ? fmin(file->farthest, file->depth[i]) : file->farthest;
+        double v[3][3];
+        file->depth[i] = (double)NAN;
+        if (image->facet[i] == LRCS_NONE) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            const double *p = file->scene->vertex[file->scene->facet[image->facet[i]].corner[k]].x;
+            for (int axis = 0; axis < 3; axis++) {
+                const double *r = file->one->pose.R[axis];
+                v[k][axis] = r[0] * p[0] + r[1] * p[1] + r[2] * p[2];
+            }
+        }
+        const double a[3] = {v[1][0] - v[0][0], v[1][1] - v[0][1], v[1][2] - v[0][2]};
+        const double b[3] = {v[2][0] - v[0][0], v[2][1] - v[0][1], v[2][2] - v[0][2]};
+        const double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                             a[0] * b[1] - a[1] * b[0]};
+        file->depth[i] = v[0][2] - (n[0] * (x - v[0][0]) + n[1] * (y - v[0][1])) / n[2];
+        file->nearest = fmax(file->nearest, file->depth[i]);
+        file->farthest = fmin(file->farthest, file->depth[i]);
     }
 }
 
 int cli_vectors_images(const vectors_job *job, const vectors_case *one, const lrcs_scene *scene,
                        const lrcs_image *image)
 {
-    static const vectors_file file[] = {{"item.u32", item_raw},
-                                        {"item.png", item_png},
-                                        {"depth.f64", depth_raw},
-                                        {"depth.png", depth_png}};
+    static const vectors_file file[] = {{"item.u32", item_raw, NULL},
+                                        {"item.png", NULL, item_png},
+                                        {"depth.f64", depth_raw, NULL},
+                                        {"depth.png", NULL, depth_png}};
     images_case context = {.one = one, .scene = scene, .image = image};
     char prefix[KIT_PATH];
     if (cli_kit_path(prefix, "%s/truth/%s.%s.", job->folder, one->scene->name,

@@ -23,10 +23,9 @@ static void numbers_print(FILE *out, const double *value, int count)
     }
 }
 
-static int materials_write(FILE *out, const void *context, lrcs_host_error *error)
+static void materials_write(FILE *out, const void *context)
 {
     (void)context;
-    (void)error;
     fputs("material,A,B,s,m,two_sided\n", out);
     for (uint32_t i = 0; cli_vectors_materials[i].name; i++) {
         const vectors_material *material = &cli_vectors_materials[i];
@@ -36,7 +35,6 @@ static int materials_write(FILE *out, const void *context, lrcs_host_error *erro
         numbers_print(out, value, 4);
         fprintf(out, ",%d\n", material->two_sided);
     }
-    return LRCS_OK;
 }
 
 /* ---- cases, the same numbers as columns and as JSON ---- */
@@ -66,11 +64,10 @@ static void case_values(const vectors_case *one, const double *value[CASE_NUMBER
     memcpy(value, all, sizeof all);
 }
 
-static int cases_write(FILE *out, const void *context, lrcs_host_error *error)
+static void cases_write(FILE *out, const void *context)
 {
     const vectors_job *job = context;
     const double *value[CASE_NUMBERS];
-    (void)error;
     fputs("scene,attitude,tier", out);
     for (int k = 0; k < CASE_NUMBERS; k++) {
         fprintf(out, ",%s", case_numbers[k].columns);
@@ -85,32 +82,14 @@ static int cases_write(FILE *out, const void *context, lrcs_host_error *error)
         }
         fprintf(out, ",%lu\n", one->image ? (unsigned long)job->resolution : 0UL);
     }
-    return LRCS_OK;
-}
-
-static void case_json(lrcs_host_json *json, const vectors_job *job, const vectors_case *one)
-{
-    const double *value[CASE_NUMBERS];
-    case_values(one, value);
-    cli_json(json, "{scene=%s attitude=%s tier=%u", one->scene->name, one->attitude->name,
-             one->scene->tier);
-    for (int k = 0; k < CASE_NUMBERS; k++) {
-        if (case_numbers[k].count == 1) {
-            lrcs_host_json_number(json, case_numbers[k].key, *value[k]);
-        } else {
-            cli_numbers_json(json, case_numbers[k].key, value[k], (uint32_t)case_numbers[k].count);
-        }
-    }
-    cli_json(json, "image=%u}", one->image ? job->resolution : 0);
 }
 
 /* ---- kit.json ---- */
 
-static int kit_write(FILE *out, const void *context, lrcs_host_error *error)
+static void kit_write(FILE *out, const void *context)
 {
     const vectors_job *job = context;
     lrcs_host_json json = lrcs_host_json_make(out);
-    (void)error;
     cli_json(&json, "{\nschema=%u kit=%u lrcs=%s tiers=[\n", CLI_SCHEMA, KIT_VERSION,
              lrcs_version());
     for (int i = 0; i < KIT_TIERS; i++) {
@@ -127,16 +106,27 @@ static int kit_write(FILE *out, const void *context, lrcs_host_error *error)
     }
     cli_json(&json, "] cases=[\n");
     for (uint32_t i = 0; i < job->cases; i++) {
-        case_json(&json, job, &job->list[i]);
+        const vectors_case *one = &job->list[i];
+        const double *value[CASE_NUMBERS];
+        case_values(one, value);
+        cli_json(&json, "{scene=%s attitude=%s tier=%u", one->scene->name, one->attitude->name,
+                 one->scene->tier);
+        for (int k = 0; k < CASE_NUMBERS; k++) {
+            if (case_numbers[k].count == 1) {
+                lrcs_host_json_number(&json, case_numbers[k].key, *value[k]);
+            } else {
+                cli_numbers_json(&json, case_numbers[k].key, value[k],
+                                 (uint32_t)case_numbers[k].count);
+            }
+        }
+        cli_json(&json, "image=%u}", one->image ? job->resolution : 0);
     }
     cli_json(&json, "]}");
-    return LRCS_OK;
 }
 
-static int readme_write(FILE *out, const void *context, lrcs_host_error *error)
+static void readme_write(FILE *out, const void *context)
 {
     const vectors_job *job = context;
-    (void)error;
     fwrite(readme_text, 1, sizeof readme_text, out);
     fprintf(out,
             "## Scenes (kit %d, %lu cases)\n\n| tier | scene | what it tries |\n|---|---|---|\n",
@@ -147,15 +137,14 @@ static int readme_write(FILE *out, const void *context, lrcs_host_error *error)
             fprintf(out, "| %d | `%s` | %s |\n", scene->tier, scene->name, scene->about);
         }
     }
-    return LRCS_OK;
 }
 
 int cli_vectors_index(const vectors_job *job)
 {
-    static const vectors_file file[] = {{KIT_MATERIALS_FILE, materials_write},
-                                        {KIT_CASES_FILE, cases_write},
-                                        {"README.md", readme_write},
-                                        {"kit.json", kit_write}};
+    static const vectors_file file[] = {{KIT_MATERIALS_FILE, materials_write, NULL},
+                                        {KIT_CASES_FILE, cases_write, NULL},
+                                        {"README.md", readme_write, NULL},
+                                        {"kit.json", kit_write, NULL}};
     char prefix[KIT_PATH];
     int code = cli_kit_path(prefix, "%s/", job->folder);
     return code ? code : cli_vectors_write(prefix, file, 4, job);

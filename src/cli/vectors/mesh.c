@@ -31,25 +31,19 @@ static void *room_grow(void *list, uint32_t *room, uint32_t used, size_t size)
     return grown;
 }
 
-/* The scene's coordinates of a point of the item, in single precision. */
-static lrcs_point point_place(const mesh_build *build, const double p[3])
-{
-    lrcs_point placed;
-    for (int k = 0; k < 3; k++) {
-        const double *row = build->turn.R[k];
-        double x = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + build->item->at[k];
-        x = fabs(x) < 1e-12 && build->item->at[k] == 0.0 ? 0.0
-                                                         : x; /* rounding error of a rotation */
-        placed.x[k] = (double)(float)((x + build->scene->move[k]) * build->scene->scale);
-    }
-    return placed;
-}
-
-/* The index of a point; points of the same item are shared. */
+/* The index of a point of the item, in the scene's coordinates and in single precision; points of
+   the same item are shared. */
 static uint32_t point_add(mesh_build *build, const double p[3])
 {
     vectors_mesh *mesh = build->mesh;
-    lrcs_point placed = point_place(build, p);
+    lrcs_point placed;
+    for (int k = 0; k < 3; k++) {
+        const double *row = build->turn.R[k];
+        double at = build->item->at[k];
+        double x = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + at;
+        x = fabs(x) < 1e-12 && at == 0.0 ? 0.0 : x; /* rounding error of a rotation */
+        placed.x[k] = (double)(float)((x + build->scene->move[k]) * build->scene->scale);
+    }
     for (uint32_t i = build->first; i < mesh->vertices; i++) {
         if (memcmp(&mesh->vertex[i], &placed, sizeof placed) == 0) {
             return i;
@@ -64,30 +58,20 @@ static uint32_t point_add(mesh_build *build, const double p[3])
     return mesh->vertices++;
 }
 
-static uint32_t material_find(char letter)
-{
-    uint32_t i = 0;
-    while (cli_vectors_materials[i].name && cli_vectors_materials[i].letter != letter) {
-        i++;
-    }
-    return i;
-}
-
-/* The letter of an item's face. */
-static char face_letter(const vectors_item *item, size_t face)
-{
-    size_t last = strlen(item->material) - 1;
-    return item->material[face < last ? face : last];
-}
-
 /* Adds a triangle unless two of its corners coincide. */
 static void triangle_add(mesh_build *build, size_t face, const double *a, const double *b,
                          const double *c)
 {
     vectors_mesh *mesh = build->mesh;
-    char letter = face_letter(build->item, face);
+    const char *letters = build->item->material; /* the last one applies to all other faces */
+    char letter = letters[face < strlen(letters) ? face : strlen(letters) - 1];
+    uint32_t material = 0;
     if (letter == '-' || mesh->failed) {
         return;
+    }
+    while (cli_vectors_materials[material].name &&
+           cli_vectors_materials[material].letter != letter) {
+        material++;
     }
     uint32_t room = mesh->facet_room;
     lrcs_facet facet = {{point_add(build, a), point_add(build, b), point_add(build, c)}};
@@ -99,7 +83,7 @@ static void triangle_add(mesh_build *build, size_t face, const double *a, const 
     mesh->material = room_grow(mesh->material, &room, mesh->facets, sizeof *mesh->material);
     mesh->failed |= !mesh->facet || !mesh->material;
     if (!mesh->failed) {
-        mesh->material[mesh->facets] = material_find(letter);
+        mesh->material[mesh->facets] = material;
         mesh->facet[mesh->facets++] = facet;
     }
 }
@@ -108,14 +92,6 @@ static void quad_add(mesh_build *build, size_t face, double p[4][3])
 {
     triangle_add(build, face, p[0], p[1], p[2]);
     triangle_add(build, face, p[0], p[2], p[3]);
-}
-
-static void plate_add(mesh_build *build)
-{
-    double x = build->item->size[0] / 2;
-    double y = build->item->size[1] / 2;
-    double p[4][3] = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}};
-    quad_add(build, 0, p);
 }
 
 static void box_add(mesh_build *build)
@@ -173,14 +149,6 @@ static void cap_add(mesh_build *build, size_t face, double radius, double z)
     }
 }
 
-static void round_add(mesh_build *build)
-{
-    const double *size = build->item->size;
-    belt_add(build, size[0], -size[2] / 2, size[1], size[2] / 2);
-    cap_add(build, 1, size[1], size[2] / 2);
-    cap_add(build, 2, size[0], -size[2] / 2);
-}
-
 static void ball_add(mesh_build *build)
 {
     double radius = build->item->size[0];
@@ -194,13 +162,7 @@ static void ball_add(mesh_build *build)
     }
 }
 
-/* The height of a corner of the quilt: neighbours have different heights, which are the same on
-   every machine. */
-static double quilt_height(const vectors_item *item, int i, int k)
-{
-    return item->size[2] * ((7 * i + 3 * k + i * k) % 5 - 2);
-}
-
+/* Neighbouring corners have different heights, which are the same on every machine. */
 static void quilt_add(mesh_build *build)
 {
     const vectors_item *item = build->item;
@@ -212,7 +174,7 @@ static void quilt_add(mesh_build *build)
             int y = i / count + (k >= 2);
             p[k][0] = item->size[0] * (x / (double)count - 0.5);
             p[k][1] = item->size[1] * (y / (double)count - 0.5);
-            p[k][2] = quilt_height(item, x, y);
+            p[k][2] = item->size[2] * ((7 * x + 3 * y + x * y) % 5 - 2);
         }
         quad_add(build, 0, p);
     }
@@ -231,16 +193,22 @@ static void fan_add(mesh_build *build)
 
 static void item_add(mesh_build *build)
 {
+    const double *size = build->item->size;
+    double x = size[0] / 2;
+    double y = size[1] / 2;
+    double plate[4][3] = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}};
     build->first = build->mesh->vertices;
     switch (build->item->kind) {
     case VECTORS_PLATE:
-        plate_add(build);
+        quad_add(build, 0, plate);
         break;
     case VECTORS_BOX:
         box_add(build);
         break;
     case VECTORS_ROUND:
-        round_add(build);
+        belt_add(build, size[0], -size[2] / 2, size[1], size[2] / 2);
+        cap_add(build, 1, size[1], size[2] / 2);
+        cap_add(build, 2, size[0], -size[2] / 2);
         break;
     case VECTORS_BALL:
         ball_add(build);

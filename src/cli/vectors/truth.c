@@ -62,32 +62,7 @@ static double facet_edge(const lrcs_scene *scene, const lrcs_facet_record *recor
            record->visible_area_m2;
 }
 
-static void case_allow(const truth_run *run, vectors_case *one)
-{
-    const lrcs_scene *scene = &run->host.scene;
-    double square = 0.0;
-    one->float_m2 = 0.0;
-    for (uint32_t i = 0; i < scene->facet_count; i++) {
-        const lrcs_brdf *brdf = &scene->material[scene->facet_material[i]].brdf;
-        double edge = facet_edge(scene, &run->records[i], i, &one->pose);
-        one->float_m2 += facet_float(&run->records[i], brdf);
-        square += edge * edge;
-    }
-    one->edge_m2 = sqrt(square) * one->window[2];
-}
-
 /* ---- a case ---- */
-
-static void record_print(FILE *out, const vectors_case *one, uint32_t facet,
-                         const lrcs_facet_record *record)
-{
-    const double value[3] = {record->cos_theta, record->visible_area_m2, record->sigma_m2};
-    fprintf(out, "%s,%s,%lu", one->scene->name, one->attitude->name, (unsigned long)facet);
-    for (int k = 0; k < 3; k++) {
-        cli_number_put(out, ",", value[k]);
-    }
-    putc('\n', out);
-}
 
 static int case_run(truth_run *run, vectors_case *one)
 {
@@ -99,18 +74,26 @@ static int case_run(truth_run *run, vectors_case *one)
     }
     if (one->result.method != LRCS_METHOD_EXACT ||
         (one->result.flags & LRCS_FLAG_MEMORY_FALLBACK)) {
-        fprintf(stderr, "lrcs: %s, %s: no exact truth here\n", one->scene->name,
-                one->attitude->name);
-        return CLI_FAILED;
+        return cli_fail("%s, %s: no exact truth here", one->scene->name, one->attitude->name);
     }
     one->window[0] = run->image.left_m;
     one->window[1] = run->image.top_m;
     one->window[2] = run->image.side_m;
-    case_allow(run, one);
-    for (uint32_t i = 0; i < run->host.scene.facet_count; i++) {
-        record_print(run->out, one, i, &run->records[i]);
+    const lrcs_scene *scene = &run->host.scene;
+    double square = 0.0;
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        const lrcs_facet_record *record = &run->records[i];
+        double edge = facet_edge(scene, record, i, &one->pose);
+        one->float_m2 += facet_float(record, &scene->material[scene->facet_material[i]].brdf);
+        square += edge * edge;
+        fprintf(run->out, "%s,%s,%lu", one->scene->name, one->attitude->name, (unsigned long)i);
+        cli_number_put(run->out, ",", record->cos_theta);
+        cli_number_put(run->out, ",", record->visible_area_m2);
+        cli_number_put(run->out, ",", record->sigma_m2);
+        putc('\n', run->out);
     }
-    return one->image ? cli_vectors_images(run->job, one, &run->host.scene, &run->image) : 0;
+    one->edge_m2 = sqrt(square) * one->window[2];
+    return one->image ? cli_vectors_images(run->job, one, scene, &run->image) : 0;
 }
 
 /* Writes NAME.facets.csv with the facets of all cases, and runs the cases for it. */

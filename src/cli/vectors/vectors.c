@@ -38,12 +38,14 @@ static const cli_option vectors_options[] = {
 
 /* ---- the folder ---- */
 
-/* 1 if the folder contains files but no kit: such a folder is not written to. */
-static int folder_foreign(const char *path)
+/* Makes the folders of a kit. A folder that contains files but no kit is not written to. */
+static int folders_make(const char *path)
 {
+    static const char *const name[] = {"", "/scenes", "/truth"};
     char inside[KIT_PATH];
     struct stat about;
     int entries = 0;
+    int code = 0;
     DIR *folder = opendir(path);
     while (folder && readdir(folder)) {
         entries++;
@@ -52,23 +54,13 @@ static int folder_foreign(const char *path)
         closedir(folder);
     }
     int kit = cli_kit_path(inside, "%s/scenes", path) == 0 && stat(inside, &about) == 0;
-    return entries > 2 && !kit; /* "." and ".." */
-}
-
-static int folders_make(const char *path)
-{
-    static const char *const name[] = {"", "/scenes", "/truth"};
-    int code = 0;
-    if (folder_foreign(path)) {
-        fprintf(stderr, "lrcs: %s: holds other files, and no kit: give an empty folder\n", path);
-        return CLI_FAILED;
+    if (entries > 2 && !kit) { /* "." and ".." */
+        return cli_fail("%s: holds other files, and no kit: give an empty folder", path);
     }
     for (int i = 0; i < 3 && code == 0; i++) {
-        char folder[KIT_PATH];
-        code = cli_kit_path(folder, "%s%s", path, name[i]);
-        if (code == 0 && mkdir(folder, 0777) != 0 && errno != EEXIST) {
-            fprintf(stderr, "lrcs: %s: cannot make this folder: %s\n", folder, strerror(errno));
-            code = CLI_FAILED;
+        code = cli_kit_path(inside, "%s%s", path, name[i]);
+        if (code == 0 && mkdir(inside, 0777) != 0 && errno != EEXIST) {
+            code = cli_fail("%s: cannot make this folder: %s", inside, strerror(errno));
         }
     }
     return code;
@@ -81,24 +73,16 @@ static int case_make(const vectors_scene *scene, const vectors_attitude *attitud
                      vectors_case *one)
 {
     lrcs_pose pose;
-    double length = 0.0;
-    double across = 0.0;
+    const double *q = attitude->quaternion;
+    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     *one = (vectors_case){.scene = scene, .attitude = attitude};
-    if (lrcs_pose_from_quaternion(attitude->quaternion, &pose) != LRCS_OK) {
+    if (lrcs_pose_from_quaternion(q, &pose) != LRCS_OK) {
         return CLI_FAILED;
     }
     for (int k = 0; k < 4; k++) {
-        length += attitude->quaternion[k] * attitude->quaternion[k];
+        one->quaternion[k] = q[k] / length;
     }
-    for (int k = 0; k < 4; k++) {
-        one->quaternion[k] = attitude->quaternion[k] / sqrt(length);
-    }
-    for (int k = 0; k < 3; k++) {
-        across += pose.direction[k] * pose.direction[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        one->direction[k] = pose.direction[k] / sqrt(across);
-    }
+    cli_pose_unit(&pose, one->direction);
     const double *s = one->direction;
     one->azel_deg[0] = CLI_DEGREES * atan2(s[1], s[0]);
     one->azel_deg[1] = CLI_DEGREES * atan2(s[2], hypot(s[0], s[1]));
@@ -121,16 +105,6 @@ static int cases_add(vectors_job *job, const vectors_scene *scene)
         }
     }
     return code;
-}
-
-static int scene_make(vectors_job *job, const vectors_scene *scene)
-{
-    vectors_mesh mesh;
-    int code = cli_vectors_mesh(scene, &mesh);
-    code = code ? code : cli_vectors_files(job, scene, &mesh);
-    cli_vectors_mesh_free(&mesh);
-    code = code ? code : cases_add(job, scene);
-    return code ? code : cli_vectors_truth(job, scene);
 }
 
 /* Allocates memory for all cases, and makes the bindings of all materials. */
@@ -171,7 +145,12 @@ static int vectors_make(vectors_job *job, uint32_t tier)
     for (const vectors_scene *scene = cli_vectors_scenes; scene->name && code == 0; scene++) {
         if ((uint32_t)scene->tier <= tier) {
             cli_watch_stage(scene->name, NULL);
-            code = scene_make(job, scene);
+            vectors_mesh mesh;
+            code = cli_vectors_mesh(scene, &mesh);
+            code = code ? code : cli_vectors_files(job, scene, &mesh);
+            cli_vectors_mesh_free(&mesh);
+            code = code ? code : cases_add(job, scene);
+            code = code ? code : cli_vectors_truth(job, scene);
             scenes++;
         }
     }

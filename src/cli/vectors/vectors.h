@@ -102,7 +102,8 @@ typedef struct vectors_job {
  */
 typedef struct vectors_file {
     const char *name;
-    cli_writer *write;
+    cli_text_writer *write;
+    cli_writer *picture; /* if write is NULL */
 } vectors_file;
 int cli_vectors_write(const char *prefix, const vectors_file *file, int count, const void *context);
 

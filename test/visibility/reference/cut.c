@@ -97,7 +97,7 @@ static void cuts_edge(ref_cuts *cuts, const lrcsi_classification *classification
     ref_cut *cut = cut_new(cuts, end[0], end[1], width);
     for (uint32_t i = 0; i < e->uses; i++) {
         uint32_t facet = p->topology.use[e->first_use + i].facet;
-        if (lrcsi_grid_casts(classification->view, facet)) {
+        if (lrcsi_view_casts(classification->view, facet)) {
             cut_component(cut, classification->component[facet]);
         }
     }

@@ -370,7 +370,7 @@ int ref_occlude_open(ref_occluding *o, uint32_t facet)
     o->undecided = o->whole = 0;
     o->top = 0;
     o->bent = 0;
-    if (!lrcsi_grid_casts(classification->view, facet)) {
+    if (!lrcsi_view_casts(classification->view, facet)) {
         return LRCS_OK;
     }
     if (!classification->undecided[facet]) {
@@ -463,7 +463,7 @@ int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work, lrcsi
     unsigned char *open = lrcsi_work_take(work, view->prepared->scene->facet_count, 1);
     status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
-        open[f] = classification->undecided[f] && lrcsi_grid_casts(view, f);
+        open[f] = classification->undecided[f] && lrcsi_view_casts(view, f);
     }
     if (status == LRCS_OK && classification->undecided_count >= CELLS_LEAST &&
         classification->undecided_count >= view->prepared->scene->facet_count / CELLS_SHARE &&

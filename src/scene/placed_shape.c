@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Properties of a placed shape by construction: the errors of its facets and corners, and whether
    it is closed and convex. */
-#include "scene/shaped.h"
+#include "scene/placed_shape.h"
 
 #include <math.h>
 #include <string.h>
@@ -45,14 +45,14 @@ static int is_closed(const lrcs_shape *shape)
             shape->parts == LRCS_SHAPE_ALL);
 }
 
-int lrcsi_shaped_closed_form(const lrcs_shape *shape, int two_sided)
+int lrcsi_placed_shape_closed_form(const lrcs_shape *shape, int two_sided)
 {
     int flat = shape->kind == LRCS_SHAPE_PLATE || shape->kind == LRCS_SHAPE_BOX ||
                shape->kind == LRCS_SHAPE_DISC;
     return !flat && (!two_sided || is_closed(shape));
 }
 
-double lrcsi_shaped_extent(const lrcs_mesh *mesh)
+double lrcsi_placed_shape_extent(const lrcs_mesh *mesh)
 {
     double most = 0.0;
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
@@ -60,14 +60,6 @@ double lrcsi_shaped_extent(const lrcs_mesh *mesh)
         most = fmax(most, fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2]))));
     }
     return most;
-}
-
-/* A bound on the errors of a shape's placed vertices. The mesh's own coordinates have a relative
-   error of (16 + rings) u (src/mesh/profile.c), except for underflow. */
-static double misplacement(double most, const lrcs_divisions *divisions, const lrcsi_placer *placer)
-{
-    double error = (17.0 + (double)divisions->along) * LRCSI_U * most + 0x1p-1022;
-    return lrcsi_placer_error(placer, most + error, error);
 }
 
 /* The least altitude of a facet of the part placed last, m: its area over its longest side; 0 if
@@ -100,8 +92,8 @@ static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
    altitude on it, and changes its area by at most that fraction. The numbers of facets hold per
    unit of their area, and patches may be larger. Nothing can be proved about a facet left without
    area. */
-void lrcsi_shaped_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, double most,
-                       lrcs_part *part)
+void lrcsi_placed_shape_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, double most,
+                             lrcs_part *part)
 {
     double e = lrcsi_placer_error(placer, most, 0.0);
     if (part->reach > 0.0 && e > 0.0) {
@@ -110,17 +102,18 @@ void lrcsi_shaped_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, doub
         part->tilted = 1.000001 * wide * e / altitude;
         part->curvature_known = part->curvature_known && altitude > 0.0;
         part->curvature = part->curvature.turn > 0.0
-                              ? lrcsi_profile_blurred(&part->curvature, part->tilted)
+                              ? lrcsi_profile_rounded(&part->curvature, part->tilted)
                               : part->curvature;
     }
 }
 
 /* Properties of a placed shape by construction. A uniform scale does not change curvature, other
    scales change it as in mesh/profile.h; any affine map preserves convexity, and as a reflection
-   reverses the winding, the outside stays outside. */
-void lrcsi_shaped_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
-                           const lrcs_curvature *curvature, const lrcsi_placer *placer,
-                           double extent, lrcs_part *part)
+   reverses the winding, the outside stays outside. The mesh's own coordinates have a relative error
+   of (16 + rings) u (mesh/profile.c), except for underflow. */
+void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
+                                 const lrcs_curvature *curvature, const lrcsi_placer *placer,
+                                 double extent, lrcs_part *part)
 {
     const double *scale = placer->place.scale;
     double reach = lrcsi_tessellate_reach(shape, divisions);
@@ -133,7 +126,8 @@ void lrcsi_shaped_describe(const lrcs_shape *shape, const lrcs_divisions *divisi
     double ratio;
     lrcsi_axes axes;
     lrcsi_placer_stretch(placer, &stretch, &ratio);
-    part->misplaced = misplacement(extent, divisions, placer);
+    double error = (17.0 + (double)divisions->along) * LRCSI_U * extent + 0x1p-1022;
+    part->misplaced = lrcsi_placer_error(placer, extent + error, error);
     part->kind = shape->kind;
     part->rigid = lrcsi_placer_axes(placer, &axes);
     if (part->rigid) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What holds of a placed shape by construction. */
-#include "scene/shaped.h"
+#include "scene/placed_shape.h"
 
 #include "check.h"
 
@@ -25,7 +25,7 @@ static void curvature_outlives_uniform_scaling_only(void **state)
             *number[i % 5] = 1e-3;
         }
         assert_int_equal(lrcsi_placer_make(&place, &joint, &placer), LRCS_OK);
-        lrcsi_shaped_describe(&shape, &divisions, &curvature, &placer, 1, &part);
+        lrcsi_placed_shape_describe(&shape, &divisions, &curvature, &placer, 1, &part);
         assert_int_equal(part.curvature_known, 1);
     }
 }

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Whether facets are fine enough for a glint: an ESTIMATE of the error caused by flat facets. */
-#ifndef LRCSI_COMB_H
-#define LRCSI_COMB_H
+#ifndef LRCSI_RIPPLE_H
+#define LRCSI_RIPPLE_H
 
 /* Relative error of sigma, at the worst aspect, of a cylinder of flat facets whose normals differ
    by `turn` (rad, > 0) between neighbours, for a glint of slope s: (turn/2)^2 / 6 for the chords
-   and 2 exp(-(pi s / turn)^2) for the comb of separate glints. */
-double lrcsi_comb_error(double turn, double s);
+   and 2 exp(-(pi s / turn)^2) for the ripple of the sum over discrete normals. */
+double lrcsi_ripple_error(double turn, double s);
 
 /* The smallest number of facets per full turn with an error of at most `most`. */
-double lrcsi_comb_around(double s, double most);
+double lrcsi_ripple_around(double s, double most);
 
 #endif
