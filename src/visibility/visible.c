@@ -349,7 +349,7 @@ static pixel_sums certain_sums(visible_job *job, const drawn_facet *f)
 }
 
 /* Is all of a facet certainly hidden, pixel by pixel? */
-static int facet_hidden(const visible_job *job, const drawn_facet *f)
+static int pixels_hide_facet(const visible_job *job, const drawn_facet *f)
 {
     for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
         const lrcsi_pixels touched = lrcsi_span_touched(&f->edges, y);
@@ -389,7 +389,7 @@ static pixel_sums certain_end(visible_job *job, uint32_t facet, size_t *read)
     uint32_t open;
     if (!sums.listed) {
         f = drawn_facet_of(r, facet);
-        if (r->owned[facet] == 0 && facet_hidden(job, &f)) {
+        if (r->owned[facet] == 0 && pixels_hide_facet(job, &f)) {
             return (pixel_sums){.hidden = HUGE_VAL};
         }
         job->open_count = job->open_room; /* nobody asks again */
