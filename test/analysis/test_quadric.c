@@ -465,6 +465,22 @@ static void a_sphere_is_found(void **state)
     mesh_end();
 }
 
+static void size_does_not_matter(void **state)
+{
+    (void)state;
+    for (int power = -30; power <= 30; power += 20) {
+        mesh_begin();
+        grid_add(6, 24, 1, on_cylinder);
+        for (uint32_t i = 0; i < 3 * mesh.scene.vertex_count; i++) {
+            mesh.vertex[i / 3].x[i % 3] = ldexp(mesh.vertex[i / 3].x[i % 3], power);
+        }
+        mesh_find();
+        found_one(LRCS_QUADRIC_CYLINDER, 288);
+        check_rel(mesh.list[0].surface.radius, ldexp(2.0, power), 1e-9);
+        mesh_end();
+    }
+}
+
 static void a_plane_is_found_beside_a_cylinder(void **state)
 {
     (void)state;
@@ -645,6 +661,7 @@ int main(void)
         cmocka_unit_test(a_cone_is_found_with_its_tip),
         cmocka_unit_test(a_frustum_of_one_row_is_a_cone_and_no_sphere),
         cmocka_unit_test(a_sphere_is_found),
+        cmocka_unit_test(size_does_not_matter),
         cmocka_unit_test(a_plane_is_found_beside_a_cylinder),
         cmocka_unit_test(perturbed_corners_widen_the_claim),
         cmocka_unit_test(facets_without_area_are_left_out),
