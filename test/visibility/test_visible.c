@@ -215,7 +215,7 @@ static unsigned check_occluded(int direction)
     memset(raster.wanted, 1, (size_t)raster.tiles * raster.tiles);
     lrcsi_raster_clear(&raster);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        if (lrcsi_grid_casts(&view, f)) {
+        if (lrcsi_view_casts(&view, f)) {
             lrcsi_raster_draw(&raster, f);
         }
     }
