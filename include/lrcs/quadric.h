@@ -77,7 +77,7 @@ typedef struct lrcs_quadric_region {
    Returned: list, in the work area, the largest area first; count; facet_region (NULL, or
    facet_count elements): of each facet the index of its region, or LRCS_NONE.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 1.4e9 facets).
-   Work: at most lrcs_quadric_need bytes. Time is limited to about 1,000 comparisons of a facet with
+   Work: at most lrcs_quadric_need bytes. Time is limited to about 100 comparisons of a facet with
    a surface per facet of the scene; where a scene takes more, the smallest facets are left out.
    Notes: 1. Of a curved surface, the corners lie closer to it than half the displacement of the
    facets, or than 1e-6 of its size: it could be tessellated into this mesh. From the first

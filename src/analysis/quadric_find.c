@@ -49,10 +49,10 @@
 #define CURVED_MOST  (0.75 * LRCS_PI)
 
 #define SURROUNDINGS 32u
-#define COMPANIONS   7u    /* of a seed, for guesses */
-#define GROWTHS      8     /* times that a region grows and is fitted anew */
-#define FITTED_MOST  500u  /* facets, about, that a fit uses */
-#define BUDGET       1000u /* comparisons per facet */
+#define COMPANIONS   7u   /* of a seed, for guesses */
+#define GROWTHS      8    /* times that a region grows and is fitted anew */
+#define FITTED_MOST  500u /* facets, about, that a fit uses */
+#define BUDGET       100u /* comparisons per facet */
 
 typedef struct finder {
     const lrcs_scene *scene;
