@@ -208,17 +208,49 @@ static void draw_doubtful(raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
     }
 }
 
+/* The largest difference between the height of a facet's plane at the centre of a pixel and the
+   facet itself in any part of the pixel, with the rounding of the lower height to a float: heights
+   of covered samples lie between those of the corners, to within the slack. HUGE_VAL where floats
+   might overflow. */
+static double occluded_below(const raster_job *job)
+{
+    const lrcsi_view *view = job->raster->view;
+    const uint32_t *corner = view->prepared->scene->facet[job->facet].corner;
+    double most = job->slack;
+    for (int k = 0; k < 3; k++) {
+        most = lrcsi_most(most, fabs(view->point[corner[k]].x[2]));
+    }
+    double below = 0.5 * (fabs(job->plane.along) + fabs(job->plane.up)) + job->slack;
+    below += 0x1p-22 * (most + below) + 0x1p-140;
+    return most + below < 0x1p100 ? below : HUGE_VAL;
+}
+
+/* Raises the occluded heights of pixels that the facet covers entirely. */
+static void occluded_raise(const raster_job *job, double below, uint32_t y, lrcsi_pixels whole)
+{
+    double row = job->plane.at + job->plane.up * (y + 0.5) - below;
+    float *occluded = job->raster->occluded + (size_t)y * job->raster->size;
+    for (uint32_t x = whole.x0; x < whole.x1; x++) {
+        float low = (float)(row + job->plane.along * (x + 0.5));
+        occluded[x] = low > occluded[x] ? low : occluded[x];
+    }
+}
+
 void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet)
 {
     raster_job job = {.raster = raster, .facet = facet, .met = LRCS_NONE};
     raster->slack[facet] = job.slack = lrcsi_raster_slack(raster, facet);
     job.edges = lrcsi_raster_edges(raster, facet);
     job.plane = lrcsi_raster_plane(raster, facet);
+    const double below = raster->occluded ? occluded_below(&job) : HUGE_VAL;
     for (uint32_t y = job.edges.y0; y < job.edges.y1; y++) {
         lrcsi_samples row = lrcsi_span_samples(&job.edges, y);
         draw_doubtful(&job, y, row.may.x0, row.sure.x0);
         draw_run(&job, y, row.sure.x0, row.sure.x1);
         draw_doubtful(&job, y, row.sure.x1, row.may.x1);
+        if (below < HUGE_VAL && row.sure.x1 - row.sure.x0 > 1) {
+            occluded_raise(&job, below, y, lrcsi_span_whole(&job.edges, y, row.sure));
+        }
     }
 }
 
@@ -257,6 +289,10 @@ static void clear_run(lrcsi_raster *r, uint32_t y, uint32_t x0, uint32_t x1)
         size_t at = (size_t)row * r->size + x0;
         memset(r->owner + at, 0xff, (x1 - x0) * sizeof *r->owner);
         memset(r->pure + at, 0, x1 - x0);
+        float *occluded = r->occluded ? r->occluded + at : NULL;
+        for (uint32_t x = 0; occluded && x < x1 - x0; x++) {
+            occluded[x] = -HUGE_VALF;
+        }
     }
 }
 

@@ -17,19 +17,21 @@
 typedef struct lrcsi_raster {
     const lrcsi_view *view;
     uint32_t size;
-    double pixel;             /* side of a pixel, scaled units */
-    double scale;             /* pixels per scaled unit */
-    double off;               /* bound on the error of a sample's pixel coordinates */
-    double reach;             /* no sample is farther from the view's origin, |x| + |y| */
-    uint32_t tiles;           /* along each side */
-    unsigned char *wanted;    /* tiles * tiles: 1 if samples are drawn */
-    uint32_t *owner;          /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
-    double *depth;            /* N * N: height of the owner's plane, where its facet was drawn */
-    unsigned char *pure;      /* N * N: 1 if the owner covers the whole pixel and is visible all
-                                 over it; set by claims alone */
-    double *slack;            /* facet drawn: error bound of such a height; claimed: -1 */
-    uint32_t *covered;        /* facet drawn: samples it would own if alone; else 0 */
-    uint32_t *owned;          /* facet drawn: samples it owns; else 0 */
+    double pixel;          /* side of a pixel, scaled units */
+    double scale;          /* pixels per scaled unit */
+    double off;            /* bound on the error of a sample's pixel coordinates */
+    double reach;          /* no sample is farther from the view's origin, |x| + |y| */
+    uint32_t tiles;        /* along each side */
+    unsigned char *wanted; /* tiles * tiles: 1 if samples are drawn */
+    uint32_t *owner;       /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
+    double *depth;         /* N * N: height of the owner's plane, where its facet was drawn */
+    unsigned char *pure;   /* N * N: 1 if the owner covers the whole pixel and is visible all
+                              over it; set by claims alone */
+    float *occluded;       /* N * N: a height; all that lies lower is hidden in the whole pixel by
+                              one drawn facet. -HUGE_VALF: none known. NULL: not asked for */
+    double *slack;         /* facet drawn: error bound of such a height; claimed: -1 */
+    uint32_t *covered;     /* facet drawn: samples it would own if alone; else 0 */
+    uint32_t *owned;       /* facet drawn: samples it owns; else 0 */
     unsigned char *undecided; /* facet: 1 if a depth could not be decided */
 } lrcsi_raster;
 
@@ -58,7 +60,8 @@ void lrcsi_raster_clear(lrcsi_raster *raster);
 /* Gives a facet that is proved visible, all of it, the wanted samples that it covers. */
 void lrcsi_raster_claim(lrcsi_raster *raster, uint32_t facet);
 
-/* Draws a facet, all tiles of which are wanted, where it is nearer than what was drawn. */
+/* Draws a facet, all tiles of which are wanted, where it is nearer than what was drawn; raises the
+   occluded heights of pixels that it covers. */
 void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet);
 
 /* The geometry of a raster, without samples. */

@@ -194,6 +194,23 @@ lrcsi_samples lrcsi_span_samples(const lrcsi_edges *e, uint32_t y)
     return samples;
 }
 
+lrcsi_pixels lrcsi_span_whole(const lrcsi_edges *e, uint32_t y, lrcsi_pixels sure)
+{
+    span_ends ends = {.from = {[WHOLE] = sure.x0}, .to = {[WHOLE] = sure.x1}};
+    for (int i = 0; i < 2; i++) {
+        double left = e->cross_at[i] + e->cross_up[i] * y + e->cross_pixel_offset[i];
+        double right = e->cross_at[2 + i] + e->cross_up[2 + i] * y - e->cross_pixel_offset[2 + i];
+        ends.from[WHOLE] = lrcsi_most(ends.from[WHOLE], left);
+        ends.to[WHOLE] = lrcsi_least(ends.to[WHOLE], right);
+    }
+    for (int k = 0; e->level && k < 3; k++) {
+        if (e->over[k] == 0) {
+            ends_level(&ends, e, k, e->at[k] + e->up[k] * (y + 0.5));
+        }
+    }
+    return inner_span(&ends, WHOLE, sure);
+}
+
 lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *e, uint32_t y)
 {
     return lrcsi_span_touched_rows(e, y, y);

@@ -77,6 +77,9 @@ typedef struct lrcsi_samples {
 } lrcsi_samples;
 lrcsi_samples lrcsi_span_samples(const lrcsi_edges *edges, uint32_t y);
 
+/* Of the pixels whose centres are certainly covered, those that are certainly covered entirely. */
+lrcsi_pixels lrcsi_span_whole(const lrcsi_edges *edges, uint32_t y, lrcsi_pixels sure);
+
 /* Only which pixels of a row are touched: a third of the cost. */
 lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *edges, uint32_t y);
 

@@ -4,8 +4,9 @@
    other pixel is visible or hidden together: a sample on the facet tells which, exactly, and so
    does one in a neighbouring pixel that is not mixed, since what the facet has in both is
    connected. A pixel that one visible facet covers whole is pure: all others are hidden there.
-   These pixels bound the area from below and above; between the bounds the samples decide
-   (visibility/visible_fraction.h).
+   In a pixel that one facet covers whole, all that lies lower is hidden, whatever is visible of
+   that facet: mixed pixels, too, hide what is behind them. These pixels bound the area from below
+   and above; between the bounds the samples decide (visibility/visible_fraction.h).
 
    The driver is lrcsi_visible_sampled:
    1. known_draw: the samples of the tiles that undecided facets touch.
@@ -49,8 +50,8 @@ void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
    part gives away. */
 typedef struct pixel_sums {
     uint32_t whole_visible, whole_hidden;
-    double visible, hidden;
-    int listed; /* the facet's open pixels are listed, and not in these sums */
+    double visible, hidden; /* hidden: HUGE_VAL if all of it is */
+    int listed;             /* the facet's open pixels are listed, and not in these sums */
 } pixel_sums;
 
 /* What the facets of one raster share. */
@@ -71,15 +72,22 @@ typedef struct drawn_facet {
     uint32_t facet;
     lrcsi_edges edges;
     double corner[3][2]; /* in pixels, counter-clockwise */
+    lrcsi_plane plane;
+    double bend; /* no point of it in a pixel is higher than its plane at the centre by more, */
+    double high; /* or higher than this */
 } drawn_facet;
 
 static drawn_facet drawn_facet_of(const lrcsi_raster *r, uint32_t facet)
 {
     const uint32_t *corner = r->view->prepared->scene->facet[facet].corner;
-    drawn_facet f = {.facet = facet, .edges = lrcsi_raster_edges(r, facet)};
+    drawn_facet f = {.facet = facet, .edges = lrcsi_raster_edges(r, facet), .high = -HUGE_VAL};
     for (int k = 0; k < 3; k++) {
         lrcsi_raster_point(r, corner[r->view->facing[facet] > 0 ? k : 2 - k], f.corner[k]);
+        const double *x = r->view->point[corner[k]].x;
+        f.high = lrcsi_most(f.high, x[2] + lrcsi_view_off(x));
     }
+    f.plane = lrcsi_raster_plane(r, facet);
+    f.bend = 0.5 * (fabs(f.plane.along) + fabs(f.plane.up)) + lrcsi_raster_slack(r, facet);
     return f;
 }
 
@@ -259,9 +267,24 @@ static int sample_tells(const visible_job *job, const drawn_facet *f, uint32_t x
     return job->raster->owner[pixel_place(job, x, y)] == f->facet ? SAMPLE_VISIBLE : SAMPLE_HIDDEN;
 }
 
-/* The same of the pixel's sample, or else of a neighbouring one. */
+/* Is the facet certainly hidden in the whole pixel: because another one is visible all over it, or
+   because one that covers it is higher everywhere? */
+static int pixel_hides(const visible_job *job, const drawn_facet *f, uint32_t x, uint32_t y)
+{
+    const lrcsi_raster *r = job->raster;
+    const size_t place = pixel_place(job, x, y);
+    const double height = f->plane.at + f->plane.along * (x + 0.5) + f->plane.up * (y + 0.5);
+    return (r->pure[place] && r->owner[place] != f->facet) ||
+           (double)r->occluded[place] > lrcsi_least(f->high, height + f->bend);
+}
+
+/* What is certain of a facet in a pixel: from what covers the pixel, from its sample, or else from
+   a neighbouring one. */
 static int pixel_tells(const visible_job *job, const drawn_facet *f, uint32_t x, uint32_t y)
 {
+    if (pixel_hides(job, f, x, y)) {
+        return SAMPLE_HIDDEN;
+    }
     if (job->mixed[pixel_place(job, x, y)]) {
         return SAMPLE_NONE;
     }
@@ -299,10 +322,14 @@ static pixel_sums certain_sums(visible_job *job, const drawn_facet *f)
                 for (; x < whole.x1; x++) { /* most pixels, and few operations each */
                     uint32_t own = r->owner[row + x] == f->facet;
                     uint32_t tells = job->mixed[row + x] == 0;
+                    if (tells == 0) {
+                        tells = (uint32_t)pixel_hides(job, f, x, y);
+                        own &= tells ^ 1;
+                    }
                     sums.whole_visible += tells & own;
-                    sums.whole_hidden += (tells | r->pure[row + x]) & (own ^ 1);
+                    sums.whole_hidden += tells & (own ^ 1);
                     r->pure[row + x] |= (unsigned char)(tells & own);
-                    if ((tells | r->pure[row + x]) == 0) {
+                    if (tells == 0) {
                         open_add(job, row + x, 1);
                     }
                 }
@@ -310,9 +337,7 @@ static pixel_sums certain_sums(visible_job *job, const drawn_facet *f)
                     break;
                 }
             }
-            int tells = r->pure[row + x] && r->owner[row + x] != f->facet
-                            ? SAMPLE_HIDDEN
-                            : pixel_tells(job, f, x, y);
+            int tells = pixel_tells(job, f, x, y);
             if (tells == SAMPLE_NONE) {
                 open_add(job, row + x, 0);
             } else {
@@ -321,6 +346,20 @@ static pixel_sums certain_sums(visible_job *job, const drawn_facet *f)
         }
     }
     return sums;
+}
+
+/* Is all of a facet certainly hidden, pixel by pixel? */
+static int pixels_hide_facet(const visible_job *job, const drawn_facet *f)
+{
+    for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
+        const lrcsi_pixels touched = lrcsi_span_touched(&f->edges, y);
+        for (uint32_t x = touched.x0; x < touched.x1; x++) {
+            if (!pixel_hides(job, f, x, y)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
 }
 
 /* Begins a facet: its sums and its open pixels, if there is room for these. */
@@ -350,6 +389,9 @@ static pixel_sums certain_end(visible_job *job, uint32_t facet, size_t *read)
     uint32_t open;
     if (!sums.listed) {
         f = drawn_facet_of(r, facet);
+        if (r->owned[facet] == 0 && pixels_hide_facet(job, &f)) {
+            return (pixel_sums){.hidden = HUGE_VAL};
+        }
         job->open_count = job->open_room; /* nobody asks again */
         mark_facet(job, &f);
         return certain_sums(job, &f);
@@ -461,6 +503,7 @@ static size_t open_room(const lrcs_prepared *prepared, uint32_t size)
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 {
     size_t need = lrcsi_work_bytes(lrcsi_work_square(size), 1);
+    need = lrcsi_work_add(need, lrcsi_work_bytes(lrcsi_work_square(size), sizeof(float)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(lrcsi_row)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(prepared->scene->facet_count, sizeof(pixel_sums)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(open_room(prepared, size), sizeof(uint32_t)));
@@ -473,11 +516,15 @@ static int visible_start(visible_job *job, lrcs_work *work)
     const lrcs_prepared *p = job->raster->view->prepared;
     const uint32_t size = job->raster->size;
     job->mixed = lrcsi_work_take(work, lrcsi_work_square(size), 1);
+    job->raster->occluded =
+        lrcsi_work_take(work, lrcsi_work_square(size), sizeof *job->raster->occluded);
     job->row = lrcsi_work_take(work, size, sizeof *job->row);
     job->begun = lrcsi_work_take(work, p->scene->facet_count, sizeof *job->begun);
     job->open_room = open_room(p, size);
     job->open = lrcsi_work_take(work, job->open_room, sizeof *job->open);
-    return job->mixed && job->row && job->begun && job->open ? LRCS_OK : LRCS_E_MEMORY;
+    return job->mixed && job->raster->occluded && job->row && job->begun && job->open
+               ? LRCS_OK
+               : LRCS_E_MEMORY;
 }
 
 /* Facets proved hidden own no samples; those proved visible own all of theirs. Only the tiles of
@@ -555,6 +602,7 @@ int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *wo
         drawn_area(&sharing, &sums, f, &visible[f]);
     }
     lrcsi_visible_fraction_correct(&sharing, visible);
+    raster->occluded = NULL;
     work->used = end;
     return LRCS_OK;
 }

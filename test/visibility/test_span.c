@@ -79,6 +79,9 @@ static unsigned check_row(const int corner[3][2], int y, int x0, int x1)
     lrcsi_samples samples = lrcsi_span_samples(&e, (uint32_t)y);
     assert_memory_equal(&samples.may, &row.may, sizeof row.may);
     assert_memory_equal(&samples.sure, &row.sure, sizeof row.sure);
+    lrcsi_pixels whole = lrcsi_span_whole(&e, (uint32_t)y, samples.sure);
+    assert_int_equal(whole.x1 - whole.x0, row.whole.x1 - row.whole.x0);
+    assert_true(whole.x0 == whole.x1 || whole.x0 == row.whole.x0);
     assert_int_equal(touched.x0, row.touched.x0);
     assert_int_equal(touched.x1, row.touched.x1);
     for (uint32_t x = 0; x < N; x++) {

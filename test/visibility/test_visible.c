@@ -201,6 +201,77 @@ static void facets_that_pierce_each_other_are_seen_as_clipping_sees_them(void **
     check_most(raster.bound_m2, 0.1 * exact.sigma_m2);
 }
 
+/* Draws all facets that cast, asking for occluded heights; returns how many pixels have one. What
+   is visible in any part of a pixel, says a picture eight times as fine, lies no lower. */
+static unsigned check_occluded(int direction)
+{
+    static float occluded[N * N];
+    lrcsi_view view = seen_from(direction);
+    lrcsi_raster raster;
+    lrcsi_raster fine;
+    unsigned count = 0;
+    assert_int_equal(lrcsi_raster_start(&view, N, &work, &raster), LRCS_OK);
+    raster.occluded = occluded;
+    memset(raster.wanted, 1, (size_t)raster.tiles * raster.tiles);
+    lrcsi_raster_clear(&raster);
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        if (lrcsi_view_casts(&view, f)) {
+            lrcsi_raster_draw(&raster, f);
+        }
+    }
+    assert_int_equal(lrcsi_raster_make(&view, N * FINE, &work, &fine), LRCS_OK);
+    for (uint32_t k = 0; k < N * N * FINE * FINE; k++) {
+        uint32_t pixel = k / (N * FINE) / FINE * N + k % (N * FINE) / FINE;
+        if (occluded[pixel] > -HUGE_VALF) {
+            count += k % FINE == 0 && k / (N * FINE) % FINE == 0;
+            assert_true(fine.owner[k] != LRCS_NONE);
+            assert_true(fine.depth[k] + fine.slack[fine.owner[k]] >= (double)occluded[pixel]);
+        }
+    }
+    return count;
+}
+
+static void nothing_is_visible_below_the_occluded_height_of_a_pixel(void **state)
+{
+    (void)state;
+    unsigned count = 0;
+    for (int i = 0; i < 12; i++) {
+        crowd();
+        count += i < 4 ? check_occluded(i) : 0;
+        tangle((uint64_t)i + 1);
+        count += check_occluded(i % 4);
+    }
+    assert_true(count > 5000);
+}
+
+/* Two plates that overlap hide a third, which neither covers alone and which the edges of both
+   cross. A fourth, far in front, makes some of the pixels mixed for all three. */
+static void what_one_of_several_covers_is_hidden_in_mixed_pixels_too(void **state)
+{
+    (void)state;
+    static lrcsi_visible visible[SCENE_FACETS];
+    scene_start(&scene);
+    scene_triangle(&scene, (const double[3]){-8, -4, 1}, (const double[3]){2, -4, 1},
+                   (const double[3]){0.5, 8, 1});
+    scene_triangle(&scene, (const double[3]){8, -4, 2}, (const double[3]){-0.5, 8, 2},
+                   (const double[3]){-2, -4, 2});
+    uint32_t hidden = scene_triangle(&scene, (const double[3]){-3, -2, 0},
+                                     (const double[3]){3, -2, 0.25}, (const double[3]){0, -1, 0});
+    scene_triangle(&scene, (const double[3]){-4, -3, 4}, (const double[3]){4, -0.5, 4},
+                   (const double[3]){3.75, 0, 4});
+    lrcsi_view view = seen_from(0);
+    lrcsi_classification classification;
+    lrcsi_known known;
+    sampled(&view, &classification, &known, visible);
+    assert_int_equal(known.answer[hidden], LRCSI_QUERY_UNDECIDED);
+    assert_true(visible[hidden].high <= 0);
+    for (uint32_t f = 0; f < 3; f++) {
+        if (f != hidden) {
+            assert_true(visible[f].low > 0 && visible[f].high > visible[f].low);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -208,6 +279,8 @@ int main(void)
         cmocka_unit_test(tiles_about_undecided_facets_are_wanted),
         cmocka_unit_test(pure_pixels_show_their_owner_in_every_part),
         cmocka_unit_test(pixels_where_facets_pierce_each_other_are_not_pure),
+        cmocka_unit_test(nothing_is_visible_below_the_occluded_height_of_a_pixel),
+        cmocka_unit_test(what_one_of_several_covers_is_hidden_in_mixed_pixels_too),
         cmocka_unit_test(facets_that_pierce_each_other_are_seen_as_clipping_sees_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
