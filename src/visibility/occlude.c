@@ -89,7 +89,9 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 static int occlude_begin(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
                          lrcsi_occluding *o)
 {
-    *o = (lrcsi_occluding){.classification = classification, .meter = meter};
+    memset(o, 0, sizeof *o); /* not a compound literal, which takes as much of the stack again */
+    o->classification = classification;
+    o->meter = meter;
     o->uniform = lrcsi_work_take(work, classification->view->prepared->scene->facet_count, 1);
     return o->uniform ? lrcsi_query_uniform(classification, meter, work, &o->facets, o->uniform)
                       : LRCS_E_MEMORY;
