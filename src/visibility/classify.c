@@ -163,6 +163,24 @@ static int component_has_edge(const lrcsi_classification *c, uint32_t edge, uint
     return 0;
 }
 
+/* The cells of the grid that a facet touches. */
+typedef struct facet_cells {
+    lrcsi_cells all;
+    int slanted; /* rows are limited to the cells between the sides */
+    lrcsi_strip_segment side[3];
+} facet_cells;
+
+static void facet_cells_make(const lrcsi_grid *grid, uint32_t facet, const lrcsi_view_box *box,
+                             facet_cells *cells)
+{
+    const lrcsi_cells all = lrcsi_grid_cells(grid, box);
+    cells->all = all;
+    cells->slanted = all.x1 - all.x0 >= SLANTED && all.y1 - all.y0 >= SLANTED;
+    if (cells->slanted) {
+        lrcsi_grid_sides(grid, grid->view->prepared->scene->facet[facet].corner, 3, 0, cells->side);
+    }
+}
+
 /* Finds at most `most` of them: one suffices to know that there are any. Examines at most *steps
    listed events, MOST_ASKED of them with boxes that meet the facet's, and leaves in *steps how many
    more it might have examined; LRCS_NONE: any number.
@@ -178,7 +196,7 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
     const lrcsi_grid *grid = &classification->grid;
     crossing_ask ask = {.corner = NULL}; /* made when it is first needed */
     const lrcsi_view_box box = *lrcsi_boxes_facet(&classification->boxes, facet);
-    const lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
+    facet_cells cells;
     const uint32_t allowed = steps_allowed(meter, *steps);
     const uint32_t asked = ++classification->asked;
     uint32_t left = allowed;
@@ -186,14 +204,11 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
     uint32_t count = 0;
     int more = 0; /* an event was left out for want of steps */
     classification->along = 0;
-    const int slanted = cells.x1 - cells.x0 >= SLANTED && cells.y1 - cells.y0 >= SLANTED;
-    lrcsi_strip_segment side[3];
-    if (slanted) {
-        lrcsi_grid_sides(grid, view->prepared->scene->facet[facet].corner, 3, 0, side);
-    }
-    for (uint32_t y = cells.y0; y < cells.y1 && !more; y++) {
+    facet_cells_make(grid, facet, &box, &cells);
+    for (uint32_t y = cells.all.y0; y < cells.all.y1 && !more; y++) {
         const uint32_t *row = grid->first + (size_t)y * grid->size;
-        const lrcsi_cells range = slanted ? lrcsi_grid_row(grid, side, 3, y) : cells;
+        const lrcsi_cells range =
+            cells.slanted ? lrcsi_grid_row(grid, cells.side, 3, y) : cells.all;
         for (uint32_t x = range.x0; x < range.x1 && !more; x++) {
             for (uint32_t i = row[x]; i < row[x + 1] && count < most; i++) {
                 lrcsi_event_box *event = &classification->event[grid->item[i]];
