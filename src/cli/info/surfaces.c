@@ -148,6 +148,7 @@ int cli_surfaces_find(const lrcs_scene *scene, cli_surfaces *surfaces)
     lrcs_quadric_region *list = NULL;
     void *bytes = malloc(need);
     lrcs_work work = lrcs_work_make(bytes, need);
+    cli_watch_stage("looking for planes, cylinders, spheres, cones", NULL);
     int status =
         bytes ? lrcs_quadric_find(scene, &work, &list, &surfaces->count, NULL) : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
