@@ -58,8 +58,8 @@ static int png_make(FILE *out, const images_case *file, uint32_t channels, lrcs_
         double rise = range > 0.0 ? (file->depth[i] - file->farthest) / range : 1.0;
         double grey = isnan(file->depth[i]) ? 0.0 : 40.0 + 215.0 * rise;
         for (uint32_t k = 0; k < channels; k++) {
-            pixels[i * channels + k] =
-                channels == 1 ? (unsigned char)grey : (unsigned char)(id >> (16 - 8 * k) & 255u);
+            uint32_t value = channels == 1 ? (uint32_t)grey : id >> (16 - 8 * k) & 255u;
+            pixels[i * channels + k] = (unsigned char)value;
         }
     }
     int status = lrcs_host_png_write(out, pixels, side, side, channels, NULL, error);
