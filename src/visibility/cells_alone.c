@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The visible area and pieces of one facet, f, by cells that begin as its triangle. Only the
-   visibility of f is decided, so that less must be known than in the cells of a block
+   visibility of f is decided, which takes less work per cell than the cells of a block do
    (visibility/cells.c).
 
    The candidates are the facets that may be in front of f. The segments are all lines at which the
@@ -23,10 +23,11 @@
    in front.
 
    Error. Lines, strips and cells are those of visibility/cells_charge.c, in coordinates from a
-   corner of f. The ends of segments are off by 10 u of their distance R from there, or what matters
-   of it (visibility/target.h), those of contacts by 16 u R and a position error; lines through them
-   by 9 u R more: 32 u R holds both. What is said holds in f's triangle as it is computed: that
-   differs from f's by its sides' length times their error.
+   corner of f. The ends of segments have an error of 10 u R, where R is their distance from that
+   corner, or the part of it that matters (visibility/target.h); those of contacts have 16 u R and a
+   position error. Lines through them have 9 u R more: 32 u R bounds both. All statements hold in
+   f's triangle as it is computed, whose area differs from that of f by at most the length of its
+   sides times their error.
 
    A needle may be narrower than these errors. It is divided in barycentric coordinates instead
    (visibility/needle.h), in which it is as wide as it is long: its corners are exact except for the
@@ -61,7 +62,7 @@
 #define NARROW 64
 /* Nor is it halved if its area is at most this fraction of f's: of the cells that a facet may have
    (PARTS_MOST), all together are then less than 1e-12 of it. */
-#define TRIFLE 0x1p-52
+#define NEGLIGIBLE 0x1p-52
 
 /* The depth order of a facet against f: one of these, or the number of the segment in which the two
    intersect. */
@@ -87,21 +88,22 @@ static int alone_listed(const lrcsi_alone *a, uint32_t other)
     return a->met[other] == a->cells.look && a->order[other] != ORDER_APART;
 }
 
-/* How far a segment of a needle's frame may be off whose ends are off by so much: the box reaches
-   3, so that 24 u of 4.5 hold the rounding of its ends and its line, and of the side of that on
-   which a point of the needle lies. Where that is a good part of what the box is wider than the
-   needle, it may be anywhere. */
+/* The error of a segment in a needle's frame, given the error of its ends. The box reaches 3, so
+   that 24 u of 4.5 bounds the rounding of the ends, of the line, and of the distance of a point of
+   the needle from the line. An error that is large compared with the margin of the box around the
+   needle says nothing: the segment may then be anywhere. */
 static double needle_off(double off)
 {
     return off < 0.25 ? 192 * LRCSI_U + 2 * off : 4;
 }
 
-/* The sides of a facet in f's frame, with how near to one a place must be that its side of it is
-   not sure: where its corners are R away at most, 20 u R. Of one that is narrow, or reaches far
-   off, that would not do. There the line of each side is taken from the nearer of its ends, n, of
-   the two p and q. The side T is off by 12 u (r_p + r_q), rounding included, the place G as seen
-   from n by 12 u r_n + 2 u d, d the length of f; so T x G by 12 u (r_p + r_q) |G| + (12 u r_n + 2 u
-   d) |T| in the 1-norm, and by its own rounding, 2 u |T| |G|, below 3 u (r_p + r_q) |G|. */
+/* The sides of a facet in f's frame, each with `clear`: a point nearer than this to the side may
+   lie on either side of it. That is 20 u R, where R is the largest distance of the facet's corners.
+   For a facet that is narrow or reaches far away this is too much. There the line of each side is
+   taken from the nearer of its ends, n, of the two p and q. The side T is off by 12 u (r_p + r_q),
+   rounding included, the place G as seen from n by 12 u r_n + 2 u d, d the length of f; so T x G by
+   12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the 1-norm, and by its own rounding, 2 u |T|
+   |G|, below 3 u (r_p + r_q) |G|. */
 static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side side[3])
 {
     const lrcsi_target *frame = &a->frame;
@@ -123,14 +125,14 @@ static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side si
     double off = 20 * LRCSI_U * most;
     double twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
                    (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
-    int odd =
+    int irregular =
         !(twice > 16 * off * (longest + 4 * off)) || most > FAR_FACET * (least + frame->reach);
     for (int k = 0; k < 3; k++) {
         int next = k == 2 ? 0 : k + 1;
         int n = reach[k] <= reach[next] ? k : next;
         double gap = fabs(corner[n][0]) + fabs(corner[n][1]) + 1.5 * frame->diameter;
         side[k].clear = off;
-        if (odd) {
+        if (irregular) {
             double *line = side[k].line;
             line[2] = -(line[0] * corner[n][0] + line[1] * corner[n][1]);
             side[k].clear =
@@ -356,7 +358,7 @@ static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
     a->rim = frame->perimeter * (off + 16 * LRCSI_U * c->reach);
-    a->trifle = TRIFLE * lrcsi_clip_area(&cell->shape);
+    a->negligible = NEGLIGIBLE * lrcsi_clip_area(&cell->shape);
     cell->facets = 1;
     return lrcsi_clip_area(&cell->shape) > 8 * off * frame->diameter;
 }
@@ -646,13 +648,13 @@ static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_
                                                (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]);
 }
 
-/* Cuts a cell along a segment. Without a segment, halves it if it is neither narrow nor a trifle. 0
-   if that is not possible. */
+/* Cuts a cell along a segment. Without a segment, halves it if it is neither narrow nor negligible.
+   0 if that is not possible. */
 static int cell_divide(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                        const lrcsi_cells_segment *cut)
 {
     double margin = cell->inset + alone_off(a) + s->g;
-    double least = lrcsi_most(a->trifle, NARROW * margin * s->perimeter);
+    double least = lrcsi_most(a->negligible, NARROW * margin * s->perimeter);
     return cut ? lrcsi_cells_divide(&a->cells, cell, s, cut)
                : lrcsi_clip_area(&cell->shape) > least && lrcsi_cells_halve(&a->cells, cell, s);
 }

@@ -33,7 +33,7 @@ typedef struct lrcsi_alone {
     lrcsi_needle needle;      /* used if f is a needle */
     lrcsi_clip_polygon piece; /* the piece last found */
     uint64_t parts;           /* the number of cells that may still be processed */
-    double trifle;            /* undecided area too small to be divided further */
+    double negligible;        /* undecided area too small to be divided further */
     double rim;               /* area within the error of the sides of f */
     double bent;              /* additional error of the area of a needle's pieces */
     double uncertainty[2];    /* undecided area: [0] probably hidden, [1] probably visible */

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* From samples to areas with bounds. A pixel is mixed for an undecided facet if an event edge that
-   crosses the facet touches it, or a contact on the facet may lie in it. What the facet has in any
-   other pixel is visible or hidden together: a sample on the facet tells which, exactly, and so
-   does one in a neighbouring pixel that is not mixed, since what the facet has in both is
-   connected. A pixel that one visible facet covers whole is pure: all others are hidden there.
-   In a pixel that one facet covers whole, all that lies lower is hidden, whatever is visible of
-   that facet: mixed pixels, too, hide what is behind them. These pixels bound the area from below
-   and above; between the bounds the samples decide (visibility/visible_fraction.h).
+   crosses the facet touches it, or a contact on the facet may lie in it. In any other pixel the
+   part of the facet is either entirely visible or entirely hidden. A sample on the facet in that
+   pixel decides which, exactly; so does a sample in a neighbouring pixel that is not mixed, because
+   the facet's parts in the two pixels are connected. A pixel that one visible facet covers whole is
+   pure: all other facets are hidden there. Where one facet covers a whole pixel, mixed or not,
+   everything lower than that facet is hidden in the pixel, even if the facet itself is not visible.
+   These pixels bound the area from below and above; between the bounds the samples decide
+   (visibility/visible_fraction.h).
 
    The driver is lrcsi_visible_sampled:
    1. known_draw: the samples of the tiles that undecided facets touch.
@@ -44,13 +45,13 @@ void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
 
 /* --- mixed pixels ----------------------------------------------------------------------------- */
 
-/* What is certain of a facet, in pixels: what of it is visible, and what hidden. Pixels that it
-   covers whole are counted, exactly. Of the others at most 12 N are added up (along each row or
-   column a side touches 4 at most), so that an addition rounds by at most 12 u N: less than each
-   part gives away. */
+/* The area of a facet that is certainly visible and the area that is certainly hidden, in pixels.
+   Pixels that the facet covers whole are counted exactly. The areas in other pixels are added up,
+   at most 12 N of them (a side touches at most 4 pixels in each row or column). So each addition
+   rounds by at most 12 u N, which is less than the margin subtracted from each area. */
 typedef struct pixel_sums {
     uint32_t whole_visible, whole_hidden;
-    double visible, hidden; /* hidden: HUGE_VAL if all of it is */
+    double visible, hidden; /* hidden: HUGE_VAL if all of the facet is */
     int listed;             /* the facet's open pixels are listed, and not in these sums */
 } pixel_sums;
 
@@ -73,8 +74,8 @@ typedef struct drawn_facet {
     lrcsi_edges edges;
     double corner[3][2]; /* in pixels, counter-clockwise */
     lrcsi_plane plane;
-    double bend; /* no point of it in a pixel is higher than its plane at the centre by more, */
-    double high; /* or higher than this */
+    double rise; /* how much higher a point of it in a pixel may be than its plane at the centre */
+    double high; /* upper bound of its heights */
 } drawn_facet;
 
 static drawn_facet drawn_facet_of(const lrcsi_raster *r, uint32_t facet)
@@ -87,7 +88,7 @@ static drawn_facet drawn_facet_of(const lrcsi_raster *r, uint32_t facet)
         f.high = lrcsi_most(f.high, x[2] + lrcsi_view_off(x));
     }
     f.plane = lrcsi_raster_plane(r, facet);
-    f.bend = 0.5 * (fabs(f.plane.along) + fabs(f.plane.up)) + lrcsi_raster_slack(r, facet);
+    f.rise = 0.5 * (fabs(f.plane.along) + fabs(f.plane.up)) + lrcsi_raster_slack(r, facet);
     return f;
 }
 
@@ -121,9 +122,9 @@ static void mark_edge(const visible_job *job, const drawn_facet *f, uint32_t edg
     }
 }
 
-/* Where a height may be 0 in a row, if it is row + along (x + 1/2) to within slack: among pixels
-   *x0 .. *x1 - 1. Two pixels and 8 roundings are added on either side; where the division gives no
-   number, the range stays. */
+/* Narrows the range *x0 .. *x1 - 1 to the pixels of a row in which a height may be 0, given that
+   the height is row + along (x + 1/2) to within slack. The range is widened by two pixels and 8
+   roundings on either side; where the division gives no number, the range stays. */
 static void level_narrow(double row, double along, double slack, double *x0, double *x1)
 {
     double middle = -row / along;
@@ -256,9 +257,9 @@ static double pixel_part(const drawn_facet *f, uint32_t x, uint32_t y)
 
 enum { SAMPLE_HIDDEN, SAMPLE_VISIBLE, SAMPLE_NONE };
 
-/* Whether the sample of a pixel tells that the facet is visible there. It does not if the pixel is
+/* Whether the sample of a pixel shows that the facet is visible there. It does not if the pixel is
    mixed or the facet may not cover the sample. Coordinates below 0 wrap round and are outside. */
-static int sample_tells(const visible_job *job, const drawn_facet *f, uint32_t x, uint32_t y)
+static int sample_visibility(const visible_job *job, const drawn_facet *f, uint32_t x, uint32_t y)
 {
     if (y < f->edges.bottom || y >= f->edges.top || !lrcsi_span_has(job->row[y].sure, x) ||
         job->mixed[pixel_place(job, x, y)]) {
@@ -275,12 +276,12 @@ static int pixel_hides(const visible_job *job, const drawn_facet *f, uint32_t x,
     const size_t place = pixel_place(job, x, y);
     const double height = f->plane.at + f->plane.along * (x + 0.5) + f->plane.up * (y + 0.5);
     return (r->pure[place] && r->owner[place] != f->facet) ||
-           (double)r->occluded[place] > lrcsi_least(f->high, height + f->bend);
+           (double)r->occluded[place] > lrcsi_least(f->high, height + f->rise);
 }
 
-/* What is certain of a facet in a pixel: from what covers the pixel, from its sample, or else from
-   a neighbouring one. */
-static int pixel_tells(const visible_job *job, const drawn_facet *f, uint32_t x, uint32_t y)
+/* Whether the part of a facet in a pixel is certainly visible or certainly hidden: decided by what
+   covers the pixel, by its sample, or else by the sample of a neighbouring pixel. */
+static int pixel_visibility(const visible_job *job, const drawn_facet *f, uint32_t x, uint32_t y)
 {
     if (pixel_hides(job, f, x, y)) {
         return SAMPLE_HIDDEN;
@@ -288,11 +289,11 @@ static int pixel_tells(const visible_job *job, const drawn_facet *f, uint32_t x,
     if (job->mixed[pixel_place(job, x, y)]) {
         return SAMPLE_NONE;
     }
-    int tells = sample_tells(job, f, x, y);
-    tells = tells == SAMPLE_NONE ? sample_tells(job, f, x - 1, y) : tells;
-    tells = tells == SAMPLE_NONE ? sample_tells(job, f, x + 1, y) : tells;
-    tells = tells == SAMPLE_NONE ? sample_tells(job, f, x, y - 1) : tells;
-    return tells == SAMPLE_NONE ? sample_tells(job, f, x, y + 1) : tells;
+    int found = sample_visibility(job, f, x, y);
+    found = found == SAMPLE_NONE ? sample_visibility(job, f, x - 1, y) : found;
+    found = found == SAMPLE_NONE ? sample_visibility(job, f, x + 1, y) : found;
+    found = found == SAMPLE_NONE ? sample_visibility(job, f, x, y - 1) : found;
+    return found == SAMPLE_NONE ? sample_visibility(job, f, x, y + 1) : found;
 }
 
 /* Lists a pixel as open; where there is no room it is only counted. */
@@ -321,15 +322,15 @@ static pixel_sums certain_sums(visible_job *job, const drawn_facet *f)
             if (x == whole.x0) {
                 for (; x < whole.x1; x++) { /* most pixels, and few operations each */
                     uint32_t own = r->owner[row + x] == f->facet;
-                    uint32_t tells = job->mixed[row + x] == 0;
-                    if (tells == 0) {
-                        tells = (uint32_t)pixel_hides(job, f, x, y);
-                        own &= tells ^ 1;
+                    uint32_t decided = job->mixed[row + x] == 0;
+                    if (decided == 0) {
+                        decided = (uint32_t)pixel_hides(job, f, x, y);
+                        own &= decided ^ 1;
                     }
-                    sums.whole_visible += tells & own;
-                    sums.whole_hidden += tells & (own ^ 1);
-                    r->pure[row + x] |= (unsigned char)(tells & own);
-                    if (tells == 0) {
+                    sums.whole_visible += decided & own;
+                    sums.whole_hidden += decided & (own ^ 1);
+                    r->pure[row + x] |= (unsigned char)(decided & own);
+                    if (decided == 0) {
                         open_add(job, row + x, 1);
                     }
                 }
@@ -337,11 +338,11 @@ static pixel_sums certain_sums(visible_job *job, const drawn_facet *f)
                     break;
                 }
             }
-            int tells = pixel_tells(job, f, x, y);
-            if (tells == SAMPLE_NONE) {
+            int decided = pixel_visibility(job, f, x, y);
+            if (decided == SAMPLE_NONE) {
                 open_add(job, row + x, 0);
             } else {
-                *(tells == SAMPLE_VISIBLE ? &sums.visible : &sums.hidden) += pixel_part(f, x, y);
+                *(decided == SAMPLE_VISIBLE ? &sums.visible : &sums.hidden) += pixel_part(f, x, y);
             }
         }
     }

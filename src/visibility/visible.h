@@ -43,9 +43,10 @@ int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, l
 /* Bytes for lrcsi_visible_sampled, at most. */
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size);
 
-/* The hybrid of exact decisions and samples: uniform facets have their exact projected area or show
-   nothing; undecided ones show the share of their samples that they own, bounded by the pixels that
-   no change of visibility touches. Only the tiles about undecided facets are drawn.
+/* The hybrid of exact decisions and samples. A uniform facet has its exact projected area, or 0.
+   The area of an undecided facet is the fraction of its samples that it owns, within the bounds
+   that follow from the pixels in which visibility does not change. Only the tiles around undecided
+   facets are drawn.
    Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area. */
 int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
                           lrcsi_raster *raster, lrcsi_visible *visible);
