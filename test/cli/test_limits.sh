@@ -77,7 +77,7 @@ if (ulimit -v 4000000 && exec "$tool" help) >/dev/null 2>&1; then
     # shellcheck disable=SC2086
     "$tool" sweep $what --jobs 1 >"$scratch/one.csv" 2>/dev/null
     # shellcheck disable=SC2086
-    (ulimit -v 500000 && exec "$tool" sweep $what --jobs 5 >"$scratch/five.csv" 2>"$scratch/err")
+    (ulimit -v 600000 && exec "$tool" sweep $what --jobs 5 >"$scratch/five.csv" 2>"$scratch/err")
     same fewer_threads_where_memory_refuses_more "$? $(cmp "$scratch/one.csv" "$scratch/five.csv" && echo same)" "0 same"
     same nothing_half_written "$(find "$scratch" -name '*.png*' | grep -v '/demo.png$')" ""
 else
