@@ -62,7 +62,7 @@
 #define NARROW 64
 /* Nor is it halved if its area is at most this fraction of f's: of the cells that a facet may have
    (PARTS_MOST), all together are then less than 1e-12 of it. */
-#define NEGLIGIBLE 0x1p-52
+#define LEAST_HALVED 0x1p-52
 
 /* The depth order of a facet against f: one of these, or the number of the segment in which the two
    intersect. */
@@ -358,7 +358,7 @@ static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
     a->rim = frame->perimeter * (off + 16 * LRCSI_U * c->reach);
-    a->negligible = NEGLIGIBLE * lrcsi_clip_area(&cell->shape);
+    a->negligible = LEAST_HALVED * lrcsi_clip_area(&cell->shape);
     cell->facets = 1;
     return lrcsi_clip_area(&cell->shape) > 8 * off * frame->diameter;
 }
