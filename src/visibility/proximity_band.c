@@ -24,8 +24,11 @@
 typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
-    double *share, *rows;
+    double *share, *gain, *loss, *rows;
+    lrcsi_part_set *near;
     uint32_t *edge, *part; /* event: its topology edge, the part for which it is one */
+    signed char *side;     /* event: on which side of it, from low to high, the part's facets lie: 1
+                              left, -1 right, 0 both or not known */
     uint32_t *seen;        /* event: the facet + 1 that last met it */
     uint32_t count;
     lrcsi_grid grid;
@@ -39,6 +42,25 @@ static uint32_t band_part(const band_job *job, uint32_t facet)
 
 /* --- events of one part ------------------------------------------------------------------------
  */
+
+/* On which side of an edge all facets of a part lie in projection: 1 left, -1 right; 0: on both, or
+   one is seen edge-on. */
+static int event_side(const lrcsi_view *view, const lrcsi_edge *edge, uint32_t part)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_edge_use *use = p->topology.use + edge->first_use;
+    int left = 0;
+    int right = 0;
+    for (uint32_t i = 0; i < edge->uses; i++) {
+        uint32_t f = use[i].facet;
+        if (p->scene->facet_part[f] == part && !p->skip[f]) {
+            int side = use[i].forward ? view->facing[f] : -view->facing[f];
+            left |= side >= 0;
+            right |= side <= 0;
+        }
+    }
+    return left - right;
+}
 
 /* Lists each pair of edge and part once, or only counts them if job->edge is NULL. */
 static void list_events(band_job *job)
@@ -61,6 +83,7 @@ static void list_events(band_job *job)
             if (job->edge) {
                 job->edge[job->count] = e;
                 job->part[job->count] = part;
+                job->side[job->count] = (signed char)event_side(job->view, edge, part);
             }
             job->count++;
         }
@@ -72,8 +95,9 @@ static int band_events(band_job *job, lrcs_work *work)
     list_events(job);
     uint32_t *edge = lrcsi_work_take(work, job->count, sizeof *edge);
     job->part = lrcsi_work_take(work, job->count, sizeof *job->part);
+    job->side = lrcsi_work_take(work, job->count, sizeof *job->side);
     job->seen = lrcsi_work_take_zero(work, job->count, sizeof *job->seen);
-    if (!edge || !job->part || !job->seen) {
+    if (!edge || !job->part || !job->side || !job->seen) {
         return LRCS_E_MEMORY;
     }
     job->edge = edge;
@@ -102,6 +126,8 @@ typedef struct edge_box {
     const double *a, *b;
     double along[3];
     double wide, end;
+    double err;  /* a bound on the error of distances from the edge's line, within the rectangle */
+    int reverse; /* a is the edge's end `high` */
 } edge_box;
 
 /* The position error of the edge's point at parameter t (0 .. 1) is linear in t. A point of the
@@ -117,6 +143,7 @@ static edge_box edge_box_make(const band_job *job, uint32_t facet, const lrcsi_e
     if (lrcsi_view_off(box.a) > lrcsi_view_off(box.b)) {
         box.a = view->point[edge->high].x;
         box.b = view->point[edge->low].x;
+        box.reverse = 1;
     }
     box.along[0] = box.b[0] - box.a[0];
     box.along[1] = box.b[1] - box.a[1];
@@ -128,17 +155,21 @@ static edge_box edge_box_make(const band_job *job, uint32_t facet, const lrcsi_e
         const double *x = view->point[corner[k]].x;
         far = lrcsi_most(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
     }
-    box.wide = slack + facet_off(job, facet) + first;
+    box.err = facet_off(job, facet) + first;
+    box.wide = slack + box.err;
     box.end = box.wide + last;
     if (length > 2 * (first + last)) {
         box.along[0] /= length;
         box.along[1] /= length;
-        box.wide += last * lrcsi_least(1, 2 * (far + box.wide) / length);
-    } else { /* of no length: a square about it */
+        last *= lrcsi_least(1, 2 * (far + box.wide) / length);
+        box.wide += last;
+        box.err += last;
+    } else { /* of no length: a square about it, without sides */
         box.along[0] = 1;
         box.along[1] = 0;
         box.end += length;
         box.wide = box.end;
+        box.err = box.end;
     }
     return box;
 }
@@ -164,27 +195,35 @@ static int edge_box_apart(const band_job *job, uint32_t facet, const edge_box *b
     return left == 3 || right == 3 || before == 3 || beyond == 3;
 }
 
-/* The part of a facet within `slack` of an edge in projection: in the rectangle about it. */
-static lrcsi_slice edge_slice(const band_job *job, uint32_t facet, const lrcsi_edge *edge,
-                              double slack)
+/* The part of a facet in the rectangle about an edge. */
+static lrcsi_slice edge_slice(const band_job *job, uint32_t facet, const edge_box *box)
 {
     const lrcsi_view *view = job->view;
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    edge_box box = edge_box_make(job, facet, edge, slack);
     lrcsi_slice slice = {.count = 0};
-    if (edge_box_apart(job, facet, &box)) {
+    if (edge_box_apart(job, facet, box)) {
         return slice;
     }
-    const double *along = box.along;
+    const double *along = box->along;
     const double aside[3] = {-along[1], along[0], 0};
     const double back[3] = {-along[0], -along[1], 0};
     const double other[3] = {along[1], -along[0], 0};
     slice = lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
                               view->point[corner[2]].x);
-    lrcsi_slice_cut(&slice, aside, box.a, box.wide);
-    lrcsi_slice_cut(&slice, other, box.a, box.wide);
-    lrcsi_slice_cut(&slice, along, box.b, box.end);
-    lrcsi_slice_cut(&slice, back, box.a, box.wide);
+    lrcsi_slice_cut(&slice, aside, box->a, box->wide);
+    lrcsi_slice_cut(&slice, other, box->a, box->wide);
+    lrcsi_slice_cut(&slice, along, box->b, box->end);
+    lrcsi_slice_cut(&slice, back, box->a, box->wide);
+    return slice;
+}
+
+/* What lies to the left of the edge, from low to high (side 1), or to the right (-1), of a slice of
+   the rectangle about it; the errors of positions included. */
+static lrcsi_slice edge_half(lrcsi_slice slice, const edge_box *box, int side)
+{
+    double outward = box->reverse ? -side : side;
+    const double away[3] = {outward * box->along[1], -outward * box->along[0], 0};
+    lrcsi_slice_cut(&slice, away, box->a, box->err);
     return slice;
 }
 
@@ -323,12 +362,30 @@ static band_walk walk_make(const band_job *job, uint32_t facet)
     return walk;
 }
 
+/* Adds a fraction of a facet's area where facets and true shapes may differ either way, near one of
+   these parts. */
+static void add_both(band_job *job, uint32_t facet, double share, lrcsi_part_set parts)
+{
+    job->near[facet] |= parts;
+    job->share[facet] += share;
+    job->gain[facet] += share;
+    job->loss[facet] += share;
+}
+
+/* Does the truth gain area only on the side of event edges on which the part's facets lie? */
+static int gain_is_inside(const lrcs_prepared *p, uint32_t part)
+{
+    return p->proximity.reach[part] == 0 || lrcsi_proximity_closed(p, part);
+}
+
 /* Adds the fractions of area and of rows near an event edge. */
 static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *walk)
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
-    if ((job->part[event] == band_part(job, facet) && !walk->inside) ||
+    int is_own = job->part[event] == band_part(job, facet);
+    int side = is_own ? 0 : job->side[event];
+    if ((is_own && !walk->inside) ||
         walk_apart(walk, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
         return;
     }
@@ -336,17 +393,30 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *
     if (!(slack > 0)) {
         return;
     }
-    lrcsi_slice slice = edge_slice(job, facet, edge, slack);
-    if (slice.count == 0 ||
-        (job->part[event] != band_part(job, facet) && edge_behind(job, facet, edge, slack))) {
+    edge_box box = edge_box_make(job, facet, edge, slack);
+    lrcsi_slice slice = edge_slice(job, facet, &box);
+    if (slice.count == 0 || (!is_own && edge_behind(job, facet, edge, slack))) {
         return;
     }
     const uint32_t *vertex = p->scene->facet[facet].corner;
     const double *const corner[3] = {job->view->point[vertex[0]].x, job->view->point[vertex[1]].x,
                                      job->view->point[vertex[2]].x};
-    job->share[facet] +=
-        lrcsi_slice_share(&slice, 0.5 * p->normal[facet].length, lrcsi_proximity_longest(p, facet));
+    lrcsi_part_set near = lrcsi_part_set_of(job->part[event]);
+    double whole = 0.5 * p->normal[facet].length;
+    double longest = lrcsi_proximity_longest(p, facet);
     job->rows[facet] += lrcsi_proximity_rows(p, facet, corner, &slice);
+    if (side == 0) {
+        add_both(job, facet, lrcsi_slice_share(&slice, whole, longest), near);
+        return;
+    }
+    lrcsi_slice outer = edge_half(slice, &box, -side);
+    lrcsi_slice inner = edge_half(slice, &box, side);
+    double share = lrcsi_slice_share(&slice, whole, longest);
+    job->near[facet] |= near;
+    job->share[facet] += share;
+    job->loss[facet] += lrcsi_slice_share(&outer, whole, longest);
+    job->gain[facet] +=
+        gain_is_inside(p, job->part[event]) ? lrcsi_slice_share(&inner, whole, longest) : share;
 }
 
 /* Adds the fractions near all event edges; the whole facet if the limit of steps is reached. */
@@ -360,11 +430,15 @@ static void add_events(band_job *job, uint32_t facet, band_walk *walk)
         lrcsi_cells row = several ? lrcsi_grid_row(grid, walk->side, 3, y) : cells;
         lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, row.x0, row.x1);
         if (!lrcsi_meter_take(job->meter, (uint64_t)1 + items.to - items.from)) {
-            job->share[facet] = 1;
+            add_both(job, facet, 1, LRCSI_PART_SET_ALL);
             return;
         }
-        for (uint32_t i = items.from; i < items.to && job->share[facet] < 1; i++) {
+        for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t event = grid->item[i];
+            if (job->gain[facet] >= 1 && job->loss[facet] >= 1) {
+                job->near[facet] = LRCSI_PART_SET_ALL; /* the others are not looked for */
+                return;
+            }
             if (job->seen[event] != facet + 1) {
                 job->seen[event] = facet + 1;
                 add_event(job, facet, event, walk);
@@ -394,7 +468,7 @@ static void facet_share(band_job *job, uint32_t facet)
     if (reach > 0 &&
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
             p->proximity.grazing_cos[band_part(job, facet)] + COS_MARGIN * COS_MARGIN) {
-        job->share[facet] = 1;
+        add_both(job, facet, 1, LRCSI_PART_SET_ALL);
     }
 }
 
@@ -411,7 +485,8 @@ static void band_contacts(band_job *job)
         int facing = view->facing[pair->other];
         int shut = p->solid || lrcsi_proximity_closed(p, band_part(job, pair->other));
         if (facing > 0 || (facing < 0 && !shut)) {
-            job->share[pair->facet] += (double)pair->share;
+            add_both(job, pair->facet, (double)pair->share,
+                     lrcsi_part_set_of(band_part(job, pair->other)));
             job->rows[pair->facet] += (double)pair->rows;
         }
     }
@@ -464,21 +539,81 @@ static void band_regions(const lrcsi_proximity_band *band)
     }
 }
 
+/* --- what is hidden --------------------------------------------------------------------------- */
+
+/* Values of band->hidden: by the visible area of a facet of the region; by a query, for good. */
+enum { HIDDEN_REGION = 1, HIDDEN_FACET = 2 };
+/* A facet of which no larger fraction may be visible is asked about. */
+#define ASKED_FRACTION 0x1p-20
+
 /* A region is entirely hidden or entirely visible. So it is hidden if at most half of one of its
    front facets is visible. */
-void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_visible *visible)
+static void settle_regions(const lrcsi_proximity_band *band, const lrcsi_visible *visible)
 {
     const lrcsi_view *view = band->classification->view;
     const lrcs_prepared *p = view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        band->hidden[f] = 0;
+        band->hidden[f] = band->hidden[f] == HIDDEN_FACET ? HIDDEN_FACET : 0;
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         if (view->facing[f] > 0 && p->proximity.reach[p->scene->facet_part[f]] > 0 &&
-            band->share[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f)) {
-            band->hidden[band->region[f]] = 1;
+            band->share[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f) &&
+            band->hidden[f] == 0) {
+            band->hidden[band->region[f]] = HIDDEN_REGION;
         }
     }
+}
+
+/* Marks hidden facets that meet bands, but not of all parts. Returns their number. */
+static uint32_t facets_to_ask(const lrcsi_proximity_band *band, const lrcsi_visible *visible,
+                              unsigned char *ask)
+{
+    const lrcsi_view *view = band->classification->view;
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
+        ask[f] = band->share[f] > 0 && band->near[f] != LRCSI_PART_SET_ALL &&
+                 lrcsi_view_casts(view, f) &&
+                 visible[f].high <= ASKED_FRACTION * lrcsi_view_projected(view, f);
+        count += ask[f];
+    }
+    return count;
+}
+
+/* A part never hides its own fronts; its inside is left to its rims. */
+static void settle_facets(const lrcsi_proximity_band *band, const unsigned char *ask,
+                          const lrcsi_grid *facets, lrcsi_meter *meter)
+{
+    const lrcs_scene *scene = band->classification->view->prepared->scene;
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        lrcsi_part_set others = band->near[f] | lrcsi_part_set_of(scene->facet_part[f]);
+        if (ask[f] && lrcsi_query_hidden_by_others(facets, f, others, meter)) {
+            band->hidden[f] = HIDDEN_FACET;
+            band->share[f] = band->gain[f] = band->loss[f] = band->rows[f] = 0;
+        }
+    }
+}
+
+size_t lrcsi_proximity_band_settle_need(const lrcs_prepared *p)
+{
+    return p->proximity.reach ? lrcsi_work_add(lrcsi_work_bytes(p->scene->facet_count, 1),
+                                               lrcsi_grid_facets_need(p))
+                              : 0;
+}
+
+void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_visible *visible,
+                                 lrcsi_meter *meter, lrcs_work *work)
+{
+    const lrcsi_classification *c = band->classification;
+    size_t mark = work->used;
+    unsigned char *ask = lrcsi_work_take(work, c->view->prepared->scene->facet_count, 1);
+    lrcsi_grid facets;
+    const lrcsi_grid_readers readers = {.undecided = ask};
+    if (ask && facets_to_ask(band, visible, ask) > 0 &&
+        lrcsi_grid_facets(&c->grid, &c->boxes, &readers, work, &facets) == LRCS_OK) {
+        settle_facets(band, ask, &facets, meter);
+    }
+    work->used = mark;
+    settle_regions(band, visible);
 }
 
 /* Upper bound of the number of pairs of an edge and a part with a facet at it. */
@@ -502,10 +637,12 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
         return 0;
     }
     size_t edges = band_edges(p);
-    size_t need = 2 * lrcsi_work_bytes(p->scene->facet_count, sizeof(double));
+    size_t need = 4 * lrcsi_work_bytes(p->scene->facet_count, sizeof(double));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(lrcsi_part_set)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(edges, 1));
     return lrcsi_work_add(need, lrcsi_grid_need(EVENT_CELLS * edges, 8 * edges));
 }
 
@@ -522,6 +659,8 @@ static int band_shares(band_job *job, lrcs_work *work)
                 facet_share(job, f);
             }
             job->share[f] = lrcsi_least(1, job->share[f]);
+            job->gain[f] = lrcsi_least(1, job->gain[f]);
+            job->loss[f] = lrcsi_least(1, job->loss[f]);
             job->rows[f] = job->share[f] < 1 ? lrcsi_least(1, job->rows[f]) : 1;
         }
     }
@@ -537,12 +676,22 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_
     size_t mark = work->used;
     lrcsi_proximity_band m = {.classification = classification};
     m.share = lrcsi_work_take_zero(work, facets, sizeof *m.share);
+    m.gain = lrcsi_work_take_zero(work, facets, sizeof *m.gain);
+    m.loss = lrcsi_work_take_zero(work, facets, sizeof *m.loss);
     m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
+    m.near = lrcsi_work_take_zero(work, facets, sizeof *m.near);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     m.hidden = lrcsi_work_take_zero(work, facets, 1);
-    band_job job = {.view = view, .meter = meter, .share = m.share, .rows = m.rows};
-    int status =
-        m.share && m.rows && m.region && m.hidden ? band_shares(&job, work) : LRCS_E_MEMORY;
+    band_job job = {.view = view,
+                    .meter = meter,
+                    .share = m.share,
+                    .gain = m.gain,
+                    .loss = m.loss,
+                    .rows = m.rows,
+                    .near = m.near};
+    int status = m.share && m.gain && m.loss && m.rows && m.near && m.region && m.hidden
+                     ? band_shares(&job, work)
+                     : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
