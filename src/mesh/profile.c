@@ -16,7 +16,11 @@
    kappa tan h / sin h = mu times the patch's. Curved walls (sphere, dome, paraboloid) take the rise
    dz' = 2 / (mu (rho0 + rho1)) Int rho dz, for which it is the same too: then the facet's normal is
    the mean normal of its patch and the first-order error vanishes. Rows of such a body lie on a
-   convex curve, because the mean normals of successive patches turn in one direction.
+   convex curve, because the mean normals of successive patches turn in one direction. The rises add
+   up to more than the height of the true surface, most of it near the apex. With level rings dz' is
+   the true rise, the outward part is that over the other rise times the patch's, and rows lie on
+   the meridian stretched by mu across the axis: facets are closer to the true surface, but their
+   normals are not those means.
 
    Numbers. A = patch area, A' = facet area = |(X', V)|, n' = (X', V)/A', gamma = turn:
        mean of 1 - cos gamma = D = 1 - (X X' + V V) / (A A');
@@ -167,13 +171,46 @@ static profile_strip strip_paraboloid(const lrcsi_profile *profile, uint32_t i)
                            atan2(1.0, y0)};
 }
 
+/* The rise between the true circles of rows i and i + 1 of a curved wall. */
+static double level_rise(const lrcsi_profile *profile, uint32_t i)
+{
+    if (profile->kind == LRCS_SHAPE_PARABOLOID) {
+        double x1 = profile_fraction(profile, i);
+        double x0 = profile_fraction(profile, i + 1);
+        return profile->height * (x1 - x0) * (x1 + x0);
+    }
+    double theta = profile_polar(profile, i) - 0.5 * profile->step;
+    return profile->height * (2.0 * sin(theta) * sin(0.5 * profile->step));
+}
+
+/* The rise for which the facets' normal is the mean normal of the patch. */
+static double mean_rise(const lrcsi_profile *profile, uint32_t i)
+{
+    if (profile->kind == LRCS_SHAPE_PARABOLOID) {
+        double x1 = profile_fraction(profile, i);
+        double x0 = profile_fraction(profile, i + 1);
+        double t = x0 / x1;
+        double cubes = x1 * (1.0 + t + t * t) / (1.0 + t);
+        return profile->height * (4.0 / 3.0) * (x1 - x0) * cubes / profile->vertex_ratio;
+    }
+    double d = profile->step;
+    double theta = profile_polar(profile, i) - 0.5 * d;
+    double twice = angle_minus_sine(d) + 2.0 * sin(theta) * sin(theta) * sin(d);
+    return profile->height * twice / (2.0 * sin(theta) * cos(0.5 * d)) / profile->vertex_ratio;
+}
+
 static profile_strip strip_make(const lrcsi_profile *profile, uint32_t i)
 {
     if (profile_straight(profile)) {
         return strip_straight(profile);
     }
-    return profile->kind == LRCS_SHAPE_PARABOLOID ? strip_paraboloid(profile, i)
-                                                  : strip_round(profile, i);
+    profile_strip strip = profile->kind == LRCS_SHAPE_PARABOLOID ? strip_paraboloid(profile, i)
+                                                                 : strip_round(profile, i);
+    if (profile->level_rings) {
+        double rise = mean_rise(profile, i);
+        strip.gain = rise > 0.0 ? level_rise(profile, i) / rise : 1.0;
+    }
+    return strip;
 }
 
 /* A corner displaced by e tilts its facet by at most e divided by the altitude through that corner,
@@ -239,6 +276,7 @@ lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *
                              .base = shape->radius,
                              .around = divisions->around,
                              .strips = divisions->along,
+                             .level_rings = divisions->level_rings,
                              .half = h,
                              .vertex_ratio = sqrt(2.0 * h / sin(2.0 * h))};
     double rings = (double)divisions->along;
@@ -286,17 +324,7 @@ double lrcsi_profile_rise(const lrcsi_profile *profile, uint32_t i)
     if (profile_straight(profile)) {
         return profile->height;
     }
-    if (profile->kind == LRCS_SHAPE_PARABOLOID) {
-        double x1 = profile_fraction(profile, i);
-        double x0 = profile_fraction(profile, i + 1);
-        double t = x0 / x1;
-        double cubes = x1 * (1.0 + t + t * t) / (1.0 + t);
-        return profile->height * (4.0 / 3.0) * (x1 - x0) * cubes / profile->vertex_ratio;
-    }
-    double d = profile->step;
-    double theta = profile_polar(profile, i) - 0.5 * d;
-    double twice = angle_minus_sine(d) + 2.0 * sin(theta) * sin(theta) * sin(d);
-    return profile->height * twice / (2.0 * sin(theta) * cos(0.5 * d)) / profile->vertex_ratio;
+    return profile->level_rings ? level_rise(profile, i) : mean_rise(profile, i);
 }
 
 lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)

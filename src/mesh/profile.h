@@ -16,6 +16,7 @@ typedef struct lrcsi_profile {
     double vertex_ratio;      /* vertex radius / true radius: the polygon has the circle's area */
     double slope;             /* paraboloid: 2 H / R, the tangent of the angle at its rim */
     double step;              /* rad of meridian between rings; 0 for straight walls */
+    int level_rings;          /* lrcs_divisions.level_rings, of curved walls */
 } lrcsi_profile;
 
 /* Makes the profile of a shape that lrcs_shape_check accepts and that is neither plate nor box, for
