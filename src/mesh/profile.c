@@ -384,15 +384,14 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
         (k * c->bias + k * (g + G * E) * square) * outward, k * c->spread * sqrt(E) * outward};
 }
 
-/* The largest distance by which a point of the unit disc moves when its sector is mapped to a
-   triangle of the N-gon. */
-static double sector_reach(const lrcsi_profile *profile)
+/* How far points of the unit disc move when their sector is mapped to a triangle of the N-gon. */
+static lrcsi_reach sector_reach(const lrcsi_profile *profile)
 {
     double h = profile->half;
     double kappa = profile->vertex_ratio * cos(h);
-    double inward = fmax(1.0 - kappa, kappa - cos(h));
-    double sideways = fmax(h * h * h / 6.0, (profile->vertex_ratio - 1.0) * sin(h));
-    return hypot(inward, sideways) + SLACK;
+    double inward = fmax(1.0 - kappa, kappa - cos(h)) + SLACK;
+    double sideways = fmax(h * h * h / 6.0, (profile->vertex_ratio - 1.0) * sin(h)) + SLACK;
+    return (lrcsi_reach){hypot(inward, sideways), inward, 0.0, sideways};
 }
 
 /* True height of row i. */
@@ -432,18 +431,19 @@ static double strip_bulge(const lrcsi_profile *profile, uint32_t i)
     return fmin(whole, rise * rise / 36.0); /* fmin ignores a NaN */
 }
 
-/* An upper bound of the distance by which points of strip i move, if its rows differ from their
-   true heights by at most height_err. */
-static double strip_reach(const lrcsi_profile *profile, uint32_t i, double height_err)
+/* How far points of strip i move, if its rows differ from their true heights by at most
+   height_err. */
+static lrcsi_reach strip_reach(const lrcsi_profile *profile, uint32_t i, double height_err)
 {
     double below = lrcsi_profile_radius(profile, i);
     double above = lrcsi_profile_radius(profile, i + 1);
     double bulge = strip_bulge(profile, i);
-    double across = fmax(below, above) * sector_reach(profile);
+    lrcsi_reach sector = sector_reach(profile);
+    double out = 0.0;      /* the largest rho - r */
     double fraction = 0.0; /* the largest difference of fractions of the height */
     if (bulge > 0.0) {
-        double out = fmin(sqrt(bulge), below - above);
-        across += above > 0.0 ? fmin(out, 0.5 * bulge / above) : out;
+        out = fmin(sqrt(bulge), below - above);
+        out = above > 0.0 ? fmin(out, 0.5 * bulge / above) : out;
     }
     if (!profile_straight(profile) && below > above) {
         fraction = 0.25 * (below - above) / (below + above);
@@ -452,20 +452,31 @@ static double strip_reach(const lrcsi_profile *profile, uint32_t i, double heigh
         }
     }
     double rise = profile_height(profile, i + 1) - profile_height(profile, i);
-    return hypot(across, height_err + fmin(1.0, fraction) * rise);
+    double wide = fmax(below, above);
+    lrcsi_reach reach = {0.0, wide * sector.radial + out, height_err + fmin(1.0, fraction) * rise,
+                         wide * sector.aside + out * sin(profile->half)};
+    reach.all = hypot(wide * sector.all + out, reach.axial);
+    return reach;
 }
 
-double lrcsi_profile_reach(const lrcsi_profile *profile)
+lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile)
 {
-    double most = fmax(profile->base, profile->top) * sector_reach(profile);
+    double wide = fmax(profile->base, profile->top);
+    lrcsi_reach most = {wide * sector_reach(profile).all, 0.0, 0.0, 0.0};
     double z = 0.0;
     double height_err = 0.0;
     for (uint32_t i = 0; i < profile->strips; i++) {
         double before = height_err;
         z += lrcsi_profile_rise(profile, i);
         height_err = fabs(z - profile_height(profile, i + 1));
-        most = fmax(most, strip_reach(profile, i, fmax(before, height_err)));
+        lrcsi_reach strip = strip_reach(profile, i, fmax(before, height_err));
+        most.all = fmax(most.all, strip.all);
+        most.radial = fmax(most.radial, strip.radial);
+        most.axial = fmax(most.axial, strip.axial);
+        most.aside = fmax(most.aside, strip.aside);
     }
-    double size = fmax(profile->base, profile->top) + profile->height;
-    return most * REACH_MARGIN + (32.0 + 2.0 * (double)profile->strips) * LRCSI_U * size;
+    double rounding = (32.0 + 2.0 * (double)profile->strips) * LRCSI_U * (wide + profile->height);
+    return (lrcsi_reach){most.all * REACH_MARGIN + rounding, most.radial * REACH_MARGIN + rounding,
+                         most.axial * REACH_MARGIN + rounding,
+                         most.aside * REACH_MARGIN + rounding};
 }

@@ -46,9 +46,15 @@ lrcs_curvature lrcsi_profile_rounded(const lrcs_curvature *curvature, double rou
 lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *curvature, double ratio,
                                        double *uneven);
 
-/* An upper bound of the distance, m, by which a map of the true surface, caps included, onto the
-   facets moves any point. The map takes every facet's patch to it, and stretches area evenly over a
-   facet (before any lrcsi_profile_stretched). */
-double lrcsi_profile_reach(const lrcsi_profile *profile);
+/* Upper bounds of how far, m, a map of the true surface onto the facets moves points. The map takes
+   every facet's patch to it, and stretches area evenly over a facet (before any
+   lrcsi_profile_stretched). */
+typedef struct lrcsi_reach {
+    double all;    /* any point, caps included */
+    double radial; /* points of the wall: from or towards the axis in the sector's middle plane */
+    double axial;  /* along the axis */
+    double aside;  /* across the middle plane */
+} lrcsi_reach;
+lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile);
 
 #endif

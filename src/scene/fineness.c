@@ -141,7 +141,7 @@ static lrcs_divisions divide_round_share(const lrcsi_fineness *fineness, const l
     lrcs_divisions d = {4 * (uint32_t)(fmin(fmax(corners, BASE_AROUND), 1e6) / 4.0 + 1.0),
                         BASE_ALONG, 1};
     while (lrcsi_tessellate_counts(shape, &d).facets <= fineness->max_facets &&
-           lrcsi_tessellate_reach(shape, &d) > reach) {
+           lrcsi_tessellate_reach(shape, &d).all > reach) {
         d.along += 1 + d.along / 16;
     }
     return d;

@@ -20,6 +20,11 @@
 /* The grid has so many cells for each event: rims are many short edges in few of its cells. */
 #define EVENT_CELLS 4u
 
+/* Bounds in view coordinates. */
+typedef struct band_box {
+    double low[3], high[3];
+} band_box;
+
 /* What one run needs; the edges' grid lists events by index. */
 typedef struct band_job {
     const lrcsi_view *view;
@@ -32,7 +37,8 @@ typedef struct band_job {
     uint32_t *seen;        /* event: the facet + 1 that last met it */
     uint32_t count;
     lrcsi_grid grid;
-    double low[3], high[3]; /* bounds of the curved parts in the view */
+    band_box *box;   /* part: that of its facets in the view */
+    band_box curved; /* of all facets of curved parts */
 } band_job;
 
 static uint32_t band_part(const band_job *job, uint32_t facet)
@@ -273,9 +279,9 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
     return count == 1 && facing;
 }
 
-/* The distance within which an event edge affects a facet, unless it is behind; 0 if it cannot. Of
-   the facet's own part only the rims of openings do. */
-static double event_slack(const band_job *job, uint32_t facet, uint32_t event)
+/* The distance in projection within which an event edge affects a facet, unless it is behind; 0 if
+   it cannot. Of the facet's own part only the rims of openings do. */
+static double event_slack(const band_job *job, uint32_t facet, uint32_t event, double aside)
 {
     const lrcs_prepared *p = job->view->prepared;
     uint32_t part = band_part(job, facet);
@@ -283,7 +289,7 @@ static double event_slack(const band_job *job, uint32_t facet, uint32_t event)
         const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
         return own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
     }
-    return lrcsi_proximity_slack(p, part, job->part[event]);
+    return lrcsi_proximity_slack_across(p, part, job->part[event], aside);
 }
 
 /* --- one facet -------------------------------------------------------------------------------- */
@@ -295,8 +301,9 @@ typedef struct band_walk {
     double low[3], high[3];
     lrcsi_strip_segment side[3];
     double outward[3][2], limit[3];
-    int tried;  /* the side to try first: the one that the last edge was beyond */
-    int inside; /* the laser may see the facet through an opening of its own part */
+    int tried;    /* the side to try first: the one that the last edge was beyond */
+    int inside;   /* the laser may see the facet through an opening of its own part */
+    double aside; /* lrcsi_proximity_aside; negative: not computed yet */
 } band_walk;
 
 /* outward . x of a point, with `off` times its position's error added. */
@@ -350,7 +357,7 @@ static band_walk walk_make(const band_job *job, uint32_t facet)
     double wide = near + facet_off(job, facet);
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
                                     view->point[corner[2]].x};
-    band_walk walk = {.tried = 0};
+    band_walk walk = {.tried = 0, .aside = -1};
     walk.inside = view->facing[facet] < 0 && !lrcsi_proximity_closed(p, band_part(job, facet));
     lrcsi_grid_sides(&job->grid, corner, 3, near, walk.side);
     lrcsi_view_bounds(view, corner, 3, walk.low, walk.high);
@@ -372,10 +379,18 @@ static void add_both(band_job *job, uint32_t facet, double share, lrcsi_part_set
     job->loss[facet] += share;
 }
 
-/* Does the truth gain area only on the side of event edges on which the part's facets lie? */
-static int gain_is_inside(const lrcs_prepared *p, uint32_t part)
+/* Does the truth gain area only on the side of event edges on which the part's facets lie? It does
+   where an open part has one opening, and the facet is not inside its box. */
+static int gain_is_inside(const band_job *job, const band_walk *walk, uint32_t part)
 {
-    return p->proximity.reach[part] == 0 || lrcsi_proximity_closed(p, part);
+    const lrcs_prepared *p = job->view->prepared;
+    const band_box *box = &job->box[part];
+    int openings = p->proximity.reach[part] > 0 ? lrcsi_proximity_openings(p, part) : 0;
+    int apart = 0;
+    for (int k = 0; k < 3; k++) {
+        apart |= walk->low[k] > box->high[k] || walk->high[k] < box->low[k];
+    }
+    return openings == 0 || (openings == 1 && apart);
 }
 
 /* Adds the fractions of area and of rows near an event edge. */
@@ -389,13 +404,18 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *
         walk_apart(walk, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
         return;
     }
-    double slack = event_slack(job, facet, event);
+    if (walk->aside < 0) {
+        walk->aside = lrcsi_proximity_aside(p, facet, job->view->unit);
+    }
+    double slack = event_slack(job, facet, event, walk->aside);
     if (!(slack > 0)) {
         return;
     }
     edge_box box = edge_box_make(job, facet, edge, slack);
     lrcsi_slice slice = edge_slice(job, facet, &box);
-    if (slice.count == 0 || (!is_own && edge_behind(job, facet, edge, slack))) {
+    if (slice.count == 0 || (!is_own && edge_behind(job, facet, edge,
+                                                    lrcsi_proximity_slack(p, band_part(job, facet),
+                                                                          job->part[event])))) {
         return;
     }
     const uint32_t *vertex = p->scene->facet[facet].corner;
@@ -415,8 +435,9 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *
     job->near[facet] |= near;
     job->share[facet] += share;
     job->loss[facet] += lrcsi_slice_share(&outer, whole, longest);
-    job->gain[facet] +=
-        gain_is_inside(p, job->part[event]) ? lrcsi_slice_share(&inner, whole, longest) : share;
+    job->gain[facet] += gain_is_inside(job, walk, job->part[event])
+                            ? lrcsi_slice_share(&inner, whole, longest)
+                            : share;
 }
 
 /* Adds the fractions near all event edges; the whole facet if the limit of steps is reached. */
@@ -460,8 +481,8 @@ static void facet_share(band_job *job, uint32_t facet)
     const lrcs_prepared *p = view->prepared;
     double reach = p->proximity.reach[band_part(job, facet)];
     band_walk walk = walk_make(job, facet);
-    if (reach == 0 && (walk.low[0] > job->high[0] || walk.low[1] > job->high[1] ||
-                       walk.high[0] < job->low[0] || walk.high[1] < job->low[1])) {
+    if (reach == 0 && (walk.low[0] > job->curved.high[0] || walk.low[1] > job->curved.high[1] ||
+                       walk.high[0] < job->curved.low[0] || walk.high[1] < job->curved.low[1])) {
         return;
     }
     add_events(job, facet, &walk);
@@ -492,23 +513,32 @@ static void band_contacts(band_job *job)
     }
 }
 
-static void band_box(band_job *job)
+static void box_add(band_box *box, const double low[3], const double high[3])
 {
-    const lrcs_prepared *p = job->view->prepared;
     for (int k = 0; k < 3; k++) {
-        job->low[k] = HUGE_VAL;
-        job->high[k] = -HUGE_VAL;
+        box->low[k] = lrcsi_least(box->low[k], low[k]);
+        box->high[k] = lrcsi_most(box->high[k], high[k]);
+    }
+}
+
+/* The boxes of curved parts: their facets', not enlarged by their reach, as the boxes that are
+   compared with them are (walk_make). */
+static void band_boxes(band_job *job)
+{
+    static const band_box none = {{HUGE_VAL, HUGE_VAL, HUGE_VAL},
+                                  {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    const lrcs_prepared *p = job->view->prepared;
+    job->curved = none;
+    for (uint32_t i = 0; i < p->scene->part_count; i++) {
+        job->box[i] = none;
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        if (p->skip[f] || p->proximity.reach[band_part(job, f)] == 0) {
-            continue;
-        }
-        double low[3];
-        double high[3];
-        lrcsi_view_bounds(job->view, p->scene->facet[f].corner, 3, low, high);
-        for (int k = 0; k < 3; k++) {
-            job->low[k] = lrcsi_least(job->low[k], low[k]);
-            job->high[k] = lrcsi_most(job->high[k], high[k]);
+        if (!p->skip[f] && p->proximity.reach[band_part(job, f)] > 0) {
+            double low[3];
+            double high[3];
+            lrcsi_view_bounds(job->view, p->scene->facet[f].corner, 3, low, high);
+            box_add(&job->box[band_part(job, f)], low, high);
+            box_add(&job->curved, low, high);
         }
     }
 }
@@ -643,6 +673,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(band_box)));
     return lrcsi_work_add(need, lrcsi_grid_need(EVENT_CELLS * edges, 8 * edges));
 }
 
@@ -650,10 +681,11 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
 static int band_shares(band_job *job, lrcs_work *work)
 {
     size_t mark = work->used;
-    int status = band_events(job, work);
+    job->box = lrcsi_work_take(work, job->view->prepared->scene->part_count, sizeof *job->box);
+    int status = job->box ? band_events(job, work) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
         band_contacts(job);
-        band_box(job);
+        band_boxes(job);
         for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
             if (facet_matters(job->view, f)) {
                 facet_share(job, f);

@@ -26,6 +26,14 @@
    walk lie above y - e, the lower convex and w above y + r - e_Q, so that where its rim lies lower
    the walk climbs past y on W itself, and (1) holds. []
 
+   In projection only the part of the way from y to x counts that lies across the line of sight, in
+   place of e_P: on the curved wall of a shape, placed without distortion, points move by known
+   distances along the axis, from it, and across both (lrcs_part.displaced), and the first two count
+   by the sines of their angles to the line of sight. For let every z be x plus a vector of at most
+   e_Q: then (1) and (2) hold as above for the way from y over x to z, and if S hides all these z,
+   all of them lie within e_Q of V(B), and x in it. This does not apply where Q is open and e_Q > 0:
+   the walk below may come as far as e_P.
+
    Which way they differ. Let an event edge be one-sided if all facets of Q on it lie on one side of
    it in projection; the other side is its outer side. On the way from y, straight to a point z of
    the ball, the first facet of Q comes into the way, or the last one leaves it, at an event edge E
@@ -35,8 +43,9 @@
      on the outer side of such an edge, or near one with facets on both sides.
    - Q hides y but not x, and Q is closed or e_Q = 0: if y is on the outer side of all edges near it
      no way from y leaves the last facet, and S hides the whole ball, as above: Q hides x. So y is
-     not on the outer side of some edge near it. Other Q, which are open, may differ on both sides
-     of their edges.
+     not on the outer side of some edge near it. The same holds where Q has one opening and x is not
+     in B: the ray of x, which is behind B, enters B and leaves it, only once through the opening.
+     Other Q may differ on both sides of their edges.
    So the truth gains visible area on the inner sides of edges only, and loses some on the outer
    sides only, each within the slack.
 

@@ -460,7 +460,7 @@ static void extreme_dimensions_stay_finite(void **state)
         lrcs_curvature c;
         lrcs_mesh mesh = make(&shape, 8, along, &c);
         assert_true(isfinite(c.turn + c.area_error + c.bias + c.spread));
-        double reach = lrcsi_tessellate_reach(&shape, &(lrcs_divisions){8, along});
+        double reach = lrcsi_tessellate_reach(&shape, &(lrcs_divisions){8, along}).all;
         double size = shape.radius + shape.radius2 + shape.length;
         assert_true(reach >= 0.0 && reach <= 3.0 * size + 1e-300);
         for (uint32_t v = 0; v < mesh.vertex_count; v++) {
