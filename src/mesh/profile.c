@@ -40,8 +40,9 @@
    top row to rho0^2. On the patch
      straight walls: rho^2 is linear in a: r = rho, and heights agree;
      sphere: cos theta is, and rho^2 - r^2 = R^2 a (1 - a) (cos theta1 - cos theta0)^2;
-     paraboloid: w^3 is, w^2 = 1 + y^2: w^2 exceeds its chord by at most 1/8 of the largest second
-   derivative, (w0^3 - w1^3)^2 / (36 w1^4). With b a bound on rho^2 - r^2 (strip_bulge), rho - r <=
+     paraboloid: w^3 is, w^2 = 1 + y^2; over w^3, w^2 exceeds its chord most where w is v = 2 (w0^2
+   + w0 w1 + w1^2) / (3 (w0 + w1)), by (v - w1)^2 (v + 2 w1) / (3 v), and v - w1 = (w0 - w1) (2 w0 +
+   w1) / (3 (w0 + w1)). With b a bound on rho^2 - r^2 (strip_bulge), rho - r <=
    min(sqrt(b), b / (2 rho1), rho0 - rho1). In height, as a fraction from the top, the trapezoid's
    point is at beta = (r - rho1)/(rho0 - rho1), which exceeds a by at most (rho0 - rho1) / (4 (rho0
    + rho1)); the sphere's is at a, the paraboloid's between a and a + b/(rho0^2 - rho1^2); to that
@@ -425,10 +426,11 @@ static double strip_bulge(const lrcsi_profile *profile, uint32_t i)
     double y0 = profile_tangent(profile, i + 1);
     double q = hypot(1.0, y1);
     double p = hypot(1.0, y0);
-    double cubes = (y1 - y0) * ((y1 + y0) / (q + p)) * (q * q + q * p + p * p);
+    double longer = (y1 - y0) * ((y1 + y0) / (q + p)); /* q - p */
+    double apart = longer * (2.0 * q + p) / (3.0 * (q + p));
     double unit = profile->slope > 0.0 ? profile->base / profile->slope : 0.0;
-    double rise = cubes / (p * p) * unit;
-    return fmin(whole, rise * rise / 36.0); /* fmin ignores a NaN */
+    double rise = unit * apart;
+    return fmin(whole, rise * rise * (apart + 3.0 * p) / (3.0 * (apart + p))); /* ignores a NaN */
 }
 
 /* How far points of strip i move, if its rows differ from their true heights by at most
