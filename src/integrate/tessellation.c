@@ -21,6 +21,9 @@
      - w), where 0 <= Int_f (1 - w) <= S h, and 0 <= Int_U F (1 - v) <= (1 + a) S (h + l) sup F.
    - The facet faces away from the laser: M is 0. Its patch may be lit in part, and T is at most the
      deviation.
+   - The laser may see parts of a patch from its other side. On a two-sided part that is not closed
+     these reflect as well, hidden though the facet may be: T exceeds what is said above by at most
+     (1 + a) S sup F of that side.
    Where a scale that differs between axes stretches areas within a patch unevenly, regions of it
    deviate by more than the whole patch: a is then patch_area_error, except in the deviation of the
    whole patch. On flat facets a = 0 and F = F_i.
@@ -295,6 +298,23 @@ static double inside_error(const lrcsi_view *view, uint32_t facet, const lrcs_br
     return most * fmin(1, visible[facet].high / incidence->projected);
 }
 
+/* What the other side of a patch than the one that the facet shows to the laser may reflect, per
+   unit of the facet's area. */
+static double other_side(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                         const lrcsi_incidence *incidence, const lrcs_curvature *c,
+                         const lrcsi_proximity_band *band)
+{
+    const lrcs_prepared *p = view->prepared;
+    if (!(c->turn > FLAT_TILT) || patch_part(p, facet)->solid ||
+        !lrcsi_prepared_material(p, facet)->two_sided ||
+        (band && band->hidden[band->region[facet]])) {
+        return 0;
+    }
+    double cosine = -fabs(incidence->cos_theta);
+    return (1 + patch_area_error(p, facet, c)) *
+           lrcsi_deviation_make(brdf, cosine, incidence->tan2, c).most;
+}
+
 int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
 {
     for (uint32_t i = 0; i < p->scene->part_count && plan->unshadowed; i++) {
@@ -322,6 +342,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
     double seen =
         is_curved && state == PATCH_HIDDEN ? fraction_visible(incidence, facet, visible, band) : 0;
     lrcsi_tessellation error = {0, 0};
+    error.above = area * other_side(view, facet, brdf, incidence, &c, band);
     if (state == PATCH_UNLIT) {
         error.below = area * inside_error(view, facet, brdf, incidence, visible, band);
     }
@@ -383,9 +404,9 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_p
                                .mismatch = band ? band->share[facet] : 0,
                                .partner = facet};
     uint32_t first = patch_part(p, facet)->first_facet;
-    uint32_t other = first + ((facet - first) ^ 1);
-    if (is_curved && other < first + patch_part(p, facet)->facet_count && !p->skip[other]) {
-        parts.partner = other;
+    uint32_t partner = first + ((facet - first) ^ 1);
+    if (is_curved && partner < first + patch_part(p, facet)->facet_count && !p->skip[partner]) {
+        parts.partner = partner;
     }
     if (parts.lit) {
         double stretch;
@@ -393,10 +414,12 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_p
             patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
         double area = 0.5 * p->normal[facet].length;
         double a = is_curved ? patch_area_error(p, facet, &c) : 0;
+        lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, facet));
+        double other = other_side(view, facet, &brdf, incidence, &c, band);
         parts.deviation =
-            is_curved ? area * ((1 + a) * deviation.point + stretch * deviation.value) : 0;
+            is_curved ? area * ((1 + a) * deviation.point + stretch * deviation.value + other) : 0;
         parts.shift = area * (1 + a) * deviation.value;
-        parts.most = area * (1 + a) * deviation.most;
+        parts.most = area * ((1 + a) * deviation.most + other);
     }
     return parts;
 }
