@@ -32,7 +32,7 @@ enum { MANY_PAIRS = 16, SOME_LEAVES = 8, LEAVES_APART = 4 };
 enum { MANY_LEAVES = 16, BLOCKS_APART = 8, FILL_COST = 8 };
 
 /* 8 u: see slab_separates; heights are within 4 u, and what is added to them rounds by 2 u. */
-#define SLAB_FILTER (8.0 * LRCSI_U)
+#define CORNER_FILTER (8.0 * LRCSI_U)
 
 /* A contact as it is found: `other` meets the interior of `facet`. They are taken from the work
    area in blocks that follow one another without gaps. */
@@ -252,7 +252,7 @@ static int slab_separates(const contact_search *search, const lrcsi_tree_slab *s
             size = lrcsi_most(size, (fabs(x[0]) + fabs(x[1])) + fabs(x[2]));
         }
     }
-    double error = SLAB_FILTER * (size + slab->size);
+    double error = CORNER_FILTER * (size + slab->size);
     return low - error > slab->high || high + error < slab->low;
 }
 
