@@ -7,19 +7,32 @@
    All other pairs meet at most in corners of both or along a side of both. */
 #include "mesh/intersection.h"
 
+#include <math.h>
+
+#include "base/constant.h"
 #include "base/exact.h"
 #include "base/range.h"
+#include "base/vec3.h"
 #include "base/work.h"
 #include "mesh/ring.h"
 #include "mesh/tree.h"
 
 enum { LEAF_LANES = LRCSI_TREE_LANES };
 
+/* When a leaf's slab is compared with the corners of another leaf: if boxes leave at least
+   MANY_PAIRS pairs of their facets; and if the box of the leaf has intersected SOME_LEAVES others,
+   or the slab of the leaf before it separated LEAVES_APART. Long facets at an angle to the axes, as
+   in the wall of a tilted cylinder, have boxes that intersect most others of the wall. */
+enum { MANY_PAIRS = 16, SOME_LEAVES = 8, LEAVES_APART = 4 };
+
 /* When leaves are also compared by slabs. If the box of a leaf intersects more than MANY_LEAVES
    others, the rest of them are compared by slabs too; if slabs then separate at least BLOCKS_APART
    blocks from it, the next leaf is compared by slabs from the start. The slabs of the tree are
    filled once such leaves have intersected FILL_COST times as many others as there are leaves. */
 enum { MANY_LEAVES = 16, BLOCKS_APART = 8, FILL_COST = 8 };
+
+/* 8 u: see slab_separates; heights are within 4 u, and what is added to them rounds by 2 u. */
+#define CORNER_FILTER (8.0 * LRCSI_U)
 
 /* A contact as it is found: `other` meets the interior of `facet`. They are taken from the work
    area in blocks that follow one another without gaps. */
@@ -44,6 +57,7 @@ typedef struct contact_search {
     lrcsi_tree tree;
     search_leaf *leaf;
     uint64_t excess;      /* leaves that were met beyond the first MANY_LEAVES of a leaf, in all */
+    int leaves_apart;     /* leaves that the slab of the last leaf separated from it */
     int slabs_pay;        /* slabs separated at least BLOCKS_APART blocks from the last leaf */
     found_contact *found; /* above the tree in the work area */
     uint32_t count;
@@ -87,8 +101,8 @@ static int boxes_overlap(const lrcsi_box *a, const lrcsi_box *b)
 {
     int longer = 0;
     for (int k = 0; k < 3; k++) {
-        double low = lrcsi_most(a->low[k], b->low[k]);
-        double high = lrcsi_least(a->high[k], b->high[k]);
+        double low = lrcsi_max(a->low[k], b->low[k]);
+        double high = lrcsi_min(a->high[k], b->high[k]);
         if (low > high) {
             return 0;
         }
@@ -217,9 +231,36 @@ static uint32_t count_lanes(unsigned mask)
     return (mask & 0x0fu) + (mask >> 4);
 }
 
+/* Is a leaf, by the slab that contains it, proved to be disjoint from the facets in `lanes` of
+   another leaf: do all their corners lie beyond one side of the slab? Errors: as |d_k| <= 1, the
+   height of a corner has an error of at most 4 u (|x| + |y| + |z|); so have the ends of the slab.
+ */
+static int slab_separates(const contact_search *search, const lrcsi_tree_slab *slab, uint32_t leaf,
+                          unsigned lanes)
+{
+    const search_leaf *others = &search->leaf[leaf];
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    double size = 0.0;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        uint32_t lane = lrcsi_tree_lane(lanes);
+        for (int k = 0; k < 3; k++) {
+            const double *x = search->vertex[others->corner[k][lane]].x;
+            double height = lrcsi_vec3_dot(slab->direction, x);
+            low = lrcsi_min(low, height);
+            high = lrcsi_max(high, height);
+            size = lrcsi_max(size, (fabs(x[0]) + fabs(x[1])) + fabs(x[2]));
+        }
+    }
+    double error = CORNER_FILTER * (size + slab->size);
+    return low - error > slab->high || high + error < slab->low;
+}
+
 /* Tests the facets of two leaves against each other: those that intersect the other leaf's box, one
-   by one in the leaf that has fewer of them. */
-static int join_leaves(contact_search *search, uint32_t first, uint32_t second)
+   by one in the leaf that has fewer of them. The slab of the first one is compared too, unless it
+   is NULL. */
+static int join_leaves(contact_search *search, const lrcsi_tree_slab *slab, uint32_t first,
+                       uint32_t second)
 {
     const lrcsi_tree *tree = &search->tree;
     lrcsi_box box = lrcsi_tree_box(&tree->block[1][second / LEAF_LANES], second % LEAF_LANES);
@@ -229,6 +270,11 @@ static int join_leaves(contact_search *search, uint32_t first, uint32_t second)
     if ((rows & (rows - 1)) != 0) { /* for a single one, comparing its own box is as good */
         box = lrcsi_tree_box(&tree->block[1][first / LEAF_LANES], first % LEAF_LANES);
         columns = lrcsi_tree_meets(&tree->block[0][second], &box);
+    }
+    if (slab && count_lanes(rows) * count_lanes(columns) >= MANY_PAIRS &&
+        slab_separates(search, slab, second, columns)) {
+        search->leaves_apart++;
+        return LRCS_OK;
     }
     if (count_lanes(columns) < count_lanes(rows)) {
         unsigned lanes = rows;
@@ -267,8 +313,16 @@ static int join_leaf(contact_search *search, uint32_t leaf)
     if (search->slabs_pay) {
         lrcsi_tree_narrow_by_slabs(&walk, leaf);
     }
+    lrcsi_tree_slab own;
+    const lrcsi_tree_slab *slab = NULL;
+    int slab_from = search->leaves_apart >= LEAVES_APART ? 0 : SOME_LEAVES;
     uint32_t other;
+    search->leaves_apart = 0;
     for (int met = 0; status == LRCS_OK && (other = lrcsi_tree_next(&walk)) != LRCS_NONE; met++) {
+        if (met == slab_from) {
+            own = lrcsi_tree_leaf_slab(search->vertex, search->facet, tree, leaf);
+            slab = &own;
+        }
         search->excess += met >= MANY_LEAVES;
         if (!tree->has_slabs && search->excess > (uint64_t)FILL_COST * tree->blocks[0]) {
             lrcsi_tree_fill_slabs(search->vertex, search->facet, tree);
@@ -276,7 +330,7 @@ static int join_leaf(contact_search *search, uint32_t leaf)
         if (tree->has_slabs && met == MANY_LEAVES && walk.leaf == LRCS_NONE) {
             lrcsi_tree_narrow_by_slabs(&walk, leaf);
         }
-        status = join_leaves(search, leaf, other);
+        status = join_leaves(search, slab, leaf, other);
     }
     search->slabs_pay = walk.apart >= BLOCKS_APART;
     return status;

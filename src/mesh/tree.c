@@ -102,7 +102,7 @@ static inline lrcs_point facet_centre(const tree_sort *s, const uint32_t *apex, 
     lrcs_point centre;
     for (int k = 0; k < 3; k++) {
         centre.x[k] =
-            lrcsi_least(lrcsi_least(a[k], b[k]), c[k]) + lrcsi_most(lrcsi_most(a[k], b[k]), c[k]);
+            lrcsi_min(lrcsi_min(a[k], b[k]), c[k]) + lrcsi_max(lrcsi_max(a[k], b[k]), c[k]);
     }
     return centre;
 }
@@ -328,7 +328,7 @@ static void add_normal(const lrcs_point *vertex, const lrcs_facet *facet, double
         n[k] = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
         along += n[k] * direction[k];
     }
-    double most = lrcsi_most(fabs(n[0]), lrcsi_most(fabs(n[1]), fabs(n[2])));
+    double most = lrcsi_max(fabs(n[0]), lrcsi_max(fabs(n[1]), fabs(n[2])));
     double scale = most > 0x1p-1000 ? (along < 0.0 ? -1.0 : 1.0) / most : 0.0;
     for (int k = 0; k < 3; k++) {
         direction[k] += n[k] * scale;
@@ -363,35 +363,50 @@ static void mean_direction(const lrcs_point *vertex, const lrcs_facet *facet,
     }
 }
 
-/* Slabs of the blocks of `level`, each of which is a lane of the level above. */
+/* The slab of a block of `level`. */
+static lrcsi_tree_slab block_slab(const lrcs_point *vertex, const lrcs_facet *facet,
+                                  const lrcsi_tree *tree, int level, uint32_t b)
+{
+    lrcsi_tree_slab slab = {{0.0, 0.0, 0.0}, HUGE_VAL, -HUGE_VAL, 0.0};
+    uint32_t size = TREE_LANES; /* places in the block */
+    for (int l = 0; l < level; l++) {
+        size *= TREE_LANES;
+    }
+    uint32_t first = b * size;
+    uint32_t end = tree->count - first < size ? tree->count : first + size;
+    mean_direction(vertex, facet, tree, level, b, slab.direction);
+    for (uint32_t i = first; i < end; i++) {
+        const uint32_t *corner = facet[tree->order[i]].corner;
+        for (int c = 0; c < 3; c++) {
+            const double *x = vertex[corner[c]].x;
+            double place = lrcsi_vec3_dot(slab.direction, x);
+            slab.low = lrcsi_min(slab.low, place);
+            slab.high = lrcsi_max(slab.high, place);
+            slab.size = lrcsi_max(slab.size, (fabs(x[0]) + fabs(x[1])) + fabs(x[2]));
+        }
+    }
+    return slab;
+}
+
+lrcsi_tree_slab lrcsi_tree_leaf_slab(const lrcs_point *vertex, const lrcs_facet *facet,
+                                     const lrcsi_tree *tree, uint32_t leaf)
+{
+    return block_slab(vertex, facet, tree, 0, leaf);
+}
+
+/* Slabs of the blocks of each level, each of which is a lane of the level above. */
 void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree)
 {
-    uint32_t size = TREE_LANES; /* places in a block */
     for (int level = 0; level < tree->levels - 1; level++) {
         for (uint32_t b = 0; b < tree->blocks[level]; b++) {
             lrcsi_tree_slabs *slabs = &tree->slabs[level + 1][b / TREE_LANES];
-            uint32_t first = b * size;
-            uint32_t end = tree->count - first < size ? tree->count : first + size;
-            double d[3];
-            double low = HUGE_VAL;
-            double high = -HUGE_VAL;
-            mean_direction(vertex, facet, tree, level, b, d);
-            for (uint32_t i = first; i < end; i++) {
-                const uint32_t *corner = facet[tree->order[i]].corner;
-                for (int c = 0; c < 3; c++) {
-                    const double *x = vertex[corner[c]].x;
-                    double place = lrcsi_vec3_dot(d, x);
-                    low = place < low ? place : low;
-                    high = place > high ? place : high;
-                }
-            }
+            lrcsi_tree_slab slab = block_slab(vertex, facet, tree, level, b);
             for (int k = 0; k < 3; k++) {
-                slabs->direction[k][b % TREE_LANES] = d[k];
+                slabs->direction[k][b % TREE_LANES] = slab.direction[k];
             }
-            slabs->low[b % TREE_LANES] = low;
-            slabs->high[b % TREE_LANES] = high;
+            slabs->low[b % TREE_LANES] = slab.low;
+            slabs->high[b % TREE_LANES] = slab.high;
         }
-        size *= TREE_LANES;
     }
     tree->has_slabs = 1;
 }

@@ -29,6 +29,12 @@ typedef struct lrcsi_tree_slabs {
     double direction[3][LRCSI_TREE_LANES], low[LRCSI_TREE_LANES], high[LRCSI_TREE_LANES];
 } lrcsi_tree_slabs;
 
+/* A single one. */
+typedef struct lrcsi_tree_slab {
+    double direction[3], low, high;
+    double size; /* the largest |x| + |y| + |z| of the corners */
+} lrcsi_tree_slab;
+
 /* A cone that contains a block of facets with a common vertex, seen from that vertex: for every
    other corner x, axis . (x - vertex) / |x - vertex| >= cosine. The axis has length 1. A cosine of
    0 or less bounds nothing. */
@@ -74,8 +80,8 @@ static inline lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet 
     const double *c = vertex[facet->corner[2]].x;
     lrcsi_box box;
     for (int k = 0; k < 3; k++) {
-        box.low[k] = lrcsi_least(lrcsi_least(a[k], b[k]), c[k]);
-        box.high[k] = lrcsi_most(lrcsi_most(a[k], b[k]), c[k]);
+        box.low[k] = lrcsi_min(lrcsi_min(a[k], b[k]), c[k]);
+        box.high[k] = lrcsi_max(lrcsi_max(a[k], b[k]), c[k]);
     }
     return box;
 }
@@ -144,8 +150,11 @@ lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf);
 
 /* Fills the slabs of a tree, from the vertices and facets that it was made from. Then
    narrow_by_slabs leaves out of a leaf's traversal the blocks that slabs separate from the leaf;
-   this pays for leaves whose boxes intersect many others. */
+   this pays for leaves whose boxes intersect many others. The slab of a single leaf needs no others
+   to be filled. */
 void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree);
+lrcsi_tree_slab lrcsi_tree_leaf_slab(const lrcs_point *vertex, const lrcs_facet *facet,
+                                     const lrcsi_tree *tree, uint32_t leaf);
 void lrcsi_tree_narrow_by_slabs(lrcsi_tree_walk *walk, uint32_t leaf);
 
 /* Fills the cones of blocks that have a vertex as label, unless proved[label]. Then narrow_by_cones

@@ -42,10 +42,10 @@ static int scene_check(const lrcs_scene *scene, double *most)
                 return LRCS_E_INDEX;
             }
             const double *x = scene->vertex[corner[k]].x;
-            double of_corner = lrcsi_most(fabs(x[0]), lrcsi_most(fabs(x[1]), fabs(x[2])));
-            of_facet = lrcsi_most(of_facet, of_corner);
+            double of_corner = lrcsi_max(fabs(x[0]), lrcsi_max(fabs(x[1]), fabs(x[2])));
+            of_facet = lrcsi_max(of_facet, of_corner);
         }
-        largest = lrcsi_most(largest, of_facet);
+        largest = lrcsi_max(largest, of_facet);
         for (int k = 0; scene->corner_normal && k < 9; k++) {
             if (!(fabs(scene->corner_normal[3 * (size_t)f + (size_t)k / 3].x[k % 3]) <= 1.0)) {
                 return LRCS_E_NUMBER;
@@ -185,8 +185,8 @@ static void find_box(lrcs_prepared *p)
     double half[3] = {0, 0, 0};
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
         for (int k = 0; k < 3 && p->referenced[v]; k++) {
-            low[k] = lrcsi_least(low[k], p->vertex[v].x[k]);
-            high[k] = lrcsi_most(high[k], p->vertex[v].x[k]);
+            low[k] = lrcsi_min(low[k], p->vertex[v].x[k]);
+            high[k] = lrcsi_max(high[k], p->vertex[v].x[k]);
         }
     }
     for (int k = 0; k < 3 && p->live > 0; k++) {

@@ -14,7 +14,7 @@
 #include "scene/proximity.h"
 
 /* Errors of positions computed here, as a multiple of the error of view coordinates. */
-#define OFF_MARGIN 8.0
+#define ERR_MARGIN 8.0
 /* Rounding of a facet's cosine, generously. */
 #define COS_MARGIN 1e-9
 /* The grid has so many cells for each event: rims are many short edges in few of its cells. */
@@ -116,14 +116,14 @@ static int band_events(band_job *job, lrcs_work *work)
  */
 
 /* Bound on the position errors of a facet's corners and of positions computed from them. */
-static double facet_off(const band_job *job, uint32_t facet)
+static double facet_err(const band_job *job, uint32_t facet)
 {
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
-    double off = 0;
+    double err = 0;
     for (int k = 0; k < 3; k++) {
-        off = lrcsi_most(off, lrcsi_view_off(job->view->point[corner[k]].x));
+        err = lrcsi_max(err, lrcsi_view_point_err(job->view->point[corner[k]].x));
     }
-    return OFF_MARGIN * off;
+    return ERR_MARGIN * err;
 }
 
 /* The rectangle about an edge in projection that holds all points of a facet within a distance of
@@ -146,7 +146,7 @@ static edge_box edge_box_make(const band_job *job, uint32_t facet, const lrcsi_e
     const lrcsi_view *view = job->view;
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
     edge_box box = {.a = view->point[edge->low].x, .b = view->point[edge->high].x};
-    if (lrcsi_view_off(box.a) > lrcsi_view_off(box.b)) {
+    if (lrcsi_view_point_err(box.a) > lrcsi_view_point_err(box.b)) {
         box.a = view->point[edge->high].x;
         box.b = view->point[edge->low].x;
         box.reverse = 1;
@@ -154,20 +154,20 @@ static edge_box edge_box_make(const band_job *job, uint32_t facet, const lrcsi_e
     box.along[0] = box.b[0] - box.a[0];
     box.along[1] = box.b[1] - box.a[1];
     double length = sqrt(box.along[0] * box.along[0] + box.along[1] * box.along[1]);
-    double first = OFF_MARGIN * lrcsi_view_off(box.a);
-    double last = OFF_MARGIN * lrcsi_view_off(box.b);
+    double first = ERR_MARGIN * lrcsi_view_point_err(box.a);
+    double last = ERR_MARGIN * lrcsi_view_point_err(box.b);
     double far = 0;
     for (int k = 0; k < 3; k++) {
         const double *x = view->point[corner[k]].x;
-        far = lrcsi_most(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
+        far = lrcsi_max(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
     }
-    box.err = facet_off(job, facet) + first;
+    box.err = facet_err(job, facet) + first;
     box.wide = slack + box.err;
     box.end = box.wide + last;
     if (length > 2 * (first + last)) {
         box.along[0] /= length;
         box.along[1] /= length;
-        last *= lrcsi_least(1, 2 * (far + box.wide) / length);
+        last *= lrcsi_min(1, 2 * (far + box.wide) / length);
         box.wide += last;
         box.err += last;
     } else { /* of no length: a square about it, without sides */
@@ -241,15 +241,15 @@ static int edge_behind(const band_job *job, uint32_t facet, const lrcsi_edge *ed
     const lrcsi_normal *n = &p->normal[facet];
     const double *a = lrcsi_prepared_corner(p, facet, 0);
     const uint32_t end[2] = {edge->low, edge->high};
-    double off = facet_off(job, facet);
+    double err = facet_err(job, facet);
     int behind = job->view->facing[facet] != 0;
     for (int i = 0; i < 2 && behind; i++) {
         double height = 0;
         for (int k = 0; k < 3; k++) {
             height += job->view->facing[facet] * n->high[k] * (p->vertex[end[i]].x[k] - a[k]);
         }
-        double end_off = OFF_MARGIN * lrcsi_view_off(job->view->point[end[i]].x);
-        behind = height < -(3 * slack + off + end_off) * n->length;
+        double end_err = ERR_MARGIN * lrcsi_view_point_err(job->view->point[end[i]].x);
+        behind = height < -(3 * slack + err + end_err) * n->length;
     }
     return behind;
 }
@@ -306,10 +306,11 @@ typedef struct band_walk {
     double aside; /* lrcsi_proximity_aside; negative: not computed yet */
 } band_walk;
 
-/* outward . x of a point, with `off` times its position's error added. */
-static double walk_height(const band_walk *walk, int side, const double x[3], double off)
+/* outward . x of a point, with `err` times its position's error added. */
+static double walk_height(const band_walk *walk, int side, const double x[3], double err)
 {
-    return walk->outward[side][0] * x[0] + walk->outward[side][1] * x[1] + off * lrcsi_view_off(x);
+    return walk->outward[side][0] * x[0] + walk->outward[side][1] * x[1] +
+           err * lrcsi_view_point_err(x);
 }
 
 /* The line along a side, `near` away from the facet. Where the side has no length nothing is beyond
@@ -327,7 +328,7 @@ static void walk_line(band_walk *walk, int side, const double *const corner[3], 
     walk->outward[side][1] = length > 0 ? turn * y / length : 0;
     double most = -HUGE_VAL;
     for (int k = 0; k < 3; k++) {
-        most = lrcsi_most(most, walk_height(walk, side, corner[k], OFF_MARGIN));
+        most = lrcsi_max(most, walk_height(walk, side, corner[k], ERR_MARGIN));
     }
     walk->limit[side] = length > 0 ? most + near * (1 + 0x1p-40) : HUGE_VAL;
 }
@@ -337,8 +338,8 @@ static int walk_apart(band_walk *walk, const double a[3], const double b[3])
 {
     int side = walk->tried;
     for (int i = 0; i < 3; i++) {
-        if (walk_height(walk, side, a, -OFF_MARGIN) > walk->limit[side] &&
-            walk_height(walk, side, b, -OFF_MARGIN) > walk->limit[side]) {
+        if (walk_height(walk, side, a, -ERR_MARGIN) > walk->limit[side] &&
+            walk_height(walk, side, b, -ERR_MARGIN) > walk->limit[side]) {
             walk->tried = side;
             return 1;
         }
@@ -354,7 +355,7 @@ static band_walk walk_make(const band_job *job, uint32_t facet)
     const uint32_t *corner = p->scene->facet[facet].corner;
     double near =
         2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.most) + LRCSI_PROXIMITY_ERR;
-    double wide = near + facet_off(job, facet);
+    double wide = near + facet_err(job, facet);
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
                                     view->point[corner[2]].x};
     band_walk walk = {.tried = 0, .aside = -1};
@@ -516,8 +517,8 @@ static void band_contacts(band_job *job)
 static void box_add(band_box *box, const double low[3], const double high[3])
 {
     for (int k = 0; k < 3; k++) {
-        box->low[k] = lrcsi_least(box->low[k], low[k]);
-        box->high[k] = lrcsi_most(box->high[k], high[k]);
+        box->low[k] = lrcsi_min(box->low[k], low[k]);
+        box->high[k] = lrcsi_max(box->high[k], high[k]);
     }
 }
 
@@ -690,10 +691,10 @@ static int band_shares(band_job *job, lrcs_work *work)
             if (facet_matters(job->view, f)) {
                 facet_share(job, f);
             }
-            job->share[f] = lrcsi_least(1, job->share[f]);
-            job->gain[f] = lrcsi_least(1, job->gain[f]);
-            job->loss[f] = lrcsi_least(1, job->loss[f]);
-            job->rows[f] = job->share[f] < 1 ? lrcsi_least(1, job->rows[f]) : 1;
+            job->share[f] = lrcsi_min(1, job->share[f]);
+            job->gain[f] = lrcsi_min(1, job->gain[f]);
+            job->loss[f] = lrcsi_min(1, job->loss[f]);
+            job->rows[f] = job->share[f] < 1 ? lrcsi_min(1, job->rows[f]) : 1;
         }
     }
     work->used = mark;

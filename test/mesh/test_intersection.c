@@ -255,6 +255,35 @@ static void slabs_of_crowded_leaves_miss_no_contact(void **state)
     assert_true(check_against_all_pairs(3 * (SLIVERS + ACROSS), SLIVERS + ACROSS, skip) > 100);
 }
 
+/* The wall of a tilted tube of many long facets, whose boxes nearly all intersect; another one that
+   runs through it, and large facets across both. Slabs of single leaves separate most pairs. */
+static void long_facets_of_tilted_tubes_miss_no_contact(void **state)
+{
+    (void)state;
+    enum { SECTORS = 150, WALL = 2 * SECTORS, ACROSS = 40 };
+    static unsigned char skip[MOST];
+    memset(skip, 0, sizeof skip);
+    for (uint32_t i = 0; i < 2 * WALL; i++) {
+        uint32_t tube = i / WALL;
+        double turn = 6.283185307179586 * (i % WALL / 2 + 0.3 * tube) / SECTORS;
+        double x = 0.3 * cos(turn);
+        double y = 0.3 * sin(turn) + 0.1 * tube;
+        double z = i % 2 ? 1.0 : -1.0;
+        vertex[i] = (lrcs_point){{x + 0.6 * z, y - 0.5 * x + 0.7 * z, z - 0.4 * y}};
+        uint32_t next = tube * WALL + (i % WALL + 2 - i % 2) % WALL; /* bottom of the next sector */
+        facet[i] = i % 2 ? (lrcs_facet){{i, next, next + 1}} : (lrcs_facet){{i, next, i + 1}};
+    }
+    for (uint32_t f = 2 * WALL; f < 2 * WALL + ACROSS; f++) {
+        for (uint32_t c = 0; c < 3; c++) {
+            uint32_t i = 2 * WALL + 3 * (f - 2 * WALL) + c;
+            vertex[i] =
+                (lrcs_point){{next_number() - 0.5, next_number() - 0.5, next_number() - 0.5}};
+            facet[f].corner[c] = i;
+        }
+    }
+    assert_true(check_against_all_pairs(2 * WALL + 3 * ACROSS, 2 * WALL + ACROSS, skip) > 200);
+}
+
 /* Facets between few vertices: most share corners with many others, and many cross. */
 static void facets_around_common_corners_are_classified_exactly(void **state)
 {
@@ -434,6 +463,7 @@ int main(void)
         cmocka_unit_test(affine_images_keep_their_contacts),
         cmocka_unit_test(the_tree_misses_no_contact),
         cmocka_unit_test(slabs_of_crowded_leaves_miss_no_contact),
+        cmocka_unit_test(long_facets_of_tilted_tubes_miss_no_contact),
         cmocka_unit_test(facets_around_common_corners_are_classified_exactly),
         cmocka_unit_test(neighbours_on_a_closed_surface_do_not_touch),
         cmocka_unit_test(a_strut_touches_the_plate_and_not_the_other_way),
