@@ -96,8 +96,8 @@ static int readings_check(const lrcs_fit_reading *reading, uint32_t count,
         if (!reading_is_good(&reading[i])) {
             return LRCS_E_NUMBER;
         }
-        most = lrcsi_most(most, reading[i].value);
-        *largest = lrcsi_most(*largest, fabs(reading[i].value));
+        most = lrcsi_max(most, reading[i].value);
+        *largest = lrcsi_max(*largest, fabs(reading[i].value));
     }
     if (count < LRCS_FIT_READINGS || !(most > 0.0)) {
         return LRCS_E_EMPTY;
@@ -126,9 +126,9 @@ static void data_limits(lrcsi_fit_data *data)
 {
     double least = HUGE_VAL; /* the smallest tan^2 above 0 */
     for (uint32_t i = 0; i < data->count; i++) {
-        least = data->u[i] > 0.0 ? lrcsi_least(least, data->u[i]) : least;
+        least = data->u[i] > 0.0 ? lrcsi_min(least, data->u[i]) : least;
     }
-    double slope = lrcsi_least(sqrt(least) / FIT_SLOPE_SHARE, 0.1 * FIT_SLOPE_MOST);
+    double slope = lrcsi_min(sqrt(least) / FIT_SLOPE_SHARE, 0.1 * FIT_SLOPE_MOST);
     const double most[] = {FIT_AMPLITUDE_MOST, FIT_AMPLITUDE_MOST, log(FIT_SLOPE_MOST),
                            log1p(FIT_FALL_MOST)};
     const double low[] = {0.0, 0.0, log(slope), 0.0};
@@ -143,7 +143,7 @@ static double error_inverse(const lrcs_fit_reading *reading, int noise, double y
     case LRCS_FIT_ABSOLUTE:
         return 1.0;
     case LRCS_FIT_RELATIVE:
-        return 1.0 / lrcsi_most(fabs(y), FIT_FIRST_SHARE);
+        return 1.0 / lrcsi_max(fabs(y), FIT_FIRST_SHARE);
     default:
         return scale / reading->sigma;
     }
@@ -194,7 +194,7 @@ static void starts_make(fit_job *job)
     for (uint32_t i = 0; i < job->starts; i++) {
         double sum = lrcsi_fit_soften(&job->data, job->noise, &job->start[i]);
         best = sum < least ? i : best;
-        least = lrcsi_least(sum, least);
+        least = lrcsi_min(sum, least);
     }
     lrcsi_fit_parameters first = job->start[best];
     job->start[best] = job->start[0];
@@ -286,7 +286,7 @@ static void errors_estimate(fit_job *job)
     int parts = 2 - job->absent[0] - job->absent[1];
     uint32_t freedom = job->kept - 2 * (uint32_t)parts;
     double rounding = FIT_ROUNDING * readings_size(&job->data, 0) / job->kept;
-    double variance = lrcsi_most(job->best.square / freedom, rounding);
+    double variance = lrcsi_max(job->best.square / freedom, rounding);
     if (!(variance > 0.0)) {
         variance = FIT_ROUNDING * readings_size(&job->data, 1) / job->kept;
     }
@@ -339,7 +339,7 @@ static void angles_count(const lrcs_fit_reading *reading, const lrcsi_fit_data *
         double next = fit->most_deg; /* the smallest angle above the last one */
         for (uint32_t i = 0; i < data->count; i++) {
             double angle = fabs(reading[i].angle_deg);
-            next = data->weight[i] > 0.0 && angle > last ? lrcsi_least(next, angle) : next;
+            next = data->weight[i] > 0.0 && angle > last ? lrcsi_min(next, angle) : next;
         }
         last = next;
         fit->angles++;
@@ -376,7 +376,7 @@ static void parameters_fill(const fit_job *job, double unit, lrcs_fit *fit)
         fit->parameter[p] = (lrcs_fit_parameter){
             .value = none ? 0.0 : parameter_value(p, at, unit),
             .error = job->spread.error[p] * by_coordinate,
-            .low = lrcsi_most(0.0, parameter_value(p, job->limit[p][0], unit)),
+            .low = lrcsi_max(0.0, parameter_value(p, job->limit[p][0], unit)),
             .high = parameter_value(p, job->limit[p][1], unit),
             .verdict = parameter_verdict(p, job->limit[p], job->limit[part][0] == 0.0)};
     }

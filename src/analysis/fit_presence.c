@@ -84,7 +84,7 @@ static double presence_arc(const lrcsi_fit_data *data, int part,
             chord += off * off;
             data->spare[i] = data->residual[i];
         }
-        arc += before ? 2.0 * asin(lrcsi_least(1.0, 0.5 * sqrt(chord))) : 0.0;
+        arc += before ? 2.0 * asin(lrcsi_min(1.0, 0.5 * sqrt(chord))) : 0.0;
         before = 1;
     }
     return arc;
@@ -93,11 +93,11 @@ static double presence_arc(const lrcsi_fit_data *data, int part,
 int lrcsi_fit_presence(const lrcsi_fit_data *data, int part, const lrcsi_fit_parameters *without,
                        double square, uint32_t kept, int known)
 {
-    double fall = lrcsi_most(0.0, without->square - square);
+    double fall = lrcsi_max(0.0, without->square - square);
     double left = without->square > 0.0 ? square / without->square : 1.0; /* 1 - q */
     double freedom = (double)kept - 2.0;
     double arc = presence_arc(data, part, without) / (2.0 * LRCS_PI);
-    left = lrcsi_least(1.0, left);
+    left = lrcsi_min(1.0, left);
     double chance = known ? exp(-0.5 * fall) * (0.5 + arc)
                           : pow(left, 0.5 * freedom - 1.0) * (0.5 * sqrt(left) + arc);
     return chance < PRESENCE_LEVEL;

@@ -138,7 +138,7 @@ static double walk_rise(profile_walk *walk, double x, lrcsi_fit_parameters *para
     if (parameters->square < walk->low.square) {
         walk->low = *parameters;
     }
-    return sqrt(lrcsi_most(0.0, parameters->square - walk->best->square) / walk->rise);
+    return sqrt(lrcsi_max(0.0, parameters->square - walk->best->square) / walk->rise);
 }
 
 /* The place between x below and x above at which the root of the rise is 1: false position, with
@@ -183,7 +183,7 @@ static double walk_limit(profile_walk *walk, double stride, int direction)
     for (int i = 0; i < PROFILE_STRIDES && direction * (end - in) > 0.0; i++, stride *= 2.0) {
         lrcsi_fit_parameters parameters;
         double x = in + direction * stride;
-        x = direction < 0 ? lrcsi_most(x, end) : lrcsi_least(x, end);
+        x = direction < 0 ? lrcsi_max(x, end) : lrcsi_min(x, end);
         double f = walk_rise(walk, x, &parameters);
         if (f > 1.0) {
             return walk_cut(walk, in, f_in, x, f);
@@ -203,7 +203,7 @@ int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         profile_walk walk = {data, p, rise, best, whole, *best, low};
         double most = p < LRCS_FIT_S ? HUGE_VAL : 0.5;
-        double stride = lrcsi_least(2.0 * spread->error[p], most);
+        double stride = lrcsi_min(2.0 * spread->error[p], most);
         stride = stride > 0.0 && stride < HUGE_VAL ? stride : 0.1;
         limit[p][0] = walk_limit(&walk, stride, -1);
         limit[p][1] = walk_limit(&walk, stride, 1);

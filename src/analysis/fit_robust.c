@@ -70,10 +70,10 @@ void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_para
     lrcsi_fit_residuals(data, parameters);
     for (uint32_t i = 0; i < data->count; i++) {
         data->spare[i] = data->y[i] - data->residual[i];
-        most = lrcsi_most(most, data->spare[i]);
+        most = lrcsi_max(most, data->spare[i]);
     }
     for (uint32_t i = 0; i < data->count && most > ROBUST_LEAST; i++) {
-        data->inverse[i] = 1.0 / lrcsi_most(data->spare[i], ROBUST_RELATIVE * most);
+        data->inverse[i] = 1.0 / lrcsi_max(data->spare[i], ROBUST_RELATIVE * most);
     }
 }
 
@@ -87,7 +87,7 @@ static double offsets_fill(const lrcsi_fit_data *data, const lrcsi_fit_parameter
     lrcsi_fit_residuals(data, parameters);
     for (uint32_t i = 0; i < data->count; i++) {
         data->spare[i] = fabs(data->residual[i]) * data->inverse[i];
-        size = lrcsi_most(size, fabs(data->y[i]) * data->inverse[i]);
+        size = lrcsi_max(size, fabs(data->y[i]) * data->inverse[i]);
         *sum += data->spare[i];
     }
     return ROBUST_ROUNDING * size;
@@ -100,7 +100,7 @@ static double offsets_scale(const lrcsi_fit_data *data, double rounding)
 {
     double few = 1.0 + 5.0 / (data->count - LRCS_FIT_PARAMETERS);
     double median = value_ranked(data->spare, data->count, data->count / 2);
-    return lrcsi_most(ROBUST_NORMAL * few * median, rounding);
+    return lrcsi_max(ROBUST_NORMAL * few * median, rounding);
 }
 
 double lrcsi_fit_soften(const lrcsi_fit_data *data, int noise, lrcsi_fit_parameters *parameters)
@@ -131,7 +131,7 @@ int lrcsi_fit_trim(const lrcsi_fit_data *data, const lrcsi_fit_parameters *param
         /* Even if more than half of the readings agree to the last digit, the others are not
            necessarily outliers. */
         uint32_t seven = (uint32_t)((7 * (uint64_t)data->count + 9) / 10) - 1;
-        most = lrcsi_most(most, 2.0 * value_ranked(data->spare, data->count, seven));
+        most = lrcsi_max(most, 2.0 * value_ranked(data->spare, data->count, seven));
     }
     for (uint32_t i = 0; i < data->count; i++) {
         int keep = fabs(data->residual[i]) * data->inverse[i] <= most;

@@ -44,10 +44,10 @@ static double node_sum(const lrcsi_fit_data *data)
    their mean. */
 static void node_weigh(const lrcsi_fit_data *data, double mean)
 {
-    double floor = lrcsi_most(SEARCH_FLOOR * mean, 0x1p-500);
+    double floor = lrcsi_max(SEARCH_FLOOR * mean, 0x1p-500);
     for (uint32_t i = 0; i < data->count; i++) {
         double off = fabs(data->residual[i]) * (data->inverse[i] / data->weight[i]);
-        double weight = data->inverse[i] / sqrt(lrcsi_most(off, floor));
+        double weight = data->inverse[i] / sqrt(lrcsi_max(off, floor));
         data->column[LRCS_FIT_A][i] *= weight / data->weight[i];
         data->column[LRCS_FIT_B][i] *= weight / data->weight[i];
         data->weight[i] = weight;

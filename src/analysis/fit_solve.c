@@ -130,8 +130,8 @@ static unsigned amplitude_active(const lrcsi_fit_normal *normal, unsigned free)
     if (free != 3u || (step[0] >= 0.0 && step[1] >= 0.0)) {
         return free & ((step[0] > 0.0 ? 1u : 0u) | (step[1] > 0.0 ? 2u : 0u));
     }
-    const double alone[2] = {a > 0.0 ? lrcsi_most(normal->slope[0], 0.0) / sqrt(a) : 0.0,
-                             b > 0.0 ? lrcsi_most(normal->slope[1], 0.0) / sqrt(b) : 0.0};
+    const double alone[2] = {a > 0.0 ? lrcsi_max(normal->slope[0], 0.0) / sqrt(a) : 0.0,
+                             b > 0.0 ? lrcsi_max(normal->slope[1], 0.0) / sqrt(b) : 0.0};
     if (alone[0] == 0.0 && alone[1] == 0.0) {
         return 0;
     }
@@ -154,7 +154,7 @@ void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed,
         amplitude_step(normal, active, step);
         for (int k = 0; k < 2; k++) {
             parameters->at[k] =
-                lrcsi_least(data->most[k], lrcsi_most(0.0, parameters->at[k] + step[k]));
+                lrcsi_min(data->most[k], lrcsi_max(0.0, parameters->at[k] + step[k]));
         }
         slope_fill(data, order, parameters, normal);
     }
@@ -230,7 +230,7 @@ static int shape_step(const solve_shape *shape, double damping, double step[2])
         step[1] = (a * shape->slope[1] - ab * shape->slope[0]) / det;
     }
     for (int k = 0; k < 2; k++) {
-        step[k] = lrcsi_most(-SOLVE_STRIDE, lrcsi_least(SOLVE_STRIDE, step[k]));
+        step[k] = lrcsi_max(-SOLVE_STRIDE, lrcsi_min(SOLVE_STRIDE, step[k]));
     }
     return shape->moves[0] || shape->moves[1];
 }
@@ -250,8 +250,7 @@ void lrcsi_fit_descend(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_par
         }
         for (int k = 0; k < 2; k++) {
             int p = LRCS_FIT_S + k;
-            next.at[p] =
-                lrcsi_most(data->least[p], lrcsi_least(data->most[p], next.at[p] + step[k]));
+            next.at[p] = lrcsi_max(data->least[p], lrcsi_min(data->most[p], next.at[p] + step[k]));
         }
         lrcsi_fit_settle(data, fixed, &next, &there);
         if (!(next.square < parameters->square)) {

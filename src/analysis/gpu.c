@@ -42,8 +42,8 @@ static void depth_range(const lrcsi_view *view, double *least, double *most)
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
             double z = view->point[p->scene->facet[f].corner[corner]].x[2];
-            *least = lrcsi_least(*least, z);
-            *most = lrcsi_most(*most, z);
+            *least = lrcsi_min(*least, z);
+            *most = lrcsi_max(*most, z);
         }
     }
 }
@@ -102,7 +102,7 @@ static lrcsi_gpu_vertex gpu_vertex(const lrcsi_gpu *gpu, const clip_matrix *clip
     }
     for (int k = 0; k < 2; k++) {
         double x = window_coordinate(gpu->single, clip->turn[k], clip->move[k], p, 0.5 * gpu->size);
-        x = lrcsi_least(lrcsi_most(x, -GUARD_BAND), GUARD_BAND);
+        x = lrcsi_min(lrcsi_max(x, -GUARD_BAND), GUARD_BAND);
         vertex.at[k] = (int64_t)floor(x * SUBPIXELS + 0.5);
     }
     vertex.depth = window_coordinate(gpu->single, clip->turn[2], clip->move[2], p, 0.5);
@@ -205,7 +205,7 @@ static double depth_kept(const lrcsi_gpu *gpu, const gpu_facet *f, int64_t e1, i
     double rise = lrcsi_single(single, lrcsi_single(single, w1 * f->rise[0]) +
                                            lrcsi_single(single, w2 * f->rise[1]));
     double depth = lrcsi_single(single, f->depth + rise);
-    depth = lrcsi_least(lrcsi_most(depth, 0), 1);
+    depth = lrcsi_min(lrcsi_max(depth, 0), 1);
     return gpu->steps > 0 ? floor(depth * gpu->steps + 0.5) : lrcsi_single(gpu->short_depth, depth);
 }
 

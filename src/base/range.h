@@ -6,12 +6,12 @@
 
 #include "base/ieee.h"
 
-static inline double lrcsi_least(double a, double b)
+static inline double lrcsi_min(double a, double b)
 {
     return a < b ? a : b;
 }
 
-static inline double lrcsi_most(double a, double b)
+static inline double lrcsi_max(double a, double b)
 {
     return a > b ? a : b;
 }

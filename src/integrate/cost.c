@@ -115,8 +115,8 @@ double lrcsi_cost_draw(const lrcsi_cost *cost, uint32_t size)
 
 double lrcsi_cost_undecided(const lrcsi_cost *cost)
 {
-    return lrcsi_least(cost->casting,
-                       UNDECIDED_PER_EVENT * cost->events + UNDECIDED_PER_CONTACT * cost->contacts);
+    return lrcsi_min(cost->casting,
+                     UNDECIDED_PER_EVENT * cost->events + UNDECIDED_PER_CONTACT * cost->contacts);
 }
 
 /* The fraction of the window that is covered, if facets whose areas sum to D windows lie
@@ -125,7 +125,7 @@ double lrcsi_cost_undecided(const lrcsi_cost *cost)
 static double covered_fraction(const lrcsi_cost *cost)
 {
     double d = cost->overdraw;
-    return d < 1e-4 ? d : 1 - lrcsi_exp(-lrcsi_least(d, 100));
+    return d < 1e-4 ? d : 1 - lrcsi_exp(-lrcsi_min(d, 100));
 }
 
 /* The mean number of facets that cover a point of that fraction: one border in this many is
@@ -145,7 +145,7 @@ double lrcsi_cost_clip(const lrcsi_cost *cost, double undecided)
 
 uint64_t lrcsi_cost_steps(double ns)
 {
-    return (uint64_t)lrcsi_least(ns / CLIP_STEP, 0x1p62);
+    return (uint64_t)lrcsi_min(ns / CLIP_STEP, 0x1p62);
 }
 
 /* Visible borders of length L, in sides of the window, pass through L N pixels of area 1 / N^2.

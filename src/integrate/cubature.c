@@ -110,7 +110,7 @@ static cube_value node_value(const lrcsi_cubature *sum, const double n[3])
     if (!(n[2] > 0)) {
         return at;
     }
-    double u = lrcsi_least(TAN2_MAX, (n[0] * n[0] + n[1] * n[1]) / n[2] / n[2]);
+    double u = lrcsi_min(TAN2_MAX, (n[0] * n[0] + n[1] * n[1]) / n[2] / n[2]);
     lrcsi_reflection reflection = lrcsi_reflect(sum->brdf, u, 0);
     double secant = sqrt(1 + u);
     at.glint = reflection.glint * secant;
@@ -195,7 +195,7 @@ static double cube_area(const cube_cell *cell)
         const double *v = cell->at[i + 1];
         area += 0.5 * (u[0] * v[1] - u[1] * v[0]);
     }
-    return lrcsi_most(0, cell->unit * area);
+    return lrcsi_max(0, cell->unit * area);
 }
 
 /* --- cells ------------------------------------------------------------------------------------ */
@@ -230,8 +230,7 @@ static double cube_turn(const cube_cell *cell)
         double dot = lrcsi_vec3_dot(n, m);
         double cross[3];
         lrcsi_vec3_cross(n, m, cross);
-        tangent =
-            lrcsi_most(tangent, dot > 0 ? sqrt(lrcsi_vec3_dot(cross, cross)) / dot : HUGE_VAL);
+        tangent = lrcsi_max(tangent, dot > 0 ? sqrt(lrcsi_vec3_dot(cross, cross)) / dot : HUGE_VAL);
     }
     return isfinite(tangent) ? atan(tangent) * (1 + 4 * LRCSI_U) + 16 * LRCSI_U : LRCS_PI;
 }
@@ -239,7 +238,7 @@ static double cube_turn(const cube_cell *cell)
 /* Errors of f_r cos below this are accepted. */
 static double negligible_below(const lrcsi_cubature *sum)
 {
-    return lrcsi_most(sum->negligible, sum->tolerance * sum->reference);
+    return lrcsi_max(sum->negligible, sum->tolerance * sum->reference);
 }
 
 /* Decides whether the rule is trusted on the cell, and evaluates it if so:
@@ -252,8 +251,8 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
     double turn = cube_turn(cell);
     double cosine = cos(cell->theta);
     double t = fabs(tan(cell->theta));
-    double width = brdf->s * cosine * cosine * lrcsi_least(1, 2 * brdf->s / t); /* of the glint */
-    double steepness = (brdf->m + 1) * lrcsi_least(1, t); /* of the diffuse term */
+    double width = brdf->s * cosine * cosine * lrcsi_min(1, 2 * brdf->s / t); /* of the glint */
+    double steepness = (brdf->m + 1) * lrcsi_min(1, t); /* of the diffuse term */
     int glint_resolved = !(brdf->A > 0) || turn <= width;
     int diffuse_resolved =
         !(brdf->B > 0) || (turn * turn * (brdf->m + 1) <= 1 && turn * steepness <= 4);
@@ -264,13 +263,13 @@ static void cube_trust(const lrcsi_cubature *sum, cube_cell *cell)
         cell->skipped = (glint_resolved ? 0 : bound.glint) + (diffuse_resolved ? 0 : bound.diffuse);
         double sum_so_far =
             lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse) + sum->estimate;
-        double scale = lrcsi_most(sum_so_far, sum->diffuse_min * sum->area);
+        double scale = lrcsi_max(sum_so_far, sum->diffuse_min * sum->area);
         is_trusted = cell->skipped <= negligible_below(sum) ||
                      cell->skipped * sum->area <= sum->tolerance * scale;
     }
     cell->trusted = turn <= TURN_MAX && is_trusted;
-    double p = lrcsi_most(turn * sqrt(brdf->m + 1), 0.25 * turn * (brdf->m + 1) * t);
-    p = lrcsi_most(p, brdf->A > 0 && glint_resolved ? turn / width : 0);
+    double p = lrcsi_max(turn * sqrt(brdf->m + 1), 0.25 * turn * (brdf->m + 1) * t);
+    p = lrcsi_max(p, brdf->A > 0 && glint_resolved ? turn / width : 0);
     double fifth = p * p * p * p * p;
     cell->rule_err = p < 1 ? fifth * (sum->weight ? 1 : p) : 1;
     if (cell->trusted) {
@@ -447,7 +446,7 @@ static double cube_shortest(const cube_cell *cell)
 {
     double shortest = HUGE_VAL;
     for (int i = 0; i < cell->count; i++) {
-        shortest = lrcsi_least(shortest, sqrt(lrcsi_vec3_dot(cell->normal[i], cell->normal[i])));
+        shortest = lrcsi_min(shortest, sqrt(lrcsi_vec3_dot(cell->normal[i], cell->normal[i])));
     }
     return shortest;
 }
@@ -497,9 +496,9 @@ static int quarters_keep(lrcsi_cubature *sum, const cube_cell *cell, const cube_
         fabs(all.glint - cell->value.glint) + fabs(all.diffuse - cell->value.diffuse);
     if (sum->weight) { /* also of the weighted integral, relative to the largest weight */
         const double *w = sum->weight;
-        double largest = lrcsi_most(fabs(w[0]), lrcsi_most(fabs(w[1]), fabs(w[2])));
+        double largest = lrcsi_max(fabs(w[0]), lrcsi_max(fabs(w[1]), fabs(w[2])));
         double weighted = fabs(all.weighted - cell->value.weighted);
-        difference = largest > 0 ? lrcsi_most(difference, weighted / largest) : difference;
+        difference = largest > 0 ? lrcsi_max(difference, weighted / largest) : difference;
     }
     double sum_so_far = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
     double allowed = sum->tolerance * (all.glint + all.diffuse + sum_so_far * (area / sum->area));
@@ -606,9 +605,9 @@ lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3]
     sum.diffuse_min =
         farthest < LRCS_PI / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(farthest)), brdf->m + 1) : 0;
     sum.negligible = NEGLIGIBLE * tolerance *
-                     (sum.upper_bound.glint * lrcsi_least(1, brdf->s * brdf->s) +
+                     (sum.upper_bound.glint * lrcsi_min(1, brdf->s * brdf->s) +
                       sum.upper_bound.diffuse / (brdf->m + 1));
-    sum.negligible = lrcsi_most(sum.negligible, TERM_MIN * (brdf->A + brdf->B));
+    sum.negligible = lrcsi_max(sum.negligible, TERM_MIN * (brdf->A + brdf->B));
     return sum;
 }
 
@@ -621,8 +620,8 @@ static double unlit_position_err(const lrcsi_cubature *sum, const cube_cell *who
     double lowest = HUGE_VAL;
     double highest = -HUGE_VAL;
     for (int i = 0; i < 3; i++) {
-        lowest = lrcsi_least(lowest, whole->normal[i][2]);
-        highest = lrcsi_most(highest, whole->normal[i][2]);
+        lowest = lrcsi_min(lowest, whole->normal[i][2]);
+        highest = lrcsi_max(highest, whole->normal[i][2]);
     }
     if (lowest > sum->position_err || highest < -sum->position_err) {
         return 0;

@@ -51,8 +51,8 @@ void lrcsi_curve_integral_make(const lrcsi_curve_context *context, uint32_t face
                                      (row[0] * n[i].x[0] + row[1] * n[i].x[1] + row[2] * n[i].x[2]);
         }
     }
-    double aim = lrcsi_least(
-        CUBATURE_MAX, lrcsi_most(CUBATURE_MIN, CUBATURE_FRACTION * context->options->tolerance));
+    double aim = lrcsi_min(
+        CUBATURE_MAX, lrcsi_max(CUBATURE_MIN, CUBATURE_FRACTION * context->options->tolerance));
     integral->brdf =
         lrcsi_plan_brdf(context->options->plan, lrcsi_prepared_material(view->prepared, facet));
     integral->sum = lrcsi_cubature_make(&integral->brdf, (const double(*)[3])integral->normal, aim,
@@ -61,7 +61,7 @@ void lrcsi_curve_integral_make(const lrcsi_curve_context *context, uint32_t face
     integral->sum.position_err = NORMAL_ERR;
     integral->sum.meter = context->options->meter;
     integral->sum.moments = context->options->moments;
-    integral->sum.negligible = lrcsi_most(integral->sum.negligible, context->negligible);
+    integral->sum.negligible = lrcsi_max(integral->sum.negligible, context->negligible);
     integral->sum.reference =
         context->sum > 0 ? context->sum / context->projected +
                                context->sum / context->count / integral->incidence.projected
@@ -124,17 +124,16 @@ static lrcsi_curved curve_from_area(lrcsi_curve_integral *integral, const lrcsi_
     lrcsi_cubature_add(&integral->sum, (const double(*)[3])integral->normal, projected);
     double whole = lrcsi_sum_value(&integral->sum.glint) + lrcsi_sum_value(&integral->sum.diffuse);
     double bound = lrcsi_curve_upper_bound(integral);
-    double high = visible->high < projected ? lrcsi_least(whole, bound * visible->high) : whole;
-    double low = visible->low < projected
-                     ? lrcsi_most(0, whole - bound * (projected - visible->low))
-                     : whole;
+    double high = visible->high < projected ? lrcsi_min(whole, bound * visible->high) : whole;
+    double low =
+        visible->low < projected ? lrcsi_max(0, whole - bound * (projected - visible->low)) : whole;
     if (!(low <= high)) { /* by rounding, or the cubature's error */
         low = high;
     }
-    double value = lrcsi_least(high, lrcsi_most(low, visible->area / projected * whole));
+    double value = lrcsi_min(high, lrcsi_max(low, visible->area / projected * whole));
     lrcsi_curved part = integral_part(integral, whole > 0 ? value / whole : 0);
     part.visibility =
-        LRCS_FOUR_PI * (lrcsi_most(high - value, value - low) + integral->sum.unresolved);
+        LRCS_FOUR_PI * (lrcsi_max(high - value, value - low) + integral->sum.unresolved);
     part.rounding = integral_part(integral, 1).rounding;
     part.likely = part.visibility > 0 ? (LRCS_FOUR_PI * whole / projected) * visible->likely : 0;
     part.estimate = LRCS_FOUR_PI * integral->sum.estimate;

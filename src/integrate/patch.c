@@ -225,7 +225,7 @@ static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf
             for (; k < rules[n].points; k++) {
                 most *= q;
             }
-            best[n] = lrcsi_least(best[n], most / ((2 * k + 1) * (1 - q)));
+            best[n] = lrcsi_min(best[n], most / ((2 * k + 1) * (1 - q)));
         }
     }
     int n = 0;

@@ -244,13 +244,13 @@ static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *
         lrcsi_dd range = range_of(run->view, lrcsi_prepared_corner(run->prepared, facet, k), &err);
         corner_bins(run, range, err, &low, &high);
         f->range[k] = lrcsi_dd_value(range);
-        f->range_max = lrcsi_most(f->range_max, fabs(f->range[k]));
+        f->range_max = lrcsi_max(f->range_max, fabs(f->range[k]));
         f->first = low < f->first ? low : f->first;
         f->last = high > f->last ? high : f->last;
     }
     const double *z = f->range;
-    f->extent = lrcsi_most(z[0], lrcsi_most(z[1], z[2])) -
-                lrcsi_least(z[0], lrcsi_least(z[1], z[2])) + 8 * LRCSI_U * f->range_max;
+    f->extent = lrcsi_max(z[0], lrcsi_max(z[1], z[2])) - lrcsi_min(z[0], lrcsi_min(z[1], z[2])) +
+                8 * LRCSI_U * f->range_max;
 }
 
 /* --- one triangle ----------------------------------------------------------------------------- */
@@ -349,7 +349,7 @@ static void edges_add_error(profile_run *run, const profile_facet *f, const prof
                             double range_err)
 {
     double extent = t->z[2] - t->z[0];
-    double fraction = 4 * range_err < extent ? lrcsi_least(1, 4 * range_err / extent) : 1;
+    double fraction = 4 * range_err < extent ? lrcsi_min(1, 4 * range_err / extent) : 1;
     double error = f->upper_bound * t->area * fraction;
     uint32_t begin = bin_within(run, f, t->z[0] - range_err);
     uint32_t end = bin_within(run, f, t->z[2] + range_err);
@@ -358,7 +358,7 @@ static void edges_add_error(profile_run *run, const profile_facet *f, const prof
         run->bin[i].bound += error;
         run->additions++;
     }
-    run->range_err = lrcsi_most(run->range_err, lrcsi_least(range_err, f->extent));
+    run->range_err = lrcsi_max(run->range_err, lrcsi_min(range_err, f->extent));
 }
 
 /* Adds a triangle. Given: its area; the ranges of its corners, with errors of at most range_err;
@@ -383,7 +383,7 @@ static void triangle_add(profile_run *run, const profile_facet *f, double area,
     for (uint32_t i = begin; begin < end && i <= end; i++) {
         double from = i == begin ? t.z[0] : edge_of(run, i);
         double to = i == end ? t.z[2] : edge_of(run, i + 1);
-        double middle = lrcsi_least(to, lrcsi_most(from, t.z[1]));
+        double middle = lrcsi_min(to, lrcsi_max(from, t.z[1]));
         double part = 0;
         double moment = 0;
         if (f->curve) {
@@ -429,7 +429,7 @@ static double fan_add(profile_run *run, const profile_facet *f, const lrcsi_targ
             triangle_add(run, f, area, range, f->curve ? (const double(*)[3])normal : NULL,
                          range_err);
         }
-        area_err += lrcsi_most(0, -area) + 4 * LRCSI_U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
+        area_err += lrcsi_max(0, -area) + 4 * LRCSI_U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
         range[1] = range[2];
         for (int k = 0; k < 3 && f->curve; k++) {
             normal[1][k] = normal[2][k];
@@ -539,7 +539,7 @@ static double fraction_below(const double corner[3], double z)
 static double fraction_between(const double corner[3], double from, double to)
 {
     double fraction = fraction_below(corner, to) - fraction_below(corner, from) + 2 * PART_ERROR;
-    return to < corner[0] || from > corner[2] ? 0 : lrcsi_least(1, fraction);
+    return to < corner[0] || from > corner[2] ? 0 : lrcsi_min(1, fraction);
 }
 
 /* Adds part (5) of the error for one facet:
@@ -563,10 +563,10 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     double reach = ldexp(part->reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
                    8 * LRCSI_U * f.range_max; /* with the error of the ranges of corners */
     profile_triangle t = triangle_of(1, f.range, NULL);
-    double low = lrcsi_least(
-        t.z[0], lrcsi_least(other.range[0], lrcsi_least(other.range[1], other.range[2])));
+    double low =
+        lrcsi_min(t.z[0], lrcsi_min(other.range[0], lrcsi_min(other.range[1], other.range[2])));
     double high =
-        lrcsi_most(t.z[2], lrcsi_most(other.range[0], lrcsi_most(other.range[1], other.range[2])));
+        lrcsi_max(t.z[2], lrcsi_max(other.range[0], lrcsi_max(other.range[1], other.range[2])));
     uint32_t begin = bin_of(run, low - reach);
     uint32_t end = bin_of(run, high + reach);
     double whole = LRCS_FOUR_PI * parts.whole;
@@ -574,7 +574,7 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     if (!(whole > 0) && !(parts.lit && reach > 0 && parts.shift > 0)) {
         return;
     }
-    run->range_err = lrcsi_most(run->range_err, reach);
+    run->range_err = lrcsi_max(run->range_err, reach);
     for (uint32_t i = begin; i <= end; i++) {
         double from = edge_of(run, i);
         double to = edge_of(run, i + 1);
@@ -584,8 +584,8 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
         double general = LRCS_FOUR_PI * (parts.deviation * fraction + parts.shift * shifted);
         double larger = parts.lit ? LRCS_FOUR_PI * parts.most * fraction : whole;
         general = parts.lit ? general : HUGE_VAL;
-        run->bin[i].tessellation_variation += lrcsi_least(general, 2 * larger);
-        run->bin[i].tessellation += begin == end ? whole : lrcsi_least(general, larger);
+        run->bin[i].tessellation_variation += lrcsi_min(general, 2 * larger);
+        run->bin[i].tessellation += begin == end ? whole : lrcsi_min(general, larger);
         run->additions++;
     }
     run->begin = begin < run->begin ? begin : run->begin;
@@ -599,7 +599,7 @@ static double max_reach(const lrcs_prepared *prepared)
 {
     double reach = 0;
     for (uint32_t i = 0; i < prepared->scene->part_count; i++) {
-        reach = lrcsi_most(reach, prepared->scene->part[i].reach);
+        reach = lrcsi_max(reach, prepared->scene->part[i].reach);
     }
     return reach;
 }
@@ -633,8 +633,8 @@ static int bins_number(profile_run *run)
         double err;
         if (p->referenced[v]) {
             double range = lrcsi_dd_value(range_of(run->view, p->vertex[v].x, &err));
-            nearest = lrcsi_least(nearest, range);
-            farthest = lrcsi_most(farthest, range);
+            nearest = lrcsi_min(nearest, range);
+            farthest = lrcsi_max(farthest, range);
         }
     }
     if (!(nearest <= farthest)) {
@@ -832,7 +832,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
         double err = profile->range_err_m + 4 * LRCSI_U * (fabs(range_m) + fabs(centre));
         double t = (range_m - centre) / d;
         double half = (0.5 * profile->bin_m + err) / d * (1 + 8 * LRCSI_U);
-        double nearest = lrcsi_most(0, fabs(t) - half);
+        double nearest = lrcsi_max(0, fabs(t) - half);
         double farthest = fabs(t) + half;
         if (nearest > PULSE_END) {
             bound += peak * PULSE_END_VALUE * (bin->variation_m2 + sigma);
@@ -840,7 +840,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
         }
         double g = peak * lrcsi_exp(-0.5 * t * t);
         double highest = peak * lrcsi_exp(-0.5 * nearest * nearest);
-        double curvature = lrcsi_most(1, farthest * farthest - 1);
+        double curvature = lrcsi_max(1, farthest * farthest - 1);
         double remainder = 0.5 * half * half * curvature + err / d * farthest;
         lrcsi_sum_add(&density, g * sigma);
         lrcsi_sum_add(&density, g * (t / d) * bin->moment_m3);

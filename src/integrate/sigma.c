@@ -191,7 +191,7 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
             lrcsi_visible known = lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos);
             if (run->plan.shadows_forced) {
                 known.area = visible->area;
-                known.low = lrcsi_least(known.low, visible->low);
+                known.low = lrcsi_min(known.low, visible->low);
                 known.likely = visible->likely;
                 known.bias = visible->bias;
             }

@@ -118,7 +118,7 @@ static double reflection_uncertainty(const lrcs_brdf *brdf, const lrcsi_incidenc
         double highest = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
         return incidence->tan2 >= 2 * brdf->s * brdf->s ? at->glint + at->diffuse : highest;
     }
-    double u_or_1 = lrcsi_least(incidence->tan2, 1);
+    double u_or_1 = lrcsi_min(incidence->tan2, 1);
     double glint =
         brdf->A > 0 ? incidence->tan2_err * (2 * u_or_1 + incidence->tan2 / brdf->s / brdf->s) : 0;
     double diffuse = incidence->tan2_err * (0.5 * brdf->m + 1) * u_or_1;
@@ -237,7 +237,7 @@ static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
 /* Adds the errors of an uncertain visible area, given what the facet reflects per area. */
 static void add_area_error(total_sums *sums, double per_area, const lrcsi_visible *visible)
 {
-    double area_err = lrcsi_most(visible->area - visible->low, visible->high - visible->area);
+    double area_err = lrcsi_max(visible->area - visible->low, visible->high - visible->area);
     sums->visibility += per_area * area_err;
     sums->likely = lrcsi_length_flat(sums->likely, per_area * visible->likely);
     sums->bias += per_area * visible->bias;
@@ -408,7 +408,7 @@ static void block_visible(total_run *run, total_batch *batch, uint32_t count)
         }
         const lrcsi_visible *visible = &run->visible[facet];
         batch->area[i] = visible->area;
-        batch->high[i] = lrcsi_most(visible->high, visible->area);
+        batch->high[i] = lrcsi_max(visible->high, visible->area);
         if (visible->low < visible->high) {
             add_area_error(&run->sums, shades->glint[i] + shades->diffuse[i], visible);
             count_visible(&run->total, lrcsi_view_projected(run->view, facet), visible);

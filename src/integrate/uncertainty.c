@@ -72,7 +72,7 @@ static uint32_t node_count(const lrcs_prepared *prepared, const lrcs_uncertainty
 /* The first and the last node of a parameter. */
 static double node_low(double value, double deviation, double minimum)
 {
-    return lrcsi_most(minimum, value - REACH * deviation);
+    return lrcsi_max(minimum, value - REACH * deviation);
 }
 
 static double node_high(double value, double deviation)
@@ -198,7 +198,7 @@ static double source_variance(const source *one, uint32_t count)
             sum += v[i] * c[i][j] * v[j];
         }
     }
-    return lrcsi_most(0, sum);
+    return lrcsi_max(0, sum);
 }
 
 /* --- the sample ------------------------------------------------------------------------------- */
@@ -243,7 +243,7 @@ static double hermite(double f0, double f1, double g0, double g1, double step, d
 static double interpolate(double f0, double f1, double g0, double g1, double step, double t)
 {
     if (!(f0 > RESPONSE_MIN) || !(f1 > RESPONSE_MIN)) {
-        return lrcsi_most(0, hermite(f0, f1, g0, g1, step, t));
+        return lrcsi_max(0, hermite(f0, f1, g0, g1, step, t));
     }
     double low = lrcsi_log(f0).hi;
     double high = lrcsi_log(f1).hi;
@@ -259,8 +259,8 @@ static uint32_t interval_find(double low, double value, double high, uint32_t co
     double from = x < value ? low : value;
     double step = (x < value ? value - low : high - value) / half;
     double position = step > 0 ? (x - from) / step : 0;
-    uint32_t k = position > 0 ? (uint32_t)lrcsi_least(position, half - 1) : 0;
-    *t = lrcsi_least(1, lrcsi_most(0, position - k));
+    uint32_t k = position > 0 ? (uint32_t)lrcsi_min(position, half - 1) : 0;
+    *t = lrcsi_min(1, lrcsi_max(0, position - k));
     return (x < value ? 0 : half) + k;
 }
 
@@ -309,12 +309,12 @@ static lrcs_brdf source_draw(const source *one, uint64_t *state)
         }
     }
     for (int i = 2; i < 4; i++) {
-        deviate[i] = lrcsi_least(REACH, lrcsi_most(-REACH, deviate[i]));
+        deviate[i] = lrcsi_min(REACH, lrcsi_max(-REACH, deviate[i]));
     }
-    return (lrcs_brdf){lrcsi_most(0, own->A + deviate[0] * e->A),
-                       lrcsi_most(0, own->B + deviate[1] * e->B),
-                       lrcsi_most(SLOPE_MIN * own->s, own->s + deviate[2] * e->s),
-                       lrcsi_most(0, own->m + deviate[3] * e->m)};
+    return (lrcs_brdf){lrcsi_max(0, own->A + deviate[0] * e->A),
+                       lrcsi_max(0, own->B + deviate[1] * e->B),
+                       lrcsi_max(SLOPE_MIN * own->s, own->s + deviate[2] * e->s),
+                       lrcsi_max(0, own->m + deviate[3] * e->m)};
 }
 
 /* Sorts in place by Shell's method, with Ciura's gaps (2001) continued by a factor of 9/4. */
@@ -338,7 +338,7 @@ static void sort_ascending(double *x, uint32_t count)
 static double quantile(const double *sorted, uint32_t count, double probability)
 {
     double position = probability * (count - 1);
-    uint32_t k = (uint32_t)lrcsi_least(position, count - 2);
+    uint32_t k = (uint32_t)lrcsi_min(position, count - 2);
     return sorted[k] + (position - k) * (sorted[k + 1] - sorted[k]);
 }
 
@@ -348,7 +348,7 @@ static void sample_make(const source *list, uint32_t sources, uint32_t count, do
                         double own, const lrcs_uncertainty_options *options, double *draw,
                         lrcs_uncertainty *uncertainty)
 {
-    double fixed = lrcsi_most(0, sigma - own);
+    double fixed = lrcsi_max(0, sigma - own);
     uint64_t state = options->seed;
     lrcsi_sum sum = {0, 0};
     lrcsi_sum square = {0, 0};
@@ -371,8 +371,8 @@ static void sample_make(const source *list, uint32_t sources, uint32_t count, do
     double chance = STANDARD_ERRORS / sqrt(options->draws);
     double difference = fabs(uncertainty->sample_m2 - uncertainty->first_order_m2);
     double bias = fabs(mean - sigma);
-    if (difference > lrcsi_most(DEVIATION_AGREES, chance / sqrt(2.0)) * uncertainty->sample_m2 ||
-        bias > lrcsi_most(MEAN_AGREES, chance) * uncertainty->sample_m2) {
+    if (difference > lrcsi_max(DEVIATION_AGREES, chance / sqrt(2.0)) * uncertainty->sample_m2 ||
+        bias > lrcsi_max(MEAN_AGREES, chance) * uncertainty->sample_m2) {
         uncertainty->sampled = 1;
         uncertainty->deviation_m2 = uncertainty->sample_m2;
         uncertainty->low_m2 = quantile(draw, options->draws, QUANTILE_LOW);
@@ -405,7 +405,7 @@ static int estimate_make(const lrcs_scene *scene, double sigma, const response_n
     }
     out.stated = sources > 0;
     out.deviation_m2 = out.first_order_m2 = sqrt(variance);
-    out.low_m2 = lrcsi_most(0, sigma - out.deviation_m2);
+    out.low_m2 = lrcsi_max(0, sigma - out.deviation_m2);
     out.high_m2 = sigma + out.deviation_m2;
     if (sources > 0 && options->draws > 0) {
         sample_make(list, sources, count, sigma, own, options, draw, &out);

@@ -102,8 +102,8 @@ static int boxes_overlap(const lrcsi_box *a, const lrcsi_box *b)
 {
     int longer = 0;
     for (int k = 0; k < 3; k++) {
-        double low = lrcsi_most(a->low[k], b->low[k]);
-        double high = lrcsi_least(a->high[k], b->high[k]);
+        double low = lrcsi_max(a->low[k], b->low[k]);
+        double high = lrcsi_min(a->high[k], b->high[k]);
         if (low > high) {
             return 0;
         }
@@ -254,9 +254,9 @@ static int slab_separates(contact_search *search, uint32_t own, uint32_t leaf, u
         for (int k = 0; k < 3; k++) {
             const double *x = search->vertex[others->corner[k][lane]].x;
             double height = lrcsi_vec3_dot(slab->direction, x);
-            low = lrcsi_least(low, height);
-            high = lrcsi_most(high, height);
-            size = lrcsi_most(size, (fabs(x[0]) + fabs(x[1])) + fabs(x[2]));
+            low = lrcsi_min(low, height);
+            high = lrcsi_max(high, height);
+            size = lrcsi_max(size, (fabs(x[0]) + fabs(x[1])) + fabs(x[2]));
         }
     }
     double error = CORNER_FILTER * (size + slab->size);

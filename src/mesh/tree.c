@@ -102,7 +102,7 @@ static inline lrcs_point facet_centre(const tree_sort *s, const uint32_t *apex, 
     lrcs_point centre;
     for (int k = 0; k < 3; k++) {
         centre.x[k] =
-            lrcsi_least(lrcsi_least(a[k], b[k]), c[k]) + lrcsi_most(lrcsi_most(a[k], b[k]), c[k]);
+            lrcsi_min(lrcsi_min(a[k], b[k]), c[k]) + lrcsi_max(lrcsi_max(a[k], b[k]), c[k]);
     }
     return centre;
 }
@@ -328,7 +328,7 @@ static void add_normal(const lrcs_point *vertex, const lrcs_facet *facet, double
         n[k] = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
         along += n[k] * direction[k];
     }
-    double most = lrcsi_most(fabs(n[0]), lrcsi_most(fabs(n[1]), fabs(n[2])));
+    double most = lrcsi_max(fabs(n[0]), lrcsi_max(fabs(n[1]), fabs(n[2])));
     double scale = most > 0x1p-1000 ? (along < 0.0 ? -1.0 : 1.0) / most : 0.0;
     for (int k = 0; k < 3; k++) {
         direction[k] += n[k] * scale;
@@ -380,9 +380,9 @@ static lrcsi_tree_slab block_slab(const lrcs_point *vertex, const lrcs_facet *fa
         for (int c = 0; c < 3; c++) {
             const double *x = vertex[corner[c]].x;
             double place = lrcsi_vec3_dot(slab.direction, x);
-            slab.low = lrcsi_least(slab.low, place);
-            slab.high = lrcsi_most(slab.high, place);
-            slab.size = lrcsi_most(slab.size, (fabs(x[0]) + fabs(x[1])) + fabs(x[2]));
+            slab.low = lrcsi_min(slab.low, place);
+            slab.high = lrcsi_max(slab.high, place);
+            slab.size = lrcsi_max(slab.size, (fabs(x[0]) + fabs(x[1])) + fabs(x[2]));
         }
     }
     return slab;

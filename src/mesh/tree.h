@@ -80,8 +80,8 @@ static inline lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet 
     const double *c = vertex[facet->corner[2]].x;
     lrcsi_box box;
     for (int k = 0; k < 3; k++) {
-        box.low[k] = lrcsi_least(lrcsi_least(a[k], b[k]), c[k]);
-        box.high[k] = lrcsi_most(lrcsi_most(a[k], b[k]), c[k]);
+        box.low[k] = lrcsi_min(lrcsi_min(a[k], b[k]), c[k]);
+        box.high[k] = lrcsi_max(lrcsi_max(a[k], b[k]), c[k]);
     }
     return box;
 }

@@ -64,7 +64,7 @@ static lrcsi_dd glint_exponent(double u, double s)
 static reflect_part reflect_glint(const lrcs_brdf *brdf, double u)
 {
     lrcsi_dd x = glint_exponent(u, brdf->s);
-    reflect_part part = {0.0, REFLECT_GLINT_UNITS * LRCSI_U, 2.0 * lrcsi_least(u, 1.0) + x.hi};
+    reflect_part part = {0.0, REFLECT_GLINT_UNITS * LRCSI_U, 2.0 * lrcsi_min(u, 1.0) + x.hi};
     double q = 0.0;
     if (x.hi < REFLECT_X_FAR) {
         q = (1.0 + u) * (lrcsi_exp(-0.5 * x.hi) * (1.0 - 0.5 * x.lo));
@@ -86,7 +86,7 @@ static double diffuse_root(double w, double m)
 static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
 {
     reflect_part part;
-    part.flank = (0.5 * brdf->m + 1.0) * lrcsi_least(u, 1.0);
+    part.flank = (0.5 * brdf->m + 1.0) * lrcsi_min(u, 1.0);
     double root = diffuse_root(1.0 + u, brdf->m);
     if (root > 0.0) {
         part.value = brdf->B / root / (1.0 + u);
@@ -98,7 +98,7 @@ static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
     double r = lrcsi_power(log, -0.25 * brdf->m);
     part.value = brdf->B * r * r / (1.0 + u);
     part.relative = LRCSI_U * (REFLECT_DIFFUSE_UNITS + 2.0 * LRCSI_LOG_ERROR * y +
-                               lrcsi_least(2.0 * y, 0.5 * brdf->m * LRCSI_U));
+                               lrcsi_min(2.0 * y, 0.5 * brdf->m * LRCSI_U));
     return part;
 }
 
@@ -176,7 +176,7 @@ lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_e
     lrcsi_reflection out = {0.0, 0.0, 0.0};
     if (brdf->A > 0.0 && isfinite(tan2)) {
         reflect_part glint = reflect_glint(brdf, tan2);
-        out.glint = lrcsi_least(glint.value, DBL_MAX);
+        out.glint = lrcsi_min(glint.value, DBL_MAX);
         out.error = glint_error(brdf, &glint, tan2, tan2_error);
     }
     if (brdf->B > 0.0 && isfinite(tan2)) {

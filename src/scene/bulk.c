@@ -62,7 +62,7 @@ static void sample_centre(bulk_sample *s, double median[3])
         bulk_sort(sorted, s->count);
         median[k] = sorted[s->count / 2];
         for (uint32_t i = 0; i < s->count; i++) {
-            s->far[i] = lrcsi_most(s->far[i], fabs(s->x[k][i] - median[k]));
+            s->far[i] = lrcsi_max(s->far[i], fabs(s->x[k][i] - median[k]));
         }
     }
 }
@@ -105,7 +105,7 @@ void lrcsi_bulk_find(lrcs_prepared *p, const double half[3])
     sample_centre(&s, median);
     double whole = 0;
     for (int k = 0; k < 3; k++) {
-        whole = lrcsi_most(whole, half[k] + fabs(median[k] - p->centre[k]));
+        whole = lrcsi_max(whole, half[k] + fabs(median[k] - p->centre[k]));
     }
     double radius = 2 * bulk_radius(&s, whole, p->scene->vertex_count);
     for (int k = 0; k < 3 && radius > 0; k++) { /* tight if the bulk ends before that */
@@ -113,11 +113,11 @@ void lrcsi_bulk_find(lrcs_prepared *p, const double half[3])
         double high = median[k];
         for (uint32_t i = 0; i < s.count; i++) {
             if (s.far[i] <= radius) {
-                low = lrcsi_least(low, s.x[k][i]);
-                high = lrcsi_most(high, s.x[k][i]);
+                low = lrcsi_min(low, s.x[k][i]);
+                high = lrcsi_max(high, s.x[k][i]);
             }
         }
         p->origin[k] = 0.5 * (low + high);
-        p->bulk[k] = lrcsi_most(high - p->origin[k], p->origin[k] - low);
+        p->bulk[k] = lrcsi_max(high - p->origin[k], p->origin[k] - low);
     }
 }

@@ -67,8 +67,8 @@ int lrcsi_extents_make(lrcs_prepared *p, lrcs_work *work)
         double reach = ldexp(scene->part[part].reach, -p->exponent) + 1e-15;
         for (int i = 0; i < 9 && !p->skip[f]; i++) {
             double x = lrcsi_prepared_corner(p, f, i / 3)[i % 3];
-            extent[part].low[i % 3] = lrcsi_least(extent[part].low[i % 3], x - reach);
-            extent[part].high[i % 3] = lrcsi_most(extent[part].high[i % 3], x + reach);
+            extent[part].low[i % 3] = lrcsi_min(extent[part].low[i % 3], x - reach);
+            extent[part].high[i % 3] = lrcsi_max(extent[part].high[i % 3], x + reach);
         }
     }
     p->extent = extent;

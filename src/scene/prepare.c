@@ -30,8 +30,8 @@ static int scene_check(const lrcs_scene *scene, int *exponent)
         if (!(fabs(x[0]) <= 1e100 && fabs(x[1]) <= 1e100 && fabs(x[2]) <= 1e100)) {
             return LRCS_E_NUMBER;
         }
-        double of_vertex = lrcsi_most(fabs(x[0]), lrcsi_most(fabs(x[1]), fabs(x[2])));
-        all = lrcsi_most(all, of_vertex);
+        double of_vertex = lrcsi_max(fabs(x[0]), lrcsi_max(fabs(x[1]), fabs(x[2])));
+        all = lrcsi_max(all, of_vertex);
     }
     (void)frexp(all, exponent);
     double enough = ldexp(0.5, *exponent); /* more does not change the exponent */
@@ -42,7 +42,7 @@ static int scene_check(const lrcs_scene *scene, int *exponent)
             return LRCS_E_INDEX;
         }
         for (int k = 0; k < 9 && largest < enough; k++) {
-            largest = lrcsi_most(largest, fabs(scene->vertex[corner[k / 3]].x[k % 3]));
+            largest = lrcsi_max(largest, fabs(scene->vertex[corner[k / 3]].x[k % 3]));
         }
         for (int k = 0; scene->corner_normal && k < 9; k++) {
             if (!(fabs(scene->corner_normal[3 * (size_t)f + (size_t)k / 3].x[k % 3]) <= 1.0)) {
@@ -95,8 +95,8 @@ static void find_box(lrcs_prepared *p)
     double half[3] = {0, 0, 0};
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
         for (int k = 0; k < 3 && p->referenced[v]; k++) {
-            low[k] = lrcsi_least(low[k], p->vertex[v].x[k]);
-            high[k] = lrcsi_most(high[k], p->vertex[v].x[k]);
+            low[k] = lrcsi_min(low[k], p->vertex[v].x[k]);
+            high[k] = lrcsi_max(high[k], p->vertex[v].x[k]);
         }
     }
     for (int k = 0; k < 3 && p->live > 0; k++) {

@@ -36,7 +36,7 @@ double lrcsi_proximity_slack(const lrcs_prepared *p, uint32_t part, uint32_t oth
     if (own == 0 && theirs == 0) {
         return 0;
     }
-    return theirs + (part_is_open(p, other) ? lrcsi_most(own, theirs) : own) + LRCSI_PROXIMITY_ERR;
+    return theirs + (part_is_open(p, other) ? lrcsi_max(own, theirs) : own) + LRCSI_PROXIMITY_ERR;
 }
 
 /* --- one pair --------------------------------------------------------------------------------- */
@@ -51,7 +51,7 @@ double lrcsi_proximity_longest(const lrcs_prepared *p, uint32_t facet)
         for (int i = 0; i < 3; i++) {
             square += (b[i] - a[i]) * (b[i] - a[i]);
         }
-        most = lrcsi_most(most, sqrt(square));
+        most = lrcsi_max(most, sqrt(square));
     }
     return most;
 }
@@ -133,7 +133,7 @@ static int pair_is_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other,
 /* A fraction as a float, rounded up. */
 static float fraction_float(double fraction)
 {
-    return (float)lrcsi_least(1, fraction * (1 + 0x1p-22));
+    return (float)lrcsi_min(1, fraction * (1 + 0x1p-22));
 }
 
 /* Entries are allocated one by one and are contiguous. */
@@ -250,7 +250,7 @@ static void parts_fill(lrcs_prepared *p)
     const lrcs_scene *scene = p->scene;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         proximity->reach[i] = ldexp(scene->part[i].reach, -p->exponent);
-        proximity->most = lrcsi_most(proximity->most, proximity->reach[i]);
+        proximity->most = lrcsi_max(proximity->most, proximity->reach[i]);
         proximity->grazing_cos[i] = 0;
     }
     for (uint32_t f = 0; f < scene->facet_count; f++) {
@@ -261,7 +261,7 @@ static void parts_fill(lrcs_prepared *p)
         double off = ldexp(scene->part[i].misplaced, -p->exponent) + 4 * LRCSI_U;
         double altitude = p->normal[f].length / lrcsi_proximity_longest(p, f);
         proximity->grazing_cos[i] =
-            lrcsi_most(proximity->grazing_cos[i], GRAZING_FACTOR * off / altitude);
+            lrcsi_max(proximity->grazing_cos[i], GRAZING_FACTOR * off / altitude);
     }
 }
 

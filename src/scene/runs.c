@@ -101,8 +101,8 @@ int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
             const double *b = lrcsi_prepared_corner(p, f, 1);
             const double *c = lrcsi_prepared_corner(p, f, 2);
             for (int k = 0; k < 3 && p->redundant[f] < LRCSI_REDUNDANT; k++) {
-                low[k] = lrcsi_least(low[k], lrcsi_least(lrcsi_least(a[k], b[k]), c[k]));
-                high[k] = lrcsi_most(high[k], lrcsi_most(lrcsi_most(a[k], b[k]), c[k]));
+                low[k] = lrcsi_min(low[k], lrcsi_min(lrcsi_min(a[k], b[k]), c[k]));
+                high[k] = lrcsi_max(high[k], lrcsi_max(lrcsi_max(a[k], b[k]), c[k]));
             }
         }
         lrcsi_run *run = &made.run[r];

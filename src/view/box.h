@@ -18,7 +18,7 @@ typedef struct lrcsi_view_box {
 
 static inline float lrcsi_view_box_float(double x)
 {
-    return (float)lrcsi_least((double)FLT_MAX, lrcsi_most(-(double)FLT_MAX, x));
+    return (float)lrcsi_min((double)FLT_MAX, lrcsi_max(-(double)FLT_MAX, x));
 }
 
 /* The box of bounds. */
@@ -43,12 +43,12 @@ static inline lrcsi_view_box lrcsi_view_box_of(const lrcsi_view *view, const uin
     return lrcsi_view_box_round(view, low, high);
 }
 
-/* The box of a point with view coordinates x, each with an error of at most `off`. */
+/* The box of a point with view coordinates x, each with an error of at most `err`. */
 static inline lrcsi_view_box lrcsi_view_box_about(const lrcsi_view *view, const double x[3],
-                                                  double off)
+                                                  double err)
 {
-    const double low[3] = {x[0] - off, x[1] - off, x[2] - off};
-    const double high[3] = {x[0] + off, x[1] + off, x[2] + off};
+    const double low[3] = {x[0] - err, x[1] - err, x[2] - err};
+    const double high[3] = {x[0] + err, x[1] + err, x[2] + err};
     return lrcsi_view_box_round(view, low, high);
 }
 

@@ -95,11 +95,11 @@ static double support_curved(const clear_body *body, const double n[3])
     case LRCS_SHAPE_DOME:
         return at + (z > 0 ? body->radius * sqrt(r * r + z * z) : rim);
     case LRCS_SHAPE_CYLINDER:
-        return at + rim + lrcsi_most(0, rise);
+        return at + rim + lrcsi_max(0, rise);
     case LRCS_SHAPE_CONE:
-        return at + lrcsi_most(rim, rise);
+        return at + lrcsi_max(rim, rise);
     case LRCS_SHAPE_FRUSTUM:
-        return at + lrcsi_most(body->radius2 * r, rim + rise);
+        return at + lrcsi_max(body->radius2 * r, rim + rise);
     default: /* paraboloid: rho r + z H (1 - rho^2/R^2) is largest at rho = R r / (2 H z) R */
         return at + (2 * rise > rim ? rise + 0.25 * rim * (rim / rise) : rim);
     }
@@ -120,7 +120,7 @@ static double support_facets(const clear_body *body, const double n[3])
     }
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
         for (int k = 0; k < 3 && !p->skip[f]; k++) {
-            most = lrcsi_most(most, lrcsi_vec3_dot(lrcsi_prepared_corner(p, f, k), n));
+            most = lrcsi_max(most, lrcsi_vec3_dot(lrcsi_prepared_corner(p, f, k), n));
         }
     }
     return most;
@@ -137,7 +137,7 @@ static double support(const clear_body *body, const double n[3])
 static double slab_surface(const clear_body *body, double height)
 {
     const double two_pi = 6.2832; /* rounded up */
-    double wide = lrcsi_most(body->radius, body->radius2);
+    double wide = lrcsi_max(body->radius, body->radius2);
     double slant = 1;
     if (body->part->kind == LRCS_SHAPE_CONE || body->part->kind == LRCS_SHAPE_FRUSTUM) {
         double rise = (body->part->kind == LRCS_SHAPE_CONE ? 0 : body->radius2) - body->radius;
@@ -153,7 +153,7 @@ static double slab_surface(const clear_body *body, double height)
 static int is_separating(const clear_body *P, const clear_body *Q, const double d[3],
                          const double n[3], int has_slab, double *slab)
 {
-    double error = P->err + Q->err + LENGTH * lrcsi_most(0, 8 * LRCSI_U - lrcsi_vec3_dot(n, d));
+    double error = P->err + Q->err + LENGTH * lrcsi_max(0, 8 * LRCSI_U - lrcsi_vec3_dot(n, d));
     const double down[3] = {-n[0], -n[1], -n[2]};
     double gap = -support(P, down) - support(Q, n);
     if (gap > error) {

@@ -23,24 +23,24 @@ static inline lrcsi_view_side lrcsi_view_side_of(const lrcsi_view *view, uint32_
 {
     const double *p = view->point[a].x;
     const double *q = view->point[b].x;
-    double err = lrcsi_view_off(p);
+    double err = lrcsi_view_point_err(p);
     lrcsi_view_side side = {
-        {p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}, 0, err, err + lrcsi_view_off(q)};
+        {p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}, 0, err, err + lrcsi_view_point_err(q)};
     side.length = fabs(side.to[0]) + fabs(side.to[1]);
     return side;
 }
 
 /* Given: a point x with an error of err in each coordinate. Returned: 1 if it lies to the left of
    the segment's line, -1 if to the right, or LRCSI_VIEW_UNSURE. Let p be the direction and q the
-   difference, with errors e and f including rounding (lrcsi_view_off): p x q has an error of
+   difference, with errors e and f including rounding (lrcsi_view_point_err): p x q has an error of
    e |q| + f |p| + 2 e f in the 1-norm, and of 2 u |p| |q| more, below a fifth of that. */
 static inline int lrcsi_view_side_turn(const lrcsi_view_side *side, const double *x, double err)
 {
     const double q[2] = {x[0] - side->at[0], x[1] - side->at[1]};
     double turn = side->to[0] * q[1] - side->to[1] * q[0];
     double f = side->at_err + err;
-    double off = 1.5 * (side->to_err * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * side->length);
-    return turn > off ? 1 : turn < -off ? -1 : LRCSI_VIEW_UNSURE;
+    double turn_err = 1.5 * (side->to_err * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * side->length);
+    return turn > turn_err ? 1 : turn < -turn_err ? -1 : LRCSI_VIEW_UNSURE;
 }
 
 #endif

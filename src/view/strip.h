@@ -7,10 +7,11 @@
 #include "base/range.h"
 #include "view/view.h"
 
-/* The point from + t to, 0 <= t <= 1, has an error of at most off + t grow in each coordinate. */
+/* The point from + t to, 0 <= t <= 1, has an error of at most err + t err_growth in each
+ * coordinate. */
 typedef struct lrcsi_strip_segment {
     double from[2], to[2];
-    double off, grow;
+    double err, err_growth;
 } lrcsi_strip_segment;
 
 /* The segment between two points of the view, in units of 1 / scale. It begins at the point with
@@ -19,23 +20,23 @@ typedef struct lrcsi_strip_segment {
 static inline lrcsi_strip_segment lrcsi_strip_segment_make(const double a[3], const double b[3],
                                                            double scale, double rounding)
 {
-    int ordered = lrcsi_view_off(a) <= lrcsi_view_off(b);
+    int ordered = lrcsi_view_point_err(a) <= lrcsi_view_point_err(b);
     const double *near = ordered ? a : b;
     const double *far = ordered ? b : a;
-    double off = 4 * lrcsi_view_off(near);
+    double err = 4 * lrcsi_view_point_err(near);
     return (lrcsi_strip_segment){{near[0] * scale, near[1] * scale},
                                  {(far[0] - near[0]) * scale, (far[1] - near[1]) * scale},
-                                 off * scale + rounding,
-                                 (4 * lrcsi_view_off(far) - off) * scale};
+                                 err * scale + rounding,
+                                 (4 * lrcsi_view_point_err(far) - err) * scale};
 }
 
 /* Narrows the range of t to where value + t slope is not negative. */
 static inline void lrcsi_strip_narrow(double value, double slope, double range[2])
 {
     if (slope > 0) {
-        range[0] = lrcsi_most(range[0], -value / slope);
+        range[0] = lrcsi_max(range[0], -value / slope);
     } else if (slope < 0) {
-        range[1] = lrcsi_least(range[1], -value / slope);
+        range[1] = lrcsi_min(range[1], -value / slope);
     } else if (value < 0) {
         range[1] = -1;
     }
@@ -48,10 +49,10 @@ static inline int lrcsi_strip_range(const lrcsi_strip_segment *s, double low, do
 {
     double t[2] = {0, 1};
     if (low > -HUGE_VAL) {
-        lrcsi_strip_narrow(s->from[1] + s->off - low, s->to[1] + s->grow, t);
+        lrcsi_strip_narrow(s->from[1] + s->err - low, s->to[1] + s->err_growth, t);
     }
     if (high < HUGE_VAL) {
-        lrcsi_strip_narrow(high - s->from[1] + s->off, s->grow - s->to[1], t);
+        lrcsi_strip_narrow(high - s->from[1] + s->err, s->err_growth - s->to[1], t);
     }
     if (!(t[0] <= t[1])) {
         return 0;
@@ -60,9 +61,9 @@ static inline int lrcsi_strip_range(const lrcsi_strip_segment *s, double low, do
     x[1] = -HUGE_VAL;
     for (int i = 0; i < 2; i++) {
         double at = s->from[0] + t[i] * s->to[0];
-        double off = s->off + t[i] * s->grow;
-        x[0] = lrcsi_least(x[0], at - off);
-        x[1] = lrcsi_most(x[1], at + off);
+        double err = s->err + t[i] * s->err_growth;
+        x[0] = lrcsi_min(x[0], at - err);
+        x[1] = lrcsi_max(x[1], at + err);
     }
     return 1;
 }

@@ -28,7 +28,7 @@ static inline double normal_products(const double *high, const double *low, cons
 }
 
 /* A bound on the absolute errors of |N x d| and N . d, per unit of |d|. */
-static double normal_off(const lrcsi_normal *n)
+static double normal_err(const lrcsi_normal *n)
 {
     return 21 * LRCSI_U * LRCSI_U * n->length + n->error;
 }
@@ -64,10 +64,10 @@ typedef struct incidence_dot {
 } incidence_dot;
 
 static incidence_dot incidence_dot_of(const lrcsi_view *view, uint32_t facet, double product,
-                                      double off)
+                                      double dot_err)
 {
-    incidence_dot dot = {fabs(product), off, 0};
-    if (!(dot.value > GRAZING_DOT * off)) {
+    incidence_dot dot = {fabs(product), dot_err, 0};
+    if (!(dot.value > GRAZING_DOT * dot_err)) {
         dot.value =
             fabs(lrcsi_exact_dot(lrcsi_prepared_corner(view->prepared, facet, 0),
                                  lrcsi_prepared_corner(view->prepared, facet, 1),
@@ -99,21 +99,21 @@ static lrcsi_incidence incidence_make(const lrcsi_view *view, uint32_t facet, do
     if (facing == 0) {
         return incidence;
     }
-    double off = normal_off(n) * view->length;
+    double dot_err = normal_err(n) * view->length;
     double cross = lrcsi_length(cross_product);
-    incidence_dot dot = incidence_dot_of(view, facet, product, off);
+    incidence_dot dot = incidence_dot_of(view, facet, product, dot_err);
     double relative = dot.err / dot.value;
     incidence.error = dot.replaced ? 2 : 2 * relative + n->error / n->length + 8 * LRCSI_U;
     incidence.tan2_err = 4 * relative + 12 * LRCSI_U;
-    if (cross > 1000 * off) {
-        incidence.tan2_err += 2.1 * off / cross;
+    if (cross > 1000 * dot_err) {
+        incidence.tan2_err += 2.1 * dot_err / cross;
     } else {
-        cross += off;
+        cross += dot_err;
         incidence.tan2_err = 1;
     }
     incidence.tan2_err = dot.replaced ? HUGE_VAL : incidence.tan2_err;
     incidence.tan2 = (cross / dot.value) * (cross / dot.value);
-    incidence.cos_theta = facing * lrcsi_least(1, dot.value / (n->length * view->length));
+    incidence.cos_theta = facing * lrcsi_min(1, dot.value / (n->length * view->length));
     incidence.projected = incidence_projected(view, dot);
     return incidence;
 }
@@ -126,7 +126,7 @@ double lrcsi_view_projected(const lrcsi_view *view, uint32_t facet)
     }
     double product = lrcsi_product_dot(n->high, n->low, view->direction);
     return incidence_projected(
-        view, incidence_dot_of(view, facet, product, normal_off(n) * view->length));
+        view, incidence_dot_of(view, facet, product, normal_err(n) * view->length));
 }
 
 lrcsi_incidence lrcsi_view_incidence(const lrcsi_view *view, uint32_t facet)
@@ -187,7 +187,7 @@ static inline void point_place(const lrcsi_view *view, const double point[3], do
     x[2] = view->R[2][0] * p[0] + view->R[2][1] * p[1] + view->R[2][2] * p[2];
 }
 
-void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3])
+void lrcsi_view_coordinates(const lrcsi_view *view, const double point[3], double x[3])
 {
     point_place(view, point, x);
 }
@@ -201,10 +201,10 @@ void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]
 
 /* As vectors: the rows have errors of 4 u each, two products and a sum by 2 u (|x| + |y|), and the
    last sum by u of its result, of length below |x| + |y| and sqrt(3) times the origin's largest. */
-double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y)
+double lrcsi_view_lift_err(const lrcsi_view *view, double x, double y)
 {
     const double *o = view->prepared->origin;
-    double origin = lrcsi_most(fabs(o[0]), lrcsi_most(fabs(o[1]), fabs(o[2])));
+    double origin = lrcsi_max(fabs(o[0]), lrcsi_max(fabs(o[1]), fabs(o[2])));
     return LRCSI_U * (8 * (fabs(x) + fabs(y)) + 2 * origin);
 }
 
@@ -296,14 +296,14 @@ int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
         point_place(view, p->vertex[i].x, x);
         memcpy(view->point[i].x, x, sizeof x);
         if (p->referenced[i]) {
-            low[0] = lrcsi_least(low[0], x[0]);
-            low[1] = lrcsi_least(low[1], x[1]);
-            high[0] = lrcsi_most(high[0], x[0]);
-            high[1] = lrcsi_most(high[1], x[1]);
+            low[0] = lrcsi_min(low[0], x[0]);
+            low[1] = lrcsi_min(low[1], x[1]);
+            high[0] = lrcsi_max(high[0], x[0]);
+            high[1] = lrcsi_max(high[1], x[1]);
         }
     }
     if (p->live > 0) {
-        view->side = lrcsi_most(high[0] - low[0], high[1] - low[1]);
+        view->side = lrcsi_max(high[0] - low[0], high[1] - low[1]);
         view->low[0] = 0.5 * (low[0] + high[0]) - 0.5 * view->side;
         view->low[1] = 0.5 * (low[1] + high[1]) - 0.5 * view->side;
     }

@@ -41,7 +41,7 @@ typedef struct lrcsi_view {
     double unit_low[3];
     signed char *facing; /* facet: 1 front, -1 back, 0 edge-on or skipped; exact */
     lrcs_point *point;   /* vertex, view coordinates about prepared->origin: x right, y up, z to the
-                            laser; lrcsi_view_off bounds the error of each */
+                            laser; lrcsi_view_point_err bounds the error of each */
     double scale;        /* a power of two; coordinates of the bulk of the scene times scale are
                             below 1 */
     double low[2], side; /* the square window around the projection of the live facets */
@@ -77,9 +77,9 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
 
 /* Bound on the error of each of the view coordinates x of a vertex, or of another point of doubles
    in scene coordinates. It grows with the distance from the origin, so that distant parts do not
-   affect the accuracy of others. Derivation: lrcsi_view_place in view.c. Its margin, 1.9 u of the
-   same sum, covers the rounding of adding it to a coordinate or to a difference of two. */
-static inline double lrcsi_view_off(const double x[3])
+   affect the accuracy of others. Derivation: lrcsi_view_coordinates in view.c. Its margin, 1.9 u of
+   the same sum, covers the rounding of adding it to a coordinate or to a difference of two. */
+static inline double lrcsi_view_point_err(const double x[3])
 {
     return 10 * LRCSI_U * (fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
 }
@@ -93,13 +93,13 @@ static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *ver
     high[0] = high[1] = high[2] = -HUGE_VAL;
     for (int i = 0; i < count; i++) {
         const double *x = view->point[vertex[i]].x;
-        double off = lrcsi_view_off(x);
-        low[0] = lrcsi_least(low[0], x[0] - off);
-        low[1] = lrcsi_least(low[1], x[1] - off);
-        low[2] = lrcsi_least(low[2], x[2] - off);
-        high[0] = lrcsi_most(high[0], x[0] + off);
-        high[1] = lrcsi_most(high[1], x[1] + off);
-        high[2] = lrcsi_most(high[2], x[2] + off);
+        double err = lrcsi_view_point_err(x);
+        low[0] = lrcsi_min(low[0], x[0] - err);
+        low[1] = lrcsi_min(low[1], x[1] - err);
+        low[2] = lrcsi_min(low[2], x[2] - err);
+        high[0] = lrcsi_max(high[0], x[0] + err);
+        high[1] = lrcsi_max(high[1], x[1] + err);
+        high[2] = lrcsi_max(high[2], x[2] + err);
     }
 }
 
@@ -141,13 +141,13 @@ static inline double lrcsi_view_dot(double x, double y, double z, const double d
 }
 
 /* View coordinates of a scene point. */
-void lrcsi_view_place(const lrcsi_view *view, const double point[3], double x[3]);
+void lrcsi_view_coordinates(const lrcsi_view *view, const double point[3], double x[3]);
 
 /* The point (x, y) of the view plane, on the plane through the origin, in scaled scene coordinates,
    rounded: the sample line through it along the direction is exact by definition. */
 void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]);
 
 /* Bound on the distance, in each view coordinate, of a lifted point from (x, y). */
-double lrcsi_view_lift_off(const lrcsi_view *view, double x, double y);
+double lrcsi_view_lift_err(const lrcsi_view *view, double x, double y);
 
 #endif

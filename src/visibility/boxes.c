@@ -17,7 +17,7 @@ size_t lrcsi_boxes_need(const lrcs_prepared *prepared)
 }
 
 /* A point of the box is m + d, with |d_k| <= h_k. The position of m in the view has an error of at
-   most lrcsi_view_off, which includes a sum; a row of the axes has an error of 4 u. So d
+   most lrcsi_view_point_err, which includes a sum; a row of the axes has an error of 4 u. So d
    contributes at most sum (|R_k| + 4 u) h_k, computed with a relative error of 4 u. */
 static lrcsi_view_box run_box(const lrcsi_view *view, const lrcsi_run *run)
 {
@@ -28,10 +28,10 @@ static lrcsi_view_box run_box(const lrcsi_view *view, const lrcsi_run *run)
     double high[3];
     for (int k = 0; k < 3; k++) {
         middle[k] = 0.5 * (run->low[k] + run->high[k]);
-        half[k] = (1 + 2 * LRCSI_U) * lrcsi_most(run->high[k] - middle[k], middle[k] - run->low[k]);
+        half[k] = (1 + 2 * LRCSI_U) * lrcsi_max(run->high[k] - middle[k], middle[k] - run->low[k]);
     }
-    lrcsi_view_place(view, middle, x);
-    double off = lrcsi_view_off(x) + 8 * LRCSI_U * (half[0] + half[1] + half[2]);
+    lrcsi_view_coordinates(view, middle, x);
+    double off = lrcsi_view_point_err(x) + 8 * LRCSI_U * (half[0] + half[1] + half[2]);
     for (int k = 0; k < 3; k++) {
         const double *row = view->R[k];
         double wide = fabs(row[0]) * half[0] + fabs(row[1]) * half[1] + fabs(row[2]) * half[2];

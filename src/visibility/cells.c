@@ -91,7 +91,7 @@ static void cells_add_area(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     double wide[2];
     for (int k = 0; k < 2; k++) {
         wide[k] =
-            lrcsi_most(0, lrcsi_least(s->high[k], f->high[k]) - lrcsi_most(s->low[k], f->low[k])) +
+            lrcsi_max(0, lrcsi_min(s->high[k], f->high[k]) - lrcsi_max(s->low[k], f->low[k])) +
             4 * w;
     }
     double around = wide[0] + wide[1];
@@ -105,11 +105,11 @@ static void cells_add_area(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         }
         if (range[0] < w) {
             area->off +=
-                (f->line_off + 12 * LRCSI_U * c->reach) * lrcsi_least(f->length[k] + 4 * w, around);
+                (f->line_off + 12 * LRCSI_U * c->reach) * lrcsi_min(f->length[k] + 4 * w, around);
             lrcsi_cells_shape_clip(&piece, f->side[k]);
         }
     }
-    area->seen += piece.count >= 3 ? lrcsi_most(0, lrcsi_clip_area(&piece)) : 0;
+    area->seen += piece.count >= 3 ? lrcsi_max(0, lrcsi_clip_area(&piece)) : 0;
 }
 
 /* Decides a cell: the facets of the component are visible in it, all others hidden. */
@@ -149,13 +149,13 @@ static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
             double range[2];
             double reach = 0;
             for (int k = 0; k < 2; k++) {
-                reach += lrcsi_least(s->high[k], lrcsi_most(e->end[0][k], e->end[1][k])) -
-                         lrcsi_most(s->low[k], lrcsi_least(e->end[0][k], e->end[1][k]));
+                reach += lrcsi_min(s->high[k], lrcsi_max(e->end[0][k], e->end[1][k])) -
+                         lrcsi_max(s->low[k], lrcsi_min(e->end[0][k], e->end[1][k]));
             }
             lrcsi_line_range(&cell->shape, e->line, range);
-            double good = lrcsi_least(-range[0], range[1]) * sqrt(lrcsi_most(0, reach));
+            double good = lrcsi_min(-range[0], range[1]) * sqrt(lrcsi_max(0, reach));
             best = good > most ? e : best;
-            most = lrcsi_most(most, good);
+            most = lrcsi_max(most, good);
         }
     }
     return best;
@@ -290,17 +290,17 @@ static lrcsi_visible facet_decided(const lrcsi_cells_work *c, uint32_t facet, do
     const lrcsi_cells_found *a = &c->area[facet];
     double seen = (c->found[facet] & LRCSI_CELLS_HIDDEN) == 0 ? whole
                   : (c->found[facet] & LRCSI_CELLS_SEEN) == 0 ? 0
-                                                              : lrcsi_least(whole, a->seen);
+                                                              : lrcsi_min(whole, a->seen);
     int mixed =
         (c->found[facet] & LRCSI_CELLS_SEEN) != 0 && (c->found[facet] & LRCSI_CELLS_HIDDEN) != 0;
     *off = a->uncertainty + (mixed ? a->off + 64 * LRCSI_U * a->seen : 0);
-    return (lrcsi_visible){seen, lrcsi_most(0, seen - *off), lrcsi_least(whole, seen + *off), 0, 0};
+    return (lrcsi_visible){seen, lrcsi_max(0, seen - *off), lrcsi_min(whole, seen + *off), 0, 0};
 }
 
 /* The extent of the bulk of a scene. */
 static double extent_of(const lrcs_prepared *p)
 {
-    return 2 * lrcsi_most(p->bulk[0], lrcsi_most(p->bulk[1], p->bulk[2]));
+    return 2 * lrcsi_max(p->bulk[0], lrcsi_max(p->bulk[1], p->bulk[2]));
 }
 
 /* The error at which a facet's area is accepted: 1e-12 of the area or 1e-15 of the extent squared;
@@ -317,7 +317,7 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double p
     for (int k = 0; k < 3; k++) {
         const double *p = c->view->point[corner[k]].x;
         const double *q = c->view->point[corner[(k + 1) % 3]].x;
-        diameter = lrcsi_most(diameter, lrcsi_most(fabs(p[0] - q[0]), fabs(p[1] - q[1])));
+        diameter = lrcsi_max(diameter, lrcsi_max(fabs(p[0] - q[0]), fabs(p[1] - q[1])));
     }
     double extent = extent_of(c->view->prepared);
     const lrcs_scene *scene = c->view->prepared->scene;
@@ -326,7 +326,7 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double p
     double alone = LRCSI_U * diameter * (104 * diameter + 128 * c->area[facet].cut);
     alone = as_alone ? AS_ALONE * alone : 0;
     return ACCURACY_OF_FACET * projected +
-           (ordinary ? lrcsi_most(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
+           (ordinary ? lrcsi_max(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
 }
 
 /* Reports the areas that are accurate enough. Returns how many others the cells decided. */

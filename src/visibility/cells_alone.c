@@ -112,16 +112,16 @@ static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side si
     double length[3];
     for (int k = 0; k < 3; k++) {
         const double *x = lrcsi_target_corner(a->cells.view, other, k);
-        reach[k] = lrcsi_target_place(frame, x, corner[k]);
+        reach[k] = lrcsi_target_coordinates(frame, x, corner[k]);
     }
     for (int k = 0; k < 3; k++) {
         const double *to = corner[k == 2 ? 0 : k + 1];
         lrcsi_line_through(corner[k], to, side[k].line);
         length[k] = lrcsi_length_flat(to[0] - corner[k][0], to[1] - corner[k][1]);
     }
-    double least = lrcsi_least(reach[0], lrcsi_least(reach[1], reach[2]));
-    double most = lrcsi_most(reach[0], lrcsi_most(reach[1], reach[2]));
-    double longest = lrcsi_most(length[0], lrcsi_most(length[1], length[2]));
+    double least = lrcsi_min(reach[0], lrcsi_min(reach[1], reach[2]));
+    double most = lrcsi_max(reach[0], lrcsi_max(reach[1], reach[2]));
+    double longest = lrcsi_max(length[0], lrcsi_max(length[1], length[2]));
     double off = 20 * LRCSI_U * most;
     double twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
                    (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
@@ -173,8 +173,9 @@ static int facet_apart(const lrcsi_alone *a, const lrcsi_view_side own[3], uint3
         apart = 1;
         for (int i = 0; i < 3 && apart; i++) {
             const double *x = view->point[its[i]].x;
-            apart =
-                view->facing[a->facet] * lrcsi_view_side_turn(&own[k], x, lrcsi_view_off(x)) == -1;
+            apart = view->facing[a->facet] *
+                        lrcsi_view_side_turn(&own[k], x, lrcsi_view_point_err(x)) ==
+                    -1;
         }
     }
     return apart;
@@ -267,8 +268,8 @@ static int alone_edge(lrcsi_alone *a, uint32_t edge)
     if (a->frame.needle) {
         e->off = needle_off(lrcsi_needle_segment(a->frame.needle, from, to, end));
     } else {
-        const double away[2] = {lrcsi_target_place(&a->frame, from, end[0]),
-                                lrcsi_target_place(&a->frame, to, end[1])};
+        const double away[2] = {lrcsi_target_coordinates(&a->frame, from, end[0]),
+                                lrcsi_target_coordinates(&a->frame, to, end[1])};
         e->off = 32 * LRCSI_U * lrcsi_target_segment(&a->frame, end, away);
     }
     segment_ends(e, (const double(*)[2])end);
@@ -351,7 +352,7 @@ static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
     *f = (lrcsi_cells_facet){.off = off, .line_off = off, .number = a->facet};
     lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell->shape);
     lrcsi_clip_box(&cell->shape, f->low, f->high);
-    c->reach = lrcsi_most(lrcsi_most(-f->low[0], -f->low[1]), lrcsi_most(f->high[0], f->high[1]));
+    c->reach = lrcsi_max(lrcsi_max(-f->low[0], -f->low[1]), lrcsi_max(f->high[0], f->high[1]));
     for (int k = 0; k < 3; k++) {
         f->x[k] = frame->corner[k][0];
         f->y[k] = frame->corner[k][1];
@@ -416,7 +417,7 @@ static uint32_t cell_choose(const lrcsi_alone *a, const lrcsi_cells_cell *cell, 
             double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
             count++;
             *best = far < nearest ? e : *best;
-            nearest = lrcsi_least(far, nearest);
+            nearest = lrcsi_min(far, nearest);
         }
     }
     return count;
@@ -461,13 +462,13 @@ static lrcsi_view_box place_box(const lrcsi_alone *a, const alone_place *place)
 {
     double first[3];
     double x[3];
-    lrcsi_view_place(a->cells.view, a->target.origin, first);
+    lrcsi_view_coordinates(a->cells.view, a->target.origin, first);
     lrcsi_target_unrefine(&a->frame, place->at, x);
     x[0] += first[0];
     x[1] += first[1];
     x[2] = first[2];
     return lrcsi_view_box_about(a->cells.view, x,
-                                lrcsi_view_off(first) + place->off +
+                                lrcsi_view_point_err(first) + place->off +
                                     (16 * LRCSI_U + 2 * a->frame.position_err) * a->target.reach);
 }
 
@@ -599,7 +600,7 @@ static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
                      alone_place *place, int *guess)
 {
     double margin = 4 * (cell->inset + alone_off(a) + s->g);
-    double lift = lrcsi_target_lift_off(&a->target);
+    double lift = lrcsi_target_lift_err(&a->target);
     int answer = -1;
     for (int t = 0; t < LRCSI_CELLS_TRIES && answer < 0; t++) {
         *place = (alone_place){.way = WAY_PLACED};
@@ -643,7 +644,7 @@ static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_
         }
         a->bent += 4 * LRCSI_U * a->target.reach * lrcsi_clip_perimeter(&a->piece);
     }
-    area->seen += lrcsi_most(0, lrcsi_clip_area(&cell->shape));
+    area->seen += lrcsi_max(0, lrcsi_clip_area(&cell->shape));
     area->off += 4 * s->g * s->perimeter + 5 * LRCSI_U * (cell->shape.count + 3) *
                                                (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]);
 }
@@ -654,7 +655,7 @@ static int cell_divide(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi
                        const lrcsi_cells_segment *cut)
 {
     double margin = cell->inset + alone_off(a) + s->g;
-    double least = lrcsi_most(a->negligible, NARROW * margin * s->perimeter);
+    double least = lrcsi_max(a->negligible, NARROW * margin * s->perimeter);
     return cut ? lrcsi_cells_divide(&a->cells, cell, s, cut)
                : lrcsi_clip_area(&cell->shape) > least && lrcsi_cells_halve(&a->cells, cell, s);
 }
@@ -724,11 +725,11 @@ lrcsi_visible lrcsi_alone_close(lrcsi_alone *a)
     double off = unit * (a->rim + found->uncertainty + found->off +
                          64 * LRCSI_U * (found->seen + a->uncertainty[1]));
     double seen = a->hidden || a->uncertainty[0] > 0
-                      ? lrcsi_least(whole, unit * (found->seen + a->uncertainty[1]))
+                      ? lrcsi_min(whole, unit * (found->seen + a->uncertainty[1]))
                       : whole;
     off += a->frame.needle ? incidence.error * whole : 0;
-    return (lrcsi_visible){seen, lrcsi_most(0, seen - unit * a->uncertainty[1] - off),
-                           lrcsi_least(whole, seen + unit * a->uncertainty[0] + off), 0, 0};
+    return (lrcsi_visible){seen, lrcsi_max(0, seen - unit * a->uncertainty[1] - off),
+                           lrcsi_min(whole, seen + unit * a->uncertainty[0] + off), 0, 0};
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */

@@ -57,8 +57,8 @@ static inline void corners_along(const lrcsi_cells_facet *f, const double line[3
     double a = line[1] * f->x[0] - line[0] * f->y[0];
     double b = line[1] * f->x[1] - line[0] * f->y[1];
     double d = line[1] * f->x[2] - line[0] * f->y[2];
-    along[0] = lrcsi_least(a, lrcsi_least(b, d)) - from;
-    along[1] = lrcsi_most(a, lrcsi_most(b, d)) - from;
+    along[0] = lrcsi_min(a, lrcsi_min(b, d)) - from;
+    along[1] = lrcsi_max(a, lrcsi_max(b, d)) - from;
 }
 
 /* The same for the part of the facet within `near` of the line; along[0] > along[1] if there is
@@ -79,19 +79,19 @@ static void facet_along(const lrcsi_cells_facet *f, const double line[3], const 
         double rise = d[n] - d[k];
         double from = 0;
         double to = 1;
-        if (lrcsi_least(d[k], d[n]) > near || lrcsi_most(d[k], d[n]) < -near) {
+        if (lrcsi_min(d[k], d[n]) > near || lrcsi_max(d[k], d[n]) < -near) {
             continue;
         }
         if (fabs(rise) > near) {
             double enters = (-near - d[k]) / rise;
             double leaves = (near - d[k]) / rise;
-            from = lrcsi_most(from, lrcsi_least(enters, leaves));
-            to = lrcsi_least(to, lrcsi_most(enters, leaves));
+            from = lrcsi_max(from, lrcsi_min(enters, leaves));
+            to = lrcsi_min(to, lrcsi_max(enters, leaves));
         }
         double p = t[k] + from * (t[n] - t[k]);
         double q = t[k] + to * (t[n] - t[k]);
-        along[0] = lrcsi_least(along[0], lrcsi_least(p, q));
-        along[1] = lrcsi_most(along[1], lrcsi_most(p, q));
+        along[0] = lrcsi_min(along[0], lrcsi_min(p, q));
+        along[1] = lrcsi_max(along[1], lrcsi_max(p, q));
     }
 }
 
@@ -108,8 +108,8 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
     double box[2][2];
     for (int k = 0; k < 2; k++) {
         double to = e->start[k] + (k == 0 ? e->line[1] : -e->line[0]) * e->length;
-        box[0][k] = lrcsi_most(s->low[k], lrcsi_least(e->start[k], to));
-        box[1][k] = lrcsi_least(s->high[k], lrcsi_most(e->start[k], to));
+        box[0][k] = lrcsi_max(s->low[k], lrcsi_min(e->start[k], to));
+        box[1][k] = lrcsi_min(s->high[k], lrcsi_max(e->start[k], to));
     }
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t facet = c->facets[i];
@@ -128,20 +128,19 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
         for (int k = 0; k < 3; k++) {
             d[k] = lrcsi_line_at(e->line, f->x[k], f->y[k]);
         }
-        if (lrcsi_most(d[0], lrcsi_most(d[1], d[2])) < -far ||
-            lrcsi_least(d[0], lrcsi_least(d[1], d[2])) > far) {
+        if (lrcsi_max(d[0], lrcsi_max(d[1], d[2])) < -far ||
+            lrcsi_min(d[0], lrcsi_min(d[1], d[2])) > far) {
             continue;
         }
         corners_along(f, e->line, e->start, along);
-        if (lrcsi_least(uncertainty, strip * (along[1] - along[0])) > c->trifle) {
+        if (lrcsi_min(uncertainty, strip * (along[1] - along[0])) > c->trifle) {
             facet_along(f, e->line, e->start, 2 * far, along);
-            c->area[facet].cut +=
-                lrcsi_least(uncertainty / strip, lrcsi_most(0, along[1] - along[0]));
+            c->area[facet].cut += lrcsi_min(uncertainty / strip, lrcsi_max(0, along[1] - along[0]));
         }
         if (along[1] > e->part.from * e->length - beyond &&
             along[0] < e->part.to * e->length + beyond) {
             c->area[facet].uncertainty +=
-                lrcsi_least(uncertainty, strip * (along[1] - along[0] + 2 * far));
+                lrcsi_min(uncertainty, strip * (along[1] - along[0] + 2 * far));
         }
     }
 }
@@ -154,19 +153,18 @@ void lrcsi_cells_charge_cut(lrcsi_cells_work *c, uint32_t index, double low, dou
     double far = f->off + strip->g;
     double beyond = CELLS_FAR * strip->width + far;
     double along[2];
-    double wide = lrcsi_least(high + far, strip->width) - lrcsi_most(low - far, -strip->width);
+    double wide = lrcsi_min(high + far, strip->width) - lrcsi_max(low - far, -strip->width);
     if (!e->contact && (e->owner[0] == f->number || e->owner[1] == f->number)) {
-        wide = lrcsi_least(wide, strip->width);
+        wide = lrcsi_min(wide, strip->width);
     }
     corners_along(f, e->line, e->end[0], along);
-    double length =
-        lrcsi_least(along[1], strip->to) - lrcsi_most(along[0], strip->from) + 2 * beyond;
+    double length = lrcsi_min(along[1], strip->to) - lrcsi_max(along[0], strip->from) + 2 * beyond;
     if (wide * length > c->trifle) {
         facet_along(f, e->line, e->end[0], strip->width + 2 * far, along);
-        length = lrcsi_least(along[1], strip->to) - lrcsi_most(along[0], strip->from) + 2 * beyond;
-        c->area[index].cut += lrcsi_most(0, length);
+        length = lrcsi_min(along[1], strip->to) - lrcsi_max(along[0], strip->from) + 2 * beyond;
+        c->area[index].cut += lrcsi_max(0, length);
     }
-    c->area[index].uncertainty += lrcsi_most(0, wide) * lrcsi_most(0, length);
+    c->area[index].uncertainty += lrcsi_max(0, wide) * lrcsi_max(0, length);
 }
 
 double lrcsi_cells_thin(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s, double clear,
@@ -176,7 +174,7 @@ double lrcsi_cells_thin(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s
         return 0;
     }
     double strips = 4 * (double)segments * (cell->inset + off + s->g) * s->perimeter;
-    return lrcsi_least(strips, lrcsi_clip_area(&cell->shape) + s->g * s->perimeter);
+    return lrcsi_min(strips, lrcsi_clip_area(&cell->shape) + s->g * s->perimeter);
 }
 
 int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,

@@ -62,14 +62,14 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         const lrcsi_cells_facet *f = &c->facet[index];
         double w = f->off + s->g;
         c->listed[index] = c->look;
-        double outside = lrcsi_most(lrcsi_most(f->low[0] - at[0], at[0] - f->high[0]),
-                                    lrcsi_most(f->low[1] - at[1], at[1] - f->high[1]));
+        double outside = lrcsi_max(lrcsi_max(f->low[0] - at[0], at[0] - f->high[0]),
+                                   lrcsi_max(f->low[1] - at[1], at[1] - f->high[1]));
         if (outside > w) {
             continue;
         }
         double inside = lrcsi_line_at(f->side[0], at[0], at[1]);
-        inside = lrcsi_least(inside, lrcsi_line_at(f->side[1], at[0], at[1]));
-        inside = lrcsi_least(inside, lrcsi_line_at(f->side[2], at[0], at[1]));
+        inside = lrcsi_min(inside, lrcsi_line_at(f->side[1], at[0], at[1]));
+        inside = lrcsi_min(inside, lrcsi_line_at(f->side[2], at[0], at[1]));
         if (inside < -w) {
             continue;
         }
@@ -102,7 +102,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         }
         if (order > 0) { /* the earlier ones are compared with it again */
             *best = other;
-            most = lrcsi_least(most, range[0]);
+            most = lrcsi_min(most, range[0]);
             changes++;
             i = (uint32_t)-1;
         }
@@ -312,7 +312,7 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
                           double low)
 {
     double z_off = 2 * e->z_err;
-    if (lrcsi_most(e->end[0][2], e->end[1][2]) + z_off < low) {
+    if (lrcsi_max(e->end[0][2], e->end[1][2]) + z_off < low) {
         return 1;
     }
     lrcsi_cells_part part = {0, 1, 0};
@@ -324,7 +324,7 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
                 e->end[0][k] + (i == 0 ? part.from : part.to) * (e->end[1][k] - e->end[0][k]);
         }
     }
-    if (lrcsi_most(at[0][2], at[1][2]) + z_off < low) {
+    if (lrcsi_max(at[0][2], at[1][2]) + z_off < low) {
         return 1;
     }
     if (c->components == 1) {
@@ -383,7 +383,7 @@ void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
 {
     double low = HUGE_VAL;
     for (uint32_t i = 0; i < c->components; i++) {
-        low = lrcsi_least(low, lrcsi_cells_facet_limit(&c->facet[c->component[i]], s, -1));
+        low = lrcsi_min(low, lrcsi_cells_facet_limit(&c->facet[c->component[i]], s, -1));
     }
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facets; i++) {

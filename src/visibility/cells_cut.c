@@ -56,7 +56,7 @@ void lrcsi_cells_strike(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi
             lrcsi_cells_keep(c->segments, i, kept++);
         } else if (place == LRCSI_CELLS_BORDER) {
             cell->struck++;
-            cell->inset = lrcsi_most(cell->inset, part.strip);
+            cell->inset = lrcsi_max(cell->inset, part.strip);
             lrcsi_cells_charge_border(c, cell, s,
                                       &(lrcsi_cells_border){{e->line[0], e->line[1], e->line[2]},
                                                             {e->end[0][0], e->end[0][1]},
@@ -73,8 +73,8 @@ static inline void facet_range(const lrcsi_cells_facet *f, const double line[3],
     double a = lrcsi_line_at(line, f->x[0], f->y[0]);
     double b = lrcsi_line_at(line, f->x[1], f->y[1]);
     double d = lrcsi_line_at(line, f->x[2], f->y[2]);
-    range[0] = lrcsi_least(a, lrcsi_least(b, d));
-    range[1] = lrcsi_most(a, lrcsi_most(b, d));
+    range[0] = lrcsi_min(a, lrcsi_min(b, d));
+    range[1] = lrcsi_max(a, lrcsi_max(b, d));
 }
 
 /* Is all of a cell beyond one side of a facet? Ends at the first corner after which no side can
@@ -85,10 +85,10 @@ static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *sh
     for (uint32_t i = 0; i < shape->count; i++) {
         double x = shape->corner[i][0];
         double y = shape->corner[i][1];
-        most[0] = lrcsi_most(most[0], lrcsi_line_at(f->side[0], x, y));
-        most[1] = lrcsi_most(most[1], lrcsi_line_at(f->side[1], x, y));
-        most[2] = lrcsi_most(most[2], lrcsi_line_at(f->side[2], x, y));
-        if (!(lrcsi_least(most[0], lrcsi_least(most[1], most[2])) < -w)) {
+        most[0] = lrcsi_max(most[0], lrcsi_line_at(f->side[0], x, y));
+        most[1] = lrcsi_max(most[1], lrcsi_line_at(f->side[1], x, y));
+        most[2] = lrcsi_max(most[2], lrcsi_line_at(f->side[2], x, y));
+        if (!(lrcsi_min(most[0], lrcsi_min(most[1], most[2])) < -w)) {
             return 0;
         }
     }
@@ -223,7 +223,7 @@ static int cell_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     right.sign = -1;
     left.cuts = right.cuts = cell->cuts + 1;
     left.struck = right.struck = cell->struck + (struck != LRCS_NONE);
-    left.inset = right.inset = lrcsi_most(cell->inset, 2 * strip.width);
+    left.inset = right.inset = lrcsi_max(cell->inset, 2 * strip.width);
     left.drift = right.drift = cell->drift + drift;
     left.strip = right.strip = strip.width;
     left.facets = left.segments = 0;

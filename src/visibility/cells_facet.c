@@ -149,12 +149,12 @@ static void facet_slope(lrcsi_cells_facet *f, const double z[3])
     const double dx[2] = {f->x[1] - f->x[0], f->x[2] - f->x[0]};
     const double dy[2] = {f->y[1] - f->y[0], f->y[2] - f->y[0]};
     double twice = dx[0] * dy[1] - dx[1] * dy[0];
-    double longest = lrcsi_most(f->length[0], lrcsi_most(f->length[1], f->length[2]));
+    double longest = lrcsi_max(f->length[0], lrcsi_max(f->length[1], f->length[2]));
     double height = twice / longest; /* the least */
-    double rise = lrcsi_most(z[0], lrcsi_most(z[1], z[2])) -
-                  lrcsi_least(z[0], lrcsi_least(z[1], z[2])) + 4 * f->z_err;
-    f->z_low = lrcsi_least(z[0], lrcsi_least(z[1], z[2])) - f->z_err;
-    f->z_high = lrcsi_most(z[0], lrcsi_most(z[1], z[2])) + f->z_err;
+    double rise = lrcsi_max(z[0], lrcsi_max(z[1], z[2])) - lrcsi_min(z[0], lrcsi_min(z[1], z[2])) +
+                  4 * f->z_err;
+    f->z_low = lrcsi_min(z[0], lrcsi_min(z[1], z[2])) - f->z_err;
+    f->z_high = lrcsi_max(z[0], lrcsi_max(z[1], z[2])) + f->z_err;
     f->z[0] = f->z[1] = f->z[2] = 0;
     f->z_off[0] = f->z_off[1] = HUGE_VAL;
     if (height > 64 * f->off && height > 0x1p-40 * longest) {
@@ -162,8 +162,8 @@ static void facet_slope(lrcsi_cells_facet *f, const double z[3])
         f->z[0] = (dz[0] * dy[1] - dz[1] * dy[0]) / twice;
         f->z[1] = (dz[1] * dx[0] - dz[0] * dx[1]) / twice;
         f->z[2] = z[0] - f->z[0] * f->x[0] - f->z[1] * f->y[0];
-        double slope = lrcsi_least(4 * rise / height,
-                                   2 * (fabs(f->z[0]) + fabs(f->z[1])) + 8 * f->z_err / height);
+        double slope = lrcsi_min(4 * rise / height,
+                                 2 * (fabs(f->z[0]) + fabs(f->z[1])) + 8 * f->z_err / height);
         f->z_off[1] = slope;
         f->z_off[0] =
             3 * f->z_err + slope * (2 * f->off + 8 * LRCSI_U * longest * longest / height) +
@@ -184,17 +184,17 @@ void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_fa
         f->x[k] = p[k]->local[0].hi;
         f->y[k] = p[k]->local[1].hi;
         z[k] = p[k]->z;
-        f->off = lrcsi_most(f->off, p[k]->off);
-        f->line_off = lrcsi_most(f->line_off, p[k]->line_off);
-        f->z_err = lrcsi_most(f->z_err, p[k]->z_err);
+        f->off = lrcsi_max(f->off, p[k]->off);
+        f->line_off = lrcsi_max(f->line_off, p[k]->line_off);
+        f->z_err = lrcsi_max(f->z_err, p[k]->z_err);
     }
     for (int k = 0; k < 3; k++) {
         f->length[k] = lrcsi_cells_line(p[k], p[k == 2 ? 0 : k + 1], f->side[k]) + 4 * f->off;
     }
-    f->low[0] = lrcsi_least(f->x[0], lrcsi_least(f->x[1], f->x[2]));
-    f->high[0] = lrcsi_most(f->x[0], lrcsi_most(f->x[1], f->x[2]));
-    f->low[1] = lrcsi_least(f->y[0], lrcsi_least(f->y[1], f->y[2]));
-    f->high[1] = lrcsi_most(f->y[0], lrcsi_most(f->y[1], f->y[2]));
+    f->low[0] = lrcsi_min(f->x[0], lrcsi_min(f->x[1], f->x[2]));
+    f->high[0] = lrcsi_max(f->x[0], lrcsi_max(f->x[1], f->x[2]));
+    f->low[1] = lrcsi_min(f->y[0], lrcsi_min(f->y[1], f->y[2]));
+    f->high[1] = lrcsi_max(f->y[0], lrcsi_max(f->y[1], f->y[2]));
     facet_slope(f, z);
     f->thin = !(facet_least(f) > 16 * f->off);
     if (f->thin) {
@@ -231,8 +231,8 @@ void lrcsi_cells_facet_height(const lrcsi_cells_facet *f, const double at[2], do
     double off = f->z_off[0] + f->z_off[1] * g;
     if (off < HUGE_VAL) {
         double z = f->z[0] * at[0] + f->z[1] * at[1] + f->z[2];
-        range[0] = lrcsi_most(range[0], z - off);
-        range[1] = lrcsi_least(range[1], z + off);
+        range[0] = lrcsi_max(range[0], z - off);
+        range[1] = lrcsi_min(range[1], z + off);
     }
 }
 
@@ -247,7 +247,7 @@ double lrcsi_cells_facet_limit(const lrcsi_cells_facet *f, const lrcsi_cells_sid
     double y = 0.5 * (s->low[1] + s->high[1]);
     double half = fabs(f->z[0]) * (s->high[0] - x) + fabs(f->z[1]) * (s->high[1] - y);
     double z = f->z[0] * x + f->z[1] * y + f->z[2];
-    return sign > 0 ? lrcsi_least(corner, z + half + off) : lrcsi_most(corner, z - half - off);
+    return sign > 0 ? lrcsi_min(corner, z + half + off) : lrcsi_max(corner, z - half - off);
 }
 
 int lrcsi_cells_facet_order(const lrcsi_view *view, uint32_t first, uint32_t second)

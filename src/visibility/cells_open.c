@@ -66,7 +66,7 @@ static double block_edge(const lrcsi_cells_grid *c, uint32_t i, int k)
 static uint32_t block_of(const lrcsi_cells_grid *c, double x, int k)
 {
     double i = (x - c->low[k]) * c->per + 1;
-    return (uint32_t)lrcsi_least(c->side - 1.0, lrcsi_most(0, i));
+    return (uint32_t)lrcsi_min(c->side - 1.0, lrcsi_max(0, i));
 }
 
 /* The blocks that a range of coordinates touches: *from <= i < *to. */
@@ -89,15 +89,15 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *
     uint32_t x[2];
     uint32_t y[2];
     for (int i = 0; i < corners; i++) {
-        double off = 4 * lrcsi_view_off(corner[i]);
+        double off = 4 * lrcsi_view_point_err(corner[i]);
         for (int k = 0; k < 2; k++) {
-            low[k] = lrcsi_least(low[k], corner[i][k] - off);
-            high[k] = lrcsi_most(high[k], corner[i][k] + off);
+            low[k] = lrcsi_min(low[k], corner[i][k] - off);
+            high[k] = lrcsi_max(high[k], corner[i][k] + off);
         }
     }
     for (int k = 0; k < 2; k++) {
-        c->least[k] = lrcsi_least(c->least[k], low[k]);
-        c->most[k] = lrcsi_most(c->most[k], high[k]);
+        c->least[k] = lrcsi_min(c->least[k], low[k]);
+        c->most[k] = lrcsi_max(c->most[k], high[k]);
     }
     block_range(c, low[0], high[0], 0, &x[0], &x[1]);
     block_range(c, low[1], high[1], 1, &y[0], &y[1]);
@@ -113,8 +113,8 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *
         for (int i = 0; several && i < corners; i++) {
             double range[2];
             if (lrcsi_strip_range(&side[i], bottom, top, range)) {
-                from = lrcsi_least(from, range[0]);
-                to = lrcsi_most(to, range[1]);
+                from = lrcsi_min(from, range[0]);
+                to = lrcsi_max(to, range[1]);
             }
         }
         if (from <= to) {
@@ -194,14 +194,14 @@ double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y
         double wide = 0x1p-30 * (fabs(start) + fabs(end) + c->side * c->size);
         double near = 64 * LRCSI_U * (fabs(c->least[k]) + fabs(c->most[k]));
         low[k] = at[k] > 0 ? block_edge(c, at[k], k)
-                           : lrcsi_least(lrcsi_least(start, c->low[k]) - wide, c->least[k] - near);
+                           : lrcsi_min(lrcsi_min(start, c->low[k]) - wide, c->least[k] - near);
         high[k] = at[k] + 1 < c->side
                       ? block_edge(c, at[k] + 1, k)
-                      : lrcsi_most(lrcsi_most(end, c->high[k]) + wide, c->most[k] + near);
+                      : lrcsi_max(lrcsi_max(end, c->high[k]) + wide, c->most[k] + near);
         middle[k] = 0.5 * (low[k] + high[k]);
         low[k] -= middle[k];
         high[k] -= middle[k];
-        reach = lrcsi_most(reach, lrcsi_most(fabs(low[k]), fabs(high[k])));
+        reach = lrcsi_max(reach, lrcsi_max(fabs(low[k]), fabs(high[k])));
     }
     *shape = (lrcsi_clip_polygon){
         .corner = {{low[0], low[1]}, {high[0], low[1]}, {high[0], high[1]}, {low[0], high[1]}},
@@ -281,9 +281,9 @@ static int open_edge(lrcsi_cells_work *c, uint32_t edge)
         e->end[i][1] = end[i]->local[1].hi;
         e->end[i][2] = end[i]->z;
     }
-    e->off = lrcsi_most(end[0]->off, end[1]->off);
-    e->line_off = lrcsi_most(end[0]->line_off, end[1]->line_off);
-    e->z_err = lrcsi_most(end[0]->z_err, end[1]->z_err);
+    e->off = lrcsi_max(end[0]->off, end[1]->off);
+    e->line_off = lrcsi_max(end[0]->line_off, end[1]->line_off);
+    e->z_err = lrcsi_max(end[0]->z_err, end[1]->z_err);
     e->length = lrcsi_cells_line(end[0], end[1], e->line);
     return 1;
 }
@@ -396,7 +396,7 @@ static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cel
             }
             c->facets[cell->facets++] = index;
             c->listed[index] = c->look;
-            c->off = lrcsi_most(c->off, f->off);
+            c->off = lrcsi_max(c->off, f->off);
         }
     }
 }

@@ -34,7 +34,7 @@ void lrcsi_cells_sides_make(const lrcsi_clip_polygon *p, double g, lrcsi_cells_s
         s->length[i] = fabs(to[0] - from[0]) + fabs(to[1] - from[1]);
         double least = 0;
         for (uint32_t k = 0; k < p->count; k++) {
-            least = lrcsi_least(least, lrcsi_line_at(line, p->corner[k][0], p->corner[k][1]));
+            least = lrcsi_min(least, lrcsi_line_at(line, p->corner[k][0], p->corner[k][1]));
         }
         s->moved[i] = -least;
         line[2] -= least;
@@ -59,26 +59,26 @@ int lrcsi_cells_place_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_si
 {
     double range[2];
     lrcsi_line_range(shape, line, range);
-    double deep = lrcsi_least(range[1], -range[0]);
+    double deep = lrcsi_min(range[1], -range[0]);
     if (deep < -line_w) {
         return LRCSI_CELLS_AWAY;
     }
-    double strip = deep <= line_w ? line_w + lrcsi_most(0, deep) : HUGE_VAL;
+    double strip = deep <= line_w ? line_w + lrcsi_max(0, deep) : HUGE_VAL;
     part->from = 0;
     part->to = 1;
     for (uint32_t i = 0; i < s->count; i++) {
         double a = lrcsi_line_at(s->line[i], p[0], p[1]);
         double b = lrcsi_line_at(s->line[i], q[0], q[1]);
         if (a < w && b < w) {
-            strip = lrcsi_least(strip, w + lrcsi_most(0, lrcsi_most(a, b)));
+            strip = lrcsi_min(strip, w + lrcsi_max(0, lrcsi_max(a, b)));
             if (a < -w && b < -w) {
                 return LRCSI_CELLS_AWAY;
             }
         }
         if (a < -w) {
-            part->from = lrcsi_most(part->from, (-w - a) / (b - a));
+            part->from = lrcsi_max(part->from, (-w - a) / (b - a));
         } else if (b < -w) {
-            part->to = lrcsi_least(part->to, (-w - a) / (b - a));
+            part->to = lrcsi_min(part->to, (-w - a) / (b - a));
         }
     }
     if (part->from > part->to) {
@@ -90,9 +90,9 @@ int lrcsi_cells_place_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_si
         for (uint32_t i = 0; i < s->count; i++) {
             double a = lrcsi_line_at(s->line[i], p[0], p[1]);
             double b = lrcsi_line_at(s->line[i], q[0], q[1]);
-            double deepest = lrcsi_most(a + part->from * (b - a), a + part->to * (b - a));
+            double deepest = lrcsi_max(a + part->from * (b - a), a + part->to * (b - a));
             if (deepest < 2 * w) {
-                strip = lrcsi_least(strip, 2 * w + lrcsi_most(0, deepest));
+                strip = lrcsi_min(strip, 2 * w + lrcsi_max(0, deepest));
             }
         }
     }
@@ -107,7 +107,7 @@ double lrcsi_cells_sides_clear(const lrcsi_cells_sides *s, const double at[2])
     double brief = 0;
     for (uint32_t i = 0; i < s->count; i++) {
         if (s->length[i] > counts) {
-            clear = lrcsi_least(clear, lrcsi_line_at(s->line[i], at[0], at[1]) - s->moved[i]);
+            clear = lrcsi_min(clear, lrcsi_line_at(s->line[i], at[0], at[1]) - s->moved[i]);
         } else {
             brief += s->length[i];
         }
@@ -150,7 +150,7 @@ static double corner_drift(double x, double y, double t, const double corner[2])
     y = fabs(y);
     double off_x = x > 0 ? LRCSI_U * (2 * t * x + fabs(corner[0])) : 0;
     double off_y = y > 0 ? LRCSI_U * (2 * t * y + fabs(corner[1])) : 0;
-    return (1 + 8 * LRCSI_U) * (x * off_y + y * off_x) / lrcsi_most(x, y);
+    return (1 + 8 * LRCSI_U) * (x * off_y + y * off_x) / lrcsi_max(x, y);
 }
 
 double lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape, const double line[3],
@@ -175,8 +175,7 @@ double lrcsi_cells_shape_divide(const lrcsi_clip_polygon *shape, const double li
             corner[0] = here[0] + t * (next[0] - here[0]);
             corner[1] = here[1] + t * (next[1] - here[1]);
             memcpy(right->corner[right->count++], corner, 2 * sizeof *corner);
-            drift =
-                lrcsi_most(drift, corner_drift(next[0] - here[0], next[1] - here[1], t, corner));
+            drift = lrcsi_max(drift, corner_drift(next[0] - here[0], next[1] - here[1], t, corner));
         }
     }
     return drift;

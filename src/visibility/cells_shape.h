@@ -40,8 +40,8 @@ static inline void lrcsi_line_range(const lrcsi_clip_polygon *shape, const doubl
     range[1] = -HUGE_VAL;
     for (uint32_t i = 0; i < shape->count; i++) {
         double d = lrcsi_line_at(line, shape->corner[i][0], shape->corner[i][1]);
-        range[0] = lrcsi_least(range[0], d);
-        range[1] = lrcsi_most(range[1], d);
+        range[0] = lrcsi_min(range[0], d);
+        range[1] = lrcsi_max(range[1], d);
     }
 }
 
@@ -59,9 +59,9 @@ typedef struct lrcsi_cells_part {
 static inline int lrcsi_cells_box_away(const lrcsi_cells_sides *s, const double p[2],
                                        const double q[2], double w)
 {
-    double x = lrcsi_most(s->low[0] - lrcsi_most(p[0], q[0]), lrcsi_least(p[0], q[0]) - s->high[0]);
-    double y = lrcsi_most(s->low[1] - lrcsi_most(p[1], q[1]), lrcsi_least(p[1], q[1]) - s->high[1]);
-    return lrcsi_most(x, y) > w;
+    double x = lrcsi_max(s->low[0] - lrcsi_max(p[0], q[0]), lrcsi_min(p[0], q[0]) - s->high[0]);
+    double y = lrcsi_max(s->low[1] - lrcsi_max(p[1], q[1]), lrcsi_min(p[1], q[1]) - s->high[1]);
+    return lrcsi_max(x, y) > w;
 }
 
 enum lrcsi_cells_place {

@@ -44,8 +44,8 @@ static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t 
     if (c == a || c == b) {
         return 0;
     }
-    double off[3] = {lrcsi_view_off(view->point[a].x), lrcsi_view_off(view->point[b].x),
-                     lrcsi_view_off(view->point[c].x)};
+    double off[3] = {lrcsi_view_point_err(view->point[a].x), lrcsi_view_point_err(view->point[b].x),
+                     lrcsi_view_point_err(view->point[c].x)};
     if (off[0] > off[1] + off[2]) {
         uint32_t far = a;
         double far_off = off[0];
@@ -78,8 +78,8 @@ static int segment_crosses(const lrcsi_view *view, const crossing_ask *ask, uint
 {
     const double *x = view->point[p].x;
     const double *y = view->point[q].x;
-    double x_err = lrcsi_view_off(x);
-    double y_err = lrcsi_view_off(y);
+    double x_err = lrcsi_view_point_err(x);
+    double y_err = lrcsi_view_point_err(y);
     for (int k = 0; k < 3; k++) {
         uint32_t a = ask->corner[k];
         uint32_t b = ask->corner[(k + 1) % 3];
@@ -335,7 +335,7 @@ static int events_sort(lrcsi_classification *c, lrcs_work *work)
         const lrcsi_edge *edge = &view->prepared->topology.edge[c->events.edge[i]];
         const double *p = view->point[edge->low].x;
         const double *q = view->point[edge->high].x;
-        double high = lrcsi_most(p[2] + lrcsi_view_off(p), q[2] + lrcsi_view_off(q));
+        double high = lrcsi_max(p[2] + lrcsi_view_point_err(p), q[2] + lrcsi_view_point_err(q));
         key[i] = depth_key(lrcsi_view_box_float(high * view->scale)); /* as in their boxes */
     }
     lrcsi_sort_pairs(key, c->events.edge, key_spare, spare, count);

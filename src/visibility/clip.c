@@ -58,19 +58,19 @@ double lrcsi_clip_area(const lrcsi_clip_polygon *polygon)
    each a difference of given ones: its relative error is less than 10 u. */
 static double box_integral(const double p[2], const double q[2])
 {
-    double from = lrcsi_least(1, lrcsi_most(0, p[1]));
-    double to = lrcsi_least(1, lrcsi_most(0, q[1]));
+    double from = lrcsi_min(1, lrcsi_max(0, p[1]));
+    double to = lrcsi_min(1, lrcsi_max(0, q[1]));
     if (from == to) {
         return 0;
     }
     double slope = (q[0] - p[0]) / (q[1] - p[1]);
     double x = p[0] + (from - p[1]) * slope;
     double end = p[0] + (to - p[1]) * slope;
-    double least = lrcsi_least(x, end);
-    double most = lrcsi_most(x, end);
-    double low = lrcsi_least(1, lrcsi_most(0, least));
-    double high = lrcsi_least(1, lrcsi_most(0, most));
-    double beyond = lrcsi_most(0, most - lrcsi_most(1, least));
+    double least = lrcsi_min(x, end);
+    double most = lrcsi_max(x, end);
+    double low = lrcsi_min(1, lrcsi_max(0, least));
+    double high = lrcsi_min(1, lrcsi_max(0, most));
+    double beyond = lrcsi_max(0, most - lrcsi_max(1, least));
     double mean =
         most > least ? (0.5 * (high - low) * (low + high) + beyond) / (most - least) : low;
     return (to - from) * mean;

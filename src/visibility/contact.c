@@ -163,7 +163,7 @@ static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, 
     int near = c->away[k] <= c->away[next] ? k : next;
     int far = near == k ? next : k;
     double span = fabs(h->height[k]) + fabs(h->height[next]);
-    double t = lrcsi_least(1, fabs(h->height[near]) / span);
+    double t = lrcsi_min(1, fabs(h->height[near]) / span);
     for (int i = 0; i < 2; i++) {
         at[i] = c->corner[near][i] + t * (c->corner[far][i] - c->corner[near][i]);
     }
@@ -222,7 +222,7 @@ static void contact_ends(const lrcsi_target *t, const contact_heights *h, lrcsi_
     for (int i = 0; i < 2; i++) {
         if (crossing[i] >= SIDE) {
             double position_err = side_cut(h, c, crossing[i] - SIDE, c->end[i], &reach[i]);
-            c->position_err = lrcsi_most(c->position_err, position_err);
+            c->position_err = lrcsi_max(c->position_err, position_err);
         } else {
             memcpy(c->end[i], c->corner[crossing[i]], sizeof c->end[i]);
             reach[i] = c->away[crossing[i]];
@@ -248,7 +248,7 @@ static int segment_kind(const lrcsi_target *t, const contact_heights *h, lrcsi_c
     int lone = above == 1 ? 1 : -1; /* the sign of its height */
     int corner = h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2;
     const double *p = c->corner[corner];
-    double off = 16 * LRCSI_U * lrcsi_most(c->away[corner], c->reach) + c->position_err;
+    double off = 16 * LRCSI_U * lrcsi_max(c->away[corner], c->reach) + c->position_err;
     const lrcsi_clip_line line = {{c->end[0][0], c->end[0][1]},
                                   {c->end[1][0] - c->end[0][0], c->end[1][1] - c->end[0][1]}};
     double length = lrcsi_length_flat(line.to[0], line.to[1]);
@@ -260,12 +260,12 @@ static int segment_kind(const lrcsi_target *t, const contact_heights *h, lrcsi_c
         return LRCSI_CONTACT_LINE;
     }
     if (length > 4 * off) {
-        double away = lrcsi_least(c->away[corner], c->reach + 4 * t->diameter);
+        double away = lrcsi_min(c->away[corner], c->reach + 4 * t->diameter);
         c->position_err += fabs(beyond) + 16 * LRCSI_U * away;
     } else {
         c->position_err += length;
         memcpy(c->end[1], p, sizeof c->end[1]);
-        c->reach = lrcsi_most(c->reach, c->away[corner]);
+        c->reach = lrcsi_max(c->reach, c->away[corner]);
     }
     return lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
 }
@@ -282,7 +282,7 @@ static void corners_dd(const lrcsi_target *t, uint32_t other, contact_dd *f, lrc
 {
     for (int k = 0; k < 3; k++) {
         const double *x = lrcsi_target_own(t->view, other, k);
-        c->off = lrcsi_most(c->off, lrcsi_needle_place(t->needle, x, f->corner[k]));
+        c->off = lrcsi_max(c->off, lrcsi_needle_coordinates(t->needle, x, f->corner[k]));
         for (int i = 0; i < 2; i++) {
             c->corner[k][i] = lrcsi_dd_value(f->corner[k][i]);
         }
@@ -312,7 +312,7 @@ static void ends_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c)
     for (int i = 0; i < 2; i++) {
         if (crossing[i] >= SIDE) {
             double position_err = side_cut_dd(h, f, crossing[i] - SIDE, f->end[i]);
-            c->position_err = lrcsi_most(c->position_err, position_err);
+            c->position_err = lrcsi_max(c->position_err, position_err);
         } else {
             memcpy(f->end[i], f->corner[crossing[i]], sizeof f->end[i]);
         }
@@ -400,7 +400,7 @@ int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
         corners_dd(t, other, &f, c);
     }
     for (int k = 0; k < 3 && !t->needle; k++) {
-        c->away[k] = lrcsi_target_place(t, lrcsi_target_own(t->view, other, k), c->corner[k]);
+        c->away[k] = lrcsi_target_coordinates(t, lrcsi_target_own(t->view, other, k), c->corner[k]);
     }
     int above = 0;
     int below = 0;

@@ -17,7 +17,7 @@
 /* How many cells along a side make so many. */
 static uint32_t grid_side(size_t cells)
 {
-    return (uint32_t)lrcsi_least(MOST_CELLS, lrcsi_most(1, sqrt((double)cells)));
+    return (uint32_t)lrcsi_min(MOST_CELLS, lrcsi_max(1, sqrt((double)cells)));
 }
 
 size_t lrcsi_grid_need(size_t cells, size_t entries)
@@ -46,10 +46,10 @@ lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells)
     for (int k = 0; k < 2; k++) {
         const double *row = view->R[k];
         double half = fabs(row[0]) * bulk[0] + fabs(row[1]) * bulk[1] + fabs(row[2]) * bulk[2];
-        double low = lrcsi_most(view->low[k], -half);
-        double high = lrcsi_least(view->low[k] + view->side, half);
+        double low = lrcsi_max(view->low[k], -half);
+        double high = lrcsi_min(view->low[k] + view->side, half);
         grid.low[k] = low * view->scale;
-        grid.side = lrcsi_most(grid.side, (high - low) * view->scale);
+        grid.side = lrcsi_max(grid.side, (high - low) * view->scale);
     }
     grid.scale = grid.side > 0 ? grid.size / grid.side : 0;
     grid.last = grid.size - 1.0;
@@ -131,8 +131,8 @@ lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *si
     for (int i = 0; i < sides; i++) {
         double x[2];
         if (lrcsi_strip_range(&side[i], bottom, top, x)) {
-            low = lrcsi_least(low, x[0]);
-            high = lrcsi_most(high, x[1]);
+            low = lrcsi_min(low, x[0]);
+            high = lrcsi_max(high, x[1]);
         }
     }
     lrcsi_cells cells = {0, 0, (uint16_t)y, (uint16_t)(y + 1)};

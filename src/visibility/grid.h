@@ -57,7 +57,7 @@ typedef struct lrcsi_cells {
 static inline uint16_t lrcsi_grid_cell(const lrcsi_grid *grid, double x, int axis)
 {
     double cell = (x - grid->low[axis]) * grid->scale;
-    return (uint16_t)lrcsi_least(grid->last, lrcsi_most(0, cell));
+    return (uint16_t)lrcsi_min(grid->last, lrcsi_max(0, cell));
 }
 
 /* The cells that a box touches. */

@@ -78,7 +78,7 @@ int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
 {
     double turn = corner[1][0] * corner[2][1] - corner[1][1] * corner[2][0];
     const double *bulk = view->prepared->bulk;
-    double large = lrcsi_most(bulk[0], lrcsi_most(bulk[1], bulk[2]));
+    double large = lrcsi_max(bulk[0], lrcsi_max(bulk[1], bulk[2]));
     double least = reach > large ? NEEDLE_LARGE : NEEDLE_LEAST;
     if (turn * least > reach * reach) {
         return 0;
@@ -88,7 +88,7 @@ int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
     n->length = view->length;
     n->reach = 0;
     for (int i = 0; i < 2; i++) {
-        n->reach = lrcsi_most(n->reach, difference_dd(point[i + 1], n->origin, n->side[i]));
+        n->reach = lrcsi_max(n->reach, difference_dd(point[i + 1], n->origin, n->side[i]));
         n->corner[i][0] = corner[i + 1][0];
         n->corner[i][1] = corner[i + 1][1];
     }
@@ -100,7 +100,7 @@ int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
            n->whole.hi * NEEDLE_MOST > n->reach * n->reach * n->length;
 }
 
-double lrcsi_needle_place(const lrcsi_needle *n, const double x[3], lrcsi_dd out[2])
+double lrcsi_needle_coordinates(const lrcsi_needle *n, const double x[3], lrcsi_dd out[2])
 {
     lrcsi_dd gap[3];
     double far = difference_dd(x, n->origin, gap);
@@ -160,14 +160,15 @@ double lrcsi_needle_segment(const lrcsi_needle *n, const double p[3], const doub
     lrcsi_dd at[2][2];
     lrcsi_dd part[2];
     double cut[2][2];
-    const double off[2] = {lrcsi_needle_place(n, p, at[0]), lrcsi_needle_place(n, q, at[1])};
+    const double off[2] = {lrcsi_needle_coordinates(n, p, at[0]),
+                           lrcsi_needle_coordinates(n, q, at[1])};
     int far = off[1] > off[0];
     lrcsi_needle_clip((const lrcsi_dd *)at[!far], (const lrcsi_dd *)at[far], cut, part);
     for (int k = 0; k < 2; k++) {
         end[!far][k] = cut[0][k];
         end[far][k] = cut[1][k];
     }
-    double t = lrcsi_least(1, lrcsi_most(part[0].hi, part[1].hi));
+    double t = lrcsi_min(1, lrcsi_max(part[0].hi, part[1].hi));
     return off[!far] + t * off[far];
 }
 

@@ -28,7 +28,7 @@ int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
                       const double corner[3][2], double reach, lrcsi_needle *needle);
 
 /* A scene point in the frame. Returns the position error. */
-double lrcsi_needle_place(const lrcsi_needle *needle, const double x[3], lrcsi_dd out[2]);
+double lrcsi_needle_coordinates(const lrcsi_needle *needle, const double x[3], lrcsi_dd out[2]);
 
 /* Clips a segment of the frame to the box -1 .. 2, which extends beyond the facet by 1 on all
    sides. Returned: the ends, and their parameters along the segment; outside the box both ends are

@@ -214,7 +214,7 @@ static int preview_draw(preview_job *job, uint32_t facet, int ordinary)
     preview_facet f = {.facet = facet, .met = LRCS_NONE};
     f.plane = lrcsi_raster_plane(&job->raster, facet);
     f.err = lrcsi_raster_slack(&job->raster, facet);
-    double most = lrcsi_most(fabs(low[2]), fabs(high[2])) + f.err;
+    double most = lrcsi_max(fabs(low[2]), fabs(high[2])) + f.err;
     double err = f.err + 0x1p-21 * most + 0x1p-140;
     f.ordinary = err <= job->ordinary_err;
     if (f.ordinary != ordinary) {
@@ -359,8 +359,8 @@ static float preview_by_depth(const preview_job *job, uint32_t facet)
         middle[1] += xy[1] / 3;
         middle[2] += job->view->point[corner[k]].x[2] / 3;
     }
-    uint32_t x = (uint32_t)lrcsi_least(lrcsi_most(middle[0], 0), r->size - 1.0);
-    uint32_t y = (uint32_t)lrcsi_least(lrcsi_most(middle[1], 0), r->size - 1.0);
+    uint32_t x = (uint32_t)lrcsi_min(lrcsi_max(middle[0], 0), r->size - 1.0);
+    uint32_t y = (uint32_t)lrcsi_min(lrcsi_max(middle[1], 0), r->size - 1.0);
     uint32_t owner = job->owner[(size_t)y * r->size + x];
     if (owner == LRCS_NONE) {
         return 1;
@@ -463,7 +463,7 @@ static preview_bias preview_bias_of(const preview_job *job)
     preview_bias bias = {0, 0, 0};
     if (both > 0 && shares > 0) {
         double wanted = over * (over / both) * (over / both);
-        double taken = lrcsi_least(shares, lrcsi_most(-room, wanted));
+        double taken = lrcsi_min(shares, lrcsi_max(-room, wanted));
         bias.less = taken > 0 ? taken / shares : 0;
         bias.more = taken < 0 ? -taken / room : 0;
         bias.left = (2 * fabs(over) * (chance / both) + fabs(wanted - taken)) / shares;
@@ -481,14 +481,14 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const 
     if (preview_few(job, facet)) {
         v.bias = bias->left * v.area;
         v.area += bias->more * (area - v.area) - bias->less * v.area;
-        v.area = lrcsi_least(area, lrcsi_most(0, v.area));
+        v.area = lrcsi_min(area, lrcsi_max(0, v.area));
     }
     if (c->covered == 0) {
         v.likely = sqrt(LIKELY_SQUARE) * area;
     } else if (c->owned != 0) { /* even if it owns all, a strip may be hidden at a border */
         double square = c->borders + (double)c->longest * c->longest;
         square = c->owned != c->covered ? square : c->met;
-        v.likely = lrcsi_least(area, sqrt(LIKELY_SQUARE * square) * pixel);
+        v.likely = lrcsi_min(area, sqrt(LIKELY_SQUARE * square) * pixel);
     }
     return v;
 }

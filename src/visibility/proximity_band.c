@@ -91,7 +91,7 @@ static double facet_off(const band_job *job, uint32_t facet)
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
     double off = 0;
     for (int k = 0; k < 3; k++) {
-        off = lrcsi_most(off, lrcsi_view_off(job->view->point[corner[k]].x));
+        off = lrcsi_max(off, lrcsi_view_point_err(job->view->point[corner[k]].x));
     }
     return OFF_MARGIN * off;
 }
@@ -114,26 +114,26 @@ static edge_box edge_box_make(const band_job *job, uint32_t facet, const lrcsi_e
     const lrcsi_view *view = job->view;
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
     edge_box box = {.a = view->point[edge->low].x, .b = view->point[edge->high].x};
-    if (lrcsi_view_off(box.a) > lrcsi_view_off(box.b)) {
+    if (lrcsi_view_point_err(box.a) > lrcsi_view_point_err(box.b)) {
         box.a = view->point[edge->high].x;
         box.b = view->point[edge->low].x;
     }
     box.along[0] = box.b[0] - box.a[0];
     box.along[1] = box.b[1] - box.a[1];
     double length = sqrt(box.along[0] * box.along[0] + box.along[1] * box.along[1]);
-    double first = OFF_MARGIN * lrcsi_view_off(box.a);
-    double last = OFF_MARGIN * lrcsi_view_off(box.b);
+    double first = OFF_MARGIN * lrcsi_view_point_err(box.a);
+    double last = OFF_MARGIN * lrcsi_view_point_err(box.b);
     double far = 0;
     for (int k = 0; k < 3; k++) {
         const double *x = view->point[corner[k]].x;
-        far = lrcsi_most(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
+        far = lrcsi_max(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
     }
     box.wide = slack + facet_off(job, facet) + first;
     box.end = box.wide + last;
     if (length > 2 * (first + last)) {
         box.along[0] /= length;
         box.along[1] /= length;
-        box.wide += last * lrcsi_least(1, 2 * (far + box.wide) / length);
+        box.wide += last * lrcsi_min(1, 2 * (far + box.wide) / length);
     } else { /* of no length: a square about it */
         box.along[0] = 1;
         box.along[1] = 0;
@@ -203,7 +203,7 @@ static int edge_behind(const band_job *job, uint32_t facet, const lrcsi_edge *ed
         for (int k = 0; k < 3; k++) {
             height += job->view->facing[facet] * n->high[k] * (p->vertex[end[i]].x[k] - a[k]);
         }
-        double end_off = OFF_MARGIN * lrcsi_view_off(job->view->point[end[i]].x);
+        double end_off = OFF_MARGIN * lrcsi_view_point_err(job->view->point[end[i]].x);
         behind = height < -(3 * slack + off + end_off) * n->length;
     }
     return behind;
@@ -263,7 +263,8 @@ typedef struct band_walk {
 /* outward . x of a point, with `off` times its position's error added. */
 static double walk_height(const band_walk *walk, int side, const double x[3], double off)
 {
-    return walk->outward[side][0] * x[0] + walk->outward[side][1] * x[1] + off * lrcsi_view_off(x);
+    return walk->outward[side][0] * x[0] + walk->outward[side][1] * x[1] +
+           off * lrcsi_view_point_err(x);
 }
 
 /* The line along a side, `near` away from the facet. Where the side has no length nothing is beyond
@@ -281,7 +282,7 @@ static void walk_line(band_walk *walk, int side, const double *const corner[3], 
     walk->outward[side][1] = length > 0 ? turn * y / length : 0;
     double most = -HUGE_VAL;
     for (int k = 0; k < 3; k++) {
-        most = lrcsi_most(most, walk_height(walk, side, corner[k], OFF_MARGIN));
+        most = lrcsi_max(most, walk_height(walk, side, corner[k], OFF_MARGIN));
     }
     walk->limit[side] = length > 0 ? most + near * (1 + 0x1p-40) : HUGE_VAL;
 }
@@ -432,8 +433,8 @@ static void band_box(band_job *job)
         double high[3];
         lrcsi_view_bounds(job->view, p->scene->facet[f].corner, 3, low, high);
         for (int k = 0; k < 3; k++) {
-            job->low[k] = lrcsi_least(job->low[k], low[k]);
-            job->high[k] = lrcsi_most(job->high[k], high[k]);
+            job->low[k] = lrcsi_min(job->low[k], low[k]);
+            job->high[k] = lrcsi_max(job->high[k], high[k]);
         }
     }
 }
@@ -521,8 +522,8 @@ static int band_shares(band_job *job, lrcs_work *work)
             if (facet_matters(job->view, f)) {
                 facet_share(job, f);
             }
-            job->share[f] = lrcsi_least(1, job->share[f]);
-            job->rows[f] = job->share[f] < 1 ? lrcsi_least(1, job->rows[f]) : 1;
+            job->share[f] = lrcsi_min(1, job->share[f]);
+            job->rows[f] = job->share[f] < 1 ? lrcsi_min(1, job->rows[f]) : 1;
         }
     }
     work->used = mark;

@@ -64,8 +64,8 @@ static void line_place(query_line *line)
 {
     const lrcsi_view *view = line->grid->view;
     const lrcsi_view_box *own = lrcsi_boxes_facet(&line->grid->boxes, line->facet);
-    lrcsi_view_place(view, line->point, line->x);
-    line->x_err = lrcsi_view_off(line->x);
+    lrcsi_view_coordinates(view, line->point, line->x);
+    line->x_err = lrcsi_view_point_err(line->x);
     line->at = lrcsi_view_box_about(view, line->x, line->x_err);
     line->at.low[2] = own->low[2];
     line->at.high[2] = own->high[2];

@@ -18,13 +18,13 @@ double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy
     const double *p = raster->view->point[vertex].x;
     xy[0] = (p[0] - raster->view->low[0]) * raster->scale;
     xy[1] = (p[1] - raster->view->low[1]) * raster->scale;
-    return lrcsi_view_off(p) * raster->scale + raster->off;
+    return lrcsi_view_point_err(p) * raster->scale + raster->off;
 }
 
 /* First pixel whose centre is not left of `x` less its error, kept within 0 .. size. */
 static uint32_t pixel_from(const lrcsi_raster *raster, double x, double off)
 {
-    double least = lrcsi_least(lrcsi_most(x - 0.5 - off, 0), raster->size);
+    double least = lrcsi_min(lrcsi_max(x - 0.5 - off, 0), raster->size);
     uint32_t pixel = (uint32_t)least;
     return pixel < least ? pixel + 1 : pixel;
 }
@@ -32,17 +32,17 @@ static uint32_t pixel_from(const lrcsi_raster *raster, double x, double off)
 /* One past the last pixel whose centre is not right of `x` plus its error. */
 static uint32_t pixel_to(const lrcsi_raster *raster, double x, double off)
 {
-    return (uint32_t)lrcsi_least(lrcsi_most(x + 0.5 + off, 0), raster->size);
+    return (uint32_t)lrcsi_min(lrcsi_max(x + 0.5 + off, 0), raster->size);
 }
 
 /* The pixels that the facet may cover and touch, from the box of its corners and their position
  * error. */
 static void edges_box(const lrcsi_raster *r, double p[3][2], lrcsi_edges *e)
 {
-    double x0 = lrcsi_least(p[0][0], lrcsi_least(p[1][0], p[2][0]));
-    double x1 = lrcsi_most(p[0][0], lrcsi_most(p[1][0], p[2][0]));
-    double y0 = lrcsi_least(p[0][1], lrcsi_least(p[1][1], p[2][1]));
-    double y1 = lrcsi_most(p[0][1], lrcsi_most(p[1][1], p[2][1]));
+    double x0 = lrcsi_min(p[0][0], lrcsi_min(p[1][0], p[2][0]));
+    double x1 = lrcsi_max(p[0][0], lrcsi_max(p[1][0], p[2][0]));
+    double y0 = lrcsi_min(p[0][1], lrcsi_min(p[1][1], p[2][1]));
+    double y1 = lrcsi_max(p[0][1], lrcsi_max(p[1][1], p[2][1]));
     e->off = 8 * e->position_err * (x1 - x0 + y1 - y0 + 2);
     e->x0 = pixel_from(r, x0, e->position_err);
     e->x1 = pixel_to(r, x1, e->position_err);
@@ -64,7 +64,7 @@ lrcsi_edges lrcsi_raster_edges(const lrcsi_raster *raster, uint32_t facet)
     const uint32_t *corner = raster->view->prepared->scene->facet[facet].corner;
     double p[3][2];
     for (int k = 0; k < 3; k++) {
-        e.position_err = lrcsi_most(e.position_err, lrcsi_raster_point(raster, corner[k], p[k]));
+        e.position_err = lrcsi_max(e.position_err, lrcsi_raster_point(raster, corner[k], p[k]));
     }
     edges_box(raster, p, &e);
     for (int k = 0; k < 3; k++) {
@@ -115,7 +115,7 @@ double lrcsi_raster_slack(const lrcsi_raster *raster, uint32_t facet)
     plane_normal(view, facet, n);
     for (int k = 0; k < 3; k++) {
         const double *x = view->point[corner[k]].x;
-        reach = lrcsi_most(reach, raster->reach + fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
+        reach = lrcsi_max(reach, raster->reach + fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
     }
     double cosine = fabs(n[2]) / view->prepared->normal[facet].length;
     double off = 256 * LRCSI_U * reach + 4 * raster->off * raster->pixel;
@@ -218,7 +218,7 @@ static double occluded_below(const raster_job *job)
     const uint32_t *corner = view->prepared->scene->facet[job->facet].corner;
     double most = job->slack;
     for (int k = 0; k < 3; k++) {
-        most = lrcsi_most(most, fabs(view->point[corner[k]].x[2]));
+        most = lrcsi_max(most, fabs(view->point[corner[k]].x[2]));
     }
     double below = 0.5 * (fabs(job->plane.along) + fabs(job->plane.up)) + job->slack;
     below += 0x1p-22 * (most + below) + 0x1p-140;
@@ -336,7 +336,7 @@ void lrcsi_raster_want(lrcsi_raster *raster, uint32_t facet)
 static uint32_t tile_of(const lrcsi_raster *r, double pixel)
 {
     double tile = pixel * (1.0 / LRCSI_RASTER_TILE);
-    return (uint32_t)lrcsi_least(r->tiles - 1, lrcsi_most(tile, 0));
+    return (uint32_t)lrcsi_min(r->tiles - 1, lrcsi_max(tile, 0));
 }
 
 /* Is a tile wanted that the facet may touch? */
@@ -453,9 +453,9 @@ void lrcsi_raster_over(const lrcsi_view *view, uint32_t size, lrcsi_raster *rast
     r.pixel = view->side / size;
     r.scale = view->side > 0 ? size / view->side : 0;
     for (int k = 0; k < 2; k++) {
-        r.reach += lrcsi_most(fabs(view->low[k]), fabs(view->low[k] + view->side));
+        r.reach += lrcsi_max(fabs(view->low[k]), fabs(view->low[k] + view->side));
     }
-    r.off = lrcsi_view_lift_off(view, r.reach, 0) * r.scale + 8 * LRCSI_U * size;
+    r.off = lrcsi_view_lift_err(view, r.reach, 0) * r.scale + 8 * LRCSI_U * size;
     *raster = r;
 }
 

@@ -103,8 +103,8 @@ static void miscount_step(miscount_sum *s, double offset, int above, int below, 
     if (above != below || side != 0) {
         s->sum += offset;
         s->bias += above ? offset : -offset;
-        s->low = lrcsi_least(s->low, s->sum);
-        s->high = lrcsi_most(s->high, s->sum);
+        s->low = lrcsi_min(s->low, s->sum);
+        s->high = lrcsi_max(s->high, s->sum);
     }
 }
 
@@ -134,9 +134,9 @@ static int segment_clip(const lrcsi_edges *e, const double a[2], const double b[
             return 0;
         }
         if (p < 0) {
-            t[0] = lrcsi_most(t[0], p / (p - q));
+            t[0] = lrcsi_max(t[0], p / (p - q));
         } else if (q < 0) {
-            t[1] = lrcsi_least(t[1], p / (p - q));
+            t[1] = lrcsi_min(t[1], p / (p - q));
         }
     }
     return t[0] < t[1];
@@ -155,10 +155,10 @@ static miscount_sum miscount_along(const sampled_facet *f, const double a[2], co
         return s;
     }
     double slope = (b[!axis] - a[!axis]) / run;
-    double from = a[axis] + lrcsi_least(t[0] * run, t[1] * run);
-    double to = a[axis] + lrcsi_most(t[0] * run, t[1] * run);
-    double last = lrcsi_least(to - 0.5, f->raster->size - 1.0);
-    for (double step = lrcsi_most(ceil(from - 0.5), 0); step <= last; step++) {
+    double from = a[axis] + lrcsi_min(t[0] * run, t[1] * run);
+    double to = a[axis] + lrcsi_max(t[0] * run, t[1] * run);
+    double last = lrcsi_min(to - 0.5, f->raster->size - 1.0);
+    for (double step = lrcsi_max(ceil(from - 0.5), 0); step <= last; step++) {
         double across = a[!axis] + slope * (step + 0.5 - a[axis]);
         double limit = sampled_limit(f, axis, step, across);
         miscount_step(&s, across - limit, sampled_shows(f, axis, step, limit),
@@ -307,14 +307,14 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
     if (covered == 0) {
         error.square = UNSAMPLED * area * area;
     } else if (owned == 0) {
-        error.square = lrcsi_least(error.square, NONE);
+        error.square = lrcsi_min(error.square, NONE);
     } else if (owned == covered) {
         double hiders = hiding_area(raster, facet, crossing, crossings);
-        error.square = lrcsi_least(error.square, lrcsi_least(ALL, HIDERS * hiders * hiders));
+        error.square = lrcsi_min(error.square, lrcsi_min(ALL, HIDERS * hiders * hiders));
     } else {
         f.share = (double)owned / covered;
         error = error_partial(&f, crossing, crossings);
-        error.square = lrcsi_least(error.square, SMALL * area * area);
+        error.square = lrcsi_min(error.square, SMALL * area * area);
     }
     return error;
 }
@@ -323,6 +323,6 @@ lrcsi_sampling_error lrcsi_sampling_error_row(const lrcsi_raster *raster, uint32
                                               double longest, double share)
 {
     double area = pixel_area(raster, facet);
-    double width = longest > 0 ? lrcsi_least(1, 2 * area / longest) : 0;
+    double width = longest > 0 ? lrcsi_min(1, 2 * area / longest) : 0;
     return (lrcsi_sampling_error){width * (ROW + ROW_SEEN * share * (1 - share)), 0};
 }

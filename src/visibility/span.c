@@ -48,15 +48,15 @@ static double side_bend(const lrcsi_edges *e, int k)
 lrcsi_segment lrcsi_span_segment(const double *a, const double *b, double margin)
 {
     double rise = b[1] - a[1];
-    lrcsi_segment s = {.low = lrcsi_least(a[0], b[0]), .high = lrcsi_most(a[0], b[0])};
+    lrcsi_segment s = {.low = lrcsi_min(a[0], b[0]), .high = lrcsi_max(a[0], b[0])};
     s.from = s.low;
     s.to = s.high;
     if (fabs(rise) > margin) {
         s.slope = (b[0] - a[0]) / rise;
         double below = a[0] - (a[1] + margin) * s.slope;
         double above = a[0] - (a[1] - 1 - margin) * s.slope;
-        s.from = lrcsi_least(below, above);
-        s.to = lrcsi_most(below, above);
+        s.from = lrcsi_min(below, above);
+        s.to = lrcsi_max(below, above);
     }
     s.low -= margin;
     s.high += margin;
@@ -109,15 +109,15 @@ static inline void ends_narrow(span_ends *ends, const lrcsi_edges *e, int k, dou
     double row = e->at[k] + e->up[k] * cy;
     double zero = -row * e->over[k];
     if (e->over[k] > 0) {
-        ends->from[TOUCHED] = lrcsi_most(ends->from[TOUCHED], zero - e->pixel_offset[k]);
-        ends->from[MAY] = lrcsi_most(ends->from[MAY], zero - e->sample_offset[k]);
-        ends->from[SURE] = lrcsi_most(ends->from[SURE], zero + e->sample_offset[k]);
-        ends->from[WHOLE] = lrcsi_most(ends->from[WHOLE], zero + e->pixel_offset[k]);
+        ends->from[TOUCHED] = lrcsi_max(ends->from[TOUCHED], zero - e->pixel_offset[k]);
+        ends->from[MAY] = lrcsi_max(ends->from[MAY], zero - e->sample_offset[k]);
+        ends->from[SURE] = lrcsi_max(ends->from[SURE], zero + e->sample_offset[k]);
+        ends->from[WHOLE] = lrcsi_max(ends->from[WHOLE], zero + e->pixel_offset[k]);
     } else if (e->over[k] < 0) {
-        ends->to[TOUCHED] = lrcsi_least(ends->to[TOUCHED], zero + e->pixel_offset[k]);
-        ends->to[MAY] = lrcsi_least(ends->to[MAY], zero + e->sample_offset[k]);
-        ends->to[SURE] = lrcsi_least(ends->to[SURE], zero - e->sample_offset[k]);
-        ends->to[WHOLE] = lrcsi_least(ends->to[WHOLE], zero - e->pixel_offset[k]);
+        ends->to[TOUCHED] = lrcsi_min(ends->to[TOUCHED], zero + e->pixel_offset[k]);
+        ends->to[MAY] = lrcsi_min(ends->to[MAY], zero + e->sample_offset[k]);
+        ends->to[SURE] = lrcsi_min(ends->to[SURE], zero - e->sample_offset[k]);
+        ends->to[WHOLE] = lrcsi_min(ends->to[WHOLE], zero - e->pixel_offset[k]);
     } else {
         ends_level(ends, e, k, row);
     }
@@ -130,14 +130,14 @@ static inline lrcsi_pixels span_of(uint32_t x0, uint32_t x1)
 
 static inline lrcsi_pixels outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
 {
-    return span_of(round_up(lrcsi_least(ends->from[kind], x1)),
-                   (uint32_t)lrcsi_most(ends->to[kind], x0));
+    return span_of(round_up(lrcsi_min(ends->from[kind], x1)),
+                   (uint32_t)lrcsi_max(ends->to[kind], x0));
 }
 
 static inline lrcsi_pixels inner_span(const span_ends *ends, int kind, lrcsi_pixels outer)
 {
-    return span_of((uint32_t)lrcsi_most(lrcsi_least(ends->from[kind], outer.x1), outer.x0),
-                   round_up(lrcsi_least(lrcsi_most(ends->to[kind], outer.x0), outer.x1)));
+    return span_of((uint32_t)lrcsi_max(lrcsi_min(ends->from[kind], outer.x1), outer.x0),
+                   round_up(lrcsi_min(lrcsi_max(ends->to[kind], outer.x0), outer.x1)));
 }
 
 lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
@@ -178,19 +178,19 @@ lrcsi_samples lrcsi_span_samples(const lrcsi_edges *e, uint32_t y)
         cross[i] = e->cross_at[i] + e->cross_up[i] * y;
     }
     const double *offset = e->cross_sample_offset;
-    double may[2] = {lrcsi_most(x0, lrcsi_most(cross[0] - offset[0], cross[1] - offset[1])),
-                     lrcsi_least(x1, lrcsi_least(cross[2] + offset[2], cross[3] + offset[3]))};
-    double sure[2] = {lrcsi_most(x0, lrcsi_most(cross[0] + offset[0], cross[1] + offset[1])),
-                      lrcsi_least(x1, lrcsi_least(cross[2] - offset[2], cross[3] - offset[3]))};
+    double may[2] = {lrcsi_max(x0, lrcsi_max(cross[0] - offset[0], cross[1] - offset[1])),
+                     lrcsi_min(x1, lrcsi_min(cross[2] + offset[2], cross[3] + offset[3]))};
+    double sure[2] = {lrcsi_max(x0, lrcsi_max(cross[0] + offset[0], cross[1] + offset[1])),
+                      lrcsi_min(x1, lrcsi_min(cross[2] - offset[2], cross[3] - offset[3]))};
     if (e->level) {
         samples_level(e, y, may, sure);
     }
     lrcsi_samples samples;
-    samples.may = span_of(round_up(lrcsi_least(may[0], x1)), (uint32_t)lrcsi_most(may[1], x0));
+    samples.may = span_of(round_up(lrcsi_min(may[0], x1)), (uint32_t)lrcsi_max(may[1], x0));
     x0 = samples.may.x0;
     x1 = samples.may.x1;
-    samples.sure = span_of((uint32_t)lrcsi_most(lrcsi_least(sure[0], x1), x0),
-                           round_up(lrcsi_least(lrcsi_most(sure[1], x0), x1)));
+    samples.sure = span_of((uint32_t)lrcsi_max(lrcsi_min(sure[0], x1), x0),
+                           round_up(lrcsi_min(lrcsi_max(sure[1], x0), x1)));
     return samples;
 }
 
@@ -200,8 +200,8 @@ lrcsi_pixels lrcsi_span_whole(const lrcsi_edges *e, uint32_t y, lrcsi_pixels sur
     for (int i = 0; i < 2; i++) {
         double left = e->cross_at[i] + e->cross_up[i] * y + e->cross_pixel_offset[i];
         double right = e->cross_at[2 + i] + e->cross_up[2 + i] * y - e->cross_pixel_offset[2 + i];
-        ends.from[WHOLE] = lrcsi_most(ends.from[WHOLE], left);
-        ends.to[WHOLE] = lrcsi_least(ends.to[WHOLE], right);
+        ends.from[WHOLE] = lrcsi_max(ends.from[WHOLE], left);
+        ends.to[WHOLE] = lrcsi_min(ends.to[WHOLE], right);
     }
     for (int k = 0; e->level && k < 3; k++) {
         if (e->over[k] == 0) {
@@ -228,16 +228,16 @@ lrcsi_pixels lrcsi_span_touched_rows(const lrcsi_edges *e, uint32_t y0, uint32_t
                           e->cross_at[i] + e->cross_up[i] * y1};
         double right[2] = {e->cross_at[2 + i] + e->cross_up[2 + i] * y0,
                            e->cross_at[2 + i] + e->cross_up[2 + i] * y1};
-        from[i] = lrcsi_least(left[0], left[1]) - e->cross_pixel_offset[i];
-        to[i] = lrcsi_most(right[0], right[1]) + e->cross_pixel_offset[2 + i];
+        from[i] = lrcsi_min(left[0], left[1]) - e->cross_pixel_offset[i];
+        to[i] = lrcsi_max(right[0], right[1]) + e->cross_pixel_offset[2 + i];
     }
-    span_ends ends = {.from = {lrcsi_most(e->left, lrcsi_most(from[0], from[1]))},
-                      .to = {lrcsi_least(e->right, lrcsi_least(to[0], to[1]))}};
+    span_ends ends = {.from = {lrcsi_max(e->left, lrcsi_max(from[0], from[1]))},
+                      .to = {lrcsi_min(e->right, lrcsi_min(to[0], to[1]))}};
     for (int k = 0; e->level && k < 3; k++) {
         if (e->over[k] == 0) {
             ends_level(
                 &ends, e, k,
-                lrcsi_most(e->at[k] + e->up[k] * (y0 + 0.5), e->at[k] + e->up[k] * (y1 + 0.5)));
+                lrcsi_max(e->at[k] + e->up[k] * (y0 + 0.5), e->at[k] + e->up[k] * (y1 + 0.5)));
         }
     }
     return outer_span(&ends, TOUCHED, e->left, e->right);

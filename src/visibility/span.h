@@ -60,10 +60,10 @@ lrcsi_segment lrcsi_span_segment(const double *a, const double *b, double margin
 /* Narrows x0 <= x < x1, pixels of row y, to those that the segment may touch; none if x0 >= x1. */
 static inline void lrcsi_span_follow(const lrcsi_segment *s, uint32_t y, uint32_t *x0, uint32_t *x1)
 {
-    double from = lrcsi_most(s->low, lrcsi_least(s->high, s->from + s->slope * y));
-    double to = lrcsi_most(s->low, lrcsi_least(s->high, s->to + s->slope * y));
-    *x0 = from > *x0 ? (uint32_t)lrcsi_least(from, *x1) : *x0;
-    *x1 = to < *x1 ? (uint32_t)lrcsi_most(to + 1, 0) : *x1;
+    double from = lrcsi_max(s->low, lrcsi_min(s->high, s->from + s->slope * y));
+    double to = lrcsi_max(s->low, lrcsi_min(s->high, s->to + s->slope * y));
+    *x0 = from > *x0 ? (uint32_t)lrcsi_min(from, *x1) : *x0;
+    *x1 = to < *x1 ? (uint32_t)lrcsi_max(to + 1, 0) : *x1;
 }
 
 /* Computes over, the offsets, the crossings and level of edges whose other members are set. */

@@ -71,13 +71,13 @@ static double frame_point(const lrcsi_view *view, const double *origin, const do
 static int corner_first(const lrcsi_view *view, uint32_t facet)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    double off = lrcsi_view_off(view->point[corner[0]].x);
+    double off = lrcsi_view_point_err(view->point[corner[0]].x);
     if (off * view->scale <= FAR_OFF * 10 * LRCSI_U) {
         return 0;
     }
-    double second = lrcsi_view_off(view->point[corner[1]].x);
-    double third = lrcsi_view_off(view->point[corner[2]].x);
-    return off <= FAR_OFF * lrcsi_least(second, third) ? 0 : second <= third ? 1 : 2;
+    double second = lrcsi_view_point_err(view->point[corner[1]].x);
+    double third = lrcsi_view_point_err(view->point[corner[2]].x);
+    return off <= FAR_OFF * lrcsi_min(second, third) ? 0 : second <= third ? 1 : 2;
 }
 
 /* The index within the facet of corner k, counted counter-clockwise in the view from `first`. */
@@ -97,7 +97,7 @@ const double *lrcsi_target_own(const lrcsi_view *view, uint32_t facet, int k)
     return lrcsi_prepared_corner(view->prepared, facet, corner_number(view, facet, first, k));
 }
 
-double lrcsi_target_place(const lrcsi_target *t, const double x[3], double out[2])
+double lrcsi_target_coordinates(const lrcsi_target *t, const double x[3], double out[2])
 {
     return frame_point(t->view, t->origin, x, out);
 }
@@ -117,7 +117,7 @@ double lrcsi_target_segment(const lrcsi_target *t, double end[2][2], const doubl
     for (int k = 0; k < 2 && f > FAR_OFF * (n + box); k++) {
         if (fabs(end[far][k]) > box + 32 * LRCSI_U * f) {
             double exit = copysign(box, end[far][k]) - end[!far][k];
-            t_end = lrcsi_least(t_end, exit / (end[far][k] - end[!far][k]));
+            t_end = lrcsi_min(t_end, exit / (end[far][k] - end[!far][k]));
         }
     }
     if (!(t_end > 0 && t_end < 1)) {
@@ -134,17 +134,17 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
     *t = (lrcsi_target){.view = view, .facet = facet, .unit = 1};
     t->origin = lrcsi_target_own(view, facet, 0);
     for (int k = 0; k < 3; k++) {
-        double away = lrcsi_target_place(t, lrcsi_target_own(view, facet, k), t->corner[k]);
-        t->reach = lrcsi_most(t->reach, away);
+        double away = lrcsi_target_coordinates(t, lrcsi_target_own(view, facet, k), t->corner[k]);
+        t->reach = lrcsi_max(t->reach, away);
     }
     for (int k = 0; k < 3; k++) {
         const double *p = t->corner[k];
         const double *q = t->corner[(k + 1) % 3];
         double side = lrcsi_length_flat(q[0] - p[0], q[1] - p[1]) + 32 * LRCSI_U * t->reach;
-        t->diameter = lrcsi_most(t->diameter, side);
+        t->diameter = lrcsi_max(t->diameter, side);
         t->perimeter += side;
         for (int i = 0; i < 3; i++) {
-            t->size = lrcsi_most(t->size, fabs(lrcsi_target_corner(view, facet, k)[i]));
+            t->size = lrcsi_max(t->size, fabs(lrcsi_target_corner(view, facet, k)[i]));
         }
     }
 }
@@ -152,7 +152,7 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
 /* The barycentric coordinates cause an error of 100 u of the reach. The sum of three products, with
    coordinates that add up to 1, has an error of 3 u of the largest component in each component,
    less than 6 u in norm. */
-double lrcsi_target_lift_off(const lrcsi_target *t)
+double lrcsi_target_lift_err(const lrcsi_target *t)
 {
     return 100 * LRCSI_U * t->reach + 8 * LRCSI_U * t->size;
 }
@@ -189,7 +189,7 @@ void lrcsi_target_unrefine(const lrcsi_target *refined, const double at[2], doub
 
 static double clamped(double x, double low, double high)
 {
-    return lrcsi_most(low, lrcsi_least(x, high));
+    return lrcsi_max(low, lrcsi_min(x, high));
 }
 
 /* The corner at which the longest side begins. */

@@ -28,7 +28,7 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *tar
 
 /* Upper bound of the distance, in the view, between a point of the frame (view axes) and the point
    of the facet that lrcsi_target_weights gives for it, with rounded coordinates. */
-double lrcsi_target_lift_off(const lrcsi_target *target);
+double lrcsi_target_lift_err(const lrcsi_target *target);
 
 /* The frame in which parts of the facet can be told apart: barycentric coordinates if it is a
    needle, otherwise the same frame. */
@@ -46,7 +46,7 @@ const double *lrcsi_target_own(const lrcsi_view *view, uint32_t facet, int k);
 
 /* A scene point in the target's frame. Returns a distance, at most that of the point from the first
    corner, in space: the position error is at most 10 u of it. */
-double lrcsi_target_place(const lrcsi_target *target, const double x[3], double out[2]);
+double lrcsi_target_coordinates(const lrcsi_target *target, const double x[3], double out[2]);
 
 /* Cuts off the part of a segment that is far away from the target.
    Given: end, in the frame, with errors of 10 u times away[0] and away[1]. Returns a distance: the

@@ -85,7 +85,7 @@ static drawn_facet drawn_facet_of(const lrcsi_raster *r, uint32_t facet)
     for (int k = 0; k < 3; k++) {
         lrcsi_raster_point(r, corner[r->view->facing[facet] > 0 ? k : 2 - k], f.corner[k]);
         const double *x = r->view->point[corner[k]].x;
-        f.high = lrcsi_most(f.high, x[2] + lrcsi_view_off(x));
+        f.high = lrcsi_max(f.high, x[2] + lrcsi_view_point_err(x));
     }
     f.plane = lrcsi_raster_plane(r, facet);
     f.rise = 0.5 * (fabs(f.plane.along) + fabs(f.plane.up)) + lrcsi_raster_slack(r, facet);
@@ -108,11 +108,11 @@ static void mark_edge(const visible_job *job, const drawn_facet *f, uint32_t edg
     double b[2];
     const double a_err = lrcsi_raster_point(job->raster, e->low, a);
     const double b_err = lrcsi_raster_point(job->raster, e->high, b);
-    const double margin = 4 * lrcsi_most(a_err, b_err);
+    const double margin = 4 * lrcsi_max(a_err, b_err);
     const lrcsi_segment s = lrcsi_span_segment(a, b, margin);
-    const double y0 = lrcsi_most(bottom, lrcsi_least(a[1], b[1]) - margin);
-    const double y1 = lrcsi_least(top, lrcsi_most(a[1], b[1]) + margin + 1);
-    for (uint32_t y = (uint32_t)lrcsi_least(y0, top); y < (uint32_t)lrcsi_most(y1, bottom); y++) {
+    const double y0 = lrcsi_max(bottom, lrcsi_min(a[1], b[1]) - margin);
+    const double y1 = lrcsi_min(top, lrcsi_max(a[1], b[1]) + margin + 1);
+    for (uint32_t y = (uint32_t)lrcsi_min(y0, top); y < (uint32_t)lrcsi_max(y1, bottom); y++) {
         uint32_t x0 = job->row[y].touched.x0;
         uint32_t x1 = job->row[y].touched.x1;
         lrcsi_span_follow(&s, y, &x0, &x1);
@@ -161,8 +161,8 @@ static void mark_intersection(const visible_job *job, const drawn_facet *f, uint
             continue;
         }
         lrcsi_pixels touched = lrcsi_span_touched(&e, y);
-        x1 = lrcsi_least(x1, touched.x1);
-        for (double x = lrcsi_most(x0, touched.x0); x < x1; x++) {
+        x1 = lrcsi_min(x1, touched.x1);
+        for (double x = lrcsi_max(x0, touched.x0); x < x1; x++) {
             if (!(fabs(row + along * (x + 0.5)) > slack)) {
                 job->mixed[pixel_place(job, (uint32_t)x, y)] = 1;
             }
@@ -243,16 +243,16 @@ static double pixel_part(const drawn_facet *f, uint32_t x, uint32_t y)
         double up = fabs(e->up[k]);
         double value = e->at[k] + e->along[k] * (x + 0.5) + e->up[k] * (y + 0.5);
         if (!(value - 0.5 * (along + up) > e->off)) {
-            double most = lrcsi_most(along, up);
+            double most = lrcsi_max(along, up);
             sides++;
-            part = square_part(value, most, lrcsi_least(along, up)) - 2 * e->off / most;
+            part = square_part(value, most, lrcsi_min(along, up)) - 2 * e->off / most;
         }
     }
     if (sides != 1) {
         const double low[2] = {x, y};
         part = lrcsi_clip_box_area((const double(*)[2])f->corner, low) - 8 * e->position_err;
     }
-    return lrcsi_most(0, part);
+    return lrcsi_max(0, part);
 }
 
 enum { SAMPLE_HIDDEN, SAMPLE_VISIBLE, SAMPLE_NONE };
@@ -276,7 +276,7 @@ static int pixel_hides(const visible_job *job, const drawn_facet *f, uint32_t x,
     const size_t place = pixel_place(job, x, y);
     const double height = f->plane.at + f->plane.along * (x + 0.5) + f->plane.up * (y + 0.5);
     return (r->pure[place] && r->owner[place] != f->facet) ||
-           (double)r->occluded[place] > lrcsi_least(f->high, height + f->rise);
+           (double)r->occluded[place] > lrcsi_min(f->high, height + f->rise);
 }
 
 /* Whether the part of a facet in a pixel is certainly visible or certainly hidden: decided by what
@@ -434,12 +434,12 @@ static void drawn_area(const lrcsi_sharing *sharing, const pixel_sums *sums, uin
         error = lrcsi_sampling_error_facet(sharing->known->classification->component, raster, facet,
                                            crossing, crossings);
     }
-    v->low = lrcsi_least(area, (sums->whole_visible + sums->visible) * pixel * (1 - 1e-12));
-    v->high = lrcsi_most(v->low, area - (sums->whole_hidden + sums->hidden) * pixel * (1 - 1e-12));
+    v->low = lrcsi_min(area, (sums->whole_visible + sums->visible) * pixel * (1 - 1e-12));
+    v->high = lrcsi_max(v->low, area - (sums->whole_hidden + sums->hidden) * pixel * (1 - 1e-12));
     lrcsi_visible_fraction_keep(sharing, facet, area, &fraction, v);
     double gap = v->high - v->low;
-    v->likely = lrcsi_least(gap, sqrt(error.square) * pixel);
-    v->bias = lrcsi_least(gap, lrcsi_most(-gap, error.bias * pixel));
+    v->likely = lrcsi_min(gap, sqrt(error.square) * pixel);
+    v->bias = lrcsi_min(gap, lrcsi_max(-gap, error.bias * pixel));
 }
 
 /* Room for crossings: more than ordinary scenes have. Those of facets beyond it are searched for

@@ -100,7 +100,7 @@ static double longest_in_pixels(const lrcsi_raster *raster, uint32_t facet)
         const double *next = p[(k + 1) % 3];
         double x = next[0] - p[k][0];
         double y = next[1] - p[k][1];
-        square = lrcsi_most(square, y * y + x * x);
+        square = lrcsi_max(square, y * y + x * x);
     }
     return sqrt(square);
 }
@@ -112,7 +112,7 @@ static int samples_find(const lrcsi_sharing *s, uint32_t facet, double longest, 
 {
     *owned = s->raster->owned[facet];
     *covered = s->raster->covered[facet];
-    if (longest < SMALL_SIDE || *covered >= lrcsi_most(FEW, 4 * longest)) {
+    if (longest < SMALL_SIDE || *covered >= lrcsi_max(FEW, 4 * longest)) {
         return 0;
     }
     double all_owned = *owned;
@@ -178,7 +178,7 @@ void lrcsi_visible_fraction_keep(const lrcsi_sharing *s, uint32_t facet, double 
     if (found->row) {
         target += (s->raster->owned[facet] - found->fraction * s->raster->covered[facet]) * pixel;
     }
-    visible->area = lrcsi_least(visible->high, lrcsi_most(visible->low, target));
+    visible->area = lrcsi_min(visible->high, lrcsi_max(visible->low, target));
     if (found->row) {
         lrcsi_component_sum *component = &s->sum[s->known->classification->component[facet]];
         component->owned += s->raster->owned[facet];
@@ -213,7 +213,7 @@ void lrcsi_visible_fraction_correct(const lrcsi_sharing *s, lrcsi_visible *visib
         double samples[2];
         if (component->covered > 0 && v->high > v->low &&
             samples_find(s, f, longest_in_pixels(s->raster, f), &samples[0], &samples[1])) {
-            v->area = lrcsi_least(v->high, lrcsi_most(v->low, area_corrected(component, v)));
+            v->area = lrcsi_min(v->high, lrcsi_max(v->low, area_corrected(component, v)));
         }
     }
 }

@@ -55,8 +55,8 @@ static void points_apart_have_boxes_apart(void **state)
                 const double x[3] = {0.3 * metre, -0.7 * metre, 0.1 * metre};
                 double y[3] = {x[0], x[1], x[2]};
                 y[k] += gap * metre;
-                lrcsi_view_box a = lrcsi_view_box_about(&view, x, lrcsi_view_off(x));
-                lrcsi_view_box b = lrcsi_view_box_about(&view, y, lrcsi_view_off(y));
+                lrcsi_view_box a = lrcsi_view_box_about(&view, x, lrcsi_view_point_err(x));
+                lrcsi_view_box b = lrcsi_view_box_about(&view, y, lrcsi_view_point_err(y));
                 assert_int_equal(lrcsi_view_box_beside(&a, &b), k < 2);
                 assert_int_equal(lrcsi_view_box_beside(&b, &a), k < 2);
                 assert_int_equal(lrcsi_view_box_behind(&a, &b), k == 2);

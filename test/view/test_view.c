@@ -228,10 +228,10 @@ static void check_points(const lrcsi_view *view)
                 want += view->R[k][i] * ((long double)p->vertex[v].x[i] - p->origin[i]);
             }
             check_abs(view->point[v].x[k], (double)want,
-                      lrcsi_view_off(view->point[v].x) * (4 / 8.1));
+                      lrcsi_view_point_err(view->point[v].x) * (4 / 8.1));
             square += want * want;
         }
-        check_most(lrcsi_view_off(view->point[v].x), 2e-15 * sqrt((double)square));
+        check_most(lrcsi_view_point_err(view->point[v].x), 2e-15 * sqrt((double)square));
     }
 }
 
@@ -261,7 +261,7 @@ static void a_far_vertex_leaves_the_others_their_errors(void **state)
         check_points(&view);
         double metre = ldexp(1, -p->exponent);
         for (uint32_t v = 0; v < scene.scene.vertex_count - 1; v++) {
-            check_most(lrcsi_view_off(view.point[v].x), 3e-14 * metre);
+            check_most(lrcsi_view_point_err(view.point[v].x), 3e-14 * metre);
         }
         for (int k = 0; k < 3; k++) {
             check_most(p->bulk[k], 8 * metre);
@@ -288,10 +288,10 @@ static void lifted_points_lie_within_their_error(void **state)
             for (int j = 0; j < 3; j++) {
                 got += view.R[k][j] * ((long double)point[j] - view.prepared->origin[j]);
             }
-            check_abs((double)got, at[k], lrcsi_view_lift_off(&view, at[0], at[1]));
+            check_abs((double)got, at[k], lrcsi_view_lift_err(&view, at[0], at[1]));
         }
     }
-    check_most(lrcsi_view_lift_off(&view, 0, 0), 3e-16);
+    check_most(lrcsi_view_lift_err(&view, 0, 0), 3e-16);
 }
 
 /* Both against long double: the unit vector's two parts, and n . d of every facet. */

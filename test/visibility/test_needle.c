@@ -62,7 +62,7 @@ static void shares_are_exact_however_thin(void **state)
             double x[3];
             lrcsi_dd at[2];
             point_of(share[n][0], share[n][1], share[n][2], x);
-            double off = lrcsi_needle_place(&needle, x, at);
+            double off = lrcsi_needle_coordinates(&needle, x, at);
             for (int i = 0; i < 2; i++) {
                 check_abs(lrcsi_dd_value(at[i]), share[n][i], off + 2e-16);
             }

@@ -81,8 +81,8 @@ int ref_clip_meets(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *seg
         const double *p = polygon->corner[i];
         double side = lrcsi_clip_side(segment, p);
         double along = to[0] * (p[0] - segment->at[0]) + to[1] * (p[1] - segment->at[1]);
-        least = lrcsi_least(least, side);
-        most = lrcsi_most(most, side);
+        least = lrcsi_min(least, side);
+        most = lrcsi_max(most, side);
         before &= along < -clear;
         behind &= along > end;
     }
@@ -93,8 +93,8 @@ int ref_clip_meets(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *seg
 
 static void range_grow(double range[2], double x)
 {
-    range[0] = lrcsi_least(range[0], x);
-    range[1] = lrcsi_most(range[1], x);
+    range[0] = lrcsi_min(range[0], x);
+    range[1] = lrcsi_max(range[1], x);
 }
 
 double ref_clip_within(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment,
@@ -121,7 +121,7 @@ double ref_clip_within(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line 
             }
         }
     }
-    double within = lrcsi_least(range[1], square) - lrcsi_most(range[0], 0);
+    double within = lrcsi_min(range[1], square) - lrcsi_max(range[0], 0);
     return within > 0 ? within / sqrt(square) : 0;
 }
 
@@ -148,7 +148,7 @@ double ref_clip_clear(const lrcsi_clip_polygon *polygon, const double at[2])
         lrcsi_clip_line side = polygon_side(polygon, i);
         double length = line_length(&side);
         if (length > counts) {
-            clear = lrcsi_least(clear, lrcsi_clip_side(&side, at) / length);
+            clear = lrcsi_min(clear, lrcsi_clip_side(&side, at) / length);
         } else {
             short_ones += length;
         }

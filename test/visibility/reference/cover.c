@@ -162,9 +162,9 @@ static void sides_place(const lrcsi_target *t, uint32_t facet, ref_cover_sides *
     double most = t->reach;
     double least = HUGE_VAL;
     for (int k = 0; k < 3; k++) {
-        reach[k] = lrcsi_target_place(t, lrcsi_target_corner(t->view, facet, k), corner[k]);
-        most = lrcsi_most(most, reach[k]);
-        least = lrcsi_least(least, reach[k]);
+        reach[k] = lrcsi_target_coordinates(t, lrcsi_target_corner(t->view, facet, k), corner[k]);
+        most = lrcsi_max(most, reach[k]);
+        least = lrcsi_min(least, reach[k]);
     }
     int far = most > FAR_CANDIDATE * (least + t->reach);
     for (int k = 0; k < 3; k++) {
@@ -283,9 +283,9 @@ static void line_lift(cover_line *line)
             line->point[k] += weight[i] * lrcsi_prepared_corner(t->view->prepared, t->facet, i)[k];
         }
     }
-    lrcsi_view_place(t->view, line->point, x);
-    line->box = lrcsi_view_box_about(t->view, x, lrcsi_view_off(x));
-    line->off = t->needle ? HUGE_VAL : lrcsi_target_lift_off(t);
+    lrcsi_view_coordinates(t->view, line->point, x);
+    line->box = lrcsi_view_box_about(t->view, x, lrcsi_view_point_err(x));
+    line->off = t->needle ? HUGE_VAL : lrcsi_target_lift_err(t);
 }
 
 /* The line as its place: the target's first corner and the way from there, which in a needle is off
@@ -294,14 +294,14 @@ static lrcsi_view_box line_box(const lrcsi_target *t, const double at[2])
 {
     double first[3];
     double x[3];
-    lrcsi_view_place(t->view, t->origin, first);
+    lrcsi_view_coordinates(t->view, t->origin, first);
     x[2] = first[2];
     double reach = t->needle ? t->needle->reach : t->reach;
     lrcsi_target_unrefine(t, at, x);
     x[0] += first[0];
     x[1] += first[1];
-    return lrcsi_view_box_about(t->view, x,
-                                lrcsi_view_off(first) + (16 * U + 2 * t->position_err) * reach);
+    return lrcsi_view_box_about(
+        t->view, x, lrcsi_view_point_err(first) + (16 * U + 2 * t->position_err) * reach);
 }
 
 /* Of the components that hide a point, the one that ends at the fewest cuts. */

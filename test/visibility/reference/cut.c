@@ -41,8 +41,8 @@ static ref_cut *cut_new(ref_cuts *cuts, const double from[2], const double to[2]
     for (int k = 0; k < 2; k++) {
         e->line.at[k] = from[k];
         e->line.to[k] = to[k] - from[k];
-        e->low[k] = lrcsi_least(from[k], to[k]) - width;
-        e->high[k] = lrcsi_most(from[k], to[k]) + width;
+        e->low[k] = lrcsi_min(from[k], to[k]) - width;
+        e->high[k] = lrcsi_max(from[k], to[k]) + width;
     }
     if (e->line.to[0] == 0 && e->line.to[1] == 0) {
         e->line.to[0] = 1; /* any line through it will do */
@@ -55,7 +55,7 @@ static ref_cut *cut_new(ref_cuts *cuts, const double from[2], const double to[2]
 
 static double width_of(const ref_cuts *cuts, double reach)
 {
-    return WIDTH * (lrcsi_most(reach, cuts->target->reach) + cuts->target->diameter);
+    return WIDTH * (lrcsi_max(reach, cuts->target->reach) + cuts->target->diameter);
 }
 
 /* In a needle's frame segments are clipped to within 3 of the first corner: r + d is below 4.5, and
@@ -90,8 +90,8 @@ static void cuts_edge(ref_cuts *cuts, const lrcsi_classification *classification
     if (cuts->target->needle) {
         width = width_in_needle(lrcsi_needle_segment(cuts->target->needle, from, to, end));
     } else {
-        const double away[2] = {lrcsi_target_place(cuts->target, from, end[0]),
-                                lrcsi_target_place(cuts->target, to, end[1])};
+        const double away[2] = {lrcsi_target_coordinates(cuts->target, from, end[0]),
+                                lrcsi_target_coordinates(cuts->target, to, end[1])};
         width = width_of(cuts, lrcsi_target_segment(cuts->target, end, away));
     }
     ref_cut *cut = cut_new(cuts, end[0], end[1], width);

@@ -84,7 +84,7 @@ static double cell_margin(const ref_occluding *o, double inset)
 /* How far the point of a sample may be from its place. */
 static double cell_off(const ref_occluding *o)
 {
-    return lrcsi_target_lift_off(&o->frame) + o->frame.position_err;
+    return lrcsi_target_lift_err(&o->frame) + o->frame.position_err;
 }
 
 /* Is the cell known to be visible at a place that stands clear within it? */
@@ -119,7 +119,7 @@ static void cell_charge(ref_occluding *o, const ref_occlude_cell *cell, double a
     double perimeter = lrcsi_clip_perimeter(&cell->shape);
     double clear = ref_clip_clear(&cell->shape, cell->at) - cell_off(o);
     if (!(clear > THIN * perimeter)) {
-        o->off += lrcsi_least(area, cell->cuts * cell->inset * perimeter);
+        o->off += lrcsi_min(area, cell->cuts * cell->inset * perimeter);
     }
 }
 
@@ -161,12 +161,12 @@ static void cell_drop(ref_occluding *o, ref_occlude_cell *cell, uint32_t which, 
     uint32_t index = list[which];
     const ref_cut *cut = &o->cuts.cut[index];
     double length = ref_clip_within(&cell->shape, &cut->line, 2 * cut->width);
-    o->off += lrcsi_least(area, 2 * cut->width * (length + FAR * cut->width));
+    o->off += lrcsi_min(area, 2 * cut->width * (length + FAR * cut->width));
     cell->count--;
     list[which] = list[cell->count];
     list[cell->count] = index;
     cell->cuts++;
-    cell->inset = lrcsi_most(cell->inset, cut->width);
+    cell->inset = lrcsi_max(cell->inset, cut->width);
 }
 
 /* Puts a part of a cell on the stack. */
@@ -219,7 +219,7 @@ static uint32_t cell_choose(const ref_occluding *o, const ref_occlude_cell *cell
             double far = fabs(lrcsi_clip_side(&cut->line, cell->at)) /
                          (fabs(cut->line.to[0]) + fabs(cut->line.to[1]));
             best = far < nearest ? i : best;
-            nearest = lrcsi_least(far, nearest);
+            nearest = lrcsi_min(far, nearest);
         }
     }
     return best;
@@ -336,11 +336,11 @@ static lrcsi_visible cells_area(const ref_occluding *o)
     double unit = o->frame.unit;
     double own = 20 * U * o->frame.reach + 32 * U * o->frame.diameter + 4 * o->frame.position_err;
     double error = unit * (own * o->frame.perimeter + o->off);
-    double left = lrcsi_most(0, lrcsi_least(incidence.projected, unit * o->area));
+    double left = lrcsi_max(0, lrcsi_min(incidence.projected, unit * o->area));
     error += o->frame.needle ? incidence.error * incidence.projected : 0;
-    return (lrcsi_visible){
-        left, lrcsi_most(0, left - unit * o->uncertainty[1] - error),
-        lrcsi_least(incidence.projected, left + unit * o->uncertainty[0] + error), 0, 0};
+    return (lrcsi_visible){left, lrcsi_max(0, left - unit * o->uncertainty[1] - error),
+                           lrcsi_min(incidence.projected, left + unit * o->uncertainty[0] + error),
+                           0, 0};
 }
 
 lrcsi_visible ref_occlude_unknown(const lrcsi_view *view, uint32_t facet)
