@@ -46,13 +46,64 @@ static void response_add(lrcsi_response *response, double glint, double glint_s,
     lrcsi_sum_add(&response->diffuse_m, diffuse_m);
 }
 
+/* What one unit of area reflects at amplitudes of 1, and its derivatives. */
+typedef struct unit_response {
+    double glint, glint_s;
+    double diffuse, diffuse_m;
+} unit_response;
+
+/* Of a flat facet. Given: the BRDF with amplitudes of 1. */
+static unit_response flat_response(const lrcs_brdf *unit, double u)
+{
+    const double s = unit->s;
+    lrcsi_reflection at = {0, 0, 0};
+    if (isfinite(u)) {
+        at = lrcsi_reflect(unit, u, 0);
+    }
+    return (unit_response){at.glint, at.glint > 0 ? at.glint * (2 * (u / s / s) / s) : 0,
+                           at.diffuse,
+                           at.diffuse > 0 ? at.diffuse * (-0.5 * lrcsi_log1p(u).hi) : 0};
+}
+
+/* Of a facet, as the sum counts it: with the mean over its patch of a wall, or flat. Which of them
+   depends on the amplitudes, so that the patch is made with those of the sum (`own`), and its terms
+   are divided by them. A term of amplitude 0 comes from the patch at amplitudes of 1 (`unit`) or,
+   if that has no mean, from the flat facet. patch[0] and patch[1] hold the last patch for either
+   BRDF. */
+static unit_response facet_response(const lrcsi_view *view, const lrcsi_plan *plan,
+                                    const lrcs_brdf *own, const lrcs_brdf *unit, uint32_t facet,
+                                    double u, lrcsi_patch patch[2])
+{
+    const double s = unit->s;
+    if (!lrcsi_patch_make(view, plan, own, facet, &patch[0])) {
+        return flat_response(unit, u);
+    }
+    unit_response at = {0, 0, 0, 0};
+    if (!(own->A > 0 && own->B > 0)) {
+        int known = lrcsi_patch_make(view, plan, unit, facet, &patch[1]);
+        const lrcsi_patch *p = &patch[1];
+        at = known ? (unit_response){p->glint, glint_slope_s(p->glint_u, s), p->diffuse,
+                                     -0.5 * p->diffuse_log}
+                   : flat_response(unit, u);
+    }
+    if (own->A > 0) {
+        at.glint = patch[0].glint / own->A;
+        at.glint_s = glint_slope_s(patch[0].glint_u / own->A, s);
+    }
+    if (own->B > 0) {
+        at.diffuse = patch[0].diffuse / own->B;
+        at.diffuse_m = -0.5 * (patch[0].diffuse_log / own->B);
+    }
+    return at;
+}
+
 void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcsi_areas *areas,
                          const lrcsi_curved *curved, const lrcsi_clear *clear,
                          const lrcs_brdf *brdf, lrcsi_response *response)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_scene *scene = p->scene;
-    lrcsi_patch patch = {.side = 0};
+    lrcsi_patch patch[2] = {{.side = 0}, {.side = 0}};
     memset(response, 0, scene->material_count * sizeof *response);
     for (uint32_t f = 0; f < scene->facet_count; f++) { /* 1. facets */
         int in_clear_shape = clear->count > 0 && clear->part[scene->facet_part[f]];
@@ -66,19 +117,18 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
         const double s = brdf[material].s;
         const double u = incidence.tan2;
         const lrcs_brdf unit = {s > 0 ? 1 : 0, 1, s, brdf[material].m};
+        const lrcs_brdf own = {plan->glint == LRCSI_TERM_OUT ? 0 : brdf[material].A,
+                               plan->diffuse == LRCSI_TERM_OUT ? 0 : brdf[material].B, s,
+                               brdf[material].m};
         double weight = LRCS_FOUR_PI * 0.5 * p->normal[f].length * fraction;
         if (curved && lrcsi_curve_applies(view, f)) { /* curved normals */
             const lrcsi_curved *c = &curved[f];
             response_add(to, c->glint, glint_slope_s(c->glint_u, s), c->diffuse,
                          -0.5 * c->diffuse_log);
-        } else if (fraction > 0 && lrcsi_patch_make(view, plan, &unit, f, &patch)) { /* a wall */
-            response_add(to, weight * patch.glint, weight * glint_slope_s(patch.glint_u, s),
-                         weight * patch.diffuse, weight * (-0.5 * patch.diffuse_log));
-        } else if (fraction > 0 && isfinite(u)) { /* flat */
-            lrcsi_reflection at = lrcsi_reflect(&unit, u, 0);
-            double slope = at.glint > 0 ? at.glint * (2 * (u / s / s) / s) : 0;
-            response_add(to, weight * at.glint, weight * slope, weight * at.diffuse,
-                         weight * (at.diffuse * (-0.5 * lrcsi_log1p(u).hi)));
+        } else if (fraction > 0) {
+            unit_response at = facet_response(view, plan, &own, &unit, f, u, patch);
+            response_add(to, weight * at.glint, weight * at.glint_s, weight * at.diffuse,
+                         weight * at.diffuse_m);
         }
     }
     for (uint32_t i = 0; clear->count > 0 && i < scene->part_count; i++) { /* 2. clear shapes */

@@ -17,7 +17,8 @@ typedef struct lrcsi_response {
 
 /* Given: a view, its plan, its visible areas and its clear shapes as for lrcsi_total_make;
    curved[]: the integrals over facets with curved normals, at amplitudes of 1 and with moments
-   (NULL: there are none); brdf[material_count]: the s and m to use, while A and B are ignored.
+   (NULL: there are none); brdf[material_count]: the s and m to use, with the A and B that
+   decide which facets count with the mean over their patch.
    Returned: response[material_count], summed over facets in their order, then clear shapes. */
 void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcsi_areas *areas,
                          const lrcsi_curved *curved, const lrcsi_clear *clear,

@@ -203,6 +203,91 @@ static void any_takes_the_first_raster(void **state)
     assert_true(r.resolution > 16 && same_numbers(&r, &again));
 }
 
+/* Facet with self-shadowing is auto without rasters that guess; and of few facets no samples are
+   taken alone, so that any answer is that of a raster with a proof. */
+static void guesses_are_made_of_many_facets_only(void **state)
+{
+    (void)state;
+    static const double d[3] = {0.5, 0.3, 0.8};
+    lrcs_work work;
+    scene_start(&scene);
+    scene_box(&scene, (const double[3]){-1, -1, -1}, (const double[3]){1, 1, 1});
+    scene_plate(&scene, (const double[3]){-0.5, -0.5, 2}, (const double[3]){0.7, 0, 0},
+                (const double[3]){0, 0.6, 0});
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    lrcs_run_options options = lrcs_run_options_default();
+    lrcs_result truth = answer(prepared, &work, d, &options);
+    options.accept = LRCS_ACCEPT_ESTIMATE;
+    options.tolerance = 0.01;
+    lrcs_result r = answer(prepared, &work, d, &options);
+    assert_true(same_numbers(&r, &truth));
+    assert_string_equal(r.method_reason,
+                        "few facets, or curved ones: a raster would save little time");
+    options.accept = LRCS_ACCEPT_ANY;
+    for (options.tolerance = 1; options.tolerance > 1e-9; options.tolerance *= 1e-5) {
+        r = answer(prepared, &work, d, &options);
+        lrcs_run_options plain = {
+            .tolerance = 1, .method = LRCS_METHOD_ZBUFFER, .resolution = r.resolution};
+        lrcs_result again = answer(prepared, &work, d, &plain);
+        assert_int_equal(r.method, LRCS_METHOD_ZBUFFER);
+        assert_true(same_numbers(&r, &again));
+        check_abs(r.sigma_m2, truth.sigma_m2, r.bound_m2 + truth.bound_m2);
+    }
+    options = lrcs_run_options_default();
+    options.method = LRCS_METHOD_FACET;
+    options.accept = LRCS_ACCEPT_ESTIMATE;
+    options.tolerance = 0.01;
+    options.with = 1u << LRCS_EFFECT_SELF_SHADOWING;
+    r = answer(prepared, &work, d, &options);
+    assert_true(same_numbers(&r, &truth));
+    assert_int_equal(r.method, LRCS_METHOD_EXACT);
+}
+
+/* Whatever memory and steps there are, an answer holds the truth, and says what it lacked; more
+   memory never fails where less served. */
+static void estimates_with_little_memory_and_few_steps_hold_the_truth(void **state)
+{
+    (void)state;
+    static unsigned char little[24u << 20];
+    static const double d[3] = {0.5, 0.3, 0.8};
+    static const uint64_t steps[] = {0, 30000, 300000};
+    lrcs_work work;
+    lrcs_pose pose;
+    shadows_about(40);
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    lrcs_run_options plain = lrcs_run_options_default();
+    lrcs_result truth = answer(prepared, &work, d, &plain);
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    unsigned fallbacks = 0;
+    unsigned clipped = 0;
+    unsigned drawn = 0;
+    for (int i = 0; i < 12; i++) {
+        lrcs_run_options options = lrcs_run_options_default();
+        options.accept = i / 6 ? LRCS_ACCEPT_ANY : LRCS_ACCEPT_ESTIMATE;
+        options.tolerance = i / 3 % 2 ? 2e-4 : 0.02;
+        options.steps = steps[i % 3];
+        int before = LRCS_E_MEMORY;
+        for (size_t size = 4096; size <= sizeof little; size += size / 24) {
+            lrcs_result r;
+            work = lrcs_work_make(little, size);
+            int status = lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL);
+            assert_true(status == LRCS_OK || (status == LRCS_E_MEMORY && before != LRCS_OK));
+            assert_true(status == LRCS_OK || work.peak > size);
+            before = status;
+            if (status != LRCS_OK) {
+                continue;
+            }
+            check_abs(r.sigma_m2, truth.sigma_m2, r.bound_m2 + truth.bound_m2);
+            fallbacks += (r.flags & LRCS_FLAG_MEMORY_FALLBACK) != 0;
+            clipped += r.method == LRCS_METHOD_EXACT;
+            drawn += r.method == LRCS_METHOD_ZBUFFER;
+            assert_true((r.flags & LRCS_FLAG_STEPS_SPENT) == 0 || options.steps != 0);
+        }
+        assert_int_equal(before, LRCS_OK);
+    }
+    assert_true(fallbacks > 10 && clipped > 10 && drawn > 10);
+}
+
 /* --- estimates that know nothing -------------------------------------------------------------- */
 
 /* Two black plates over a bright one, with a slit between them that is narrower than a pixel: no
@@ -266,6 +351,8 @@ int main(void)
         cmocka_unit_test(every_method_is_judged_alike),
         cmocka_unit_test(samples_alone_prove_less_and_guess_as_well),
         cmocka_unit_test(any_takes_the_first_raster),
+        cmocka_unit_test(guesses_are_made_of_many_facets_only),
+        cmocka_unit_test(estimates_with_little_memory_and_few_steps_hold_the_truth),
         cmocka_unit_test(where_no_sample_reflects_the_estimate_does_not_count),
         cmocka_unit_test(names_and_numbers_go_both_ways),
     };

@@ -90,6 +90,58 @@ static void finer_tolerances_take_finer_rasters(void **state)
     assert_true(lrcsi_cost_size(&plain, 1e-9, 4096) < 512);
 }
 
+/* Nothing, and plates that show nothing but their edges: no length, no area, and no time beyond
+   that of looking at the facets. */
+static void nothing_to_see_costs_nothing_to_draw(void **state)
+{
+    (void)state;
+    for (int plates = 0; plates < 3; plates++) {
+        scene_start(&scene);
+        for (int i = 0; i < plates; i++) {
+            scene_plate(&scene, (const double[3]){0, i, 0}, (const double[3]){0, 0.5, 0},
+                        (const double[3]){0, 0, 1});
+        }
+        lrcsi_cost cost = counted((const double[3]){0, 0, 1});
+        check_abs(cost.facets, 2 * plates, 0);
+        check_abs(cost.casting + cost.events + cost.borders + cost.overdraw, 0, 0);
+        assert_true(lrcsi_cost_clip(&cost, 0) <= 15 * cost.facets);
+        assert_int_equal(lrcsi_cost_first(&cost, 256), 256);
+    }
+}
+
+/* Two plates far apart cover 2e-8 of the window between them: what is covered is what they have. */
+static void little_in_a_large_window_is_not_rounded_away(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    for (int i = 0; i < 2; i++) {
+        scene_plate(&scene, (const double[3]){10000.0 * i, 10000.0 * i, 0},
+                    (const double[3]){1, 0, 0}, (const double[3]){0, 1, 0});
+    }
+    lrcsi_cost cost = counted((const double[3]){0, 0, 1});
+    check_rel(cost.overdraw, 2 / (10001.0 * 10001.0), 1e-3);
+    lrcsi_cost twice = cost; /* as many borders on twice the area: half the relative error */
+    twice.overdraw *= 2;
+    uint32_t size = lrcsi_cost_size(&cost, 1, 1u << 20);
+    uint32_t other = lrcsi_cost_size(&twice, 1, 1u << 20);
+    check_rel(pow(size, 1.5) / pow(other, 1.5), 2.0, 0.02);
+}
+
+/* More borders than a raster has pixels along a side: no model tells its error, and the coarsest,
+   or one hardly dearer, is tried. One that may not be larger than the coarsest is that. */
+static void borders_in_every_pixel_take_a_coarse_raster(void **state)
+{
+    (void)state;
+    const lrcsi_cost cost = {.facets = 1e6, .casting = 5e5, .borders = 1e5, .overdraw = 0.5};
+    uint32_t size = lrcsi_cost_size(&cost, 1e-2, 4096);
+    assert_true(size >= 256 && size < 4096);
+    assert_true(lrcsi_cost_draw(&cost, size) <= 1.15 * lrcsi_cost_draw(&cost, 256));
+    assert_int_equal(lrcsi_cost_size(&cost, 1e-2, 256), 256);
+    const lrcsi_cost dear = {.facets = 1e9, .casting = 1e9, .borders = 1, .overdraw = 1e-3};
+    size = lrcsi_cost_size(&dear, 1e-2, 600); /* pixels cost next to nothing: as many as allowed */
+    assert_true(size > 600 - 64 && size <= 600);
+}
+
 /* The pages of an open book about its spine: clipping seems cheap, for there are few facets, but
    each is cut by the rims of many. It is given up once its steps are spent, here those that the
    caller allows, and leaves nothing: the answer is that of a raster, and no limit counts as
@@ -154,6 +206,9 @@ int main(void)
         cmocka_unit_test(facets_with_contacts_are_counted),
         cmocka_unit_test(many_facets_are_counted_by_a_sample),
         cmocka_unit_test(finer_tolerances_take_finer_rasters),
+        cmocka_unit_test(nothing_to_see_costs_nothing_to_draw),
+        cmocka_unit_test(little_in_a_large_window_is_not_rounded_away),
+        cmocka_unit_test(borders_in_every_pixel_take_a_coarse_raster),
         cmocka_unit_test(clipping_that_takes_too_long_gives_way_to_a_raster),
         cmocka_unit_test(clipping_goes_first_where_few_facets_are_undecided),
     };

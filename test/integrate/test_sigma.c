@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* sigma of whole scenes against closed forms and hand arithmetic: plates, boxes, and the shadows of
    solar arrays and a cube. Hard cases are in test_hard.c. */
+#include "integrate/sigma.h"
+
 #include "scenes.h"
 
 static test_scene scene;
@@ -239,6 +241,58 @@ static void a_glint_forced_on_a_matt_surface_adds_nothing(void **state)
     }
 }
 
+/* --- a run as far as a stage ------------------------------------------------------------------ */
+
+/* Each stage takes the steps of those before it and its own, and all memory is given back: so hosts
+   time stages by differences. Auto is not asked, but the method that it chose. */
+static void a_run_ends_after_the_stage_that_is_asked_for(void **state)
+{
+    (void)state;
+    static const int by[] = {LRCS_METHOD_FACET, LRCS_METHOD_ZBUFFER, LRCS_METHOD_EXACT,
+                             LRCS_METHOD_CLOSED};
+    lrcs_work work;
+    lrcs_pose pose;
+    cube_with_arrays();
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){0.75, 0.1, 1}, &pose), LRCS_OK);
+    for (int i = 0; i < 4; i++) {
+        lrcs_run_options options = lrcs_run_options_default();
+        options.method = by[i];
+        options.resolution = by[i] == LRCS_METHOD_ZBUFFER ? 64 : 0;
+        size_t used = work.used;
+        size_t taken[LRCSI_SIGMA_STAGES];
+        for (int last = 0; last < LRCSI_SIGMA_STAGES; last++) {
+            work.peak = used;
+            assert_int_equal(lrcsi_sigma_until(prepared, &pose, &options, last, &work), LRCS_OK);
+            assert_int_equal(work.used, used);
+            taken[last] = work.peak - used;
+            assert_true(last == 0 || taken[last] >= taken[last - 1]);
+        }
+        if (by[i] == LRCS_METHOD_ZBUFFER || by[i] == LRCS_METHOD_EXACT) {
+            assert_true(taken[LRCSI_SIGMA_CLASSIFY] > taken[LRCSI_SIGMA_VIEW]);
+            assert_true(taken[LRCSI_SIGMA_VISIBILITY] > taken[LRCSI_SIGMA_CLASSIFY]);
+            lrcs_result r;
+            work.peak = used;
+            assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL),
+                             LRCS_OK);
+            assert_int_equal(work.peak - used, taken[LRCSI_SIGMA_SUM]);
+        }
+        options.steps = 1; /* a limit of steps ends no stage with an error */
+        assert_int_equal(
+            lrcsi_sigma_until(prepared, &pose, &options, LRCSI_SIGMA_VISIBILITY, &work), LRCS_OK);
+        options.tolerance = -1;
+        assert_int_equal(lrcsi_sigma_until(prepared, &pose, &options, LRCSI_SIGMA_SUM, &work),
+                         LRCS_E_ARGUMENT);
+    }
+    lrcs_run_options options = lrcs_run_options_default();
+    assert_int_equal(lrcsi_sigma_until(prepared, &pose, &options, LRCSI_SIGMA_SUM, &work),
+                     LRCS_E_ARGUMENT);
+    options.method = LRCS_METHOD_EXACT;
+    work.size = work.used;
+    assert_int_equal(lrcsi_sigma_until(prepared, &pose, &options, LRCSI_SIGMA_VIEW, &work),
+                     LRCS_E_MEMORY);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -250,6 +304,7 @@ int main(void)
         cmocka_unit_test(a_plate_nearly_edge_on_keeps_a_useful_bound),
         cmocka_unit_test(rasters_are_refined_until_they_meet_the_tolerance),
         cmocka_unit_test(a_glint_forced_on_a_matt_surface_adds_nothing),
+        cmocka_unit_test(a_run_ends_after_the_stage_that_is_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -308,6 +308,75 @@ static void derivatives_over_curved_normals_are_differences_of_runs(void **state
     }
 }
 
+/* A ball and a cylinder that partly hide each other, before a plate: a wall counts with the mean
+   over its true surface, and so do its derivatives. The facets are those of one division. */
+static void derivatives_over_walls_are_differences_of_runs(void **state)
+{
+    (void)state;
+    static const double directions[][3] = {{0.9, 0.2, 0.3}, {0.1, -0.3, 1}};
+    static const int method[] = {LRCS_METHOD_EXACT, LRCS_METHOD_ZBUFFER, LRCS_METHOD_FACET};
+    const lrcs_uncertainty_options how = {0, 1};
+    const lrcs_build_options build = {1e-3, 500, LRCS_NORMALS_FLAT, 1, 0};
+    lrcs_recipe_part part[3];
+    for (int i = 0; i < 3; i++) {
+        part[i] = (lrcs_recipe_part){
+            .name = "", .place = lrcs_place_default(), .material = i == 1 ? "b" : "a"};
+        part[i].material_index = i == 1;
+    }
+    part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5};
+    part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER, .radius = 0.4, .length = 1.5};
+    part[1].place.translate[0] = -1;
+    part[1].place.translate[2] = -0.25;
+    part[2].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {2, 2}};
+    part[2].place.translate[2] = -0.5;
+    lrcs_recipe_material material[2] = {{.name = "a", .brdf = {1, 0.25, 0.3, 0.5}},
+                                        {.name = "b", .brdf = {0.5, 0.3, 0.25, 2}}};
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = 3, .material = material, .material_count = 2};
+    lrcs_scene walls;
+    lrcs_work base = lrcs_work_make(scene_area, sizeof scene_area);
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &base, &walls, NULL), LRCS_OK);
+    for (size_t j = 0; j < ROWS(method) * ROWS(directions); j++) {
+        const double *direction = directions[j / ROWS(method)];
+        int by = method[j % ROWS(method)];
+        outcome got[5];
+        for (int i = 0; i < 8; i++) {
+            double slope = 0;
+            double step = 0;
+            for (int k = 0; k < 5; k++) { /* the middle last, the others to either side */
+                static const int at[] = {-2, -1, 1, 2, 0};
+                static const int weight[] = {1, -8, 8, -1, 0};
+                lrcs_material changed[4];
+                lrcs_scene other = walls;
+                assert_true(walls.material_count <= 4);
+                memcpy(changed, walls.material, walls.material_count * sizeof *changed);
+                other.material = changed;
+                uint32_t which = 0;
+                while (strcmp(changed[which].name, i < 4 ? "a" : "b") != 0) {
+                    which++;
+                }
+                double *p = parameter(&changed[which].brdf, i % 4);
+                step = 1e-3 * *p;
+                *p += at[k] * step;
+                const lrcs_prepared *prepared;
+                lrcs_work work = base;
+                assert_int_equal(lrcs_prepare_run(&other, &work, &prepared), LRCS_OK);
+                got[k] = run_with(prepared, direction, by, &how);
+                slope += weight[k] * got[k].result.sigma_m2 / 12 / step;
+                if (at[k] == 0) {
+                    const lrcs_sensitivity *d = &got[k].d[which];
+                    double is = i % 4 == 0   ? d->dA
+                                : i % 4 == 1 ? d->dB
+                                : i % 4 == 2 ? d->ds
+                                             : d->dm;
+                    check_abs(is, slope, 1e-7 * (fabs(slope) + got[k].result.sigma_m2));
+                    assert_true(is != 0);
+                }
+            }
+        }
+    }
+}
+
 static void the_result_is_that_of_the_pose_alone(void **state)
 {
     (void)state;
@@ -692,6 +761,7 @@ int main(void)
         cmocka_unit_test(limits_of_absent_terms_and_of_no_slope),
         cmocka_unit_test(derivatives_under_shadow_are_differences_of_runs),
         cmocka_unit_test(derivatives_over_curved_normals_are_differences_of_runs),
+        cmocka_unit_test(derivatives_over_walls_are_differences_of_runs),
         cmocka_unit_test(the_result_is_that_of_the_pose_alone),
         cmocka_unit_test(without_errors_there_is_no_uncertainty),
         cmocka_unit_test(first_order_is_the_square_root_of_g_c_g),

@@ -1,0 +1,410 @@
+/* SPDX-License-Identifier: MIT */
+/* Range profiles of curved shapes, which facets replace: bins against integrals over the true
+   surfaces where nothing is hidden; and random scenes that hide and pierce each other, built coarse
+   and fine, whose bins, sums and pulses differ by no more than both bounds together. */
+#include <lrcs/profile.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "nasty.h"
+#include "starve.h"
+
+#define PI 3.14159265358979323846
+
+typedef struct built {
+    void *memory[2];
+    lrcs_scene scene;
+    const lrcs_prepared *prepared;
+} built;
+
+static void *memory_of(size_t size)
+{
+    void *memory = malloc(size);
+    assert_non_null(memory);
+    return memory;
+}
+
+/* What is prepared points to the scene, which stays where it is. */
+static void build(const lrcs_recipe *recipe, double tolerance, uint32_t most, built *b)
+{
+    const lrcs_build_options options = {tolerance, most, LRCS_NORMALS_FLAT, 1, 0};
+    size_t need = lrcs_scene_need(recipe, NULL, &options);
+    b->memory[0] = memory_of(need);
+    lrcs_work work = lrcs_work_make(b->memory[0], need);
+    assert_int_equal(lrcs_scene_build(recipe, NULL, &options, &work, &b->scene, NULL), LRCS_OK);
+    int status = LRCS_E_MEMORY;
+    b->memory[1] = NULL;
+    for (need = lrcs_prepare_need(&b->scene); status == LRCS_E_MEMORY; need *= 2) {
+        free(b->memory[1]);
+        b->memory[1] = memory_of(need);
+        work = lrcs_work_make(b->memory[1], need);
+        status = lrcs_prepare_run(&b->scene, &work, &b->prepared);
+    }
+    assert_int_equal(status, LRCS_OK);
+}
+
+static void unbuild(built *b)
+{
+    free(b->memory[0]);
+    free(b->memory[1]);
+}
+
+/* Returns the memory that holds the bins. */
+static void *profile_make(const built *b, const double d[3], double bin, lrcs_profile *profile)
+{
+    lrcs_pose pose;
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    void *memory = NULL;
+    int status = LRCS_E_MEMORY;
+    for (size_t need = lrcs_profile_need(b->prepared, bin); status == LRCS_E_MEMORY; need *= 2) {
+        free(memory);
+        memory = memory_of(need);
+        lrcs_work work = lrcs_work_make(memory, need);
+        status = lrcs_profile_run(b->prepared, &pose, bin, &work, profile);
+    }
+    assert_int_equal(status, LRCS_OK);
+    return memory;
+}
+
+/* The bin of number k; nothing where the profile has none. */
+static lrcs_profile_bin bin_at(const lrcs_profile *profile, int64_t k)
+{
+    int inside = k >= profile->first && k < profile->first + profile->count;
+    return inside ? profile->bin[k - profile->first] : (lrcs_profile_bin){0, 0, 0, 0, 0, 0};
+}
+
+static double sigma_of(const lrcs_profile_bin *bin)
+{
+    return bin->sigma_glint_m2 + bin->sigma_diffuse_m2;
+}
+
+/* --- true surfaces ---------------------------------------------------------------------------- */
+
+/* f_r cos^2 from the cosine of incidence. */
+static double reflect(const lrcs_brdf *brdf, double cosine)
+{
+    double tan2 = 1 / (cosine * cosine) - 1;
+    return cosine > 0 ? brdf->A * exp(-tan2 / brdf->s / brdf->s) / pow(cosine, 4) +
+                            brdf->B * pow(cosine, brdf->m + 2)
+                      : 0;
+}
+
+/* Sigma, and its first moment about `about`, m^2 and m^3. */
+typedef struct part_sum {
+    double sigma, moment;
+} part_sum;
+
+#define STEPS 5000
+
+/* The part of a sphere about the origin at ranges between two: ranges are -R cos(incidence), and
+   the area between two of them is 2 pi R times their distance. Midpoint rule. */
+static part_sum sphere_between(const lrcs_brdf *brdf, double radius, double from, double to,
+                               double about)
+{
+    part_sum sum = {0, 0};
+    double low = fmax(from, -radius);
+    double high = fmin(to, 0);
+    for (int i = 0; i < STEPS && low < high; i++) {
+        double z = low + (i + 0.5) / STEPS * (high - low);
+        double part = 4 * PI * reflect(brdf, -z / radius) * 2 * PI * radius * (high - low) / STEPS;
+        sum.sigma += part;
+        sum.moment += part * (z - about);
+    }
+    return sum;
+}
+
+/* The part of a wall about z from height 0, where its radius is a, to `height`, where it is b, and
+   of its caps where it has them, seen from (sin tilt, 0, cos tilt). For each azimuth the incidence
+   is constant along the wall, and range linear. The caps by strips of equal range. */
+typedef struct wall {
+    double a, b, height;
+    int capped;
+    lrcs_brdf brdf;
+} wall;
+
+/* Adds what lies between two ranges of a strip along the wall. Given: the radii and ranges at its
+   ends. */
+static void strip_add(double weight, const double radius[2], const double z[2], double low,
+                      double high, double about, part_sum *sum)
+{
+    double fall = z[1] - z[0];
+    double first = (low - z[0]) / fall;
+    double last = (high - z[0]) / fall;
+    const double t[2] = {fmin(1, fmax(0, fmin(first, last))), fmin(1, fmax(0, fmax(first, last)))};
+    double grow = radius[1] - radius[0]; /* the radius, and with it the area, is linear in t */
+    double area = (t[1] - t[0]) * (radius[0] + 0.5 * grow * (t[0] + t[1]));
+    double square = (t[1] * t[1] - t[0] * t[0]) / 2;
+    double cube = (t[1] * t[1] * t[1] - t[0] * t[0] * t[0]) / 3;
+    sum->sigma += weight * area;
+    sum->moment += weight * ((z[0] - about) * area + fall * (radius[0] * square + grow * cube));
+}
+
+static part_sum wall_between(const wall *w, double tilt, double low, double high, double about)
+{
+    part_sum sum = {0, 0};
+    double across = sin(tilt);
+    double along = cos(tilt);
+    double slope = (w->a - w->b) / w->height;
+    double length = sqrt(1 + slope * slope);
+    double radius[2] = {w->a, w->b};
+    for (int i = 0; i < STEPS; i++) {
+        double azimuth = 2 * PI * (i + 0.5) / STEPS;
+        double cosine = (across * cos(azimuth) + along * slope) / length;
+        double z[2] = {-w->a * cos(azimuth) * across,
+                       -w->b * cos(azimuth) * across - w->height * along};
+        double weight = 4 * PI * reflect(&w->brdf, cosine) * w->height * length * 2 * PI / STEPS;
+        strip_add(weight, radius, z, low, high, about, &sum);
+    }
+    if (w->capped) { /* between two chords of the cap that faces the laser */
+        double cap = along > 0 ? w->b : w->a;
+        double middle = along > 0 ? -w->height * along : 0;
+        double x[2] = {fmin(cap, fmax(-cap, (low - middle) / across)),
+                       fmin(cap, fmax(-cap, (high - middle) / across))};
+        double half[2]; /* chords */
+        for (int i = 0; i < 2; i++) {
+            half[i] = sqrt(cap * cap - x[i] * x[i]);
+        }
+        double area = cap > 0 ? x[1] * half[1] - x[0] * half[0] +
+                                    cap * cap * (asin(x[1] / cap) - asin(x[0] / cap))
+                              : 0;
+        double first = 2 / 3.0 * (pow(half[0], 3) - pow(half[1], 3)); /* of x over the area */
+        double scale = 4 * PI * reflect(&w->brdf, fabs(along));
+        sum.sigma += scale * area;
+        sum.moment += scale * (area * (middle - about) + across * first);
+    }
+    return sum;
+}
+
+/* --- against them ----------------------------------------------------------------------------- */
+
+/* All bins of a shape moved by `shift` in range. `off` is what the reference may be off by. */
+static void check_bins(const lrcs_profile *p, double shift, double off,
+                       part_sum (*truth)(const void *, double, double, double), const void *shape)
+{
+    double all = 0;
+    for (int64_t k = p->first - 2; k < p->first + p->count + 2; k++) {
+        double low = (double)k * p->bin_m - shift;
+        part_sum want = truth(shape, low, low + p->bin_m, low + 0.5 * p->bin_m);
+        lrcs_profile_bin bin = bin_at(p, k);
+        check_abs(sigma_of(&bin), want.sigma, bin.bound_m2 + off);
+        check_abs(bin.moment_m3, want.moment,
+                  (0.5 * p->bin_m + p->range_err_m) * (bin.variation_m2 + off) +
+                      p->range_err_m * (want.sigma + bin.bound_m2));
+        assert_true(bin.variation_m2 >= bin.bound_m2);
+        all += want.sigma;
+    }
+    check_abs(p->sigma_glint_m2 + p->sigma_diffuse_m2, all, p->bound_m2 + off);
+}
+
+typedef struct ball {
+    double radius;
+    lrcs_brdf brdf;
+} ball;
+
+static part_sum ball_truth(const void *shape, double low, double high, double about)
+{
+    const ball *b = shape;
+    return sphere_between(&b->brdf, b->radius, low, high, about);
+}
+
+typedef struct leaning {
+    wall wall;
+    double tilt;
+} leaning;
+
+static part_sum wall_truth(const void *shape, double low, double high, double about)
+{
+    const leaning *l = shape;
+    return wall_between(&l->wall, l->tilt, low, high, about);
+}
+
+static const lrcs_brdf shiny = {0.75, 0.25, 0.4, 1};
+
+static lrcs_recipe recipe_of(lrcs_recipe_part *part, lrcs_recipe_material *material)
+{
+    *material = (lrcs_recipe_material){.name = "m", .brdf = shiny};
+    *part = (lrcs_recipe_part){.name = "p", .place = lrcs_place_default(), .material = "m"};
+    return (lrcs_recipe){.part = part, .part_count = 1, .material = material, .material_count = 1};
+}
+
+static void bins_of_a_sphere_hold_the_integral_over_it(void **state)
+{
+    (void)state;
+    const double d[3][3] = {{0, 0, 1}, {1, 0, 0}, {2 / 3.0, -1 / 3.0, 2 / 3.0}};
+    lrcs_recipe_part part;
+    lrcs_recipe_material material;
+    lrcs_recipe recipe = recipe_of(&part, &material);
+    part.shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.75};
+    part.place.translate[0] = 0.3;
+    part.place.translate[2] = -1.1;
+    const ball truth = {0.75, shiny};
+    double loose[2];
+    for (int fine = 0; fine < 2; fine++) {
+        built b;
+        build(&recipe, fine ? 1e-9 : 1e-3, fine ? 8000 : 1000, &b);
+        for (int i = 0; i < 6; i++) {
+            lrcs_profile profile;
+            void *memory = profile_make(&b, d[i / 2], i % 2 ? 0.05 : 0.37, &profile);
+            assert_true(profile.tessellation_known);
+            double shift = -0.3 * d[i / 2][0] + 1.1 * d[i / 2][2];
+            check_bins(&profile, shift, 1e-7, ball_truth, &truth);
+            loose[fine] = profile.bound_m2 / profile.sigma_diffuse_m2;
+            free(memory);
+        }
+        unbuild(&b);
+    }
+    assert_true(loose[0] < 0.05 && loose[1] < 0.2 * loose[0]); /* second order in the facets */
+}
+
+/* Cylinders, cones and frusta, closed or of their wall alone, from above, aside and below. What
+   faces the laser is visible as a whole. */
+static void bins_of_walls_hold_the_integral_over_them(void **state)
+{
+    (void)state;
+    static const int kind[] = {LRCS_SHAPE_CYLINDER, LRCS_SHAPE_CONE, LRCS_SHAPE_FRUSTUM};
+    static const double tilt[] = {0.3, 1.0, 1.5, 2.2};
+    for (int i = 0; i < 24; i++) {
+        lrcs_recipe_part part;
+        lrcs_recipe_material material;
+        lrcs_recipe recipe = recipe_of(&part, &material);
+        int capped = i < 12;
+        leaning truth = {{0.5, 0.5, 1.25, capped, shiny}, tilt[i / 3 % 4]};
+        part.shape = (lrcs_shape){.kind = kind[i % 3], .radius = 0.5, .length = 1.25};
+        part.shape.parts = capped ? LRCS_SHAPE_ALL : LRCS_SHAPE_WALL;
+        if (part.shape.kind == LRCS_SHAPE_CONE) {
+            truth.wall.b = 0;
+        } else if (part.shape.kind == LRCS_SHAPE_FRUSTUM) {
+            truth.wall.a = part.shape.radius2 = 0.875;
+        }
+        const double d[3] = {sin(truth.tilt), 0, cos(truth.tilt)};
+        built b;
+        build(&recipe, 1e-4, 4000, &b);
+        for (int fine = 0; fine < 2; fine++) {
+            lrcs_profile profile;
+            void *memory = profile_make(&b, d, fine ? 0.05 : 0.4, &profile);
+            assert_true(profile.tessellation_known);
+            double sigma = profile.sigma_glint_m2 + profile.sigma_diffuse_m2;
+            check_bins(&profile, 0, 1e-6 * sigma, wall_truth, &truth);
+            assert_true(profile.bound_m2 < 1e-2 * sigma);
+            free(memory);
+        }
+        unbuild(&b);
+    }
+}
+
+/* --- coarse against fine ---------------------------------------------------------------------- */
+
+static void compare(const nasty_scene *s, uint64_t seed, const lrcs_profile *a,
+                    const lrcs_profile *b)
+{
+    int64_t first = a->first < b->first ? a->first : b->first;
+    int64_t a_end = a->first + a->count;
+    int64_t b_end = b->first + b->count;
+    double rounding = 1e-15 * (a->sigma_glint_m2 + a->sigma_diffuse_m2);
+    for (int64_t k = first; k < a_end || k < b_end; k++) {
+        lrcs_profile_bin x = bin_at(a, k);
+        lrcs_profile_bin y = bin_at(b, k);
+        if (!(fabs(sigma_of(&x) - sigma_of(&y)) <= x.bound_m2 + y.bound_m2 + rounding)) {
+            fprintf(stderr, "%s, seed %llu, bin %lld: ", nasty_name[s->family],
+                    (unsigned long long)seed, (long long)k);
+        }
+        check_abs(sigma_of(&x), sigma_of(&y), x.bound_m2 + y.bound_m2 + rounding);
+    }
+    check_abs(a->sigma_glint_m2 + a->sigma_diffuse_m2, b->sigma_glint_m2 + b->sigma_diffuse_m2,
+              a->bound_m2 + b->bound_m2 + rounding);
+    for (int i = 0; i <= 20; i++) {
+        double z = ((double)first + i / 20.0 * (double)(a_end - first)) * a->bin_m;
+        double density[2];
+        double bound[2];
+        double estimate;
+        assert_int_equal(lrcs_profile_pulse(a, 4 * a->bin_m, z, &density[0], &bound[0], &estimate),
+                         LRCS_OK);
+        assert_int_equal(lrcs_profile_pulse(b, 4 * b->bin_m, z, &density[1], &bound[1], &estimate),
+                         LRCS_OK);
+        check_abs(density[0], density[1], bound[0] + bound[1] + rounding / a->bin_m);
+    }
+}
+
+static void coarse_and_fine_scenes_agree_within_their_bounds(void **state)
+{
+    (void)state;
+    static const double bin[] = {0.02, 0.1, 0.5, 3};
+    static const double sizes[] = {1, 1, 1e3, 1e-3, -1};
+    static const double offsets[] = {0, 0, 1e3};
+    int known = 0;
+    nasty_seed = 31;
+    for (int i = 0; i < 5 * NASTY_FAMILIES; i++) {
+        uint64_t seed = nasty_seed;
+        nasty_scene plain;
+        nasty_scene s;
+        lrcs_profile coarse;
+        lrcs_profile fine;
+        double d[3];
+        nasty_make(&plain, i % NASTY_FAMILIES);
+        nasty_direction(&plain, d);
+        double size = sizes[pick(5)];
+        nasty_transform(&plain, size, offsets[pick(3)] * fabs(size), &s);
+        built b[2];
+        build(&s.recipe, pick(2) ? 1e-9 : 0.05, 64u << pick(3), &b[0]);
+        build(&s.recipe, 1e-9, 500, &b[1]);
+        double width = bin[pick(4)] * fabs(size);
+        void *memory[2] = {profile_make(&b[0], d, width, &coarse),
+                           profile_make(&b[1], d, width, &fine)};
+        if (coarse.tessellation_known && fine.tessellation_known) {
+            compare(&s, seed, &coarse, &fine);
+            known++;
+        }
+        for (int k = 0; k < 2; k++) {
+            free(memory[k]);
+            unbuild(&b[k]);
+        }
+    }
+    assert_true(known > 4 * NASTY_FAMILIES);
+}
+
+/* --- memory ----------------------------------------------------------------------------------- */
+
+static const built *hungry;
+static lrcs_pose pose;
+static lrcs_profile output;
+
+static int profile_hungry(lrcs_work *area)
+{
+    return lrcs_profile_run(hungry->prepared, &pose, 0.2, area, &output);
+}
+
+/* A ball in front of a tube: areas of every facet, and the band about the contours. */
+static void the_work_area_grows_until_it_suffices(void **state)
+{
+    (void)state;
+    lrcs_recipe_part part[2];
+    lrcs_recipe_material material;
+    lrcs_recipe recipe = recipe_of(&part[0], &material);
+    part[1] = part[0];
+    recipe.part_count = 2;
+    part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5};
+    part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_CYLINDER, .radius = 0.5, .length = 1};
+    part[1].place.translate[0] = -1.5;
+    part[1].place.translate[1] = 0.25;
+    built b;
+    build(&recipe, 0.3, 64, &b);
+    hungry = &b;
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){4, 0, 1}, &pose), LRCS_OK);
+    starve(
+        STARVED("lrcs_profile_run", lrcs_profile_need(b.prepared, 0.2), profile_hungry, output, 1));
+    assert_true(output.tessellation_known && output.bound_m2 > 0);
+    unbuild(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bins_of_a_sphere_hold_the_integral_over_it),
+        cmocka_unit_test(bins_of_walls_hold_the_integral_over_them),
+        cmocka_unit_test(coarse_and_fine_scenes_agree_within_their_bounds),
+        cmocka_unit_test(the_work_area_grows_until_it_suffices),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
