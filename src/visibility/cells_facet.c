@@ -119,7 +119,7 @@ static int longest_side(const lrcsi_cells_facet *f)
 }
 
 /* Its least height, as computed: negative if rounding has reversed its orientation. */
-static double facet_height(const lrcsi_cells_facet *f)
+static double facet_min_height(const lrcsi_cells_facet *f)
 {
     int k = (longest_side(f) + 2) % 3;
     return lrcsi_line_at(f->side[longest_side(f)], f->x[k], f->y[k]);
@@ -130,7 +130,7 @@ static double facet_height(const lrcsi_cells_facet *f)
    is left undecided. */
 static void facet_make_sliver(lrcsi_cells_facet *f)
 {
-    double wide = fabs(facet_height(f)) + 4 * f->err;
+    double wide = fabs(facet_min_height(f)) + 4 * f->err;
     double line[3];
     memcpy(line, f->side[longest_side(f)], sizeof line);
     for (int k = 0; k < 3; k++) {
@@ -195,7 +195,7 @@ void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_fa
     f->low[1] = lrcsi_min(f->y[0], lrcsi_min(f->y[1], f->y[2]));
     f->high[1] = lrcsi_max(f->y[0], lrcsi_max(f->y[1], f->y[2]));
     facet_make_plane(f, z);
-    f->sliver = !(facet_height(f) > 16 * f->err);
+    f->sliver = !(facet_min_height(f) > 16 * f->err);
     if (f->sliver) {
         facet_make_sliver(f);
     }
