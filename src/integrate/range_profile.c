@@ -471,7 +471,7 @@ static double pieces_add(profile_run *run, const profile_facet *f, uint32_t face
     lrcsi_visible visible = lrcsi_visible_proved(run->view, facet, lrcsi_occlude_close(o));
     if (o->undecided) {
         const lrcsi_target *target = &o->alone.target;
-        area_err += 20 * LRCSI_U * target->reach * target->perimeter + o->alone.bent;
+        area_err += 20 * LRCSI_U * target->reach * target->perimeter + o->alone.piece_err;
     }
     if (run->visible) {
         run->visible[facet] = visible;
