@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Random scenes of curved shapes among others, by families: anywhere, on a lattice, in contact,
-   flush, nested with thin gaps, piercing, with a glint on a shadow's edge. And directions to look
-   from that spare none of them. */
+   flush, nested with thin gaps, piercing, with a glint on a shadow's edge, scaled differently along
+   the axes. And directions to look from that spare none of them. */
 #ifndef TEST_NASTY_H
 #define TEST_NASTY_H
 
@@ -22,11 +22,12 @@ enum nasty_family {
     NASTY_NESTED,
     NASTY_PIERCED,
     NASTY_GLINT,
+    NASTY_STRETCHED,
     NASTY_FAMILIES
 };
 
 static const char *const nasty_name[NASTY_FAMILIES] = {
-    "anywhere", "lattice", "resting", "flush", "nested", "pierced", "glint on edge"};
+    "anywhere", "lattice", "resting", "flush", "nested", "pierced", "glint on edge", "stretched"};
 
 /* `aim` is where a glint meets an edge, or the light runs along a wall. */
 typedef struct nasty_scene {
@@ -282,6 +283,54 @@ static void fill_glint(nasty_scene *s)
          far * s->aim[2] + off * aside[2]);
 }
 
+/* The axis of the world along which the part's axis k lies, or -1 if it lies along none. */
+static int axis_of(const lrcs_recipe_part *part, int k)
+{
+    for (int i = 0; i < 3; i++) {
+        if (fabs(part->place.rotate[i][k]) == 1) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/* Scales what is there by another factor along each axis of the world, so that contacts stay; parts
+   that are turned otherwise are scaled along their own axes. */
+static void stretch(nasty_scene *s)
+{
+    static const double any[] = {1, 1, 0.5, 2, 0.1, 0.999, 1 + 1e-9};
+    double factor[3];
+    for (int k = 0; k < 3; k++) {
+        factor[k] = pick(3) ? any[pick(7)] : between(0.2, 2);
+    }
+    for (uint32_t i = 0; i < s->recipe.part_count; i++) {
+        lrcs_place *place = &s->part[i].place;
+        for (int k = 0; k < 3; k++) {
+            int axis = axis_of(&s->part[i], k);
+            place->scale[k] *= axis >= 0 ? factor[axis] : any[pick(7)];
+            place->translate[k] *= factor[k];
+        }
+    }
+}
+
+static void fill_stretched(nasty_scene *s)
+{
+    switch (pick(4)) {
+    case 0:
+        fill_resting(s);
+        break;
+    case 1:
+        fill_flush(s);
+        break;
+    case 2:
+        fill_nested(s);
+        break;
+    default:
+        fill_anyhow(s, 0, pick(2) ? 0.1 : 1);
+    }
+    stretch(s);
+}
+
 /* --- scenes and directions -------------------------------------------------------------------- */
 
 static void nasty_dress(nasty_scene *s)
@@ -313,6 +362,9 @@ static void nasty_make(nasty_scene *s, int family)
         break;
     case NASTY_GLINT:
         fill_glint(s);
+        break;
+    case NASTY_STRETCHED:
+        fill_stretched(s);
         break;
     default:
         fill_anyhow(s, family == NASTY_LATTICE, family == NASTY_PIERCED ? 0.1 : 1);

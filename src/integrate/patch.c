@@ -111,11 +111,12 @@ int lrcsi_patch_exists(const lrcs_prepared *p, uint32_t facet)
            part->curvature_known;
 }
 
-/* u = tan^2 theta of the normal at an azimuth, given sine and cosine of its angle from the axis. */
-static double patch_tan2(const patch_frame *f, double sine, double cosine, double phi, double *c,
-                         double *p)
+/* u = tan^2 theta of a normal, given sine and cosine of its angle from the axis, and those of its
+   azimuth. */
+static double patch_tan2(const patch_frame *f, double sine, double cosine, const double azimuth[2],
+                         double *c, double *p)
 {
-    const double n[3] = {sine * cos(phi), sine * sin(phi), cosine};
+    const double n[3] = {sine * azimuth[1], sine * azimuth[0], cosine};
     const double *g = f->g;
     double x = g[1] * n[2] - g[2] * n[1];
     double y = g[2] * n[0] - g[0] * n[2];
@@ -124,6 +125,12 @@ static double patch_tan2(const patch_frame *f, double sine, double cosine, doubl
     *c = g[0] * n[0] + g[1] * n[1] + g[2] * n[2];
     *p = sqrt(square);
     return square / (*c * *c);
+}
+
+static void frame_middle(patch_frame *f)
+{
+    const double azimuth[2] = {sin(f->phi), cos(f->phi)};
+    f->u = patch_tan2(f, f->sine, f->cosine, azimuth, &f->c, &f->p);
 }
 
 /* The frame of patch->at. Returns 0 if rounding left its facets without area. */
@@ -163,7 +170,7 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lr
     }
     f->cosine = at->mirrored ? -f->cosine : f->cosine;
     f->area /= facets;
-    f->u = patch_tan2(f, f->sine, f->cosine, f->phi, &f->c, &f->p);
+    frame_middle(f);
     patch->area_err = 2 * (lrcsi_profile_rounding(&profile, at->row) + part->tilted);
     return isfinite(f->area) && (!f->fourth || profile.step > 0);
 }
@@ -238,20 +245,14 @@ static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf
 
 /* --- the mean --------------------------------------------------------------------------------- */
 
-/* Adds F at one normal. Returns 0 if its rounding error is too large. */
-static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double alpha, double phi,
-                           double weight, lrcsi_patch *patch)
+/* Adds F at one normal, given sines and cosines as patch_tan2. Returns 0 if its rounding error is
+   too large. */
+static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double sine, double cosine,
+                           const double azimuth[2], double weight, lrcsi_patch *patch)
 {
-    double sine = f->sine;
-    double cosine = f->cosine;
     double c;
     double p;
-    if (f->step > 0) {
-        sine = sin(alpha);
-        cosine = copysign(fabs(cos(alpha)), f->cosine);
-        weight *= f->fourth ? sine / (cosine * cosine * cosine * cosine) : sine;
-    }
-    double u = patch_tan2(f, sine, cosine, phi, &c, &p);
+    double u = patch_tan2(f, sine, cosine, azimuth, &c, &p);
     double du = 1.01 *
                 (2 * p * PATCH_NORMAL_ERR + PATCH_NORMAL_ERR * PATCH_NORMAL_ERR +
                  2 * u * c * PATCH_NORMAL_ERR) /
@@ -271,25 +272,53 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double a
     return 1;
 }
 
-/* Adds the sum over the points of both rules, times `fraction`. Returns 0 as patch_add_point. */
+/* Writes the points and weights of a rule, and returns how many there are. */
+static int rule_points(const gauss_rule *rule, double x[POINTS_MOST], double weight[POINTS_MOST])
+{
+    int count = 0;
+    for (int k = 0; k < rule->half; k++) {
+        x[count] = rule->x[k];
+        weight[count++] = rule->weight[k];
+        if (rule->x[k] != 0) {
+            x[count] = -rule->x[k];
+            weight[count++] = rule->weight[k];
+        }
+    }
+    return count;
+}
+
+/* Adds the sum over the points of both rules, times `fraction`. Sines and cosines are computed once
+   for each row and column. Returns 0 as patch_add_point. */
 static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf, const gauss_rule *along,
                             const gauss_rule *around, double fraction, lrcsi_patch *patch)
 {
+    double x[POINTS_MOST];
+    double weight[POINTS_MOST];
+    double azimuth[POINTS_MOST][2];
+    double share[POINTS_MOST];
+    int columns = rule_points(around, x, share);
+    for (int k = 0; k < columns; k++) {
+        double phi = f->phi + x[k] * f->half;
+        azimuth[k][0] = sin(phi);
+        azimuth[k][1] = cos(phi);
+    }
     int known = 1;
-    int rows = f->step > 0 ? 2 * along->half : 1;
+    int rows = f->step > 0 ? rule_points(along, x, weight) : 1;
     for (int i = 0; i < rows && known; i++) {
-        double x = i % 2 ? -along->x[i / 2] : along->x[i / 2];
-        double weight = f->step > 0 ? fraction * along->weight[i / 2] : fraction;
-        if (i % 2 && f->step > 0 && x == 0) {
-            continue;
+        double sine = f->sine;
+        double cosine = f->cosine;
+        double row = fraction;
+        double density = 1;
+        if (f->step > 0) {
+            double alpha = f->alpha + x[i] * f->step;
+            sine = sin(alpha);
+            cosine = copysign(fabs(cos(alpha)), f->cosine);
+            row = fraction * weight[i];
+            density = f->fourth ? sine / (cosine * cosine * cosine * cosine) : sine;
         }
-        for (int k = 0; k < 2 * around->half && known; k++) {
-            double y = k % 2 ? -around->x[k / 2] : around->x[k / 2];
-            if (k % 2 && y == 0) {
-                continue;
-            }
-            known = patch_add_point(f, brdf, f->alpha + x * f->step, f->phi + y * f->half,
-                                    weight * around->weight[k / 2], patch);
+        for (int k = 0; k < columns && known; k++) {
+            known =
+                patch_add_point(f, brdf, sine, cosine, azimuth[k], row * share[k] * density, patch);
         }
     }
     return known;
@@ -307,7 +336,7 @@ static patch_frame frame_piece(const patch_frame *whole, int n, int i, int k)
         f.sine = sin(f.alpha);
         f.cosine = copysign(cos(f.alpha), whole->cosine);
     }
-    f.u = patch_tan2(&f, f.sine, f.cosine, f.phi, &f.c, &f.p);
+    frame_middle(&f);
     return f;
 }
 

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/exact.h"
 #include "base/join.h"
 #include "base/work.h"
 #include "mesh/convex.h"
@@ -165,7 +166,26 @@ int lrcsi_convex_by_construction(const lrcs_prepared *p, int *solid)
     return made;
 }
 
+/* Do all live facets lie exactly in one plane? */
+static int is_plane(const lrcs_prepared *p)
+{
+    const double *plane[3] = {NULL, NULL, NULL};
+    int flat = 1;
+    for (uint32_t f = 0; f < p->scene->facet_count && flat; f++) {
+        for (int k = 0; k < 3 && !p->skip[f] && !plane[k]; k++) {
+            plane[k] = lrcsi_prepared_corner(p, f, k);
+        }
+        for (int k = 0; k < 3 && !p->skip[f] && flat; k++) {
+            flat =
+                lrcsi_exact_side(plane[0], plane[1], plane[2], lrcsi_prepared_corner(p, f, k)) == 0;
+        }
+    }
+    return flat;
+}
+
 /* The part's exact vertices lie on a convex surface, and the placed ones are within `off` of them.
+   Facets in one plane hide none of each other, unless they are edge-on: then the threshold is 0.
+   Otherwise:
    Suppose that a point x of a front facet is hidden by y = x + t d. The body lies below the tangent
    plane of the true surface, so y is within sagitta / cos(theta) of x. Where cos(theta) exceeds
    three turns, that distance is less than a facet, and every normal in that neighbourhood has a
@@ -180,6 +200,9 @@ double lrcsi_convex_grazing(const lrcs_prepared *p)
     double off = misplaced_by(p, part);
     double dent = 0;
     double altitude = 0;
+    if (is_plane(p)) {
+        return 0;
+    }
     measure_dents(p, &dent, &altitude);
     return 16 * off / altitude + (dent > 16 * off ? 3 * part->curvature.turn : 0);
 }

@@ -75,7 +75,8 @@ static const lrcs_prepared *shapes_prepare(shapes_scene *s, const lrcs_build_opt
 /* Runs by a method; by auto closed forms may serve. Records into a static array. */
 static lrcs_facet_record records[1u << 16];
 
-static lrcs_result prepared_run(const lrcs_prepared *prepared, const double d[3], int method)
+static lrcs_result recorded_run(const lrcs_prepared *prepared, const double d[3], int method,
+                                lrcs_facet_record *into)
 {
     lrcs_run_options run = lrcs_run_options_default();
     lrcs_pose pose;
@@ -86,10 +87,15 @@ static lrcs_result prepared_run(const lrcs_prepared *prepared, const double d[3]
     size_t need = lrcs_sigma_need(prepared, &run);
     size_t before = run_work.used;
     run_work.peak = run_work.used;
-    assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &run_work, &result, records, NULL),
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &run, &run_work, &result, into, NULL),
                      LRCS_OK);
     assert_true(run_work.peak - before <= need);
     return result;
+}
+
+static lrcs_result prepared_run(const lrcs_prepared *prepared, const double d[3], int method)
+{
+    return recorded_run(prepared, d, method, records);
 }
 
 static lrcs_result shapes_run(shapes_scene *s, const lrcs_build_options *build, const double d[3],
@@ -135,6 +141,37 @@ static void a_shape_alone_is_its_closed_form_to_rounding(void **state)
             check_abs(r.sigma_glint_m2, truth.sigma_glint_m2, r.bound_m2 + truth.bound_m2);
             check_most(r.bound_m2, 1e-13 * truth.sigma_m2);
             assert_true(scene.facet_count < 2000);
+        }
+    }
+}
+
+/* From broadside to edge-on, exactly and nearly so, at any size: a bound that rounding explains. */
+static void a_shape_alone_is_bounded_by_rounding_at_hard_aspects(void **state)
+{
+    (void)state;
+    static const lrcs_shape flat[] = {{.kind = LRCS_SHAPE_PLATE, .size = {1, 0.7}},
+                                      {.kind = LRCS_SHAPE_BOX, .size = {1, 0.7, 0.4}}};
+    static const double off[] = {0, 1e-17, 3e-16, 1e-11, 1e-8, 2e-5};
+    static const double size[] = {1, 1e-6, 1e6};
+    for (size_t i = 0; i < (ROWS(bodies) + 2) * 3 * ROWS(size); i++) {
+        size_t which = i % (ROWS(bodies) + 2);
+        size_t scale = i / (ROWS(bodies) + 2) / 3;
+        shapes_scene s = scene_of((lrcs_brdf){1, 0.25, scale ? 1e-3 : 1, 0.5}, 0);
+        lrcs_recipe_part *part =
+            add(&s, which < ROWS(bodies) ? bodies[which] : flat[which - ROWS(bodies)]);
+        const lrcs_build_options build = {1e-4, 1u << 12, LRCS_NORMALS_FLAT, 0, 0};
+        for (int k = 0; k < 3; k++) {
+            part->place.scale[k] = size[scale];
+        }
+        const lrcs_prepared *prepared = shapes_prepare(&s, &build);
+        for (size_t k = 0; k < 2 * ROWS(off); k++) {
+            double d[3] = {0, 0, 0}; /* near +z, +x or -z */
+            double beside = k % 2 ? -off[k / 2] : off[k / 2];
+            size_t way = i / (ROWS(bodies) + 2) % 3;
+            d[way == 1 ? 0 : 2] = way == 2 ? -1 : 1;
+            d[way == 1 ? 2 : 0] = beside;
+            lrcs_result r = recorded_run(prepared, d, LRCS_METHOD_AUTO, NULL);
+            check_most(r.bound_m2, 1e-12 * r.sigma_m2);
         }
     }
 }
@@ -413,6 +450,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_shape_alone_is_its_closed_form_to_rounding),
+        cmocka_unit_test(a_shape_alone_is_bounded_by_rounding_at_hard_aspects),
         cmocka_unit_test(a_shape_placed_is_its_closed_form_seen_from_its_frame),
         cmocka_unit_test(closed_forms_lie_within_the_bounds_of_fine_meshes),
         cmocka_unit_test(records_share_out_the_closed_form),

@@ -121,16 +121,33 @@ static int options_read(run_job *job)
 
 /* ---- the run ---- */
 
+/* Are the records of facets needed: for an output, or for what the bound does not include? Of
+   shapes with closed surfaces no back side is visible, and their facets stand for the true surface;
+   their records would take longer than sigma. */
+static int run_needs_records(const run_job *job)
+{
+    const lrcs_scene *scene = &job->scene.scene;
+    int needed =
+        job->facets || job->image_path || job->shares_asked || job->emulation.asked || job->explain;
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        needed |= scene->part[i].kind < 0 || !scene->part[i].solid;
+    }
+    return needed;
+}
+
 /* Allocates memory for what the outputs show. */
 static int run_room(run_job *job)
 {
-    job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
+    int records = run_needs_records(job);
+    if (records) {
+        job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
+    }
     if (job->image_path) {
         lrcs_host_picture picture = cli_run_picture(job);
         job->image.size = lrcs_host_picture_need(&picture, job->image_size);
         job->image.facet = calloc((size_t)job->image.size * job->image.size, sizeof(uint32_t));
     }
-    if (!job->records || (!job->image.facet && job->image_path)) {
+    if ((records && !job->records) || (!job->image.facet && job->image_path)) {
         return cli_out_of_memory();
     }
     return 0;

@@ -28,7 +28,8 @@ static void backs_find(const run_job *job, run_open *open)
     open->back_share = job->result.projected_area_m2 > 0.0
                            ? open->back_area_m2 / job->result.projected_area_m2
                            : 0.0;
-    open->back_sigma_m2 = job->records ? job->result.sigma_m2 + more : (double)NAN;
+    int known = job->records || !(job->result.back_side_area_m2 > 0.0);
+    open->back_sigma_m2 = known ? job->result.sigma_m2 + more : (double)NAN;
 }
 
 int cli_run_open(run_job *job)
