@@ -156,17 +156,10 @@ static uint32_t steps_allowed(const lrcsi_meter *meter, uint32_t steps)
 /* Does a facet of the component have this edge? */
 static int component_has_edge(const lrcsi_classification *c, uint32_t edge, uint32_t component)
 {
-    const lrcsi_topology *t = &c->view->prepared->topology;
-    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
-    for (uint32_t k = 0; k < t->edge[edge].uses; k++) {
-        if (c->component[use[k].facet] == component) {
-            return 1;
-        }
-    }
-    return 0;
+    return lrcsi_topology_edge_has(&c->view->prepared->topology, edge, c->component, component);
 }
 
-/* The cells of the grid that a facet touches. */
+/* The cells of the grid that a facet may meet. */
 typedef struct facet_cells {
     lrcsi_cells all;
     int slanted; /* rows are limited to the cells between the sides */

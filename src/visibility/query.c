@@ -243,12 +243,7 @@ static int in_contact(const lrcs_prepared *p, uint32_t facet, uint32_t other, lr
     if (!lrcsi_meter_take(meter, lrcsi_intersection_of(&p->intersections, facet))) {
         return 1;
     }
-    for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
-        if (p->intersections.entry[i].other == other) {
-            return 1;
-        }
-    }
-    return 0;
+    return lrcsi_intersection_find(&p->intersections, facet, other) != NULL;
 }
 
 /* Is it proved that a component that is in front of one point of the facet is in front of all of
