@@ -20,7 +20,4 @@ const lrcs_host_scene *lrcsi_host_finer(const lrcs_host_scene *scene,
                                         const lrcs_run_options *options, const lrcs_result *result,
                                         uint32_t *level);
 
-/* The division of a level; 0 if the scene has none. */
-double lrcsi_host_level_division(const lrcs_host_scene *scene, uint32_t level);
-
 #endif
