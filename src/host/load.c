@@ -316,3 +316,17 @@ int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
 {
     return scene_from(recipe, base->model, base->two_sided, build, scene, error);
 }
+
+int lrcs_host_scene_refine(lrcs_host_scene *scene, const lrcs_run_options *options,
+                           const lrcs_result *result, double *division)
+{
+    uint32_t level = 0;
+    if (!lrcsi_host_finer(scene, options, result, &level)) {
+        return 0;
+    }
+    uint32_t kept = lrcsi_host_level_settle(scene, level, division);
+    if (scene->notices.count > kept) {
+        lrcsi_host_scene_notes(scene, kept);
+    }
+    return 1;
+}

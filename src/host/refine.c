@@ -7,8 +7,6 @@
    other poses needed. */
 #include "host/refine.h"
 
-#include "host/notes.h"
-
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -147,24 +145,16 @@ const lrcs_host_scene *lrcsi_host_finer(const lrcs_host_scene *scene,
     return found;
 }
 
-int lrcs_host_scene_refine(lrcs_host_scene *scene, const lrcs_run_options *options,
-                           const lrcs_result *result, double *division)
+uint32_t lrcsi_host_level_settle(lrcs_host_scene *scene, uint32_t level, double *division)
 {
-    uint32_t level = 0;
-    const lrcs_host_scene *finer = lrcsi_host_finer(scene, options, result, &level);
-    if (!finer) {
-        return 0;
-    }
     struct lrcsi_host_levels *levels = scene->levels;
     levels->own += level;
+    const lrcs_host_scene *finer = levels->scene[levels->own];
     scene->scene = finer->scene;
     scene->prepared = finer->prepared;
     scene->seconds_load += finer->seconds_load;
     scene->seconds_prepare = finer->seconds_prepare;
     memcpy(scene->seconds_stage, finer->seconds_stage, sizeof scene->seconds_stage);
-    if (scene->notices.count > levels->notices) {
-        lrcsi_host_scene_notes(scene, levels->notices);
-    }
     *division = level_division(levels, levels->own);
-    return 1;
+    return levels->notices;
 }

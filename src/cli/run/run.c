@@ -121,13 +121,14 @@ static int options_read(run_job *job)
 
 /* ---- the run ---- */
 
-/* Prints a notice if shapes became very many facets and the run takes long, unless the time that it
-   may take was given. */
-static void run_patience(const run_job *job)
+/* Prints a notice, once, if shapes became very many facets and the run takes long, unless the time
+   that it may take was given. */
+static void run_patience(run_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
     if (scene->facet_count > RUN_MANY && cli_has_curved_shapes(scene) &&
-        !(job->budget.asked_ms > 0.0)) {
+        !(job->budget.asked_ms > 0.0) && !job->announced) {
+        job->announced = 1;
         fprintf(stderr,
                 "lrcs: %lu facets for a tolerance of %g: preparing and running them takes a "
                 "while\n",

@@ -62,7 +62,8 @@ typedef struct run_job {
     lrcs_host_scene scene;
     lrcs_result result;
     lrcs_facet_record *records;
-    int divided; /* 1: cli_run_divide has run the pose */
+    int announced; /* that it takes long */
+    int divided;   /* 1: cli_run_divide has run the pose */
     lrcs_image image;
     lrcs_host_polygons polygons;
     double seconds;
