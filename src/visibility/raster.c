@@ -241,7 +241,7 @@ static double occluder_drop(const raster_job *job)
 }
 
 /* Raises the occluder heights of pixels of a row that the facet covers entirely. */
-static void occluder_raise(const raster_job *job, double drop, uint32_t y, lrcsi_span full)
+static void occluder_raise(const raster_job *job, double drop, uint32_t y, lrcsi_pixel_span full)
 {
     double row = job->plane.c + job->plane.dy * (y + 0.5) - drop;
     float *occluder = job->raster->occluder + (size_t)y * job->raster->size;
@@ -305,7 +305,7 @@ void lrcsi_raster_activate(lrcsi_raster *raster, uint32_t facet)
          row < raster->tiles && row * tile < e.top + 2; row++) {
         uint32_t first = row * tile > e.bottom + 2 ? row * tile - 2 : e.bottom;
         uint32_t end = (row + 1) * tile + 2 < e.top ? (row + 1) * tile + 2 : e.top;
-        lrcsi_span span = lrcsi_span_touched_rows(&e, first, end - 1);
+        lrcsi_pixel_span span = lrcsi_span_touched_rows(&e, first, end - 1);
         if (span.x0 < span.x1) {
             uint32_t x0 = span.x0 > 2 ? span.x0 - 2 : 0;
             uint32_t x1 = span.x1 + 2 < raster->size ? span.x1 + 2 : raster->size;

@@ -132,20 +132,20 @@ static inline void ends_narrow(span_ends *ends, const lrcsi_edge_functions *e, i
 }
 
 /* The span from x0 to x1, empty if x0 is beyond x1. */
-static inline lrcsi_span span_of(uint32_t x0, uint32_t x1)
+static inline lrcsi_pixel_span span_of(uint32_t x0, uint32_t x1)
 {
-    return (lrcsi_span){x0 < x1 ? x0 : x1, x1};
+    return (lrcsi_pixel_span){x0 < x1 ? x0 : x1, x1};
 }
 
 /* The pixels whose centres, or parts, lie between the ends of a kind that includes all in doubt. */
-static inline lrcsi_span outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
+static inline lrcsi_pixel_span outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
 {
     return span_of(round_up(lrcsi_min(ends->from[kind], x1)),
                    (uint32_t)lrcsi_max(ends->to[kind], x0));
 }
 
 /* The pixels of `outer` that lie between the ends of a kind that excludes all in doubt. */
-static inline lrcsi_span inner_span(const span_ends *ends, int kind, lrcsi_span outer)
+static inline lrcsi_pixel_span inner_span(const span_ends *ends, int kind, lrcsi_pixel_span outer)
 {
     return span_of((uint32_t)lrcsi_max(lrcsi_min(ends->from[kind], outer.x1), outer.x0),
                    round_up(lrcsi_min(lrcsi_max(ends->to[kind], outer.x0), outer.x1)));
@@ -200,7 +200,8 @@ lrcsi_sample_spans lrcsi_span_samples(const lrcsi_edge_functions *e, uint32_t y)
     return samples;
 }
 
-lrcsi_span lrcsi_span_full(const lrcsi_edge_functions *e, uint32_t y, lrcsi_span certain)
+lrcsi_pixel_span lrcsi_span_full(const lrcsi_edge_functions *e, uint32_t y,
+                                 lrcsi_pixel_span certain)
 {
     span_ends ends = {.from = {[FULL] = certain.x0}, .to = {[FULL] = certain.x1}};
     for (int i = 0; i < 2; i++) {
@@ -217,7 +218,7 @@ lrcsi_span lrcsi_span_full(const lrcsi_edge_functions *e, uint32_t y, lrcsi_span
     return inner_span(&ends, FULL, certain);
 }
 
-lrcsi_span lrcsi_span_touched(const lrcsi_edge_functions *e, uint32_t y)
+lrcsi_pixel_span lrcsi_span_touched(const lrcsi_edge_functions *e, uint32_t y)
 {
     return lrcsi_span_touched_rows(e, y, y);
 }
@@ -225,7 +226,7 @@ lrcsi_span lrcsi_span_touched(const lrcsi_edge_functions *e, uint32_t y)
 /* The crossing of a side with the rows is linear in y, and so is the value of a side parallel to
    them. Between the first and the last row both therefore lie between their values in these two
    rows. */
-lrcsi_span lrcsi_span_touched_rows(const lrcsi_edge_functions *e, uint32_t y0, uint32_t y1)
+lrcsi_pixel_span lrcsi_span_touched_rows(const lrcsi_edge_functions *e, uint32_t y0, uint32_t y1)
 {
     double from[2];
     double to[2];

@@ -30,11 +30,11 @@ typedef struct lrcsi_edge_functions {
 } lrcsi_edge_functions;
 
 /* Pixels x0 <= x < x1 of a row; none if x0 = x1. */
-typedef struct lrcsi_span {
+typedef struct lrcsi_pixel_span {
     uint32_t x0, x1;
-} lrcsi_span;
+} lrcsi_pixel_span;
 
-static inline int lrcsi_span_has(lrcsi_span span, uint32_t x)
+static inline int lrcsi_span_has(lrcsi_pixel_span span, uint32_t x)
 {
     return x >= span.x0 && x < span.x1;
 }
@@ -42,16 +42,16 @@ static inline int lrcsi_span_has(lrcsi_span span, uint32_t x)
 /* The coverage of a row of pixels by a facet. `full` lies within `certain`, and `certain` within
    `possible`. */
 typedef struct lrcsi_row_spans {
-    lrcsi_span touched;  /* pixels that the facet may touch */
-    lrcsi_span possible; /* pixels whose centre it may cover */
-    lrcsi_span certain;  /* pixels whose centre it certainly covers */
-    lrcsi_span full;     /* pixels that it certainly covers entirely; one that it does cover is
-                            missing only if an edge function in it is smaller than its error */
+    lrcsi_pixel_span touched;  /* pixels that the facet may touch */
+    lrcsi_pixel_span possible; /* pixels whose centre it may cover */
+    lrcsi_pixel_span certain;  /* pixels whose centre it certainly covers */
+    lrcsi_pixel_span full; /* pixels that it certainly covers entirely; one that it does cover is
+                        missing only if an edge function in it is smaller than its error */
 } lrcsi_row_spans;
 
 /* The coverage of the pixel centres of a row. */
 typedef struct lrcsi_sample_spans {
-    lrcsi_span possible, certain; /* as in lrcsi_row_spans */
+    lrcsi_pixel_span possible, certain; /* as in lrcsi_row_spans */
 } lrcsi_sample_spans;
 
 /* A line segment that is followed from row to row. In row y its x lies between from + slope y and
@@ -84,12 +84,13 @@ lrcsi_row_spans lrcsi_span_row(const lrcsi_edge_functions *e, uint32_t y);
 lrcsi_sample_spans lrcsi_span_samples(const lrcsi_edge_functions *e, uint32_t y);
 
 /* Of the pixels whose centres are certainly covered, those that are certainly covered entirely. */
-lrcsi_span lrcsi_span_full(const lrcsi_edge_functions *e, uint32_t y, lrcsi_span certain);
+lrcsi_pixel_span lrcsi_span_full(const lrcsi_edge_functions *e, uint32_t y,
+                                 lrcsi_pixel_span certain);
 
 /* Only the touched pixels of a row, at a third of the cost. */
-lrcsi_span lrcsi_span_touched(const lrcsi_edge_functions *e, uint32_t y);
+lrcsi_pixel_span lrcsi_span_touched(const lrcsi_edge_functions *e, uint32_t y);
 
 /* A range of columns that contains all pixels touched in rows y0 <= y <= y1, and possibly more. */
-lrcsi_span lrcsi_span_touched_rows(const lrcsi_edge_functions *e, uint32_t y0, uint32_t y1);
+lrcsi_pixel_span lrcsi_span_touched_rows(const lrcsi_edge_functions *e, uint32_t y0, uint32_t y1);
 
 #endif

@@ -165,7 +165,7 @@ static void mark_intersection(const visible_job *job, const drawn_facet *f, uint
         if (!(x0 < x1)) {
             continue;
         }
-        lrcsi_span touched = lrcsi_span_touched(&e, y);
+        lrcsi_pixel_span touched = lrcsi_span_touched(&e, y);
         x1 = lrcsi_min(x1, touched.x1);
         for (double x = lrcsi_max(x0, touched.x0); x < x1; x++) {
             if (!(fabs(row + dx * (x + 0.5)) > err)) {
@@ -317,10 +317,10 @@ static pixel_sums sum_pixels(visible_job *job, const drawn_facet *f)
     pixel_sums sums = {0, 0, 0, 0, 0};
     for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
         const size_t row = pixel_index(job, 0, y);
-        const lrcsi_span touched = job->row[y].touched;
-        lrcsi_span full = job->row[y].full;
+        const lrcsi_pixel_span touched = job->row[y].touched;
+        lrcsi_pixel_span full = job->row[y].full;
         if (full.x0 == full.x1) { /* an empty span may lie anywhere */
-            full = (lrcsi_span){touched.x1, touched.x1};
+            full = (lrcsi_pixel_span){touched.x1, touched.x1};
         }
         for (uint32_t x = touched.x0; x < touched.x1; x++) {
             /* Nearly all pixels are covered entirely: this loop does little in each of them. */
@@ -375,7 +375,7 @@ static pixel_sums first_pass(visible_job *job, uint32_t facet)
 static int pixels_hide_facet(const visible_job *job, const drawn_facet *f)
 {
     for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
-        const lrcsi_span touched = lrcsi_span_touched(&f->edges, y);
+        const lrcsi_pixel_span touched = lrcsi_span_touched(&f->edges, y);
         for (uint32_t x = touched.x0; x < touched.x1; x++) {
             if (!pixel_hidden(job, f, x, y)) {
                 return 0;

@@ -75,11 +75,11 @@ static unsigned check_row(const int corner[3][2], int y, int x0, int x1)
     e.left = (uint32_t)(x0 > 0 ? x0 - 1 : 0);
     e.right = (uint32_t)(x1 < N ? x1 + 1 : N);
     lrcsi_row_spans row = lrcsi_span_row(&e, (uint32_t)y);
-    lrcsi_span touched = lrcsi_span_touched(&e, (uint32_t)y);
+    lrcsi_pixel_span touched = lrcsi_span_touched(&e, (uint32_t)y);
     lrcsi_sample_spans samples = lrcsi_span_samples(&e, (uint32_t)y);
     assert_memory_equal(&samples.possible, &row.possible, sizeof row.possible);
     assert_memory_equal(&samples.certain, &row.certain, sizeof row.certain);
-    lrcsi_span full = lrcsi_span_full(&e, (uint32_t)y, samples.certain);
+    lrcsi_pixel_span full = lrcsi_span_full(&e, (uint32_t)y, samples.certain);
     assert_int_equal(full.x1 - full.x0, row.full.x1 - row.full.x0);
     assert_true(full.x0 == full.x1 || full.x0 == row.full.x0);
     assert_int_equal(touched.x0, row.touched.x0);
@@ -116,11 +116,11 @@ static void a_range_for_several_rows_holds_what_each_of_them_touches(void **stat
         e.right = N;
         uint32_t y0 = random_below(&seed, N);
         uint32_t y1 = y0 + random_below(&seed, N - y0);
-        lrcsi_span all = lrcsi_span_touched_rows(&e, y0, y1);
+        lrcsi_pixel_span all = lrcsi_span_touched_rows(&e, y0, y1);
         uint32_t low = N;
         uint32_t high = 0;
         for (uint32_t y = y0; y <= y1; y++) {
-            lrcsi_span row = lrcsi_span_touched(&e, y);
+            lrcsi_pixel_span row = lrcsi_span_touched(&e, y);
             if (row.x0 < row.x1) {
                 assert_true(row.x0 >= all.x0 && row.x1 <= all.x1);
                 low = row.x0 < low ? row.x0 : low;

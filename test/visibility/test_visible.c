@@ -107,7 +107,7 @@ static void tiles_about_undecided_facets_are_active(void **state)
             lrcsi_edge_functions e = lrcsi_raster_edge_functions(&raster, f);
             for (uint32_t y = e.bottom; known.answer[f] == LRCSI_QUERY_UNDECIDED && y < e.top;
                  y++) {
-                lrcsi_span row = lrcsi_span_touched(&e, y);
+                lrcsi_pixel_span row = lrcsi_span_touched(&e, y);
                 for (uint32_t k = 0; k < 25 * (row.x1 - row.x0); k++) {
                     uint32_t at_x = row.x0 + k / 25 + k % 5;
                     uint32_t at_y = y + k % 25 / 5;
