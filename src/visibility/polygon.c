@@ -102,7 +102,7 @@ static void ring_add_piece(ring_list *list, const lrcsi_target *t, const lrcsi_c
 
 /* If the bounds of the visible area admit the whole facet or nothing, but not both, that is taken:
    its error is at most the difference of the bounds. */
-static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
+static int facet_add(ring_list *list, lrcsi_occlusion *o, uint32_t facet)
 {
     ring_list before = *list;
     const lrcsi_target *target = &o->alone.target;
@@ -132,7 +132,7 @@ static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
     return list->points < LRCS_NONE ? LRCS_OK : LRCS_E_LIMIT;
 }
 
-static int facets_add(ring_list *list, lrcsi_occluding *o)
+static int facets_add(ring_list *list, lrcsi_occlusion *o)
 {
     int status = LRCS_OK;
     for (uint32_t f = 0;
@@ -164,7 +164,7 @@ int lrcs_polygon_run(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_
     ring_list list = {0};
     lrcsi_view view;
     lrcsi_classification classification;
-    lrcsi_occluding o;
+    lrcsi_occlusion o;
     int status = lrcsi_view_make(prepared, pose, work, &view);
     status = status == LRCS_OK ? lrcsi_classify_make(&view, NULL, work, &classification) : status;
     status = status == LRCS_OK ? lrcsi_occlude_make(&classification, NULL, work, &o) : status;
