@@ -222,8 +222,9 @@ static lrcsi_cap cap_make(const cap_body *body, const lrcsi_light *light, lrcsi_
     cap.sin_start = start->sine.hi;
     cap.cos_start = start->cosine.hi;
     cap.start = lrcsi_closed_radians(*start);
-    cap.gap = atan2(-end->cosine.hi, end->sine.hi);
-    cap.slack = atan2(-end->cosine.hi, -end->sine.hi);
+    double beyond = 0.0 - end->cosine.hi; /* +0, not -0, where the end is the horizon */
+    cap.gap = atan2(beyond, end->sine.hi);
+    cap.slack = atan2(beyond, -end->sine.hi);
     cap.end = lrcsi_closed_radians(*end);
     return cap;
 }

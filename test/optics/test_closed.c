@@ -217,6 +217,31 @@ static void a_direction_and_its_angle_give_the_same(void **state)
     }
 }
 
+/* tau + alpha is a right angle to the last bit: the normals of the rim end on the horizon. */
+static void a_rim_exactly_on_the_horizon_is_as_beside_it(void **state)
+{
+    (void)state;
+    static const double rim[][4] = {/* radius, length, and x and z of the direction */
+                                    {0.5, 0.25, 1, 1},
+                                    {1, 0.375, 4, 3},
+                                    {3, 2, 3, 4},
+                                    {1, 0.5, -2, 2}};
+    for (size_t i = 0; i < sizeof rim / sizeof *rim; i++) {
+        const lrcs_shape shape = {
+            .kind = LRCS_SHAPE_PARABOLOID, .radius = rim[i][0], .length = rim[i][1]};
+        const lrcs_brdf brdf = {1, 0.25, 0.4, 2.5};
+        lrcs_closed at[3];
+        for (int k = 0; k < 3; k++) {
+            lrcs_aspect aspect = {.by_direction = 1,
+                                  .direction = {rim[i][2], 0, rim[i][3] * (1 + (k - 1) * 0x1p-50)}};
+            assert_int_equal(lrcs_closed_eval(&shape, &brdf, &aspect, &at[k]), LRCS_OK);
+            check_most(at[k].bound_m2, 1e-13 * at[k].sigma_m2);
+        }
+        check_rel(at[1].sigma_m2, at[0].sigma_m2, 1e-13);
+        check_rel(at[1].sigma_m2, at[2].sigma_m2, 1e-13);
+    }
+}
+
 static void no_corner_of_the_domain_gives_a_nan(void **state)
 {
     (void)state;
@@ -342,6 +367,7 @@ int main(void)
         cmocka_unit_test(limits_are_reached),
         cmocka_unit_test(two_domes_make_a_sphere),
         cmocka_unit_test(a_direction_and_its_angle_give_the_same),
+        cmocka_unit_test(a_rim_exactly_on_the_horizon_is_as_beside_it),
         cmocka_unit_test(no_corner_of_the_domain_gives_a_nan),
         cmocka_unit_test(what_is_outside_the_domain_is_refused),
         cmocka_unit_test(a_matt_sphere_needs_no_slope),
