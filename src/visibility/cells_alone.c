@@ -70,7 +70,7 @@ enum alone_order {
     ORDER_FRONT,    /* nearer, wherever a line meets both */
     ORDER_BEHIND,   /* farther */
     ORDER_DISJOINT, /* it lies beyond a side of f: not a candidate */
-    ORDER_UNKNOWN   /* they intersect along a line that could not be computed */
+    ORDER_UNDECIDED /* they intersect along a line that could not be computed */
 };
 
 /* --- what a facet begins with ----------------------------------------------------------------- */
@@ -148,7 +148,7 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
                     ? -1
                     : lrcsi_sample_overlap_order(view, other, a->facet);
     }
-    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_UNKNOWN;
+    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_UNDECIDED;
 }
 
 /* Does another facet lie entirely beyond one side of f? */
@@ -276,7 +276,7 @@ static int add_alone_contact(lrcsi_alone *a, uint32_t other)
     a->order[other] = side > 0 ? ORDER_FRONT : side < 0 ? ORDER_BEHIND : ORDER_NOT_COMPUTED;
     if (side == 0 && kind != LRCSI_CONTACT_POINT) {
         a->order[other] = kind == LRCSI_CONTACT_FLAT      ? (uint32_t)ORDER_FRONT
-                          : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)ORDER_UNKNOWN
+                          : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)ORDER_UNDECIDED
                                                           : c->segment_count;
     }
     if (kind == LRCSI_CONTACT_POINT) {
@@ -457,7 +457,7 @@ static lrcsi_view_box sample_view_box(const lrcsi_alone *a, const alone_sample *
     double first[3];
     double x[3];
     lrcsi_view_coordinates(a->cells.view, a->target.origin, first);
-    lrcsi_target_unrefine(&a->frame, sample->at, x);
+    lrcsi_target_to_axes(&a->frame, sample->at, x);
     x[0] += first[0];
     x[1] += first[1];
     x[2] = first[2];
@@ -638,7 +638,7 @@ static void add_visible_piece(lrcsi_alone *a, const lrcsi_cells_cell *cell,
     a->piece = cell->shape;
     if (a->frame.needle) {
         for (uint32_t i = 0; i < cell->shape.count; i++) {
-            lrcsi_target_unrefine(&a->frame, cell->shape.corner[i], a->piece.corner[i]);
+            lrcsi_target_to_axes(&a->frame, cell->shape.corner[i], a->piece.corner[i]);
         }
         a->piece_err += 4 * LRCSI_U * a->target.reach * lrcsi_clip_perimeter(&a->piece);
     }

@@ -50,7 +50,7 @@ static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
     const lrcs_prepared *p = t->view->prepared;
     contact_heights h;
     for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_own(t->view, other, k);
+        const double *x = lrcsi_target_frame_corner(t->view, other, k);
         int accurate = 0;
         if (!t->needle) {
             h.fine[k] = height_dd(t, x, &h.err[k]);
@@ -284,7 +284,7 @@ int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
     int below = 0;
     *c = (lrcsi_contact){.position_err = 0};
     for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_own(t->view, other, k);
+        const double *x = lrcsi_target_frame_corner(t->view, other, k);
         above += h.above[k] > 0;
         below += h.above[k] < 0;
         if (!t->needle) {
