@@ -292,10 +292,10 @@ static int rule_points(const gauss_rule *rule, double x[POINTS_MOST], double wei
 static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf, const gauss_rule *along,
                             const gauss_rule *around, double fraction, lrcsi_patch *patch)
 {
-    double x[POINTS_MOST];
-    double weight[POINTS_MOST];
-    double azimuth[POINTS_MOST][2];
-    double share[POINTS_MOST];
+    double x[POINTS_MOST] = {0};
+    double weight[POINTS_MOST] = {0};
+    double azimuth[POINTS_MOST][2] = {{0}};
+    double share[POINTS_MOST] = {0};
     int columns = rule_points(around, x, share);
     for (int k = 0; k < columns; k++) {
         double phi = f->phi + x[k] * f->half;
