@@ -181,8 +181,8 @@ static void draw_row_span(preview_job *job, preview_facet *f, uint32_t y, uint32
 
 /* Draws samples x0 <= x < x1 of a row for which edge functions do not decide whether the facet
    covers them. */
-static void draw_if_covered(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0,
-                            uint32_t x1)
+static inline void draw_if_covered(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0,
+                                   uint32_t x1)
 {
     for (uint32_t x = x0; x < x1; x++) {
         double point[3];
