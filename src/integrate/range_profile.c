@@ -822,7 +822,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
     lrcsi_sum density = {0, 0};
     double bound = 0;
     double estimate = 0;
-    if (!(fwhm_m > 0) || !(d >= DBL_MIN && peak <= DBL_MAX)) {
+    if (!(fwhm_m > 0 && d >= DBL_MIN)) { /* the peak is then below 2^1022 */
         return LRCS_E_ARGUMENT;
     }
     for (uint32_t i = 0; i < profile->count; i++) {

@@ -626,14 +626,10 @@ static void add_places(total_run *run, total_batch *batch, uint32_t place, uint3
         batch_collect(run, batch, place, pick.front, 1);
     }
     int back = (int)(pick.any_back >> 63);
-    if (back && batch->back_visible && batch->back_reflects) {
+    if (back && batch->back_reflects) { /* then they cast shadows, and may be visible */
         batch_collect(run, batch, place, pick.back, -1);
     } else if (back && batch->back_visible) {
         add_back_areas(run, batch, place, pick.back);
-    } else if (back && batch->back_reflects) {
-        for (uint32_t i = 0; i < count; i++) {
-            run->total.hidden += (uint32_t)(pick.back[i] >> 63);
-        }
     }
     for (uint32_t i = 0; pick.any_other >> 63 && i < count; i++) {
         if (!((pick.front[i] | pick.back[i]) >> 63)) {
@@ -829,7 +825,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                      .answer = areas->answer,
                      .curved = curved,
                      .band = band,
-                     .clear = clear && clear->count > 0 ? clear : NULL,
+                     .clear = clear->count > 0 ? clear : NULL,
                      .records = records};
     if (records) {
         records_start(&run);
