@@ -43,6 +43,8 @@ typedef struct lrcs_part {
                          reach > 0; included in curvature */
     double reach;     /* m, bound on the distance of a point of the true surface from its place on
                          the facets; 0 if the facets are the truth */
+    double displaced[3]; /* m, of a rigid shape's curved wall: bounds on that distance from the axis
+                            or towards it, along the axis, and across both */
     int articulated;  /* has a joint */
     int smoothed;     /* its model has smoothing groups or vertex normals */
     int rigid;        /* an engine-made shape placed by rotations, reflections and one scale for all

@@ -104,6 +104,8 @@ lrcs_fineness lrcs_fineness_default(void);
 typedef struct lrcs_divisions {
     uint32_t around; /* sectors: a multiple of 4, 8 .. 2^24; 4 for plate and box */
     uint32_t along;  /* rings of a dome, a paraboloid, half a sphere: 1 .. 2^24; 1 otherwise */
+    int level_rings; /* of these: 1: rings are at the heights of true circles; 0: at heights for
+                        which each facet's normal is the mean normal of its patch */
 } lrcs_divisions;
 
 /* Chooses divisions for a shape and fineness, and counts the mesh they make (one part, no
@@ -119,9 +121,7 @@ int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
 
 /* Makes the mesh. Facets share vertices by position and face outward; the mesh is symmetric to the
    bit; coordinates are accurate to a few ulp. Every circle becomes an N-gon of the same area with
-   its first corner on +x. The length of a cylinder, cone or frustum is kept; the rings of a sphere,
-   dome or paraboloid are placed so that each facet's normal is the mean normal of its patch. The
-   curved wall is smoothing group 1; flat faces are in none. curvature may be NULL.
+   its first corner on +x. The length of a cylinder, cone or frustum is kept. The curved wall is smoothing group 1; flat faces are in none. curvature may be NULL.
    Status: LRCS_OK; LRCS_E_ARGUMENT, LRCS_E_NUMBER (shape, or divisions invalid for it);
    LRCS_E_MEMORY. */
 int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_work *work,

@@ -208,7 +208,7 @@ static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occl
         area_err += piece_add(integral, target, (const double(*)[2])o->alone.piece.corner,
                               o->alone.piece.count);
     }
-    area_err += o->alone.bent;
+    area_err += o->alone.piece_err;
     *visible = lrcsi_visible_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = integral_part(integral, 1);
     part.visibility = LRCS_FOUR_PI * (lrcsi_curve_upper_bound(integral) *

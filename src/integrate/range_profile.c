@@ -475,7 +475,7 @@ static double pieces_add(profile_run *run, const profile_facet *f, uint32_t face
     lrcsi_visible visible = lrcsi_visible_proved(run->view, facet, lrcsi_occlude_close(o));
     if (o->undecided) {
         const lrcsi_target *target = &o->alone.target;
-        area_err += 20 * LRCSI_U * target->reach * target->perimeter + o->alone.bent;
+        area_err += 20 * LRCSI_U * target->reach * target->perimeter + o->alone.piece_err;
     }
     if (run->visible) {
         run->visible[facet] = visible;
@@ -625,6 +625,7 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
         size_t facets = prepared->scene->facet_count;
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible)));
         need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
+        need = lrcsi_work_add(need, lrcsi_proximity_band_settle_need(prepared));
     }
     return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
 }
@@ -719,7 +720,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
         return status;
     }
     if (run->band) {
-        lrcsi_proximity_band_settle(run->band, run->visible);
+        lrcsi_proximity_band_settle(run->band, run->visible, NULL, work);
     }
     for (uint32_t facet = 0; facet < p->scene->facet_count; facet++) {
         if (!p->skip[facet]) {

@@ -66,6 +66,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_proximity_band_settle_need(prepared));
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
     size_t exact = lrcsi_occlude_need(prepared);
     size_t raster =
@@ -230,7 +231,7 @@ static void run_sum(lrcsi_sigma *run, int sampled)
         }
     }
     if (run->band) {
-        lrcsi_proximity_band_settle(run->band, run->visible);
+        lrcsi_proximity_band_settle(run->band, run->visible, &run->meter, run->work);
     }
     run->total = run_total(run, NULL);
 }

@@ -4,20 +4,26 @@
    shapes and the facets may differ in what is visible (visibility/proximity_band.h).
 
    Let f be the facet, of area S, and U its patch, of an area within a S of S. Let v and w be 1
-   where a point of U or of f is visible and 0 where it is not; they agree except on a fraction b of
-   both. The truth is T = Int_U F v, and the facets' sum M = F_i Int_f w, where F_i is F at the
-   facet's normal or, where that is known, its mean over the patch (patch_deviation). Bounds on |T -
-   M|:
-   - The facet is visible everywhere, and b = 0: the deviation of the whole patch. Its numbers hold
-     for the two facets of a sector together, so both must be visible.
-   - It is hidden except for a fraction h: M <= S h F_i and T <= (1 + a) S (b + h) sup F, and
-   neither is negative.
-   - Otherwise |T - M| <= |Int_U (F - F_i) v| + F_i |Int_U v - Int_f w|
-                       <= (1 + a) S sup |F - F_i| + F_i S (a + (1 + a) b),
-     and |T - M| <= (1 + a) S sup F. Where neither facet of the sector is hidden or unlit, the first
-     term of both together is at most the integral of F - F_i over some region of both patches.
-   - The facet faces away from the laser: its patch may be lit in part, and T is at most the
+   where a point of U or of f is visible and 0 where it is not. They agree except where v is 1 and w
+   is 0, on a fraction g of both (gain), and where v is 0 and w is 1, on a fraction l (loss). The
+   truth is T = Int_U F v, and the facets' sum M = F_i Int_f w, where F_i is F at the facet's normal
+   or, where that is known, its mean over the patch (patch_deviation). Bounds on T - M, from above
+   and from below; the sums over all facets of the one and of the other bound the error of sigma:
+   - The facet is visible everywhere, and g = l = 0: the deviation of the whole patch, either way.
+     Its numbers hold for the two facets of a sector together, so both must be visible.
+   - It is hidden except for a fraction h: 0 <= M <= S h F_i and 0 <= T <= (1 + a) S (g + h) sup F.
+   - Otherwise, T - M = Int_U (F - F_i) v + F_i (Int_U v - Int_f w), where the first term is at most
+     (1 + a) S sup |F - F_i| in size and the second between -F_i S (a + (1 + a) l) and
+     F_i S (a + (1 + a) g); and |T - M| <= (1 + a) S sup F. Where neither facet of the sector is
+     hidden or unlit, the first term of both together is at most the integral of F - F_i over some
+     region of both patches.
+   - All but a fraction h of it is visible: T - M = Int_U (F - F_i) - Int_U F (1 - v) + F_i Int_f (1
+     - w), where 0 <= Int_f (1 - w) <= S h, and 0 <= Int_U F (1 - v) <= (1 + a) S (h + l) sup F.
+   - The facet faces away from the laser: M is 0. Its patch may be lit in part, and T is at most the
      deviation.
+   - The laser may see parts of a patch from its other side. On a two-sided part that is not closed
+     these reflect as well, hidden though the facet may be: T exceeds what is said above by at most
+     (1 + a) S sup F of that side.
    Where a scale that differs between axes stretches areas within a patch unevenly, regions of it
    deviate by more than the whole patch: a is then patch_area_error, except in the deviation of the
    whole patch. On flat facets a = 0 and F = F_i.
@@ -30,8 +36,8 @@
    proximity band are visible over their whole length or nowhere (visibility/proximity_band.h):
    these are a fraction q <= 1. The other rows are a fraction m of the area, at most twice their
    fraction of the height, since no row of a trapezoid is longer than twice the mean. Together, for
-   a sector of which no facet is hidden or unlit: |T - M| <= S (whole + m region + F_i (m a + (1 +
-   a) b)).
+   a sector of which no facet is hidden or unlit: T - M <= S (whole + m region + F_i (m a + (1 + a)
+   g)), and M - T likewise with l.
 
    Without a proximity band the facets count as visible: what may be hidden of them is then in the
    bounds of the visible area, for both the truth and the facets. */
@@ -127,16 +133,30 @@ static int is_lit(int state)
     return state == PATCH_VISIBLE || state == PATCH_PARTIAL;
 }
 
-/* An upper bound of the fraction of a facet that is hidden or undecided. */
-static double fraction_hidden(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
-                              const lrcsi_proximity_band *band)
+/* Upper bounds of fractions of a facet: that its own polygons leave hidden or undecided; the gain
+   and the loss of the truth. */
+typedef struct patch_fractions {
+    double hidden, gain, loss;
+} patch_fractions;
+
+/* Only what is hidden may be gained, and only what is visible lost. */
+static patch_fractions patch_fractions_of(const lrcsi_view *view, uint32_t facet,
+                                          const lrcsi_visible *visible,
+                                          const lrcsi_proximity_band *band)
 {
     lrcsi_incidence incidence = lrcsi_view_incidence(view, facet);
-    double hidden = 0;
-    if (band->classification->undecided[facet] || !(visible[facet].low > 0)) {
-        hidden = 1 + incidence.error + 8 * LRCSI_U - visible[facet].low / incidence.projected;
+    double error = incidence.error + 8 * LRCSI_U;
+    patch_fractions f = {0, 0, 0};
+    if (!band) {
+        return f;
     }
-    return hidden >= 0 ? fmin(1, band->share[facet] + hidden) : 1;
+    if (band->classification->undecided[facet] || !(visible[facet].low > 0)) {
+        f.hidden = 1 + error - visible[facet].low / incidence.projected;
+    }
+    f.hidden = f.hidden >= 0 ? fmin(1, f.hidden) : 1;
+    f.gain = fmin(band->gain[facet], f.hidden);
+    f.loss = fmin(band->loss[facet], visible[facet].high / incidence.projected * (1 + 2 * error));
+    return f;
 }
 
 /* A bound on the relative difference between the area of a region of a patch and that of its image
@@ -179,10 +199,10 @@ static lrcsi_deviation patch_deviation(const lrcsi_view *view, const lrcsi_plan 
     return deviation;
 }
 
-/* Which bound is used for a sector of which no facet is hidden or unlit; with both fields NOT_USED,
-   the one by regions, facet by facet. */
+/* Which bound is used for a sector of which no facet is hidden or unlit; with by_hidden 0 and rows
+   NOT_USED, the one by regions, facet by facet. */
 typedef struct sector_bound {
-    double hidden; /* the fraction of the facet that is hidden, subtracted from the whole patch */
+    int by_hidden; /* 1: what is hidden of the facet, subtracted from the whole patch */
     double rows;   /* the fraction of the sector in rows that meet a proximity band */
 } sector_bound;
 #define NOT_USED 2
@@ -211,48 +231,56 @@ static sector_bound sector_choose(const lrcsi_view *view, const lrcsi_plan *plan
     lrcsi_incidence incidence = lrcsi_view_incidence(view, first);
     double stretch;
     lrcsi_deviation deviation = patch_deviation(view, plan, first, &incidence, c, patch, &stretch);
-    double hidden = fmax(fraction_hidden(view, first, visible, band),
-                         fraction_hidden(view, first + 1, visible, band));
+    const patch_fractions one = patch_fractions_of(view, first, visible, band);
+    const patch_fractions two = patch_fractions_of(view, first + 1, visible, band);
+    double hidden = fmax(one.hidden + one.loss, two.hidden + two.loss);
     double a = patch_area_error(view->prepared, facet, c);
     double rows = sector_rows(view, part->kind == LRCS_SHAPE_CONE ? facet : first, band);
-    double b = fmax(band->share[first], band->share[first + 1]);
+    double b = fmax(fmax(one.gain, one.loss), fmax(two.gain, two.loss));
     double by_hidden = deviation.whole + (1 + a) * hidden * deviation.most;
     double by_rows = deviation.whole + rows * (deviation.region + stretch * deviation.value) +
                      (1 + a) * b * deviation.value;
     double by_regions = fmin(deviation.region + (stretch + (1 + a) * b) * deviation.value,
                              (1 + a) * deviation.most);
-    sector_bound bound = {NOT_USED, NOT_USED};
+    sector_bound bound = {0, NOT_USED};
     if (by_rows < fmin(by_hidden, by_regions)) {
         bound.rows = rows;
     } else if (by_hidden < deviation.region) {
-        bound.hidden = fraction_hidden(view, facet, visible, band);
+        bound.by_hidden = 1;
     }
     return bound;
 }
 
-/* The error of a facet on a curved wall, per unit of its area. Given: a, b and the states of the
-   facet and of the other facet of its sector. */
-static double wall_error(const lrcsi_deviation *deviation, double a, double stretch, double b,
-                         int state, int partner, const sector_bound *bound)
+/* The error of a facet on a curved wall, per unit of its area. Given: a, g and l, and the states of
+   the facet and of the other facet of its sector. Of a hidden facet, gain and loss include what may
+   be visible of it. */
+static lrcsi_tessellation wall_error(const lrcsi_deviation *deviation, double a, double stretch,
+                                     const patch_fractions *f, int state, int partner,
+                                     const sector_bound *bound)
 {
+    double most = (1 + a) * deviation->most;
     double lit = is_lit(partner) ? deviation->region : (1 + a) * deviation->point;
     if (state == PATCH_HIDDEN) {
-        return (1 + a) * b * deviation->most;
-    }
-    if (state == partner && state != PATCH_PARTIAL) {
-        return deviation->whole;
+        return (lrcsi_tessellation){f->gain * most, f->loss * most};
     }
     if (state == PATCH_UNLIT) {
-        return (1 + a) * deviation->most;
+        return (lrcsi_tessellation){partner == PATCH_UNLIT ? deviation->whole : most, 0};
     }
-    if (bound->hidden <= 1) {
-        return deviation->whole + (1 + a) * bound->hidden * deviation->most;
+    if (state == PATCH_VISIBLE && partner == PATCH_VISIBLE) {
+        return (lrcsi_tessellation){deviation->whole, deviation->whole};
+    }
+    if (bound->by_hidden) {
+        return (lrcsi_tessellation){deviation->whole + f->hidden * most,
+                                    deviation->whole + fmin(1, f->hidden + f->loss) * most};
     }
     if (bound->rows <= 1) {
-        return deviation->whole + bound->rows * deviation->region +
-               deviation->value * (stretch * bound->rows + (1 + a) * b);
+        lit = deviation->whole + bound->rows * deviation->region;
+        stretch *= bound->rows;
+        most = HUGE_VAL;
     }
-    return fmin(lit + deviation->value * (stretch + (1 + a) * b), (1 + a) * deviation->most);
+    lit += deviation->value * stretch;
+    return (lrcsi_tessellation){fmin(lit + deviation->value * (1 + a) * f->gain, most),
+                                fmin(lit + deviation->value * (1 + a) * f->loss, most)};
 }
 
 /* The error, per unit of area, of a facet of a closed part whose inside appears visible because of
@@ -270,6 +298,23 @@ static double inside_error(const lrcsi_view *view, uint32_t facet, const lrcs_br
     return most * fmin(1, visible[facet].high / incidence->projected);
 }
 
+/* What the other side of a patch than the one that the facet shows to the laser may reflect, per
+   unit of the facet's area. */
+static double other_side(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
+                         const lrcsi_incidence *incidence, const lrcs_curvature *c,
+                         const lrcsi_proximity_band *band)
+{
+    const lrcs_prepared *p = view->prepared;
+    if (!(c->turn > FLAT_TILT) || patch_part(p, facet)->solid ||
+        !lrcsi_prepared_material(p, facet)->two_sided ||
+        (band && band->hidden[band->region[facet]])) {
+        return 0;
+    }
+    double cosine = -fabs(incidence->cos_theta);
+    return (1 + patch_area_error(p, facet, c)) *
+           lrcsi_deviation_make(brdf, cosine, incidence->tan2, c).most;
+}
+
 int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
 {
     for (uint32_t i = 0; i < p->scene->part_count && plan->unshadowed; i++) {
@@ -281,9 +326,10 @@ int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
            (p->proximity.reach && plan->method == LRCS_METHOD_FACET);
 }
 
-double lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
-                                const lrcsi_incidence *incidence, const lrcsi_visible *visible,
-                                const lrcsi_proximity_band *band, lrcsi_patch *patch)
+lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan,
+                                            uint32_t facet, const lrcsi_incidence *incidence,
+                                            const lrcsi_visible *visible,
+                                            const lrcsi_proximity_band *band, lrcsi_patch *patch)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_brdf assigned = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, facet));
@@ -291,39 +337,46 @@ double lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan, 
     const lrcs_curvature c = patch_curvature(p, facet);
     int is_curved = c.turn > FLAT_TILT;
     int state = patch_state_of(view, facet, visible, band);
-    double b = band ? band->share[facet] : 0;
+    int is_certain = !band || band->share[facet] == 0;
     double area = 0.5 * p->normal[facet].length;
-    if (is_curved && state == PATCH_HIDDEN) {
-        b += fraction_visible(incidence, facet, visible, band);
+    double seen =
+        is_curved && state == PATCH_HIDDEN ? fraction_visible(incidence, facet, visible, band) : 0;
+    lrcsi_tessellation error = {0, 0};
+    error.above = area * other_side(view, facet, brdf, incidence, &c, band);
+    if (state == PATCH_UNLIT) {
+        error.below = area * inside_error(view, facet, brdf, incidence, visible, band);
     }
-    if (b == 0 && (!is_curved || state == PATCH_HIDDEN)) {
-        return state == PATCH_UNLIT
-                   ? area * inside_error(view, facet, brdf, incidence, visible, band)
-                   : 0;
+    if (is_certain && seen == 0 && (!is_curved || state == PATCH_HIDDEN)) {
+        return error;
     }
     int partner = is_curved && band ? partner_state(view, facet, visible, band) : state;
-    if (is_curved && state == PATCH_VISIBLE && partner == PATCH_VISIBLE && b == 0 &&
+    if (is_curved && state == PATCH_VISIBLE && partner == PATCH_VISIBLE && is_certain &&
         lrcsi_patch_make(view, plan, brdf, facet, patch)) {
-        return area * patch->remainder;
+        return (lrcsi_tessellation){area * patch->remainder, area * patch->remainder};
     }
     double stretch = 0;
     lrcsi_deviation deviation =
         state == PATCH_UNLIT ? lrcsi_deviation_make(brdf, incidence->cos_theta, incidence->tan2, &c)
                              : patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
-    double error = state == PATCH_UNLIT ? 0 : b * deviation.most;
+    patch_fractions f = {0, 0, 0};
+    if (state != PATCH_UNLIT) {
+        f = patch_fractions_of(view, facet, visible, band);
+    }
+    lrcsi_tessellation unit = {f.gain * deviation.most, f.loss * deviation.most};
     if (is_curved) {
-        sector_bound bound = {NOT_USED, NOT_USED};
+        sector_bound bound = {0, NOT_USED};
         if (is_lit(state) && is_lit(partner) &&
             (state == PATCH_PARTIAL || partner == PATCH_PARTIAL)) {
             bound = sector_choose(view, plan, facet, &c, visible, band, patch);
         }
-        double a = patch_area_error(p, facet, &c);
-        error = wall_error(&deviation, a, stretch, b, state, partner, &bound);
+        f.gain += seen;
+        f.loss += seen;
+        unit = wall_error(&deviation, patch_area_error(p, facet, &c), stretch, &f, state, partner,
+                          &bound);
     }
-    if (state == PATCH_UNLIT) {
-        error += inside_error(view, facet, brdf, incidence, visible, band);
-    }
-    return area * error;
+    error.above += area * unit.above;
+    error.below += area * unit.below;
+    return error;
 }
 
 /* Let c be 1 at the points of the patch in the interval and k at those of the facet, and 0
@@ -344,15 +397,16 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_p
     const lrcs_curvature c = patch_curvature(p, facet);
     int is_curved = c.turn > FLAT_TILT;
     int state = patch_state_of(view, facet, visible, band);
-    lrcsi_patch_parts parts = {
-        .whole = lrcsi_tessellation_error(view, plan, facet, incidence, visible, band, patch),
-        .lit = is_lit(state),
-        .mismatch = band ? band->share[facet] : 0,
-        .partner = facet};
+    lrcsi_tessellation error =
+        lrcsi_tessellation_error(view, plan, facet, incidence, visible, band, patch);
+    lrcsi_patch_parts parts = {.whole = fmax(error.above, error.below),
+                               .lit = is_lit(state),
+                               .mismatch = band ? band->share[facet] : 0,
+                               .partner = facet};
     uint32_t first = patch_part(p, facet)->first_facet;
-    uint32_t other = first + ((facet - first) ^ 1);
-    if (is_curved && other < first + patch_part(p, facet)->facet_count && !p->skip[other]) {
-        parts.partner = other;
+    uint32_t partner = first + ((facet - first) ^ 1);
+    if (is_curved && partner < first + patch_part(p, facet)->facet_count && !p->skip[partner]) {
+        parts.partner = partner;
     }
     if (parts.lit) {
         double stretch;
@@ -360,10 +414,12 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_p
             patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
         double area = 0.5 * p->normal[facet].length;
         double a = is_curved ? patch_area_error(p, facet, &c) : 0;
+        lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, facet));
+        double other = other_side(view, facet, &brdf, incidence, &c, band);
         parts.deviation =
-            is_curved ? area * ((1 + a) * deviation.point + stretch * deviation.value) : 0;
+            is_curved ? area * ((1 + a) * deviation.point + stretch * deviation.value + other) : 0;
         parts.shift = area * (1 + a) * deviation.value;
-        parts.most = area * (1 + a) * deviation.most;
+        parts.most = area * ((1 + a) * deviation.most + other);
     }
     return parts;
 }

@@ -13,19 +13,26 @@
    or no shadows are searched for, so that the bound includes everything that could be hidden. */
 int lrcsi_tessellation_known(const lrcs_prepared *prepared, const lrcsi_plan *plan);
 
-/* A bound on it for one facet that is not skipped and its patch, scaled, without the 4 pi.
+/* Bounds on it: the truth exceeds the facets' value by at most `above`, and falls short of it by at
+   most `below`. Scaled, without the 4 pi. */
+typedef struct lrcsi_tessellation {
+    double above, below;
+} lrcsi_tessellation;
+
+/* Those of one facet that is not skipped and its patch.
    Given: the facet's incidence; the visible areas of all facets; the proximity band, or NULL if
    every front is entirely visible or the bounds of the visible area include what could be hidden;
    the patch of the last facet, or one with side = 0. */
-double lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
-                                const lrcsi_incidence *incidence, const lrcsi_visible *visible,
-                                const lrcsi_proximity_band *band, lrcsi_patch *patch);
+lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan,
+                                            uint32_t facet, const lrcsi_incidence *incidence,
+                                            const lrcsi_visible *visible,
+                                            const lrcsi_proximity_band *band, lrcsi_patch *patch);
 
 /* Factors of the tessellation error of a facet within an interval of a coordinate: the points of
    the facet and of its patch whose coordinate lies in the interval. The map between facet and patch
    changes the coordinate by at most the part's reach. Scaled, without the 4 pi. */
 typedef struct lrcsi_patch_parts {
-    double whole; /* lrcsi_tessellation_error */
+    double whole; /* the larger of lrcsi_tessellation_error's */
     int lit;      /* the facet is visible, at least in part; else `whole` bounds any interval too */
     double deviation; /* lit: the difference between F on the patch and on the facet; to be
                          multiplied by the fraction of the facet whose points may be in the

@@ -39,7 +39,9 @@
 /* Running sums, scaled. */
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
-    double visibility, tessellation, rounding, curvature;
+    double visibility, rounding, curvature;
+    double above,
+        below; /* bounds on how far the truth exceeds the tessellation's sum, or is less */
     double likely, bias; /* estimated errors: independent ones (root of squares); one of one sign */
     uint32_t seen;
 } total_sums;
@@ -54,8 +56,9 @@ typedef struct total_run {
     const lrcsi_proximity_band *band; /* NULL: none was made */
     const lrcsi_clear *clear;         /* NULL: no shape is evaluated by its closed form */
     lrcs_facet_record *records;       /* NULL: none are asked for */
-    int tessellation;  /* facets replace curved shapes, and the error of that is known */
-    lrcsi_patch patch; /* of the last facet that has one */
+    int tessellation;         /* facets replace curved shapes, and the error of that is known */
+    int tessellation_unknown; /* it is not known */
+    lrcsi_patch patch;        /* of the last facet that has one */
     lrcsi_total total;
     total_sums sums;
 } total_run;
@@ -337,11 +340,13 @@ static void add_tessellation_error(total_run *run, uint32_t facet, const lrcsi_i
         return;
     }
     if (!run->curved || !lrcsi_curve_applies(run->view, facet)) {
-        run->sums.tessellation +=
-            LRCS_FOUR_PI * lrcsi_tessellation_error(run->view, run->plan, facet, incidence,
-                                                    run->visible, run->band, &run->patch);
+        lrcsi_tessellation error = lrcsi_tessellation_error(run->view, run->plan, facet, incidence,
+                                                            run->visible, run->band, &run->patch);
+        run->sums.above += LRCS_FOUR_PI * error.above;
+        run->sums.below += LRCS_FOUR_PI * error.below;
     } else if (run->band) {
-        run->sums.tessellation += run->band->share[facet] * run->curved[facet].upper_bound;
+        run->sums.above += run->band->gain[facet] * run->curved[facet].upper_bound;
+        run->sums.below += run->band->loss[facet] * run->curved[facet].upper_bound;
     }
 }
 
@@ -803,8 +808,8 @@ static void total_finish(total_run *run)
     total->projected = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->projected));
     total->back_side = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->back_side));
     total->visibility = lrcsi_bound_area(p, sums->visibility * outward);
-    total->tessellation =
-        sums->tessellation < 0 ? -1 : lrcsi_bound_area(p, sums->tessellation * outward);
+    double either = isfinite(sums->above + sums->below) ? fmax(sums->above, sums->below) : HUGE_VAL;
+    total->tessellation = run->tessellation_unknown ? -1 : lrcsi_bound_area(p, either * outward);
     double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
     total->rounding = lrcsi_bound_area(p, (sums->rounding + adding) * outward);
     double likely = lrcsi_length_flat(sums->likely, sums->bias);
@@ -843,7 +848,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     if (run.tessellation) {
         add_tessellation_errors(&run);
     } else if (p->curved && plan->method != LRCS_METHOD_CLOSED) {
-        run.sums.tessellation = -HUGE_VAL;
+        run.tessellation_unknown = 1;
     }
     total_finish(&run);
     return run.total;

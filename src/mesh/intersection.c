@@ -42,10 +42,9 @@ typedef struct found_contact {
 enum { FOUND_BLOCK = 4 };
 _Static_assert(FOUND_BLOCK * sizeof(found_contact) % LRCS_WORK_ALIGN == 0, "no gaps");
 
-/* The corners of a leaf's facets as welded vertices; and the same, with LRCS_NONE for corners whose
-   ring is not proved. */
+/* The corners of a leaf's facets as welded vertices. */
 typedef struct search_leaf {
-    uint32_t corner[3][LEAF_LANES], ring[3][LEAF_LANES];
+    uint32_t corner[3][LEAF_LANES];
 } search_leaf;
 
 /* The facets among which contacts are sought, and those found. */
@@ -57,6 +56,8 @@ typedef struct contact_search {
     lrcsi_tree tree;
     search_leaf *leaf;
     uint64_t excess;      /* leaves that were met beyond the first MANY_LEAVES of a leaf, in all */
+    lrcsi_tree_slab slab; /* of the leaf slab_of */
+    uint32_t slab_of;     /* LRCS_NONE: of none yet */
     int leaves_apart;     /* leaves that the slab of the last leaf separated from it */
     int slabs_pay;        /* slabs separated at least BLOCKS_APART blocks from the last leaf */
     found_contact *found; /* above the tree in the work area */
@@ -166,12 +167,14 @@ static int pair_store(contact_search *search, uint32_t facet, const lrcsi_pair_f
 
 /* The lanes of a leaf whose facets have a corner with a proved ring in common with the facet in a
    lane of `own`. */
-static inline unsigned lanes_in_ring(const search_leaf *own, uint32_t lane, const search_leaf *leaf)
+static inline unsigned lanes_in_ring(const contact_search *search, const search_leaf *own,
+                                     uint32_t lane, const search_leaf *leaf)
 {
     static const uint32_t lane_bit[LEAF_LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
-    const uint32_t a = own->ring[0][lane];
-    const uint32_t b = own->ring[1][lane];
-    const uint32_t c = own->ring[2][lane];
+    const uint32_t corner[3] = {own->corner[0][lane], own->corner[1][lane], own->corner[2][lane]};
+    const uint32_t a = search->proved[corner[0]] ? corner[0] : LRCS_NONE;
+    const uint32_t b = search->proved[corner[1]] ? corner[1] : LRCS_NONE;
+    const uint32_t c = search->proved[corner[2]] ? corner[2] : LRCS_NONE;
     uint32_t lanes = 0;
     for (int k = 0; k < LEAF_LANES; k++) {
         uint32_t x = leaf->corner[0][k];
@@ -199,7 +202,7 @@ static int join_lanes(contact_search *search, uint32_t own, uint32_t lane, uint3
                       unsigned lanes)
 {
     const lrcsi_tree *tree = &search->tree;
-    lanes &= ~lanes_in_ring(&search->leaf[own], lane, &search->leaf[leaf]);
+    lanes &= ~lanes_in_ring(search, &search->leaf[own], lane, &search->leaf[leaf]);
     if (lanes != 0) {
         lrcsi_box box = lrcsi_tree_box(&tree->block[0][own], lane);
         lanes &= lrcsi_tree_meets(&tree->block[0][leaf], &box);
@@ -235,13 +238,17 @@ static uint32_t count_lanes(unsigned mask)
    another leaf: do all their corners lie beyond one side of the slab? Errors: as |d_k| <= 1, the
    height of a corner has an error of at most 4 u (|x| + |y| + |z|); so have the ends of the slab.
  */
-static int slab_separates(const contact_search *search, const lrcsi_tree_slab *slab, uint32_t leaf,
-                          unsigned lanes)
+static int slab_separates(contact_search *search, uint32_t own, uint32_t leaf, unsigned lanes)
 {
     const search_leaf *others = &search->leaf[leaf];
+    const lrcsi_tree_slab *slab = &search->slab;
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
     double size = 0.0;
+    if (search->slab_of != own) {
+        search->slab = lrcsi_tree_leaf_slab(search->vertex, search->facet, &search->tree, own);
+        search->slab_of = own;
+    }
     for (; lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = lrcsi_tree_lane(lanes);
         for (int k = 0; k < 3; k++) {
@@ -257,10 +264,9 @@ static int slab_separates(const contact_search *search, const lrcsi_tree_slab *s
 }
 
 /* Tests the facets of two leaves against each other: those that intersect the other leaf's box, one
-   by one in the leaf that has fewer of them. The slab of the first one is compared too, unless it
-   is NULL. */
-static int join_leaves(contact_search *search, const lrcsi_tree_slab *slab, uint32_t first,
-                       uint32_t second)
+   by one in the leaf that has fewer of them. If `by_slab` is 1, the slab of the first one is
+   compared too. */
+static int join_leaves(contact_search *search, int by_slab, uint32_t first, uint32_t second)
 {
     const lrcsi_tree *tree = &search->tree;
     lrcsi_box box = lrcsi_tree_box(&tree->block[1][second / LEAF_LANES], second % LEAF_LANES);
@@ -271,8 +277,8 @@ static int join_leaves(contact_search *search, const lrcsi_tree_slab *slab, uint
         box = lrcsi_tree_box(&tree->block[1][first / LEAF_LANES], first % LEAF_LANES);
         columns = lrcsi_tree_meets(&tree->block[0][second], &box);
     }
-    if (slab && count_lanes(rows) * count_lanes(columns) >= MANY_PAIRS &&
-        slab_separates(search, slab, second, columns)) {
+    if (by_slab && count_lanes(rows) * count_lanes(columns) >= MANY_PAIRS &&
+        slab_separates(search, first, second, columns)) {
         search->leaves_apart++;
         return LRCS_OK;
     }
@@ -313,16 +319,10 @@ static int join_leaf(contact_search *search, uint32_t leaf)
     if (search->slabs_pay) {
         lrcsi_tree_narrow_by_slabs(&walk, leaf);
     }
-    lrcsi_tree_slab own;
-    const lrcsi_tree_slab *slab = NULL;
     int slab_from = search->leaves_apart >= LEAVES_APART ? 0 : SOME_LEAVES;
     uint32_t other;
     search->leaves_apart = 0;
     for (int met = 0; status == LRCS_OK && (other = lrcsi_tree_next(&walk)) != LRCS_NONE; met++) {
-        if (met == slab_from) {
-            own = lrcsi_tree_leaf_slab(search->vertex, search->facet, tree, leaf);
-            slab = &own;
-        }
         search->excess += met >= MANY_LEAVES;
         if (!tree->has_slabs && search->excess > (uint64_t)FILL_COST * tree->blocks[0]) {
             lrcsi_tree_fill_slabs(search->vertex, search->facet, tree);
@@ -330,7 +330,7 @@ static int join_leaf(contact_search *search, uint32_t leaf)
         if (tree->has_slabs && met == MANY_LEAVES && walk.leaf == LRCS_NONE) {
             lrcsi_tree_narrow_by_slabs(&walk, leaf);
         }
-        status = join_leaves(search, slab, leaf, other);
+        status = join_leaves(search, met >= slab_from, leaf, other);
     }
     search->slabs_pay = walk.apart >= BLOCKS_APART;
     return status;
@@ -364,9 +364,7 @@ static int search_prepare(contact_search *search, uint32_t vertex_count, uint32_
         const uint32_t *corner = search->facet[tree->order[place]].corner;
         search_leaf *leaf = &search->leaf[place / LEAF_LANES];
         for (int k = 0; k < 3; k++) {
-            uint32_t v = topology->weld[corner[k]];
-            leaf->corner[k][place % LEAF_LANES] = v;
-            leaf->ring[k][place % LEAF_LANES] = search->proved[v] ? v : LRCS_NONE;
+            leaf->corner[k][place % LEAF_LANES] = topology->weld[corner[k]];
         }
     }
     return LRCS_OK;
@@ -460,8 +458,12 @@ int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
     t.first = lrcsi_work_take_zero(work, (size_t)facet_count + 1, sizeof *t.first);
     t.met = lrcsi_work_take_zero(work, facet_count, 1);
     size_t mark = work->used;
-    contact_search search = {
-        .vertex = vertex, .facet = facet, .piece = piece, .work = work, .intersections = &t};
+    contact_search search = {.vertex = vertex,
+                             .facet = facet,
+                             .piece = piece,
+                             .slab_of = LRCS_NONE,
+                             .work = work,
+                             .intersections = &t};
     int status = t.first && t.met
                      ? search_prepare(&search, vertex_count, facet_count, topology, skip)
                      : LRCS_E_MEMORY;

@@ -16,7 +16,11 @@
    kappa tan h / sin h = mu times the patch's. Curved walls (sphere, dome, paraboloid) take the rise
    dz' = 2 / (mu (rho0 + rho1)) Int rho dz, for which it is the same too: then the facet's normal is
    the mean normal of its patch and the first-order error vanishes. Rows of such a body lie on a
-   convex curve, because the mean normals of successive patches turn in one direction.
+   convex curve, because the mean normals of successive patches turn in one direction. The rises add
+   up to more than the height of the true surface, most of it near the apex. With level rings dz' is
+   the true rise, the outward part is that over the other rise times the patch's, and rows lie on
+   the meridian stretched by mu across the axis: facets are closer to the true surface, but their
+   normals are not those means.
 
    Numbers. A = patch area, A' = facet area = |(X', V)|, n' = (X', V)/A', gamma = turn:
        mean of 1 - cos gamma = D = 1 - (X X' + V V) / (A A');
@@ -36,8 +40,9 @@
    top row to rho0^2. On the patch
      straight walls: rho^2 is linear in a: r = rho, and heights agree;
      sphere: cos theta is, and rho^2 - r^2 = R^2 a (1 - a) (cos theta1 - cos theta0)^2;
-     paraboloid: w^3 is, w^2 = 1 + y^2: w^2 exceeds its chord by at most 1/8 of the largest second
-   derivative, (w0^3 - w1^3)^2 / (36 w1^4). With b a bound on rho^2 - r^2 (strip_bulge), rho - r <=
+     paraboloid: w^3 is, w^2 = 1 + y^2; over w^3, w^2 exceeds its chord most where w is v = 2 (w0^2
+   + w0 w1 + w1^2) / (3 (w0 + w1)), by (v - w1)^2 (v + 2 w1) / (3 v), and v - w1 = (w0 - w1) (2 w0 +
+   w1) / (3 (w0 + w1)). With b a bound on rho^2 - r^2 (strip_bulge), rho - r <=
    min(sqrt(b), b / (2 rho1), rho0 - rho1). In height, as a fraction from the top, the trapezoid's
    point is at beta = (r - rho1)/(rho0 - rho1), which exceeds a by at most (rho0 - rho1) / (4 (rho0
    + rho1)); the sphere's is at a, the paraboloid's between a and a + b/(rho0^2 - rho1^2); to that
@@ -167,13 +172,46 @@ static profile_strip strip_paraboloid(const lrcsi_profile *profile, uint32_t i)
                            atan2(1.0, y0)};
 }
 
+/* The rise between the true circles of rows i and i + 1 of a curved wall. */
+static double level_rise(const lrcsi_profile *profile, uint32_t i)
+{
+    if (profile->kind == LRCS_SHAPE_PARABOLOID) {
+        double x1 = profile_fraction(profile, i);
+        double x0 = profile_fraction(profile, i + 1);
+        return profile->height * (x1 - x0) * (x1 + x0);
+    }
+    double theta = profile_polar(profile, i) - 0.5 * profile->step;
+    return profile->height * (2.0 * sin(theta) * sin(0.5 * profile->step));
+}
+
+/* The rise for which the facets' normal is the mean normal of the patch. */
+static double mean_rise(const lrcsi_profile *profile, uint32_t i)
+{
+    if (profile->kind == LRCS_SHAPE_PARABOLOID) {
+        double x1 = profile_fraction(profile, i);
+        double x0 = profile_fraction(profile, i + 1);
+        double t = x0 / x1;
+        double cubes = x1 * (1.0 + t + t * t) / (1.0 + t);
+        return profile->height * (4.0 / 3.0) * (x1 - x0) * cubes / profile->vertex_ratio;
+    }
+    double d = profile->step;
+    double theta = profile_polar(profile, i) - 0.5 * d;
+    double twice = angle_minus_sine(d) + 2.0 * sin(theta) * sin(theta) * sin(d);
+    return profile->height * twice / (2.0 * sin(theta) * cos(0.5 * d)) / profile->vertex_ratio;
+}
+
 static profile_strip strip_make(const lrcsi_profile *profile, uint32_t i)
 {
     if (profile_straight(profile)) {
         return strip_straight(profile);
     }
-    return profile->kind == LRCS_SHAPE_PARABOLOID ? strip_paraboloid(profile, i)
-                                                  : strip_round(profile, i);
+    profile_strip strip = profile->kind == LRCS_SHAPE_PARABOLOID ? strip_paraboloid(profile, i)
+                                                                 : strip_round(profile, i);
+    if (profile->level_rings) {
+        double rise = mean_rise(profile, i);
+        strip.gain = rise > 0.0 ? level_rise(profile, i) / rise : 1.0;
+    }
+    return strip;
 }
 
 /* A corner displaced by e tilts its facet by at most e divided by the altitude through that corner,
@@ -239,6 +277,7 @@ lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *
                              .base = shape->radius,
                              .around = divisions->around,
                              .strips = divisions->along,
+                             .level_rings = divisions->level_rings,
                              .half = h,
                              .vertex_ratio = sqrt(2.0 * h / sin(2.0 * h))};
     double rings = (double)divisions->along;
@@ -286,17 +325,7 @@ double lrcsi_profile_rise(const lrcsi_profile *profile, uint32_t i)
     if (profile_straight(profile)) {
         return profile->height;
     }
-    if (profile->kind == LRCS_SHAPE_PARABOLOID) {
-        double x1 = profile_fraction(profile, i);
-        double x0 = profile_fraction(profile, i + 1);
-        double t = x0 / x1;
-        double cubes = x1 * (1.0 + t + t * t) / (1.0 + t);
-        return profile->height * (4.0 / 3.0) * (x1 - x0) * cubes / profile->vertex_ratio;
-    }
-    double d = profile->step;
-    double theta = profile_polar(profile, i) - 0.5 * d;
-    double twice = angle_minus_sine(d) + 2.0 * sin(theta) * sin(theta) * sin(d);
-    return profile->height * twice / (2.0 * sin(theta) * cos(0.5 * d)) / profile->vertex_ratio;
+    return profile->level_rings ? level_rise(profile, i) : mean_rise(profile, i);
 }
 
 lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
@@ -356,15 +385,14 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
         (k * c->bias + k * (g + G * E) * square) * outward, k * c->spread * sqrt(E) * outward};
 }
 
-/* The largest distance by which a point of the unit disc moves when its sector is mapped to a
-   triangle of the N-gon. */
-static double sector_reach(const lrcsi_profile *profile)
+/* How far points of the unit disc move when their sector is mapped to a triangle of the N-gon. */
+static lrcsi_reach sector_reach(const lrcsi_profile *profile)
 {
     double h = profile->half;
     double kappa = profile->vertex_ratio * cos(h);
-    double inward = fmax(1.0 - kappa, kappa - cos(h));
-    double sideways = fmax(h * h * h / 6.0, (profile->vertex_ratio - 1.0) * sin(h));
-    return hypot(inward, sideways) + SLACK;
+    double inward = fmax(1.0 - kappa, kappa - cos(h)) + SLACK;
+    double sideways = fmax(h * h * h / 6.0, (profile->vertex_ratio - 1.0) * sin(h)) + SLACK;
+    return (lrcsi_reach){hypot(inward, sideways), inward, 0.0, sideways};
 }
 
 /* True height of row i. */
@@ -398,24 +426,26 @@ static double strip_bulge(const lrcsi_profile *profile, uint32_t i)
     double y0 = profile_tangent(profile, i + 1);
     double q = hypot(1.0, y1);
     double p = hypot(1.0, y0);
-    double cubes = (y1 - y0) * ((y1 + y0) / (q + p)) * (q * q + q * p + p * p);
+    double longer = (y1 - y0) * ((y1 + y0) / (q + p)); /* q - p */
+    double apart = longer * (2.0 * q + p) / (3.0 * (q + p));
     double unit = profile->slope > 0.0 ? profile->base / profile->slope : 0.0;
-    double rise = cubes / (p * p) * unit;
-    return fmin(whole, rise * rise / 36.0); /* fmin ignores a NaN */
+    double rise = unit * apart;
+    return fmin(whole, rise * rise * (apart + 3.0 * p) / (3.0 * (apart + p))); /* ignores a NaN */
 }
 
-/* An upper bound of the distance by which points of strip i move, if its rows differ from their
-   true heights by at most height_err. */
-static double strip_reach(const lrcsi_profile *profile, uint32_t i, double height_err)
+/* How far points of strip i move, if its rows differ from their true heights by at most
+   height_err. */
+static lrcsi_reach strip_reach(const lrcsi_profile *profile, uint32_t i, double height_err)
 {
     double below = lrcsi_profile_radius(profile, i);
     double above = lrcsi_profile_radius(profile, i + 1);
     double bulge = strip_bulge(profile, i);
-    double across = fmax(below, above) * sector_reach(profile);
+    lrcsi_reach sector = sector_reach(profile);
+    double out = 0.0;      /* the largest rho - r */
     double fraction = 0.0; /* the largest difference of fractions of the height */
     if (bulge > 0.0) {
-        double out = fmin(sqrt(bulge), below - above);
-        across += above > 0.0 ? fmin(out, 0.5 * bulge / above) : out;
+        out = fmin(sqrt(bulge), below - above);
+        out = above > 0.0 ? fmin(out, 0.5 * bulge / above) : out;
     }
     if (!profile_straight(profile) && below > above) {
         fraction = 0.25 * (below - above) / (below + above);
@@ -424,20 +454,31 @@ static double strip_reach(const lrcsi_profile *profile, uint32_t i, double heigh
         }
     }
     double rise = profile_height(profile, i + 1) - profile_height(profile, i);
-    return hypot(across, height_err + fmin(1.0, fraction) * rise);
+    double wide = fmax(below, above);
+    lrcsi_reach reach = {0.0, wide * sector.radial + out, height_err + fmin(1.0, fraction) * rise,
+                         wide * sector.aside + out * sin(profile->half)};
+    reach.all = hypot(wide * sector.all + out, reach.axial);
+    return reach;
 }
 
-double lrcsi_profile_reach(const lrcsi_profile *profile)
+lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile)
 {
-    double most = fmax(profile->base, profile->top) * sector_reach(profile);
+    double wide = fmax(profile->base, profile->top);
+    lrcsi_reach most = {wide * sector_reach(profile).all, 0.0, 0.0, 0.0};
     double z = 0.0;
     double height_err = 0.0;
     for (uint32_t i = 0; i < profile->strips; i++) {
         double before = height_err;
         z += lrcsi_profile_rise(profile, i);
         height_err = fabs(z - profile_height(profile, i + 1));
-        most = fmax(most, strip_reach(profile, i, fmax(before, height_err)));
+        lrcsi_reach strip = strip_reach(profile, i, fmax(before, height_err));
+        most.all = fmax(most.all, strip.all);
+        most.radial = fmax(most.radial, strip.radial);
+        most.axial = fmax(most.axial, strip.axial);
+        most.aside = fmax(most.aside, strip.aside);
     }
-    double size = fmax(profile->base, profile->top) + profile->height;
-    return most * REACH_MARGIN + (32.0 + 2.0 * (double)profile->strips) * LRCSI_U * size;
+    double rounding = (32.0 + 2.0 * (double)profile->strips) * LRCSI_U * (wide + profile->height);
+    return (lrcsi_reach){most.all * REACH_MARGIN + rounding, most.radial * REACH_MARGIN + rounding,
+                         most.axial * REACH_MARGIN + rounding,
+                         most.aside * REACH_MARGIN + rounding};
 }

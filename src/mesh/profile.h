@@ -16,6 +16,7 @@ typedef struct lrcsi_profile {
     double vertex_ratio;      /* vertex radius / true radius: the polygon has the circle's area */
     double slope;             /* paraboloid: 2 H / R, the tangent of the angle at its rim */
     double step;              /* rad of meridian between rings; 0 for straight walls */
+    int level_rings;          /* lrcs_divisions.level_rings, of curved walls */
 } lrcsi_profile;
 
 /* Makes the profile of a shape that lrcs_shape_check accepts and that is neither plate nor box, for
@@ -45,9 +46,15 @@ lrcs_curvature lrcsi_profile_rounded(const lrcs_curvature *curvature, double rou
 lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *curvature, double ratio,
                                        double *uneven);
 
-/* An upper bound of the distance, m, by which a map of the true surface, caps included, onto the
-   facets moves any point. The map takes every facet's patch to it, and stretches area evenly over a
-   facet (before any lrcsi_profile_stretched). */
-double lrcsi_profile_reach(const lrcsi_profile *profile);
+/* Upper bounds of how far, m, a map of the true surface onto the facets moves points. The map takes
+   every facet's patch to it, and stretches area evenly over a facet (before any
+   lrcsi_profile_stretched). */
+typedef struct lrcsi_reach {
+    double all;    /* any point, caps included */
+    double radial; /* points of the wall: from or towards the axis in the sector's middle plane */
+    double axial;  /* along the axis */
+    double aside;  /* across the middle plane */
+} lrcsi_reach;
+lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile);
 
 #endif

@@ -22,14 +22,6 @@ size_t lrcsi_store_slots(size_t count)
     return slots;
 }
 
-uint64_t lrcsi_store_mix(uint64_t key)
-{
-    /* splitmix64's finaliser (Stafford 2011, variant 13) */
-    key = (key ^ key >> 30) * 0xbf58476d1ce4e5b9u;
-    key = (key ^ key >> 27) * 0x94d049bb133111ebu;
-    return key ^ key >> 31;
-}
-
 /* Allocates the blocks of normals, if there are normals; no corner has one yet. Returns 0 if there
    is no room. */
 static int store_normals(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh *mesh)

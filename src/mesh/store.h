@@ -16,7 +16,13 @@ int lrcsi_store_take(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh 
 size_t lrcsi_store_slots(size_t count);
 
 /* Spreads 64 bits over all of them: an entry's first slot is lrcsi_store_mix(key) & (slots - 1). */
-uint64_t lrcsi_store_mix(uint64_t key);
+static inline uint64_t lrcsi_store_mix(uint64_t key)
+{
+    /* splitmix64's finaliser (Stafford 2011, variant 13) */
+    key = (key ^ key >> 30) * 0xbf58476d1ce4e5b9u;
+    key = (key ^ key >> 27) * 0x94d049bb133111ebu;
+    return key ^ key >> 31;
+}
 
 /* The position of a name's bytes in the input. */
 typedef struct lrcsi_span {

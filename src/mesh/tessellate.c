@@ -394,10 +394,10 @@ lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_di
     return lrcsi_profile_curvature(&profile);
 }
 
-double lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions)
+lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions)
 {
     if (shape_is_plane_faced(shape)) {
-        return 0.0;
+        return (lrcsi_reach){0.0, 0.0, 0.0, 0.0};
     }
     lrcsi_profile profile = lrcsi_profile_make(shape, divisions);
     return lrcsi_profile_reach(&profile);

@@ -3,7 +3,7 @@
 #ifndef LRCSI_TESSELLATE_H
 #define LRCSI_TESSELLATE_H
 
-#include <lrcs/shape.h>
+#include "mesh/profile.h"
 
 /* 1 if the divisions are valid for the shape and its mesh has at most 2^32 - 2 vertices and
    facets. */
@@ -15,8 +15,8 @@ lrcs_mesh_counts lrcsi_tessellate_counts(const lrcs_shape *shape, const lrcs_div
 /* The curvature that lrcs_shape_mesh will report. O(along). */
 lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
-/* The distance of lrcsi_profile_reach; 0 for plate and box. O(along). */
-double lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions);
+/* The distances of lrcsi_profile_reach; 0 for plate and box. O(along). */
+lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
 /* The part of the true surface that a facet of a wall represents: all of it between two rows and
    two half-planes through the axis. */

@@ -18,6 +18,9 @@
 /* A side is 3 * facet + k, from corner k to the next. */
 enum { SIDES = 3 };
 
+/* The largest facet that lrcsi_edge_use can hold; there are fewer sides than 2^32. */
+#define FACET_MOST 0x7fffffffu
+
 /* The average number of probes per point at which hashing is abandoned; ordinary meshes take
    1.5. */
 #define WELD_PROBES 8u
@@ -122,7 +125,7 @@ static int weld_points(const lrcs_point *vertex, uint32_t count, lrcs_work *work
     return status;
 }
 
-/* Marks the degenerate facets, and lets no facet have edges yet; returns the number of others. */
+/* Marks the degenerate facets, which have no edges; returns the number of others. */
 static uint32_t mark_degenerate(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t count,
                                 lrcsi_topology *t)
 {
@@ -131,7 +134,9 @@ static uint32_t mark_degenerate(const lrcs_point *vertex, const lrcs_facet *face
         const uint32_t *c = facet[i].corner;
         int degenerate = lrcsi_exact_collinear(vertex[c[0]].x, vertex[c[1]].x, vertex[c[2]].x);
         t->degenerate[i] = (unsigned char)degenerate;
-        t->facet_edge[i] = (lrcs_facet){{LRCS_NONE, LRCS_NONE, LRCS_NONE}};
+        if (degenerate) {
+            t->facet_edge[i] = (lrcs_facet){{LRCS_NONE, LRCS_NONE, LRCS_NONE}};
+        }
         proper += !degenerate;
     }
     return proper;
@@ -139,55 +144,61 @@ static uint32_t mark_degenerate(const lrcs_point *vertex, const lrcs_facet *face
 
 /* --- sides ------------------------------------------------------------------------------------ */
 
-/* While sides are sorted, use[].facet is the side and use[].forward its upper end. */
-static int use_before(lrcsi_edge_use a, lrcsi_edge_use b)
+/* A side of a facet, while sides are sorted, and the upper end of its edge. */
+typedef struct sorted_side {
+    uint32_t side, high;
+} sorted_side;
+
+static int side_before(sorted_side a, sorted_side b)
 {
-    return a.forward < b.forward || (a.forward == b.forward && a.facet < b.facet);
+    return a.high < b.high || (a.high == b.high && a.side < b.side);
 }
 
 /* Sinks entry `i` of a heap of n, the last in order on top. */
-static void sink_use(lrcsi_edge_use *use, size_t i, size_t n)
+static void sink_side(sorted_side *s, size_t i, size_t n)
 {
-    lrcsi_edge_use sinking = use[i];
+    sorted_side sinking = s[i];
     for (size_t child = 2 * i + 1; child < n; child = 2 * i + 1) {
-        child += child + 1 < n && use_before(use[child], use[child + 1]);
-        if (!use_before(sinking, use[child])) {
+        child += child + 1 < n && side_before(s[child], s[child + 1]);
+        if (!side_before(sinking, s[child])) {
             break;
         }
-        use[i] = use[child];
+        s[i] = s[child];
         i = child;
     }
-    use[i] = sinking;
+    s[i] = sinking;
 }
 
 /* Insertion sort if there are few, as at most vertices; otherwise heap sort. */
-static void sort_uses(lrcsi_edge_use *use, size_t n)
+static void sort_sides(sorted_side *s, size_t n)
 {
     if (n > 32) {
         for (size_t i = n / 2; i > 0; i--) {
-            sink_use(use, i - 1, n);
+            sink_side(s, i - 1, n);
         }
         for (size_t last = n; last-- > 1;) {
-            lrcsi_edge_use top = use[0];
-            use[0] = use[last];
-            use[last] = top;
-            sink_use(use, 0, last);
+            sorted_side top = s[0];
+            s[0] = s[last];
+            s[last] = top;
+            sink_side(s, 0, last);
         }
         return;
     }
     for (size_t i = 1; i < n; i++) {
-        lrcsi_edge_use next = use[i];
+        sorted_side next = s[i];
         size_t at = i;
-        for (; at > 0 && use_before(next, use[at - 1]); at--) {
-            use[at] = use[at - 1];
+        for (; at > 0 && side_before(next, s[at - 1]); at--) {
+            s[at] = s[at - 1];
         }
-        use[at] = next;
+        s[at] = next;
     }
 }
 
-/* Fills use[], edge[] and facet_edge[]. `place` has vertex_count + 1 items. */
+/* Fills use[], edge[] and facet_edge[]. `side` has as many items as use[], `place` vertex_count
+ * + 1.
+ */
 static void build_edges(lrcsi_topology *t, uint32_t vertex_count, const lrcs_facet *facet,
-                        uint32_t facet_count, uint32_t *place)
+                        uint32_t facet_count, sorted_side *side, uint32_t *place)
 {
     /* 1. Counts the sides whose lower end is at each vertex; then computes the index where they
        begin. */
@@ -210,43 +221,58 @@ static void build_edges(lrcsi_topology *t, uint32_t vertex_count, const lrcs_fac
         for (uint32_t k = 0; k < SIDES && !t->degenerate[f]; k++) {
             uint32_t other = at[k == 2 ? 0 : k + 1];
             uint32_t low = at[k] < other ? at[k] : other;
-            t->use[place[low]++] = (lrcsi_edge_use){SIDES * f + k, at[k] ^ other ^ low};
+            side[place[low]++] = (sorted_side){SIDES * f + k, at[k] ^ other ^ low};
         }
     }
     /* 3. Sorts the sides of each vertex by their upper ends: those with the same one are an edge.
-       Their entries then become facets and directions. */
+     */
     uint32_t begin = 0;
     t->edge_count = 0;
     for (uint32_t v = 0; v < vertex_count; v++) {
-        sort_uses(t->use + begin, place[v] - begin);
+        sort_sides(side + begin, place[v] - begin);
         lrcsi_edge *edge = NULL;
         for (uint32_t i = begin; i < place[v]; i++) {
-            uint32_t f = t->use[i].facet / SIDES;
-            uint32_t k = t->use[i].facet % SIDES;
-            uint32_t high = t->use[i].forward;
-            if (!edge || edge->high != high) {
+            uint32_t f = side[i].side / SIDES;
+            uint32_t k = side[i].side % SIDES;
+            if (!edge || edge->high != side[i].high) {
                 edge = &t->edge[t->edge_count++];
-                *edge = (lrcsi_edge){v, high, i, 0};
+                *edge = (lrcsi_edge){v, side[i].high, i, 0};
             }
             edge->uses++;
             t->facet_edge[f].corner[k] = t->edge_count - 1;
-            t->use[i] = (lrcsi_edge_use){f, t->weld[facet[f].corner[k]] == v};
+            t->use[i].facet = f & FACET_MOST;
+            t->use[i].forward = t->weld[facet[f].corner[k]] == v;
         }
         begin = place[v];
     }
 }
 
+/* What stays, apart from the edges. */
+static size_t kept_before_edges(uint32_t vertex_count, uint32_t facet_count)
+{
+    size_t sides = (size_t)SIDES * facet_count;
+    size_t kept = lrcsi_work_bytes(vertex_count, sizeof(uint32_t));
+    kept = lrcsi_work_add(kept, lrcsi_work_bytes(facet_count, 1));
+    kept = lrcsi_work_add(kept, lrcsi_work_bytes(facet_count, sizeof(lrcs_facet)));
+    return lrcsi_work_add(kept, lrcsi_work_bytes(sides, sizeof(lrcsi_edge_use)));
+}
+
+size_t lrcsi_topology_kept(uint32_t vertex_count, uint32_t facet_count)
+{
+    size_t sides = (size_t)SIDES * facet_count;
+    return lrcsi_work_add(kept_before_edges(vertex_count, facet_count),
+                          lrcsi_work_bytes(sides, sizeof(lrcsi_edge)));
+}
+
 size_t lrcsi_topology_need(uint32_t vertex_count, uint32_t facet_count)
 {
     size_t sides = (size_t)SIDES * facet_count;
-    size_t stays = lrcsi_work_bytes(vertex_count, sizeof(uint32_t));
-    stays = lrcsi_work_add(stays, lrcsi_work_bytes(facet_count, 1));
-    stays = lrcsi_work_add(stays, lrcsi_work_bytes(facet_count, sizeof(lrcs_facet)));
-    stays = lrcsi_work_add(stays, lrcsi_work_bytes(sides, sizeof(lrcsi_edge_use)));
-    size_t weld = weld_scratch(vertex_count);
-    size_t edges = lrcsi_work_add(lrcsi_work_bytes(sides, sizeof(lrcsi_edge)),
+    size_t weld =
+        lrcsi_work_add(kept_before_edges(vertex_count, facet_count), weld_scratch(vertex_count));
+    size_t edges = lrcsi_work_add(lrcsi_work_bytes(sides, sizeof(sorted_side)),
                                   lrcsi_work_bytes((size_t)vertex_count + 1, sizeof(uint32_t)));
-    return lrcsi_work_add(stays, weld > edges ? weld : edges);
+    edges = lrcsi_work_add(edges, lrcsi_topology_kept(vertex_count, facet_count));
+    return weld > edges ? weld : edges;
 }
 
 int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
@@ -268,9 +294,10 @@ int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const l
         t.use = lrcsi_work_take(work, sides, sizeof *t.use);
         size_t end = work->used;
         t.edge = lrcsi_work_take(work, sides, sizeof *t.edge); /* there are at most as many */
+        sorted_side *side = lrcsi_work_take(work, sides, sizeof *side);
         uint32_t *place = lrcsi_work_take(work, (size_t)vertex_count + 1, sizeof *place);
-        if (t.use && t.edge && place) {
-            build_edges(&t, vertex_count, facet, facet_count, place);
+        if (t.use && t.edge && side && place) {
+            build_edges(&t, vertex_count, facet, facet_count, side, place);
             work->used = end; /* the edges are already stored here */
             t.edge = lrcsi_work_take(work, t.edge_count, sizeof *t.edge);
         } else {

@@ -13,10 +13,10 @@ typedef struct lrcsi_edge {
     uint32_t uses;      /* number of facets that share it */
 } lrcsi_edge;
 
-/* One facet's side on an edge. */
+/* One facet's side on an edge. There are fewer than 2^31 facets. */
 typedef struct lrcsi_edge_use {
-    uint32_t facet;
-    uint32_t forward; /* 1: the facet traverses it from low to high, 0: from high to low */
+    uint32_t facet : 31;
+    uint32_t forward : 1; /* 1: the facet traverses it from low to high, 0: from high to low */
 } lrcsi_edge_use;
 
 typedef struct lrcsi_topology {
@@ -29,8 +29,10 @@ typedef struct lrcsi_topology {
     uint32_t edge_count;
 } lrcsi_topology;
 
-/* Upper bound of what lrcsi_topology_make takes; what it returns stays in the work area. */
+/* Upper bounds of what lrcsi_topology_make takes, and of what it returns, which stays in the work
+   area. */
 size_t lrcsi_topology_need(uint32_t vertex_count, uint32_t facet_count);
+size_t lrcsi_topology_kept(uint32_t vertex_count, uint32_t facet_count);
 
 /* Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (3 facet_count above 2^32 - 2). Linear time, except
    for a logarithm if one vertex has many edges. */

@@ -202,7 +202,7 @@ static int plan_is_round(const lrcs_shape *shape)
 /* Rings as wide as the sectors are at the widest. */
 static lrcs_divisions plan_divisions(const lrcs_shape *shape, uint32_t around)
 {
-    lrcs_divisions divisions = {around, 1};
+    lrcs_divisions divisions = {around, 1, 0};
     if (shape->kind == LRCS_SHAPE_PARABOLOID) {
         divisions.along = (uint32_t)fmax(1.0, ceil(plan_rim(shape) / (2.0 * LRCS_PI) * around));
     } else if (plan_is_round(shape)) {
@@ -329,7 +329,7 @@ int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
     if (!(fineness->tolerance > 0.0) || fineness->max_facets < FACETS_LEAST) {
         return LRCS_E_ARGUMENT;
     }
-    lrcs_divisions chosen = {4, 1};
+    lrcs_divisions chosen = {4, 1, 0};
     if (shape->kind != LRCS_SHAPE_PLATE && shape->kind != LRCS_SHAPE_BOX) {
         uint32_t most = plan_most(shape, fineness->max_facets);
         uint32_t around = shape->kind == LRCS_SHAPE_DISC ? plan_disc(fineness->tolerance, most)

@@ -32,7 +32,7 @@ static across_edge across_edge_of(const across_job *job, uint32_t edge)
 {
     const lrcsi_edge *e = &job->topology->edge[edge];
     const lrcsi_edge_use *use = job->topology->use + e->first_use;
-    across_edge all = {0, 0, {{LRCS_NONE, 0}}};
+    across_edge all = {0, 0, {{0, 0}}};
     for (uint32_t i = 0; i < e->uses; i++) {
         if (job->redundant[use[i].facet] != LRCSI_REDUNDANT) {
             all.use[all.count < 4 ? all.count : 3] = use[i];

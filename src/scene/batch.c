@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Facets sorted by material, with unit normals. It decides the order in which facets are summed. */
+/* Facets sorted by material, with normals and unit normals. It decides the order in which facets
+   are summed. */
 #include "scene/batch.h"
 
 #include "base/length.h"
 #include "base/work.h"
+#include "scene/normal.h"
 
 /* Some facets' normals, to be scaled to unit length. */
 typedef struct batch_normals {
@@ -44,12 +46,16 @@ static void normals_finish(const batch_normals *restrict n, double *restrict x, 
     }
 }
 
-static void batch_normals_make(const lrcs_prepared *p, lrcsi_batches *b)
+/* Normals of the facets of a block, then their unit normals, which need them; last, normals of the
+   facets that are skipped. */
+static void batch_normals_make(lrcs_prepared *p, lrcsi_batches *b)
 {
     batch_normals n;
     for (uint32_t place = 0; place < b->count; place += LRCSI_LANES) {
         uint32_t left = b->count - place;
-        normals_gather(p, b->facet + place, left < LRCSI_LANES ? left : LRCSI_LANES, &n);
+        uint32_t count = left < LRCSI_LANES ? left : LRCSI_LANES;
+        lrcsi_normals_make(p, b->facet + place, count);
+        normals_gather(p, b->facet + place, count, &n);
         normals_finish(&n, b->normal[0] + place, b->normal[1] + place, b->normal[2] + place,
                        b->area + place);
     }
@@ -59,6 +65,17 @@ static void batch_normals_make(const lrcs_prepared *p, lrcsi_batches *b)
         b->normal[2][b->count + i] = 0;
         b->area[b->count + i] = 0;
     }
+    uint32_t skipped[LRCSI_LANES];
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        skipped[count] = f;
+        count += p->skip[f];
+        if (count == LRCSI_LANES) {
+            lrcsi_normals_make(p, skipped, count);
+            count = 0;
+        }
+    }
+    lrcsi_normals_make(p, skipped, count);
 }
 
 size_t lrcsi_batches_need(const lrcs_scene *scene)

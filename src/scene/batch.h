@@ -6,8 +6,9 @@
 
 #include "scene/prepared.h"
 
-/* Given: the scene's normals, and which facets are skipped or redundant. Status: LRCS_OK;
-   LRCS_E_MEMORY. Work: lrcsi_batches_need, all of which stays. */
+/* Given: which facets are skipped or redundant, and memory for the normals of all, which are
+   computed on the way. Status: LRCS_OK; LRCS_E_MEMORY. Work: lrcsi_batches_need, all of which
+   stays. */
 size_t lrcsi_batches_need(const lrcs_scene *scene);
 int lrcsi_batches_make(lrcs_prepared *p, lrcs_work *work);
 

@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "base/constant.h"
 #include "base/vec3.h"
 #include "mesh/tessellate.h"
 #include "scene/placed_shape.h"
@@ -20,6 +21,12 @@
    20 to lander.toml meet 1e-4; with 1.0, 25 and 17 of 60 in half the time. The number of its facets
    grows as 1/tolerance. */
 #define REACH_ROUND 0.3
+
+/* The distance of a sector's chord from the unit circle is about this times (pi/N)^2
+   (mesh/profile.c). */
+#define SECTOR_REACH 0.36
+/* How often a reach is enlarged by a quarter to keep within the limit of facets. */
+#define REACHES_MOST 100
 
 /* Divisions of a shape whose facets only pictures and records show: neighbours differ by 7.5 and 9
    degrees, which looks smooth. */
@@ -117,7 +124,7 @@ static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *p
         shape->kind == LRCS_SHAPE_BOX || !(corners < 1e6)) {
         return;
     }
-    lrcs_divisions finer = {4 * (uint32_t)(corners / 4.0 + 1.0), 1};
+    lrcs_divisions finer = {4 * (uint32_t)(corners / 4.0 + 1.0), 1, 0};
     if (finer.around > divisions->around &&
         lrcsi_tessellate_counts(shape, &finer).facets <= fineness->max_facets) {
         *divisions = finer;
@@ -125,31 +132,60 @@ static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *p
     }
 }
 
+/* Divisions of a round body with level rings whose facets are within `reach` of its true surface:
+   sectors for a share of that, and as many rings as the rest requires, but for too many facets. */
+static lrcs_divisions divide_round_share(const lrcsi_fineness *fineness, const lrcs_shape *shape,
+                                         double reach, double share)
+{
+    double corners = LRCS_PI * sqrt(SECTOR_REACH * shape->radius / (share * reach));
+    lrcs_divisions d = {4 * (uint32_t)(fmin(fmax(corners, BASE_AROUND), 1e6) / 4.0 + 1.0),
+                        BASE_ALONG, 1};
+    while (lrcsi_tessellate_counts(shape, &d).facets <= fineness->max_facets &&
+           lrcsi_tessellate_reach(shape, &d).all > reach) {
+        d.along += 1 + d.along / 16;
+    }
+    return d;
+}
+
+/* The share for which there are the fewest facets; where these are too many, for a larger reach. */
+static lrcs_divisions divide_round(const lrcsi_fineness *fineness, const lrcs_shape *shape,
+                                   double reach)
+{
+    lrcs_divisions best = {0, 0, 0};
+    uint32_t fewest = UINT32_MAX;
+    for (int i = 0; i < REACHES_MOST && fewest > fineness->max_facets; i++) {
+        for (double share = 0.3; share < 0.85; share += 0.1) {
+            lrcs_divisions d = divide_round_share(fineness, shape, reach, share);
+            uint32_t facets = lrcsi_tessellate_counts(shape, &d).facets;
+            if (facets < fewest) {
+                best = d;
+                fewest = facets;
+            }
+        }
+        reach *= 1.25;
+    }
+    return best;
+}
+
 /* Divisions of a shape whose facets represent patches of its true surface (integrate/patch.h):
    these have no error of their own, so that only the uncertainty of shadows counts, in proportion
-   to the distance of the true surface from the facets. Straight walls are divided as above; for
-   round bodies sectors and rings are chosen for the same distance. */
+   to the distance of the true surface from the facets. Straight walls are divided as above, round
+   bodies for that distance. */
 static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                               lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     const lrcs_shape *shape = &part->shape;
     double tolerance = fmin(fineness->tolerance * part_coarsening(fineness, part), 1.0);
-    int is_round = shape_is_round(shape);
     double reach = REACH_ROUND * fmax(tolerance, fineness->round_least) * shape->radius;
-    double corners =
-        3.1416 * (is_round ? sqrt(0.4 * shape->radius / (0.7 * reach)) : sqrt(5.0 / tolerance));
+    double corners = 3.1416 * sqrt(5.0 / tolerance);
     if (!(corners < 1e6)) {
         return 0;
     }
-    lrcs_divisions finest = {4 * (uint32_t)(fmax(corners, BASE_AROUND) / 4.0 + 1.0),
-                             is_round ? BASE_ALONG : 1};
-    *counts = lrcsi_tessellate_counts(shape, &finest);
-    while (is_round && counts->facets <= fineness->max_facets &&
-           lrcsi_tessellate_reach(shape, &finest) > reach) {
-        finest.along += 1 + finest.along / 8;
-        *counts = lrcsi_tessellate_counts(shape, &finest);
-    }
-    *divisions = finest;
+    *divisions =
+        shape_is_round(shape)
+            ? divide_round(fineness, shape, reach)
+            : (lrcs_divisions){4 * (uint32_t)(fmax(corners, BASE_AROUND) / 4.0 + 1.0), 1, 0};
+    *counts = lrcsi_tessellate_counts(shape, divisions);
     return counts->facets <= fineness->max_facets;
 }
 
@@ -173,6 +209,7 @@ static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *
     }
     divisions->around = 4 * (uint32_t)(corners / 4.0 + 1.0);
     divisions->along = is_round ? divisions->around / 4 : 1;
+    divisions->level_rings = 0;
     *counts = lrcsi_tessellate_counts(&part->shape, divisions);
     return counts->facets <= fineness->max_facets;
 }
@@ -218,7 +255,8 @@ int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part
     const lrcs_fineness wanted = {shape_tolerance(fineness, part) / spread, material->brdf,
                                   fineness->max_facets};
     if (is_closed_form(fineness, part, material)) {
-        *divisions = (lrcs_divisions){BASE_AROUND, shape_is_round(&part->shape) ? BASE_ALONG : 1};
+        *divisions =
+            (lrcs_divisions){BASE_AROUND, shape_is_round(&part->shape) ? BASE_ALONG : 1, 0};
         *counts = lrcsi_tessellate_counts(&part->shape, divisions);
         if (counts->facets <= fineness->max_facets) {
             return LRCS_OK;

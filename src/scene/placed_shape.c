@@ -116,7 +116,7 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
                                  double extent, lrcs_part *part)
 {
     const double *scale = placer->place.scale;
-    double reach = lrcsi_tessellate_reach(shape, divisions);
+    lrcsi_reach reach = lrcsi_tessellate_reach(shape, divisions);
     double least = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
     double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
     int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->bias == 0.0 &&
@@ -144,7 +144,14 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     if (!plane && !part->rigid && part->curvature_known) {
         part->curvature = lrcsi_profile_stretched(curvature, ratio, &part->uneven);
     }
-    part->reach = reach > 0.0 ? 1.000001 * stretch * reach + 2.0 * part->misplaced : 0.0;
+    if (reach.all > 0.0) {
+        double scaled = 1.000001 * stretch;
+        double placed = 2.0 * part->misplaced;
+        part->reach = scaled * reach.all + placed;
+        part->displaced[0] = scaled * reach.radial + placed;
+        part->displaced[1] = scaled * reach.axial + placed;
+        part->displaced[2] = scaled * reach.aside + placed;
+    }
     part->convex_patch = 1;
     part->thinnest = least * least_extent(shape);
     part->solid = is_closed(shape) && part->thinnest > 0.0;

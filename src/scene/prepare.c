@@ -6,11 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/constant.h"
-#include "base/dd.h"
-#include "base/exact.h"
 #include "base/ieee.h"
-#include "base/length.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/tree.h"
@@ -23,29 +19,31 @@
 #include "scene/runs.h"
 #include "scene/solid.h"
 
-/* Checks what lrcs_scene_build guarantees, so that no later stage needs to. *most: the largest
-   magnitude of any coordinate of the facets' corners. */
-static int scene_check(const lrcs_scene *scene, double *most)
+/* Checks what lrcs_scene_build guarantees, so that no later stage needs to. *exponent: that of the
+   largest magnitude of any coordinate of the facets' corners (frexp). */
+static int scene_check(const lrcs_scene *scene, int *exponent)
 {
+    double all = 0; /* the largest magnitude, corners or not */
+    double largest = 0;
     for (uint32_t v = 0; v < scene->vertex_count; v++) {
         const double *x = scene->vertex[v].x;
         if (!(fabs(x[0]) <= 1e100 && fabs(x[1]) <= 1e100 && fabs(x[2]) <= 1e100)) {
             return LRCS_E_NUMBER;
         }
+        double of_vertex = lrcsi_max(fabs(x[0]), lrcsi_max(fabs(x[1]), fabs(x[2])));
+        all = lrcsi_max(all, of_vertex);
     }
-    double largest = 0;
+    (void)frexp(all, exponent);
+    double enough = ldexp(0.5, *exponent); /* more does not change the exponent */
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         const uint32_t *corner = scene->facet[f].corner;
-        double of_facet = 0;
-        for (int k = 0; k < 3; k++) {
-            if (corner[k] >= scene->vertex_count) {
-                return LRCS_E_INDEX;
-            }
-            const double *x = scene->vertex[corner[k]].x;
-            double of_corner = lrcsi_max(fabs(x[0]), lrcsi_max(fabs(x[1]), fabs(x[2])));
-            of_facet = lrcsi_max(of_facet, of_corner);
+        if (corner[0] >= scene->vertex_count || corner[1] >= scene->vertex_count ||
+            corner[2] >= scene->vertex_count) {
+            return LRCS_E_INDEX;
         }
-        largest = lrcsi_max(largest, of_facet);
+        for (int k = 0; k < 9 && largest < enough; k++) {
+            largest = lrcsi_max(largest, fabs(scene->vertex[corner[k / 3]].x[k % 3]));
+        }
         for (int k = 0; scene->corner_normal && k < 9; k++) {
             if (!(fabs(scene->corner_normal[3 * (size_t)f + (size_t)k / 3].x[k % 3]) <= 1.0)) {
                 return LRCS_E_NUMBER;
@@ -61,96 +59,8 @@ static int scene_check(const lrcs_scene *scene, double *most)
             return LRCS_E_NUMBER;
         }
     }
-    *most = largest;
+    (void)frexp(largest, exponent);
     return LRCS_OK;
-}
-
-/* Normals computed side by side. */
-enum { CROSS_LANES = 8 };
-
-/* If |N| is below this fraction of |p| |q|, the products cancel and N is computed exactly. */
-#define NORMAL_SLIVER 0x1p-10
-
-/* Sides p = b - a and q = c - a of facets, and N = p x q: component by component, so that compilers
-   compute two facets or more at once. */
-typedef struct cross_lanes {
-    double a[3][CROSS_LANES], b[3][CROSS_LANES], c[3][CROSS_LANES];
-    double p[3][CROSS_LANES], p_low[3][CROSS_LANES];
-    double q[3][CROSS_LANES], q_low[3][CROSS_LANES];
-    double high[3][CROSS_LANES], low[3][CROSS_LANES];
-} cross_lanes;
-
-/* The differences are exact. p_i q_j - p_j q_i: each product has relative error 7 u^2, the
-   difference 3 u^2: together at most 10 u^2 (|p_i q_j| + |p_j q_i|). */
-static void lanes_cross(cross_lanes *n)
-{
-    for (int k = 0; k < 3; k++) {
-        for (int at = 0; at < CROSS_LANES; at++) {
-            lrcsi_dd p = lrcsi_dd_two_sum(n->b[k][at], -n->a[k][at]);
-            lrcsi_dd q = lrcsi_dd_two_sum(n->c[k][at], -n->a[k][at]);
-            n->p[k][at] = p.hi;
-            n->p_low[k][at] = p.lo;
-            n->q[k][at] = q.hi;
-            n->q_low[k][at] = q.lo;
-        }
-    }
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3;
-        int j = (k + 2) % 3;
-        for (int at = 0; at < CROSS_LANES; at++) {
-            lrcsi_dd pi = {n->p[i][at], n->p_low[i][at]};
-            lrcsi_dd pj = {n->p[j][at], n->p_low[j][at]};
-            lrcsi_dd qi = {n->q[i][at], n->q_low[i][at]};
-            lrcsi_dd qj = {n->q[j][at], n->q_low[j][at]};
-            lrcsi_dd component = lrcsi_dd_sub(lrcsi_dd_mul(pi, qj), lrcsi_dd_mul(pj, qi));
-            n->high[k][at] = component.hi;
-            n->low[k][at] = component.lo;
-        }
-    }
-}
-
-/* The error of the three components together is at most 10 u^2 2 |p| |q| in norm; |p| |q| is
-   computed within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
-static void store_normal(lrcs_prepared *prepared, uint32_t facet, const cross_lanes *lanes, int at)
-{
-    lrcsi_normal *n = &prepared->normal[facet];
-    const double p[3] = {lanes->p[0][at], lanes->p[1][at], lanes->p[2][at]};
-    const double q[3] = {lanes->q[0][at], lanes->q[1][at], lanes->q[2][at]};
-    for (int k = 0; k < 3; k++) {
-        n->high[k] = lanes->high[k][at];
-        n->low[k] = lanes->low[k][at];
-    }
-    double size = lrcsi_length(p) * lrcsi_length(q);
-    n->length = lrcsi_length(n->high);
-    n->error = 21 * LRCSI_U * LRCSI_U * size;
-    if (n->length < NORMAL_SLIVER * size) {
-        lrcsi_exact_normal(lrcsi_prepared_corner(prepared, facet, 0),
-                           lrcsi_prepared_corner(prepared, facet, 1),
-                           lrcsi_prepared_corner(prepared, facet, 2), n->high, n->low);
-        n->length = lrcsi_length(n->high);
-        n->error = 100 * LRCSI_U * LRCSI_U * n->length;
-    }
-}
-
-/* The normals of all facets. */
-static void compute_normals(lrcs_prepared *p)
-{
-    uint32_t count = p->scene->facet_count;
-    cross_lanes lanes;
-    for (uint32_t first = 0; first < count; first += CROSS_LANES) {
-        for (uint32_t at = 0; at < CROSS_LANES; at++) { /* the last facet fills the last lanes */
-            uint32_t f = first + at < count ? first + at : count - 1;
-            for (int k = 0; k < 3; k++) {
-                lanes.a[k][at] = lrcsi_prepared_corner(p, f, 0)[k];
-                lanes.b[k][at] = lrcsi_prepared_corner(p, f, 1)[k];
-                lanes.c[k][at] = lrcsi_prepared_corner(p, f, 2)[k];
-            }
-        }
-        lanes_cross(&lanes);
-        for (uint32_t at = 0; at < CROSS_LANES && first + at < count; at++) {
-            store_normal(p, first + at, &lanes, (int)at);
-        }
-    }
 }
 
 /* Which facets are live, their corners, and what their materials and parts require. A facet that
@@ -296,7 +206,6 @@ static int prepare_normals(lrcs_prepared *p, lrcs_work *work)
     if (!p->normal) {
         return LRCS_E_MEMORY;
     }
-    compute_normals(p);
     return lrcsi_batches_make(p, work);
 }
 
@@ -335,8 +244,7 @@ static size_t larger(size_t a, size_t b)
 }
 
 /* Each stage leaves its results and releases its scratch; of the scratch only the largest counts.
-   lrcsi_topology_need, _coincident_need and _intersection_need include the scratch of these
-   stages. */
+   lrcsi_topology_need, _coincident_need and _intersection_need include it. */
 size_t lrcs_prepare_need(const lrcs_scene *scene)
 {
     uint32_t vertices = scene->vertex_count;
@@ -345,7 +253,8 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     /* 1. Edges and neighbours. */
     size_t need = lrcsi_work_bytes(1, sizeof(lrcs_prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(vertices, sizeof(lrcs_point)));
-    need = lrcsi_work_add(need, lrcsi_topology_need(vertices, scene->facet_count));
+    size_t edges = lrcsi_work_add(need, lrcsi_topology_need(vertices, scene->facet_count));
+    need = lrcsi_work_add(need, lrcsi_topology_kept(vertices, scene->facet_count));
     need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(vertices, 1));
     size_t coincident = lrcsi_work_add(need, lrcsi_coincident_need(vertices, scene->facet_count));
@@ -355,31 +264,32 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     size_t search = lrcsi_intersection_need(vertices, scene->facet_count, contacts);
-    /* 3. What the search leaves; normals; the proof of convexity, or what is near curved shapes;
-       runs. The volumes of pieces take less than the normals, which come later. */
-    size_t proof = lrcsi_convex_exact_need(vertices, scene->facet_count);
-    size_t proximity =
-        lrcsi_work_add(lrcsi_proximity_need(scene), lrcsi_tree_need(scene->facet_count));
-    proof = larger(proof, lrcsi_work_add(proximity, lrcsi_extents_need(scene)));
-    proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets + 1, sizeof(uint32_t)));
+    /* 3. What the search leaves; normals. The volumes of pieces take less than the normals, which
+       come later. */
+    size_t proof = lrcsi_work_bytes(facets + 1, sizeof(uint32_t));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 1));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(contacts, sizeof(lrcsi_intersection)));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, sizeof(lrcsi_normal)));
     proof = lrcsi_work_add(proof, lrcsi_batches_need(scene));
-    proof = lrcsi_work_add(proof, lrcsi_runs_need(scene->facet_count));
-    return larger(lrcsi_work_add(need, larger(search, proof)), coincident);
+    /* 4. The proof of convexity; what is near curved shapes, found with a tree; extents; runs. */
+    size_t pairs = lrcsi_proximity_need(scene);
+    size_t scratch =
+        larger(lrcsi_convex_exact_need(scene), pairs > 0 ? lrcsi_tree_need(scene->facet_count) : 0);
+    proof = lrcsi_work_add(proof, lrcsi_work_add(pairs, lrcsi_extents_need(scene)));
+    proof = lrcsi_work_add(proof, larger(scratch, lrcsi_runs_need(scene->facet_count)));
+    return larger(lrcsi_work_add(need, larger(search, proof)), larger(edges, coincident));
 }
 
 int lrcsi_prepare_start(const lrcs_scene *scene, lrcs_work *work, lrcs_prepared **prepared)
 {
-    double most = 0;
-    int status = lrcsi_ieee_kept() ? scene_check(scene, &most) : LRCS_E_UNSUPPORTED;
+    int exponent = 0;
+    int status = lrcsi_ieee_kept() ? scene_check(scene, &exponent) : LRCS_E_UNSUPPORTED;
     lrcs_prepared *p = status == LRCS_OK ? lrcsi_work_take_zero(work, 1, sizeof *p) : NULL;
     if (!p) {
         return status == LRCS_OK ? LRCS_E_MEMORY : status;
     }
     p->scene = scene;
-    (void)frexp(most, &p->exponent); /* the largest coordinate is in [0.5, 1) once scaled */
+    p->exponent = exponent; /* the largest coordinate is in [0.5, 1) once scaled */
     *prepared = p;
     return LRCS_OK;
 }

@@ -7,10 +7,12 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/degrees.h"
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
 #include "mesh/slice.h"
+#include "mesh/tessellate.h"
 #include "mesh/tree.h"
 
 /* The rounding of vertices cannot reverse a facet whose |cos(theta)| exceeds this times their error
@@ -22,11 +24,19 @@ int lrcsi_proximity_closed(const lrcs_prepared *p, uint32_t part)
     return p->scene->part[part].solid;
 }
 
+int lrcsi_proximity_openings(const lrcs_prepared *p, uint32_t part)
+{
+    int kind = p->scene->part[part].kind;
+    if (lrcsi_proximity_closed(p, part) || kind == LRCS_SHAPE_PLATE || kind == LRCS_SHAPE_DISC) {
+        return 0;
+    }
+    return kind == LRCS_SHAPE_CYLINDER || kind == LRCS_SHAPE_FRUSTUM ? 2 : 1;
+}
+
 /* An open piece of a convex surface: neither closed nor flat. */
 static int part_is_open(const lrcs_prepared *p, uint32_t part)
 {
-    int kind = p->scene->part[part].kind;
-    return !lrcsi_proximity_closed(p, part) && kind != LRCS_SHAPE_PLATE && kind != LRCS_SHAPE_DISC;
+    return lrcsi_proximity_openings(p, part) > 0;
 }
 
 double lrcsi_proximity_slack(const lrcs_prepared *p, uint32_t part, uint32_t other)
@@ -37,6 +47,46 @@ double lrcsi_proximity_slack(const lrcs_prepared *p, uint32_t part, uint32_t oth
         return 0;
     }
     return theirs + (part_is_open(p, other) ? lrcsi_max(own, theirs) : own) + LRCSI_PROXIMITY_ERR;
+}
+
+double lrcsi_proximity_slack_across(const lrcs_prepared *p, uint32_t part, uint32_t other,
+                                    double aside)
+{
+    double theirs = p->proximity.reach[other];
+    double slack = lrcsi_proximity_slack(p, part, other);
+    return slack == 0 || (theirs > 0 && part_is_open(p, other))
+               ? slack
+               : lrcsi_min(slack, theirs + aside + LRCSI_PROXIMITY_ERR);
+}
+
+/* The sine of an angle, given its cosine to within 1e-14. */
+static double sine_of(double cosine)
+{
+    return sqrt(lrcsi_max(0, (1 - cosine) * (1 + cosine))) + 1e-6;
+}
+
+double lrcsi_proximity_aside(const lrcs_prepared *p, uint32_t facet, const double unit[3])
+{
+    uint32_t index = p->scene->facet_part[facet];
+    const lrcs_part *part = &p->scene->part[index];
+    double reach = p->proximity.reach[index];
+    lrcsi_wall_patch at;
+    if (!part->rigid || reach == 0 || p->scene->facet_smooth[facet] == 0 ||
+        !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &at)) {
+        return reach;
+    }
+    double sine;
+    double cosine;
+    lrcsi_degrees_sincos((2.0 * at.sector + 1.0) * 180.0 / part->divisions.around, &sine, &cosine);
+    double along[3]; /* cosines of the angles between the line of sight and the shape's axes */
+    for (int k = 0; k < 3; k++) {
+        along[k] =
+            part->axis[k][0] * unit[0] + part->axis[k][1] * unit[1] + part->axis[k][2] * unit[2];
+    }
+    double radial = along[0] * cosine + along[1] * sine;
+    double aside = part->displaced[0] * sine_of(radial) + part->displaced[1] * sine_of(along[2]) +
+                   part->displaced[2];
+    return lrcsi_min(reach, ldexp(aside, -p->exponent) * (1 + 1e-9));
 }
 
 /* --- one pair --------------------------------------------------------------------------------- */

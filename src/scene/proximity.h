@@ -17,9 +17,23 @@
    the facets of both parts are exact. */
 double lrcsi_proximity_slack(const lrcs_prepared *prepared, uint32_t part, uint32_t other);
 
+/* The same in projection, for a facet of `part` whose points move by at most `aside` across the
+   line of sight. */
+double lrcsi_proximity_slack_across(const lrcs_prepared *prepared, uint32_t part, uint32_t other,
+                                    double aside);
+
+/* How far points of a facet of a curved wall, other than caps, move across the line of sight on
+   their way from the true surface. Given: the unit vector to the laser. At most the part's reach.
+ */
+double lrcsi_proximity_aside(const lrcs_prepared *prepared, uint32_t facet, const double unit[3]);
+
 /* 1 if a part is a closed outward solid by construction: its back sides never hide anything by
    themselves. */
 int lrcsi_proximity_closed(const lrcs_prepared *prepared, uint32_t part);
+
+/* The number of flat openings in a convex surface; 0: it is closed, or flat. Of a model, which is
+   its own truth: not 0 unless it is closed. */
+int lrcsi_proximity_openings(const lrcs_prepared *prepared, uint32_t part);
 
 /* The rows of a facet on the straight wall of a cylinder, cone or frustum are the lines parallel to
    its side on one of the wall's two circles. Given: the facet's corners, in any coordinates.

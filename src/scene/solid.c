@@ -203,11 +203,18 @@ static int convex_without_omitted(const lrcs_prepared *p, lrcs_work *work, int *
                : status;
 }
 
-size_t lrcsi_convex_exact_need(uint32_t vertex_count, uint32_t facet_count)
+size_t lrcsi_convex_exact_need(const lrcs_scene *scene)
 {
-    size_t need = lrcsi_work_bytes(facet_count, sizeof(lrcs_facet));
-    need = lrcsi_work_add(need, lrcsi_topology_need(vertex_count, facet_count));
-    return lrcsi_work_add(need, lrcsi_convex_need(vertex_count, facet_count));
+    size_t need = lrcsi_convex_need(scene->vertex_count, scene->facet_count);
+    int omits = 0;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        omits |= scene->material[i].omitted;
+    }
+    if (omits) {
+        need = lrcsi_work_add(need, lrcsi_work_bytes(scene->facet_count, sizeof(lrcs_facet)));
+        need = lrcsi_work_add(need, lrcsi_topology_need(scene->vertex_count, scene->facet_count));
+    }
+    return need;
 }
 
 int lrcsi_convex_exact(const lrcs_prepared *p, lrcs_work *work, int *proved)

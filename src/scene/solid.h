@@ -35,7 +35,7 @@ double lrcsi_convex_grazing(const lrcs_prepared *prepared);
 
 /* Proves that the live facets of a solid scene are one convex body, exactly (mesh/convex.h).
    Status: LRCS_OK; LRCS_E_MEMORY. Work: nothing stays; lrcsi_convex_exact_need. */
-size_t lrcsi_convex_exact_need(uint32_t vertex_count, uint32_t facet_count);
+size_t lrcsi_convex_exact_need(const lrcs_scene *scene);
 int lrcsi_convex_exact(const lrcs_prepared *prepared, lrcs_work *work, int *proved);
 
 #endif

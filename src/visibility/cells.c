@@ -7,25 +7,25 @@
    be visible in it, and a list of segments: event edges and contacts.
 
    Called, in this order:
-   1. lrcsi_cells_grid_make divides the view plane into blocks; lrcsi_cells_open makes the first
+   1. lrcsi_cells_grid_make divides the view plane into blocks; lrcsi_cells_begin makes the first
    cell of a block.
-   2. lrcsi_cells_strike removes segments from a cell's list that do not meet the cell.
-   3. lrcsi_cells_look takes a sample at a point P of the cell: it finds the facet nearest to the
+   2. lrcsi_cells_filter_segments removes segments from a cell's list that do not meet the cell.
+   3. lrcsi_cells_nearest takes a sample at a point P of the cell: it finds the facet nearest to the
       laser there. lrcsi_cells_component follows the surface around that facet across edges that are
       no events, as far as the cell goes: the component (visibility/cells_cover.c has the proof).
-   4. If no event edge of the component crosses the cell, the component covers it: lrcsi_cells_drop
+   4. If no event edge of the component crosses the cell, the component covers it: lrcsi_cells_cull
       removes the facets and events behind it from the lists, for this cell and all that are cut
       from it. If an event edge or a contact of the component crosses the cell, lrcsi_cells_divide
       cuts the cell along its line.
    5. If no event edge is left, nothing but the component is visible in the cell, and its areas are
       added up. If one is left, the cell is cut along it.
    6. Area that rounding leaves undecided along events is charged to the facets near them
-      (visibility/cells_charge.c). An area is reported where its error is small enough; other facets
+      (visibility/cells_cut.c). An area is reported where its error is small enough; other facets
       are left to visibility/cells_alone.c.
 
    Error of a facet's area in a cell: the error of the facet's sides times their length in the cell,
    and 4 u b and the cell's drift times the perimeter of its part there (b: the largest coordinate
-   in the block; drift: visibility/cells_charge.c). */
+   in the block; drift: visibility/cells_cut.c). */
 #include "visibility/cells.h"
 
 #include <math.h>
@@ -34,10 +34,9 @@
 #include "base/constant.h"
 #include "base/range.h"
 #include "base/work.h"
-#include "visibility/cells_charge.h"
+#include "visibility/cells_block.h"
 #include "visibility/cells_cover.h"
 #include "visibility/cells_cut.h"
-#include "visibility/cells_open.h"
 
 /* Limit on the steps of a block: a constant, and so many for each facet and segment in it and for
    each cell decided. Ordinary scenes take a tenth of this, or less. */
@@ -59,19 +58,19 @@
 /* --- one cell --------------------------------------------------------------------------------- */
 
 /* Leaves all facets of a cell undecided. */
-static void cells_leave(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
+static void leave_cell_undecided(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
-        c->found[c->facets[i]] |= LRCSI_CELLS_OPEN;
+        c->state[c->facets[i]] |= LRCSI_CELLS_UNDECIDED;
     }
 }
 
 /* 1 if the cell lists a facet whose area is wanted and still undecided. */
-static int cells_wanted(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
+static int cell_is_wanted(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = c->facets[i];
-        if (c->open[f] && (c->found[f] & LRCSI_CELLS_OPEN) == 0) {
+        if (c->wanted[f] && (c->state[f] & LRCSI_CELLS_UNDECIDED) == 0) {
             return 1;
         }
     }
@@ -81,13 +80,13 @@ static int cells_wanted(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 /* Adds the facet's area in a cell in which it is visible. Of the sides of the cell and of the facet
    only the parts in both bounding boxes matter; a convex curve in a box is no longer than the box's
    perimeter. */
-static void cells_add_area(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                           const lrcsi_cells_sides *s, uint32_t facet)
+static void add_visible_area(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                             const lrcsi_cells_sides *s, uint32_t facet)
 {
     const lrcsi_cells_facet *f = &c->facet[facet];
     lrcsi_cells_found *area = &c->area[facet];
     lrcsi_clip_polygon piece = cell->shape;
-    double w = f->off + s->g;
+    double w = f->err + s->tolerance;
     double wide[2];
     for (int k = 0; k < 2; k++) {
         wide[k] =
@@ -95,8 +94,8 @@ static void cells_add_area(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             4 * w;
     }
     double around = wide[0] + wide[1];
-    area->off += 2 * (cell->drift + 4 * LRCSI_U * c->reach) * around +
-                 5 * LRCSI_U * (piece.count + 3) * wide[0] * wide[1];
+    area->visible_err += 2 * (cell->shape_err + 4 * LRCSI_U * c->extent) * around +
+                         5 * LRCSI_U * (piece.count + 3) * wide[0] * wide[1];
     for (int k = 0; k < 3 && piece.count > 0; k++) {
         double range[2];
         lrcsi_box_range(s->low, s->high, f->side[k], range);
@@ -104,28 +103,28 @@ static void cells_add_area(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             lrcsi_line_range(&cell->shape, f->side[k], range);
         }
         if (range[0] < w) {
-            area->off +=
-                (f->line_off + 12 * LRCSI_U * c->reach) * lrcsi_min(f->length[k] + 4 * w, around);
-            lrcsi_cells_shape_clip(&piece, f->side[k]);
+            area->visible_err +=
+                (f->line_err + 12 * LRCSI_U * c->extent) * lrcsi_min(f->length[k] + 4 * w, around);
+            lrcsi_clip_keep_left(&piece, f->side[k]);
         }
     }
-    area->seen += piece.count >= 3 ? lrcsi_max(0, lrcsi_clip_area(&piece)) : 0;
+    area->visible += piece.count >= 3 ? lrcsi_max(0, lrcsi_clip_area(&piece)) : 0;
 }
 
 /* Decides a cell: the facets of the component are visible in it, all others hidden. */
-static void cells_decide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                         const lrcsi_cells_sides *s, double uncertainty)
+static void decide_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                        const lrcsi_cells_sides *s, double uncertainty)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = c->facets[i];
-        if (!c->open[f]) {
+        if (!c->wanted[f]) {
             continue;
         }
-        int visible = c->components > 0 && c->joined[f] == c->look;
-        c->found[f] |= visible ? LRCSI_CELLS_SEEN : LRCSI_CELLS_HIDDEN;
+        int visible = c->components > 0 && c->in_component[f] == c->stamp;
+        c->state[f] |= visible ? LRCSI_CELLS_VISIBLE : LRCSI_CELLS_HIDDEN;
         c->area[f].uncertainty += uncertainty;
         if (visible) {
-            cells_add_area(c, cell, s, f);
+            add_visible_area(c, cell, s, f);
         }
     }
 }
@@ -136,16 +135,16 @@ enum { CHOOSE_OWN, CHOOSE_EDGES, CHOOSE_ANY };
    cell's width on the narrower side of the line, and of the root of how far the segment itself
    reaches through the cell, is largest. So cells shrink fast, few become long and narrow, and few
    are cut where nothing changes. */
-static const lrcsi_cells_segment *cells_choose(const lrcsi_cells_work *c,
-                                               const lrcsi_cells_cell *cell,
-                                               const lrcsi_cells_sides *s, int which)
+static const lrcsi_cells_segment *choose_cut(const lrcsi_cells_work *c,
+                                             const lrcsi_cells_cell *cell,
+                                             const lrcsi_cells_sides *s, int which)
 {
     const lrcsi_cells_segment *best = NULL;
     double most = -HUGE_VAL;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
         if (which == CHOOSE_ANY || (which == CHOOSE_EDGES && !e->contact) ||
-            (which == CHOOSE_OWN && lrcsi_cells_owned(c, e))) {
+            (which == CHOOSE_OWN && lrcsi_cells_of_component(c, e))) {
             double range[2];
             double reach = 0;
             for (int k = 0; k < 2; k++) {
@@ -172,41 +171,42 @@ typedef struct cell_sample {
    behind a single facet that covers it. Returns 1 if the component does, and no contact of it
    crosses the cell; else *cut is the segment of the component along which to cut, or NULL.
    *uncertainty: how wrong the area of any facet may be because the cell is thin. */
-static int cells_cover(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                       const cell_sample *sample, double *uncertainty,
-                       const lrcsi_cells_segment **cut)
+static int cover_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                      const cell_sample *sample, double *uncertainty,
+                      const lrcsi_cells_segment **cut)
 {
     int covers = lrcsi_cells_component(c, cell, s, sample->nearest);
-    *cut = covers ? NULL : cells_choose(c, cell, s, CHOOSE_OWN);
-    if (!covers && !lrcsi_cells_screen(c, cell, s, sample->at)) {
+    *cut = covers ? NULL : choose_cut(c, cell, s, CHOOSE_OWN);
+    if (!covers && !lrcsi_cells_find_occluder(c, cell, s, sample->at)) {
         return 0;
     }
     for (uint32_t i = 0; i < c->borders; i++) {
         lrcsi_cells_charge_border(c, cell, s, &c->border[i]);
     }
-    double thin = lrcsi_cells_thin(cell, s, sample->clear, cell->struck + c->borders, c->off);
-    lrcsi_cells_drop(c, cell, s, covers ? NULL : sample->at, thin);
+    double thin = lrcsi_cells_thin_uncertainty(cell, s, sample->clear, cell->removed + c->borders,
+                                               c->facet_err);
+    lrcsi_cells_cull(c, cell, s, covers ? NULL : sample->at, thin);
     if (covers) {
         *uncertainty = thin;
-        *cut = cells_choose(c, cell, s, CHOOSE_OWN);
+        *cut = choose_cut(c, cell, s, CHOOSE_OWN);
     }
     return covers && !*cut;
 }
 
 /* One cell: returns 1 if it is decided; else it is cut, or left undecided. */
-static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
+static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_sides s;
-    if (!cells_wanted(c, cell)) {
+    if (!cell_is_wanted(c, cell)) {
         return 0;
     }
-    lrcsi_cells_sides_make(&cell->shape, lrcsi_cells_reach(c, cell), &s);
-    lrcsi_cells_strike(c, cell, &s);
+    lrcsi_cells_sides_make(&cell->shape, lrcsi_cells_tolerance(c, cell), &s);
+    lrcsi_cells_filter_segments(c, cell, &s);
     c->components = 0;
 
     /* 1. A sample. */
     cell_sample sample = {.nearest = LRCS_NONE};
-    int answer = lrcsi_cells_look(c, cell, &s, &sample.nearest, sample.at, &sample.clear);
+    int answer = lrcsi_cells_nearest(c, cell, &s, &sample.nearest, sample.at, &sample.clear);
     if (answer == LRCSI_CELLS_UNSURE && lrcsi_cells_charge_all(c, cell, &s)) {
         return 0;
     }
@@ -214,20 +214,19 @@ static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     /* 2. What covers the cell, and what is behind that. */
     double uncertainty = 0;
     const lrcsi_cells_segment *cut = NULL;
-    int covered = answer == LRCSI_CELLS_FOUND
-                      ? cells_cover(c, cell, &s, &sample, &uncertainty, &cut)
-                      : answer == LRCSI_CELLS_NONE;
+    int covered = answer == LRCSI_CELLS_FOUND ? cover_cell(c, cell, &s, &sample, &uncertainty, &cut)
+                                              : answer == LRCSI_CELLS_NONE;
 
     /* 3. It is decided, or cut. */
     if (!cut) {
-        cut = cells_choose(c, cell, &s, covered ? CHOOSE_EDGES : CHOOSE_ANY);
+        cut = choose_cut(c, cell, &s, covered ? CHOOSE_EDGES : CHOOSE_ANY);
         if (!cut && covered) {
-            cells_decide(c, cell, &s, cell->uncertainty + uncertainty);
+            decide_cell(c, cell, &s, cell->uncertainty + uncertainty);
             return 1;
         }
     }
     if (!cut || !lrcsi_cells_divide(c, cell, &s, cut)) {
-        cells_leave(c, cell);
+        leave_cell_undecided(c, cell);
     }
     return 0;
 }
@@ -235,35 +234,35 @@ static int cells_do(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 /* --- one block -------------------------------------------------------------------------------- */
 
 /* Leaves all facets of a block undecided. */
-static void block_leave(lrcsi_cells_work *c, size_t block)
+static void leave_block_undecided(lrcsi_cells_work *c, size_t block)
 {
     for (uint32_t i = c->grid.facets.first[block]; i < c->grid.facets.first[block + 1]; i++) {
-        c->found[c->grid.facets.item[i]] |= LRCSI_CELLS_OPEN;
+        c->state[c->grid.facets.item[i]] |= LRCSI_CELLS_UNDECIDED;
     }
 }
 
-static int block_wanted(const lrcsi_cells_work *c, size_t block)
+static int block_is_wanted(const lrcsi_cells_work *c, size_t block)
 {
     for (uint32_t i = c->grid.facets.first[block]; i < c->grid.facets.first[block + 1]; i++) {
-        if (c->open[c->grid.facets.item[i]]) {
+        if (c->wanted[c->grid.facets.item[i]]) {
             return 1;
         }
     }
     return 0;
 }
 
-static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
+static void process_block(lrcsi_cells_work *c, uint32_t x, uint32_t y)
 {
     size_t block = (size_t)y * c->grid.side + x;
-    if (!block_wanted(c, block)) {
+    if (!block_is_wanted(c, block)) {
         return;
     }
     lrcsi_cells_cell cell = {.cuts = 0};
-    c->reach = lrcsi_cells_grid_square(&c->grid, x, y, &cell.shape, c->frame.middle);
+    c->extent = lrcsi_cells_grid_square(&c->grid, x, y, &cell.shape, c->frame.middle);
     c->frame.block = (uint32_t)block + 1;
-    c->look++;
-    if (!lrcsi_cells_open(c, block, &cell)) {
-        block_leave(c, block);
+    c->stamp++;
+    if (!lrcsi_cells_begin(c, block, &cell)) {
+        leave_block_undecided(c, block);
         return;
     }
     /* If this takes long and decides little, the facets are done one by one instead. */
@@ -271,14 +270,14 @@ static void block_do(lrcsi_cells_work *c, uint32_t x, uint32_t y)
     c->stack[0] = cell;
     c->top = 1;
     while (c->top > 0) {
-        cell = lrcsi_cells_take(c);
+        cell = lrcsi_cells_pop(c);
         uint64_t steps = (uint64_t)1 + cell.facets + cell.segments;
         if (steps > most || !lrcsi_meter_take(c->meter, steps)) {
-            block_leave(c, block);
+            leave_block_undecided(c, block);
             return;
         }
         most -= steps;
-        most += cells_do(c, &cell) ? STEPS_DECIDED : 0;
+        most += process_cell(c, &cell) ? STEPS_DECIDED : 0;
     }
 }
 
@@ -288,12 +287,12 @@ static lrcsi_visible facet_decided(const lrcsi_cells_work *c, uint32_t facet, do
                                    double *off)
 {
     const lrcsi_cells_found *a = &c->area[facet];
-    double seen = (c->found[facet] & LRCSI_CELLS_HIDDEN) == 0 ? whole
-                  : (c->found[facet] & LRCSI_CELLS_SEEN) == 0 ? 0
-                                                              : lrcsi_min(whole, a->seen);
+    double seen = (c->state[facet] & LRCSI_CELLS_HIDDEN) == 0    ? whole
+                  : (c->state[facet] & LRCSI_CELLS_VISIBLE) == 0 ? 0
+                                                                 : lrcsi_min(whole, a->visible);
     int mixed =
-        (c->found[facet] & LRCSI_CELLS_SEEN) != 0 && (c->found[facet] & LRCSI_CELLS_HIDDEN) != 0;
-    *off = a->uncertainty + (mixed ? a->off + 64 * LRCSI_U * a->seen : 0);
+        (c->state[facet] & LRCSI_CELLS_VISIBLE) != 0 && (c->state[facet] & LRCSI_CELLS_HIDDEN) != 0;
+    *off = a->uncertainty + (mixed ? a->visible_err + 64 * LRCSI_U * a->visible : 0);
     return (lrcsi_visible){seen, lrcsi_max(0, seen - *off), lrcsi_min(whole, seen + *off), 0, 0};
 }
 
@@ -323,7 +322,7 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double p
     const lrcs_scene *scene = c->view->prepared->scene;
     int ordinary = scene->part[scene->facet_part[facet]].reach > 0 ||
                    (projected > NEEDLE * diameter * diameter && diameter < 2 * extent);
-    double alone = LRCSI_U * diameter * (104 * diameter + 128 * c->area[facet].cut);
+    double alone = LRCSI_U * diameter * (104 * diameter + 128 * c->area[facet].strip_length);
     alone = as_alone ? AS_ALONE * alone : 0;
     return ACCURACY_OF_FACET * projected +
            (ordinary ? lrcsi_max(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
@@ -334,7 +333,7 @@ static uint32_t areas_report(const lrcsi_cells_work *c, int as_alone, lrcsi_visi
 {
     uint32_t left = 0;
     for (uint32_t f = 0; f < c->view->prepared->scene->facet_count; f++) {
-        if (!c->open[f] || (c->found[f] & LRCSI_CELLS_OPEN) != 0 || c->found[f] == 0) {
+        if (!c->wanted[f] || (c->state[f] & LRCSI_CELLS_UNDECIDED) != 0 || c->state[f] == 0) {
             continue;
         }
         double off;
@@ -343,7 +342,7 @@ static uint32_t areas_report(const lrcsi_cells_work *c, int as_alone, lrcsi_visi
         if (off <= ACCURACY_OF_FACET * projected ||
             off <= facet_accuracy(c, f, projected, as_alone)) {
             visible[f] = area;
-            c->open[f] = 0;
+            c->wanted[f] = 0;
         } else {
             left++;
         }
@@ -366,41 +365,44 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     need = lrcsi_work_add(need, 7 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_BORDERS, sizeof(lrcsi_cells_border)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
+    need =
+        lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_MAX_BORDERS, sizeof(lrcsi_cells_border)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_STACK, sizeof(lrcsi_cells_cell)));
 }
 
 /* Allocates the arrays of a view, and lists its facets and events in blocks. 0 if the memory does
    not suffice. */
-static int cells_make(const lrcsi_classification *classification, const unsigned char *answer,
-                      lrcs_work *work, lrcsi_cells_work *c)
+static int cells_allocate(const lrcsi_classification *classification, const unsigned char *answer,
+                          lrcs_work *work, lrcsi_cells_work *c)
 {
     const lrcs_prepared *p = c->view->prepared;
     uint32_t count = p->scene->facet_count;
-    c->found = lrcsi_work_take_zero(work, count, 1);
+    c->state = lrcsi_work_take_zero(work, count, 1);
     c->kind = lrcsi_work_take_zero(work, count, 1);
     c->facet = lrcsi_work_take(work, count, sizeof *c->facet);
     c->area = lrcsi_work_take_zero(work, count, sizeof *c->area);
     c->listed = lrcsi_work_take_zero(work, count, sizeof *c->listed);
-    c->met = lrcsi_work_take_zero(work, count, sizeof *c->met);
-    c->joined = lrcsi_work_take_zero(work, count, sizeof *c->joined);
-    c->meets = lrcsi_work_take_zero(work, count, sizeof *c->meets);
+    c->covers = lrcsi_work_take_zero(work, count, sizeof *c->covers);
+    c->in_component = lrcsi_work_take_zero(work, count, sizeof *c->in_component);
+    c->contacts = lrcsi_work_take_zero(work, count, sizeof *c->contacts);
     c->frame.point = lrcsi_work_take_zero(work, p->scene->vertex_count, sizeof *c->frame.point);
     c->component = lrcsi_work_take(work, count, sizeof *c->component);
     c->hit = lrcsi_work_take(work, count, sizeof *c->hit);
     c->facets = lrcsi_work_take(work, count, sizeof *c->facets);
-    c->border = lrcsi_work_take(work, LRCSI_CELLS_BORDERS, sizeof *c->border);
-    c->stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c->stack);
-    if (!c->found || !c->kind || !c->facet || !c->area || !c->listed || !c->met || !c->joined ||
-        !c->meets || !c->frame.point || !c->component || !c->hit || !c->facets || !c->border ||
-        !c->stack || !lrcsi_cells_grid_make(classification, answer, work, &c->grid)) {
+    c->border = lrcsi_work_take(work, LRCSI_CELLS_MAX_BORDERS, sizeof *c->border);
+    c->stack = lrcsi_work_take(work, LRCSI_CELLS_STACK, sizeof *c->stack);
+    if (!c->state || !c->kind || !c->facet || !c->area || !c->listed || !c->covers ||
+        !c->in_component || !c->contacts || !c->frame.point || !c->component || !c->hit ||
+        !c->facets || !c->border || !c->stack ||
+        !lrcsi_cells_grid_make(classification, answer, work, &c->grid)) {
         return 0;
     }
     for (uint32_t f = 0; f < count; f++) {
-        c->kind[f] =
-            lrcsi_view_casts(c->view, f) && lrcsi_cells_apart(c->view, f) ? LRCSI_CELLS_APART : 0;
+        c->kind[f] = lrcsi_view_casts(c->view, f) && lrcsi_cells_has_coplanar(c->view, f)
+                         ? LRCSI_CELLS_COPLANAR
+                         : 0;
     }
-    size_t segments = lrcsi_cells_segments_most(c);
+    size_t segments = lrcsi_cells_max_segments(c);
     c->segment_room = (uint32_t)segments;
     c->segments = lrcsi_work_take(work, segments, sizeof *c->segments);
     c->segment = lrcsi_work_take(work, segments, sizeof *c->segment);
@@ -415,13 +417,14 @@ void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;
     size_t peak = work->peak; /* restored if memory does not suffice: it is no failure then */
-    lrcsi_cells_work c = {.view = view, .meter = meter, .frame = {.view = view}, .open = open};
-    c.trifle = 0x1p-10 * ACCURACY_OF_SCENE * extent_of(view->prepared) * extent_of(view->prepared);
-    if (!view->prepared->convex && cells_make(classification, answer, work, &c)) {
+    lrcsi_cells_work c = {.view = view, .meter = meter, .frame = {.view = view}, .wanted = open};
+    c.negligible =
+        0x1p-10 * ACCURACY_OF_SCENE * extent_of(view->prepared) * extent_of(view->prepared);
+    if (!view->prepared->convex && cells_allocate(classification, answer, work, &c)) {
         for (uint32_t y = 0; y < c.grid.side; y++) {
             lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, y, c.grid.side);
             for (uint32_t x = 0; x < c.grid.side; x++) {
-                block_do(&c, x, y);
+                process_block(&c, x, y);
             }
         }
         /* Facets whose areas are not accurate enough are done alone; if they are many, only those

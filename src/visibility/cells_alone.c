@@ -10,27 +10,27 @@
    any other point of the cell.
      (1) If nothing is in front of f at P, and no segment is left in the cell, all of the cell is
    visible: nothing changes on the way from P to x.
-     (2) If a facet is in front of f at P, consider its component: all facets joined to it by edges
-   that are not events (visibility/classify.h). If no segment is left at which the component ends or
-   meets f, the component continues on the way from P to x, and stays in front of f, because it
-   would have to touch f to pass behind it. So f is hidden in all of the cell.
+     (2) If a facet is in front of f at P, consider its component: all facets connected with it by
+   edges that are not events (visibility/classify.h). If no segment is left at which the component
+   ends or meets f, the component continues on the way from P to x, and stays in front of f, because
+   it would have to intersect f to pass behind it. So f is hidden in all of the cell.
      (3) Otherwise the cell is cut along a segment of the component that has the fewest segments
    left.
 
-   A facet that touches f may be behind f except in a strip no wider than its error. Within that
+   A facet that intersects f may be behind f except in a strip no wider than its error. Within that
    strip it counts as in front of f. The strip can be long; it ends at event edges, which are
    segments like all others. Near the line of the contact it remains undecided whether the facet is
    in front.
 
-   Error. Lines, strips and cells are those of visibility/cells_charge.c, in coordinates from a
-   corner of f. The ends of segments have an error of 10 u R, where R is their distance from that
-   corner, or the part of it that matters (visibility/target.h); those of contacts have 16 u R and a
+   Error. Lines, strips and cells are those of visibility/cells_cut.c, in coordinates from a corner
+   of f. The ends of segments have an error of 10 u R, where R is their distance from that corner,
+   or the part of it that matters (visibility/target.h); those of contacts have 16 u R and a
    position error. Lines through them have 9 u R more: 32 u R bounds both. All statements hold in
    f's triangle as it is computed, whose area differs from that of f by at most the length of its
    sides times their error.
 
    A needle may be narrower than these errors. It is divided in barycentric coordinates instead
-   (visibility/needle.h), in which it is as wide as it is long: its corners are exact except for the
+   (visibility/target.h), in which it is as wide as it is long: its corners are exact except for the
    frame's position error, segments are clipped to a box with coordinates of at most 3, and the side
    of another facet on which a point lies is computed in double-double. Areas are then in units of
    twice the projected area of f. */
@@ -44,66 +44,59 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "view/side.h"
-#include "visibility/cells_charge.h"
+#include "visibility/cells_block.h"
 #include "visibility/cells_cover.h"
 #include "visibility/cells_cut.h"
-#include "visibility/cells_open.h"
 #include "visibility/contact.h"
 #include "visibility/sample.h"
 
 /* Limit on the cells of a facet: a constant, and so many for each segment. */
-#define PARTS_MOST      4096u
-#define PARTS_A_SEGMENT 256u
-/* A candidate is far-reaching if its farthest corner is more than this many times as far away as
-   its nearest corner and the reach of f together. */
-#define FAR_FACET 64
-/* A cell without room for a sample is halved if its area exceeds this many margins times its
-   perimeter: it is then of an unfavourable shape, not narrow. */
+#define CELLS_CONSTANT    4096u
+#define CELLS_PER_SEGMENT 256u
+/* The sides of a candidate need better error bounds if its farthest corner is more than this many
+   times as far away as its nearest corner and the reach of f together. */
+#define FAR_RATIO 64
+/* A cell without room for a sample is halved if its area exceeds its perimeter times this many
+   distances that a sample must keep from the border: then it is not too narrow for a sample. */
 #define NARROW 64
-/* Nor is it halved if its area is at most this fraction of f's: of the cells that a facet may have
-   (PARTS_MOST), all together are then less than 1e-12 of it. */
-#define LEAST_HALVED 0x1p-52
+/* It is not halved either if its area is at most this fraction of the area of f: all such cells
+   together are then less than 1e-12 of it. */
+#define MIN_HALVED 0x1p-52
 
 /* The depth order of a facet against f: one of these, or the number of the segment in which the two
    intersect. */
 enum alone_order {
-    ORDER_NEW = 0x7ffffff0, /* not computed yet */
-    ORDER_FRONT,            /* nearer, wherever a line meets both */
-    ORDER_BEHIND,           /* farther */
-    ORDER_APART,            /* it lies beyond a side of f: not a candidate */
-    ORDER_UNKNOWN           /* they touch, along a line that could not be computed */
+    ORDER_NOT_COMPUTED = 0x7ffffff0, /* not computed yet */
+    ORDER_FRONT,                     /* nearer, wherever a line meets both */
+    ORDER_BEHIND,                    /* farther */
+    ORDER_DISJOINT,                  /* it lies beyond a side of f: not a candidate */
+    ORDER_UNKNOWN                    /* they intersect along a line that could not be computed */
 };
 
 /* --- what a facet begins with ----------------------------------------------------------------- */
 
-/* The error of f's corners and sides. */
-static double alone_off(const lrcsi_alone *a)
-{
-    return a->shape.off;
-}
-
 /* May a facet be in front of f? */
-static int alone_listed(const lrcsi_alone *a, uint32_t other)
+static int is_candidate(const lrcsi_alone *a, uint32_t other)
 {
-    return a->met[other] == a->cells.look && a->order[other] != ORDER_APART;
+    return a->listed[other] == a->cells.stamp && a->order[other] != ORDER_DISJOINT;
 }
 
 /* The error of a segment in a needle's frame, given the error of its ends. The box reaches 3, so
    that 24 u of 4.5 bounds the rounding of the ends, of the line, and of the distance of a point of
    the needle from the line. An error that is large compared with the margin of the box around the
    needle says nothing: the segment may then be anywhere. */
-static double needle_off(double off)
+static double needle_segment_err(double end_err)
 {
-    return off < 0.25 ? 192 * LRCSI_U + 2 * off : 4;
+    return end_err < 0.25 ? 192 * LRCSI_U + 2 * end_err : 4;
 }
 
-/* The sides of a facet in f's frame, each with `clear`: a point nearer than this to the side may
-   lie on either side of it. That is 20 u R, where R is the largest distance of the facet's corners.
-   For a facet that is narrow or reaches far away this is too much. There the line of each side is
-   taken from the nearer of its ends, n, of the two p and q. The side T is off by 12 u (r_p + r_q),
-   rounding included, the place G as seen from n by 12 u r_n + 2 u d, d the length of f; so T x G by
-   12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the 1-norm, and by its own rounding, 2 u |T|
-   |G|, below 3 u (r_p + r_q) |G|. */
+/* The sides of a facet in f's frame, each with an error: a point nearer than this to the line may
+   be on either side of it. The error is 20 u R, where R is the largest distance of the facet's
+   corners. For a facet that is narrow or extends far away this is too much. There the line of each
+   side begins at n, the nearer of its ends p and q. The error of the side T is 12 u (r_p + r_q),
+   rounding included; that of the vector G from n to the point is 12 u r_n + 2 u d, where d is the
+   length of f. So T x G has an error of 12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the
+   1-norm, and a rounding error of 2 u |T| |G|, which is below 3 u (r_p + r_q) |G|. */
 static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side side[3])
 {
     const lrcsi_target *frame = &a->frame;
@@ -119,23 +112,23 @@ static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side si
         lrcsi_line_through(corner[k], to, side[k].line);
         length[k] = lrcsi_length_flat(to[0] - corner[k][0], to[1] - corner[k][1]);
     }
-    double least = lrcsi_min(reach[0], lrcsi_min(reach[1], reach[2]));
-    double most = lrcsi_max(reach[0], lrcsi_max(reach[1], reach[2]));
+    double nearest = lrcsi_min(reach[0], lrcsi_min(reach[1], reach[2]));
+    double farthest = lrcsi_max(reach[0], lrcsi_max(reach[1], reach[2]));
     double longest = lrcsi_max(length[0], lrcsi_max(length[1], length[2]));
-    double off = 20 * LRCSI_U * most;
+    double err = 20 * LRCSI_U * farthest;
     double twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
                    (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
-    int irregular =
-        !(twice > 16 * off * (longest + 4 * off)) || most > FAR_FACET * (least + frame->reach);
+    int irregular = !(twice > 16 * err * (longest + 4 * err)) ||
+                    farthest > FAR_RATIO * (nearest + frame->reach);
     for (int k = 0; k < 3; k++) {
         int next = k == 2 ? 0 : k + 1;
         int n = reach[k] <= reach[next] ? k : next;
         double gap = fabs(corner[n][0]) + fabs(corner[n][1]) + 1.5 * frame->diameter;
-        side[k].clear = off;
+        side[k].err = err;
         if (irregular) {
             double *line = side[k].line;
             line[2] = -(line[0] * corner[n][0] + line[1] * corner[n][1]);
-            side[k].clear =
+            side[k].err =
                 16 * LRCSI_U *
                 ((reach[k] + reach[next]) * (gap / length[k]) + reach[n] + frame->diameter);
         }
@@ -143,14 +136,12 @@ static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side si
 }
 
 /* The depth order of a facet whose interior does not intersect that of f: from their planes; if
-   they are coplanar, from the rules of precedence; otherwise from where their sides cross, and from
-   their corners. This decides for any two facets that overlap in the view (visibility/contact.h).
- */
+   they are coplanar, from the rules of precedence; otherwise from where they overlap. */
 static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
     const lrcsi_intersections *intersections = &view->prepared->intersections;
-    int order = lrcsi_contact_side(view, a->facet, other);
+    int order = lrcsi_sample_side(view, other, a->facet);
     for (uint32_t i = intersections->first[a->facet];
          order == 0 && i < intersections->first[a->facet + 1]; i++) {
         if (intersections->entry[i].other == other &&
@@ -158,8 +149,7 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
             order = -1;
         }
     }
-    order = order == 0 ? lrcsi_contact_order(view, a->facet, other) : order;
-    order = order == 0 ? lrcsi_contact_within(view, a->facet, other) : order;
+    order = order == 0 ? lrcsi_sample_overlap_order(view, other, a->facet) : order;
     return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_UNKNOWN;
 }
 
@@ -194,8 +184,8 @@ static int alone_facets(lrcsi_alone *a)
         side[k] = lrcsi_view_side_of(c->view, corner[k], corner[k == 2 ? 0 : k + 1]);
     }
     a->count = 0;
-    a->met[a->facet] = c->look;
-    a->order[a->facet] = ORDER_APART;
+    a->listed[a->facet] = c->stamp;
+    a->order[a->facet] = ORDER_DISJOINT;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
         if (!lrcsi_meter_take(c->meter, items.to - items.from)) {
@@ -204,17 +194,17 @@ static int alone_facets(lrcsi_alone *a)
         for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t other = grid->item[i];
             const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
-            if (a->met[other] == c->look || lrcsi_view_box_beside(its, &box) ||
+            if (a->listed[other] == c->stamp || lrcsi_view_box_beside(its, &box) ||
                 lrcsi_view_box_behind(its, &box)) {
                 continue;
             }
-            a->met[other] = c->look;
-            a->order[other] = ORDER_APART;
+            a->listed[other] = c->stamp;
+            a->order[other] = ORDER_DISJOINT;
             if (!facet_apart(a, side, other)) {
                 int front = lrcsi_view_box_behind(&box, its);
-                a->order[other] = front ? (uint32_t)ORDER_FRONT : (uint32_t)ORDER_NEW;
+                a->order[other] = front ? (uint32_t)ORDER_FRONT : (uint32_t)ORDER_NOT_COMPUTED;
                 if (a->count < a->side_room) {
-                    a->side[a->count][0].clear = -1; /* not made yet */
+                    a->side[a->count][0].err = -1; /* not made yet */
                 }
                 a->candidate[a->count++] = other;
             }
@@ -231,21 +221,21 @@ static void segment_ends(lrcsi_cells_segment *e, const double (*end)[2])
     }
     lrcsi_line_through(end[0], end[1], e->line);
     e->length = lrcsi_length_flat(end[1][0] - end[0][0], end[1][1] - end[0][1]);
-    e->line_off = e->off;
+    e->line_err = e->err;
 }
 
 /* Is neither of an edge's facets in front of f anywhere? */
-static int edge_idle(lrcsi_alone *a, const uint32_t owner[2])
+static int edge_is_behind(lrcsi_alone *a, const uint32_t owner[2])
 {
-    int idle = 1;
-    for (int i = 0; i < 2 && idle; i++) {
-        if (owner[i] != LRCS_NONE && alone_listed(a, owner[i])) {
+    int behind = 1;
+    for (int i = 0; i < 2 && behind; i++) {
+        if (owner[i] != LRCS_NONE && is_candidate(a, owner[i])) {
             uint32_t *order = &a->order[owner[i]];
-            *order = *order == ORDER_NEW ? order_of(a, owner[i]) : *order;
-            idle = *order == ORDER_BEHIND;
+            *order = *order == ORDER_NOT_COMPUTED ? order_of(a, owner[i]) : *order;
+            behind = *order == ORDER_BEHIND;
         }
     }
-    return idle;
+    return behind;
 }
 
 /* An edge, unless its facets are behind f. 0 if there is no room. */
@@ -258,7 +248,7 @@ static int alone_edge(lrcsi_alone *a, uint32_t edge)
     if (!e) {
         return 0;
     }
-    if (e->edge == LRCS_NONE && edge_idle(a, e->owner)) {
+    if (e->edge == LRCS_NONE && edge_is_behind(a, e->owner)) {
         c->segment_count--;
         return 1;
     }
@@ -266,11 +256,11 @@ static int alone_edge(lrcsi_alone *a, uint32_t edge)
     const double *from = p->vertex[of->low].x;
     const double *to = p->vertex[of->high].x;
     if (a->frame.needle) {
-        e->off = needle_off(lrcsi_needle_segment(a->frame.needle, from, to, end));
+        e->err = needle_segment_err(lrcsi_needle_segment(a->frame.needle, from, to, end));
     } else {
         const double away[2] = {lrcsi_target_coordinates(&a->frame, from, end[0]),
                                 lrcsi_target_coordinates(&a->frame, to, end[1])};
-        e->off = 32 * LRCSI_U * lrcsi_target_segment(&a->frame, end, away);
+        e->err = 32 * LRCSI_U * lrcsi_target_segment(&a->frame, end, away);
     }
     segment_ends(e, (const double(*)[2])end);
     return 1;
@@ -281,9 +271,9 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_contact contact;
-    int side = lrcsi_contact_side(c->view, a->facet, other);
+    int side = lrcsi_sample_side(c->view, other, a->facet);
     int kind = side < 0 ? LRCSI_CONTACT_POINT : lrcsi_contact_find(&a->frame, other, &contact);
-    a->order[other] = side > 0 ? ORDER_FRONT : side < 0 ? ORDER_BEHIND : ORDER_NEW;
+    a->order[other] = side > 0 ? ORDER_FRONT : side < 0 ? ORDER_BEHIND : ORDER_NOT_COMPUTED;
     if (side == 0 && kind != LRCSI_CONTACT_POINT) {
         a->order[other] = kind == LRCSI_CONTACT_FLAT      ? (uint32_t)ORDER_FRONT
                           : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)ORDER_UNKNOWN
@@ -303,7 +293,7 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
     if (!e) {
         return 0;
     }
-    e->off = a->frame.needle ? needle_off(contact.off + contact.position_err)
+    e->err = a->frame.needle ? needle_segment_err(contact.corner_err + contact.position_err)
                              : 32 * LRCSI_U * contact.reach + contact.position_err;
     e->owner[0] = a->facet;
     e->owner[1] = other;
@@ -319,7 +309,7 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
     const lrcsi_intersections *intersections = &c->view->prepared->intersections;
     for (uint32_t i = intersections->first[a->facet]; i < intersections->first[a->facet + 1]; i++) {
         const lrcsi_intersection *touch = &intersections->entry[i];
-        if (alone_listed(a, touch->other) && lrcsi_intersection_hides(c->view, a->facet, touch) &&
+        if (is_candidate(a, touch->other) && lrcsi_intersection_hides(c->view, a->facet, touch) &&
             !alone_contact(a, touch->other)) {
             return 0;
         }
@@ -335,7 +325,7 @@ static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
 }
 
 /* Leaves an area undecided: it counts as half visible. */
-static void facet_leave(lrcsi_alone *a, double area)
+static void leave_area_undecided(lrcsi_alone *a, double area)
 {
     a->uncertainty[0] += 0.5 * area;
     a->uncertainty[1] += 0.5 * area;
@@ -348,20 +338,20 @@ static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_facet *f = &a->shape;
     const lrcsi_target *frame = &a->frame;
-    double off = frame->needle ? frame->position_err + 8 * LRCSI_U : 20 * LRCSI_U * frame->reach;
-    *f = (lrcsi_cells_facet){.off = off, .line_off = off, .number = a->facet};
+    double err = frame->needle ? frame->position_err + 8 * LRCSI_U : 20 * LRCSI_U * frame->reach;
+    *f = (lrcsi_cells_facet){.err = err, .line_err = err, .number = a->facet};
     lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell->shape);
     lrcsi_clip_box(&cell->shape, f->low, f->high);
-    c->reach = lrcsi_max(lrcsi_max(-f->low[0], -f->low[1]), lrcsi_max(f->high[0], f->high[1]));
+    c->extent = lrcsi_max(lrcsi_max(-f->low[0], -f->low[1]), lrcsi_max(f->high[0], f->high[1]));
     for (int k = 0; k < 3; k++) {
         f->x[k] = frame->corner[k][0];
         f->y[k] = frame->corner[k][1];
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
-    a->rim = frame->perimeter * (off + 16 * LRCSI_U * c->reach);
-    a->negligible = LEAST_HALVED * lrcsi_clip_area(&cell->shape);
+    a->border_area = frame->perimeter * (err + 16 * LRCSI_U * c->extent);
+    a->negligible = MIN_HALVED * lrcsi_clip_area(&cell->shape);
     cell->facets = 1;
-    return lrcsi_clip_area(&cell->shape) > 8 * off * frame->diameter;
+    return lrcsi_clip_area(&cell->shape) > 8 * err * frame->diameter;
 }
 
 void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
@@ -369,24 +359,24 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_cell cell = {.cuts = 0};
     a->facet = facet;
-    a->uncertainty[0] = a->uncertainty[1] = a->rim = a->bent = 0;
+    a->uncertainty[0] = a->uncertainty[1] = a->border_area = a->piece_err = 0;
     a->hidden = 0;
-    a->open = 1;
+    a->wanted = 1;
     a->number = 0;
     lrcsi_target_make(c->view, facet, &a->target);
     lrcsi_target_refine(&a->target, &a->needle, &a->frame);
-    a->area = (lrcsi_cells_found){.seen = 0};
+    a->area = (lrcsi_cells_found){.visible = 0};
     c->facet = &a->shape;
     c->area = &a->area;
-    c->open = &a->open;
+    c->wanted = &a->wanted;
     c->facets = &a->number;
     c->segment_count = c->top = 0;
-    c->look++;
+    c->stamp++;
     if (!alone_shape(a, &cell) || !alone_facets(a) || !alone_segments(a, &cell)) {
-        facet_leave(a, lrcsi_view_incidence(c->view, facet).projected / a->frame.unit);
+        leave_area_undecided(a, lrcsi_view_incidence(c->view, facet).projected / a->frame.unit);
         return;
     }
-    a->parts = PARTS_MOST + (uint64_t)PARTS_A_SEGMENT * cell.segments;
+    a->cells_left = CELLS_CONSTANT + (uint64_t)CELLS_PER_SEGMENT * cell.segments;
     c->stack[0] = cell;
     c->top = 1;
 }
@@ -399,14 +389,15 @@ static int component_ends(const lrcsi_alone *a, const lrcsi_cells_segment *e, ui
 {
     const uint32_t *of = a->classification->component;
     return e->contact ? of[e->owner[1]] == component
-                      : lrcsi_cells_segment_of(a->cells.view->prepared, e, of, component);
+                      : lrcsi_cells_segment_has(a->cells.view->prepared, e, of, component);
 }
 
 /* Chooses, of a cell's segments, the one whose line passes nearest to a point, so that both parts
    are of similar size. Given a component, only segments at which it ends count. Returns how many
    there are to choose from. */
-static uint32_t cell_choose(const lrcsi_alone *a, const lrcsi_cells_cell *cell, const double at[2],
-                            uint32_t component, const lrcsi_cells_segment **best)
+static uint32_t choose_segment(const lrcsi_alone *a, const lrcsi_cells_cell *cell,
+                               const double at[2], uint32_t component,
+                               const lrcsi_cells_segment **best)
 {
     uint32_t count = 0;
     double nearest = HUGE_VAL;
@@ -425,76 +416,77 @@ static uint32_t cell_choose(const lrcsi_alone *a, const lrcsi_cells_cell *cell, 
 
 /* --- samples ---------------------------------------------------------------------------------- */
 
-/* How a sample is decided: with error bounds, at its point in the frame; exactly, at a nearby point
-   in space; or by the signs of rounded values, which is only a guess. */
-enum alone_way { WAY_PLACED, WAY_EXACT, WAY_GUESSED };
+/* How the facets at a sample are found: with error bounds, at its point of the frame; exactly, at a
+   nearby point in space; or by the signs of rounded values, which is only a guess. */
+enum alone_test { TEST_BOUNDED, TEST_EXACT, TEST_GUESSED };
 
 /* A sample in a cell. */
-typedef struct alone_place {
+typedef struct alone_sample {
     double at[2], clear;
-    int way; /* an alone_way */
+    int test; /* an alone_way */
     double point[3];
-    double off;                     /* the error of `at` as the position of `point` */
+    double err;                     /* the distance in the view between `at` and `point` */
     lrcsi_view_box box;             /* in the view; its depth does not count */
     const lrcsi_cells_segment *cut; /* found: a segment of the component that ends at the */
     uint32_t ends;                  /* fewest, and how many these are */
-} alone_place;
+} alone_sample;
 
 /* Finds the sample's point in space from its barycentric coordinates; its coordinates are
    rounded. */
-static void place_lift(const lrcsi_alone *a, alone_place *place)
+static void sample_lift(const lrcsi_alone *a, alone_sample *sample)
 {
     const lrcs_prepared *p = a->cells.view->prepared;
     double weight[3];
-    lrcsi_target_weights(&a->frame, place->at, weight);
+    lrcsi_target_weights(&a->frame, sample->at, weight);
     for (int k = 0; k < 3; k++) {
-        place->point[k] = 0;
+        sample->point[k] = 0;
         for (int i = 0; i < 3; i++) {
-            place->point[k] += weight[i] * lrcsi_prepared_corner(p, a->facet, i)[k];
+            sample->point[k] += weight[i] * lrcsi_prepared_corner(p, a->facet, i)[k];
         }
     }
-    place->way = WAY_EXACT;
+    sample->test = TEST_EXACT;
 }
 
-/* The place in the view: f's first corner and the way from there, which is off by f's own corners,
-   10 u of their reach, by rounding, 3 u, and in a needle by the frame's position error. */
-static lrcsi_view_box place_box(const lrcsi_alone *a, const alone_place *place)
+/* The sample in the view: f's first corner plus the vector from there. The vector has the error of
+   f's own corners, 10 u of their reach, a rounding error of 3 u, and in a needle the frame's
+   position error. */
+static lrcsi_view_box sample_view_box(const lrcsi_alone *a, const alone_sample *sample)
 {
     double first[3];
     double x[3];
     lrcsi_view_coordinates(a->cells.view, a->target.origin, first);
-    lrcsi_target_unrefine(&a->frame, place->at, x);
+    lrcsi_target_unrefine(&a->frame, sample->at, x);
     x[0] += first[0];
     x[1] += first[1];
     x[2] = first[2];
     return lrcsi_view_box_about(a->cells.view, x,
-                                lrcsi_view_point_err(first) + place->off +
+                                lrcsi_view_point_err(first) + sample->err +
                                     (16 * LRCSI_U + 2 * a->frame.position_err) * a->target.reach);
 }
 
-/* 1 a facet surely covers the point of a needle that has these barycentric coordinates, -1 surely
-   not, 0 it passes too near a side. The point is off its place by the frame's position error. Lines
-   in plain doubles, kept as far as there is room, nearly always suffice. */
-static int needle_covered(const lrcsi_alone *a, const alone_place *place, uint32_t candidate)
+/* Does a facet cover the point of a needle with these barycentric coordinates? 1 certainly, -1
+   certainly not, 0 the point is too near a side. The point has the frame's position error. Lines in
+   plain doubles nearly always suffice; they are kept as far as there is room. */
+static int needle_covered(const lrcsi_alone *a, const alone_sample *sample, uint32_t candidate)
 {
     const lrcsi_view *view = a->cells.view;
     uint32_t other = a->candidate[candidate];
     int kept = candidate < a->side_room;
-    int made = kept && a->side[candidate][0].clear >= 0;
-    int guess = place->way == WAY_GUESSED;
+    int made = kept && a->side[candidate][0].err >= 0;
+    int guess = sample->test == TEST_GUESSED;
     int inside = 1;
     for (int k = 0; k < 3 && kept && !made; k++) {
         lrcsi_alone_side *side = &a->side[candidate][k];
-        side->clear = lrcsi_needle_line(a->frame.needle, lrcsi_target_corner(view, other, k),
-                                        lrcsi_target_corner(view, other, (k + 1) % 3), side->line);
+        side->err = lrcsi_needle_line(a->frame.needle, lrcsi_target_corner(view, other, k),
+                                      lrcsi_target_corner(view, other, (k + 1) % 3), side->line);
     }
     for (int k = 0; k < 3; k++) {
         const lrcsi_alone_side *side = &a->side[kept ? candidate : 0][k];
-        double left = kept ? lrcsi_line_at(side->line, place->at[0], place->at[1]) : 0;
-        if (!kept || !(fabs(left) > side->clear)) {
+        double left = kept ? lrcsi_line_at(side->line, sample->at[0], sample->at[1]) : 0;
+        if (!kept || !(fabs(left) > side->err)) {
             left =
                 lrcsi_needle_side(a->frame.needle, lrcsi_target_corner(view, other, k),
-                                  lrcsi_target_corner(view, other, (k + 1) % 3), place->at, guess);
+                                  lrcsi_target_corner(view, other, (k + 1) % 3), sample->at, guess);
         }
         if (left < 0) {
             return -1;
@@ -504,56 +496,58 @@ static int needle_covered(const lrcsi_alone *a, const alone_place *place, uint32
     return inside || !guess ? inside : -1;
 }
 
-/* 1 a candidate surely covers the place, -1 surely not, or it is behind f, 0 it passes too near a
-   side. Most are distinguished by their boxes; what else they need is found for those that are
-   left, and kept as far as there is room. */
-static int place_covered(lrcsi_alone *a, const alone_place *place, uint32_t candidate, double g)
+/* Does a candidate cover the sample? 1 certainly; -1 certainly not, or it is behind f; 0 the sample
+   is too near a side. Boxes exclude most candidates. The order and the sides of others are computed
+   when they are first needed; sides are kept as far as there is room. */
+static int candidate_covers(lrcsi_alone *a, const alone_sample *sample, uint32_t candidate,
+                            double tolerance)
 {
-    const double *at = place->at;
+    const double *at = sample->at;
     uint32_t other = a->candidate[candidate];
-    if (lrcsi_view_box_beside(&place->box, lrcsi_boxes_facet(&a->grid.boxes, other))) {
+    if (lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&a->grid.boxes, other))) {
         return -1;
     }
-    if (a->order[other] == ORDER_NEW) {
+    if (a->order[other] == ORDER_NOT_COMPUTED) {
         a->order[other] = order_of(a, other);
     }
     if (a->order[other] == ORDER_BEHIND) {
         return -1;
     }
     if (a->frame.needle) {
-        return needle_covered(a, place, candidate);
+        return needle_covered(a, sample, candidate);
     }
-    if (place->way == WAY_EXACT) {
-        return lrcsi_sample_covers(a->cells.view, other, place->point) ? 1 : -1;
+    if (sample->test == TEST_EXACT) {
+        return lrcsi_sample_covers(a->cells.view, other, sample->point) ? 1 : -1;
     }
-    lrcsi_alone_side made[3] = {{.clear = -1}};
+    lrcsi_alone_side made[3] = {{.err = -1}};
     lrcsi_alone_side *sides = candidate < a->side_room ? a->side[candidate] : made;
-    if (sides[0].clear < 0) {
+    if (sides[0].err < 0) {
         sides_make(a, other, sides);
     }
     int inside = 1;
-    int guess = place->way == WAY_GUESSED;
+    int guess = sample->test == TEST_GUESSED;
     for (int k = 0; k < 3; k++) {
         const lrcsi_alone_side *side = &sides[k];
         double left = lrcsi_line_at(side->line, at[0], at[1]);
-        double clear = guess ? 0 : side->clear + g;
-        if (left < -clear) {
+        double err = guess ? 0 : side->err + tolerance;
+        if (left < -err) {
             return -1;
         }
-        inside &= left > clear;
+        inside &= left > err;
     }
     return guess && !inside ? -1 : inside;
 }
 
-/* Is a facet that covers the place in front of f there? 1 yes, -1 no, 0 that cannot be decided:
-   near the line in which they meet. */
-static int place_front(const lrcsi_alone *a, const alone_place *place, uint32_t other, double g)
+/* Is a facet that covers the sample in front of f there? 1 yes, -1 no, 0 it cannot be decided: the
+   sample is near the line in which they intersect. */
+static int candidate_in_front(const lrcsi_alone *a, const alone_sample *sample, uint32_t other,
+                              double tolerance)
 {
     uint32_t order = a->order[other];
     if (order < a->cells.segment_count) {
         const lrcsi_cells_segment *e = &a->cells.segment[order];
-        double left = lrcsi_line_at(e->line, place->at[0], place->at[1]);
-        double w = place->way == WAY_GUESSED ? 0 : e->off + g + place->off;
+        double left = lrcsi_line_at(e->line, sample->at[0], sample->at[1]);
+        double w = sample->test == TEST_GUESSED ? 0 : e->err + tolerance + sample->err;
         int side = left > w ? 1 : left < -w ? -1 : 0;
         return e->contact == LRCSI_CONTACT_LINE    ? side
                : e->contact == LRCSI_CONTACT_FRONT ? side * side
@@ -562,18 +556,19 @@ static int place_front(const lrcsi_alone *a, const alone_place *place, uint32_t 
     return order == ORDER_FRONT ? 1 : order == ORDER_BEHIND ? -1 : 0;
 }
 
-/* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided. If it is hidden, the place holds
-   the component with the fewest segments in the cell; a component with none ends the search. */
-static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                     alone_place *place)
+/* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided. If it is hidden, sample->cut is
+   a segment of the component with the fewest segments in the cell; a component with none ends the
+   search. */
+static int sample_is_hidden(lrcsi_alone *a, const lrcsi_cells_cell *cell,
+                            const lrcsi_cells_sides *s, alone_sample *sample)
 {
     uint32_t last = LRCS_NONE;
     int answer = 0;
-    place->ends = LRCS_NONE;
-    for (uint32_t i = 0; i < a->count && place->ends > 0; i++) {
+    sample->ends = LRCS_NONE;
+    for (uint32_t i = 0; i < a->count && sample->ends > 0; i++) {
         uint32_t other = a->candidate[i];
-        int covered = place_covered(a, place, i, s->g);
-        int front = covered >= 0 ? place_front(a, place, other, s->g) : -1;
+        int covered = candidate_covers(a, sample, i, s->tolerance);
+        int front = covered >= 0 ? candidate_in_front(a, sample, other, s->tolerance) : -1;
         uint32_t component = a->classification->component[other];
         if (front < 0 || (answer > 0 && component == last)) {
             continue;
@@ -583,10 +578,10 @@ static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
             continue;
         }
         const lrcsi_cells_segment *cut;
-        uint32_t ends = cell_choose(a, cell, place->at, component, &cut);
-        if (ends < place->ends) {
-            place->ends = ends;
-            place->cut = cut;
+        uint32_t ends = choose_segment(a, cell, sample->at, component, &cut);
+        if (ends < sample->ends) {
+            sample->ends = ends;
+            sample->cut = cut;
         }
         last = component;
         answer = 1;
@@ -596,36 +591,36 @@ static int place_ask(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
 
 /* Takes samples in the cell until one is decided: 1, 0, or -1 as above. If none is decided, *guess
    is set. */
-static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                     alone_place *place, int *guess)
+static int find_sample(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                       alone_sample *sample, int *guess)
 {
-    double margin = 4 * (cell->inset + alone_off(a) + s->g);
+    double margin = 4 * (cell->widest_strip + a->shape.err + s->tolerance);
     double lift = lrcsi_target_lift_err(&a->target);
     int answer = -1;
-    for (int t = 0; t < LRCSI_CELLS_TRIES && answer < 0; t++) {
-        *place = (alone_place){.way = WAY_PLACED};
-        lrcsi_cells_sample_point(cell, t, place->at);
-        place->clear = lrcsi_cells_sides_clear(s, place->at);
-        if (!(place->clear > margin)) {
+    for (int t = 0; t < LRCSI_CELLS_SAMPLES && answer < 0; t++) {
+        *sample = (alone_sample){.test = TEST_BOUNDED};
+        lrcsi_cells_sample_point(cell, t, sample->at);
+        sample->clear = lrcsi_cells_border_distance(s, sample->at);
+        if (!(sample->clear > margin)) {
             continue;
         }
-        place->box = place_box(a, place);
-        answer = place_ask(a, cell, s, place);
-        if (answer < 0 && !a->frame.needle && place->clear > margin + lift) {
-            place_lift(a, place);
-            place->off = lift;
-            place->box = place_box(a, place);
-            place->clear -= lift;
-            answer = place_ask(a, cell, s, place);
+        sample->box = sample_view_box(a, sample);
+        answer = sample_is_hidden(a, cell, s, sample);
+        if (answer < 0 && !a->frame.needle && sample->clear > margin + lift) {
+            sample_lift(a, sample);
+            sample->err = lift;
+            sample->box = sample_view_box(a, sample);
+            sample->clear -= lift;
+            answer = sample_is_hidden(a, cell, s, sample);
         }
     }
     if (answer < 0) {
-        *place = (alone_place){.way = WAY_GUESSED};
-        lrcsi_cells_sample_point(cell, 0, place->at);
-        place_lift(a, place);
-        place->way = WAY_GUESSED;
-        place->box = place_box(a, place);
-        *guess = place_ask(a, cell, s, place) > 0;
+        *sample = (alone_sample){.test = TEST_GUESSED};
+        lrcsi_cells_sample_point(cell, 0, sample->at);
+        sample_lift(a, sample);
+        sample->test = TEST_GUESSED;
+        sample->box = sample_view_box(a, sample);
+        *guess = sample_is_hidden(a, cell, s, sample) > 0;
     }
     return answer;
 }
@@ -634,7 +629,8 @@ static int cell_look(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_c
 
 /* Returns the cell as a visible piece. The corners of a needle's piece are rounded to the frame
    along the view's axes. */
-static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
+static void add_visible_piece(lrcsi_alone *a, const lrcsi_cells_cell *cell,
+                              const lrcsi_cells_sides *s)
 {
     lrcsi_cells_found *area = &a->area;
     a->piece = cell->shape;
@@ -642,54 +638,49 @@ static void cell_show(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_
         for (uint32_t i = 0; i < cell->shape.count; i++) {
             lrcsi_target_unrefine(&a->frame, cell->shape.corner[i], a->piece.corner[i]);
         }
-        a->bent += 4 * LRCSI_U * a->target.reach * lrcsi_clip_perimeter(&a->piece);
+        a->piece_err += 4 * LRCSI_U * a->target.reach * lrcsi_clip_perimeter(&a->piece);
     }
-    area->seen += lrcsi_max(0, lrcsi_clip_area(&cell->shape));
-    area->off += 4 * s->g * s->perimeter + 5 * LRCSI_U * (cell->shape.count + 3) *
-                                               (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]);
-}
-
-/* Cuts a cell along a segment. Without a segment, halves it if it is neither narrow nor negligible.
-   0 if that is not possible. */
-static int cell_divide(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                       const lrcsi_cells_segment *cut)
-{
-    double margin = cell->inset + alone_off(a) + s->g;
-    double least = lrcsi_max(a->negligible, NARROW * margin * s->perimeter);
-    return cut ? lrcsi_cells_divide(&a->cells, cell, s, cut)
-               : lrcsi_clip_area(&cell->shape) > least && lrcsi_cells_halve(&a->cells, cell, s);
+    area->visible += lrcsi_max(0, lrcsi_clip_area(&cell->shape));
+    area->visible_err += 4 * s->tolerance * s->perimeter + 5 * LRCSI_U * (cell->shape.count + 3) *
+                                                               (s->high[0] - s->low[0]) *
+                                                               (s->high[1] - s->low[1]);
 }
 
 /* Processes one cell. Returns 1 if it is a visible piece; else it is hidden, cut, or undecided. */
-static int cell_do(lrcsi_alone *a, lrcsi_cells_cell *cell)
+static int process_alone_cell(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_sides s;
-    alone_place place;
-    lrcsi_cells_sides_make(&cell->shape, lrcsi_cells_reach(c, cell), &s);
-    lrcsi_cells_strike(c, cell, &s);
+    alone_sample sample;
+    lrcsi_cells_sides_make(&cell->shape, lrcsi_cells_tolerance(c, cell), &s);
+    lrcsi_cells_filter_segments(c, cell, &s);
 
     /* 1. A sample. */
     int guess = 0;
-    int hidden = cell_look(a, cell, &s, &place, &guess);
+    int hidden = find_sample(a, cell, &s, &sample, &guess);
     if (hidden <= 0) {
-        place.ends = cell_choose(a, cell, place.at, LRCS_NONE, &place.cut);
+        sample.ends = choose_segment(a, cell, sample.at, LRCS_NONE, &sample.cut);
     }
 
     /* 2. If no segment is left that matters, the whole cell is visible or hidden as the sample is.
      */
-    if (hidden >= 0 && place.ends == 0) {
+    if (hidden >= 0 && sample.ends == 0) {
         a->area.uncertainty +=
-            cell->uncertainty + lrcsi_cells_thin(cell, &s, place.clear, cell->struck, alone_off(a));
+            cell->uncertainty +
+            lrcsi_cells_thin_uncertainty(cell, &s, sample.clear, cell->removed, a->shape.err);
         a->hidden |= hidden;
         if (!hidden) {
-            cell_show(a, cell, &s);
+            add_visible_piece(a, cell, &s);
         }
         return !hidden;
     }
 
-    /* 3. Otherwise it is cut. */
-    if (!cell_divide(a, cell, &s, place.cut)) {
+    /* 3. Otherwise it is cut along a segment. Without one, it is halved unless it is narrow or
+       negligible. */
+    double narrow = NARROW * (cell->widest_strip + a->shape.err + s.tolerance) * s.perimeter;
+    if (sample.cut ? !lrcsi_cells_divide(c, cell, &s, sample.cut)
+                   : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(a->negligible, narrow) &&
+                       lrcsi_cells_halve(c, cell, &s))) {
         int seen = hidden < 0 ? !guess : !hidden;
         a->uncertainty[seen] += lrcsi_clip_area(&cell->shape);
     }
@@ -702,14 +693,14 @@ int lrcsi_alone_next(lrcsi_alone *a)
 {
     lrcsi_cells_work *c = &a->cells;
     while (c->top > 0) {
-        lrcsi_cells_cell cell = lrcsi_cells_take(c);
+        lrcsi_cells_cell cell = lrcsi_cells_pop(c);
         uint64_t steps = (uint64_t)1 + a->count + cell.segments;
-        if (a->parts == 0 || !lrcsi_meter_take(c->meter, steps)) {
-            facet_leave(a, lrcsi_clip_area(&cell.shape));
+        if (a->cells_left == 0 || !lrcsi_meter_take(c->meter, steps)) {
+            leave_area_undecided(a, lrcsi_clip_area(&cell.shape));
             continue;
         }
-        a->parts--;
-        if (cell_do(a, &cell)) {
+        a->cells_left--;
+        if (process_alone_cell(a, &cell)) {
             return 1;
         }
     }
@@ -722,45 +713,45 @@ lrcsi_visible lrcsi_alone_close(lrcsi_alone *a)
     lrcsi_incidence incidence = lrcsi_view_incidence(a->cells.view, a->facet);
     double whole = incidence.projected;
     double unit = a->frame.unit;
-    double off = unit * (a->rim + found->uncertainty + found->off +
-                         64 * LRCSI_U * (found->seen + a->uncertainty[1]));
+    double err = unit * (a->border_area + found->uncertainty + found->visible_err +
+                         64 * LRCSI_U * (found->visible + a->uncertainty[1]));
     double seen = a->hidden || a->uncertainty[0] > 0
-                      ? lrcsi_min(whole, unit * (found->seen + a->uncertainty[1]))
+                      ? lrcsi_min(whole, unit * (found->visible + a->uncertainty[1]))
                       : whole;
-    off += a->frame.needle ? incidence.error * whole : 0;
-    return (lrcsi_visible){seen, lrcsi_max(0, seen - unit * a->uncertainty[1] - off),
-                           lrcsi_min(whole, seen + unit * a->uncertainty[0] + off), 0, 0};
+    err += a->frame.needle ? incidence.error * whole : 0;
+    return (lrcsi_visible){seen, lrcsi_max(0, seen - unit * a->uncertainty[1] - err),
+                           lrcsi_min(whole, seen + unit * a->uncertainty[0] + err), 0, 0};
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
 /* Room for the sides of so many candidates. */
-#define SIDES_MOST 65536u
+#define MAX_SIDES 65536u
 
 static uint32_t sides_room(const lrcs_prepared *p)
 {
-    return p->scene->facet_count < SIDES_MOST ? p->scene->facet_count : SIDES_MOST;
+    return p->scene->facet_count < MAX_SIDES ? p->scene->facet_count : MAX_SIDES;
 }
 
 /* Each event may cross a facet, and each of its contacts may add the three sides of a facet. */
-static size_t segments_most(const lrcs_prepared *p, size_t events)
+static size_t max_segments(const lrcs_prepared *p, size_t events)
 {
-    size_t most = 0;
+    size_t contacts = 0; /* the most that a facet has */
     for (uint32_t f = 0; p->intersections.count > 0 && f < p->scene->facet_count; f++) {
         size_t count = lrcsi_intersection_of(&p->intersections, f);
-        most = count > most ? count : most;
+        contacts = count > contacts ? count : contacts;
     }
-    return events + 3 * most;
+    return events + 3 * contacts;
 }
 
 size_t lrcsi_alone_need(const lrcs_prepared *p)
 {
-    size_t segments = segments_most(p, p->topology.edge_count);
+    size_t segments = max_segments(p, p->topology.edge_count);
     size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_alone_side));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_WAITING, sizeof(lrcsi_cells_cell)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_STACK, sizeof(lrcsi_cells_cell)));
 }
 
 int lrcsi_alone_make(lrcsi_classification *classification, lrcsi_meter *meter,
@@ -770,15 +761,15 @@ int lrcsi_alone_make(lrcsi_classification *classification, lrcsi_meter *meter,
     uint32_t count = p->scene->facet_count;
     *a = (lrcsi_alone){.classification = classification, .grid = *grid, .side_room = sides_room(p)};
     lrcsi_cells_work c = {.view = classification->view, .meter = meter};
-    c.segment_room = (uint32_t)segments_most(p, classification->events.count);
+    c.segment_room = (uint32_t)max_segments(p, classification->events.count);
     a->side = lrcsi_work_take(work, a->side_room, sizeof *a->side);
-    a->met = lrcsi_work_take_zero(work, count, sizeof *a->met);
+    a->listed = lrcsi_work_take_zero(work, count, sizeof *a->listed);
     a->order = lrcsi_work_take(work, count, sizeof *a->order);
     a->candidate = lrcsi_work_take(work, count, sizeof *a->candidate);
     c.segments = lrcsi_work_take(work, c.segment_room, sizeof *c.segments);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
-    c.stack = lrcsi_work_take(work, LRCSI_CELLS_WAITING, sizeof *c.stack);
-    if (!a->side || !a->met || !a->order || !a->candidate || !c.segments || !c.segment ||
+    c.stack = lrcsi_work_take(work, LRCSI_CELLS_STACK, sizeof *c.stack);
+    if (!a->side || !a->listed || !a->order || !a->candidate || !c.segments || !c.segment ||
         !c.stack) {
         return LRCS_E_MEMORY;
     }

@@ -8,9 +8,9 @@
 #include "visibility/target.h"
 #include "visibility/visible.h"
 
-/* A line: the distance from it is a x + b y + c, with an error of at most `clear`. */
+/* A line: the distance from it is a x + b y + c, with an error of at most err. */
 typedef struct lrcsi_alone_side {
-    double line[3], clear;
+    double line[3], err;
 } lrcsi_alone_side;
 
 typedef struct lrcsi_alone {
@@ -19,23 +19,23 @@ typedef struct lrcsi_alone {
     lrcsi_cells_work cells;      /* data that cells share, here with f as the only facet */
     lrcsi_cells_facet shape;     /* f in its frame */
     lrcsi_cells_found area;      /* the areas of f found so far */
-    unsigned char open;          /* cells.open: 1 */
+    unsigned char wanted;        /* cells.wanted: 1 */
     uint32_t number;             /* cells.facets: 0, the number of f there */
     uint32_t *candidate;         /* facets that may hide f */
     uint32_t count;              /* of candidates */
     lrcsi_alone_side (*side)[3]; /* sides of the first side_room candidates */
     uint32_t side_room;
-    uint32_t *met;   /* facet: the search that last met it */
-    uint32_t *order; /* facet that was met: its depth order against f (cells_alone.c) */
+    uint32_t *listed; /* facet: the search that last listed it */
+    uint32_t *order;  /* facet that was listed: its depth order against f (cells_alone.c) */
     uint32_t facet;
     lrcsi_target target;      /* the frame of f along the axes of the view */
     lrcsi_target frame;       /* the frame of the cells: the same, or that of a needle */
     lrcsi_needle needle;      /* used if f is a needle */
     lrcsi_clip_polygon piece; /* the piece last found */
-    uint64_t parts;           /* the number of cells that may still be processed */
+    uint64_t cells_left;      /* the number of cells that may still be processed */
     double negligible;        /* undecided area too small to be divided further */
-    double rim;               /* area within the error of the sides of f */
-    double bent;              /* additional error of the area of a needle's pieces */
+    double border_area;       /* area within the error of the sides of f */
+    double piece_err;         /* additional error of the area of a needle's pieces */
     double uncertainty[2];    /* undecided area: [0] probably hidden, [1] probably visible */
     int hidden;               /* 1 if some of f is hidden */
 } lrcsi_alone;

@@ -4,7 +4,7 @@
 
    Proof. P is the sample. x is any other point of the cell in general position. "The path" is the
    straight line from P to x. Everything said here excludes the strips that
-   visibility/cells_charge.c accounts for. Facets that are removed from the list are nowhere the
+   visibility/cells_cut.c accounts for. Facets that are removed from the list are nowhere the
    nearest: at every point of the cell where such a facet is, a facet of the list is in front of it.
    (2) preserves this, and facets that are hidden everywhere need not be listed to begin with.
      (1) Let K be a set of listed facets with this property: each of its edges that crosses the cell
@@ -30,9 +30,9 @@
    segment in the interior of one (mesh/intersection.h), along parts of edges of both (the facets
    are then marked as rims), or in a common plane. All edges of rims, and of facets that have
    another facet in their plane, count as event edges, so that no component continues across them. A
-   facet with a contact that could not be computed (LRCSI_CELLS_VAGUE) is never part of a component
-   that covers a cell. Contacts in points do not matter: paths to points in general position miss
-   them.
+   facet with a contact that could not be computed (LRCSI_CELLS_UNKNOWN_CONTACT) is never part of a
+   component that covers a cell. Contacts in points do not matter: paths to points in general
+   position miss them.
 
    An edge between a facet of K and a removed one, G, is behind K', behind which G was removed. Near
    the line in which K and K' meet, at the border of the cell, it can be as far inside as the strip
@@ -60,8 +60,8 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t index = c->facets[i];
         const lrcsi_cells_facet *f = &c->facet[index];
-        double w = f->off + s->g;
-        c->listed[index] = c->look;
+        double w = f->err + s->tolerance;
+        c->listed[index] = c->stamp;
         double outside = lrcsi_max(lrcsi_max(f->low[0] - at[0], at[0] - f->high[0]),
                                    lrcsi_max(f->low[1] - at[1], at[1] - f->high[1]));
         if (outside > w) {
@@ -74,10 +74,10 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             continue;
         }
         c->hit[c->hits++] = index;
-        int covers = inside > w && !f->thin;
-        c->met[index] = 2 * c->look + (uint32_t)covers;
+        int covers = inside > w && !f->sliver;
+        c->covers[index] = 2 * c->stamp + (uint32_t)covers;
         double range[2];
-        lrcsi_cells_facet_height(f, at, s->g, range);
+        lrcsi_cells_facet_z(f, at, s->tolerance, range);
         if (covers && (*best == LRCS_NONE || range[0] > most)) {
             *best = index;
             most = range[0];
@@ -90,11 +90,11 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     for (uint32_t i = 0; i < c->hits; i++) {
         uint32_t other = c->hit[i];
         double range[2];
-        lrcsi_cells_facet_height(&c->facet[other], at, s->g, range);
+        lrcsi_cells_facet_z(&c->facet[other], at, s->tolerance, range);
         if (other == *best || range[1] < most) {
             continue;
         }
-        int order = c->met[other] % 2 == 1 && changes < 8
+        int order = c->covers[other] % 2 == 1 && changes < 8
                         ? lrcsi_cells_facet_order(c->view, *best, other)
                         : 0;
         if (order == 0) {
@@ -127,15 +127,15 @@ void lrcsi_cells_sample_point(const lrcsi_cells_cell *cell, int number, double a
     at[1] /= sum;
 }
 
-int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                     uint32_t *best, double at[2], double *clear)
+int lrcsi_cells_nearest(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                        const lrcsi_cells_sides *s, uint32_t *best, double at[2], double *clear)
 {
     int answer = LRCSI_CELLS_UNSURE;
-    for (int t = 0; t < LRCSI_CELLS_TRIES && answer == LRCSI_CELLS_UNSURE; t++) {
+    for (int t = 0; t < LRCSI_CELLS_SAMPLES && answer == LRCSI_CELLS_UNSURE; t++) {
         lrcsi_cells_sample_point(cell, t, at);
-        *clear = lrcsi_cells_sides_clear(s, at);
-        c->look++;
-        if (*clear > 4 * (cell->inset + c->off + s->g)) {
+        *clear = lrcsi_cells_border_distance(s, at);
+        c->stamp++;
+        if (*clear > 4 * (cell->widest_strip + c->facet_err + s->tolerance)) {
             answer = cells_sample(c, cell, s, at, best);
         }
     }
@@ -149,11 +149,11 @@ static int contacts_only(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
     int only = 1;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
-        if (lrcsi_cells_owned(c, e)) {
+        if (lrcsi_cells_of_component(c, e)) {
             only &= e->contact != 0;
-            c->meets[e->owner[0]] = c->look;
+            c->contacts[e->owner[0]] = c->stamp;
             if (e->owner[1] != LRCS_NONE) {
-                c->meets[e->owner[1]] = c->look;
+                c->contacts[e->owner[1]] = c->stamp;
             }
         }
     }
@@ -165,7 +165,7 @@ static int covers_alone(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                         const lrcsi_cells_sides *s, uint32_t index)
 {
     const lrcsi_cells_facet *f = &c->facet[index];
-    double w = f->off + s->g;
+    double w = f->err + s->tolerance;
     for (int k = 0; k < 3; k++) {
         double range[2];
         lrcsi_line_range(&cell->shape, f->side[k], range);
@@ -173,19 +173,19 @@ static int covers_alone(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             return 0;
         }
     }
-    return (c->kind[index] & LRCSI_CELLS_VAGUE) == 0;
+    return (c->kind[index] & LRCSI_CELLS_UNKNOWN_CONTACT) == 0;
 }
 
-int lrcsi_cells_screen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                       const lrcsi_cells_sides *s, const double at[2])
+int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                              const lrcsi_cells_sides *s, const double at[2])
 {
     uint32_t screen = LRCS_NONE;
     double most = -HUGE_VAL;
     for (uint32_t i = 0; i < c->hits; i++) {
         uint32_t index = c->hit[i];
         double range[2];
-        lrcsi_cells_facet_height(&c->facet[index], at, s->g, range);
-        if (c->met[index] == 2 * c->look + 1 && range[0] > most &&
+        lrcsi_cells_facet_z(&c->facet[index], at, s->tolerance, range);
+        if (c->covers[index] == 2 * c->stamp + 1 && range[0] > most &&
             covers_alone(c, cell, s, index)) {
             screen = index;
             most = range[0];
@@ -197,7 +197,7 @@ int lrcsi_cells_screen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     c->borders = 0;
     c->component[0] = screen;
     c->components = 1;
-    c->joined[screen] = c->look;
+    c->in_component[screen] = c->stamp;
     contacts_only(c, cell);
     return 1;
 }
@@ -209,55 +209,55 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     c->borders = 0;
     c->component[0] = best;
     c->components = 1;
-    c->joined[best] = c->look;
+    c->in_component[best] = c->stamp;
     for (uint32_t i = 0; i < c->components; i++) {
         uint32_t facet = c->component[i];
         const lrcsi_cells_facet *f = &c->facet[facet];
-        double w = f->off + s->g;
-        double line_w = (f->thin ? f->off : f->line_off) + s->g;
-        whole &= (c->kind[facet] & LRCSI_CELLS_VAGUE) == 0 &&
-                 (facet == best || (c->met[facet] >> 1) != c->look);
+        double w = f->err + s->tolerance;
+        double line_w = (f->sliver ? f->err : f->line_err) + s->tolerance;
+        whole &= (c->kind[facet] & LRCSI_CELLS_UNKNOWN_CONTACT) == 0 &&
+                 (facet == best || (c->covers[facet] >> 1) != c->stamp);
         for (int k = 0; k < 3; k++) {
             lrcsi_cells_part part;
-            uint32_t next = f->next[k];
-            if (next != LRCS_NONE && c->joined[next] == c->look) {
+            uint32_t next = f->neighbour[k];
+            if (next != LRCS_NONE && c->in_component[next] == c->stamp) {
                 continue;
             }
             int n = k == 2 ? 0 : k + 1;
             const double p[2] = {f->x[k], f->y[k]};
             const double q[2] = {f->x[n], f->y[n]};
-            if (lrcsi_cells_box_away(s, p, q, w)) {
+            if (lrcsi_cells_box_outside(s, p, q, w)) {
                 continue;
             }
             double thin_line[3];
             const double *line = f->side[k];
-            if (f->thin) {
+            if (f->sliver) {
                 lrcsi_line_through(p, q, thin_line);
                 line = thin_line;
             }
-            int place = lrcsi_cells_place_near(&cell->shape, s, p, q, line, w, line_w, &part);
-            if (place == LRCSI_CELLS_AWAY) {
+            int place = lrcsi_cells_locate_near(&cell->shape, s, p, q, line, w, line_w, &part);
+            if (place == LRCSI_CELLS_OUTSIDE) {
                 continue;
             }
-            if (place == LRCSI_CELLS_MEETS && next != LRCS_NONE && c->listed[next] != c->look) {
-                place = lrcsi_cells_place_near(&cell->shape, s, p, q, line, w + cell->inset,
-                                               line_w + cell->inset, &part);
+            if (place == LRCSI_CELLS_CROSSES && next != LRCS_NONE && c->listed[next] != c->stamp) {
+                place = lrcsi_cells_locate_near(&cell->shape, s, p, q, line, w + cell->widest_strip,
+                                                line_w + cell->widest_strip, &part);
             }
             if (place == LRCSI_CELLS_BORDER && next != LRCS_NONE) {
-                whole &= c->borders < LRCSI_CELLS_BORDERS;
+                whole &= c->borders < LRCSI_CELLS_MAX_BORDERS;
                 if (whole) {
                     c->border[c->borders++] = (lrcsi_cells_border){
                         {line[0], line[1], line[2]}, {p[0], p[1]}, f->length[k], part};
                 }
             } else if (place == LRCSI_CELLS_BORDER) {
                 continue;
-            } else if (next == LRCS_NONE || c->listed[next] != c->look) {
+            } else if (next == LRCS_NONE || c->listed[next] != c->stamp) {
                 if (c->components > COMPONENT_FEW) {
                     return 0;
                 }
                 whole = 0;
             } else {
-                c->joined[next] = c->look;
+                c->in_component[next] = c->stamp;
                 c->component[c->components++] = next;
             }
         }
@@ -265,8 +265,8 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     return whole && contacts_only(c, cell);
 }
 
-int lrcsi_cells_segment_of(const lrcs_prepared *prepared, const lrcsi_cells_segment *e,
-                           const uint32_t *mark, uint32_t value)
+int lrcsi_cells_segment_has(const lrcs_prepared *prepared, const lrcsi_cells_segment *e,
+                            const uint32_t *mark, uint32_t value)
 {
     if (mark[e->owner[0]] == value || (e->owner[1] != LRCS_NONE && mark[e->owner[1]] == value)) {
         return 1;
@@ -283,25 +283,25 @@ int lrcsi_cells_segment_of(const lrcs_prepared *prepared, const lrcsi_cells_segm
     return 0;
 }
 
-int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
+int lrcsi_cells_of_component(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
 {
-    return lrcsi_cells_segment_of(c->view->prepared, e, c->joined, c->look);
+    return lrcsi_cells_segment_has(c->view->prepared, e, c->in_component, c->stamp);
 }
 
 /* Is no facet of an edge in the list any more, or not both facets of a contact? */
 static int segment_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
 {
     if (e->contact) {
-        return c->listed[e->owner[0]] != c->look || e->owner[1] == LRCS_NONE ||
-               c->listed[e->owner[1]] != c->look;
+        return c->listed[e->owner[0]] != c->stamp || e->owner[1] == LRCS_NONE ||
+               c->listed[e->owner[1]] != c->stamp;
     }
-    return !lrcsi_cells_segment_of(c->view->prepared, e, c->listed, c->look);
+    return !lrcsi_cells_segment_has(c->view->prepared, e, c->listed, c->stamp);
 }
 
 /* Is a facet in the list, and does no contact in the cell join it with the component? */
 static int stays_apart(const lrcsi_cells_work *c, uint32_t facet)
 {
-    return facet != LRCS_NONE && c->listed[facet] == c->look && c->meets[facet] != c->look;
+    return facet != LRCS_NONE && c->listed[facet] == c->stamp && c->contacts[facet] != c->stamp;
 }
 
 /* Is the part of an edge in the cell behind the component, which covers the cell? If the component
@@ -316,7 +316,7 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
         return 1;
     }
     lrcsi_cells_part part = {0, 1, 0};
-    lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w, w, &part);
+    lrcsi_cells_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w, w, &part);
     double at[2][3];
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++) {
@@ -329,7 +329,7 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
     }
     if (c->components == 1) {
         const lrcsi_cells_facet *f = &c->facet[c->component[0]];
-        double off = f->z_off[0] + f->z_off[1] * w + z_off;
+        double off = f->plane_err[0] + f->plane_err[1] * w + z_off;
         return at[0][2] + off < f->z[0] * at[0][0] + f->z[1] * at[0][1] + f->z[2] &&
                at[1][2] + off < f->z[0] * at[1][0] + f->z[1] * at[1][1] + f->z[2];
     }
@@ -347,12 +347,12 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
     }
     for (uint32_t i = 0; i < c->components; i++) {
         const lrcsi_cells_facet *f = &c->facet[c->component[i]];
-        double clear = f->thin ? HUGE_VAL : 2 * f->off + w;
+        double clear = f->sliver ? HUGE_VAL : 2 * f->err + w;
         if (lrcsi_line_at(f->side[0], middle[0], middle[1]) > clear &&
             lrcsi_line_at(f->side[1], middle[0], middle[1]) > clear &&
             lrcsi_line_at(f->side[2], middle[0], middle[1]) > clear) {
             double range[2];
-            lrcsi_cells_facet_height(f, middle, w, range);
+            lrcsi_cells_facet_z(f, middle, w, range);
             return middle[2] + z_off < range[0];
         }
     }
@@ -361,7 +361,7 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
 
 static void facet_charge(lrcsi_cells_work *c, uint32_t facet, double uncertainty)
 {
-    c->area[facet].uncertainty += c->open[facet] ? uncertainty : 0;
+    c->area[facet].uncertainty += c->wanted[facet] ? uncertainty : 0;
 }
 
 /* Is a facet that surely covers the sample behind the component there? */
@@ -373,38 +373,39 @@ static int behind_at(const lrcsi_cells_work *c, const lrcsi_cells_sides *s, cons
     if (!at) {
         return 1;
     }
-    lrcsi_cells_facet_height(&c->facet[facet], at, s->g, range);
-    lrcsi_cells_facet_height(&c->facet[c->component[0]], at, s->g, of_component);
+    lrcsi_cells_facet_z(&c->facet[facet], at, s->tolerance, range);
+    lrcsi_cells_facet_z(&c->facet[c->component[0]], at, s->tolerance, of_component);
     return range[1] < of_component[0];
 }
 
-void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+void lrcsi_cells_cull(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                       const double *at, double uncertainty)
 {
     double low = HUGE_VAL;
     for (uint32_t i = 0; i < c->components; i++) {
-        low = lrcsi_min(low, lrcsi_cells_facet_limit(&c->facet[c->component[i]], s, -1));
+        low = lrcsi_min(low, lrcsi_cells_facet_z_bound(&c->facet[c->component[i]], s, -1));
     }
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = c->facets[i];
-        if (c->joined[f] != c->look &&
-            ((c->met[f] == 2 * c->look + 1 && c->meets[f] != c->look && behind_at(c, s, at, f)) ||
-             lrcsi_cells_facet_limit(&c->facet[f], s, 1) < low)) {
+        if (c->in_component[f] != c->stamp &&
+            ((c->covers[f] == 2 * c->stamp + 1 && c->contacts[f] != c->stamp &&
+              behind_at(c, s, at, f)) ||
+             lrcsi_cells_facet_z_bound(&c->facet[f], s, 1) < low)) {
             c->listed[f] = 0;
-            c->found[f] |= LRCSI_CELLS_HIDDEN;
+            c->state[f] |= LRCSI_CELLS_HIDDEN;
             facet_charge(c, f, cell->uncertainty + uncertainty);
             continue;
         }
-        lrcsi_cells_keep(c->facets, i, kept++);
+        lrcsi_cells_swap(c->facets, i, kept++);
     }
     cell->facets = kept;
     kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
         if (!segment_idle(c, e) &&
-            (e->contact || !segment_behind(c, cell, s, e, e->off + s->g, low))) {
-            lrcsi_cells_keep(c->segments, i, kept++);
+            (e->contact || !segment_behind(c, cell, s, e, e->err + s->tolerance, low))) {
+            lrcsi_cells_swap(c->segments, i, kept++);
         }
     }
     cell->segments = kept;

@@ -7,7 +7,7 @@
 #include "visibility/cells_state.h"
 
 /* How many samples are tried in a cell, and where they are. */
-#define LRCSI_CELLS_TRIES 3
+#define LRCSI_CELLS_SAMPLES 3
 void lrcsi_cells_sample_point(const lrcsi_cells_cell *cell, int number, double at[2]);
 
 enum { LRCSI_CELLS_UNSURE, LRCSI_CELLS_NONE, LRCSI_CELLS_FOUND };
@@ -15,8 +15,8 @@ enum { LRCSI_CELLS_UNSURE, LRCSI_CELLS_NONE, LRCSI_CELLS_FOUND };
 /* Takes samples well inside a cell until one is decided. Returns UNSURE if none is; NONE if no
    facet covers it; FOUND and the facet nearest to the laser, all others being surely behind it.
    Also returned: the position of the last sample, and its distance from the border. */
-int lrcsi_cells_look(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                     uint32_t *best, double at[2], double *clear);
+int lrcsi_cells_nearest(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                        const lrcsi_cells_sides *s, uint32_t *best, double at[2], double *clear);
 
 /* Finds the component around a facet within the cell. 1 if it covers the cell once and no event
    edge of it is left in the list; its edges at the border of the cell are then recorded, and the
@@ -25,21 +25,21 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, uint32_t best);
 
 /* Is any facet of an edge, or of a contact, marked with a value? */
-int lrcsi_cells_segment_of(const lrcs_prepared *prepared, const lrcsi_cells_segment *e,
-                           const uint32_t *mark, uint32_t value);
+int lrcsi_cells_segment_has(const lrcs_prepared *prepared, const lrcsi_cells_segment *e,
+                            const uint32_t *mark, uint32_t value);
 
 /* Is any facet of a segment in the component? */
-int lrcsi_cells_owned(const lrcsi_cells_work *c, const lrcsi_cells_segment *e);
+int lrcsi_cells_of_component(const lrcsi_cells_work *c, const lrcsi_cells_segment *e);
 
 /* Of the facets that each cover the cell alone, takes the one nearest at the sample as the
    component. 0 if there is none. */
-int lrcsi_cells_screen(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                       const lrcsi_cells_sides *s, const double at[2]);
+int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                              const lrcsi_cells_sides *s, const double at[2]);
 
 /* Removes the facets and edges behind the component, which covers the cell, from the cell's lists.
    Given: the sample if other facets may be nearer there than the component, which is then a single
    facet; else NULL. */
-void lrcsi_cells_drop(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+void lrcsi_cells_cull(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                       const double *at, double uncertainty);
 
 #endif

@@ -1,7 +1,44 @@
 /* SPDX-License-Identifier: MIT */
-/* Cutting a cell along a line. Its lists are divided in place: first the entries that may be near
-   the left part, last those that can be near the right part only. The line is chosen by the
-   caller. */
+/* Cells are cut along lines here, and the area that rounding leaves undecided along these lines,
+   and along segments at the border of a cell, is charged to facets. The caller chooses the lines.
+
+   Shape error. A cut adds corners near the sides that it cuts. Their distance from these sides is
+   measured (lrcsi_clip_divide): the two parts of a cell together miss no point of it by more than
+   that. The sum over all cuts from the block to a cell is the cell's `shape_err`. Every point of
+   the block belongs to a cell that is no farther from it than this, and statements about a cell
+   hold for all points within this distance of it. So the area of a facet that is visible in a cell
+   has an error of at most the shape error times the perimeter of its part there: each cut adds or
+   removes two triangles along the sides that it cuts, as high as the shape error grows by that cut.
+
+   Segments at the border. Let w be the sum of the segment's error (`err`, `line_err`:
+   visibility/cells_facet.c), 16 u times the largest coordinate of the block, and the shape error.
+   If the computed distance of a segment from the cell exceeds w, the segment does not meet the
+   cell. If no point of the segment is more than w inside the cell (LRCSI_CELLS_BORDER), its part in
+   the cell lies within 2 w of the line along a side of the cell, or 4 w in a corner; or within 2 w
+   of its own line, with the cell on one side of that line. Let c be the distance of the sample P
+   from these lines; it exceeds 4 w. The path from P to x then crosses the segment only if x lies
+   within 4 w of that line, and no farther along it from the segment than 4 w / c times the cell's
+   diameter. That is below STRIP_OVERHANG w if c exceeds LRCSI_CELLS_THIN times the perimeter. The
+   area of this strip is undecided. It is charged to the facets of the list, to each no more than
+   its part of the strip, when the segment is removed from the list; the cells cut from this one
+   then need not consider the segment. A segment shorter than STRIP_OVERHANG w may lie across the
+   side: its strip is charged to all facets of the cell. In a thin cell the strips of all removed
+   segments are taken to run along the whole cell.
+
+   The part of a facet in a strip is no longer than the facet is within the strip. The facet's
+   corners have the error `err`, the line w; so the facet is intersected with a strip that is wider
+   by more than both. The points where a side of the facet enters and leaves that strip have an
+   error below 4 u of the side's length, since a side that rises by less than the strip's width
+   counts as a whole; the overhang at either end is far more.
+
+   Cuts. A cell is cut along the computed line of a segment. The true line is within `line_err` + 6
+   u b of it, where b is the largest coordinate of the block. The new corners are within 6 u b of
+   the computed line, and a point that belongs to one of the parts is within that part's shape error
+   of it, which exceeds the cell's by at most 4 u b. So P is on one side of the true line, and x can
+   be on the other side only if it is within w of it, where w is `line_err` + 12 u b + the cell's
+   shape error. If the cell is cut along an edge of facet F, F lies on one side of the true line. On
+   that side F is certain: neither P nor any point of F is beyond the edge. What F has on the other
+   side is within w of the line. */
 #include "visibility/cells_cut.h"
 
 #include <math.h>
@@ -9,23 +46,194 @@
 
 #include "base/constant.h"
 #include "base/range.h"
-#include "visibility/cells_charge.h"
 
-/* Corners above which a cell is halved. */
-#define MANY_CORNERS 20u
-/* So is one with more segments than this, if few of them are then in both halves: the line of an
-   edge of a rim has all of the rim on one side, so that a cut along it removes just one segment. */
-#define MANY_SEGMENTS 16u
-/* So many cuts after its block a cell is not halved any more if nearly all segments stay together:
-   they may meet in a point. */
-#define HALVINGS 24u
+/* A cell is thin if the distance of its sample from the border is below this part of the cell's
+   perimeter. */
+#define LRCSI_CELLS_THIN 0x1p-32
+/* How far a strip may extend beyond its segment, in widths: 4 / LRCSI_CELLS_THIN. */
+#define STRIP_OVERHANG 0x1p34
+/* A cell that is no wider than so many strips may be charged whole. */
+#define NARROW_STRIPS 64
+/* A cell with more corners is halved. */
+#define MAX_CORNERS 20u
+/* So is a cell with more segments, if few of them are then in both halves. An edge of a convex
+   outline has all of the outline on one side, so that a cut along it removes only that edge. */
+#define MAX_SEGMENTS 16u
+/* After so many cuts a cell is not halved if nearly all segments stay together: they may meet in a
+   point. */
+#define MAX_HALVINGS 24u
 
-/* A segment met the cell that this one was cut from. Does it meet this one too? If not, either its
-   own line or that of the cut separates them. */
+/* The strip along a segment at which a cell is cut: its width on either side, and its ends as
+   distances from the segment's first end. */
+typedef struct cut_strip {
+    const lrcsi_cells_segment *along; /* or NULL: then there is none */
+    double width, from, to;
+    double tolerance; /* of the cell that is cut */
+} cut_strip;
+
+/* --- undecided area --------------------------------------------------------------------------- */
+
+/* The interval that a facet covers along a line, measured from `start`. */
+static inline void corners_along(const lrcsi_cells_facet *f, const double line[3],
+                                 const double start[2], double along[2])
+{
+    double from = line[1] * start[0] - line[0] * start[1];
+    double a = line[1] * f->x[0] - line[0] * f->y[0];
+    double b = line[1] * f->x[1] - line[0] * f->y[1];
+    double d = line[1] * f->x[2] - line[0] * f->y[2];
+    along[0] = lrcsi_min(a, lrcsi_min(b, d)) - from;
+    along[1] = lrcsi_max(a, lrcsi_max(b, d)) - from;
+}
+
+/* The same for the part of the facet within `near` of the line; along[0] > along[1] if there is
+   none. Sides almost parallel to the line count as a whole. */
+static void facet_along(const lrcsi_cells_facet *f, const double line[3], const double start[2],
+                        double near, double along[2])
+{
+    double d[3];
+    double t[3];
+    for (int k = 0; k < 3; k++) {
+        d[k] = lrcsi_line_at(line, f->x[k], f->y[k]);
+        t[k] = line[1] * (f->x[k] - start[0]) - line[0] * (f->y[k] - start[1]);
+    }
+    along[0] = HUGE_VAL;
+    along[1] = -HUGE_VAL;
+    for (int k = 0; k < 3; k++) {
+        int n = k == 2 ? 0 : k + 1;
+        double rise = d[n] - d[k];
+        double from = 0;
+        double to = 1;
+        if (lrcsi_min(d[k], d[n]) > near || lrcsi_max(d[k], d[n]) < -near) {
+            continue;
+        }
+        if (fabs(rise) > near) {
+            double enters = (-near - d[k]) / rise;
+            double leaves = (near - d[k]) / rise;
+            from = lrcsi_max(from, lrcsi_min(enters, leaves));
+            to = lrcsi_min(to, lrcsi_max(enters, leaves));
+        }
+        double p = t[k] + from * (t[n] - t[k]);
+        double q = t[k] + to * (t[n] - t[k]);
+        along[0] = lrcsi_min(along[0], lrcsi_min(p, q));
+        along[1] = lrcsi_max(along[1], lrcsi_max(p, q));
+    }
+}
+
+/* Charges the undecided area of a segment at the border to the facets near it: to each no more than
+   the area of the strip along the facet's length. A negligible area is charged to all facets of the
+   list later. */
+void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
+                               const lrcsi_cells_sides *s, const lrcsi_cells_border *e)
+{
+    double strip = e->part.strip_width;
+    double length = (e->part.to - e->part.from) * e->length;
+    double uncertainty = strip * (length + STRIP_OVERHANG * strip);
+    if (uncertainty < 0x1p-58 * c->extent * c->extent || length < STRIP_OVERHANG * strip) {
+        cell->uncertainty += uncertainty;
+        return;
+    }
+    double box[2][2];
+    for (int k = 0; k < 2; k++) {
+        double to = e->start[k] + (k == 0 ? e->line[1] : -e->line[0]) * e->length;
+        box[0][k] = lrcsi_max(s->low[k], lrcsi_min(e->start[k], to));
+        box[1][k] = lrcsi_min(s->high[k], lrcsi_max(e->start[k], to));
+    }
+    for (uint32_t i = 0; i < cell->facets; i++) {
+        uint32_t facet = c->facets[i];
+        const lrcsi_cells_facet *f = &c->facet[facet];
+        if (!c->wanted[facet]) {
+            continue;
+        }
+        double far = 4 * strip + f->err + s->tolerance;
+        double beyond = STRIP_OVERHANG * strip + far;
+        if (f->low[0] > box[1][0] + beyond || f->high[0] < box[0][0] - beyond ||
+            f->low[1] > box[1][1] + beyond || f->high[1] < box[0][1] - beyond) {
+            continue;
+        }
+        double d[3];
+        double along[2];
+        for (int k = 0; k < 3; k++) {
+            d[k] = lrcsi_line_at(e->line, f->x[k], f->y[k]);
+        }
+        if (lrcsi_max(d[0], lrcsi_max(d[1], d[2])) < -far ||
+            lrcsi_min(d[0], lrcsi_min(d[1], d[2])) > far) {
+            continue;
+        }
+        corners_along(f, e->line, e->start, along);
+        if (lrcsi_min(uncertainty, strip * (along[1] - along[0])) > c->negligible) {
+            facet_along(f, e->line, e->start, 2 * far, along);
+            c->area[facet].strip_length +=
+                lrcsi_min(uncertainty / strip, lrcsi_max(0, along[1] - along[0]));
+        }
+        if (along[1] > e->part.from * e->length - beyond &&
+            along[0] < e->part.to * e->length + beyond) {
+            c->area[facet].uncertainty +=
+                lrcsi_min(uncertainty, strip * (along[1] - along[0] + 2 * far));
+        }
+    }
+}
+
+/* Charges a facet whose area is wanted for its part of the strip of a cut. Its corners have
+   computed distances between `low` and `high` from the line. */
+static void charge_cut(lrcsi_cells_work *c, uint32_t index, double low, double high,
+                       const cut_strip *strip)
+{
+    const lrcsi_cells_segment *e = strip->along;
+    const lrcsi_cells_facet *f = &c->facet[index];
+    double far = f->err + strip->tolerance;
+    double beyond = STRIP_OVERHANG * strip->width + far;
+    double along[2];
+    double wide = lrcsi_min(high + far, strip->width) - lrcsi_max(low - far, -strip->width);
+    if (!e->contact && (e->owner[0] == f->number || e->owner[1] == f->number)) {
+        wide = lrcsi_min(wide, strip->width);
+    }
+    corners_along(f, e->line, e->end[0], along);
+    double length = lrcsi_min(along[1], strip->to) - lrcsi_max(along[0], strip->from) + 2 * beyond;
+    if (wide * length > c->negligible) {
+        facet_along(f, e->line, e->end[0], strip->width + 2 * far, along);
+        length = lrcsi_min(along[1], strip->to) - lrcsi_max(along[0], strip->from) + 2 * beyond;
+        c->area[index].strip_length += lrcsi_max(0, length);
+    }
+    c->area[index].uncertainty += lrcsi_max(0, wide) * lrcsi_max(0, length);
+}
+
+double lrcsi_cells_thin_uncertainty(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                                    double clear, uint32_t segments, double off)
+{
+    if (!(clear < LRCSI_CELLS_THIN * s->perimeter)) {
+        return 0;
+    }
+    double strips = 4 * (double)segments * (cell->widest_strip + off + s->tolerance) * s->perimeter;
+    return lrcsi_min(strips, lrcsi_clip_area(&cell->shape) + s->tolerance * s->perimeter);
+}
+
+int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                           const lrcsi_cells_sides *s)
+{
+    double wide = NARROW_STRIPS * (cell->widest_strip + c->facet_err + s->tolerance);
+    double area = lrcsi_clip_area(&cell->shape) + 2 * s->tolerance * s->perimeter;
+    if (!(area < wide * s->perimeter)) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < cell->facets; i++) {
+        uint32_t facet = c->facets[i];
+        c->state[facet] |= LRCSI_CELLS_CHARGED;
+        if (c->wanted[facet]) {
+            c->area[facet].uncertainty += cell->uncertainty + area;
+            c->area[facet].strip_length += 0.5 * s->perimeter;
+        }
+    }
+    return 1;
+}
+
+/* --- cuts ------------------------------------------------------------------------------------- */
+
+/* A segment met the cell that this one was cut from. Does it meet this one too? If not, its own
+   line or that of the cut separates them. */
 static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment *e, double w)
 {
-    if (!(cell->sign * lrcsi_line_at(cell->cut, e->end[0][0], e->end[0][1]) > w) &&
-        !(cell->sign * lrcsi_line_at(cell->cut, e->end[1][0], e->end[1][1]) > w)) {
+    if (!(cell->cut_side * lrcsi_line_at(cell->cut_line, e->end[0][0], e->end[0][1]) > w) &&
+        !(cell->cut_side * lrcsi_line_at(cell->cut_line, e->end[1][0], e->end[1][1]) > w)) {
         return 0;
     }
     int left = 0;
@@ -39,24 +247,25 @@ static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment
     return left && right;
 }
 
-void lrcsi_cells_strike(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
+void lrcsi_cells_filter_segments(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
+                                 const lrcsi_cells_sides *s)
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
-        double w = e->off + s->g;
+        double w = e->err + s->tolerance;
         if (cell->cuts > 0 && segment_stays(cell, e, w)) {
-            lrcsi_cells_keep(c->segments, i, kept++);
+            lrcsi_cells_swap(c->segments, i, kept++);
             continue;
         }
         lrcsi_cells_part part;
-        int place = lrcsi_cells_place_of(&cell->shape, s, e->end[0], e->end[1], e->line, w,
-                                         e->line_off + s->g, &part);
-        if (place == LRCSI_CELLS_MEETS) {
-            lrcsi_cells_keep(c->segments, i, kept++);
+        int place = lrcsi_cells_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w,
+                                       e->line_err + s->tolerance, &part);
+        if (place == LRCSI_CELLS_CROSSES) {
+            lrcsi_cells_swap(c->segments, i, kept++);
         } else if (place == LRCSI_CELLS_BORDER) {
-            cell->struck++;
-            cell->inset = lrcsi_max(cell->inset, part.strip);
+            cell->removed++;
+            cell->widest_strip = lrcsi_max(cell->widest_strip, part.strip_width);
             lrcsi_cells_charge_border(c, cell, s,
                                       &(lrcsi_cells_border){{e->line[0], e->line[1], e->line[2]},
                                                             {e->end[0][0], e->end[0][1]},
@@ -97,135 +306,134 @@ static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *sh
 
 /* Divides the facets of a cell: first those that may be near the left part, last those that are
    near the right part only. */
-static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                       const lrcsi_cells_strip *strip, lrcsi_cells_cell *left,
-                       lrcsi_cells_cell *right)
+static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const cut_strip *strip,
+                       lrcsi_cells_cell *left, lrcsi_cells_cell *right)
 {
-    double g = lrcsi_cells_reach(c, left);
+    double g = lrcsi_cells_tolerance(c, left);
     uint32_t i = 0;
     uint32_t end = cell->facets;
     while (i < end) {
         uint32_t index = c->facets[i];
         const lrcsi_cells_facet *f = &c->facet[index];
-        double w = f->off + g + strip->width;
+        double w = f->err + g + strip->width;
         double range[2];
-        facet_range(f, left->cut, range);
+        facet_range(f, left->cut_line, range);
         int on_left = range[1] > -w;
         int on_right = range[0] < w;
         if (on_left && on_right) {
-            if (strip->along && c->open[index]) {
-                lrcsi_cells_charge_cut(c, index, range[0], range[1], strip);
+            if (strip->along && c->wanted[index]) {
+                charge_cut(c, index, range[0], range[1], strip);
             }
-            on_left = !facet_beyond(f, &left->shape, f->off + g);
+            on_left = !facet_beyond(f, &left->shape, f->err + g);
         }
         if (on_left) {
-            lrcsi_cells_keep(c->facets, i++, left->facets++);
+            lrcsi_cells_swap(c->facets, i++, left->facets++);
         } else if (on_right) {
-            lrcsi_cells_keep(c->facets, i, --end);
+            lrcsi_cells_swap(c->facets, i, --end);
         } else {
             i++;
         }
     }
-    right->both[0] = end;
+    right->maybe[0] = end;
 }
 
 /* Divides its segments in the same way, except for the one along which it is cut. */
 static void cut_segments(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, uint32_t struck,
                          lrcsi_cells_cell *left, lrcsi_cells_cell *right)
 {
-    double g = lrcsi_cells_reach(c, left);
+    double g = lrcsi_cells_tolerance(c, left);
     uint32_t i = 0;
     uint32_t end = cell->segments;
     while (i < end) {
         uint32_t index = c->segments[i];
         const lrcsi_cells_segment *e = &c->segment[index];
-        double w = e->off + g;
+        double w = e->err + g;
         if (index == struck) { /* it goes to the very end */
             end--;
             right->segments--;
-            lrcsi_cells_keep(c->segments, i, end);
-            lrcsi_cells_keep(c->segments, end, right->segments);
-        } else if (lrcsi_line_at(left->cut, e->end[0][0], e->end[0][1]) > -w ||
-                   lrcsi_line_at(left->cut, e->end[1][0], e->end[1][1]) > -w) {
-            lrcsi_cells_keep(c->segments, i++, left->segments++);
+            lrcsi_cells_swap(c->segments, i, end);
+            lrcsi_cells_swap(c->segments, end, right->segments);
+        } else if (lrcsi_line_at(left->cut_line, e->end[0][0], e->end[0][1]) > -w ||
+                   lrcsi_line_at(left->cut_line, e->end[1][0], e->end[1][1]) > -w) {
+            lrcsi_cells_swap(c->segments, i++, left->segments++);
         } else {
-            lrcsi_cells_keep(c->segments, i, --end);
+            lrcsi_cells_swap(c->segments, i, --end);
         }
     }
-    right->both[1] = end;
+    right->maybe[1] = end;
 }
 
 /* Selects the entries of a cell that has waited. */
-static void cell_settle(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
+static void select_entries(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 {
-    double g = lrcsi_cells_reach(c, cell);
+    double g = lrcsi_cells_tolerance(c, cell);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facets; i++) {
         const lrcsi_cells_facet *f = &c->facet[c->facets[i]];
         double range[2];
-        facet_range(f, cell->cut, range);
-        if (i >= cell->both[0] ||
-            (range[0] < f->off + g + cell->strip && !facet_beyond(f, &cell->shape, f->off + g))) {
-            lrcsi_cells_keep(c->facets, i, kept++);
+        facet_range(f, cell->cut_line, range);
+        if (i >= cell->maybe[0] || (range[0] < f->err + g + cell->cut_strip &&
+                                    !facet_beyond(f, &cell->shape, f->err + g))) {
+            lrcsi_cells_swap(c->facets, i, kept++);
         }
     }
     cell->facets = kept;
     kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
-        double w = e->off + g;
-        if (i >= cell->both[1] || lrcsi_line_at(cell->cut, e->end[0][0], e->end[0][1]) < w ||
-            lrcsi_line_at(cell->cut, e->end[1][0], e->end[1][1]) < w) {
-            lrcsi_cells_keep(c->segments, i, kept++);
+        double w = e->err + g;
+        if (i >= cell->maybe[1] || lrcsi_line_at(cell->cut_line, e->end[0][0], e->end[0][1]) < w ||
+            lrcsi_line_at(cell->cut_line, e->end[1][0], e->end[1][1]) < w) {
+            lrcsi_cells_swap(c->segments, i, kept++);
         }
     }
     cell->segments = kept;
-    cell->both[0] = cell->both[1] = 0;
+    cell->maybe[0] = cell->maybe[1] = 0;
 }
 
-lrcsi_cells_cell lrcsi_cells_take(lrcsi_cells_work *c)
+lrcsi_cells_cell lrcsi_cells_pop(lrcsi_cells_work *c)
 {
     lrcsi_cells_cell cell = c->stack[--c->top];
-    if (cell.both[0] > 0 || cell.both[1] > 0) {
-        cell_settle(c, &cell);
+    if (cell.maybe[0] > 0 || cell.maybe[1] > 0) {
+        select_entries(c, &cell);
     }
     return cell;
 }
 
 /* Divides a cell along a line: that of segment number struck, or any if struck is LRCS_NONE. */
-static int cell_cut(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                     const double line[3], uint32_t struck)
 {
-    lrcsi_cells_strip strip = {NULL, 0, 0, 0, s->g};
+    cut_strip strip = {NULL, 0, 0, 0, s->tolerance};
     if (struck != LRCS_NONE) {
         const lrcsi_cells_segment *along = &c->segment[struck];
         lrcsi_cells_part part = {0, 1, 0};
         strip.along = along;
-        strip.width = along->line_off + cell->drift + 12 * LRCSI_U * c->reach;
-        lrcsi_cells_place_of(&cell->shape, s, along->end[0], along->end[1], along->line,
-                             along->off + s->g, along->off + s->g, &part);
+        strip.width = along->line_err + cell->shape_err + 12 * LRCSI_U * c->extent;
+        lrcsi_cells_locate(&cell->shape, s, along->end[0], along->end[1], along->line,
+                           along->err + s->tolerance, along->err + s->tolerance, &part);
         strip.from = part.from * along->length;
         strip.to = part.to * along->length;
     }
-    if (cell->cuts >= LRCSI_CELLS_CUTS || cell->shape.count + 2 > LRCSI_CLIP_SIDES ||
-        c->top + 2 > LRCSI_CELLS_WAITING) {
+    if (cell->cuts >= LRCSI_CELLS_MAX_CUTS || cell->shape.count + 2 > LRCSI_CLIP_SIDES ||
+        c->top + 2 > LRCSI_CELLS_STACK) {
         return 0;
     }
     lrcsi_cells_cell left = *cell;
     lrcsi_cells_cell right = *cell;
-    double drift = lrcsi_cells_shape_divide(&cell->shape, line, &left.shape, &right.shape);
+    double drift = lrcsi_clip_divide(&cell->shape, line, &left.shape, &right.shape);
     if (left.shape.count < 3 || right.shape.count < 3) {
         return 0;
     }
-    memcpy(left.cut, line, sizeof left.cut);
-    memcpy(right.cut, line, sizeof right.cut);
-    left.sign = 1;
-    right.sign = -1;
+    memcpy(left.cut_line, line, sizeof left.cut_line);
+    memcpy(right.cut_line, line, sizeof right.cut_line);
+    left.cut_side = 1;
+    right.cut_side = -1;
     left.cuts = right.cuts = cell->cuts + 1;
-    left.struck = right.struck = cell->struck + (struck != LRCS_NONE);
-    left.inset = right.inset = lrcsi_max(cell->inset, 2 * strip.width);
-    left.drift = right.drift = cell->drift + drift;
-    left.strip = right.strip = strip.width;
+    left.removed = right.removed = cell->removed + (struck != LRCS_NONE);
+    left.widest_strip = right.widest_strip = lrcsi_max(cell->widest_strip, 2 * strip.width);
+    left.shape_err = right.shape_err = cell->shape_err + drift;
+    left.cut_strip = right.cut_strip = strip.width;
     left.facets = left.segments = 0;
     cut_facets(c, cell, &strip, &left, &right);
     cut_segments(c, cell, struck, &left, &right);
@@ -247,18 +455,18 @@ int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const l
 {
     double line[3];
     middle_line(s, line);
-    return cell_cut(c, cell, s, line, LRCS_NONE);
+    return cut_cell(c, cell, s, line, LRCS_NONE);
 }
 
 /* Would the halves of a cell with many segments have few in common? If each has three quarters of
    them at most, these may be an eighth; else at most one. */
-static int halves_well(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                       const lrcsi_cells_sides *s)
+static int halving_separates(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                             const lrcsi_cells_sides *s)
 {
     double line[3];
     uint32_t side[2] = {0, 0};
     middle_line(s, line);
-    for (uint32_t i = 0; cell->segments > MANY_SEGMENTS && i < cell->segments; i++) {
+    for (uint32_t i = 0; cell->segments > MAX_SEGMENTS && i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
         double a = lrcsi_line_at(line, e->end[0][0], e->end[0][1]);
         double b = lrcsi_line_at(line, e->end[1][0], e->end[1][1]);
@@ -267,15 +475,15 @@ static int halves_well(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     }
     uint32_t most = side[0] > side[1] ? side[0] : side[1];
     uint32_t both = side[0] + side[1] - cell->segments;
-    return cell->segments > MANY_SEGMENTS &&
+    return cell->segments > MAX_SEGMENTS &&
            (most <= cell->segments / 4 * 3 ? both <= cell->segments / 8
-                                           : both <= 1 && cell->cuts < HALVINGS);
+                                           : both <= 1 && cell->cuts < MAX_HALVINGS);
 }
 
 int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                        const lrcsi_cells_sides *s, const lrcsi_cells_segment *along)
 {
-    return cell->shape.count > MANY_CORNERS || halves_well(c, cell, s)
+    return cell->shape.count > MAX_CORNERS || halving_separates(c, cell, s)
                ? lrcsi_cells_halve(c, cell, s)
-               : cell_cut(c, cell, s, along->line, (uint32_t)(along - c->segment));
+               : cut_cell(c, cell, s, along->line, (uint32_t)(along - c->segment));
 }

@@ -8,7 +8,7 @@
    error near the block. Its direction has an error of 2 u. Its distance from the middle of the
    block is computed in double-double, with a relative error of 2 u, apart from a factor that a, b
    and c have in common. Both cost 5.7 u b within the block, and evaluating the line there 2.9 u b.
-   That is less than 16 u b, which all cells allow for (visibility/cells_charge.c); `line_off` is
+   That is less than 16 u b, which all cells allow for (visibility/cells_cut.c); `line_off` is
    the rest, due to the errors of the vertices.
 
    Heights. Let H be the least height of a facet. A place within w of the facet has barycentric
@@ -24,7 +24,6 @@
 #include "base/constant.h"
 #include "base/dd.h"
 #include "base/range.h"
-#include "visibility/contact.h"
 #include "visibility/event.h"
 #include "visibility/grid.h"
 #include "visibility/sample.h"
@@ -70,7 +69,7 @@ static void point_make(const lrcsi_cells_frame *c, uint32_t vertex, lrcsi_cells_
     }
     p->z = c->view->point[vertex].x[2];
     double far = fabs(p->x[0].hi) + fabs(p->x[1].hi) + fabs(p->z);
-    p->line_off = 256 * LRCSI_U * LRCSI_U * far;
+    p->line_err = 256 * LRCSI_U * LRCSI_U * far;
     p->z_err = 20 * LRCSI_U * far;
     p->made = 1;
 }
@@ -86,7 +85,7 @@ const lrcsi_cells_point *lrcsi_cells_vertex(lrcsi_cells_frame *c, uint32_t verte
             lrcsi_dd gap = lrcsi_dd_two_sum(p->x[k].hi, -c->middle[k]);
             p->local[k] = lrcsi_dd_two_sum(gap.hi, gap.lo + p->x[k].lo);
         }
-        p->off = 6 * LRCSI_U * (fabs(p->local[0].hi) + fabs(p->local[1].hi)) + p->line_off;
+        p->err = 6 * LRCSI_U * (fabs(p->local[0].hi) + fabs(p->local[1].hi)) + p->line_err;
         p->block = c->block;
     }
     return p;
@@ -120,7 +119,7 @@ static int longest_side(const lrcsi_cells_facet *f)
 }
 
 /* Its least height, as computed: negative if rounding has reversed its orientation. */
-static double facet_least(const lrcsi_cells_facet *f)
+static double facet_min_height(const lrcsi_cells_facet *f)
 {
     int k = (longest_side(f) + 2) % 3;
     return lrcsi_line_at(f->side[longest_side(f)], f->x[k], f->y[k]);
@@ -129,9 +128,9 @@ static double facet_least(const lrcsi_cells_facet *f)
 /* A facet so narrow that rounding may have reversed its orientation. Its sides are replaced by
    those of a band along its longest side that contains it. It surely covers no sample, and its area
    is left undecided. */
-static void facet_flatten(lrcsi_cells_facet *f)
+static void facet_make_sliver(lrcsi_cells_facet *f)
 {
-    double wide = fabs(facet_least(f)) + 4 * f->off;
+    double wide = fabs(facet_min_height(f)) + 4 * f->err;
     double line[3];
     memcpy(line, f->side[longest_side(f)], sizeof line);
     for (int k = 0; k < 3; k++) {
@@ -144,7 +143,7 @@ static void facet_flatten(lrcsi_cells_facet *f)
 
 /* The plane and its error (see Heights above); HUGE_VAL if the facet is so narrow that only the
    heights of its corners are used. */
-static void facet_slope(lrcsi_cells_facet *f, const double z[3])
+static void facet_make_plane(lrcsi_cells_facet *f, const double z[3])
 {
     const double dx[2] = {f->x[1] - f->x[0], f->x[2] - f->x[0]};
     const double dy[2] = {f->y[1] - f->y[0], f->y[2] - f->y[0]};
@@ -156,17 +155,17 @@ static void facet_slope(lrcsi_cells_facet *f, const double z[3])
     f->z_low = lrcsi_min(z[0], lrcsi_min(z[1], z[2])) - f->z_err;
     f->z_high = lrcsi_max(z[0], lrcsi_max(z[1], z[2])) + f->z_err;
     f->z[0] = f->z[1] = f->z[2] = 0;
-    f->z_off[0] = f->z_off[1] = HUGE_VAL;
-    if (height > 64 * f->off && height > 0x1p-40 * longest) {
+    f->plane_err[0] = f->plane_err[1] = HUGE_VAL;
+    if (height > 64 * f->err && height > 0x1p-40 * longest) {
         const double dz[2] = {z[1] - z[0], z[2] - z[0]};
         f->z[0] = (dz[0] * dy[1] - dz[1] * dy[0]) / twice;
         f->z[1] = (dz[1] * dx[0] - dz[0] * dx[1]) / twice;
         f->z[2] = z[0] - f->z[0] * f->x[0] - f->z[1] * f->y[0];
         double slope = lrcsi_min(4 * rise / height,
                                  2 * (fabs(f->z[0]) + fabs(f->z[1])) + 8 * f->z_err / height);
-        f->z_off[1] = slope;
-        f->z_off[0] =
-            3 * f->z_err + slope * (2 * f->off + 8 * LRCSI_U * longest * longest / height) +
+        f->plane_err[1] = slope;
+        f->plane_err[0] =
+            3 * f->z_err + slope * (2 * f->err + 8 * LRCSI_U * longest * longest / height) +
             8 * LRCSI_U * (fabs(z[0]) + fabs(f->z[0] * f->x[0]) + fabs(f->z[1] * f->y[0]));
     }
 }
@@ -178,34 +177,34 @@ void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_fa
     const lrcsi_cells_point *p[3];
     double z[3];
     f->number = facet;
-    f->off = f->z_err = f->line_off = 0;
+    f->err = f->z_err = f->line_err = 0;
     for (int k = 0; k < 3; k++) {
         p[k] = lrcsi_cells_vertex(c, corner[view->facing[facet] > 0 ? k : (3 - k) % 3]);
         f->x[k] = p[k]->local[0].hi;
         f->y[k] = p[k]->local[1].hi;
         z[k] = p[k]->z;
-        f->off = lrcsi_max(f->off, p[k]->off);
-        f->line_off = lrcsi_max(f->line_off, p[k]->line_off);
+        f->err = lrcsi_max(f->err, p[k]->err);
+        f->line_err = lrcsi_max(f->line_err, p[k]->line_err);
         f->z_err = lrcsi_max(f->z_err, p[k]->z_err);
     }
     for (int k = 0; k < 3; k++) {
-        f->length[k] = lrcsi_cells_line(p[k], p[k == 2 ? 0 : k + 1], f->side[k]) + 4 * f->off;
+        f->length[k] = lrcsi_cells_line(p[k], p[k == 2 ? 0 : k + 1], f->side[k]) + 4 * f->err;
     }
     f->low[0] = lrcsi_min(f->x[0], lrcsi_min(f->x[1], f->x[2]));
     f->high[0] = lrcsi_max(f->x[0], lrcsi_max(f->x[1], f->x[2]));
     f->low[1] = lrcsi_min(f->y[0], lrcsi_min(f->y[1], f->y[2]));
     f->high[1] = lrcsi_max(f->y[0], lrcsi_max(f->y[1], f->y[2]));
-    facet_slope(f, z);
-    f->thin = !(facet_least(f) > 16 * f->off);
-    if (f->thin) {
-        facet_flatten(f);
+    facet_make_plane(f, z);
+    f->sliver = !(facet_min_height(f) > 16 * f->err);
+    if (f->sliver) {
+        facet_make_sliver(f);
     }
 }
 
 int lrcsi_cells_facet_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape,
                            const double low[2], const double high[2], double g)
 {
-    double w = f->off + g;
+    double w = f->err + g;
     if (f->low[0] > high[0] + w || f->high[0] < low[0] - w || f->low[1] > high[1] + w ||
         f->high[1] < low[1] - w) {
         return 0;
@@ -223,12 +222,11 @@ int lrcsi_cells_facet_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon 
     return 1;
 }
 
-void lrcsi_cells_facet_height(const lrcsi_cells_facet *f, const double at[2], double g,
-                              double range[2])
+void lrcsi_cells_facet_z(const lrcsi_cells_facet *f, const double at[2], double g, double range[2])
 {
     range[0] = f->z_low;
     range[1] = f->z_high;
-    double off = f->z_off[0] + f->z_off[1] * g;
+    double off = f->plane_err[0] + f->plane_err[1] * g;
     if (off < HUGE_VAL) {
         double z = f->z[0] * at[0] + f->z[1] * at[1] + f->z[2];
         range[0] = lrcsi_max(range[0], z - off);
@@ -236,10 +234,10 @@ void lrcsi_cells_facet_height(const lrcsi_cells_facet *f, const double at[2], do
     }
 }
 
-double lrcsi_cells_facet_limit(const lrcsi_cells_facet *f, const lrcsi_cells_sides *s, int sign)
+double lrcsi_cells_facet_z_bound(const lrcsi_cells_facet *f, const lrcsi_cells_sides *s, int sign)
 {
     double corner = sign > 0 ? f->z_high : f->z_low;
-    double off = f->z_off[0] + f->z_off[1] * s->g;
+    double off = f->plane_err[0] + f->plane_err[1] * s->tolerance;
     if (!(off < HUGE_VAL)) {
         return corner;
     }
@@ -253,7 +251,7 @@ double lrcsi_cells_facet_limit(const lrcsi_cells_facet *f, const lrcsi_cells_sid
 int lrcsi_cells_facet_order(const lrcsi_view *view, uint32_t first, uint32_t second)
 {
     const lrcsi_intersections *intersections = &view->prepared->intersections;
-    int side = lrcsi_contact_side(view, first, second);
+    int side = lrcsi_sample_side(view, second, first);
     int touch = 0;
     for (int way = 0; way < 2 && side == 0; way++) {
         uint32_t facet = way == 0 ? first : second;
@@ -267,17 +265,13 @@ int lrcsi_cells_facet_order(const lrcsi_view *view, uint32_t first, uint32_t sec
             }
         }
     }
-    if (side == 0 && !touch) {
-        side = lrcsi_contact_order(view, first, second);
-        side = side == 0 ? lrcsi_contact_within(view, first, second) : side;
-    }
-    return side;
+    return side == 0 && !touch ? lrcsi_sample_overlap_order(view, second, first) : side;
 }
 
 /* --- which facet continues another --------------------------------------------------------------
  */
 
-int lrcsi_cells_apart(const lrcsi_view *view, uint32_t facet)
+int lrcsi_cells_has_coplanar(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_intersections *intersections = &view->prepared->intersections;
     for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
@@ -289,7 +283,7 @@ int lrcsi_cells_apart(const lrcsi_view *view, uint32_t facet)
     return 0;
 }
 
-uint32_t lrcsi_cells_joined(const lrcsi_view *view, uint32_t facet, int k)
+uint32_t lrcsi_cells_neighbour(const lrcsi_view *view, uint32_t facet, int k)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t other = p->across.facet[facet].corner[k];
@@ -306,10 +300,11 @@ uint32_t lrcsi_cells_joined(const lrcsi_view *view, uint32_t facet, int k)
                : LRCS_NONE;
 }
 
-uint32_t lrcsi_cells_next(const lrcsi_view *view, const unsigned char *kind, uint32_t facet, int k)
+uint32_t lrcsi_cells_connected(const lrcsi_view *view, const unsigned char *kind, uint32_t facet,
+                               int k)
 {
-    uint32_t other = lrcsi_cells_joined(view, facet, k);
-    return other != LRCS_NONE && ((kind[facet] | kind[other]) & LRCSI_CELLS_APART) == 0 &&
+    uint32_t other = lrcsi_cells_neighbour(view, facet, k);
+    return other != LRCS_NONE && ((kind[facet] | kind[other]) & LRCSI_CELLS_COPLANAR) == 0 &&
                    !lrcsi_intersection_along(&view->prepared->intersections, facet, k)
                ? other
                : LRCS_NONE;

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Convex polygons in plain doubles, measured. Nothing here is exact. */
+/* Convex polygons and lines of the plane in plain doubles. The caller knows the errors of what it
+   gives; rounding errors of what is computed stand beside each function. */
 #include "visibility/clip.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 
-double lrcsi_clip_side(const lrcsi_clip_line *line, const double p[2])
-{
-    return line->to[0] * (p[1] - line->at[1]) - line->to[1] * (p[0] - line->at[0]);
-}
+/* --- measures --------------------------------------------------------------------------------- */
 
 void lrcsi_clip_triangle(const double corner[3][2], lrcsi_clip_polygon *polygon)
 {
@@ -66,13 +65,13 @@ static double box_integral(const double p[2], const double q[2])
     double slope = (q[0] - p[0]) / (q[1] - p[1]);
     double x = p[0] + (from - p[1]) * slope;
     double end = p[0] + (to - p[1]) * slope;
-    double least = lrcsi_min(x, end);
-    double most = lrcsi_max(x, end);
-    double low = lrcsi_min(1, lrcsi_max(0, least));
-    double high = lrcsi_min(1, lrcsi_max(0, most));
-    double beyond = lrcsi_max(0, most - lrcsi_max(1, least));
+    double x_min = lrcsi_min(x, end);
+    double x_max = lrcsi_max(x, end);
+    double low = lrcsi_min(1, lrcsi_max(0, x_min));
+    double high = lrcsi_min(1, lrcsi_max(0, x_max));
+    double beyond = lrcsi_max(0, x_max - lrcsi_max(1, x_min));
     double mean =
-        most > least ? (0.5 * (high - low) * (low + high) + beyond) / (most - least) : low;
+        x_max > x_min ? (0.5 * (high - low) * (low + high) + beyond) / (x_max - x_min) : low;
     return (to - from) * mean;
 }
 
@@ -84,4 +83,182 @@ double lrcsi_clip_box_area(const double corner[3][2], const double low[2])
         p[k][1] = corner[k][1] - low[1];
     }
     return box_integral(p[0], p[1]) + box_integral(p[1], p[2]) + box_integral(p[2], p[0]);
+}
+
+/* --- lines and cells ----------------------------------------------------------------------------
+ */
+
+double lrcsi_line_through(const double *p, const double *q, double line[3])
+{
+    double a = p[1] - q[1];
+    double b = q[0] - p[0];
+    double length = sqrt(a * a + b * b);
+    line[0] = length > 0 ? a / length : 1;
+    line[1] = length > 0 ? b / length : 0;
+    line[2] = -(line[0] * p[0] + line[1] * p[1]);
+    return length;
+}
+
+void lrcsi_cells_sides_make(const lrcsi_clip_polygon *p, double tolerance, lrcsi_cells_sides *s)
+{
+    s->count = p->count;
+    s->tolerance = tolerance;
+    lrcsi_clip_box(p, s->low, s->high);
+    s->perimeter = 2 * ((s->high[0] - s->low[0]) + (s->high[1] - s->low[1]));
+    for (uint32_t i = 0; i < p->count; i++) {
+        double *line = s->line[i];
+        const double *from = p->corner[i];
+        const double *to = p->corner[i + 1 < p->count ? i + 1 : 0];
+        lrcsi_line_through(from, to, line);
+        s->length[i] = fabs(to[0] - from[0]) + fabs(to[1] - from[1]);
+        double lowest = 0;
+        for (uint32_t k = 0; k < p->count; k++) {
+            lowest = lrcsi_min(lowest, lrcsi_line_at(line, p->corner[k][0], p->corner[k][1]));
+        }
+        s->shift[i] = -lowest;
+        line[2] -= lowest;
+    }
+}
+
+void lrcsi_box_range(const double low[2], const double high[2], const double line[3],
+                     double range[2])
+{
+    double middle = lrcsi_line_at(line, 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]));
+    double half = 0.5 * (fabs(line[0]) * (high[0] - low[0]) + fabs(line[1]) * (high[1] - low[1]));
+    range[0] = middle - half;
+    range[1] = middle + half;
+}
+
+/* A part of a segment is short if it is less than this fraction of it. */
+#define SHORT_PART 0x1p-20
+
+int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
+                            const double p[2], const double q[2], const double line[3], double w,
+                            double line_w, lrcsi_cells_part *part)
+{
+    double range[2];
+    lrcsi_line_range(shape, line, range);
+    double deep = lrcsi_min(range[1], -range[0]);
+    if (deep < -line_w) {
+        return LRCSI_CELLS_OUTSIDE;
+    }
+    double width = deep <= line_w ? line_w + lrcsi_max(0, deep) : HUGE_VAL;
+    part->from = 0;
+    part->to = 1;
+    for (uint32_t i = 0; i < s->count; i++) {
+        double a = lrcsi_line_at(s->line[i], p[0], p[1]);
+        double b = lrcsi_line_at(s->line[i], q[0], q[1]);
+        if (a < w && b < w) {
+            width = lrcsi_min(width, w + lrcsi_max(0, lrcsi_max(a, b)));
+            if (a < -w && b < -w) {
+                return LRCSI_CELLS_OUTSIDE;
+            }
+        }
+        if (a < -w) {
+            part->from = lrcsi_max(part->from, (-w - a) / (b - a));
+        } else if (b < -w) {
+            part->to = lrcsi_min(part->to, (-w - a) / (b - a));
+        }
+    }
+    if (part->from > part->to) {
+        return LRCSI_CELLS_OUTSIDE;
+    }
+    /* A short part may be in a corner of the cell, all of it near one side. Its ends have errors
+       below w. */
+    if (part->to - part->from < SHORT_PART && !(width < HUGE_VAL)) {
+        for (uint32_t i = 0; i < s->count; i++) {
+            double a = lrcsi_line_at(s->line[i], p[0], p[1]);
+            double b = lrcsi_line_at(s->line[i], q[0], q[1]);
+            double deepest = lrcsi_max(a + part->from * (b - a), a + part->to * (b - a));
+            if (deepest < 2 * w) {
+                width = lrcsi_min(width, 2 * w + lrcsi_max(0, deepest));
+            }
+        }
+    }
+    part->strip_width = width;
+    return width < HUGE_VAL ? LRCSI_CELLS_BORDER : LRCSI_CELLS_CROSSES;
+}
+
+/* Sides too short for an accurate line are left out: without them the cell is larger by no more
+   than their length. */
+double lrcsi_cells_border_distance(const lrcsi_cells_sides *s, const double at[2])
+{
+    double shortest = 0x1p-44 * s->perimeter + 64 * s->tolerance;
+    double clear = HUGE_VAL;
+    double left_out = 0;
+    for (uint32_t i = 0; i < s->count; i++) {
+        if (s->length[i] > shortest) {
+            clear = lrcsi_min(clear, lrcsi_line_at(s->line[i], at[0], at[1]) - s->shift[i]);
+        } else {
+            left_out += s->length[i];
+        }
+    }
+    return 0.98 * clear - left_out - s->tolerance;
+}
+
+void lrcsi_clip_keep_left(lrcsi_clip_polygon *shape, const double line[3])
+{
+    lrcsi_clip_polygon out;
+    out.count = 0;
+    const double *p = shape->corner[0];
+    double a = shape->count > 0 ? lrcsi_line_at(line, p[0], p[1]) : 0;
+    double first = a;
+    for (uint32_t i = 0; i < shape->count; i++) {
+        int last = i + 1 == shape->count;
+        const double *q = shape->corner[last ? 0 : i + 1];
+        double b = last ? first : lrcsi_line_at(line, q[0], q[1]);
+        if (a >= 0) {
+            memcpy(out.corner[out.count++], p, sizeof out.corner[0]);
+        }
+        if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
+            double t = a / (a - b);
+            out.corner[out.count][0] = p[0] + t * (q[0] - p[0]);
+            out.corner[out.count++][1] = p[1] + t * (q[1] - p[1]);
+        }
+        p = q;
+        a = b;
+    }
+    shape->count = out.count;
+    memcpy(shape->corner, out.corner, out.count * sizeof out.corner[0]);
+}
+
+/* The distance from the line of a side to a corner that was computed on it: at the fraction t of
+   the side, which is the vector (x, y). The error of each coordinate is u of itself and 2 u of what
+   was added, or 0 if nothing was; only the component across the side counts. */
+static double corner_err(double x, double y, double t, const double corner[2])
+{
+    x = fabs(x);
+    y = fabs(y);
+    double x_err = x > 0 ? LRCSI_U * (2 * t * x + fabs(corner[0])) : 0;
+    double y_err = y > 0 ? LRCSI_U * (2 * t * y + fabs(corner[1])) : 0;
+    return (1 + 8 * LRCSI_U) * (x * y_err + y * x_err) / lrcsi_max(x, y);
+}
+
+double lrcsi_clip_divide(const lrcsi_clip_polygon *shape, const double line[3],
+                         lrcsi_clip_polygon *left, lrcsi_clip_polygon *right)
+{
+    double shape_err = 0;
+    left->count = right->count = 0;
+    for (uint32_t i = 0; i < shape->count; i++) {
+        const double *here = shape->corner[i];
+        const double *next = shape->corner[i + 1 < shape->count ? i + 1 : 0];
+        double a = lrcsi_line_at(line, here[0], here[1]);
+        double b = lrcsi_line_at(line, next[0], next[1]);
+        if (a >= 0) {
+            memcpy(left->corner[left->count++], here, 2 * sizeof *here);
+        }
+        if (a <= 0) {
+            memcpy(right->corner[right->count++], here, 2 * sizeof *here);
+        }
+        if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
+            double t = a / (a - b);
+            double *corner = left->corner[left->count++];
+            corner[0] = here[0] + t * (next[0] - here[0]);
+            corner[1] = here[1] + t * (next[1] - here[1]);
+            memcpy(right->corner[right->count++], corner, 2 * sizeof *corner);
+            shape_err =
+                lrcsi_max(shape_err, corner_err(next[0] - here[0], next[1] - here[1], t, corner));
+        }
+    }
+    return shape_err;
 }

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Convex polygons in a facet's frame of the view plane, measured. They are cut in
-   visibility/cells_shape.h. */
+/* Convex polygons of the view plane: measured, divided along lines, and compared with lines, boxes
+   and segments. */
 #ifndef LRCSI_CLIP_H
 #define LRCSI_CLIP_H
 
+#include <math.h>
 #include <stdint.h>
+
+#include "base/range.h"
 
 /* A convex polygon, counter-clockwise. */
 #define LRCSI_CLIP_SIDES 32u
@@ -12,14 +15,6 @@ typedef struct lrcsi_clip_polygon {
     double corner[LRCSI_CLIP_SIDES][2];
     uint32_t count;
 } lrcsi_clip_polygon;
-
-/* A directed segment, from `at` to `at + to`, and the line through it. */
-typedef struct lrcsi_clip_line {
-    double at[2], to[2];
-} lrcsi_clip_line;
-
-/* The signed distance of a point from the line, positive on its left, times the length of `to`. */
-double lrcsi_clip_side(const lrcsi_clip_line *line, const double p[2]);
 
 void lrcsi_clip_triangle(const double corner[3][2], lrcsi_clip_polygon *polygon);
 double lrcsi_clip_area(const lrcsi_clip_polygon *polygon);
@@ -31,7 +26,96 @@ double lrcsi_clip_perimeter(const lrcsi_clip_polygon *polygon);
 /* The area of a counter-clockwise triangle within the unit square at `low`. With corners at most C
    away from the square along either axis, the error is less than 16 u (C + 1) + 10 u: within the
    square the sides rise and fall by 2 in total, the first subtraction adds u C, and the error of x
-   along a side is 6 u (C + 1) (clip.c). */
+   along a side is 6 u (C + 1). */
 double lrcsi_clip_box_area(const double corner[3][2], const double low[2]);
+
+/* The line through two points: a x + b y + c is the distance from it, positive on the left. Returns
+   the distance of the points, with a relative error of 4 u. */
+double lrcsi_line_through(const double *p, const double *q, double line[3]);
+
+static inline double lrcsi_line_at(const double line[3], double x, double y)
+{
+    return line[0] * x + line[1] * y + line[2];
+}
+
+/* Half-planes that contain a cell, one along each of its sides. */
+typedef struct lrcsi_cells_sides {
+    double line[LRCSI_CLIP_SIDES][3];
+    double shift[LRCSI_CLIP_SIDES]; /* how far each line was moved outward */
+    double length[LRCSI_CLIP_SIDES];
+    uint32_t count;
+    double low[2], high[2];
+    double perimeter;
+    double tolerance; /* statements about the cell hold for all points within this distance of it */
+} lrcsi_cells_sides;
+
+void lrcsi_cells_sides_make(const lrcsi_clip_polygon *p, double tolerance, lrcsi_cells_sides *s);
+
+/* The least and the largest signed distance of a cell's corners from a line. */
+static inline void lrcsi_line_range(const lrcsi_clip_polygon *shape, const double line[3],
+                                    double range[2])
+{
+    range[0] = HUGE_VAL;
+    range[1] = -HUGE_VAL;
+    for (uint32_t i = 0; i < shape->count; i++) {
+        double d = lrcsi_line_at(line, shape->corner[i][0], shape->corner[i][1]);
+        range[0] = lrcsi_min(range[0], d);
+        range[1] = lrcsi_max(range[1], d);
+    }
+}
+
+/* The same for a box: if it contains the cell, its range contains that of the cell. */
+void lrcsi_box_range(const double low[2], const double high[2], const double line[3],
+                     double range[2]);
+
+/* The part of a segment in a cell or near it, between two fractions of its length; for a segment at
+   the border, the width of the strip around it that is undecided. */
+typedef struct lrcsi_cells_part {
+    double from, to, strip_width;
+} lrcsi_cells_part;
+
+/* Is the box of a segment from p to q farther than w from that of the cell? */
+static inline int lrcsi_cells_box_outside(const lrcsi_cells_sides *s, const double p[2],
+                                          const double q[2], double w)
+{
+    double x = lrcsi_max(s->low[0] - lrcsi_max(p[0], q[0]), lrcsi_min(p[0], q[0]) - s->high[0]);
+    double y = lrcsi_max(s->low[1] - lrcsi_max(p[1], q[1]), lrcsi_min(p[1], q[1]) - s->high[1]);
+    return lrcsi_max(x, y) > w;
+}
+
+enum lrcsi_cells_location {
+    LRCSI_CELLS_OUTSIDE, /* the segment is farther from the cell than its error */
+    LRCSI_CELLS_BORDER,  /* it is nowhere deeper in the cell than its error; in a corner, twice that
+                          */
+    LRCSI_CELLS_CROSSES  /* neither is certain */
+};
+
+/* The position of a segment relative to a cell: a lrcsi_cells_location. Given: the ends p and q
+   with the error w, and their line with the error line_w. The part is returned unless it is
+   outside. */
+int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
+                            const double p[2], const double q[2], const double line[3], double w,
+                            double line_w, lrcsi_cells_part *part);
+
+/* The same; boxes are compared first. */
+static inline int lrcsi_cells_locate(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
+                                     const double p[2], const double q[2], const double line[3],
+                                     double w, double line_w, lrcsi_cells_part *part)
+{
+    return lrcsi_cells_box_outside(s, p, q, w)
+               ? LRCSI_CELLS_OUTSIDE
+               : lrcsi_cells_locate_near(shape, s, p, q, line, w, line_w, part);
+}
+
+/* A lower bound of the distance of a point in the cell from the cell's border. */
+double lrcsi_cells_border_distance(const lrcsi_cells_sides *s, const double at[2]);
+
+/* Keeps the part to the left of a line. */
+void lrcsi_clip_keep_left(lrcsi_clip_polygon *shape, const double line[3]);
+
+/* Divides a shape along a line into the part to its left and the part to its right. Returns an
+   upper bound of the distance of the new corners from the sides that they are on. */
+double lrcsi_clip_divide(const lrcsi_clip_polygon *shape, const double line[3],
+                         lrcsi_clip_polygon *left, lrcsi_clip_polygon *right);
 
 #endif

@@ -22,13 +22,13 @@
 typedef struct contact_heights {
     double height[3]; /* along the plane's normal, times a positive constant */
     lrcsi_dd fine[3]; /* the same in double-double */
-    double off[3];    /* bounds on their errors */
+    double err[3];    /* bounds on their errors */
     int above[3];     /* exact signs */
 } contact_heights;
 
 /* N . (x - a) for the target's plane, positive on its visible side, in double-double. The error is
    32 u^2 |N| |x - a|, and that of N. */
-static lrcsi_dd height_dd(const lrcsi_target *t, const double *x, double *off)
+static lrcsi_dd height_dd(const lrcsi_target *t, const double *x, double *err)
 {
     const lrcsi_normal *n = &t->view->prepared->normal[t->facet];
     const double *a = lrcsi_prepared_corner(t->view->prepared, t->facet, 0);
@@ -39,103 +39,27 @@ static lrcsi_dd height_dd(const lrcsi_target *t, const double *x, double *off)
         sum = lrcsi_dd_add(sum, lrcsi_dd_mul((lrcsi_dd){n->high[k], n->low[k]}, gap));
         square += gap.hi * gap.hi;
     }
-    *off = (32 * LRCSI_U * LRCSI_U * n->length + n->error) * sqrt(square);
+    *err = (32 * LRCSI_U * LRCSI_U * n->length + n->error) * sqrt(square);
     return t->view->facing[t->facet] > 0 ? sum : lrcsi_dd_negate(sum);
-}
-
-/* 1 if all corners of `other` lie in front of the facet's plane or on it, -1 if behind or on it; 0
-   otherwise, and if all lie on it. */
-static int contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other)
-{
-    int front = 0;
-    int behind = 0;
-    for (int k = 0; k < 3 && !(front && behind); k++) {
-        int sign = lrcsi_sample_above(view, facet, lrcsi_prepared_corner(view->prepared, other, k));
-        front |= sign > 0;
-        behind |= sign < 0;
-    }
-    return front - behind;
-}
-
-int lrcsi_contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other)
-{
-    int side = contact_side(view, facet, other);
-    return side != 0 ? side : -contact_side(view, other, facet);
-}
-
-/* Where side p q of one facet and side r s of another cross in projection: 1 if the latter is
-   nearer there, -1 if farther; 0 if they do not cross, or intersect. */
-static int sides_order(const lrcsi_view *view, const double *p, const double *q, const double *r,
-                       const double *s)
-{
-    const double *d = view->direction;
-    int left = lrcsi_exact_turn(p, q, s, d);
-    if (left * lrcsi_exact_turn(p, q, r, d) >= 0 ||
-        lrcsi_exact_turn(r, s, p, d) * lrcsi_exact_turn(r, s, q, d) >= 0) {
-        return 0;
-    }
-    return -left * lrcsi_exact_side(p, q, r, s);
-}
-
-int lrcsi_contact_order(const lrcsi_view *view, uint32_t facet, uint32_t other)
-{
-    const lrcs_prepared *prepared = view->prepared;
-    int order = 0;
-    for (int n = 0; n < 9 && order == 0; n++) {
-        order = sides_order(view, lrcsi_prepared_corner(prepared, facet, n / 3),
-                            lrcsi_prepared_corner(prepared, facet, (n / 3 + 1) % 3),
-                            lrcsi_prepared_corner(prepared, other, n % 3),
-                            lrcsi_prepared_corner(prepared, other, (n + 1) % 3));
-    }
-    return order;
-}
-
-/* Does a facet, including its sides, cover a point in projection? */
-static int covers_closed(const lrcsi_view *view, uint32_t facet, const double point[3])
-{
-    int covers = 1;
-    for (int k = 0; k < 3 && covers; k++) {
-        const double *p = lrcsi_prepared_corner(view->prepared, facet, k);
-        const double *q = lrcsi_prepared_corner(view->prepared, facet, (k + 1) % 3);
-        covers = view->facing[facet] * lrcsi_exact_turn(p, q, point, view->direction) >= 0;
-    }
-    return covers;
-}
-
-/* A corner on the plane of the other facet decides nothing. */
-int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other)
-{
-    int order = 0;
-    for (int n = 0; n < 6 && order == 0; n++) {
-        const double *its = lrcsi_prepared_corner(view->prepared, facet, n % 3);
-        const double *others = lrcsi_prepared_corner(view->prepared, other, n % 3);
-        if (n < 3 && covers_closed(view, other, its)) {
-            order = -lrcsi_sample_above(view, other, its);
-        }
-        if (n >= 3 && covers_closed(view, facet, others)) {
-            order = lrcsi_sample_above(view, facet, others);
-        }
-    }
-    return order;
 }
 
 /* The height of a point, in double-double if that suffices, otherwise from the exact determinant;
    in a needle always from the latter, because other facets may be 2^88 times as long as the needle
    is wide. Returns the exact sign. */
-static int height_find(const lrcsi_target *t, const double *x, lrcsi_dd *height, double *off)
+static int height_find(const lrcsi_target *t, const double *x, lrcsi_dd *height, double *err)
 {
     const lrcs_prepared *p = t->view->prepared;
     int accurate = 0;
     if (!t->needle) {
-        *height = height_dd(t, x, off);
-        accurate = fabs(height->hi) > HEIGHT_SUFFICES * *off;
+        *height = height_dd(t, x, err);
+        accurate = fabs(height->hi) > HEIGHT_SUFFICES * *err;
     }
     if (!accurate) {
         lrcsi_dd up = lrcsi_exact_height(lrcsi_prepared_corner(p, t->facet, 0),
                                          lrcsi_prepared_corner(p, t->facet, 1),
                                          lrcsi_prepared_corner(p, t->facet, 2), x);
         *height = t->view->facing[t->facet] > 0 ? up : lrcsi_dd_negate(up);
-        *off = 128 * LRCSI_U * LRCSI_U * fabs(up.hi);
+        *err = 128 * LRCSI_U * LRCSI_U * fabs(up.hi);
     }
     return (height->hi > 0) - (height->hi < 0);
 }
@@ -145,7 +69,7 @@ static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
     contact_heights h;
     for (int k = 0; k < 3; k++) {
         const double *x = lrcsi_target_own(t->view, other, k);
-        h.above[k] = height_find(t, x, &h.fine[k], &h.off[k]);
+        h.above[k] = height_find(t, x, &h.fine[k], &h.err[k]);
         h.height[k] = lrcsi_dd_value(h.fine[k]);
     }
     return h;
@@ -168,8 +92,8 @@ static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, 
         at[i] = c->corner[near][i] + t * (c->corner[far][i] - c->corner[near][i]);
     }
     *reach = (1 - t) * c->away[near] + t * c->away[far];
-    double off = (1 - t) * h->off[near] + t * h->off[far];
-    return 2 * (c->away[k] + c->away[next]) * (off / span);
+    double err = (1 - t) * h->err[near] + t * h->err[far];
+    return 2 * (c->away[k] + c->away[next]) * (err / span);
 }
 
 /* Is the position error larger than about the width of the facet?
@@ -248,18 +172,18 @@ static int segment_kind(const lrcsi_target *t, const contact_heights *h, lrcsi_c
     int lone = above == 1 ? 1 : -1; /* the sign of its height */
     int corner = h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2;
     const double *p = c->corner[corner];
-    double off = 16 * LRCSI_U * lrcsi_max(c->away[corner], c->reach) + c->position_err;
-    const lrcsi_clip_line line = {{c->end[0][0], c->end[0][1]},
-                                  {c->end[1][0] - c->end[0][0], c->end[1][1] - c->end[0][1]}};
-    double length = lrcsi_length_flat(line.to[0], line.to[1]);
-    double beyond = length > 0 ? lone * lrcsi_clip_side(&line, p) / length : 0;
+    double err = 16 * LRCSI_U * lrcsi_max(c->away[corner], c->reach) + c->position_err;
+    const double along[2] = {c->end[1][0] - c->end[0][0], c->end[1][1] - c->end[0][1]};
+    double length = lrcsi_length_flat(along[0], along[1]);
+    double twice = along[0] * (p[1] - c->end[0][1]) - along[1] * (p[0] - c->end[0][0]);
+    double beyond = length > 0 ? lone * twice / length : 0;
     if (position_err_exceeds_width(c, contact_area(c))) {
         return LRCSI_CONTACT_UNKNOWN;
     }
-    if (beyond > 4 * off) {
+    if (beyond > 4 * err) {
         return LRCSI_CONTACT_LINE;
     }
-    if (length > 4 * off) {
+    if (length > 4 * err) {
         double away = lrcsi_min(c->away[corner], c->reach + 4 * t->diameter);
         c->position_err += fabs(beyond) + 16 * LRCSI_U * away;
     } else {
@@ -282,19 +206,20 @@ static void corners_dd(const lrcsi_target *t, uint32_t other, contact_dd *f, lrc
 {
     for (int k = 0; k < 3; k++) {
         const double *x = lrcsi_target_own(t->view, other, k);
-        c->off = lrcsi_max(c->off, lrcsi_needle_coordinates(t->needle, x, f->corner[k]));
+        c->corner_err =
+            lrcsi_max(c->corner_err, lrcsi_needle_coordinates(t->needle, x, f->corner[k]));
         for (int i = 0; i < 2; i++) {
             c->corner[k][i] = lrcsi_dd_value(f->corner[k][i]);
         }
     }
 }
 
-/* As side_cut, with the parameter in double-double (errors: visibility/needle.c). */
+/* As side_cut, with the parameter in double-double (errors: visibility/target.c). */
 static double side_cut_dd(const contact_heights *h, contact_dd *f, int k, lrcsi_dd at[2])
 {
     int next = (k + 1) % 3;
     double span = fabs(h->height[k]) + fabs(h->height[next]);
-    double off = h->off[k] + h->off[next];
+    double err = h->err[k] + h->err[next];
     double length = 0;
     lrcsi_dd t = lrcsi_needle_quotient(h->fine[k], lrcsi_dd_sub(h->fine[k], h->fine[next]));
     for (int i = 0; i < 2; i++) {
@@ -302,7 +227,7 @@ static double side_cut_dd(const contact_heights *h, contact_dd *f, int k, lrcsi_
         at[i] = lrcsi_dd_add(f->corner[k][i], lrcsi_dd_mul(t, along));
         length += fabs(along.hi);
     }
-    return 2 * length * (off / span);
+    return 2 * length * (err / span);
 }
 
 static void ends_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c)
@@ -354,23 +279,23 @@ static int kind_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c, in
     int lone = above == 1 ? 1 : -1;
     const lrcsi_dd *p = f->corner[h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2];
     lrcsi_dd to[2];
-    lrcsi_dd way[2];
+    lrcsi_dd to_corner[2];
     int is_short = ends_round(f);
     for (int i = 0; i < 2; i++) {
         to[i] = lrcsi_dd_sub(f->end[1][i], f->end[0][i]);
-        way[i] = lrcsi_dd_sub(p[i], f->end[0][i]);
+        to_corner[i] = lrcsi_dd_sub(p[i], f->end[0][i]);
     }
-    double off = c->off + 16 * LRCSI_U + c->position_err;
+    double err = c->corner_err + 16 * LRCSI_U + c->position_err;
     double length = lrcsi_length_flat(to[0].hi, to[1].hi);
-    double side =
-        lrcsi_dd_value(lrcsi_dd_sub(lrcsi_dd_mul(to[0], way[1]), lrcsi_dd_mul(to[1], way[0])));
+    double side = lrcsi_dd_value(
+        lrcsi_dd_sub(lrcsi_dd_mul(to[0], to_corner[1]), lrcsi_dd_mul(to[1], to_corner[0])));
     double beyond = length > 0 ? lone * side / length : 0;
-    double far = lrcsi_length_flat(way[0].hi, way[1].hi);
-    double turned = is_short ? 0 : 4 * far / length * (c->off + c->position_err);
+    double far = lrcsi_length_flat(to_corner[0].hi, to_corner[1].hi);
+    double turned = is_short ? 0 : 4 * far / length * (c->corner_err + c->position_err);
     int kind = LRCSI_CONTACT_LINE;
-    if (!(beyond > 4 * off + turned)) {
+    if (!(beyond > 4 * err + turned)) {
         kind = lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
-        if (length > 4 * off) {
+        if (length > 4 * err) {
             c->position_err += fabs(beyond) + turned;
         } else {
             c->position_err += length;

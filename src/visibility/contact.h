@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The intersection of a facet with the plane of another facet, the target, whose interior it
    contacts: a segment in the target's frame (for a needle, barycentric coordinates) with its
-   position error, or the whole facet. Also, which of two facets is nearer. */
+   position error, or the whole facet. */
 #ifndef LRCSI_CONTACT_H
 #define LRCSI_CONTACT_H
 
@@ -23,24 +23,10 @@ typedef struct lrcsi_contact {
     double end[2][2];    /* of the segment; in a needle, of its part near the target */
     double reach;        /* upper bound of the distances of the ends, as `away` */
     double position_err; /* error of the ends, in addition to 16 u reach */
-    double off; /* in a needle: error of the corners; it and rounding add to position_err */
+    double corner_err; /* in a needle: error of the corners; it and rounding add to position_err */
 } lrcsi_contact;
 
 /* Returns a lrcsi_contact_kind; ends and position error are set only if there is a segment. */
 int lrcsi_contact_find(const lrcsi_target *target, uint32_t other, lrcsi_contact *contact);
-
-/* 1 if `other` is nearer on every line of sight that meets both, because one facet lies on one side
-   of the plane of the other; -1 if it is farther; 0 if that does not decide. Exact. */
-int lrcsi_contact_side(const lrcsi_view *view, uint32_t facet, uint32_t other);
-
-/* The same for two facets whose interiors do not intersect: their order is the same on all lines of
-   sight that meet both, so also where two of their sides cross in the view. */
-int lrcsi_contact_order(const lrcsi_view *view, uint32_t facet, uint32_t other);
-
-/* The same from a corner of one facet that lies within the other or on its sides. The region that
-   both cover is a convex polygon; each of its corners is a crossing of two sides or such a corner.
-   Unless the facets lie in one plane, they differ in height at one of these: if they overlap,
-   lrcsi_contact_order or this function decides. */
-int lrcsi_contact_within(const lrcsi_view *view, uint32_t facet, uint32_t other);
 
 #endif

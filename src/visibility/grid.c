@@ -282,11 +282,11 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
         if (boxes->state[r] == LRCSI_BOXES_NONE) {
             continue;
         }
-        if (lrcsi_events_joined(p, readers->joinable, r) == LRCSI_JOINED_ALL) {
+        if (readers->region && lrcsi_events_joined(p, readers->joinable, r) == LRCSI_JOINED_ALL) {
             end = start + 1; /* the others are not the first of their region, nor undecided */
         }
         for (uint32_t f = start; f < end; f++) {
-            if ((readers->undecided[f] || readers->region[f] == f) &&
+            if ((readers->undecided[f] || (readers->region && readers->region[f] == f)) &&
                 lrcsi_view_casts(grid->view, f)) {
                 lrcsi_boxes_open(boxes, r);
                 want_facet(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));

@@ -119,7 +119,7 @@ static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
     if (!o->undecided) {
         return LRCS_OK;
     }
-    list->bound += o->alone.bent;
+    list->bound += o->alone.piece_err;
     int all = visible.high >= lrcsi_view_incidence(o->classification->view, facet).projected;
     int none = visible.low <= 0;
     if (all != none) {

@@ -26,6 +26,29 @@
    walk lie above y - e, the lower convex and w above y + r - e_Q, so that where its rim lies lower
    the walk climbs past y on W itself, and (1) holds. []
 
+   In projection only the part of the way from y to x counts that lies across the line of sight, in
+   place of e_P: on the curved wall of a shape, placed without distortion, points move by known
+   distances along the axis, from it, and across both (lrcs_part.displaced), and the first two count
+   by the sines of their angles to the line of sight. For let every z be x plus a vector of at most
+   e_Q: then (1) and (2) hold as above for the way from y over x to z, and if S hides all these z,
+   all of them lie within e_Q of V(B), and x in it. This does not apply where Q is open and e_Q > 0:
+   the walk below may come as far as e_P.
+
+   Which way they differ. Let an event edge be one-sided if all facets of Q on it lie on one side of
+   it in projection; the other side is its outer side. On the way from y, straight to a point z of
+   the ball, the first facet of Q comes into the way, or the last one leaves it, at an event edge E
+   (or near a facet, (1)); the first comes from the outer side of E and the last goes there, if E is
+   one-sided.
+   - Q hides x but not y: the way to the z that the place of b hides meets its first facet. So y is
+     on the outer side of such an edge, or near one with facets on both sides.
+   - Q hides y but not x, and Q is closed or e_Q = 0: if y is on the outer side of all edges near it
+     no way from y leaves the last facet, and S hides the whole ball, as above: Q hides x. So y is
+     not on the outer side of some edge near it. The same holds where Q has one opening and x is not
+     in B: the ray of x, which is behind B, enters B and leaves it, only once through the opening.
+     Other Q may differ on both sides of their edges.
+   So the truth gains visible area on the inner sides of edges only, and loses some on the outer
+   sides only, each within the slack.
+
    A part's own fronts are never hidden by it: they are the upper side of B. The inside of an open
    part, where it reflects (two-sided), is the lower side, seen through an opening: x is visible
    if and only if the projected opening holds its projection, y likewise. Projected openings, true
@@ -37,6 +60,9 @@
 
    Facets of a curved part without any uncertain area, joined across edges, form regions. Other
    parts hide a region entirely or not at all; one hidden front facet tells which.
+
+   A facet that meets no band of some other part, one of whose facets hides a point of it, is hidden
+   by that part entirely, whatever bands of further parts it meets.
 
    A row of a facet on a straight wall that meets no band is visible over its whole length or
    nowhere, for the facets and for the true shapes. By facets: whether another part hides a point of
@@ -51,14 +77,18 @@
 #define LRCSI_PROXIMITY_BAND_H
 
 #include "visibility/classify.h"
+#include "visibility/query.h"
 #include "visibility/visible.h"
 
 typedef struct lrcsi_proximity_band {
     const lrcsi_classification *classification;
-    double *share;    /* facet: fraction of its area, 0 .. 1 */
-    double *rows;     /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
-    uint32_t *region; /* facet of a curved part: its region, named by one of its facets */
-    unsigned char *hidden; /* region: 1 if other parts hide all of it, in truth too */
+    double *share; /* facet: fraction of its area where visibility may differ, 0 .. 1 */
+    double *gain;  /* facet: fraction that the facets hide and the true shapes may not */
+    double *loss;  /* facet: fraction that the true shapes may hide and the facets do not */
+    double *rows;  /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
+    lrcsi_part_set *near;  /* facet: the parts whose bands it meets */
+    uint32_t *region;      /* facet of a curved part: its region, named by one of its facets */
+    unsigned char *hidden; /* region: not 0 if other parts hide all of it, in truth too */
 } lrcsi_proximity_band;
 
 /* Upper bound of bytes; 0 if prepared->proximity was not requested. */
@@ -70,7 +100,12 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
                               lrcs_work *work, lrcsi_proximity_band *band);
 
-/* Finds the hidden regions, once visible areas are known. */
-void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_visible *visible);
+/* Bytes for lrcsi_proximity_band_settle. */
+size_t lrcsi_proximity_band_settle_need(const lrcs_prepared *prepared);
+
+/* Finds what is hidden in truth too, once visible areas are known: regions, and facets with bands,
+   which then have none. Without memory, or when the meter is spent, it finds less. */
+void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_visible *visible,
+                                 lrcsi_meter *meter, lrcs_work *work);
 
 #endif

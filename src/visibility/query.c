@@ -170,6 +170,20 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
     return line_answer(&line);
 }
 
+int lrcsi_query_hidden_by_others(const lrcsi_grid *facets, uint32_t facet, lrcsi_part_set parts,
+                                 lrcsi_meter *meter)
+{
+    const uint32_t *part = facets->view->prepared->scene->facet_part;
+    query_line line;
+    uint32_t other = line_start(&line, facets, facet, meter) ? line_next(&line) : LRCS_NONE;
+    for (; other != LRCS_NONE; other = line_next(&line)) {
+        if (!(parts & lrcsi_part_set_of(part[other])) && line_nearer(&line, other) > 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* One query for each region of uniform facets, at its first facet. Returns the number of regions
    that remain undecided. */
 static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_meter *meter,

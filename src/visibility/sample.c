@@ -93,25 +93,95 @@ int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser)
     return winner < loser;
 }
 
-static int sample_coplanar(const lrcsi_view *view, uint32_t i, uint32_t j)
+/* 1 if all corners of `other` lie in front of the facet's plane or on it, -1 if behind or on it; 0
+   otherwise, and if all lie on it. */
+static int plane_side(const lrcsi_view *view, uint32_t facet, uint32_t other)
 {
-    const double *a = lrcsi_prepared_corner(view->prepared, i, 0);
-    const double *b = lrcsi_prepared_corner(view->prepared, i, 1);
-    const double *c = lrcsi_prepared_corner(view->prepared, i, 2);
-    for (int k = 0; k < 3; k++) {
-        if (lrcsi_exact_side(a, b, c, lrcsi_prepared_corner(view->prepared, j, k)) != 0) {
-            return 0;
+    int front = 0;
+    int behind = 0;
+    for (int k = 0; k < 3 && !(front && behind); k++) {
+        int sign = lrcsi_sample_above(view, facet, lrcsi_prepared_corner(view->prepared, other, k));
+        front |= sign > 0;
+        behind |= sign < 0;
+    }
+    return front - behind;
+}
+
+int lrcsi_sample_side(const lrcsi_view *view, uint32_t first, uint32_t second)
+{
+    int side = plane_side(view, second, first);
+    return side != 0 ? side : -plane_side(view, first, second);
+}
+
+int lrcsi_sample_order(const lrcsi_view *view, uint32_t first, uint32_t second)
+{
+    int side = lrcsi_sample_side(view, first, second);
+    for (int k = 0; k < 3 && side == 0; k++) {
+        const double *corner = lrcsi_prepared_corner(view->prepared, second, k);
+        if (lrcsi_sample_above(view, first, corner) != 0) {
+            return 0; /* they are not in one plane */
         }
     }
-    return 1;
+    return side != 0 ? side : lrcsi_sample_beats(view, first, second) ? 1 : -1;
+}
+
+/* Where side p q of one facet and side r s of another cross in projection: 1 if p q is nearer
+   there, -1 if r s is; 0 if they do not cross, or intersect in space. */
+static int sides_order(const lrcsi_view *view, const double *p, const double *q, const double *r,
+                       const double *s)
+{
+    const double *d = view->direction;
+    int left = lrcsi_exact_turn(p, q, s, d);
+    if (left * lrcsi_exact_turn(p, q, r, d) >= 0 ||
+        lrcsi_exact_turn(r, s, p, d) * lrcsi_exact_turn(r, s, q, d) >= 0) {
+        return 0;
+    }
+    return left * lrcsi_exact_side(p, q, r, s);
+}
+
+/* Does a facet, including its sides, cover a point in projection? */
+static int covers_closed(const lrcsi_view *view, uint32_t facet, const double point[3])
+{
+    int covers = 1;
+    for (int k = 0; k < 3 && covers; k++) {
+        const double *p = lrcsi_prepared_corner(view->prepared, facet, k);
+        const double *q = lrcsi_prepared_corner(view->prepared, facet, (k + 1) % 3);
+        covers = view->facing[facet] * lrcsi_exact_turn(p, q, point, view->direction) >= 0;
+    }
+    return covers;
+}
+
+/* The region that both cover is a convex polygon. Each of its corners is a crossing of two sides,
+   or a corner of one facet that the other covers. The facets do not intersect, so their order is
+   the same everywhere in the region where their heights differ; and unless they lie in one plane,
+   the heights differ at one of the region's corners. */
+int lrcsi_sample_overlap_order(const lrcsi_view *view, uint32_t first, uint32_t second)
+{
+    const lrcs_prepared *p = view->prepared;
+    int order = 0;
+    for (int n = 0; n < 9 && order == 0; n++) {
+        order = sides_order(view, lrcsi_prepared_corner(p, first, n / 3),
+                            lrcsi_prepared_corner(p, first, (n / 3 + 1) % 3),
+                            lrcsi_prepared_corner(p, second, n % 3),
+                            lrcsi_prepared_corner(p, second, (n + 1) % 3));
+    }
+    for (int k = 0; k < 3 && order == 0; k++) {
+        const double *corner = lrcsi_prepared_corner(p, first, k);
+        order = covers_closed(view, second, corner) ? lrcsi_sample_above(view, second, corner) : 0;
+    }
+    for (int k = 0; k < 3 && order == 0; k++) {
+        const double *corner = lrcsi_prepared_corner(p, second, k);
+        order = covers_closed(view, first, corner) ? -lrcsi_sample_above(view, first, corner) : 0;
+    }
+    return order;
 }
 
 /* The height of the facet's plane above `point` along the direction, as a fraction: the numerator
    is N . (a - point), the denominator N . d, both times the facing, so that the denominator is
    positive. */
 typedef struct sample_height {
-    lrcsi_dd top, bottom;
-    double top_off, bottom_off; /* error bounds */
+    lrcsi_dd numerator, denominator;
+    double numerator_err, denominator_err; /* error bounds */
 } sample_height;
 
 /* The error of each term: the difference is exact as a pair, its product with N has an error of
@@ -126,87 +196,14 @@ static sample_height sample_height_of(const lrcsi_view *view, uint32_t facet, co
     for (int k = 0; k < 3; k++) {
         lrcsi_dd normal = {n->high[k] * view->facing[facet], n->low[k] * view->facing[facet]};
         lrcsi_dd gap = lrcsi_dd_two_sum(a[k], -point[k]);
-        h.top = lrcsi_dd_add(h.top, lrcsi_dd_mul(normal, gap));
-        h.bottom = lrcsi_dd_add(h.bottom, lrcsi_dd_scale(normal, view->direction[k]));
+        h.numerator = lrcsi_dd_add(h.numerator, lrcsi_dd_mul(normal, gap));
+        h.denominator = lrcsi_dd_add(h.denominator, lrcsi_dd_scale(normal, view->direction[k]));
         square += gap.hi * gap.hi;
     }
-    double off = 32 * LRCSI_U * LRCSI_U * n->length + n->error;
-    h.top_off = off * sqrt(square);
-    h.bottom_off = off * view->length;
+    double err = 32 * LRCSI_U * LRCSI_U * n->length + n->error;
+    h.numerator_err = err * sqrt(square);
+    h.denominator_err = err * view->length;
     return h;
-}
-
-/* If all corners of `first` lie on one side of the plane of `second`, or on it, so does the point
-   of `first` that the line meets: 1 if first is nearer, -1 if second is. 0 if corners lie on both
-   sides. Exact. */
-static int sample_side(const lrcsi_view *view, uint32_t first, uint32_t second)
-{
-    int most = 0;
-    int least = 0;
-    for (int k = 0; k < 3; k++) {
-        int side = view->facing[second] *
-                   lrcsi_exact_side(lrcsi_prepared_corner(view->prepared, second, 0),
-                                    lrcsi_prepared_corner(view->prepared, second, 1),
-                                    lrcsi_prepared_corner(view->prepared, second, 2),
-                                    lrcsi_prepared_corner(view->prepared, first, k));
-        most = side > most ? side : most;
-        least = side < least ? side : least;
-    }
-    return most + least;
-}
-
-/* 1 if, in the view, the point `ray` lies within the angle of the facet at its corner `at`. */
-static int angle_holds(const lrcsi_view *view, uint32_t facet, int at, const double *ray)
-{
-    const double *corner[3];
-    for (int k = 0; k < 3; k++) {
-        corner[k] = lrcsi_prepared_corner(view->prepared, facet, (at + k) % 3);
-    }
-    return view->facing[facet] * lrcsi_exact_turn(corner[0], corner[1], ray, view->direction) >=
-               0 &&
-           view->facing[facet] * lrcsi_exact_turn(corner[2], corner[0], ray, view->direction) >= 0;
-}
-
-/* Corner `i` of the first facet and corner `j` of the second are the same point. If a side of the
-   first that starts there runs within the second's angle: which facet is nearer along it. Otherwise
-   0. */
-static int sample_sides_at(const lrcsi_view *view, uint32_t first, int i, uint32_t second, int j)
-{
-    for (int k = 1; k <= 2; k++) {
-        const double *ray = lrcsi_prepared_corner(view->prepared, first, (i + k) % 3);
-        if (angle_holds(view, second, j, ray)) {
-            return view->facing[second] *
-                   lrcsi_exact_side(lrcsi_prepared_corner(view->prepared, second, 0),
-                                    lrcsi_prepared_corner(view->prepared, second, 1),
-                                    lrcsi_prepared_corner(view->prepared, second, 2), ray);
-        }
-    }
-    return 0;
-}
-
-static int points_agree(const double *p, const double *q)
-{
-    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
-}
-
-/* For two facets that have one corner in common, do not intersect elsewhere, and each have corners
-   on both sides of the other's plane: 1 if first is nearer on every line that meets both, -1 if
-   second is; 0 if they have no corner in common. The region of the view that both cover is convex
-   and contains the corner. Their heights differ everywhere else in it, so the same facet is nearer
-   everywhere. At the corner the region is bounded by a side of one facet that lies within the angle
-   of the other: along that side the order is decided. Exact. */
-static int sample_corner(const lrcsi_view *view, uint32_t first, uint32_t second)
-{
-    for (int n = 0; n < 9; n++) {
-        int i = n / 3;
-        int j = n % 3;
-        if (points_agree(lrcsi_prepared_corner(view->prepared, first, i),
-                         lrcsi_prepared_corner(view->prepared, second, j))) {
-            int side = sample_sides_at(view, first, i, second, j);
-            return side != 0 ? side : -sample_sides_at(view, second, j, first, i);
-        }
-    }
-    return 0;
 }
 
 /* For two facets that intersect, and a line of sight that meets their intersection as closely as
@@ -215,15 +212,15 @@ static int sample_corner(const lrcsi_view *view, uint32_t first, uint32_t second
    the intersection exactly. No bound depends on it: both facets are then undecided, and the pixel
    counts as mixed (visibility/visible.c). */
 static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t second, int sense,
-                          lrcsi_dd first_bottom, lrcsi_dd second_bottom)
+                          lrcsi_dd first_denominator, lrcsi_dd second_denominator)
 {
     const lrcsi_normal *f = &view->prepared->normal[first];
     const lrcsi_normal *s = &view->prepared->normal[second];
     int axis = sample_axis(view->direction);
     for (int k = 1; k <= 2; k++) {
         int e = (axis + k) % 3;
-        lrcsi_dd left = lrcsi_dd_mul((lrcsi_dd){f->high[e], f->low[e]}, second_bottom);
-        lrcsi_dd right = lrcsi_dd_mul((lrcsi_dd){s->high[e], s->low[e]}, first_bottom);
+        lrcsi_dd left = lrcsi_dd_mul((lrcsi_dd){f->high[e], f->low[e]}, second_denominator);
+        lrcsi_dd right = lrcsi_dd_mul((lrcsi_dd){s->high[e], s->low[e]}, first_denominator);
         double fall = view->facing[first] * lrcsi_dd_value(left) -
                       view->facing[second] * lrcsi_dd_value(right);
         if (fall != 0) {
@@ -233,28 +230,20 @@ static int sample_steeper(const lrcsi_view *view, uint32_t first, uint32_t secon
     return 0;
 }
 
-int lrcsi_sample_order(const lrcsi_view *view, uint32_t first, uint32_t second)
-{
-    if (sample_coplanar(view, first, second)) {
-        return lrcsi_sample_beats(view, first, second) ? 1 : -1;
-    }
-    int side = sample_side(view, first, second);
-    return side != 0 ? side : -sample_side(view, second, first);
-}
-
 int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
                         const double point[3], int sense)
 {
     sample_height f = sample_height_of(view, first, point);
     sample_height s = sample_height_of(view, second, point);
-    lrcsi_dd left = lrcsi_dd_mul(f.top, s.bottom);
-    lrcsi_dd right = lrcsi_dd_mul(s.top, f.bottom);
+    lrcsi_dd left = lrcsi_dd_mul(f.numerator, s.denominator);
+    lrcsi_dd right = lrcsi_dd_mul(s.numerator, f.denominator);
     double difference = lrcsi_dd_value(lrcsi_dd_sub(left, right));
-    double off = f.top_off * fabs(s.bottom.hi) + s.bottom_off * fabs(f.top.hi) +
-                 s.top_off * fabs(f.bottom.hi) + f.bottom_off * fabs(s.top.hi) +
-                 f.top_off * s.bottom_off + s.top_off * f.bottom_off +
-                 16 * LRCSI_U * LRCSI_U * (fabs(left.hi) + fabs(right.hi));
-    if (fabs(difference) > 1.01 * off) {
+    double err =
+        f.numerator_err * fabs(s.denominator.hi) + s.denominator_err * fabs(f.numerator.hi) +
+        s.numerator_err * fabs(f.denominator.hi) + f.denominator_err * fabs(s.numerator.hi) +
+        f.numerator_err * s.denominator_err + s.numerator_err * f.denominator_err +
+        16 * LRCSI_U * LRCSI_U * (fabs(left.hi) + fabs(right.hi));
+    if (fabs(difference) > 1.01 * err) {
         return difference > 0 ? 1 : -1;
     }
     int order = lrcsi_sample_order(view, first, second);
@@ -264,6 +253,6 @@ int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
     const lrcs_scene *scene = view->prepared->scene;
     return lrcsi_intersection_pair(view->prepared->vertex, scene->facet[first],
                                    scene->facet[second]) == LRCSI_INTERSECTION_CROSS
-               ? sample_steeper(view, first, second, sense, f.bottom, s.bottom)
-               : sample_corner(view, first, second);
+               ? sample_steeper(view, first, second, sense, f.denominator, s.denominator)
+               : lrcsi_sample_overlap_order(view, first, second);
 }

@@ -24,14 +24,23 @@ int lrcsi_sample_above(const lrcsi_view *view, uint32_t facet, const double poin
    a back side, a back side that reflects before one that does not, then the lower index. */
 int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser);
 
-/* 1 if the first facet is nearer on every line that meets both, -1 if the second is, because they
-   lie in one plane or one lies on one side of the other's plane; otherwise 0. Exact. */
+/* 1 if the first facet is nearer on every line of sight that meets both, -1 if the second is,
+   because one of them lies on one side of the other's plane; otherwise 0, also if they lie in one
+   plane. Exact. */
+int lrcsi_sample_side(const lrcsi_view *view, uint32_t first, uint32_t second);
+
+/* The same; of two facets in one plane the one that lrcsi_sample_beats names. */
 int lrcsi_sample_order(const lrcsi_view *view, uint32_t first, uint32_t second);
 
-/* Which of two facets that the line meets is nearer: 1 the first, -1 the second. 0 if undecided:
-   their distance on the line is below the error of double-double, each has corners on both sides of
-   the other's plane, and they have no contact. If they intersect within that distance of the line,
-   the answer is a guess. The line counts as moved as in lrcsi_sample_covers_towards. */
+/* Which of two facets is nearer whose interiors do not intersect: 1 the first, -1 the second, on
+   all lines of sight that meet both. 0 if they do not overlap in the view, or lie in one plane.
+   Exact.
+ */
+int lrcsi_sample_overlap_order(const lrcsi_view *view, uint32_t first, uint32_t second);
+
+/* Which of two facets that the line meets is nearer: 1 the first, -1 the second. If they intersect
+   closer to the line than double-double can decide, the answer is a guess, or 0. The line counts as
+   moved as in lrcsi_sample_covers_towards. */
 int lrcsi_sample_nearer(const lrcsi_view *view, uint32_t first, uint32_t second,
                         const double point[3], int sense);
 

@@ -13,7 +13,7 @@
 
 /* A point counts as far away if its distance is this many times that of the points it is compared
    with. */
-#define FAR_OFF 8.0
+#define FAR_POINT 8.0
 
 /* The position of a scene point that is much deeper, or much nearer, than the origin. The rows r of
    R have errors of 4 u, which a large depth would multiply. Therefore their components
@@ -60,7 +60,7 @@ static double frame_point(const lrcsi_view *view, const double *origin, const do
         out[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
     }
     double away = sqrt(square);
-    return away * view->scale > FAR_OFF && away > FAR_OFF * (fabs(out[0]) + fabs(out[1]))
+    return away * view->scale > FAR_POINT && away > FAR_POINT * (fabs(out[0]) + fabs(out[1]))
                ? frame_point_deep(view, origin, x, out)
                : away;
 }
@@ -71,13 +71,13 @@ static double frame_point(const lrcsi_view *view, const double *origin, const do
 static int corner_first(const lrcsi_view *view, uint32_t facet)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    double off = lrcsi_view_point_err(view->point[corner[0]].x);
-    if (off * view->scale <= FAR_OFF * 10 * LRCSI_U) {
+    double first = lrcsi_view_point_err(view->point[corner[0]].x);
+    if (first * view->scale <= FAR_POINT * 10 * LRCSI_U) {
         return 0;
     }
     double second = lrcsi_view_point_err(view->point[corner[1]].x);
     double third = lrcsi_view_point_err(view->point[corner[2]].x);
-    return off <= FAR_OFF * lrcsi_min(second, third) ? 0 : second <= third ? 1 : 2;
+    return first <= FAR_POINT * lrcsi_min(second, third) ? 0 : second <= third ? 1 : 2;
 }
 
 /* The index within the facet of corner k, counted counter-clockwise in the view from `first`. */
@@ -114,7 +114,7 @@ double lrcsi_target_segment(const lrcsi_target *t, double end[2][2], const doubl
     double f = away[far];
     double box = 4 * t->diameter;
     double t_end = 1;
-    for (int k = 0; k < 2 && f > FAR_OFF * (n + box); k++) {
+    for (int k = 0; k < 2 && f > FAR_POINT * (n + box); k++) {
         if (fabs(end[far][k]) > box + 32 * LRCSI_U * f) {
             double exit = copysign(box, end[far][k]) - end[!far][k];
             t_end = lrcsi_min(t_end, exit / (end[far][k] - end[!far][k]));
@@ -157,6 +157,215 @@ double lrcsi_target_lift_err(const lrcsi_target *t)
     return 100 * LRCSI_U * t->reach + 8 * LRCSI_U * t->size;
 }
 
+/* --- needles -----------------------------------------------------------------------------------
+ */
+
+/* In the frame along the view's axes, positions and the side of a line on which they lie have
+   errors of some u of the facet's length r, and a needle seen edge-on may be no wider than that.
+   Barycentric coordinates do not have this scale.
+
+   Errors. Let e and f be the sides from the origin, d the direction and T = det(e, f, d). With g =
+   x - origin, the coordinates of x are det(g, f, d) / T and det(e, g, d) / T. A difference of
+   doubles is exact as a pair. A component of f x d is two products (7 u^2 each) and a difference (3
+   u^2): at most 15 u^2 |f| |d| in norm. Its product with g is three products and two sums, 13.2 u^2
+   of |f| |d| |g|. So the error of the determinant is at most 29 u^2 r |d| |g|. The computed T is
+   used as if it were exact: this scales the frame by 1 + 29 u^2 r^2 |d| / T, and moves the facet's
+   own corners, and the point that a position in the frame stands for, by as much. `relative_err`
+   times the reach is more than twice that. The quotient adds 20 u^2 of a coordinate of at most 1.01
+   r |d| |g| / T.
+
+   A clipped end is from + t (to - from), a difference, a product and a sum: 13 u^2 of 2 s, where s
+   is the larger coordinate. If t comes from heights (visibility/contact.c), its quotient of rounded
+   sums adds 30 u^2 of 2 s. The total is at most 137 u^2 r |d| |g| / T, less than NEEDLE_ERR. */
+#define NEEDLE_ERR (160 * LRCSI_U * LRCSI_U)
+
+/* Products of coordinates and components are multiples of 2^-1056 (base/exact.c). This exceeds by
+   far what underflow in products of quotients and positions can lose, some 2^-1074. */
+#define UNDERFLOW_MOST 0x1p-900
+
+/* A needle is at least NEEDLE_LEAST and at most NEEDLE_MOST times as long as wide; the remaining
+   bits of 2^106 are its accuracy. In the frame along the axes, areas have errors of some 24 u of
+   the squared length. For facets more than half as long as the scene this may exceed 1e-15 of the
+   scene's squared size, and 1e-12 of the facet's area if it is NEEDLE_LARGE times as long as wide:
+   such facets count as needles from there on. */
+#define NEEDLE_LEAST 0x1p20
+#define NEEDLE_LARGE 0x1p8
+#define NEEDLE_MOST  0x1p88
+
+lrcsi_dd lrcsi_needle_quotient(lrcsi_dd a, lrcsi_dd b)
+{
+    double first = a.hi / b.hi;
+    lrcsi_dd rest = lrcsi_dd_sub(a, lrcsi_dd_scale(b, first));
+    return lrcsi_dd_quick_sum(first, rest.hi / b.hi);
+}
+
+/* x - from, exactly. Returns its length, within 4 u. */
+static double difference_dd(const double *x, const double *from, lrcsi_dd out[3])
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        out[k] = lrcsi_dd_two_sum(x[k], -from[k]);
+        square += out[k].hi * out[k].hi;
+    }
+    return sqrt(square);
+}
+
+/* a x d, times a sign. */
+static void cross_view(const lrcsi_dd a[3], const double *d, int sign, lrcsi_dd out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3;
+        int j = (k + 2) % 3;
+        out[k] = lrcsi_dd_sub(lrcsi_dd_scale(a[i], sign * d[j]), lrcsi_dd_scale(a[j], sign * d[i]));
+    }
+}
+
+static lrcsi_dd dot_dd(const lrcsi_dd a[3], const lrcsi_dd b[3])
+{
+    lrcsi_dd sum = lrcsi_dd_mul(a[0], b[0]);
+    sum = lrcsi_dd_add(sum, lrcsi_dd_mul(a[1], b[1]));
+    return lrcsi_dd_add(sum, lrcsi_dd_mul(a[2], b[2]));
+}
+
+int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
+                      const double corner[3][2], double reach, lrcsi_needle *n)
+{
+    double turn = corner[1][0] * corner[2][1] - corner[1][1] * corner[2][0];
+    const double *bulk = view->prepared->bulk;
+    double large = lrcsi_max(bulk[0], lrcsi_max(bulk[1], bulk[2]));
+    double least = reach > large ? NEEDLE_LARGE : NEEDLE_LEAST;
+    if (turn * least > reach * reach) {
+        return 0;
+    }
+    n->origin = point[0];
+    n->direction = view->direction;
+    n->length = view->length;
+    n->reach = 0;
+    for (int i = 0; i < 2; i++) {
+        n->reach = lrcsi_max(n->reach, difference_dd(point[i + 1], n->origin, n->side[i]));
+        n->corner[i][0] = corner[i + 1][0];
+        n->corner[i][1] = corner[i + 1][1];
+    }
+    cross_view(n->side[1], n->direction, 1, n->row[0]);
+    cross_view(n->side[0], n->direction, -1, n->row[1]);
+    n->whole = dot_dd(n->row[1], n->side[1]);
+    n->relative_err = NEEDLE_ERR * n->reach * n->length / n->whole.hi;
+    return n->whole.hi > UNDERFLOW_MOST &&
+           n->whole.hi * NEEDLE_MOST > n->reach * n->reach * n->length;
+}
+
+double lrcsi_needle_coordinates(const lrcsi_needle *n, const double x[3], lrcsi_dd out[2])
+{
+    lrcsi_dd gap[3];
+    double far = difference_dd(x, n->origin, gap);
+    for (int i = 0; i < 2; i++) {
+        out[i] = lrcsi_needle_quotient(dot_dd(n->row[i], gap), n->whole);
+    }
+    return n->relative_err * far;
+}
+
+/* Narrows the part of a segment, an interval of its parameter, to where sign (x - bound) >= 0 in
+   one coordinate. Returns 0 if nothing remains. */
+static int clip_coordinate(lrcsi_dd from, lrcsi_dd to, double bound, int sign, lrcsi_dd part[2])
+{
+    lrcsi_dd limit = {bound, 0};
+    lrcsi_dd a = lrcsi_dd_sub(from, limit);
+    lrcsi_dd b = lrcsi_dd_sub(to, limit);
+    int out = sign * a.hi < 0;
+    if (out && sign * b.hi < 0) {
+        return 0;
+    }
+    if (out || sign * b.hi < 0) {
+        lrcsi_dd at = lrcsi_needle_quotient(a, lrcsi_dd_sub(a, b));
+        double later = lrcsi_dd_sub(at, part[!out]).hi;
+        if (out ? later > 0 : later < 0) {
+            part[!out] = at;
+        }
+    }
+    return 1;
+}
+
+void lrcsi_needle_clip(const lrcsi_dd from[2], const lrcsi_dd to[2], double end[2][2],
+                       lrcsi_dd part[2])
+{
+    int in = 1;
+    part[0] = (lrcsi_dd){0, 0};
+    part[1] = (lrcsi_dd){1, 0};
+    for (int k = 0; k < 2 && in; k++) {
+        in = clip_coordinate(from[k], to[k], -1, 1, part) &&
+             clip_coordinate(from[k], to[k], 2, -1, part);
+    }
+    in = in && lrcsi_dd_sub(part[1], part[0]).hi >= 0;
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 2; k++) {
+            lrcsi_dd along = lrcsi_dd_mul(part[i], lrcsi_dd_sub(to[k], from[k]));
+            end[i][k] = in ? lrcsi_dd_value(lrcsi_dd_add(from[k], along)) : 2;
+        }
+    }
+}
+
+/* The parameter runs from the nearer end, so that the error of the farther end counts only in
+   proportion to it. */
+double lrcsi_needle_segment(const lrcsi_needle *n, const double p[3], const double q[3],
+                            double end[2][2])
+{
+    lrcsi_dd at[2][2];
+    lrcsi_dd part[2];
+    double cut[2][2];
+    const double err[2] = {lrcsi_needle_coordinates(n, p, at[0]),
+                           lrcsi_needle_coordinates(n, q, at[1])};
+    int far = err[1] > err[0];
+    lrcsi_needle_clip((const lrcsi_dd *)at[!far], (const lrcsi_dd *)at[far], cut, part);
+    for (int k = 0; k < 2; k++) {
+        end[!far][k] = cut[0][k];
+        end[far][k] = cut[1][k];
+    }
+    double t = lrcsi_min(1, lrcsi_max(part[0].hi, part[1].hi));
+    return err[!far] + t * err[far];
+}
+
+/* The determinant of lrcsi_needle_side as a linear function of u and v. Each coefficient has an
+   error of 29 u^2 of the lengths of its factors, as above, and a rounding error of u of itself;
+   evaluating the function adds 3 u of its terms. u and v are below 2 in magnitude. */
+double lrcsi_needle_line(const lrcsi_needle *n, const double p[3], const double q[3],
+                         double line[3])
+{
+    lrcsi_dd along[3];
+    lrcsi_dd gap[3];
+    lrcsi_dd row[3];
+    double length = difference_dd(q, p, along);
+    double far = difference_dd(n->origin, p, gap) + 4 * n->reach;
+    cross_view(along, n->direction, -1, row);
+    line[0] = lrcsi_dd_value(dot_dd(row, n->side[0]));
+    line[1] = lrcsi_dd_value(dot_dd(row, n->side[1]));
+    line[2] = lrcsi_dd_value(dot_dd(row, gap));
+    return 8 * LRCSI_U * (2 * fabs(line[0]) + 2 * fabs(line[1]) + fabs(line[2])) +
+           64 * LRCSI_U * LRCSI_U * length * far * n->length + UNDERFLOW_MOST;
+}
+
+/* det(q - p, x - p, d) at x = origin + u e + v f. The error of x - p is 13 u^2 of the lengths of
+   its terms; with the errors above, less than 45 u^2 in total. */
+double lrcsi_needle_side(const lrcsi_needle *n, const double p[3], const double q[3],
+                         const double at[2], int guess)
+{
+    lrcsi_dd along[3];
+    lrcsi_dd gap[3];
+    lrcsi_dd row[3];
+    double length = difference_dd(q, p, along);
+    double far = difference_dd(n->origin, p, gap) + 2 * n->reach;
+    for (int k = 0; k < 3; k++) {
+        gap[k] = lrcsi_dd_add(gap[k], lrcsi_dd_scale(n->side[0][k], at[0]));
+        gap[k] = lrcsi_dd_add(gap[k], lrcsi_dd_scale(n->side[1][k], at[1]));
+    }
+    cross_view(along, n->direction, -1, row);
+    double side = lrcsi_dd_value(dot_dd(row, gap));
+    return guess || fabs(side) > 64 * LRCSI_U * LRCSI_U * length * far * n->length + UNDERFLOW_MOST
+               ? side
+               : 0;
+}
+
+/* --- the frame of a needle as a target -------------------------------------------------------- */
+
 void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_target *refined)
 {
     const double *const point[3] = {t->origin, lrcsi_target_own(t->view, t->facet, 1),
@@ -170,7 +379,7 @@ void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_targ
                                   .size = 1,
                                   .diameter = 1.4143,
                                   .perimeter = 3.4143,
-                                  .position_err = needle->off * needle->reach,
+                                  .position_err = needle->relative_err * needle->reach,
                                   .unit = 2 * lrcsi_view_incidence(t->view, t->facet).projected,
                                   .needle = needle};
     }
@@ -196,12 +405,12 @@ static double clamped(double x, double low, double high)
 static int longest_from(const lrcsi_target *t)
 {
     int longest = 0;
-    double most = 0;
+    double square = 0;
     for (int k = 0; k < 3; k++) {
         double x = t->corner[(k + 1) % 3][0] - t->corner[k][0];
         double y = t->corner[(k + 1) % 3][1] - t->corner[k][1];
-        if (x * x + y * y > most) {
-            most = x * x + y * y;
+        if (x * x + y * y > square) {
+            square = x * x + y * y;
             longest = k;
         }
     }

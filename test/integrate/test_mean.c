@@ -198,7 +198,7 @@ static void mean_over_attitudes_of_random_polytopes(void **state)
 /* The facets of a shape, as the engine divides it. */
 static void tessellated(const lrcs_shape *shape, uint32_t around, uint32_t along)
 {
-    lrcs_divisions divisions = {around, along};
+    lrcs_divisions divisions = {around, along, 0};
     lrcs_mesh mesh;
     lrcs_work work = lrcs_work_make(scene_memory, sizeof scene_memory);
     scene_start(&scene);

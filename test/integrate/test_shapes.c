@@ -265,6 +265,31 @@ static void a_two_sided_shell_needs_facets_where_its_inside_shows(void **state)
     }
 }
 
+/* A patch on the limb is seen from both sides: where its facet faces away, and is hidden as part of
+   the inside, some of the patch is lit from outside all the same. */
+static void patches_on_the_limb_of_a_two_sided_shell_count_from_both_sides(void **state)
+{
+    (void)state;
+    const lrcs_build_options mesh = {1e-9, 512, LRCS_NORMALS_FLAT, 1, 0};
+    const lrcs_brdf diffuse = {0, 0.2, 0.1, 0};
+    const lrcs_shape shells[] = {
+        {.kind = LRCS_SHAPE_CONE, .parts = LRCS_SHAPE_WALL, .radius = 0.25, .length = 0.75},
+        {.kind = LRCS_SHAPE_PARABOLOID, .parts = LRCS_SHAPE_WALL, .radius = 0.25, .length = 1},
+        {.kind = LRCS_SHAPE_DOME, .parts = LRCS_SHAPE_WALL, .radius = 0.5}};
+    for (int i = 0; i < 3 * 64; i++) {
+        shapes_scene s = scene_of(diffuse, 1);
+        double turn =
+            0.001 + i / 3 * (3.14159 / 1024); /* two sectors of a cone of 512 facets, and more */
+        const double d[3] = {cos(turn), sin(turn), 0.01};
+        lrcs_aspect aspect = {.by_direction = 1, .direction = {d[0], d[1], d[2]}};
+        lrcs_closed truth;
+        add(&s, shells[i % 3]);
+        assert_int_equal(lrcs_closed_eval(&shells[i % 3], &diffuse, &aspect, &truth), LRCS_OK);
+        lrcs_result r = shapes_run(&s, &mesh, d, LRCS_METHOD_EXACT);
+        check_abs(r.sigma_m2, truth.sigma_m2, r.bound_m2 + truth.bound_m2);
+    }
+}
+
 static void an_unevenly_scaled_shape_keeps_its_facets(void **state)
 {
     (void)state;
@@ -392,6 +417,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(closed_forms_lie_within_the_bounds_of_fine_meshes),
         cmocka_unit_test(records_share_out_the_closed_form),
         cmocka_unit_test(a_two_sided_shell_needs_facets_where_its_inside_shows),
+        cmocka_unit_test(patches_on_the_limb_of_a_two_sided_shell_count_from_both_sides),
         cmocka_unit_test(an_unevenly_scaled_shape_keeps_its_facets),
         cmocka_unit_test(switched_terms_are_left_out_of_closed_forms_too),
         cmocka_unit_test(shapes_far_apart_are_all_closed_forms),

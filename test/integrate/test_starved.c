@@ -116,7 +116,7 @@ static void setup(void)
     options = lrcs_run_options_default();
     options.resolution = 16;
     shape = (lrcs_shape){.kind = LRCS_SHAPE_DOME, .radius = 1};
-    divisions = (lrcs_divisions){8, 2};
+    divisions = (lrcs_divisions){8, 2, 0};
     assert_int_equal(lrcs_recipe_read(text, sizeof text - 1, &base, &recipe, NULL), LRCS_OK);
     assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &base, &scene, NULL), LRCS_OK);
     assert_int_equal(lrcs_prepare_run(&scene, &base, &prepared), LRCS_OK);

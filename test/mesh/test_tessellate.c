@@ -77,14 +77,20 @@ static double volume(const lrcs_mesh *mesh)
     return sum;
 }
 
-static lrcs_mesh make(const lrcs_shape *shape, uint32_t around, uint32_t along,
-                      lrcs_curvature *curvature)
+static lrcs_mesh make_rings(const lrcs_shape *shape, uint32_t around, uint32_t along,
+                            int level_rings, lrcs_curvature *curvature)
 {
-    lrcs_divisions divisions = {around, along};
+    lrcs_divisions divisions = {around, along, level_rings};
     lrcs_work work = lrcs_work_make(area, sizeof area);
     lrcs_mesh mesh;
     assert_int_equal(lrcs_shape_mesh(shape, &divisions, &work, &mesh, curvature), LRCS_OK);
     return mesh;
+}
+
+static lrcs_mesh make(const lrcs_shape *shape, uint32_t around, uint32_t along,
+                      lrcs_curvature *curvature)
+{
+    return make_rings(shape, around, along, 0, curvature);
 }
 
 typedef struct sample {
@@ -368,10 +374,10 @@ static patch patch_integrate(const lrcs_shape *shape, double r0, double r1, doub
 }
 
 /* Checks the numbers on every strip of a body's wall; `upper` strips, by the radii of its rows. */
-static void check_strips(const lrcs_shape *shape, uint32_t around, uint32_t along)
+static void check_rings(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_rings)
 {
     lrcs_curvature c;
-    lrcs_mesh mesh = make(shape, around, along, &c);
+    lrcs_mesh mesh = make_rings(shape, around, along, level_rings, &c);
     double h = pi / around;
     double swell = sqrt(2.0 * h / sin(2.0 * h));
     lrcs_curvature seen = {0.0, 0.0, 0.0, 0.0};
@@ -397,6 +403,12 @@ static void check_strips(const lrcs_shape *shape, uint32_t around, uint32_t alon
     check_most(c.turn, seen.turn * 1.1); /* and they are not idle */
     check_most(c.area_error, seen.area_error * 1.1 + 1e-3 * h * h);
     check_most(c.spread, seen.spread * 1.1);
+}
+
+static void check_strips(const lrcs_shape *shape, uint32_t around, uint32_t along)
+{
+    check_rings(shape, around, along, 0);
+    check_rings(shape, around, along, 1);
 }
 
 static void curvature_bounds_every_patch_and_is_nearly_reached(void **state)
@@ -432,6 +444,115 @@ static void curvature_bounds_every_patch_and_is_nearly_reached(void **state)
     check_strips(&funnel, 16, 1);
 }
 
+/* True radius and height at a fraction of the area of a strip, counted from its upper row, given
+   the true radii of both rows. */
+static void true_point(const lrcs_shape *shape, double lower, double upper, double fraction,
+                       double *r, double *z)
+{
+    double rim = shape->radius;
+    double height = shape->length;
+    double square = upper * upper + fraction * (lower * lower - upper * upper);
+    if (shape->kind == LRCS_SHAPE_DOME) {
+        double a = sqrt(rim * rim - upper * upper);
+        double b = sqrt(fmax(0.0, rim * rim - lower * lower));
+        *z = a + fraction * (b - a);
+        *r = sqrt(rim * rim - *z * *z);
+    } else if (shape->kind == LRCS_SHAPE_PARABOLOID) {
+        double k = 2.0 * height / (rim * rim); /* slope = k r */
+        double a = pow(1.0 + k * k * upper * upper, 1.5);
+        double b = pow(1.0 + k * k * lower * lower, 1.5);
+        double w = cbrt(a + fraction * (b - a));
+        *r = sqrt((w - 1.0) * (w + 1.0)) / k;
+        *z = height * (1.0 - *r * *r / (rim * rim));
+    } else {
+        double base = shape->kind == LRCS_SHAPE_FRUSTUM ? shape->radius2 : rim;
+        double top = shape->kind == LRCS_SHAPE_CONE ? 0.0 : rim;
+        *r = sqrt(square);
+        *z = base == top ? height * (1.0 - fraction) : height * (*r - base) / (top - base);
+    }
+}
+
+/* The map of mesh/profile.c from the true surface onto the facets, point by point over a sector. */
+static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_rings)
+{
+    enum { STEPS = 24 };
+    lrcs_mesh mesh = make_rings(shape, around, along, level_rings, NULL);
+    lrcsi_reach reach =
+        lrcsi_tessellate_reach(shape, &(lrcs_divisions){around, along, level_rings});
+    double h = pi / around;
+    double swell = sqrt(2.0 * h / sin(2.0 * h));
+    lrcsi_reach seen = {0.0, 0.0, 0.0, 0.0};
+    for (uint32_t i = 0; i < along; i++) {
+        const double *low = mesh.vertex[i * around].x;
+        const double *high = mesh.vertex[(i + 1) * around].x;
+        int apex = i + 1 == along && shape->kind != LRCS_SHAPE_FRUSTUM;
+        double lower = low[0] / swell;
+        double upper = apex ? 0.0 : high[0] / swell;
+        for (int j = 0; j <= STEPS * STEPS; j++) {
+            double fraction = (double)(j / STEPS) / STEPS;
+            double v = 2.0 * (j % STEPS) / (STEPS - 1.0) - 1.0;
+            double r;
+            double z;
+            true_point(shape, lower, upper, fraction, &r, &z);
+            double ours = sqrt(upper * upper + fraction * (lower * lower - upper * upper));
+            double down = lower == upper ? fraction : (ours - upper) / (lower - upper);
+            const double off[3] = {swell * cos(h) * ours - r * cos(v * h),
+                                   swell * sin(h) * v * ours - r * sin(v * h),
+                                   high[2] + down * (low[2] - high[2]) - z};
+            seen.all = fmax(seen.all, sqrt(dot(off, off)));
+            seen.radial = fmax(seen.radial, fabs(off[0]));
+            seen.axial = fmax(seen.axial, fabs(off[2]));
+            seen.aside = fmax(seen.aside, fabs(off[1]));
+        }
+    }
+    check_most(seen.all, reach.all);
+    check_most(seen.radial, reach.radial);
+    check_most(seen.axial, reach.axial);
+    check_most(seen.aside, reach.aside);
+    if (along == 1 || along > 20) { /* and they are not idle, unless rings are coarse */
+        check_most(reach.all, 4.0 * seen.all + 1e-12);
+        check_most(reach.radial, 2.0 * seen.radial + 1e-12);
+    }
+}
+
+static void reach_bounds_how_far_the_map_onto_facets_moves_points(void **state)
+{
+    (void)state;
+    const lrcs_shape shapes[] = {
+        {.kind = LRCS_SHAPE_DOME, .radius = 2, .parts = LRCS_SHAPE_WALL},
+        {.kind = LRCS_SHAPE_PARABOLOID, .radius = 1, .length = 1.5, .parts = LRCS_SHAPE_WALL},
+        {.kind = LRCS_SHAPE_PARABOLOID, .radius = 1, .length = 0.1, .parts = LRCS_SHAPE_WALL},
+        {.kind = LRCS_SHAPE_CONE, .radius = 1, .length = 2, .parts = LRCS_SHAPE_WALL},
+        {.kind = LRCS_SHAPE_FRUSTUM,
+         .radius = 0.5,
+         .radius2 = 1,
+         .length = 0.7,
+         .parts = LRCS_SHAPE_WALL}};
+    for (int i = 0; i < 5 * 2; i++) {
+        uint32_t along = i / 2 < 3 ? 5 : 1;
+        check_reach(&shapes[i / 2], 16, along, i % 2);
+        check_reach(&shapes[i / 2], 64, along * along, i % 2);
+        check_reach(&shapes[i / 2], 400, along, i % 2);
+    }
+}
+
+static void level_rings_are_closer_to_the_true_surface(void **state)
+{
+    (void)state;
+    const lrcs_shape dome = {.kind = LRCS_SHAPE_DOME, .radius = 2};
+    lrcs_mesh mesh = make_rings(&dome, 64, 40, 1, NULL);
+    for (uint32_t v = 0; v < mesh.vertex_count; v++) {
+        const double *x = mesh.vertex[v].x;
+        double h = pi / 64;
+        double r = sqrt(x[0] * x[0] + x[1] * x[1]) / sqrt(2.0 * h / sin(2.0 * h));
+        if (x[2] > 0.0) {
+            check_rel(r * r + x[2] * x[2], 4.0, 1e-14);
+        }
+    }
+    double level = lrcsi_tessellate_reach(&dome, &(lrcs_divisions){400, 40, 1}).all;
+    check_most(2.0 * level, lrcsi_tessellate_reach(&dome, &(lrcs_divisions){400, 40, 0}).all);
+}
+
 static void no_dimension_at_all_makes_a_mesh_of_no_area(void **state)
 {
     (void)state;
@@ -460,7 +581,7 @@ static void extreme_dimensions_stay_finite(void **state)
         lrcs_curvature c;
         lrcs_mesh mesh = make(&shape, 8, along, &c);
         assert_true(isfinite(c.turn + c.area_error + c.bias + c.spread));
-        double reach = lrcsi_tessellate_reach(&shape, &(lrcs_divisions){8, along});
+        double reach = lrcsi_tessellate_reach(&shape, &(lrcs_divisions){8, along, 0}).all;
         double size = shape.radius + shape.radius2 + shape.length;
         assert_true(reach >= 0.0 && reach <= 3.0 * size + 1e-300);
         for (uint32_t v = 0; v < mesh.vertex_count; v++) {
@@ -481,7 +602,8 @@ static void a_cone_by_half_angle_is_the_cone_by_length(void **state)
 static void divisions_that_do_not_suit_are_refused(void **state)
 {
     (void)state;
-    const lrcs_divisions bad[] = {{0, 1}, {4, 1}, {10, 1}, {8, 0}, {8, 2}, {1u << 25, 1}};
+    const lrcs_divisions bad[] = {{0, 1, 0}, {4, 1, 0}, {10, 1, 0},
+                                  {8, 0, 0}, {8, 2, 0}, {1u << 25, 1, 0}};
     lrcs_shape cylinder = {.kind = LRCS_SHAPE_CYLINDER, .radius = 1, .length = 1};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         lrcs_work work = lrcs_work_make(area, sizeof area);
@@ -490,19 +612,19 @@ static void divisions_that_do_not_suit_are_refused(void **state)
         assert_int_equal(work.used, 0);
     }
     lrcs_shape sphere = {.kind = LRCS_SHAPE_SPHERE, .radius = 1};
-    lrcs_divisions huge = {1u << 24, 1u << 24};
+    lrcs_divisions huge = {1u << 24, 1u << 24, 0};
     lrcs_work work = lrcs_work_make(area, sizeof area);
     lrcs_mesh mesh;
     assert_int_equal(lrcs_shape_mesh(&sphere, &huge, &work, &mesh, NULL), LRCS_E_ARGUMENT);
-    huge = (lrcs_divisions){8, (1u << 24) + 1};
+    huge = (lrcs_divisions){8, (1u << 24) + 1, 0};
     assert_int_equal(lrcs_shape_mesh(&sphere, &huge, &work, &mesh, NULL), LRCS_E_ARGUMENT);
-    const lrcs_divisions whole[] = {{8, 1}, {4, 2}};
+    const lrcs_divisions whole[] = {{8, 1, 0}, {4, 2, 0}};
     lrcs_shape box = {.kind = LRCS_SHAPE_BOX, .size = {1, 1, 1}};
     for (int i = 0; i < 2; i++) {
         assert_int_equal(lrcs_shape_mesh(&box, &whole[i], &work, &mesh, NULL), LRCS_E_ARGUMENT);
     }
     box.size[1] = -1;
-    assert_int_equal(lrcs_shape_mesh(&box, &(lrcs_divisions){4, 1}, &work, &mesh, NULL),
+    assert_int_equal(lrcs_shape_mesh(&box, &(lrcs_divisions){4, 1, 0}, &work, &mesh, NULL),
                      LRCS_E_ARGUMENT);
     assert_int_equal(work.used, 0);
 }
@@ -511,7 +633,7 @@ static void a_starved_work_area_is_left_as_it_was(void **state)
 {
     (void)state;
     lrcs_shape dome = {.kind = LRCS_SHAPE_DOME, .radius = 1};
-    lrcs_divisions divisions = {8, 2};
+    lrcs_divisions divisions = {8, 2, 0};
     int status = LRCS_E_MEMORY;
     size_t size = 0;
     for (; status == LRCS_E_MEMORY && size < 8192; size++) {
@@ -539,6 +661,8 @@ int main(void)
         cmocka_unit_test(a_sphere_is_symmetric_about_its_equator_which_lies_at_zero),
         cmocka_unit_test(plane_faced_bodies_and_discs_have_no_curvature),
         cmocka_unit_test(curvature_bounds_every_patch_and_is_nearly_reached),
+        cmocka_unit_test(reach_bounds_how_far_the_map_onto_facets_moves_points),
+        cmocka_unit_test(level_rings_are_closer_to_the_true_surface),
         cmocka_unit_test(no_dimension_at_all_makes_a_mesh_of_no_area),
         cmocka_unit_test(extreme_dimensions_stay_finite),
         cmocka_unit_test(a_cone_by_half_angle_is_the_cone_by_length),

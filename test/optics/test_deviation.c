@@ -111,7 +111,7 @@ static void facets_err_by_less_than_their_bound(void **state)
     for (size_t i = 0; i < 3 * BODIES; i++) {
         const body *b = &bodies[i / 3];
         lrcs_shape shape = body_shape(b);
-        lrcs_divisions divisions = {arounds[i % 3], 1};
+        lrcs_divisions divisions = {arounds[i % 3], 1, 0};
         if (b->kind == LRCS_SHAPE_SPHERE || b->kind == LRCS_SHAPE_DOME ||
             b->kind == LRCS_SHAPE_PARABOLOID) {
             divisions.along = divisions.around / 4;

@@ -201,7 +201,7 @@ static void bad_arguments_leave_the_outputs_alone(void **state)
     bad[2].max_facets = 63;
     bad[3].brdf.A = -1.0;
     bad[4].brdf.s = (double)NAN;
-    lrcs_divisions divisions = {77, 77};
+    lrcs_divisions divisions = {77, 77, 0};
     lrcs_mesh_counts counts = {.facets = 77};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         assert_true(lrcs_shape_count(&bodies[0], &bad[i], &divisions, &counts) < 0);

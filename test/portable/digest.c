@@ -488,7 +488,7 @@ static void keep_shapes(void)
 
     lrcs_work work = lrcs_work_make(memory, MEMORY / 2);
     lrcs_shape can = {.kind = LRCS_SHAPE_CYLINDER, .radius = 0.5, .length = 2};
-    lrcs_divisions divisions = {24, 1};
+    lrcs_divisions divisions = {24, 1, 0};
     lrcs_mesh mesh;
     assert_int_equal(lrcs_shape_mesh(&can, &divisions, &work, &mesh, NULL), LRCS_OK);
     run_scene("curved", curved, sizeof curved - 1, &mesh, LRCS_NORMALS_SMOOTH, 3, 0);

@@ -9,7 +9,7 @@ static void curvature_outlives_uniform_scaling_only(void **state)
 {
     (void)state;
     const lrcs_shape shape = {.kind = LRCS_SHAPE_CYLINDER, .radius = 1, .length = 1};
-    const lrcs_divisions divisions = {8, 1};
+    const lrcs_divisions divisions = {8, 1, 0};
     for (int i = 0; i < 10; i++) {
         lrcs_curvature curvature = {0, 0, 0, 0};
         double *const number[] = {&curvature.turn, &curvature.area_error, &curvature.bias,

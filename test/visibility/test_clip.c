@@ -5,7 +5,6 @@
 #include <math.h>
 
 #include "scenes.h"
-#include "visibility/cells_shape.h"
 
 static lrcsi_clip_polygon triangle(double x, double y)
 {
@@ -26,7 +25,7 @@ static void check_split(double at_x, double at_y, double to_x, double to_y, doub
     lrcsi_clip_polygon left;
     lrcsi_clip_polygon right;
     lrcsi_line_through(from, to, line);
-    lrcsi_cells_shape_divide(&p, line, &left, &right);
+    lrcsi_clip_divide(&p, line, &left, &right);
     check_same(left.count < 3 ? 0 : lrcsi_clip_area(&left), left_area);
     check_same(right.count < 3 ? 0 : lrcsi_clip_area(&right), right_area);
 }
@@ -54,7 +53,7 @@ static void both_parts_have_the_corners_of_the_cut(void **state)
         round.corner[i][1] = sin(6.283185307179586 * (i + 0.5) / SIDES);
     }
     const double middle[3] = {1, 0, -0.01};
-    lrcsi_cells_shape_divide(&round, middle, &left, &right);
+    lrcsi_clip_divide(&round, middle, &left, &right);
     assert_true(left.count + right.count == SIDES + 4);
 }
 
@@ -77,7 +76,7 @@ static double area_cut(const double corner[3][2], const double low[2])
     lrcsi_clip_polygon right;
     lrcsi_clip_triangle(corner, &inside);
     for (int k = 0; k < 4; k++) {
-        lrcsi_cells_shape_divide(&inside, side[k], &left, &right);
+        lrcsi_clip_divide(&inside, side[k], &left, &right);
         if (left.count < 3) {
             return 0;
         }

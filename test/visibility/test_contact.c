@@ -3,6 +3,7 @@
 #include "visibility/contact.h"
 
 #include "visibility/plate_and.h"
+#include "visibility/sample.h"
 
 static test_scene scene;
 static lrcs_work work;
@@ -59,18 +60,18 @@ static void order_follows_from_either_plane_or_from_crossing_sides(void **state)
 {
     (void)state;
     look((const double[3]){1, 1, 1}, (const double[3]){2, 1, 1}, (const double[3]){1, 2, 0});
-    assert_int_equal(lrcsi_contact_side(&view, 0, 1), 1);
-    assert_int_equal(lrcsi_contact_side(&view, 1, 0), -1);
+    assert_int_equal(lrcsi_sample_side(&view, 1, 0), 1);
+    assert_int_equal(lrcsi_sample_side(&view, 0, 1), -1);
     /* Each has corners on both sides of the other's plane, yet they do not meet: in z = y - 1,
        where it is above the target. */
     look((const double[3]){-1, 3, 2}, (const double[3]){-1, 0.5, -0.5}, (const double[3]){1, 3, 2});
-    assert_int_equal(lrcsi_contact_side(&view, 0, 1), 0);
-    assert_int_equal(lrcsi_contact_order(&view, 0, 1), 1);
-    assert_int_equal(lrcsi_contact_order(&view, 1, 0), -1);
+    assert_int_equal(lrcsi_sample_side(&view, 1, 0), 0);
+    assert_int_equal(lrcsi_sample_overlap_order(&view, 1, 0), 1);
+    assert_int_equal(lrcsi_sample_overlap_order(&view, 0, 1), -1);
     look((const double[3]){-1, 3, -2}, (const double[3]){-1, 0.5, 0.5},
          (const double[3]){1, 3, -2});
-    assert_int_equal(lrcsi_contact_side(&view, 0, 1), 0);
-    assert_int_equal(lrcsi_contact_order(&view, 0, 1), -1);
+    assert_int_equal(lrcsi_sample_side(&view, 1, 0), 0);
+    assert_int_equal(lrcsi_sample_overlap_order(&view, 1, 0), -1);
 }
 
 /* The corner (-1,1,1) of facet 0 lies on a side of facet 1, which is above it elsewhere: over its
@@ -94,10 +95,9 @@ static void order_follows_from_a_corner_on_a_side(void **state)
         const lrcs_prepared *prepared = scene_prepare(&scene, &work);
         assert_int_equal(lrcs_pose_from_direction((const double[3]){0, 0, 1}, &pose), LRCS_OK);
         assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-        assert_int_equal(lrcsi_contact_side(&view, 0, 1), 0);
-        assert_int_equal(lrcsi_contact_order(&view, 0, 1), 0);
-        assert_int_equal(lrcsi_contact_within(&view, 0, 1), 1);
-        assert_int_equal(lrcsi_contact_within(&view, 1, 0), -1);
+        assert_int_equal(lrcsi_sample_side(&view, 1, 0), 0);
+        assert_int_equal(lrcsi_sample_overlap_order(&view, 1, 0), 1);
+        assert_int_equal(lrcsi_sample_overlap_order(&view, 0, 1), -1);
     }
 }
 

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The frame of a needle. Coordinates are such that shares are known exactly: a point is put
    together from the sides with dyadic shares, and moved along the direction, without rounding. */
-#include "visibility/needle.h"
+#include "visibility/target.h"
 
 #include "scenes.h"
-#include "visibility/target.h"
 
 static test_scene scene;
 static lrcs_work work;

@@ -329,7 +329,7 @@ static void a_needle_shows_its_share_in_pieces(void **state)
         while (lrcsi_occlude_next(&o)) {
             area += lrcsi_clip_area(&o.alone.piece);
         }
-        double off = o.alone.bent + 20 * 0x1p-53 * o.alone.target.reach * o.alone.target.perimeter;
+        double off = o.alone.piece_err + 20 * 0x1p-53 * o.alone.target.reach * o.alone.target.perimeter;
         lrcsi_visible seen = lrcsi_occlude_close(&o);
         check_abs(area, seen.area, off);
         check_most(off, 1e-14);

@@ -6,6 +6,17 @@
 
 #include "visibility/clip.h"
 
+/* A directed segment, from `at` to `at + to`, and the line through it. */
+typedef struct lrcsi_clip_line {
+    double at[2], to[2];
+} lrcsi_clip_line;
+
+/* The signed distance of a point from the line, positive on its left, times the length of `to`. */
+static inline double lrcsi_clip_side(const lrcsi_clip_line *line, const double p[2])
+{
+    return line->to[0] * (p[1] - line->at[1]) - line->to[1] * (p[0] - line->at[0]);
+}
+
 /* The line that halves a piece across the longer side of its box. */
 lrcsi_clip_line ref_clip_halving(const lrcsi_clip_polygon *polygon);
 

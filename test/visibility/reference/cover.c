@@ -100,10 +100,7 @@ static uint32_t order_mixed(const ref_cuts *cuts, uint32_t other)
             return ORDER_BEHIND;
         }
     }
-    int order = lrcsi_contact_order(t->view, t->facet, other);
-    if (order == 0 && t->needle) {
-        order = lrcsi_contact_within(t->view, t->facet, other);
-    }
+    int order = lrcsi_sample_overlap_order(t->view, other, t->facet);
     return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
 }
 
@@ -115,7 +112,7 @@ static uint32_t order_of(const ref_cuts *cuts, uint32_t other)
     if (!lrcsi_meter_take(NULL, (uint64_t)1 + cuts->count + intersections)) {
         return ORDER_NEW;
     }
-    int side = lrcsi_contact_side(t->view, t->facet, other);
+    int side = lrcsi_sample_side(t->view, other, t->facet);
     return side > 0 ? ORDER_FRONT : side < 0 ? ORDER_BEHIND : order_mixed(cuts, other);
 }
 

@@ -12,7 +12,7 @@
    as computed, the segment lies within that width of the line, and all of the cell on one side but
    for as much (24 u of r + d would do, and 30 u for a contact).
 
-   In a needle's frame (visibility/needle.h) ends are off by less, and segments clipped: one that
+   In a needle's frame (visibility/target.h) ends are off by less, and segments clipped: one that
    meets the facet starts, ends and runs on within the box, so that its part there is one long
    unless its ends are its own.
 

@@ -34,7 +34,7 @@
    the cells costs u d p each.
 
    A needle in the view may be no wider than all this. It is done in the frame of its shares
-   (visibility/needle.h), where it is as wide as long, and all of the above holds as it stands: its
+   (visibility/target.h), where it is as wide as long, and all of the above holds as it stands: its
    corners are exact but for the frame's slip, segments come clipped to a box around it, and are off
    as visibility/cut.c tells; samples are taken at points that are not rounded. Areas are counted in
    units of twice the facet's projection, which is off by its own error. */

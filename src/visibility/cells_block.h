@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The blocks of the view plane, and the cell that each begins as: its facets, and its segments
    (visibility/cells.c). */
-#ifndef LRCSI_CELLS_OPEN_H
-#define LRCSI_CELLS_OPEN_H
+#ifndef LRCSI_CELLS_BLOCK_H
+#define LRCSI_CELLS_BLOCK_H
 
 #include "visibility/cells_state.h"
 
@@ -26,9 +26,9 @@ lrcsi_cells_segment *lrcsi_cells_segment_new(lrcsi_cells_work *c);
 lrcsi_cells_segment *lrcsi_cells_edge(lrcsi_cells_work *c, uint32_t edge);
 
 /* The largest number of segments of a block, at most. Given: c->view, grid, kind. */
-size_t lrcsi_cells_segments_most(const lrcsi_cells_work *c);
+size_t lrcsi_cells_max_segments(const lrcsi_cells_work *c);
 
 /* Lists the facets and segments of a block and makes their records. 0 if there is no room. */
-int lrcsi_cells_open(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell);
+int lrcsi_cells_begin(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell);
 
 #endif

@@ -3,7 +3,7 @@
    that a block begins as. Its segments are events of the view, contacts of its facets, and edges
    that count as events though two facets continue each other across them. What a contact is:
    visibility/cells_cover.c. */
-#include "visibility/cells_open.h"
+#include "visibility/cells_block.h"
 
 #include <math.h>
 
@@ -49,10 +49,10 @@ static void blocks_place(lrcsi_cells_grid *c, uint32_t cells)
     for (int k = 0; k < 2; k++) {
         c->low[k] = whole ? view->low[k] : grid->low[k] / view->scale;
         c->high[k] = c->low[k] + (c->side - 2) * c->size;
-        c->least[k] = c->low[k];
-        c->most[k] = c->high[k];
+        c->content_low[k] = c->low[k];
+        c->content_high[k] = c->high[k];
     }
-    c->per = 1 / c->size;
+    c->inverse_size = 1 / c->size;
     c->rounding = 64 * LRCSI_U * (fabs(c->low[0]) + fabs(c->low[1]) + c->side * c->size);
 }
 
@@ -65,7 +65,7 @@ static double block_edge(const lrcsi_cells_grid *c, uint32_t i, int k)
 /* The block of a coordinate; possibly the adjacent one for a coordinate nearly on the border. */
 static uint32_t block_of(const lrcsi_cells_grid *c, double x, int k)
 {
-    double i = (x - c->low[k]) * c->per + 1;
+    double i = (x - c->low[k]) * c->inverse_size + 1;
     return (uint32_t)lrcsi_min(c->side - 1.0, lrcsi_max(0, i));
 }
 
@@ -96,8 +96,8 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *
         }
     }
     for (int k = 0; k < 2; k++) {
-        c->least[k] = lrcsi_min(c->least[k], low[k]);
-        c->most[k] = lrcsi_max(c->most[k], high[k]);
+        c->content_low[k] = lrcsi_min(c->content_low[k], low[k]);
+        c->content_high[k] = lrcsi_max(c->content_high[k], high[k]);
     }
     block_range(c, low[0], high[0], 0, &x[0], &x[1]);
     block_range(c, low[1], high[1], 1, &y[0], &y[1]);
@@ -192,12 +192,13 @@ double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y
         double start = c->classification->view->low[k];
         double end = c->classification->view->low[k] + c->classification->view->side;
         double wide = 0x1p-30 * (fabs(start) + fabs(end) + c->side * c->size);
-        double near = 64 * LRCSI_U * (fabs(c->least[k]) + fabs(c->most[k]));
-        low[k] = at[k] > 0 ? block_edge(c, at[k], k)
-                           : lrcsi_min(lrcsi_min(start, c->low[k]) - wide, c->least[k] - near);
+        double near = 64 * LRCSI_U * (fabs(c->content_low[k]) + fabs(c->content_high[k]));
+        low[k] = at[k] > 0
+                     ? block_edge(c, at[k], k)
+                     : lrcsi_min(lrcsi_min(start, c->low[k]) - wide, c->content_low[k] - near);
         high[k] = at[k] + 1 < c->side
                       ? block_edge(c, at[k] + 1, k)
-                      : lrcsi_max(lrcsi_max(end, c->high[k]) + wide, c->most[k] + near);
+                      : lrcsi_max(lrcsi_max(end, c->high[k]) + wide, c->content_high[k] + near);
         middle[k] = 0.5 * (low[k] + high[k]);
         low[k] -= middle[k];
         high[k] -= middle[k];
@@ -281,8 +282,8 @@ static int open_edge(lrcsi_cells_work *c, uint32_t edge)
         e->end[i][1] = end[i]->local[1].hi;
         e->end[i][2] = end[i]->z;
     }
-    e->off = lrcsi_max(end[0]->off, end[1]->off);
-    e->line_off = lrcsi_max(end[0]->line_off, end[1]->line_off);
+    e->err = lrcsi_max(end[0]->err, end[1]->err);
+    e->line_err = lrcsi_max(end[0]->line_err, end[1]->line_err);
     e->z_err = lrcsi_max(end[0]->z_err, end[1]->z_err);
     e->length = lrcsi_cells_line(end[0], end[1], e->line);
     return 1;
@@ -291,7 +292,7 @@ static int open_edge(lrcsi_cells_work *c, uint32_t edge)
 /* 1 if none of the facet's sides counts as an event in cells alone. */
 static int continues(const lrcsi_cells_work *c, uint32_t facet)
 {
-    return (c->kind[facet] & LRCSI_CELLS_APART) == 0 &&
+    return (c->kind[facet] & LRCSI_CELLS_COPLANAR) == 0 &&
            c->view->prepared->intersections.met[facet] <= 1;
 }
 
@@ -303,8 +304,8 @@ static int open_joins(lrcsi_cells_work *c, uint32_t facet)
         return 1;
     }
     for (int k = 0; k < 3; k++) {
-        uint32_t other = lrcsi_cells_joined(c->view, facet, k);
-        if (other != LRCS_NONE && lrcsi_cells_next(c->view, c->kind, facet, k) == LRCS_NONE &&
+        uint32_t other = lrcsi_cells_neighbour(c->view, facet, k);
+        if (other != LRCS_NONE && lrcsi_cells_connected(c->view, c->kind, facet, k) == LRCS_NONE &&
             !open_edge(c, c->view->prepared->topology.facet_edge[facet].corner[k])) {
             return 0;
         }
@@ -332,7 +333,7 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
     for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
         uint32_t other = intersections->entry[i].other;
         if (intersections->entry[i].kind != LRCSI_INTERSECTION_CROSS ||
-            c->listed[other] != c->look ||
+            c->listed[other] != c->stamp ||
             (other < facet && touches_back(view->prepared, facet, other))) {
             continue;
         }
@@ -345,8 +346,8 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
             continue;
         }
         if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
-            c->kind[facet] |= LRCSI_CELLS_VAGUE;
-            c->kind[other] |= LRCSI_CELLS_VAGUE;
+            c->kind[facet] |= LRCSI_CELLS_UNKNOWN_CONTACT;
+            c->kind[other] |= LRCSI_CELLS_UNKNOWN_CONTACT;
             continue;
         }
         lrcsi_cells_segment *e = lrcsi_cells_segment_new(c);
@@ -364,11 +365,11 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
             e->end[n][1] = origin->local[1].hi + contact.end[n][1];
         }
         e->end[0][2] = e->end[1][2] = 0;
-        e->off = origin->off + 32 * LRCSI_U * contact.reach + contact.position_err;
+        e->err = origin->err + 32 * LRCSI_U * contact.reach + contact.position_err;
         e->owner[0] = facet;
         e->owner[1] = other;
         e->contact = kind;
-        e->line_off = e->off;
+        e->line_err = e->err;
         e->length = lrcsi_line_through(e->end[0], e->end[1], e->line);
     }
     return 1;
@@ -379,24 +380,24 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
 static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     const lrcsi_cells_lists *b = &c->grid.facets;
-    double g = 16 * LRCSI_U * c->reach;
+    double g = 16 * LRCSI_U * c->extent;
     for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
         uint32_t index = b->item[i];
         lrcsi_cells_facet *f = &c->facet[index];
         lrcsi_cells_facet_make(&c->frame, index, f);
-        c->found[index] |= f->thin ? LRCSI_CELLS_OPEN : 0;
+        c->state[index] |= f->sliver ? LRCSI_CELLS_UNDECIDED : 0;
         if (lrcsi_cells_facet_near(f, &cell->shape, cell->shape.corner[0], cell->shape.corner[2],
                                    g)) {
-            if ((c->kind[index] & LRCSI_CELLS_LINKED) == 0) {
+            if ((c->kind[index] & LRCSI_CELLS_NEIGHBOURS_FOUND) == 0) {
                 for (int k = 0; k < 3; k++) {
-                    f->next[k] = lrcsi_cells_next(c->view, c->kind, index,
-                                                  lrcsi_cells_side_number(c->view, index, k));
+                    f->neighbour[k] = lrcsi_cells_connected(
+                        c->view, c->kind, index, lrcsi_cells_side_number(c->view, index, k));
                 }
-                c->kind[index] |= LRCSI_CELLS_LINKED;
+                c->kind[index] |= LRCSI_CELLS_NEIGHBOURS_FOUND;
             }
             c->facets[cell->facets++] = index;
-            c->listed[index] = c->look;
-            c->off = lrcsi_max(c->off, f->off);
+            c->listed[index] = c->stamp;
+            c->facet_err = lrcsi_max(c->facet_err, f->err);
         }
     }
 }
@@ -407,7 +408,7 @@ static int edge_listed(const lrcsi_cells_work *c, uint32_t edge)
     const lrcsi_topology *t = &c->view->prepared->topology;
     const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
     for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
-        if (c->listed[use[i].facet] == c->look) {
+        if (c->listed[use[i].facet] == c->stamp) {
             return 1;
         }
     }
@@ -433,7 +434,7 @@ static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *ce
     return 1;
 }
 
-size_t lrcsi_cells_segments_most(const lrcsi_cells_work *c)
+size_t lrcsi_cells_max_segments(const lrcsi_cells_work *c)
 {
     const lrcsi_intersections *intersections = &c->view->prepared->intersections;
     const lrcsi_cells_lists *facets = &c->grid.facets;
@@ -451,10 +452,10 @@ size_t lrcsi_cells_segments_most(const lrcsi_cells_work *c)
     return most;
 }
 
-int lrcsi_cells_open(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
+int lrcsi_cells_begin(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     c->segment_count = 0;
-    c->off = 0;
+    c->facet_err = 0;
     open_facets(c, block, cell);
     return open_segments(c, block, cell);
 }
