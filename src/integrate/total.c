@@ -326,12 +326,6 @@ static void add_any_facet(total_run *run, uint32_t facet)
     }
 }
 
-/* Does a facet represent a patch of a curved wall in this run (integrate/patch.h)? */
-static int represents_patch(const total_run *run, uint32_t facet)
-{
-    return run->plan->patches && lrcsi_patch_exists(run->view->prepared, facet);
-}
-
 /* Adds the error of a facet that replaces a part of a curved shape. Facets with curved normals add
    what may be visible or hidden within the proximity band; clear shapes have no such error. */
 static void add_tessellation_error(total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
@@ -622,7 +616,7 @@ static void add_places(total_run *run, total_batch *batch, uint32_t place, uint3
     total_selection pick;
     select_facets(run, batch, place, count, &pick);
     for (uint32_t i = 0; run->plan->patches && i < count; i++) {
-        if (represents_patch(run, facet[i])) {
+        if (lrcsi_patch_exists(run->view->prepared, facet[i])) {
             pick.front[i] = pick.back[i] = 0;
             pick.any_other = UINT64_MAX;
         }
@@ -640,7 +634,7 @@ static void add_places(total_run *run, total_batch *batch, uint32_t place, uint3
         if (!((pick.front[i] | pick.back[i]) >> 63)) {
             add_any_facet(run, facet[i]);
             if (run->tessellation &&
-                represents_patch(run, facet[i])) { /* run->patch is its patch */
+                lrcsi_patch_exists(run->view->prepared, facet[i])) { /* run->patch is its patch */
                 lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet[i]);
                 add_tessellation_error(run, facet[i], &incidence);
             }
@@ -708,7 +702,7 @@ static void add_tessellation_errors(total_run *run)
         uint32_t count = left < LRCSI_INCIDENCES ? left : LRCSI_INCIDENCES;
         lrcsi_view_incidences(run->view, b->facet + place, count, incidence);
         for (uint32_t i = 0; i < count; i++) {
-            if (!represents_patch(run, b->facet[place + i])) {
+            if (!lrcsi_patch_exists(run->view->prepared, b->facet[place + i])) {
                 add_tessellation_error(run, b->facet[place + i], &incidence[i]);
             }
         }

@@ -205,6 +205,27 @@ static void back_sides_contribute_only_where_two_sided(void **state)
     assert_int_equal(profile.first, 0);
 }
 
+/* Facets stored twice are redundant: the second adds nothing to a bin, nor to its bound. */
+static void a_plate_stored_twice_counts_once(void **state)
+{
+    (void)state;
+    const double direction[3] = {3, 0, 4};
+    plate_at(0.1);
+    profile_make(direction, 0.1);
+    lrcs_profile once = profile;
+    lrcs_profile_bin bins[16];
+    assert_true(once.count <= 16);
+    memcpy(bins, once.bin, once.count * sizeof *bins);
+    scene_plate(&scene, (const double[3]){-1, -0.5, 0.1}, (const double[3]){2, 0, 0},
+                (const double[3]){0, 1, 0});
+    profile_make(direction, 0.1);
+    assert_int_equal(profile.count, once.count);
+    for (uint32_t i = 0; i < once.count; i++) {
+        check_rel(sigma_of(i), bins[i].sigma_glint_m2 + bins[i].sigma_diffuse_m2, 1e-14);
+        check_most(profile.bin[i].bound_m2, 4 * bins[i].bound_m2);
+    }
+}
+
 /* --- against triangles cut in long double ----------------------------------------------------- */
 
 /* The share of a triangle's area nearer than z, from its corners' ranges in ascending order. */
@@ -738,6 +759,7 @@ int main(void)
         cmocka_unit_test(plate_that_rounding_puts_on_an_edge_is_in_both_bounds),
         cmocka_unit_test(plate_that_rounding_puts_before_or_behind_zero_is_in_both_bounds),
         cmocka_unit_test(plates_just_before_an_edge_are_in_the_nearer_bin),
+        cmocka_unit_test(a_plate_stored_twice_counts_once),
         cmocka_unit_test(hidden_facets_contribute_nothing),
         cmocka_unit_test(back_sides_contribute_only_where_two_sided),
         cmocka_unit_test(bins_hold_the_truth_of_random_triangles),

@@ -227,6 +227,13 @@ static void curved_shapes(void **state)
     assert_int_equal(lrcs_prepare_run(&shapes, &work, &prepared), LRCS_OK);
     look(0.3, 0.2, 1, 1e-4);
     assert_true(truth.budget.tessellation_m2 > 0);
+    options.accept = LRCS_ACCEPT_ESTIMATE; /* their bound needs more than samples */
+    options.tolerance = 0.01;
+    lrcs_result guess = run(LRCS_METHOD_AUTO, 0);
+    assert_int_equal(guess.method, LRCS_METHOD_EXACT);
+    check_abs(guess.sigma_m2, truth.sigma_m2, guess.bound_m2 + truth.bound_m2);
+    options.accept = LRCS_ACCEPT_BOUND;
+    options.tolerance = 1e-4;
     check_method(LRCS_METHOD_EXACT, 20);
 }
 
