@@ -283,6 +283,13 @@ static void deep_scenes_fit_into_what_is_asked_for(void **state)
         }
         check_need(from);
     }
+    scene_start(&scene); /* each over nearly all of the one below it */
+    for (uint32_t i = 0; i < 300; i++) {
+        double z = 0x1p-10 * i;
+        scene_plate(&scene, (const double[3]){z, 0.5 * z, z}, (const double[3]){1, 0, 0},
+                    (const double[3]){0, 1, 0});
+    }
+    check_need(from);
     uint64_t seed = 8;
     for (uint32_t count = 8; count <= 128; count *= 2) { /* through one another */
         scene_start(&scene);
