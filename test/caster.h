@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A slow ray caster over the true shapes of a recipe, sharing nothing with the library but its
-   conventions: Eq. 2 by stratified samples of every surface, each with one ray to the laser. Good
-   where no two surfaces that face the same way coincide. */
+   conventions: Eq. 2 by stratified samples of every surface, each with one ray to the laser. Of
+   flat surfaces that coincide and face the same way, the first is seen. */
 #ifndef TEST_CASTER_H
 #define TEST_CASTER_H
 
@@ -276,6 +276,18 @@ static inline double cast_reflect(const lrcs_brdf *brdf, double cosine)
     return glint + brdf->B * pow(cosine, brdf->m + 2);
 }
 
+/* Is a surface flat, with this normal? */
+static inline int cast_is_level(const cast_surface *f, const double normal[3])
+{
+    const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double own[3];
+    if (f->kind != CAST_RECT && f->kind != CAST_DISC) {
+        return 0;
+    }
+    cast_out_of(f, axes[f->kind == CAST_DISC ? 2 : f->axis], own);
+    return f->sign * (own[0] * normal[0] + own[1] * normal[1] + own[2] * normal[2]) > 1 - 1e-12;
+}
+
 /* What one point sends back, per unit of u v. */
 static inline double cast_sample(cast_scene *s, const cast_surface *f, double u, double v,
                                  const double d[3])
@@ -312,7 +324,8 @@ static inline double cast_sample(cast_scene *s, const cast_surface *f, double u,
     double sent = 4 * CAST_PI * area * cast_reflect(f->brdf, cosine);
     s->most = fmax(s->most, sent);
     for (int i = 0; i < s->count; i++) { /* beyond where its own surface starts the ray */
-        if (cast_meets(&s->surface[i], from, d, 1e-9 / cosine)) {
+        int is_same_plane = &s->surface[i] < f && cast_is_level(&s->surface[i], normal);
+        if (cast_meets(&s->surface[i], from, d, (is_same_plane ? -1e-9 : 1e-9) / cosine)) {
             return 0;
         }
     }

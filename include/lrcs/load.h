@@ -20,7 +20,7 @@ typedef struct lrcs_host_options {
 lrcs_host_options lrcs_host_options_default(void);
 
 /* A division (lrcs_build_options) with which curved shapes have a few hundred facets. Poses that
-   need more are run at finer divisions: lrcs_host_scene_division, lrcs_host_sweep.refine. And a
+   need more are run at finer divisions: lrcs_host_scene_refine, lrcs_host_sweep.refine. And a
    limit for the facets of one shape then: preparing so many takes about a tenth of a second. */
 #define LRCS_HOST_DIVISION 1e-2
 #define LRCS_HOST_FACETS   (UINT32_C(1) << 17)
@@ -123,14 +123,12 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         lrcs_facet_record *records, lrcs_image *image, double *seconds,
                         lrcs_host_error *error);
 
-/* The division with which a pose meets its tolerance, or the finest that there is, for a prepared
-   scene that was read with one: its own, unless the curved shapes' facets make the pose miss it.
-   The time is that of all runs needed to find it, and of building and preparing their scenes.
-   Returned: division (0: the scene has none); seconds unless NULL.
-   Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_sigma_run. */
-int lrcs_host_scene_division(const lrcs_host_scene *scene, const lrcs_pose *pose,
-                             const lrcs_run_options *options, double *division, double *seconds,
-                             lrcs_host_error *error);
+/* If a pose of a prepared scene that was read with a division misses its tolerance because of the
+   curved shapes' facets, the scene becomes the one of a finer division, prepared, with which the
+   pose is likely to meet the tolerance. Given: what the run returned. Returned: 1 if so, and the
+   division; else 0, also if the shapes cannot be divided any finer. */
+int lrcs_host_scene_refine(lrcs_host_scene *scene, const lrcs_run_options *options,
+                           const lrcs_result *result, double *division);
 
 /* lrcs_uncertainty_run and lrcs_attitude_slope_run with memory from the heap.
    Returned: result; sensitivity[material_count]; uncertainty; and slope.

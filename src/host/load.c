@@ -206,100 +206,6 @@ static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host
     return status;
 }
 
-/* ---- notices about the assigned materials ---- */
-
-static const lrcs_brdf_entry *library_entry(const lrcs_brdf *brdf)
-{
-    const lrcs_brdf_entry *entry;
-    for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
-        if (entry->brdf.A == brdf->A && entry->brdf.B == brdf->B && entry->brdf.s == brdf->s &&
-            entry->brdf.m == brdf->m) {
-            return entry;
-        }
-    }
-    return NULL;
-}
-
-static void material_notes(lrcs_host_notices *notices, const lrcs_material *material)
-{
-    const lrcs_brdf_entry *library = library_entry(&material->brdf);
-    const char *name = material->name[0] ? material->name : "(default)";
-    int warnings = lrcs_brdf_check(&material->brdf);
-    if (library && material->bound && library->source) {
-        lrcsi_host_note(notices,
-                        "library material '%s': solar reflectance of %s; Lambert's law is assumed",
-                        library->name, library->source);
-    } else if (library && material->bound) {
-        lrcsi_host_note(notices, "library material '%s': its values are illustrative, not measured",
-                        library->name);
-    }
-    for (int bit = 1; warnings > 0 && bit <= warnings; bit *= 2) {
-        if (warnings & bit) {
-            lrcsi_host_note(notices, "material '%s': %s", name, lrcs_brdf_warning_text(bit));
-        }
-    }
-}
-
-static int is_default(const lrcs_brdf *brdf)
-{
-    const lrcs_brdf other = lrcs_brdf_default();
-    return brdf->A == other.A && brdf->B == other.B && brdf->s == other.s && brdf->m == other.m;
-}
-
-/* Facets by material: counts omitted and unbound ones, and checks the assigned materials. */
-static void scene_notes(lrcs_host_scene *host, const uint32_t *facets)
-{
-    const lrcs_scene *scene = &host->scene;
-    uint64_t omitted = 0;
-    uint64_t unbound = 0;
-    uint64_t assumed = 0;
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        const lrcs_material *material = &scene->material[i];
-        if (facets[i] == 0) {
-            continue;
-        }
-        if (material->omitted) {
-            omitted += facets[i];
-            continue;
-        }
-        *(is_default(&material->brdf) ? &unbound : &assumed) += material->bound ? 0 : facets[i];
-        material_notes(&host->notices, material);
-    }
-    if (omitted > 0) {
-        lrcsi_host_note(
-            &host->notices,
-            "%llu fully transparent facets are left out (--keep-transparent keeps them)",
-            (unsigned long long)omitted);
-    }
-    if (unbound > 0) {
-        lrcsi_host_note(&host->notices,
-                        "%llu of %lu facets have no material bound: they have A=1, B=0.25, s=0.2, "
-                        "m=0.5 (--material binds one)",
-                        (unsigned long long)unbound, (unsigned long)scene->facet_count);
-    }
-    if (assumed > 0) {
-        lrcsi_host_note(&host->notices,
-                        "%llu of %lu facets have a material that the scene file calls assumed",
-                        (unsigned long long)assumed, (unsigned long)scene->facet_count);
-    }
-    if (scene->facet_count == 0) {
-        lrcsi_host_note(&host->notices, "the scene holds no facets");
-    }
-}
-
-static void scene_material_notes(lrcs_host_scene *host)
-{
-    const lrcs_scene *scene = &host->scene;
-    uint32_t *facets = calloc((size_t)scene->material_count + 1, sizeof *facets);
-    for (uint32_t i = 0; facets && i < scene->facet_count; i++) {
-        facets[scene->facet_material[i]]++;
-    }
-    if (facets) {
-        scene_notes(host, facets);
-    }
-    free(facets);
-}
-
 /* ---- in public ---- */
 
 int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrcs_host_scene *scene,
@@ -342,8 +248,7 @@ int lrcs_host_scene_read(const char *path, const lrcs_host_options *options, lrc
         return status;
     }
     scene->levels = lrcsi_host_levels_make(scene, &options->build);
-    scene_material_notes(scene);
-    lrcsi_host_scene_notes(scene);
+    lrcsi_host_scene_notes(scene, scene->notices.count);
     scene->seconds_load = lrcsi_host_seconds() - start;
     return LRCS_OK;
 }
@@ -410,4 +315,18 @@ int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
                          lrcs_host_error *error)
 {
     return scene_from(recipe, base->model, base->two_sided, build, scene, error);
+}
+
+int lrcs_host_scene_refine(lrcs_host_scene *scene, const lrcs_run_options *options,
+                           const lrcs_result *result, double *division)
+{
+    uint32_t level = 0;
+    if (!lrcsi_host_finer(scene, options, result, &level)) {
+        return 0;
+    }
+    uint32_t kept = lrcsi_host_level_settle(scene, level, division);
+    if (scene->notices.count > kept) {
+        lrcsi_host_scene_notes(scene, kept);
+    }
+    return 1;
 }

@@ -5,7 +5,8 @@
 
 #include "host/fail.h"
 
-/* Adds the notices about a scene that was just read and built. */
-void lrcsi_host_scene_notes(lrcs_host_scene *host);
+/* Adds the notices about a scene as it is built, after the first `kept` notices; the others, of
+   another division of it, are removed. */
+void lrcsi_host_scene_notes(lrcs_host_scene *host, uint32_t kept);
 
 #endif

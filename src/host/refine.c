@@ -10,6 +10,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The tessellation's part of a bound is about proportional to the division. This share of what the
    tolerance leaves for it is aimed at. */
@@ -24,7 +25,9 @@ struct lrcsi_host_levels {
     pthread_mutex_t lock;
     lrcs_build_options build;
     lrcs_host_scene *scene[DIVISIONS]; /* NULL: not built yet */
+    uint32_t own;                      /* the scene's own level */
     uint32_t finest;                   /* levels beyond this have failed */
+    uint32_t notices;                  /* those of the scene that no division changes */
 };
 
 struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
@@ -41,6 +44,7 @@ struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
     if (levels) {
         levels->build = *build;
         levels->finest = DIVISIONS - 1;
+        levels->notices = scene->notices.count;
         if (pthread_mutex_init(&levels->lock, NULL) != 0) {
             free(levels);
             return NULL;
@@ -64,9 +68,9 @@ void lrcsi_host_levels_free(struct lrcsi_host_levels *levels)
     free(levels);
 }
 
-double lrcsi_host_level_division(const lrcs_host_scene *scene, uint32_t level)
+static double level_division(const struct lrcsi_host_levels *levels, uint32_t level)
 {
-    return scene->levels ? ldexp(scene->levels->build.division, -(int)level) : 0.0;
+    return ldexp(levels->build.division, -(int)level);
 }
 
 /* How many times the division must be halved; 0: that does not help, or is not needed. */
@@ -95,7 +99,7 @@ static lrcs_host_scene *level_build(const lrcs_host_scene *base, struct lrcsi_ho
     lrcs_host_error error;
     lrcs_build_options build = levels->build;
     lrcs_host_scene *scene = calloc(1, sizeof *scene);
-    build.division = lrcsi_host_level_division(base, level);
+    build.division = level_division(levels, level);
     if (!scene) {
         return NULL;
     }
@@ -122,12 +126,12 @@ const lrcs_host_scene *lrcsi_host_finer(const lrcs_host_scene *scene,
         return NULL;
     }
     pthread_mutex_lock(&levels->lock);
-    uint32_t wanted = *level + more < levels->finest ? *level + more : levels->finest;
-    while (lrcsi_host_level_division(scene, wanted) < options->tolerance / DIVISION_LEAST &&
-           wanted > 0) {
+    uint32_t from = levels->own + *level;
+    uint32_t wanted = from + more < levels->finest ? from + more : levels->finest;
+    while (level_division(levels, wanted) < options->tolerance / DIVISION_LEAST && wanted > 0) {
         wanted--;
     }
-    while (!found && wanted > *level) {
+    while (!found && wanted > from) {
         if (!levels->scene[wanted]) {
             levels->scene[wanted] = level_build(scene, levels, wanted);
         }
@@ -137,6 +141,20 @@ const lrcs_host_scene *lrcsi_host_finer(const lrcs_host_scene *scene,
         }
     }
     pthread_mutex_unlock(&levels->lock);
-    *level = found ? wanted : *level;
+    *level = found ? wanted - levels->own : *level;
     return found;
+}
+
+uint32_t lrcsi_host_level_settle(lrcs_host_scene *scene, uint32_t level, double *division)
+{
+    struct lrcsi_host_levels *levels = scene->levels;
+    levels->own += level;
+    const lrcs_host_scene *finer = levels->scene[levels->own];
+    scene->scene = finer->scene;
+    scene->prepared = finer->prepared;
+    scene->seconds_load += finer->seconds_load;
+    scene->seconds_prepare = finer->seconds_prepare;
+    memcpy(scene->seconds_stage, finer->seconds_stage, sizeof scene->seconds_stage);
+    *division = level_division(levels, levels->own);
+    return levels->notices;
 }

@@ -20,7 +20,9 @@ const lrcs_host_scene *lrcsi_host_finer(const lrcs_host_scene *scene,
                                         const lrcs_run_options *options, const lrcs_result *result,
                                         uint32_t *level);
 
-/* The division of a level; 0 if the scene has none. */
-double lrcsi_host_level_division(const lrcs_host_scene *scene, uint32_t level);
+/* Makes the scene the one that lrcsi_host_finer returned for `level`, which becomes its own. Not
+   while other threads use the scene. Returned: its division; how many of its notices hold for any
+   division. */
+uint32_t lrcsi_host_level_settle(lrcs_host_scene *scene, uint32_t level, double *division);
 
 #endif

@@ -129,27 +129,6 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
     return status;
 }
 
-int lrcs_host_scene_division(const lrcs_host_scene *scene, const lrcs_pose *pose,
-                             const lrcs_run_options *options, double *division, double *seconds,
-                             lrcs_host_error *error)
-{
-    lrcsi_host_area area = {NULL, 0};
-    double start = lrcsi_host_seconds();
-    uint32_t level = 0;
-    int status = LRCS_OK;
-    for (const lrcs_host_scene *at = scene->levels ? scene : NULL; at && status == LRCS_OK;) {
-        lrcs_result result;
-        status = lrcsi_host_sigma(at, pose, options, &area, &result, NULL, NULL, error);
-        at = status == LRCS_OK ? lrcsi_host_finer(scene, options, &result, &level) : NULL;
-    }
-    lrcsi_host_area_free(&area);
-    *division = lrcsi_host_level_division(scene, level);
-    if (seconds) {
-        *seconds = lrcsi_host_seconds() - start;
-    }
-    return status;
-}
-
 typedef struct uncertainty_step {
     const lrcs_prepared *prepared;
     const lrcs_pose *pose;

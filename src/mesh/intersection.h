@@ -34,6 +34,18 @@ static inline uint32_t lrcsi_intersection_of(const lrcsi_intersections *intersec
     return intersections->first[facet + 1] - intersections->first[facet];
 }
 
+/* The contact of a facet with another one, or NULL. */
+static inline const lrcsi_intersection *
+lrcsi_intersection_find(const lrcsi_intersections *intersections, uint32_t facet, uint32_t other)
+{
+    for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
+        if (intersections->entry[i].other == other) {
+            return &intersections->entry[i];
+        }
+    }
+    return NULL;
+}
+
 /* Does side k of a facet, from its corner k to k + 1, overlap a side of another facet along a
    length, without being the same side? */
 static inline int lrcsi_intersection_along(const lrcsi_intersections *intersections, uint32_t facet,

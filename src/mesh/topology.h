@@ -39,4 +39,17 @@ size_t lrcsi_topology_kept(uint32_t vertex_count, uint32_t facet_count);
 int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
                         uint32_t facet_count, lrcs_work *work, lrcsi_topology *topology);
 
+/* Is mark[facet] this value for any facet of an edge? */
+static inline int lrcsi_topology_edge_has(const lrcsi_topology *t, uint32_t edge,
+                                          const uint32_t *mark, uint32_t value)
+{
+    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
+    for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
+        if (mark[use[i].facet] == value) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 #endif

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* Exact visibility of all undecided facets together, in convex cells of the view plane: for each
-   facet a visible area with bounds. It does not find the visible pieces: visibility/cells_alone.c
-   does that, one facet at a time.
+   facet a visible area with bounds. The visible pieces are not found here:
+   visibility/cells_alone.c finds them, one facet at a time.
 
    A cell is the convex hull of its corners, which are doubles. It has a list of the facets that may
    be visible in it, and a list of segments: event edges and contacts.
 
    Called, in this order:
    1. lrcsi_cells_grid_make divides the view plane into blocks; lrcsi_cells_begin makes the first
-   cell of a block.
+      cell of a block.
    2. lrcsi_cells_filter_segments removes segments from a cell's list that do not meet the cell.
    3. lrcsi_cells_nearest takes a sample at a point P of the cell: it finds the facet nearest to the
-      laser there. lrcsi_cells_component follows the surface around that facet across edges that are
-      no events, as far as the cell goes: the component (visibility/cells_cover.c has the proof).
+      laser there. lrcsi_cells_component finds the component of that facet: it follows the surface
+      across edges that are not events, within the cell (proof: visibility/cells_cover.c).
    4. If no event edge of the component crosses the cell, the component covers it: lrcsi_cells_cull
       removes the facets and events behind it from the lists, for this cell and all that are cut
       from it. If an event edge or a contact of the component crosses the cell, lrcsi_cells_divide
@@ -24,8 +24,8 @@
       are left to visibility/cells_alone.c.
 
    Error of a facet's area in a cell: the error of the facet's sides times their length in the cell,
-   and 4 u b and the cell's drift times the perimeter of its part there (b: the largest coordinate
-   in the block; drift: visibility/cells_cut.c). */
+   and 4 u b and the cell's shape error times the perimeter of its part there (b: the largest
+   coordinate in the block; shape error: visibility/cells_cut.c). */
 #include "visibility/cells.h"
 
 #include <math.h>
@@ -40,32 +40,24 @@
 
 /* Limit on the steps of a block: a constant, and so many for each facet and segment in it and for
    each cell decided. Ordinary scenes take a tenth of this, or less. */
-#define STEPS_LEAST   65536u
-#define STEPS_EACH    4096u
-#define STEPS_DECIDED 4096u
+#define STEPS_CONSTANT 65536u
+#define STEPS_PER_ITEM 4096u
+#define STEPS_PER_CELL 4096u
 /* Accepted error of an area, relative to the facet's projected area and to the square of the
    scene's extent. */
 #define ACCURACY_OF_FACET 1e-12
 #define ACCURACY_OF_SCENE 1e-15
-/* If the facets left to be done alone, times all facets, exceed this, larger errors are accepted: a
-   facet alone asks about every facet that might hide it. */
-#define MANY_LEFT 65536u
-/* These errors, relative to those of a facet done alone. */
-#define AS_ALONE 4
+/* If the number of facets that remain to be processed alone, times that of all facets, exceeds
+   MANY_LEFT, errors of up to ALONE_FACTOR times those of a facet processed alone are accepted: a
+   facet alone is compared with every facet that might hide it. */
+#define MANY_LEFT    65536u
+#define ALONE_FACTOR 4
 /* A facet is a needle if its projected area is less than this, relative to its diameter squared. */
-#define NEEDLE 0x1p-18
+#define MAX_NEEDLE_AREA 0x1p-18
 
 /* --- one cell --------------------------------------------------------------------------------- */
 
-/* Leaves all facets of a cell undecided. */
-static void leave_cell_undecided(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
-{
-    for (uint32_t i = 0; i < cell->facets; i++) {
-        c->state[c->facets[i]] |= LRCSI_CELLS_UNDECIDED;
-    }
-}
-
-/* 1 if the cell lists a facet whose area is wanted and still undecided. */
+/* Does the cell list a facet whose area is wanted, and not left undecided elsewhere? */
 static int cell_is_wanted(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
@@ -129,38 +121,38 @@ static void decide_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     }
 }
 
-enum { CHOOSE_OWN, CHOOSE_EDGES, CHOOSE_ANY };
+enum { CHOOSE_COMPONENT, CHOOSE_EDGES, CHOOSE_ANY };
 
-/* Of the segments of a kind, the one whose line divides the cell best, or NULL: the product of the
-   cell's width on the narrower side of the line, and of the root of how far the segment itself
-   reaches through the cell, is largest. So cells shrink fast, few become long and narrow, and few
-   are cut where nothing changes. */
+/* The segment whose line divides the cell best, or NULL: of the component's segments, of edges, or
+   of all. The score is the cell's width on the narrower side of the line, times the root of the
+   segment's extent in the cell. So cells shrink fast, few become long and narrow, and few are cut
+   where nothing changes. */
 static const lrcsi_cells_segment *choose_cut(const lrcsi_cells_work *c,
                                              const lrcsi_cells_cell *cell,
                                              const lrcsi_cells_sides *s, int which)
 {
     const lrcsi_cells_segment *best = NULL;
-    double most = -HUGE_VAL;
+    double best_score = -HUGE_VAL;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
         if (which == CHOOSE_ANY || (which == CHOOSE_EDGES && !e->contact) ||
-            (which == CHOOSE_OWN && lrcsi_cells_of_component(c, e))) {
+            (which == CHOOSE_COMPONENT && lrcsi_cells_of_component(c, e))) {
             double range[2];
-            double reach = 0;
+            double extent = 0;
             for (int k = 0; k < 2; k++) {
-                reach += lrcsi_min(s->high[k], lrcsi_max(e->end[0][k], e->end[1][k])) -
-                         lrcsi_max(s->low[k], lrcsi_min(e->end[0][k], e->end[1][k]));
+                extent += lrcsi_min(s->high[k], lrcsi_max(e->end[0][k], e->end[1][k])) -
+                          lrcsi_max(s->low[k], lrcsi_min(e->end[0][k], e->end[1][k]));
             }
             lrcsi_line_range(&cell->shape, e->line, range);
-            double good = lrcsi_min(-range[0], range[1]) * sqrt(lrcsi_max(0, reach));
-            best = good > most ? e : best;
-            most = lrcsi_max(most, good);
+            double score = lrcsi_min(-range[0], range[1]) * sqrt(lrcsi_max(0, extent));
+            best = score > best_score ? e : best;
+            best_score = lrcsi_max(best_score, score);
         }
     }
     return best;
 }
 
-/* A sample: the facet nearest to the laser, the place, and its distance from the cell's border. */
+/* A sample: the facet nearest to the laser, the point, and its distance from the cell's border. */
 typedef struct cell_sample {
     uint32_t nearest;
     double at[2];
@@ -168,15 +160,15 @@ typedef struct cell_sample {
 } cell_sample;
 
 /* Removes what is behind the component around the nearest facet, if it covers the cell, or else
-   behind a single facet that covers it. Returns 1 if the component does, and no contact of it
-   crosses the cell; else *cut is the segment of the component along which to cut, or NULL.
-   *uncertainty: how wrong the area of any facet may be because the cell is thin. */
+   behind a single facet that covers it. Returns 1 if the component covers the cell and no contact
+   of it crosses the cell; otherwise *cut is the segment of the component along which to cut, or
+   NULL. *uncertainty: the error of the area of any facet, if the cell is thin. */
 static int cover_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                       const cell_sample *sample, double *uncertainty,
                       const lrcsi_cells_segment **cut)
 {
     int covers = lrcsi_cells_component(c, cell, s, sample->nearest);
-    *cut = covers ? NULL : choose_cut(c, cell, s, CHOOSE_OWN);
+    *cut = covers ? NULL : choose_cut(c, cell, s, CHOOSE_COMPONENT);
     if (!covers && !lrcsi_cells_find_occluder(c, cell, s, sample->at)) {
         return 0;
     }
@@ -188,12 +180,12 @@ static int cover_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
     lrcsi_cells_cull(c, cell, s, covers ? NULL : sample->at, thin);
     if (covers) {
         *uncertainty = thin;
-        *cut = choose_cut(c, cell, s, CHOOSE_OWN);
+        *cut = choose_cut(c, cell, s, CHOOSE_COMPONENT);
     }
     return covers && !*cut;
 }
 
-/* One cell: returns 1 if it is decided; else it is cut, or left undecided. */
+/* Processes one cell. Returns 1 if it is decided; otherwise it is cut, or left undecided. */
 static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_sides s;
@@ -204,20 +196,20 @@ static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     lrcsi_cells_filter_segments(c, cell, &s);
     c->components = 0;
 
-    /* 1. A sample. */
+    /* 1. Take a sample. */
     cell_sample sample = {.nearest = LRCS_NONE};
     int answer = lrcsi_cells_nearest(c, cell, &s, &sample.nearest, sample.at, &sample.clear);
     if (answer == LRCSI_CELLS_UNSURE && lrcsi_cells_charge_all(c, cell, &s)) {
         return 0;
     }
 
-    /* 2. What covers the cell, and what is behind that. */
+    /* 2. Find what covers the cell, and remove what is behind that. */
     double uncertainty = 0;
     const lrcsi_cells_segment *cut = NULL;
     int covered = answer == LRCSI_CELLS_FOUND ? cover_cell(c, cell, &s, &sample, &uncertainty, &cut)
                                               : answer == LRCSI_CELLS_NONE;
 
-    /* 3. It is decided, or cut. */
+    /* 3. Decide the cell, or cut it. */
     if (!cut) {
         cut = choose_cut(c, cell, &s, covered ? CHOOSE_EDGES : CHOOSE_ANY);
         if (!cut && covered) {
@@ -226,7 +218,9 @@ static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
         }
     }
     if (!cut || !lrcsi_cells_divide(c, cell, &s, cut)) {
-        leave_cell_undecided(c, cell);
+        for (uint32_t i = 0; i < cell->facets; i++) {
+            c->state[c->facets[i]] |= LRCSI_CELLS_UNDECIDED;
+        }
     }
     return 0;
 }
@@ -265,35 +259,36 @@ static void process_block(lrcsi_cells_work *c, uint32_t x, uint32_t y)
         leave_block_undecided(c, block);
         return;
     }
-    /* If this takes long and decides little, the facets are done one by one instead. */
-    uint64_t most = STEPS_LEAST + STEPS_EACH * (uint64_t)(cell.facets + cell.segments);
+    /* If this takes long and decides little, the facets are processed one by one instead. */
+    uint64_t steps_left = STEPS_CONSTANT + STEPS_PER_ITEM * (uint64_t)(cell.facets + cell.segments);
     c->stack[0] = cell;
     c->top = 1;
     while (c->top > 0) {
         cell = lrcsi_cells_pop(c);
         uint64_t steps = (uint64_t)1 + cell.facets + cell.segments;
-        if (steps > most || !lrcsi_meter_take(c->meter, steps)) {
+        if (steps > steps_left || !lrcsi_meter_take(c->meter, steps)) {
             leave_block_undecided(c, block);
             return;
         }
-        most -= steps;
-        most += process_cell(c, &cell) ? STEPS_DECIDED : 0;
+        steps_left -= steps;
+        steps_left += process_cell(c, &cell) ? STEPS_PER_CELL : 0;
     }
 }
 
 /* --- all blocks ------------------------------------------------------------------------------- */
 
 static lrcsi_visible facet_decided(const lrcsi_cells_work *c, uint32_t facet, double whole,
-                                   double *off)
+                                   double *err)
 {
     const lrcsi_cells_found *a = &c->area[facet];
-    double seen = (c->state[facet] & LRCSI_CELLS_HIDDEN) == 0    ? whole
-                  : (c->state[facet] & LRCSI_CELLS_VISIBLE) == 0 ? 0
-                                                                 : lrcsi_min(whole, a->visible);
+    double visible = (c->state[facet] & LRCSI_CELLS_HIDDEN) == 0    ? whole
+                     : (c->state[facet] & LRCSI_CELLS_VISIBLE) == 0 ? 0
+                                                                    : lrcsi_min(whole, a->visible);
     int mixed =
         (c->state[facet] & LRCSI_CELLS_VISIBLE) != 0 && (c->state[facet] & LRCSI_CELLS_HIDDEN) != 0;
-    *off = a->uncertainty + (mixed ? a->visible_err + 64 * LRCSI_U * a->visible : 0);
-    return (lrcsi_visible){seen, lrcsi_max(0, seen - *off), lrcsi_min(whole, seen + *off), 0, 0};
+    *err = a->uncertainty + (mixed ? a->visible_err + 64 * LRCSI_U * a->visible : 0);
+    return (lrcsi_visible){visible, lrcsi_max(0, visible - *err), lrcsi_min(whole, visible + *err),
+                           0, 0};
 }
 
 /* The extent of the bulk of a scene. */
@@ -302,12 +297,12 @@ static double extent_of(const lrcs_prepared *p)
     return 2 * lrcsi_max(p->bulk[0], lrcsi_max(p->bulk[1], p->bulk[2]));
 }
 
-/* The error at which a facet's area is accepted: 1e-12 of the area or 1e-15 of the extent squared;
-   or, `as_alone`, AS_ALONE times the least that the facet alone would be charged
+/* The largest error at which a facet's area is accepted: 1e-12 of the area or 1e-15 of the squared
+   extent; or, if as_alone, ALONE_FACTOR times the least error of the facet processed alone
    (visibility/cells_alone.c): 52 u of its diameter times its perimeter, and for each cut a strip
    128 u of the diameter wide. Needles, and facets larger than the bulk of the scene, are much more
-   accurate alone: for these only the first counts, unless they stand for a curved surface, from
-   which they differ by far more. */
+   accurate alone: for these only the first limit applies, unless they represent a curved surface,
+   from which they differ by far more. */
 static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double projected,
                              int as_alone)
 {
@@ -321,14 +316,15 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double p
     double extent = extent_of(c->view->prepared);
     const lrcs_scene *scene = c->view->prepared->scene;
     int ordinary = scene->part[scene->facet_part[facet]].reach > 0 ||
-                   (projected > NEEDLE * diameter * diameter && diameter < 2 * extent);
+                   (projected > MAX_NEEDLE_AREA * diameter * diameter && diameter < 2 * extent);
     double alone = LRCSI_U * diameter * (104 * diameter + 128 * c->area[facet].strip_length);
-    alone = as_alone ? AS_ALONE * alone : 0;
+    alone = as_alone ? ALONE_FACTOR * alone : 0;
     return ACCURACY_OF_FACET * projected +
            (ordinary ? lrcsi_max(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
 }
 
-/* Reports the areas that are accurate enough. Returns how many others the cells decided. */
+/* Reports the areas that are accurate enough. Returns the number of facets that the cells decided
+   but less accurately. */
 static uint32_t areas_report(const lrcsi_cells_work *c, int as_alone, lrcsi_visible *visible)
 {
     uint32_t left = 0;
@@ -336,11 +332,11 @@ static uint32_t areas_report(const lrcsi_cells_work *c, int as_alone, lrcsi_visi
         if (!c->wanted[f] || (c->state[f] & LRCSI_CELLS_UNDECIDED) != 0 || c->state[f] == 0) {
             continue;
         }
-        double off;
+        double err;
         double projected = lrcsi_view_projected(c->view, f);
-        lrcsi_visible area = facet_decided(c, f, projected, &off);
-        if (off <= ACCURACY_OF_FACET * projected ||
-            off <= facet_accuracy(c, f, projected, as_alone)) {
+        lrcsi_visible area = facet_decided(c, f, projected, &err);
+        if (err <= ACCURACY_OF_FACET * projected ||
+            err <= facet_accuracy(c, f, projected, as_alone)) {
             visible[f] = area;
             c->wanted[f] = 0;
         } else {
@@ -351,7 +347,7 @@ static uint32_t areas_report(const lrcsi_cells_work *c, int as_alone, lrcsi_visi
 }
 
 /* All edges and contacts may be in one block. Coplanar facets and edges along which others meet can
-   add more: where these find no room, facets are done one by one. */
+   add more: if there is no room for these, facets are processed one by one. */
 size_t lrcsi_cells_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
@@ -427,8 +423,8 @@ void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *
                 process_block(&c, x, y);
             }
         }
-        /* Facets whose areas are not accurate enough are done alone; if they are many, only those
-           that are much more accurate alone. */
+        /* Facets whose areas are not accurate enough are processed alone; if they are many, only
+           those that are much more accurate alone. */
         uint64_t left = areas_report(&c, 0, visible);
         if (left * view->prepared->scene->facet_count > MANY_LEFT) {
             areas_report(&c, 1, visible);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Visible areas by cells of the view plane: whatever lies behind a surface that covers a cell is
-   dropped there once, not facet by facet. */
+   culled there once, not facet by facet. */
 #ifndef LRCSI_CELLS_H
 #define LRCSI_CELLS_H
 
@@ -9,13 +9,12 @@
 /* Bytes at most. */
 size_t lrcsi_cells_need(const lrcs_prepared *prepared);
 
-/* Visible areas of the facets with open[facet] not 0, which must cast (lrcsi_view_casts).
-   answer: of lrcsi_query_uniform; facets that it proves to be hidden are left out. NULL: none is
-   known to be hidden. Where an
-   area is found to 1e-12 of the facet's projected area and 1e-15 of the square of the scene's
-   extent, it goes to visible[facet] and open[facet] becomes 0; facets that stay open are to be
-   clipped one by one. None is found where memory does not suffice; only some where the meter
-   is spent. Nothing stays in the work area. */
+/* Visible areas of the facets with open[facet] not 0, which must be able to hide others
+   (lrcsi_view_casts). answer: of lrcsi_query_uniform; facets that it proves to be hidden are left
+   out. NULL: none is known to be hidden. If an area is found to 1e-12 of the facet's projected area
+   or 1e-15 of the square of the scene's extent, it is stored in visible[facet], and open[facet]
+   becomes 0; the other facets are to be processed one by one. No area is found if memory does not
+   suffice, only some if the meter is spent. Nothing stays in the work area. */
 void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *meter,
                        lrcs_work *work, const unsigned char *answer, unsigned char *open,
                        lrcsi_visible *visible);

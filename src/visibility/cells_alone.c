@@ -140,16 +140,14 @@ static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side si
 static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
-    const lrcsi_intersections *intersections = &view->prepared->intersections;
     int order = lrcsi_sample_side(view, other, a->facet);
-    for (uint32_t i = intersections->first[a->facet];
-         order == 0 && i < intersections->first[a->facet + 1]; i++) {
-        if (intersections->entry[i].other == other &&
-            !lrcsi_intersection_hides(view, a->facet, &intersections->entry[i])) {
-            order = -1;
-        }
+    if (order == 0) {
+        const lrcsi_intersection *contact =
+            lrcsi_intersection_find(&view->prepared->intersections, a->facet, other);
+        order = contact && !lrcsi_intersection_hides(view, a->facet, contact)
+                    ? -1
+                    : lrcsi_sample_overlap_order(view, other, a->facet);
     }
-    order = order == 0 ? lrcsi_sample_overlap_order(view, other, a->facet) : order;
     return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_UNKNOWN;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The grid of blocks: where they are, and which facets and event edges each holds; and the cell
-   that a block begins as. Its segments are events of the view, contacts of its facets, and edges
-   that count as events though two facets continue each other across them. What a contact is:
-   visibility/cells_cover.c. */
+/* The grid of blocks, with the facets and event edges of each block; and the first cell of a block.
+   The segments of that cell are event edges of the view, contacts of its facets, and edges that
+   count as events in cells although two facets continue each other across them. Contacts are
+   defined in visibility/cells_cover.c. */
 #include "visibility/cells_block.h"
 
 #include <math.h>
@@ -16,22 +16,22 @@
 #include "visibility/query.h"
 
 /* Limit on the entries of all blocks: so many for each facet, and a constant. */
-#define ENTRIES_A_FACET 16u
-#define ENTRIES_LEAST   65536u
+#define ENTRIES_PER_FACET 16u
+#define ENTRIES_CONSTANT  65536u
 
-static uint64_t block_entries(const lrcs_prepared *p)
+static uint64_t max_entries(const lrcs_prepared *p)
 {
-    return ENTRIES_LEAST + (uint64_t)ENTRIES_A_FACET * p->scene->facet_count;
+    return ENTRIES_CONSTANT + (uint64_t)ENTRIES_PER_FACET * p->scene->facet_count;
 }
 
-/* Blocks are squares with BLOCK cells of the classification's grid along a side, or twice, four
-   times as many and so on if their lists would be too long otherwise. They fill the window of the
-   scene's bulk or, if there may be as many blocks as that takes, the whole view. A ring of blocks
-   around them holds what is outside. */
+/* Blocks are squares with BLOCK cells of the classification's grid along a side; twice or four
+   times as many, and so on, if their lists would otherwise be too long. They fill the whole view
+   or, if that would take too many blocks, the window of the scene's bulk. A ring of blocks around
+   them holds what is outside. */
 #define BLOCK 4u
 
-/* The most blocks, the ring included. */
-static size_t blocks_most(const lrcs_prepared *p)
+/* The largest number of blocks, the ring included. */
+static size_t max_blocks(const lrcs_prepared *p)
 {
     return 2 * (size_t)p->scene->facet_count + 64;
 }
@@ -43,7 +43,7 @@ static void blocks_place(lrcsi_cells_grid *c, uint32_t cells)
     double cell = grid->scale > 0 ? 1 / (grid->scale * view->scale) : 1;
     double window = grid->size * cell;
     double across = ceil(view->side / (BLOCK * cell)) + 2;
-    int whole = view->side > window && across * across <= (double)blocks_most(view->prepared);
+    int whole = view->side > window && across * across <= (double)max_blocks(view->prepared);
     c->size = cells * cell;
     c->side = (uint32_t)ceil((whole ? view->side : window) / c->size) + 2;
     for (int k = 0; k < 2; k++) {
@@ -69,7 +69,7 @@ static uint32_t block_of(const lrcsi_cells_grid *c, double x, int k)
     return (uint32_t)lrcsi_min(c->side - 1.0, lrcsi_max(0, i));
 }
 
-/* The blocks that a range of coordinates touches: *from <= i < *to. */
+/* The blocks that a range of coordinates meets: *from <= i < *to. */
 static void block_range(const lrcsi_cells_grid *c, double low, double high, int k, uint32_t *from,
                         uint32_t *to)
 {
@@ -77,9 +77,9 @@ static void block_range(const lrcsi_cells_grid *c, double low, double high, int 
     *to = block_of(c, high + c->rounding, k) + 1;
 }
 
-/* A polygon of at most three corners, row by row: in the blocks that it may touch in that row. What
-   it has in common with a row reaches as far in x as its sides do in that row. What is computed of
-   a side is off by less than 8 u of coordinates between the side's and the window's. */
+/* Counts or lists a polygon of at most three corners in the blocks that it may meet, row by row.
+   Its range of x in a row is that of its sides in the row. What is computed from a side has an
+   error below 8 u of a coordinate between the side's and the window's. */
 static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *const corner[3],
                        int corners, uint32_t item)
 {
@@ -89,10 +89,10 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *
     uint32_t x[2];
     uint32_t y[2];
     for (int i = 0; i < corners; i++) {
-        double off = 4 * lrcsi_view_point_err(corner[i]);
+        double err = 4 * lrcsi_view_point_err(corner[i]);
         for (int k = 0; k < 2; k++) {
-            low[k] = lrcsi_min(low[k], corner[i][k] - off);
-            high[k] = lrcsi_max(high[k], corner[i][k] + off);
+            low[k] = lrcsi_min(low[k], corner[i][k] - err);
+            high[k] = lrcsi_max(high[k], corner[i][k] + err);
         }
     }
     for (int k = 0; k < 2; k++) {
@@ -169,8 +169,8 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
             }
         }
         if (pass == 0 &&
-            lrcsi_lists_room(b->first, count, block_entries(c->classification->view->prepared),
-                             work, &b->item) != LRCS_OK) {
+            lrcsi_lists_room(b->first, count, max_entries(c->classification->view->prepared), work,
+                             &b->item) != LRCS_OK) {
             return 0;
         }
     }
@@ -178,16 +178,16 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
     return 1;
 }
 
-/* The ring reaches out of the window of all that stands in the view, and as far as facets may do
-   whose corners are not where they are computed to be: in a view no wider than that error, as along
-   a needle, a good part of a facet may stand outside of its window. */
+/* The ring extends beyond the window of the view, and beyond all facets with the errors of their
+   corners: if the view is no wider than these errors, as along a needle, a large part of a facet
+   may be outside its window. */
 double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y,
                                lrcsi_clip_polygon *shape, double middle[2])
 {
     const uint32_t at[2] = {x, y};
     double low[2];
     double high[2];
-    double reach = 0;
+    double extent = 0;
     for (int k = 0; k < 2; k++) {
         double start = c->classification->view->low[k];
         double end = c->classification->view->low[k] + c->classification->view->side;
@@ -202,19 +202,19 @@ double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y
         middle[k] = 0.5 * (low[k] + high[k]);
         low[k] -= middle[k];
         high[k] -= middle[k];
-        reach = lrcsi_max(reach, lrcsi_max(fabs(low[k]), fabs(high[k])));
+        extent = lrcsi_max(extent, lrcsi_max(fabs(low[k]), fabs(high[k])));
     }
     *shape = (lrcsi_clip_polygon){
         .corner = {{low[0], low[1]}, {high[0], low[1]}, {high[0], high[1]}, {low[0], high[1]}},
         .count = 4};
-    return reach;
+    return extent;
 }
 
 size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared)
 {
-    size_t need = 2 * lrcsi_work_bytes(blocks_most(prepared) + 1, sizeof(uint32_t));
+    size_t need = 2 * lrcsi_work_bytes(max_blocks(prepared) + 1, sizeof(uint32_t));
     return lrcsi_work_add(need,
-                          2 * lrcsi_work_bytes((size_t)block_entries(prepared), sizeof(uint32_t)));
+                          2 * lrcsi_work_bytes((size_t)max_entries(prepared), sizeof(uint32_t)));
 }
 
 int lrcsi_cells_grid_make(const lrcsi_classification *classification, const unsigned char *answer,
@@ -268,7 +268,7 @@ lrcsi_cells_segment *lrcsi_cells_edge(lrcsi_cells_work *c, uint32_t edge)
     return e;
 }
 
-static int open_edge(lrcsi_cells_work *c, uint32_t edge)
+static int add_edge(lrcsi_cells_work *c, uint32_t edge)
 {
     const lrcsi_edge *of = &c->view->prepared->topology.edge[edge];
     lrcsi_cells_segment *e = lrcsi_cells_edge(c, edge);
@@ -289,43 +289,33 @@ static int open_edge(lrcsi_cells_work *c, uint32_t edge)
     return 1;
 }
 
-/* 1 if none of the facet's sides counts as an event in cells alone. */
-static int continues(const lrcsi_cells_work *c, uint32_t facet)
+/* 1 if no side of the facet counts as an event in cells only. */
+static int has_ordinary_sides(const lrcsi_cells_work *c, uint32_t facet)
 {
     return (c->kind[facet] & LRCSI_CELLS_COPLANAR) == 0 &&
            c->view->prepared->intersections.met[facet] <= 1;
 }
 
-/* Edges that are no events of the view count as events here if one of their two facets meets others
-   in its plane, or along parts of the edge. 0 if there is no room. */
-static int open_joins(lrcsi_cells_work *c, uint32_t facet)
+/* Adds the sides of a facet that count as events in cells only: one of their two facets overlaps
+   others in its plane, or others meet it along parts of the side. 0 if there is no room. */
+static int add_cell_events(lrcsi_cells_work *c, uint32_t facet)
 {
-    if (continues(c, facet)) {
+    if (has_ordinary_sides(c, facet)) {
         return 1;
     }
     for (int k = 0; k < 3; k++) {
         uint32_t other = lrcsi_cells_neighbour(c->view, facet, k);
         if (other != LRCS_NONE && lrcsi_cells_connected(c->view, c->kind, facet, k) == LRCS_NONE &&
-            !open_edge(c, c->view->prepared->topology.facet_edge[facet].corner[k])) {
+            !add_edge(c, c->view->prepared->topology.facet_edge[facet].corner[k])) {
             return 0;
         }
     }
     return 1;
 }
 
-static int touches_back(const lrcs_prepared *p, uint32_t facet, uint32_t other)
-{
-    for (uint32_t i = p->intersections.first[other]; i < p->intersections.first[other + 1]; i++) {
-        if (p->intersections.entry[i].other == facet) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* The segments along which other facets of the list touch the interior of a facet. 0 if there is no
-   room. */
-static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
+/* Adds the segments along which other facets of the list meet the interior of a facet. 0 if there
+   is no room. */
+static int add_contacts(lrcsi_cells_work *c, uint32_t facet)
 {
     const lrcsi_view *view = c->view;
     const lrcsi_intersections *intersections = &view->prepared->intersections;
@@ -334,7 +324,7 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
         uint32_t other = intersections->entry[i].other;
         if (intersections->entry[i].kind != LRCSI_INTERSECTION_CROSS ||
             c->listed[other] != c->stamp ||
-            (other < facet && touches_back(view->prepared, facet, other))) {
+            (other < facet && lrcsi_intersection_find(intersections, other, facet))) {
             continue;
         }
         if (!target.view) {
@@ -375,9 +365,9 @@ static int open_contacts(lrcsi_cells_work *c, uint32_t facet)
     return 1;
 }
 
-/* Lists the facets near a cell, and makes their records. Which facets continue one is the same in
-   all blocks, and found once. */
-static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
+/* Lists the facets of a block that may meet its cell, and makes their records. The neighbours of a
+   facet are the same in all blocks, and found once. */
+static void list_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     const lrcsi_cells_lists *b = &c->grid.facets;
     double g = 16 * LRCSI_U * c->extent;
@@ -402,31 +392,20 @@ static void open_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cel
     }
 }
 
-/* Is a facet of an edge listed in the block? If not, all of them are hidden, or not near it. */
-static int edge_listed(const lrcsi_cells_work *c, uint32_t edge)
-{
-    const lrcsi_topology *t = &c->view->prepared->topology;
-    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
-    for (uint32_t i = 0; i < t->edge[edge].uses; i++) {
-        if (c->listed[use[i].facet] == c->stamp) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* Its segments likewise. 0 if there is no room. */
-static int open_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
+/* Lists the segments of a block. 0 if there is no room. */
+static int list_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     const lrcsi_cells_lists *b = &c->grid.events;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        if (!open_contacts(c, c->facets[i]) || !open_joins(c, c->facets[i])) {
+        if (!add_contacts(c, c->facets[i]) || !add_cell_events(c, c->facets[i])) {
             return 0;
         }
     }
     for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
         uint32_t edge = c->grid.classification->events.edge[b->item[i]];
-        if (edge_listed(c, edge) && !open_edge(c, edge)) {
+        /* An edge without a listed facet is hidden, or not near the block. */
+        if (lrcsi_topology_edge_has(&c->view->prepared->topology, edge, c->listed, c->stamp) &&
+            !add_edge(c, edge)) {
             return 0;
         }
     }
@@ -439,23 +418,23 @@ size_t lrcsi_cells_max_segments(const lrcsi_cells_work *c)
     const lrcsi_intersections *intersections = &c->view->prepared->intersections;
     const lrcsi_cells_lists *facets = &c->grid.facets;
     const lrcsi_cells_lists *events = &c->grid.events;
-    size_t most = 0;
+    size_t max = 0;
     for (size_t b = 0; b < (size_t)c->grid.side * c->grid.side; b++) {
         size_t count = events->first[b + 1] - events->first[b];
         for (uint32_t i = facets->first[b]; i < facets->first[b + 1]; i++) {
             uint32_t f = facets->item[i];
             count += intersections->first[f + 1] - intersections->first[f];
-            count += continues(c, f) ? 0 : 3;
+            count += has_ordinary_sides(c, f) ? 0 : 3;
         }
-        most = count > most ? count : most;
+        max = count > max ? count : max;
     }
-    return most;
+    return max;
 }
 
 int lrcsi_cells_begin(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     c->segment_count = 0;
     c->facet_err = 0;
-    open_facets(c, block, cell);
-    return open_segments(c, block, cell);
+    list_facets(c, block, cell);
+    return list_segments(c, block, cell);
 }

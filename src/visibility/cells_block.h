@@ -9,19 +9,18 @@
 /* Bytes at most. */
 size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared);
 
-/* Places the blocks, and lists in each the events and the facets that can hide others, except those
-   that are proved to be hidden (visibility/cells_cover.c). 0 if memory
-   does not suffice, if the lists are too long, or if much of the view is outside the bulk of the
-   scene: the blocks there are so large that little would be decided. */
+/* Makes the blocks, and lists in each the event edges and the facets that can hide others, except
+   those that are proved to be hidden (visibility/cells_cover.c). 0 if memory does not suffice, or
+   if the lists are too long. */
 int lrcsi_cells_grid_make(const lrcsi_classification *classification, const unsigned char *answer,
                           lrcs_work *work, lrcsi_cells_grid *c);
 
-/* The square of a block, from its middle; returns the largest coordinate. */
+/* The square of a block, relative to its middle. Returns the largest coordinate. */
 double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y,
                                lrcsi_clip_polygon *shape, double middle[2]);
 
-/* A new segment, and one with the facets of an edge; its other fields are the caller's to set. NULL
-   if there is no room. */
+/* Adds a segment, or one with the facets of an edge; the caller sets its other fields. NULL if
+   there is no room. */
 lrcsi_cells_segment *lrcsi_cells_segment_new(lrcsi_cells_work *c);
 lrcsi_cells_segment *lrcsi_cells_edge(lrcsi_cells_work *c, uint32_t edge);
 

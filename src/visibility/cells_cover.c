@@ -2,29 +2,29 @@
 /* One cell: which surface component is nearest at a sample, whether it covers the cell, and what is
    behind it.
 
-   Proof. P is the sample. x is any other point of the cell in general position. "The path" is the
-   straight line from P to x. Everything said here excludes the strips that
-   visibility/cells_cut.c accounts for. Facets that are removed from the list are nowhere the
-   nearest: at every point of the cell where such a facet is, a facet of the list is in front of it.
-   (2) preserves this, and facets that are hidden everywhere need not be listed to begin with.
+   Proof. P is the sample, x any other point of the cell in general position. "The path" is the
+   straight line from P to x. All statements exclude the strips that visibility/cells_cut.c accounts
+   for. Facets that have been removed from the list are nowhere the nearest: at every point of the
+   cell that such a facet covers, a facet of the list is in front of it. (2) preserves this, and
+   facets that are hidden everywhere need not be listed in the first place.
      (1) Let K be a set of listed facets with this property: each of its edges that crosses the cell
    is no event edge, and joins two facets of K. Then K covers x as many times as it covers P: along
    the path this number cannot change, because where one facet of K ends the next begins. So if
-   exactly one facet of K surely covers P, and the others surely do not, K covers the cell once. It
-   does not matter how K was found.
-     (2) Let K cover the cell once, and let G be a facet that is behind K at one point of the cell.
-   If no contact between G and a facet of K crosses the cell, G is behind K wherever it is in the
-   cell, because the two do not meet there and what G has in the cell is connected. So G can be
-   removed, even if K meets other facets. The same is true of an event edge that is behind K at one
-   point of the cell, and has a facet that no contact in the cell joins with K: K does not cross
-   that edge. (3) Let K cover the cell once and be nearest at P, and let no contact between a facet
-   of K and another facet cross the cell. If no event edge is left in the list, all of K is visible
-   in the cell, and nothing else is. For let y be the first point of the path at which K is no
-   longer the nearest of all facets. The facet H that is nearest just beyond y is listed. It begins
-   at y at an edge, or passes through K there at a contact; the latter is excluded. The edge is an
-   event edge, since a facet that ended there would have been in front of K before y. It is in front
-   of K at y, and H has been listed all the time, so the edge has not been removed from the list.
-     (4) If no facet covers P, and no event edge crosses the cell, no facet is visible in it.
+   exactly one facet of K certainly covers P, and the others certainly do not, K covers the cell
+   once. It does not matter how K was found. (2) Let K cover the cell once, and let G be a facet
+   that is behind K at one point of the cell. If no contact between G and a facet of K crosses the
+   cell, G is behind K wherever it is in the cell, because the two do not meet there and what G has
+   in the cell is connected. So G can be removed, even if K meets other facets. The same is true of
+   an event edge that is behind K at one point of the cell, and has a facet that no contact in the
+   cell joins with K: K does not cross that edge. (3) Let K cover the cell once and be nearest at P,
+   and let no contact between a facet of K and another facet cross the cell. If no event edge is
+   left in the list, all of K is visible in the cell, and nothing else is. For let y be the first
+   point of the path at which K is no longer the nearest of all facets. The facet H that is nearest
+   just beyond y is listed. It begins at y at an edge, or passes through K there at a contact; the
+   latter is excluded. The edge is an event edge, since a facet that ended there would have been in
+   front of K before y. It is in front of K at y, and H has been listed all the time, so the edge
+   has not been removed from the list. (4) If no facet covers P, and no event edge crosses the cell,
+   no facet is visible in it.
 
    A contact is where two facets meet in space other than along a common edge or in a point: along a
    segment in the interior of one (mesh/intersection.h), along parts of edges of both (the facets
@@ -47,14 +47,14 @@
 
 /* The search of a component of more facets than this ends at the first event edge that crosses the
    cell. In a smaller one all are found, and the cell is cut along the one that divides it best. */
-#define COMPONENT_FEW 8u
+#define SMALL_COMPONENT 8u
 
-/* The facet nearest to the laser at a place; all others that may cover it are then surely behind.
- */
+/* Finds the facet nearest to the laser at a point. Returns FOUND if all others that may cover the
+   point are certainly behind it; UNSURE or NONE as lrcsi_cells_nearest. */
 static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                         const lrcsi_cells_sides *s, const double at[2], uint32_t *best)
 {
-    double most = -HUGE_VAL;
+    double best_z = -HUGE_VAL;
     c->hits = 0;
     *best = LRCS_NONE;
     for (uint32_t i = 0; i < cell->facets; i++) {
@@ -78,9 +78,9 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         c->covers[index] = 2 * c->stamp + (uint32_t)covers;
         double range[2];
         lrcsi_cells_facet_z(f, at, s->tolerance, range);
-        if (covers && (*best == LRCS_NONE || range[0] > most)) {
+        if (covers && (*best == LRCS_NONE || range[0] > best_z)) {
             *best = index;
-            most = range[0];
+            best_z = range[0];
         }
     }
     if (*best == LRCS_NONE) {
@@ -91,7 +91,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         uint32_t other = c->hit[i];
         double range[2];
         lrcsi_cells_facet_z(&c->facet[other], at, s->tolerance, range);
-        if (other == *best || range[1] < most) {
+        if (other == *best || range[1] < best_z) {
             continue;
         }
         int order = c->covers[other] % 2 == 1 && changes < 8
@@ -102,7 +102,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         }
         if (order > 0) { /* the earlier ones are compared with it again */
             *best = other;
-            most = lrcsi_min(most, range[0]);
+            best_z = lrcsi_min(best_z, range[0]);
             changes++;
             i = (uint32_t)-1;
         }
@@ -118,10 +118,10 @@ void lrcsi_cells_sample_point(const lrcsi_cells_cell *cell, int number, double a
     double sum = 0;
     at[0] = at[1] = 0;
     for (uint32_t i = 0; i < cell->shape.count; i++) {
-        double share = number == 0 ? 1 : number == 1 ? 1 + 0.2 * i : 1 + 1.5 / (1 + i);
-        at[0] += share * cell->shape.corner[i][0];
-        at[1] += share * cell->shape.corner[i][1];
-        sum += share;
+        double weight = number == 0 ? 1 : number == 1 ? 1 + 0.2 * i : 1 + 1.5 / (1 + i);
+        at[0] += weight * cell->shape.corner[i][0];
+        at[1] += weight * cell->shape.corner[i][1];
+        sum += weight;
     }
     at[0] /= sum;
     at[1] /= sum;
@@ -179,25 +179,25 @@ static int covers_alone(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                               const lrcsi_cells_sides *s, const double at[2])
 {
-    uint32_t screen = LRCS_NONE;
-    double most = -HUGE_VAL;
+    uint32_t occluder = LRCS_NONE;
+    double best_z = -HUGE_VAL;
     for (uint32_t i = 0; i < c->hits; i++) {
         uint32_t index = c->hit[i];
         double range[2];
         lrcsi_cells_facet_z(&c->facet[index], at, s->tolerance, range);
-        if (c->covers[index] == 2 * c->stamp + 1 && range[0] > most &&
+        if (c->covers[index] == 2 * c->stamp + 1 && range[0] > best_z &&
             covers_alone(c, cell, s, index)) {
-            screen = index;
-            most = range[0];
+            occluder = index;
+            best_z = range[0];
         }
     }
-    if (screen == LRCS_NONE) {
+    if (occluder == LRCS_NONE) {
         return 0;
     }
     c->borders = 0;
-    c->component[0] = screen;
+    c->component[0] = occluder;
     c->components = 1;
-    c->in_component[screen] = c->stamp;
+    c->in_component[occluder] = c->stamp;
     contacts_only(c, cell);
     return 1;
 }
@@ -205,7 +205,7 @@ int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, uint32_t best)
 {
-    int whole = 1;
+    int covers = 1;
     c->borders = 0;
     c->component[0] = best;
     c->components = 1;
@@ -215,8 +215,8 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         const lrcsi_cells_facet *f = &c->facet[facet];
         double w = f->err + s->tolerance;
         double line_w = (f->sliver ? f->err : f->line_err) + s->tolerance;
-        whole &= (c->kind[facet] & LRCSI_CELLS_UNKNOWN_CONTACT) == 0 &&
-                 (facet == best || (c->covers[facet] >> 1) != c->stamp);
+        covers &= (c->kind[facet] & LRCSI_CELLS_UNKNOWN_CONTACT) == 0 &&
+                  (facet == best || (c->covers[facet] >> 1) != c->stamp);
         for (int k = 0; k < 3; k++) {
             lrcsi_cells_part part;
             uint32_t next = f->neighbour[k];
@@ -244,25 +244,25 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                                                 line_w + cell->widest_strip, &part);
             }
             if (place == LRCSI_CELLS_BORDER && next != LRCS_NONE) {
-                whole &= c->borders < LRCSI_CELLS_MAX_BORDERS;
-                if (whole) {
+                covers &= c->borders < LRCSI_CELLS_MAX_BORDERS;
+                if (covers) {
                     c->border[c->borders++] = (lrcsi_cells_border){
                         {line[0], line[1], line[2]}, {p[0], p[1]}, f->length[k], part};
                 }
             } else if (place == LRCSI_CELLS_BORDER) {
                 continue;
             } else if (next == LRCS_NONE || c->listed[next] != c->stamp) {
-                if (c->components > COMPONENT_FEW) {
+                if (c->components > SMALL_COMPONENT) {
                     return 0;
                 }
-                whole = 0;
+                covers = 0;
             } else {
                 c->in_component[next] = c->stamp;
                 c->component[c->components++] = next;
             }
         }
     }
-    return whole && contacts_only(c, cell);
+    return covers && contacts_only(c, cell);
 }
 
 int lrcsi_cells_segment_has(const lrcs_prepared *prepared, const lrcsi_cells_segment *e,
@@ -271,16 +271,8 @@ int lrcsi_cells_segment_has(const lrcs_prepared *prepared, const lrcsi_cells_seg
     if (mark[e->owner[0]] == value || (e->owner[1] != LRCS_NONE && mark[e->owner[1]] == value)) {
         return 1;
     }
-    if (e->edge != LRCS_NONE) {
-        const lrcsi_topology *t = &prepared->topology;
-        const lrcsi_edge_use *use = t->use + t->edge[e->edge].first_use;
-        for (uint32_t i = 0; i < t->edge[e->edge].uses; i++) {
-            if (mark[use[i].facet] == value) {
-                return 1;
-            }
-        }
-    }
-    return 0;
+    return e->edge != LRCS_NONE &&
+           lrcsi_topology_edge_has(&prepared->topology, e->edge, mark, value);
 }
 
 int lrcsi_cells_of_component(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
@@ -289,7 +281,7 @@ int lrcsi_cells_of_component(const lrcsi_cells_work *c, const lrcsi_cells_segmen
 }
 
 /* Is no facet of an edge in the list any more, or not both facets of a contact? */
-static int segment_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
+static int segment_is_unlisted(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
 {
     if (e->contact) {
         return c->listed[e->owner[0]] != c->stamp || e->owner[1] == LRCS_NONE ||
@@ -299,20 +291,21 @@ static int segment_idle(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
 }
 
 /* Is a facet in the list, and does no contact in the cell join it with the component? */
-static int stays_apart(const lrcsi_cells_work *c, uint32_t facet)
+static int has_no_contact(const lrcsi_cells_work *c, uint32_t facet)
 {
     return facet != LRCS_NONE && c->listed[facet] == c->stamp && c->contacts[facet] != c->stamp;
 }
 
 /* Is the part of an edge in the cell behind the component, which covers the cell? If the component
-   is one facet, both ends of the part are compared with its plane; else, if a facet of the edge
-   does not meet the component, one point of the part is compared with the facet that covers it. */
+   is one facet, both ends of the part are compared with its plane. Otherwise, if a facet of the
+   edge has no contact with the component, one point of the part is compared with the facet that
+   covers it. Given: low, the lowest z of the component in the cell. */
 static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, const lrcsi_cells_segment *e, double w,
                           double low)
 {
-    double z_off = 2 * e->z_err;
-    if (lrcsi_max(e->end[0][2], e->end[1][2]) + z_off < low) {
+    double z_err = 2 * e->z_err;
+    if (lrcsi_max(e->end[0][2], e->end[1][2]) + z_err < low) {
         return 1;
     }
     lrcsi_cells_part part = {0, 1, 0};
@@ -324,16 +317,16 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
                 e->end[0][k] + (i == 0 ? part.from : part.to) * (e->end[1][k] - e->end[0][k]);
         }
     }
-    if (lrcsi_max(at[0][2], at[1][2]) + z_off < low) {
+    if (lrcsi_max(at[0][2], at[1][2]) + z_err < low) {
         return 1;
     }
     if (c->components == 1) {
         const lrcsi_cells_facet *f = &c->facet[c->component[0]];
-        double off = f->plane_err[0] + f->plane_err[1] * w + z_off;
-        return at[0][2] + off < f->z[0] * at[0][0] + f->z[1] * at[0][1] + f->z[2] &&
-               at[1][2] + off < f->z[0] * at[1][0] + f->z[1] * at[1][1] + f->z[2];
+        double err = f->plane_err[0] + f->plane_err[1] * w + z_err;
+        return at[0][2] + err < f->z[0] * at[0][0] + f->z[1] * at[0][1] + f->z[2] &&
+               at[1][2] + err < f->z[0] * at[1][0] + f->z[1] * at[1][1] + f->z[2];
     }
-    if (!stays_apart(c, e->owner[0]) && !stays_apart(c, e->owner[1])) {
+    if (!has_no_contact(c, e->owner[0]) && !has_no_contact(c, e->owner[1])) {
         return 0;
     }
     double middle[3];
@@ -353,7 +346,7 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
             lrcsi_line_at(f->side[2], middle[0], middle[1]) > clear) {
             double range[2];
             lrcsi_cells_facet_z(f, middle, w, range);
-            return middle[2] + z_off < range[0];
+            return middle[2] + z_err < range[0];
         }
     }
     return 0;
@@ -364,7 +357,7 @@ static void facet_charge(lrcsi_cells_work *c, uint32_t facet, double uncertainty
     c->area[facet].uncertainty += c->wanted[facet] ? uncertainty : 0;
 }
 
-/* Is a facet that surely covers the sample behind the component there? */
+/* Is a facet that certainly covers the sample behind the component there? at NULL: yes. */
 static int behind_at(const lrcsi_cells_work *c, const lrcsi_cells_sides *s, const double *at,
                      uint32_t facet)
 {
@@ -403,7 +396,7 @@ void lrcsi_cells_cull(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
     kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
         const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
-        if (!segment_idle(c, e) &&
+        if (!segment_is_unlisted(c, e) &&
             (e->contact || !segment_behind(c, cell, s, e, e->err + s->tolerance, low))) {
             lrcsi_cells_swap(c->segments, i, kept++);
         }

@@ -6,14 +6,14 @@
 
 #include "visibility/cells_state.h"
 
-/* How many samples are tried in a cell, and where they are. */
+/* The number of samples that are tried in a cell, and their positions. */
 #define LRCSI_CELLS_SAMPLES 3
 void lrcsi_cells_sample_point(const lrcsi_cells_cell *cell, int number, double at[2]);
 
 enum { LRCSI_CELLS_UNSURE, LRCSI_CELLS_NONE, LRCSI_CELLS_FOUND };
 
 /* Takes samples well inside a cell until one is decided. Returns UNSURE if none is; NONE if no
-   facet covers it; FOUND and the facet nearest to the laser, all others being surely behind it.
+   facet covers it; FOUND and the facet nearest to the laser if all others are certainly behind it.
    Also returned: the position of the last sample, and its distance from the border. */
 int lrcsi_cells_nearest(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                         const lrcsi_cells_sides *s, uint32_t *best, double at[2], double *clear);
@@ -24,7 +24,7 @@ int lrcsi_cells_nearest(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, uint32_t best);
 
-/* Is any facet of an edge, or of a contact, marked with a value? */
+/* Is any facet of an edge, or of a contact, marked with this value? */
 int lrcsi_cells_segment_has(const lrcs_prepared *prepared, const lrcsi_cells_segment *e,
                             const uint32_t *mark, uint32_t value);
 

@@ -198,12 +198,13 @@ static void charge_cut(lrcsi_cells_work *c, uint32_t index, double low, double h
 }
 
 double lrcsi_cells_thin_uncertainty(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                                    double clear, uint32_t segments, double off)
+                                    double clear, uint32_t segments, double line_err)
 {
     if (!(clear < LRCSI_CELLS_THIN * s->perimeter)) {
         return 0;
     }
-    double strips = 4 * (double)segments * (cell->widest_strip + off + s->tolerance) * s->perimeter;
+    double strips =
+        4 * (double)segments * (cell->widest_strip + line_err + s->tolerance) * s->perimeter;
     return lrcsi_min(strips, lrcsi_clip_area(&cell->shape) + s->tolerance * s->perimeter);
 }
 

@@ -4,18 +4,19 @@
    Positions. b is the largest coordinate of the block. A vertex is computed in double-double, with
    an error of 256 u^2 of its distance from the origin. Its position relative to the middle of the
    block is then rounded once, by u of itself, and a sum of products that gives its distance from a
-   line has an error of 5 u of that: together `off`. The line through two vertices has a smaller
+   line has an error of 5 u of that: together `err`. The line through two vertices has a smaller
    error near the block. Its direction has an error of 2 u. Its distance from the middle of the
    block is computed in double-double, with a relative error of 2 u, apart from a factor that a, b
    and c have in common. Both cost 5.7 u b within the block, and evaluating the line there 2.9 u b.
-   That is less than 16 u b, which all cells allow for (visibility/cells_cut.c); `line_off` is
-   the rest, due to the errors of the vertices.
+   That is less than 16 u b, which all cells allow for (visibility/cells_cut.c); `line_err` is the
+   rest, due to the errors of the vertices.
 
-   Heights. Let H be the least height of a facet. A place within w of the facet has barycentric
+   Heights. Let H be the smallest height of a facet. A point within w of the facet has barycentric
    coordinates with an error of w / H. Let G be twice the computed slope of the facet, an upper
-   bound of the true one. Then z at that place has an error of e + G (w + 8 u l^2 / H), where l is
-   the longest side; the last term is due to the error of the slope itself. Besides, z is always
-   between the least and the greatest z of the corners. If H < 8 w, only that is used. */
+   bound of the true one. Then z at that point has an error of e + G (w + 8 u l^2 / H), where e is
+   the error of z of the vertices and l the longest side; the last term is due to the error of the
+   slope itself. Also, z is always between the smallest and the largest z of the corners. If H < 8
+   w, only that is used. */
 #include "visibility/cells_facet.h"
 
 #include <math.h>
@@ -28,8 +29,9 @@
 #include "visibility/grid.h"
 #include "visibility/sample.h"
 
-/* The axes of the view, exactly perpendicular to the direction but for 32 u^2: R's rows are so but
-   for 4 u, which is taken off in their lower parts. They may be oblique by as much. */
+/* The axes of the view, perpendicular to the direction within 32 u^2. The rows of R are so within 4
+   u; their components along the direction are subtracted in the lower parts. The axes may deviate
+   by 4 u from a right angle to each other. */
 void lrcsi_cells_frame_make(lrcsi_cells_frame *c)
 {
     const double *d = c->view->direction;
@@ -46,8 +48,8 @@ void lrcsi_cells_frame_make(lrcsi_cells_frame *c)
     }
 }
 
-/* A vertex in the view: x and y to double-double, off by 100 u^2 of the distance from the origin; z
-   as the view has it, off by 20 u of that. */
+/* A vertex in the view: x and y in double-double, with errors of 100 u^2 of the distance from the
+   origin; z from the view, with an error of 20 u of that distance. */
 static void point_make(const lrcsi_cells_frame *c, uint32_t vertex, lrcsi_cells_point *p)
 {
     const lrcs_prepared *prepared = c->view->prepared;
@@ -58,14 +60,14 @@ static void point_make(const lrcsi_cells_frame *c, uint32_t vertex, lrcsi_cells_
     for (int i = 0; i < 2; i++) {
         const double *row = c->view->R[i];
         lrcsi_dd sum = {0, 0};
-        double rest = 0;
+        double low = 0;
         for (int k = 0; k < 3; k++) {
             lrcsi_dd term = lrcsi_dd_two_product(row[k], gap[k].hi);
-            rest += term.lo + (row[k] * gap[k].lo + c->axis_low[i][k] * gap[k].hi);
+            low += term.lo + (row[k] * gap[k].lo + c->axis_low[i][k] * gap[k].hi);
             lrcsi_dd next = lrcsi_dd_two_sum(sum.hi, term.hi);
             sum = (lrcsi_dd){next.hi, sum.lo + next.lo};
         }
-        p->x[i] = lrcsi_dd_quick_sum(sum.hi, sum.lo + rest);
+        p->x[i] = lrcsi_dd_quick_sum(sum.hi, sum.lo + low);
     }
     p->z = c->view->point[vertex].x[2];
     double far = fabs(p->x[0].hi) + fabs(p->x[1].hi) + fabs(p->z);
@@ -118,7 +120,7 @@ static int longest_side(const lrcsi_cells_facet *f)
     return f->length[2] > f->length[k] ? 2 : k;
 }
 
-/* Its least height, as computed: negative if rounding has reversed its orientation. */
+/* Its smallest height, as computed: negative if rounding has reversed its orientation. */
 static double facet_min_height(const lrcsi_cells_facet *f)
 {
     int k = (longest_side(f) + 2) % 3;
@@ -202,9 +204,9 @@ void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_fa
 }
 
 int lrcsi_cells_facet_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape,
-                           const double low[2], const double high[2], double g)
+                           const double low[2], const double high[2], double tolerance)
 {
-    double w = f->err + g;
+    double w = f->err + tolerance;
     if (f->low[0] > high[0] + w || f->high[0] < low[0] - w || f->low[1] > high[1] + w ||
         f->high[1] < low[1] - w) {
         return 0;
@@ -222,50 +224,46 @@ int lrcsi_cells_facet_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon 
     return 1;
 }
 
-void lrcsi_cells_facet_z(const lrcsi_cells_facet *f, const double at[2], double g, double range[2])
+void lrcsi_cells_facet_z(const lrcsi_cells_facet *f, const double at[2], double tolerance,
+                         double range[2])
 {
     range[0] = f->z_low;
     range[1] = f->z_high;
-    double off = f->plane_err[0] + f->plane_err[1] * g;
-    if (off < HUGE_VAL) {
+    double err = f->plane_err[0] + f->plane_err[1] * tolerance;
+    if (err < HUGE_VAL) {
         double z = f->z[0] * at[0] + f->z[1] * at[1] + f->z[2];
-        range[0] = lrcsi_max(range[0], z - off);
-        range[1] = lrcsi_min(range[1], z + off);
+        range[0] = lrcsi_max(range[0], z - err);
+        range[1] = lrcsi_min(range[1], z + err);
     }
 }
 
 double lrcsi_cells_facet_z_bound(const lrcsi_cells_facet *f, const lrcsi_cells_sides *s, int sign)
 {
     double corner = sign > 0 ? f->z_high : f->z_low;
-    double off = f->plane_err[0] + f->plane_err[1] * s->tolerance;
-    if (!(off < HUGE_VAL)) {
+    double err = f->plane_err[0] + f->plane_err[1] * s->tolerance;
+    if (!(err < HUGE_VAL)) {
         return corner;
     }
     double x = 0.5 * (s->low[0] + s->high[0]);
     double y = 0.5 * (s->low[1] + s->high[1]);
     double half = fabs(f->z[0]) * (s->high[0] - x) + fabs(f->z[1]) * (s->high[1] - y);
     double z = f->z[0] * x + f->z[1] * y + f->z[2];
-    return sign > 0 ? lrcsi_min(corner, z + half + off) : lrcsi_max(corner, z - half - off);
+    return sign > 0 ? lrcsi_min(corner, z + half + err) : lrcsi_max(corner, z - half - err);
 }
 
 int lrcsi_cells_facet_order(const lrcsi_view *view, uint32_t first, uint32_t second)
 {
     const lrcsi_intersections *intersections = &view->prepared->intersections;
     int side = lrcsi_sample_side(view, second, first);
-    int touch = 0;
-    for (int way = 0; way < 2 && side == 0; way++) {
-        uint32_t facet = way == 0 ? first : second;
-        uint32_t other = way == 0 ? second : first;
-        for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
-            if (intersections->entry[i].other == other) {
-                touch = 1;
-                if (intersections->entry[i].kind == LRCSI_INTERSECTION_COPLANAR) {
-                    return lrcsi_sample_beats(view, second, first) ? 1 : -1;
-                }
-            }
-        }
+    if (side != 0) {
+        return side;
     }
-    return side == 0 && !touch ? lrcsi_sample_overlap_order(view, second, first) : side;
+    const lrcsi_intersection *contact = lrcsi_intersection_find(intersections, first, second);
+    contact = contact ? contact : lrcsi_intersection_find(intersections, second, first);
+    return !contact ? lrcsi_sample_overlap_order(view, second, first)
+           : contact->kind != LRCSI_INTERSECTION_COPLANAR ? 0
+           : lrcsi_sample_beats(view, second, first)      ? 1
+                                                          : -1;
 }
 
 /* --- which facet continues another --------------------------------------------------------------

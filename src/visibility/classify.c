@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Finding event edges and the facets that they cross. Why this suffices stands in the header; what
-   undecided facets show of themselves is decided elsewhere. */
+/* Finds the event edges that cross a facet, and classifies all facets. The header explains why this
+   suffices. How much of an undecided facet is visible is decided elsewhere. */
 #include "visibility/classify.h"
 
 #include <math.h>
@@ -12,56 +12,57 @@
 #include "view/side.h"
 #include "visibility/sample.h"
 
-/* How many listed events are examined at most to tell whether any crosses a facet, and how many of
-   them whose boxes meet the facet's. One facet in 100,000 of real models needs more. Where facets
-   are long and narrow, or stand in a stack, a grid separates little: without a limit the search
-   would take quadratic time. A facet that is still undecided then counts as undecided, which is
-   never wrong. Most events listed near needles about one tip stand beside them. */
-#define MOST_LISTED 4096u
-#define MOST_ASKED  512u
-/* Of a facet in so many rows and columns of the grid or more, each row is limited to the cells
-   between its sides: long facets across the grid touch few of the cells of their boxes. */
-#define SLANTED 3
-/* How many rows, cells, and listed events are examined at most to tell whether any event may cross
-   a run. */
+/* To decide whether any event crosses a facet, at most MAX_LISTED listed events are examined, and
+   at most MAX_TESTED of those whose boxes meet the facet's box. One facet in 100,000 of real models
+   needs more. If facets are long and narrow or lie in a stack, a grid separates little: without a
+   limit the search would take quadratic time. If the limit is reached, the facet counts as
+   undecided, which is never wrong. */
+#define MAX_LISTED 4096u
+#define MAX_TESTED 512u
+/* If a facet is in at least so many rows and columns of the grid, each row is limited to the cells
+   between its sides: long facets across the grid meet few of the cells of their boxes. */
+#define MIN_ROWS 3
+/* The largest number of rows, cells and listed events that are examined to decide whether any event
+   may cross a run. */
 #define RUN_STEPS 1024u
 
 /* --- crossings -------------------------------------------------------------------------------- */
 
-/* A facet that asks which event edges cross it. */
-typedef struct crossing_ask {
+/* A facet that is tested against event edges. */
+typedef struct tested_facet {
     uint32_t facet;
     int facing;
     const uint32_t *corner;
     lrcsi_view_side side[3]; /* from corner k to k + 1 */
-} crossing_ask;
+} tested_facet;
 
-/* Which way vertices a, b, c turn: from view coordinates where their error allows, else exactly. Of
-   three vertices that far away is not taken as the one from which both others are seen: it would
-   blur what the others tell. The bound is that of view/side.h. */
+/* The orientation of vertices a, b, c in the view: 1 counter-clockwise, -1 clockwise, 0 collinear.
+   From view coordinates if their error allows it, otherwise exactly. The vertex with the largest
+   error is never the origin of both differences, whose errors it would enlarge. The error bound is
+   that of view/side.h. */
 static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
 {
     if (c == a || c == b) {
         return 0;
     }
-    double off[3] = {lrcsi_view_point_err(view->point[a].x), lrcsi_view_point_err(view->point[b].x),
+    double err[3] = {lrcsi_view_point_err(view->point[a].x), lrcsi_view_point_err(view->point[b].x),
                      lrcsi_view_point_err(view->point[c].x)};
-    if (off[0] > off[1] + off[2]) {
+    if (err[0] > err[1] + err[2]) {
         uint32_t far = a;
-        double far_off = off[0];
+        double far_err = err[0];
         a = b;
         b = c;
         c = far;
-        off[0] = off[1];
-        off[1] = off[2];
-        off[2] = far_off;
+        err[0] = err[1];
+        err[1] = err[2];
+        err[2] = far_err;
     }
     const double *at = view->point[a].x;
     const double p[2] = {view->point[b].x[0] - at[0], view->point[b].x[1] - at[1]};
     const double q[2] = {view->point[c].x[0] - at[0], view->point[c].x[1] - at[1]};
     double turn = p[0] * q[1] - p[1] * q[0];
-    double e = off[0] + off[1];
-    double f = off[0] + off[2];
+    double e = err[0] + err[1];
+    double f = err[0] + err[2];
     if (fabs(turn) >
         1.5 * (e * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * (fabs(p[0]) + fabs(p[1])))) {
         return turn > 0 ? 1 : -1;
@@ -70,26 +71,26 @@ static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t 
     return lrcsi_exact_turn(v[a].x, v[b].x, v[c].x, view->direction);
 }
 
-/* Does the segment p q cross the open inside of the facet, in projection? Two convex figures of
-   the plane are apart if and only if some line along a side of either parts them. *along: it lies
-   on the line of a side that parts them. */
-static int segment_crosses(const lrcsi_view *view, const crossing_ask *ask, uint32_t p, uint32_t q,
-                           int *along)
+/* Does the segment p q cross the interior of the facet in projection? Two convex figures of the
+   plane are disjoint if and only if a line along a side of one of them separates them. *along is
+   set if the segment lies on the line of a side that separates them. */
+static int segment_crosses(const lrcsi_view *view, const tested_facet *tested, uint32_t p,
+                           uint32_t q, int *along)
 {
     const double *x = view->point[p].x;
     const double *y = view->point[q].x;
     double x_err = lrcsi_view_point_err(x);
     double y_err = lrcsi_view_point_err(y);
     for (int k = 0; k < 3; k++) {
-        uint32_t a = ask->corner[k];
-        uint32_t b = ask->corner[(k + 1) % 3];
-        int of_p = ask->facing * lrcsi_view_side_turn(&ask->side[k], x, x_err);
-        int of_q = ask->facing * lrcsi_view_side_turn(&ask->side[k], y, y_err);
+        uint32_t a = tested->corner[k];
+        uint32_t b = tested->corner[(k + 1) % 3];
+        int of_p = tested->facing * lrcsi_view_side_turn(&tested->side[k], x, x_err);
+        int of_q = tested->facing * lrcsi_view_side_turn(&tested->side[k], y, y_err);
         if (of_p == 1 || of_q == 1) {
             continue;
         }
-        of_p = of_p == -1 ? -1 : ask->facing * vertex_turn(view, a, b, p);
-        of_q = of_q == -1 ? -1 : ask->facing * vertex_turn(view, a, b, q);
+        of_p = of_p == -1 ? -1 : tested->facing * vertex_turn(view, a, b, p);
+        of_q = of_q == -1 ? -1 : tested->facing * vertex_turn(view, a, b, q);
         if (of_p <= 0 && of_q <= 0) {
             *along |= of_p == 0 && of_q == 0;
             return 0;
@@ -99,51 +100,53 @@ static int segment_crosses(const lrcsi_view *view, const crossing_ask *ask, uint
     int left = 0;
     int right = 0;
     for (int k = 0; k < 3; k++) {
-        const double *corner = view->point[ask->corner[k]].x;
-        int side = lrcsi_view_side_turn(&line, corner, ask->side[k].at_err);
-        side = side != LRCSI_VIEW_UNSURE ? side : vertex_turn(view, p, q, ask->corner[k]);
+        const double *corner = view->point[tested->corner[k]].x;
+        int side = lrcsi_view_side_turn(&line, corner, tested->side[k].at_err);
+        side = side != LRCSI_VIEW_UNSURE ? side : vertex_turn(view, p, q, tested->corner[k]);
         left |= side > 0;
         right |= side < 0;
     }
     return left && right;
 }
 
-/* Is the vertex nearer the laser than the facet's plane? The facet's own are not. */
-static int vertex_nearer(const lrcsi_view *view, const crossing_ask *ask, uint32_t vertex)
+/* Is a vertex nearer to the laser than the facet's plane? The facet's own vertices are not. */
+static int vertex_nearer(const lrcsi_view *view, const tested_facet *tested, uint32_t vertex)
 {
-    return vertex != ask->corner[0] && vertex != ask->corner[1] && vertex != ask->corner[2] &&
-           lrcsi_sample_above(view, ask->facet, view->prepared->vertex[vertex].x) > 0;
+    return vertex != tested->corner[0] && vertex != tested->corner[1] &&
+           vertex != tested->corner[2] &&
+           lrcsi_sample_above(view, tested->facet, view->prepared->vertex[vertex].x) > 0;
 }
 
-static int edge_crosses(const lrcsi_view *view, const crossing_ask *ask, uint32_t edge, int *along)
+static int edge_crosses(const lrcsi_view *view, const tested_facet *tested, uint32_t edge,
+                        int *along)
 {
     const lrcs_prepared *p = view->prepared;
-    const uint32_t *own = p->topology.facet_edge[ask->facet].corner;
+    const uint32_t *own = p->topology.facet_edge[tested->facet].corner;
     const lrcsi_edge *e = &p->topology.edge[edge];
     if (edge == own[0] || edge == own[1] || edge == own[2]) {
         return 0;
     }
-    int beside = 0; /* on the line of a side that separates them */
-    int crosses = segment_crosses(view, ask, e->low, e->high, &beside);
+    int beside = 0; /* it lies on the line of a side that separates it from the facet */
+    int crosses = segment_crosses(view, tested, e->low, e->high, &beside);
     if (!(crosses || beside) ||
-        !(vertex_nearer(view, ask, e->low) || vertex_nearer(view, ask, e->high))) {
+        !(vertex_nearer(view, tested, e->low) || vertex_nearer(view, tested, e->high))) {
         return 0;
     }
     *along |= beside;
     return crosses;
 }
 
-static crossing_ask crossing_ask_of(const lrcsi_view *view, uint32_t facet)
+static tested_facet tested_facet_of(const lrcsi_view *view, uint32_t facet)
 {
-    crossing_ask ask = {.facet = facet, .facing = view->facing[facet]};
-    ask.corner = view->prepared->scene->facet[facet].corner;
+    tested_facet tested = {.facet = facet, .facing = view->facing[facet]};
+    tested.corner = view->prepared->scene->facet[facet].corner;
     for (int k = 0; k < 3; k++) {
-        ask.side[k] = lrcsi_view_side_of(view, ask.corner[k], ask.corner[(k + 1) % 3]);
+        tested.side[k] = lrcsi_view_side_of(view, tested.corner[k], tested.corner[(k + 1) % 3]);
     }
-    return ask;
+    return tested;
 }
 
-/* How many of so many steps the meter allows. */
+/* The number of steps, of those wanted, that the meter allows. */
 static uint32_t steps_allowed(const lrcsi_meter *meter, uint32_t steps)
 {
     uint64_t left = meter ? (meter->spent ? 0 : meter->most - meter->taken) : steps;
@@ -153,17 +156,10 @@ static uint32_t steps_allowed(const lrcsi_meter *meter, uint32_t steps)
 /* Does a facet of the component have this edge? */
 static int component_has_edge(const lrcsi_classification *c, uint32_t edge, uint32_t component)
 {
-    const lrcsi_topology *t = &c->view->prepared->topology;
-    const lrcsi_edge_use *use = t->use + t->edge[edge].first_use;
-    for (uint32_t k = 0; k < t->edge[edge].uses; k++) {
-        if (c->component[use[k].facet] == component) {
-            return 1;
-        }
-    }
-    return 0;
+    return lrcsi_topology_edge_has(&c->view->prepared->topology, edge, c->component, component);
 }
 
-/* The cells of the grid that a facet touches. */
+/* The cells of the grid that a facet may meet. */
 typedef struct facet_cells {
     lrcsi_cells all;
     int slanted; /* rows are limited to the cells between the sides */
@@ -175,35 +171,35 @@ static void facet_cells_make(const lrcsi_grid *grid, uint32_t facet, const lrcsi
 {
     const lrcsi_cells all = lrcsi_grid_cells(grid, box);
     cells->all = all;
-    cells->slanted = all.x1 - all.x0 >= SLANTED && all.y1 - all.y0 >= SLANTED;
+    cells->slanted = all.x1 - all.x0 >= MIN_ROWS && all.y1 - all.y0 >= MIN_ROWS;
     if (cells->slanted) {
         lrcsi_grid_sides(grid, grid->view->prepared->scene->facet[facet].corner, 3, 0, cells->side);
     }
 }
 
-/* Finds at most `most` of them: one suffices to know that there are any. Examines at most *steps
-   listed events, MOST_ASKED of them with boxes that meet the facet's, and leaves in *steps how many
-   more it might have examined; LRCS_NONE: any number.
-   Finds fewer also where the meter is spent. Events whose box lies beside the facet's do not cross
-   it. A cell lists events in the order of their nearest points: after the first one that lies
-   behind all of the facet, no other comes nearer than the facet. Steps are counted in a register
-   and charged at the end. */
+/* Finds at most `most` event edges, of a component or (LRCS_NONE) of any, that cross the facet and
+   are nearer than it somewhere. Examines at most *steps listed events, and MAX_TESTED of those
+   whose boxes meet the facet's box; returns in *steps how many more it could have examined.
+   LRCS_NONE: no limit. It also finds fewer if the meter is spent. An event whose box is beside the
+   facet's box does not cross the facet. A cell lists events in the order of their nearest points:
+   after the first one that lies behind all of the facet, no other is nearer than the facet. Steps
+   are counted in a register and charged at the end. */
 static uint32_t crossings_find(lrcsi_classification *classification, uint32_t facet,
                                uint32_t component, uint32_t most, uint32_t *steps,
                                lrcsi_meter *meter)
 {
     const lrcsi_view *view = classification->view;
     const lrcsi_grid *grid = &classification->grid;
-    crossing_ask ask = {.corner = NULL}; /* made when it is first needed */
+    tested_facet tested = {.corner = NULL}; /* made when it is first needed */
     const lrcsi_view_box box = *lrcsi_boxes_facet(&classification->boxes, facet);
     facet_cells cells;
     const uint32_t allowed = steps_allowed(meter, *steps);
-    const uint32_t asked = ++classification->asked;
+    const uint32_t search = ++classification->searches;
     uint32_t left = allowed;
-    uint32_t near = *steps == LRCS_NONE ? LRCS_NONE : MOST_ASKED;
+    uint32_t tests_left = *steps == LRCS_NONE ? LRCS_NONE : MAX_TESTED;
     uint32_t count = 0;
-    int more = 0; /* an event was left out for want of steps */
-    classification->along = 0;
+    int more = 0; /* an event was not examined because a limit was reached */
+    classification->event_along_side = 0;
     facet_cells_make(grid, facet, &box, &cells);
     for (uint32_t y = cells.all.y0; y < cells.all.y1 && !more; y++) {
         const uint32_t *row = grid->first + (size_t)y * grid->size;
@@ -223,21 +219,21 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
                 if (lrcsi_view_box_beside(&event->box, &box)) {
                     continue;
                 }
-                more = near == 0;
+                more = tests_left == 0;
                 if (more) {
                     break;
                 }
-                near--;
-                int again = event->asked == asked;
-                event->asked = asked;
+                tests_left--;
+                int again = event->last_search == search;
+                event->last_search = search;
                 if (again || (component != LRCS_NONE &&
                               !component_has_edge(classification, event->edge, component))) {
                     continue;
                 }
-                if (!ask.corner) {
-                    ask = crossing_ask_of(view, facet);
+                if (!tested.corner) {
+                    tested = tested_facet_of(view, facet);
                 }
-                if (edge_crosses(view, &ask, event->edge, &classification->along)) {
+                if (edge_crosses(view, &tested, event->edge, &classification->event_along_side)) {
                     classification->crossing[count++] = event->edge;
                 }
             }
@@ -245,10 +241,10 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
     }
     lrcsi_meter_take(meter, allowed - left);
     *steps -= *steps != LRCS_NONE ? allowed - left : 0;
-    if (near == 0) {
+    if (tests_left == 0) {
         *steps = 0;
     } else if (more && *steps != 0) {
-        lrcsi_meter_take(meter, 1); /* there is none left: it is spent */
+        lrcsi_meter_take(meter, 1); /* none is left: this marks the meter as spent */
     }
     return count;
 }
@@ -285,10 +281,11 @@ int lrcsi_classify_crossed_by(lrcsi_classification *classification, uint32_t fac
 /* --- contacts --------------------------------------------------------------------------------- */
 
 int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,
-                             const lrcsi_intersection *touch)
+                             const lrcsi_intersection *contact)
 {
-    return lrcsi_view_casts(view, touch->other) && !(touch->kind == LRCSI_INTERSECTION_COPLANAR &&
-                                                     lrcsi_sample_beats(view, facet, touch->other));
+    return lrcsi_view_casts(view, contact->other) &&
+           !(contact->kind == LRCSI_INTERSECTION_COPLANAR &&
+             lrcsi_sample_beats(view, facet, contact->other));
 }
 
 static int intersection_divides(const lrcsi_view *view, uint32_t facet)
@@ -304,13 +301,13 @@ static int intersection_divides(const lrcsi_view *view, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* How many events their grid lists at most. */
-static size_t events_most(const lrcs_prepared *prepared)
+/* The largest number of entries in the grid of events. */
+static size_t max_event_entries(const lrcs_prepared *prepared)
 {
     return 8 * (size_t)prepared->topology.edge_count;
 }
 
-/* Orders floats from the largest to the least: z nearest to the laser comes first. */
+/* A sort key that puts the largest float first: the z nearest to the laser. */
 static uint64_t depth_key(float z)
 {
     uint32_t bits;
@@ -318,8 +315,8 @@ static uint64_t depth_key(float z)
     return bits >> 31 ? bits : ~bits & 0x7fffffff;
 }
 
-/* Sorts the events by their nearest points. Takes 20 bytes an event for the time being; the grid
-   made afterwards may take 32 (events_most), so that the need does not grow. */
+/* Sorts the events by their nearest points. Uses 20 bytes per event temporarily; the grid made
+   afterwards may take 32 (max_event_entries), so that the total need does not grow. */
 static int events_sort(lrcsi_classification *c, lrcs_work *work)
 {
     size_t mark = work->used;
@@ -343,8 +340,8 @@ static int events_sort(lrcsi_classification *c, lrcs_work *work)
     return LRCS_OK;
 }
 
-/* Events where they lie, and their grid. */
-static int events_file(lrcsi_classification *c, lrcs_work *work)
+/* Sorts the events and makes their boxes. */
+static int events_make_boxes(lrcsi_classification *c, lrcs_work *work)
 {
     const lrcsi_view *view = c->view;
     uint32_t count = c->events.count;
@@ -365,9 +362,9 @@ static int events_file(lrcsi_classification *c, lrcs_work *work)
     return LRCS_OK;
 }
 
-/* Can no event edge cross any facet of a run? Most runs far from events lie in rows of the grid
-   whose cells list nothing, and are proved clear in one step a row. Gives up, and returns 0, where
-   this takes more steps than asking the run's facets would. */
+/* Is it proved that no event edge crosses any facet of a run? The cells of most runs far from
+   events list nothing, which takes one step per row to see. Returns 0 if this takes more steps than
+   testing the facets of the run. */
 static int run_clear(const lrcsi_classification *c, uint32_t run, lrcsi_meter *meter)
 {
     const lrcsi_grid *grid = &c->grid;
@@ -400,29 +397,31 @@ static int run_clear(const lrcsi_classification *c, uint32_t run, lrcsi_meter *m
     return 1;
 }
 
-/* Whether a facet is undecided; and if not, whether it is alone in its region. */
+/* Decides whether a facet is undecided; and if not, whether it is the only one of its region. */
 static void facet_decide(lrcsi_classification *c, uint32_t f, lrcsi_meter *meter)
 {
-    uint32_t steps = MOST_LISTED;
-    c->along = 0;
+    uint32_t steps = MAX_LISTED;
+    c->event_along_side = 0;
     c->undecided[f] =
         intersection_divides(c->view, f) ||
         (lrcsi_grid_any(&c->grid, lrcsi_grid_cells(&c->grid, lrcsi_boxes_facet(&c->boxes, f))) &&
          crossings_find(c, f, LRCS_NONE, 1, &steps, meter) > 0) ||
         steps == 0 || lrcsi_meter_spent(meter);
     c->undecided_count += c->undecided[f];
-    if (c->undecided[f] || c->along || c->view->prepared->intersections.met[f]) {
+    if (c->undecided[f] || c->event_along_side || c->view->prepared->intersections.met[f]) {
         c->joinable[f] = 0;
     }
 }
 
-/* Which facets are undecided: none of a run that meets no contact and that no event may cross; of
-   others each is asked. The grid of events then has no more cells than serve those. */
+/* Decides which facets are undecided: none of a run without contacts that no event can cross; in
+   other runs each facet is tested. If the facets to be tested are large, the grid of events is made
+   again with larger cells. */
 static int facets_decide(lrcsi_classification *c, lrcsi_meter *meter, lrcs_work *work)
 {
     const lrcs_prepared *p = c->view->prepared;
     size_t mark = work->used;
-    int status = lrcsi_grid_edges(c->events.edge, c->events.count, events_most(p), work, &c->grid);
+    int status =
+        lrcsi_grid_edges(c->events.edge, c->events.count, max_event_entries(p), work, &c->grid);
     for (uint32_t r = 0; r < p->runs.count && status == LRCS_OK; r++) {
         if (c->boxes.state[r] == LRCSI_BOXES_RUN &&
             (p->runs.run[r].has_contacts || !run_clear(c, r, meter))) {
@@ -431,7 +430,8 @@ static int facets_decide(lrcsi_classification *c, lrcsi_meter *meter, lrcs_work 
     }
     if (status == LRCS_OK && lrcsi_grid_fit(&c->grid, &c->boxes)) {
         work->used = mark;
-        status = lrcsi_grid_edges(c->events.edge, c->events.count, events_most(p), work, &c->grid);
+        status =
+            lrcsi_grid_edges(c->events.edge, c->events.count, max_event_entries(p), work, &c->grid);
     }
     for (uint32_t r = 0; r < p->runs.count && status == LRCS_OK; r++) {
         uint32_t end = lrcsi_run_end(r * LRCSI_RUN, p->scene->facet_count);
@@ -449,8 +449,8 @@ void lrcsi_classify_regions(const lrcsi_classification *classification)
     lrcsi_events_join(classification->view, classification->joinable, classification->region);
 }
 
-/* The direction in which each facet faces if it casts (lrcsi_view_casts), otherwise 0; zeros behind
-   the last one. Run by run, without branches: compilers vectorise the inner loop. */
+/* The direction in which each facet faces if it can hide others (lrcsi_view_casts), otherwise 0;
+   zeros after the last one. Run by run, without branches: compilers vectorise the inner loop. */
 static void facets_cast(const lrcsi_view *view, signed char *cast)
 {
     const signed char back = view->backs.cast ? LRCSI_REDUNDANT_FROM_BEHIND : LRCSI_NOT_REDUNDANT;
@@ -462,8 +462,8 @@ static void facets_cast(const lrcsi_view *view, signed char *cast)
         memcpy(facing, view->facing + start, facets);
         memcpy(redundant, view->prepared->redundant + start, facets);
         for (uint32_t i = 0; i < LRCSI_RUN; i++) {
-            signed char least = facing[i] > 0 ? LRCSI_REDUNDANT : back;
-            cast[start + i] = redundant[i] < least ? facing[i] : 0;
+            signed char limit = facing[i] > 0 ? LRCSI_REDUNDANT : back;
+            cast[start + i] = redundant[i] < limit ? facing[i] : 0;
         }
     }
     cast[lrcsi_runs_room(count)] = 0;
@@ -480,11 +480,12 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared)
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_event_box)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_grid_need(facets, events_most(prepared)));
+    return lrcsi_work_add(need, lrcsi_grid_need(facets, max_event_entries(prepared)));
 }
 
-/* Grids have a cell or so for every facet that may cast, unless facets are large: then most facets
-   meet no event's cell, and need no further look. */
+/* The grid of events has about one cell for every facet that can hide others: then most facets meet
+   no cell that lists an event, and need no further test. Called: lrcsi_boxes_make,
+   lrcsi_events_make, events_make_boxes, lrcsi_events_join (components), facets_decide. */
 int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
                         lrcsi_classification *classification)
 {
@@ -502,7 +503,7 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *w
         status = lrcsi_boxes_make(view, c.joinable, work, &c.boxes);
     }
     status = status == LRCS_OK ? lrcsi_events_make(view, c.joinable, work, &c.events) : status;
-    status = status == LRCS_OK ? events_file(&c, work) : status;
+    status = status == LRCS_OK ? events_make_boxes(&c, work) : status;
     if (status == LRCS_OK) {
         lrcsi_events_join(view, c.joinable, c.component);
         status = facets_decide(&c, meter, work);

@@ -7,7 +7,6 @@
 
 #include "base/join.h"
 #include "base/work.h"
-#include "visibility/boxes.h"
 
 /* --- one edge --------------------------------------------------------------------------------- */
 
@@ -56,7 +55,7 @@ static void mark_edge_event(uint32_t *mark, uint32_t edge)
     mark[edge / MARK_BITS] |= (uint32_t)1 << edge % MARK_BITS;
 }
 
-/* Are all facets of the runs around a run of the same value as all of its own? */
+/* Do all facets of the runs around a run have the same value as all of its own facets? */
 static int run_surrounded(const lrcs_prepared *p, const signed char *value, uint32_t run)
 {
     signed char own = value[(size_t)run * LRCSI_RUN];
@@ -72,7 +71,8 @@ static int run_surrounded(const lrcs_prepared *p, const signed char *value, uint
 }
 
 /* Marks events among the plain edges (scene/across.h): two facets continue each other across such
-   an edge if both cast shadows and face the same way. A run that is like all around it has none. */
+   an edge if both can hide others and face the same way. A run whose facets all have the same value
+   as those around it has none. */
 static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t *mark)
 {
     uint32_t count = p->scene->facet_count;
@@ -100,52 +100,42 @@ static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t
     }
 }
 
-static void mark_irregular(const lrcsi_view *view, uint32_t *mark)
-{
-    const lrcsi_across *across = &view->prepared->across;
-    for (uint32_t i = 0; i < across->irregular_count; i++) {
-        uint32_t pair[2];
-        if (lrcsi_edge_kind_of(view, across->irregular[i], LRCS_NONE, pair) == LRCSI_EDGE_EVENT) {
-            mark_edge_event(mark, across->irregular[i]);
-        }
-    }
-}
-
-static uint32_t mark_list(const uint32_t *mark, size_t words, uint32_t *edge)
-{
-    uint32_t count = 0;
-    for (size_t w = 0; w < words; w++) {
-        uint32_t e = (uint32_t)(w * MARK_BITS);
-        for (uint32_t left = mark[w]; left != 0; left >>= 1) {
-            edge[count] = e++;
-            count += left & 1;
-        }
-    }
-    return count;
-}
-
 size_t lrcsi_events_need(const lrcs_prepared *prepared)
 {
     return lrcsi_work_add(lrcsi_work_bytes(mark_words(prepared), sizeof(uint32_t)),
                           lrcsi_work_bytes(prepared->topology.edge_count, sizeof(uint32_t)));
 }
 
-/* Takes room for as many events as there are edges, and returns what is not needed. */
+/* 1. Takes room for as many events as there are edges. 2. Marks events among plain edges, then
+   among irregular ones. 3. Lists the marked edges, and returns the room that is not needed. */
 int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
                       lrcsi_events *events)
 {
     const lrcs_prepared *p = view->prepared;
-    size_t mark = work->used;
-    uint32_t *marks = lrcsi_work_take_zero(work, mark_words(p), sizeof *marks);
+    const lrcsi_across *across = &p->across;
+    size_t start = work->used;
+    uint32_t *mark = lrcsi_work_take_zero(work, mark_words(p), sizeof *mark);
     size_t end = work->used;
     uint32_t *edge = lrcsi_work_take(work, p->topology.edge_count, sizeof *edge);
-    if (!marks || !edge) {
-        work->used = mark;
+    if (!mark || !edge) {
+        work->used = start;
         return LRCS_E_MEMORY;
     }
-    mark_plain(p, cast, marks);
-    mark_irregular(view, marks);
-    events->count = mark_list(marks, mark_words(p), edge);
+    mark_plain(p, cast, mark);
+    for (uint32_t i = 0; i < across->irregular_count; i++) {
+        uint32_t pair[2];
+        if (lrcsi_edge_kind_of(view, across->irregular[i], LRCS_NONE, pair) == LRCSI_EDGE_EVENT) {
+            mark_edge_event(mark, across->irregular[i]);
+        }
+    }
+    events->count = 0;
+    for (size_t w = 0; w < mark_words(p); w++) {
+        uint32_t e = (uint32_t)(w * MARK_BITS);
+        for (uint32_t left = mark[w]; left != 0; left >>= 1) {
+            edge[events->count] = e++;
+            events->count += left & 1;
+        }
+    }
     work->used = end;
     events->edge = lrcsi_work_take(work, events->count, sizeof *edge);
     return LRCS_OK;
@@ -153,14 +143,15 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
 
 /* --- groups ----------------------------------------------------------------------------------- */
 
-/* The item that stands for a facet: of a run all of which is joined, its first one. */
-static inline uint32_t item_of(const lrcs_prepared *p, const signed char *joinable, uint32_t facet)
+/* The entry of a facet in group[]: in a run whose facets are all joined, that of the first one. */
+static inline uint32_t group_entry(const lrcs_prepared *p, const signed char *joinable,
+                                   uint32_t facet)
 {
     uint32_t run = facet / LRCSI_RUN;
     return lrcsi_events_joined(p, joinable, run) == LRCSI_JOINED_ALL ? run * LRCSI_RUN : facet;
 }
 
-/* Joins the facets of a run among themselves, each an item. */
+/* Joins the facets of a run among themselves. */
 static void join_within(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
                         uint32_t *group)
 {
@@ -178,7 +169,8 @@ static void join_within(const lrcs_prepared *p, const signed char *joinable, uin
     }
 }
 
-/* Joins a run that is one item to earlier ones of which the same holds. 0 if it leads to others. */
+/* Joins a run whose facets are all joined to earlier such runs around it. Returns 0 if a run of
+   another kind is around it: then its sides have to be joined one by one. */
 static int join_linked(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
                        uint32_t *group)
 {
@@ -196,7 +188,7 @@ static int join_linked(const lrcs_prepared *p, const signed char *joinable, uint
     return 1;
 }
 
-/* Joins a run to earlier ones, side by side. */
+/* Joins the facets of a run to those of earlier runs, side by side. */
 static void join_sides(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
                        uint32_t *group)
 {
@@ -204,13 +196,14 @@ static void join_sides(const lrcs_prepared *p, const signed char *joinable, uint
         const lrcsi_run_side *side = &p->runs.side[i];
         if (side->other < side->facet && joinable[side->facet] != 0 &&
             joinable[side->other] == joinable[side->facet]) {
-            lrcsi_join(group, item_of(p, joinable, side->other), item_of(p, joinable, side->facet));
+            lrcsi_join(group, group_entry(p, joinable, side->other),
+                       group_entry(p, joinable, side->facet));
         }
     }
 }
 
-/* Sets the group of each facet to the first one of its group. Earlier runs are settled already, and
-   the groups of later ones are not named by theirs. */
+/* Sets group[facet] to the first facet of its group. Groups are named by their first facets, which
+   are in this run or in earlier runs that are finished already. */
 static void join_finish(const lrcs_prepared *p, const signed char *joinable, uint32_t *group)
 {
     uint32_t count = p->scene->facet_count;
@@ -252,7 +245,7 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
         uint32_t pair[2];
         if (lrcsi_edge_kind_of(view, p->across.irregular[i], LRCS_NONE, pair) == LRCSI_EDGE_JOINS &&
             joinable[pair[0]] != 0 && joinable[pair[1]] != 0) {
-            lrcsi_join(group, item_of(p, joinable, pair[0]), item_of(p, joinable, pair[1]));
+            lrcsi_join(group, group_entry(p, joinable, pair[0]), group_entry(p, joinable, pair[1]));
         }
     }
     join_finish(p, joinable, group);

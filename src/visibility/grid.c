@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The grid's cells and how items are sorted into them: counted first, then filled, in item order.
-   It decides nothing about visibility. */
+/* Boxes of runs and facets; the cells of a grid, and how items are sorted into them: counted first,
+   then filled, in item order. Nothing is decided about visibility. */
 #include "visibility/grid.h"
 
 #include <math.h>
@@ -9,15 +9,104 @@
 #include "base/range.h"
 #include "base/work.h"
 
-/* Cells along a side at most. */
-#define MOST_CELLS 2048
-/* Wanted cells, a bit each. */
-#define WANT_BITS 32u
+/* The largest number of cells along a side. */
+#define MAX_SIDE 2048
+/* Cells to be read are marked by one bit each. */
+#define NEEDED_BITS 32u
 
-/* How many cells along a side make so many. */
+/* --- boxes -------------------------------------------------------------------------------------
+ */
+
+size_t lrcsi_boxes_need(const lrcs_prepared *prepared)
+{
+    size_t facets = prepared->scene->facet_count;
+    size_t runs = prepared->runs.count;
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(lrcsi_view_box)),
+                                 lrcsi_work_bytes(runs, sizeof(lrcsi_view_box)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(runs, 1));
+    return lrcsi_work_add(need, lrcsi_work_bytes(runs + 1, sizeof(uint32_t)));
+}
+
+/* A point of the box is m + d, with |d_k| <= h_k. The position of m in the view has an error of at
+   most lrcsi_view_point_err, which includes a sum; a row of the axes has an error of 4 u. So d
+   contributes at most sum (|R_k| + 4 u) h_k, computed with a relative error of 4 u. */
+static lrcsi_view_box run_box(const lrcsi_view *view, const lrcsi_run *run)
+{
+    double middle[3];
+    double half[3];
+    double x[3];
+    double low[3];
+    double high[3];
+    for (int k = 0; k < 3; k++) {
+        middle[k] = 0.5 * (run->low[k] + run->high[k]);
+        half[k] = (1 + 2 * LRCSI_U) * lrcsi_max(run->high[k] - middle[k], middle[k] - run->low[k]);
+    }
+    lrcsi_view_coordinates(view, middle, x);
+    double err = lrcsi_view_point_err(x) + 8 * LRCSI_U * (half[0] + half[1] + half[2]);
+    for (int k = 0; k < 3; k++) {
+        const double *row = view->R[k];
+        double wide = fabs(row[0]) * half[0] + fabs(row[1]) * half[1] + fabs(row[2]) * half[2];
+        wide += 16 * LRCSI_U * wide + err;
+        low[k] = x[k] - wide;
+        high[k] = x[k] + wide;
+    }
+    return lrcsi_view_box_round(view, low, high);
+}
+
+int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
+                     lrcsi_boxes *boxes)
+{
+    const lrcs_prepared *p = view->prepared;
+    uint32_t count = p->scene->facet_count;
+    *boxes = (lrcsi_boxes){.view = view};
+    boxes->run = lrcsi_work_take(work, p->runs.count, sizeof *boxes->run);
+    boxes->state = lrcsi_work_take_zero(work, p->runs.count, 1);
+    boxes->start = lrcsi_work_take(work, (size_t)p->runs.count + 1, sizeof *boxes->start);
+    boxes->facet = lrcsi_work_take(work, count, sizeof *boxes->facet);
+    if (!boxes->run || !boxes->state || !boxes->start || !boxes->facet) {
+        return LRCS_E_MEMORY;
+    }
+    boxes->opened = &boxes->start[p->runs.count];
+    *boxes->opened = 0;
+    for (uint32_t r = 0; r < p->runs.count; r++) {
+        uint32_t end = lrcsi_run_end(r * LRCSI_RUN, count);
+        int any = 0;
+        for (uint32_t f = r * LRCSI_RUN; f < end; f++) {
+            any |= cast[f];
+        }
+        if (any != 0) {
+            boxes->run[r] = run_box(view, &p->runs.run[r]);
+            boxes->state[r] = LRCSI_BOXES_RUN;
+        }
+    }
+    return LRCS_OK;
+}
+
+void lrcsi_boxes_open(const lrcsi_boxes *boxes, uint32_t run)
+{
+    const lrcs_scene *scene = boxes->view->prepared->scene;
+    if (boxes->state[run] == LRCSI_BOXES_RUN) {
+        uint32_t first = run * LRCSI_RUN;
+        uint32_t end = lrcsi_run_end(first, scene->facet_count);
+        lrcsi_view_box *box = &boxes->facet[*boxes->opened];
+        for (uint32_t f = first; f < end; f++) {
+            if (lrcsi_view_casts(boxes->view, f)) {
+                box[f - first] = lrcsi_view_box_of(boxes->view, scene->facet[f].corner, 3);
+            }
+        }
+        boxes->start[run] = *boxes->opened;
+        *boxes->opened += end - first;
+        boxes->state[run] = LRCSI_BOXES_FACETS;
+    }
+}
+
+/* --- the grid ----------------------------------------------------------------------------------
+ */
+
+/* The number of cells along a side of a square grid of about this many. */
 static uint32_t grid_side(size_t cells)
 {
-    return (uint32_t)lrcsi_min(MOST_CELLS, lrcsi_max(1, sqrt((double)cells)));
+    return (uint32_t)lrcsi_min(MAX_SIDE, lrcsi_max(1, sqrt((double)cells)));
 }
 
 size_t lrcsi_grid_need(size_t cells, size_t entries)
@@ -31,7 +120,7 @@ size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
     size_t side = grid_side(facets);
-    size_t words = (side + WANT_BITS - 1) / WANT_BITS;
+    size_t words = (side + NEEDED_BITS - 1) / NEEDED_BITS;
     size_t need = lrcsi_work_add(lrcsi_work_bytes(words * side, sizeof(uint32_t)),
                                  lrcsi_work_bytes(facets, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_grid_need(facets, LRCSI_GRID_FACET_CELLS * facets));
@@ -56,9 +145,9 @@ lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells)
     return grid;
 }
 
-/* Doubles the grid's cells; it has no lists then. Halving the scale is exact (but for numbers so
-   small that they stand in cell 0 either way), so that coordinates find half their old cell,
-   rounded down. */
+/* Doubles the size of the cells; the grid has no lists then. Halving the scale is exact, except for
+   numbers so small that they are in cell 0 in any case: the new cell of a coordinate is half the
+   old one, rounded down. */
 static void grid_coarsen(lrcsi_grid *grid)
 {
     grid->first = grid->item = NULL;
@@ -143,7 +232,7 @@ lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *si
     return cells;
 }
 
-/* Returns in how many cells it is. */
+/* Counts or lists an edge. Returns the number of its cells. */
 static uint32_t grid_put_edge(lrcsi_grid *grid, uint32_t edge, uint32_t item)
 {
     const lrcsi_edge *e = &grid->view->prepared->topology.edge[edge];
@@ -163,7 +252,7 @@ static uint32_t grid_put_edge(lrcsi_grid *grid, uint32_t edge, uint32_t item)
     return count;
 }
 
-/* Counts or files the edges, unless they are more than `most`: then 0. */
+/* Counts or lists the edges. 0 if there are more than `most` entries. */
 static int grid_put_edges(lrcsi_grid *grid, const uint32_t *edge, uint32_t count, uint64_t most)
 {
     uint64_t listed = 0;
@@ -224,41 +313,42 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
 
 /* The cells whose lists will be read, one bit each; each row begins with a new word. bit NULL: all
    cells. Facets that meet none of these cells are not listed. */
-typedef struct grid_want {
+typedef struct needed_cells {
     uint32_t *bit;
     size_t words; /* of a row */
-} grid_want;
+} needed_cells;
 
 /* The bits of one word of a row for cells x0 .. x1 - 1. */
-static uint32_t want_bits(uint32_t word, uint32_t x0, uint32_t x1)
+static uint32_t needed_bits(uint32_t word, uint32_t x0, uint32_t x1)
 {
     uint32_t bits = ~(uint32_t)0;
-    if (word == x0 / WANT_BITS) {
-        bits &= ~(uint32_t)0 << x0 % WANT_BITS;
+    if (word == x0 / NEEDED_BITS) {
+        bits &= ~(uint32_t)0 << x0 % NEEDED_BITS;
     }
-    if (word == (x1 - 1) / WANT_BITS) {
-        bits &= ~(uint32_t)0 >> (WANT_BITS - 1 - (x1 - 1) % WANT_BITS);
+    if (word == (x1 - 1) / NEEDED_BITS) {
+        bits &= ~(uint32_t)0 >> (NEEDED_BITS - 1 - (x1 - 1) % NEEDED_BITS);
     }
     return bits;
 }
 
-static void want_facet(const grid_want *want, lrcsi_cells cells)
+static void needed_facet(const needed_cells *needed, lrcsi_cells cells)
 {
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        uint32_t last = (cells.x1 - 1u) / WANT_BITS;
-        for (uint32_t word = cells.x0 / WANT_BITS; word <= last; word++) {
-            want->bit[y * want->words + word] |= want_bits(word, cells.x0, cells.x1);
+        uint32_t last = (cells.x1 - 1u) / NEEDED_BITS;
+        for (uint32_t word = cells.x0 / NEEDED_BITS; word <= last; word++) {
+            needed->bit[y * needed->words + word] |= needed_bits(word, cells.x0, cells.x1);
         }
     }
 }
 
 /* Will any of these cells be read? */
-static int want_meets(grid_want want, lrcsi_cells cells)
+static int needed_meets(needed_cells needed, lrcsi_cells cells)
 {
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        uint32_t last = (cells.x1 - 1u) / WANT_BITS;
-        for (uint32_t word = cells.x0 / WANT_BITS; word <= last; word++) {
-            if ((want.bit[y * want.words + word] & want_bits(word, cells.x0, cells.x1)) != 0) {
+        uint32_t last = (cells.x1 - 1u) / NEEDED_BITS;
+        for (uint32_t word = cells.x0 / NEEDED_BITS; word <= last; word++) {
+            if ((needed.bit[y * needed.words + word] & needed_bits(word, cells.x0, cells.x1)) !=
+                0) {
                 return 1;
             }
         }
@@ -267,16 +357,16 @@ static int want_meets(grid_want want, lrcsi_cells cells)
 }
 
 /* Marks the cells of the readers' boxes. */
-static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
-                     const lrcsi_grid_readers *readers, lrcs_work *work, grid_want *want)
+static int needed_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
+                       const lrcsi_grid_readers *readers, lrcs_work *work, needed_cells *needed)
 {
-    *want = (grid_want){NULL, (grid->size + WANT_BITS - 1) / WANT_BITS};
+    *needed = (needed_cells){NULL, (grid->size + NEEDED_BITS - 1) / NEEDED_BITS};
     if (!readers) {
         return LRCS_OK;
     }
-    want->bit = lrcsi_work_take_zero(work, want->words * grid->size, sizeof *want->bit);
+    needed->bit = lrcsi_work_take_zero(work, needed->words * grid->size, sizeof *needed->bit);
     const lrcs_prepared *p = grid->view->prepared;
-    for (uint32_t r = 0; r < p->runs.count && want->bit; r++) {
+    for (uint32_t r = 0; r < p->runs.count && needed->bit; r++) {
         uint32_t start = r * LRCSI_RUN;
         uint32_t end = lrcsi_run_end(start, p->scene->facet_count);
         if (boxes->state[r] == LRCSI_BOXES_NONE) {
@@ -289,16 +379,16 @@ static int want_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
             if ((readers->undecided[f] || (readers->region && readers->region[f] == f)) &&
                 lrcsi_view_casts(grid->view, f)) {
                 lrcsi_boxes_open(boxes, r);
-                want_facet(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
+                needed_facet(needed, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
             }
         }
     }
-    return want->bit ? LRCS_OK : LRCS_E_MEMORY;
+    return needed->bit ? LRCS_OK : LRCS_E_MEMORY;
 }
 
 /* Lists the facets that meet cells to be read, in order, and makes their boxes. Status: LRCS_OK;
    LRCS_E_MEMORY. */
-static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, grid_want want,
+static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, needed_cells needed,
                          lrcs_work *work, uint32_t **facet, uint32_t *selected)
 {
     uint32_t count = grid->view->prepared->scene->facet_count;
@@ -308,15 +398,15 @@ static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, grid_
     for (uint32_t start = 0; start < count && list; start += LRCSI_RUN) {
         uint32_t run = start / LRCSI_RUN;
         if (boxes->state[run] == LRCSI_BOXES_NONE ||
-            (want.bit && !want_meets(want, lrcsi_grid_cells(grid, &boxes->run[run])))) {
+            (needed.bit && !needed_meets(needed, lrcsi_grid_cells(grid, &boxes->run[run])))) {
             continue;
         }
         lrcsi_boxes_open(boxes, run);
         uint32_t end = lrcsi_run_end(start, count);
         for (uint32_t f = start; f < end; f++) {
             if (lrcsi_view_casts(grid->view, f) &&
-                (!want.bit ||
-                 want_meets(want, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f))))) {
+                (!needed.bit ||
+                 needed_meets(needed, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f))))) {
                 list[listed++] = f;
             }
         }
@@ -353,16 +443,16 @@ int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
     const lrcsi_view *view = like->view;
     uint64_t most = LRCSI_GRID_FACET_CELLS * ((uint64_t)view->front + view->back);
     lrcsi_grid g = *like;
-    grid_want want;
+    needed_cells needed;
     uint32_t *facet = NULL;
     uint32_t selected = 0;
     int status;
     g.boxes = *boxes;
     g.first = g.item = NULL;
     for (;;) {
-        status = want_make(&g, boxes, readers, work, &want);
+        status = needed_make(&g, boxes, readers, work, &needed);
         status =
-            status == LRCS_OK ? facets_select(&g, boxes, want, work, &facet, &selected) : status;
+            status == LRCS_OK ? facets_select(&g, boxes, needed, work, &facet, &selected) : status;
         status = status == LRCS_OK ? grid_start(&g, work) : status;
         if (status != LRCS_OK || facets_put(&g, facet, selected) <= most) {
             break;

@@ -1,16 +1,52 @@
 /* SPDX-License-Identifier: MIT */
-/* A uniform grid over the window of the scene's bulk: which items (facets, edges) may stand in
-   which cell. What stands outside counts to the cells on the border. Conservative: an item is
-   listed in every cell that its box touches. Where items are so large that they would be listed too
-   often, cells are doubled until they are not: then the bytes that a grid takes are bounded
-   whatever the scene, and so is what a walk through the cells of all items costs. */
+/* Boxes of facets in the view, and a uniform grid over the window of the scene's bulk, which lists
+   the items (facets or edges) that may lie in each cell. What lies outside the window counts to the
+   cells on the border. Conservative: an item is listed in every cell that its box meets. If large
+   items make the lists too long, cells are doubled until they are short enough: this bounds the
+   memory of a grid for any scene, and the cost of walking through the cells of all items. */
 #ifndef LRCSI_GRID_H
 #define LRCSI_GRID_H
 
 #include "base/range.h"
+#include "view/box.h"
 #include "view/strip.h"
-#include "visibility/boxes.h"
 #include "visibility/event.h"
+
+/* Boxes in the view of the facets that can hide something. One box for each run (scene/runs.h) is
+   made at first; the boxes of its facets only when they are needed, since the run's box usually
+   suffices. They are stored in the order in which runs are opened, so that memory is written only
+   for those. */
+enum lrcsi_boxes_state {
+    LRCSI_BOXES_NONE,  /* no facet of the run can hide anything */
+    LRCSI_BOXES_RUN,   /* the run's box is made */
+    LRCSI_BOXES_FACETS /* so are those of its facets that can hide something */
+};
+
+typedef struct lrcsi_boxes {
+    const lrcsi_view *view;
+    lrcsi_view_box *run;
+    unsigned char *state; /* run: a lrcsi_boxes_state */
+    uint32_t *start;      /* run, if opened: the index in facet[] of the box of its first facet */
+    uint32_t *opened;     /* the number of facets of opened runs */
+    lrcsi_view_box *facet;
+} lrcsi_boxes;
+
+/* The box of a facet that can hide something, whose run is opened. */
+static inline const lrcsi_view_box *lrcsi_boxes_facet(const lrcsi_boxes *boxes, uint32_t facet)
+{
+    return &boxes->facet[boxes->start[facet / LRCSI_RUN] + facet % LRCSI_RUN];
+}
+
+/* Bytes at most. */
+size_t lrcsi_boxes_need(const lrcs_prepared *prepared);
+
+/* Makes the boxes of runs. Given cast[facet]: not 0 if it can hide something. Status: LRCS_OK;
+   LRCS_E_MEMORY. They stay in the work area. */
+int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
+                     lrcsi_boxes *boxes);
+
+/* Makes the boxes of a run's facets, unless they exist or none can hide anything. */
+void lrcsi_boxes_open(const lrcsi_boxes *boxes, uint32_t run);
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
@@ -60,7 +96,7 @@ static inline uint16_t lrcsi_grid_cell(const lrcsi_grid *grid, double x, int axi
     return (uint16_t)lrcsi_min(grid->last, lrcsi_max(0, cell));
 }
 
-/* The cells that a box touches. */
+/* The cells that a box meets. */
 static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_view_box *box)
 {
     return (lrcsi_cells){.x0 = lrcsi_grid_cell(grid, (double)box->low[0], 0),
@@ -69,20 +105,19 @@ static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_v
                          .y1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[1], 1) + 1)};
 }
 
-/* The sides of a facet (count 3), or an edge (count 2, one side), for lrcsi_grid_row; `near`: how
-   far beyond them rows should reach. */
+/* The sides of a facet (count 3), or an edge (count 2, one side), for lrcsi_grid_row. near: rows
+   include all cells within this distance of them. */
 void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
                       lrcsi_strip_segment *side);
 
-/* The cells of row y that a polygon with these sides, in the units of boxes, may touch; rows and
-   columns on the border reach on without end. Empty (x0 == x1) if there are none. */
+/* The cells of row y that a polygon with these sides, in the units of boxes, may meet; rows and
+   columns on the border extend to infinity. Empty (x0 == x1) if there are none. */
 lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *side, int sides,
                            uint32_t y);
 
-/* What the sides' errors must allow for besides their own: the rounding of what is computed of
-   them, points at t, rows and the t at which the segment enters one, each off by less than 8 u of
-   coordinates between the segment's and the window's; and boxes are rounded by 2^-24 of the latter.
- */
+/* What is added to the errors of sides: the rounding errors of what is computed from them (points
+   at t, rows, and the t at which the segment enters a row), each less than 8 u of a coordinate
+   between the segment's and the window's; and the rounding of boxes by 2^-24 of the latter. */
 static inline double lrcsi_grid_rounding(const lrcsi_grid *grid)
 {
     return 0x1p-23 * (fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side);
@@ -93,8 +128,8 @@ typedef struct lrcsi_grid_items {
     uint32_t from, to;
 } lrcsi_grid_items;
 
-/* What the cells x0 <= x < x1 of row y list, an item once for each cell that lists it: the lists of
-   a row lie one behind the other. */
+/* The items of cells x0 <= x < x1 of row y, each once for each cell that lists it: the lists of a
+   row follow one another. */
 static inline lrcsi_grid_items lrcsi_grid_row_items(const lrcsi_grid *grid, uint32_t y, uint32_t x0,
                                                     uint32_t x1)
 {
@@ -114,25 +149,25 @@ static inline int lrcsi_grid_any(const lrcsi_grid *grid, lrcsi_cells cells)
     return 0;
 }
 
-/* How often a facet is listed at most, on average. Facets that fill 16 cells fill 9 of twice the
-   size, or fewer: so a coarser grid has lists little more than twice as long, and fewer of them to
-   walk through for each facet. */
+/* How often a facet is listed at most, on average. Facets that fill 16 cells fill at most 9 of
+   twice the size: a coarser grid has lists little more than twice as long, and fewer of them per
+   facet. */
 #define LRCSI_GRID_FACET_CELLS 16u
 
-/* The window in about `cells` cells (none more, but for one at least), without lists. */
+/* A grid of the window with at most `cells` cells, but at least one, without lists. */
 lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells);
 
-/* Files edges in an empty grid: item i stands for topology edge `edge[i]`. Cells along the edge
-   only. Lists `most` items at most, or each once: until it does, the grid is made coarser.
+/* Lists edges in an empty grid, each in the cells along it: item i stands for topology edge
+   edge[i]. Until there are at most `most` entries, or one per edge, the grid is made coarser.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
 int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_work *work,
                      lrcsi_grid *grid);
 
-/* Bytes at most for a grid of so many cells that lists so many items. */
+/* Bytes at most for a grid with so many cells and entries. */
 size_t lrcsi_grid_need(size_t cells, size_t entries);
 
-/* Makes an empty grid coarser until the facets whose boxes are made touch LRCSI_GRID_FACET_CELLS
-   cells at most, on average. 1 if it had to be. */
+/* Makes an empty grid coarser until the facets whose boxes are made meet at most
+   LRCSI_GRID_FACET_CELLS cells on average. Returns 1 if the grid has changed. */
 int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes);
 
 /* Bytes at most for a grid of facets. */

@@ -10,11 +10,11 @@
 #include "visibility/cells.h"
 #include "visibility/query.h"
 
-/* Undecided facets are processed together (visibility/cells.h) if there are at least CELLS_LEAST of
-   them, and at least one in CELLS_SHARE facets: for this all facets are sorted into blocks, which
-   costs more than processing a few facets one by one. */
-#define CELLS_LEAST 192u
-#define CELLS_SHARE 32u
+/* Undecided facets are processed together (visibility/cells.h) if there are at least MIN_UNDECIDED
+   of them, and at least one in MIN_FRACTION facets: to process them together, all facets are sorted
+   into blocks, which costs more than processing a few facets one by one. */
+#define MIN_UNDECIDED 192u
+#define MIN_FRACTION  32u
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
@@ -73,7 +73,7 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
 /* Can undecided facets be processed together? */
 static int cells_serve(const lrcs_prepared *prepared)
 {
-    return prepared->scene->facet_count >= CELLS_LEAST && !prepared->convex;
+    return prepared->scene->facet_count >= MIN_UNDECIDED && !prepared->convex;
 }
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
@@ -111,30 +111,31 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
     return status;
 }
 
-/* The first facet from `from` on whose value is `wanted`, or `count`. */
-static uint32_t facet_next(const unsigned char *value, int wanted, uint32_t from, uint32_t count)
+/* The first facet from `from` on with this value, or `count`. */
+static uint32_t next_facet_with(const unsigned char *values, int value, uint32_t from,
+                                uint32_t count)
 {
-    const unsigned char *at = memchr(value + from, wanted, count - from);
-    return at ? (uint32_t)(at - value) : count;
+    const unsigned char *at = memchr(values + from, value, count - from);
+    return at ? (uint32_t)(at - values) : count;
 }
 
-/* Undecided facets: together if there are many; then one by one those that are still open. */
+/* Undecided facets: together if there are many; then one by one those that remain. */
 static int occlude_undecided(lrcsi_occluding *o, lrcs_work *work, unsigned char *open,
                              lrcsi_visible *visible)
 {
     lrcsi_classification *classification = o->classification;
     const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
-    if (classification->undecided_count >= CELLS_LEAST &&
-        classification->undecided_count >= count / CELLS_SHARE && cells_serve(p)) {
+    if (classification->undecided_count >= MIN_UNDECIDED &&
+        classification->undecided_count >= count / MIN_FRACTION && cells_serve(p)) {
         lrcsi_cells_areas(classification, o->meter, work, o->uniform, open, visible);
     }
-    uint32_t f = facet_next(open, 1, 0, count);
+    uint32_t f = next_facet_with(open, 1, 0, count);
     if (f == count) {
         return LRCS_OK;
     }
     int status = lrcsi_alone_make(classification, o->meter, &o->facets, work, &o->alone);
-    for (; f < count && status == LRCS_OK; f = facet_next(open, 1, f + 1, count)) {
+    for (; f < count && status == LRCS_OK; f = next_facet_with(open, 1, f + 1, count)) {
         lrcsi_view_progress(classification->view, LRCS_PROGRESS_VISIBILITY, f, count);
         lrcsi_occlude_open(o, f);
         visible[f] = lrcsi_occlude_area(o);
@@ -157,12 +158,12 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
     status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
     if (status == LRCS_OK) { /* only facets that can hide others are ever undecided */
         memcpy(open, classification->undecided, count);
-        for (uint32_t f = facet_next(o.uniform, LRCSI_QUERY_UNDECIDED, 0, count); f < count;
-             f = facet_next(o.uniform, LRCSI_QUERY_UNDECIDED, f + 1, count)) {
+        for (uint32_t f = next_facet_with(o.uniform, LRCSI_QUERY_UNDECIDED, 0, count); f < count;
+             f = next_facet_with(o.uniform, LRCSI_QUERY_UNDECIDED, f + 1, count)) {
             visible[f] = uniform_area(&o, f);
         }
-        for (uint32_t f = facet_next(open, 1, 0, count); f < count;
-             f = facet_next(open, 1, f + 1, count)) {
+        for (uint32_t f = next_facet_with(open, 1, 0, count); f < count;
+             f = next_facet_with(open, 1, f + 1, count)) {
             o.uniform[f] = LRCSI_QUERY_UNDECIDED;
         }
         status = occlude_undecided(&o, work, open, visible);

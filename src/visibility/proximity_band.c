@@ -610,14 +610,42 @@ static uint32_t facets_to_ask(const lrcsi_proximity_band *band, const lrcsi_visi
     return count;
 }
 
+/* Groups of facets to be asked about that meet bands of the same parts and are joined across edges.
+   Other parts hide all of a group or nothing of it. Each is named by one of its facets. */
+static void group_facets(const lrcsi_proximity_band *band, const unsigned char *ask,
+                         uint32_t *group)
+{
+    const lrcs_prepared *p = band->classification->view->prepared;
+    const uint32_t *part = p->scene->facet_part;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        group[f] = f;
+    }
+    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
+        const lrcsi_edge_use *use = p->topology.use + p->topology.edge[e].first_use;
+        for (uint32_t i = 1; i < p->topology.edge[e].uses; i++) {
+            uint32_t a = use[i - 1].facet;
+            uint32_t b = use[i].facet;
+            if (ask[a] && ask[b] && part[a] == part[b] && band->near[a] == band->near[b]) {
+                lrcsi_join(group, a, b);
+            }
+        }
+    }
+    lrcsi_join_settle(group, p->scene->facet_count);
+}
+
 /* A part never hides its own fronts; its inside is left to its rims. */
-static void settle_facets(const lrcsi_proximity_band *band, const unsigned char *ask,
-                          const lrcsi_grid *facets, lrcsi_meter *meter)
+static void settle_groups(const lrcsi_proximity_band *band, const unsigned char *ask,
+                          const uint32_t *group, const lrcsi_grid *facets, lrcsi_meter *meter)
 {
     const lrcs_scene *scene = band->classification->view->prepared->scene;
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         lrcsi_part_set others = band->near[f] | lrcsi_part_set_of(scene->facet_part[f]);
-        if (ask[f] && lrcsi_query_hidden_by_others(facets, f, others, meter)) {
+        if (ask[f] && group[f] == f && lrcsi_query_hidden_by_others(facets, f, others, meter)) {
+            band->hidden[f] = HIDDEN_FACET;
+        }
+    }
+    for (uint32_t f = 0; f < scene->facet_count; f++) {
+        if (ask[f] && band->hidden[group[f]] == HIDDEN_FACET) {
             band->hidden[f] = HIDDEN_FACET;
             band->share[f] = band->gain[f] = band->loss[f] = band->rows[f] = 0;
         }
@@ -626,9 +654,10 @@ static void settle_facets(const lrcsi_proximity_band *band, const unsigned char 
 
 size_t lrcsi_proximity_band_settle_need(const lrcs_prepared *p)
 {
-    return p->proximity.reach ? lrcsi_work_add(lrcsi_work_bytes(p->scene->facet_count, 1),
-                                               lrcsi_grid_facets_need(p))
-                              : 0;
+    size_t facets = p->scene->facet_count;
+    size_t need =
+        lrcsi_work_add(lrcsi_work_bytes(facets, 1), lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    return p->proximity.reach ? lrcsi_work_add(need, lrcsi_grid_facets_need(p)) : 0;
 }
 
 void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_visible *visible,
@@ -636,12 +665,16 @@ void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_v
 {
     const lrcsi_classification *c = band->classification;
     size_t mark = work->used;
-    unsigned char *ask = lrcsi_work_take(work, c->view->prepared->scene->facet_count, 1);
+    uint32_t count = c->view->prepared->scene->facet_count;
+    unsigned char *ask = lrcsi_work_take(work, count, 1);
+    uint32_t *group = lrcsi_work_take(work, count, sizeof *group);
     lrcsi_grid facets;
-    const lrcsi_grid_readers readers = {.undecided = ask};
-    if (ask && facets_to_ask(band, visible, ask) > 0 &&
-        lrcsi_grid_facets(&c->grid, &c->boxes, &readers, work, &facets) == LRCS_OK) {
-        settle_facets(band, ask, &facets, meter);
+    if (ask && group && facets_to_ask(band, visible, ask) > 0) {
+        const lrcsi_grid_readers readers = {.undecided = ask};
+        group_facets(band, ask, group);
+        if (lrcsi_grid_facets(&c->grid, &c->boxes, &readers, work, &facets) == LRCS_OK) {
+            settle_groups(band, ask, group, &facets, meter);
+        }
     }
     work->used = mark;
     settle_regions(band, visible);

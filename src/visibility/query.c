@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The visibility of a facet along one line of sight, against the facets listed in the line's grid
-   cell. Which of two facets is nearer is decided by visibility/sample.h, unless their boxes already
-   show it. */
+/* The visibility of a facet along one line of sight, against the facets listed in the grid cells of
+   the line. Which of two facets is nearer is decided by visibility/sample.h, unless their boxes
+   already show it. */
 #include "visibility/query.h"
 
 #include <math.h>
@@ -60,7 +60,7 @@ typedef struct query_line {
 } query_line;
 
 /* Finds the grid cells of the line through line->point. */
-static void line_place(query_line *line)
+static void line_find_cells(query_line *line)
 {
     const lrcsi_view *view = line->grid->view;
     const lrcsi_view_box *own = lrcsi_boxes_facet(&line->grid->boxes, line->facet);
@@ -82,7 +82,7 @@ static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet
     if (line->sense == 0) {
         return 0;
     }
-    line_place(line);
+    line_find_cells(line);
     return 1;
 }
 
@@ -166,7 +166,7 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
     if (!lrcsi_sample_covers(facets->view, facet, point)) {
         return LRCSI_QUERY_UNDECIDED;
     }
-    line_place(&line);
+    line_find_cells(&line);
     return line_answer(&line);
 }
 
@@ -184,14 +184,25 @@ int lrcsi_query_hidden_by_others(const lrcsi_grid *facets, uint32_t facet, lrcsi
     return 0;
 }
 
-/* One query for each region of uniform facets, at its first facet. Returns the number of regions
-   that remain undecided. */
-static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_meter *meter,
-                              const lrcsi_grid *facets, unsigned char *answer)
+/* 1. Makes a grid that lists only what the undecided facets and the first facet of each region
+   need.
+   2. Makes one query for each region, at its first facet. 3. If such a query is undecided, which is
+   rare, makes a complete grid, and a query for each facet of that region. */
+int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter *meter,
+                        lrcs_work *work, lrcsi_grid *facets, unsigned char *answer)
 {
+    size_t mark = work->used;
     const lrcs_prepared *p = classification->view->prepared;
-    uint32_t undecided = 0;
     uint32_t count = p->scene->facet_count;
+    uint32_t undecided = 0;
+    lrcsi_classify_regions(classification);
+    const lrcsi_grid_readers readers = {classification->undecided, classification->region,
+                                        classification->joinable};
+    int status =
+        lrcsi_grid_facets(&classification->grid, &classification->boxes, &readers, work, facets);
+    if (status != LRCS_OK) {
+        return status;
+    }
     memset(answer, LRCSI_QUERY_HIDDEN, count);
     for (uint32_t r = 0; r < p->runs.count; r++) {
         uint32_t start = r * LRCSI_RUN;
@@ -199,8 +210,8 @@ static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_
         if (classification->boxes.state[r] == LRCSI_BOXES_NONE) {
             continue; /* no facet of the run is visible */
         }
-        int one = lrcsi_events_joined(p, classification->joinable, r) == LRCSI_JOINED_ALL;
-        for (uint32_t f = start; f < (one ? start + 1 : end); f++) {
+        int one_region = lrcsi_events_joined(p, classification->joinable, r) == LRCSI_JOINED_ALL;
+        for (uint32_t f = start; f < (one_region ? start + 1 : end); f++) {
             uint32_t first = classification->region[f];
             if (first != f) {
                 answer[f] = answer[first];
@@ -209,32 +220,16 @@ static uint32_t query_regions(const lrcsi_classification *classification, lrcsi_
                 undecided += answer[f] == LRCSI_QUERY_UNDECIDED;
             }
         }
-        if (one) {
+        if (one_region) {
             memset(answer + start, answer[start], end - start);
         }
     }
-    return undecided;
-}
-
-/* One query for the first facet of each region, with a grid that lists only what these and the
-   undecided facets need. If such a query is undecided, which is rare, a complete grid is made, and
-   each facet of that region has a query of its own. */
-int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter *meter,
-                        lrcs_work *work, lrcsi_grid *facets, unsigned char *answer)
-{
-    size_t mark = work->used;
-    uint32_t count = classification->view->prepared->scene->facet_count;
-    lrcsi_classify_regions(classification);
-    const lrcsi_grid_readers readers = {classification->undecided, classification->region,
-                                        classification->joinable};
-    int status =
-        lrcsi_grid_facets(&classification->grid, &classification->boxes, &readers, work, facets);
-    if (status != LRCS_OK || query_regions(classification, meter, facets, answer) == 0) {
-        return status;
+    if (undecided > 0) {
+        work->used = mark;
+        status =
+            lrcsi_grid_facets(&classification->grid, &classification->boxes, NULL, work, facets);
     }
-    work->used = mark;
-    status = lrcsi_grid_facets(&classification->grid, &classification->boxes, NULL, work, facets);
-    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
+    for (uint32_t f = 0; undecided > 0 && f < count && status == LRCS_OK; f++) {
         if (answer[f] == LRCSI_QUERY_UNDECIDED) {
             answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
         }
@@ -242,23 +237,19 @@ int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter 
     return status;
 }
 
-/* Is `other` in contact with the facet? Returns 1 too when the meter is spent. */
+/* Does `other` meet the interior of the facet? Returns 1 too when the meter is spent. */
 static int in_contact(const lrcs_prepared *p, uint32_t facet, uint32_t other, lrcsi_meter *meter)
 {
     if (!lrcsi_meter_take(meter, lrcsi_intersection_of(&p->intersections, facet))) {
         return 1;
     }
-    for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
-        if (p->intersections.entry[i].other == other) {
-            return 1;
-        }
-    }
-    return 0;
+    return lrcsi_intersection_find(&p->intersections, facet, other) != NULL;
 }
 
-/* Does none of the component's event edges cross the facet, and none of its facets have contact
-   with it? Returns 0 too when the meter is spent. `all`: another component failed before; then all
-   crossings of the facet are searched for at once. */
+/* Is it proved that a component that is in front of one point of the facet is in front of all of
+   it: none of the component's event edges crosses the facet, and none of its facets meets it?
+   Returns 0 too when the meter is spent. all: another component failed before; then all crossings
+   of the facet are found at once. */
 static int component_covers(lrcsi_classification *classification, uint32_t component,
                             uint32_t facet, int all, lrcsi_meter *meter)
 {

@@ -15,7 +15,8 @@ NEVER = {
     "lrcs_prepare_run": {"LRCS_E_ARGUMENT"},
     "lrcs_host_scene_prepare": {"LRCS_E_ARGUMENT"},
     # a finer division that cannot be built is not used
-    "lrcs_host_scene_division": {"LRCS_E_NAME"},
+    "lrcs_host_scene_refine": {"LRCS_E_ARGUMENT", "LRCS_E_INDEX", "LRCS_E_LIMIT", "LRCS_E_MEMORY", "LRCS_E_NAME",
+                               "LRCS_E_NUMBER", "LRCS_E_SYSTEM", "LRCS_E_UNSUPPORTED"},
     "lrcs_host_sweep_run": {"LRCS_E_NAME"},
     # a direction made of a sine and a cosine, or a rotation, is never zero
     "lrcs_pose_from_azel": {"LRCS_E_ARGUMENT"},

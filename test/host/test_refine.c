@@ -101,30 +101,64 @@ static void order_and_threads_change_nothing(void **state)
     }
 }
 
-static void a_division_is_found_with_which_the_pose_meets_the_tolerance(void **state)
+static void run(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                const lrcs_run_options *options, lrcs_result *result)
+{
+    assert_int_equal(lrcs_host_scene_run(scene, pose, options, result, NULL, NULL, NULL, &error),
+                     LRCS_OK);
+}
+
+/* Runs a pose and refines the scene as long as that helps; returns how often it did. */
+static int refine(lrcs_host_scene *scene, const lrcs_pose *pose, const lrcs_run_options *options,
+                  lrcs_result *result, double *division)
+{
+    int times = 0;
+    run(scene, pose, options, result);
+    while (lrcs_host_scene_refine(scene, options, result, division)) {
+        run(scene, pose, options, result);
+        times++;
+    }
+    return times;
+}
+
+/* The scene becomes the one of the division that it needs, in all that is made of it, notices too,
+   which count the facets without a material. */
+static void a_scene_becomes_the_one_that_meets_the_tolerance(void **state)
 {
     (void)state;
-    lrcs_host_scene scene;
-    lrcs_host_scene fine;
-    lrcs_pose pose;
-    lrcs_result result;
-    double division = 0;
-    lrcs_run_options options = lrcs_run_options_default();
-    options.tolerance = 1e-5;
-    assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
-    scene_make(&scene, "demo", LRCS_HOST_DIVISION);
-    assert_int_equal(
-        lrcs_host_scene_run(&scene, &pose, &options, &result, NULL, NULL, NULL, &error), LRCS_OK);
-    assert_true(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
-    assert_int_equal(lrcs_host_scene_division(&scene, &pose, &options, &division, NULL, &error),
-                     LRCS_OK);
-    assert_true(division > 0 && division < LRCS_HOST_DIVISION);
-    scene_make(&fine, "demo", division);
-    assert_int_equal(lrcs_host_scene_run(&fine, &pose, &options, &result, NULL, NULL, NULL, &error),
-                     LRCS_OK);
-    assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
-    lrcs_host_scene_free(&fine);
-    lrcs_host_scene_free(&scene);
+    static const char *const path[] = {"demo", "test/host/refine_unbound.toml"};
+    for (int n = 0; n < 2; n++) {
+        lrcs_host_scene scene;
+        lrcs_host_scene fine;
+        lrcs_pose pose;
+        lrcs_result result;
+        lrcs_result again;
+        double division = 0;
+        lrcs_run_options options = lrcs_run_options_default();
+        options.tolerance = 1e-5;
+        assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
+        scene_make(&scene, path[n], LRCS_HOST_DIVISION);
+        uint32_t coarse = scene.scene.facet_count;
+        assert_true(refine(&scene, &pose, &options, &result, &division) > 0);
+        assert_true(division > 0 && division < LRCS_HOST_DIVISION);
+        assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+        assert_true(scene.scene.facet_count > coarse && result.facets_total > coarse);
+        scene_make(&fine, path[n], division);
+        run(&fine, &pose, &options, &again);
+        assert_true(result.sigma_m2 == again.sigma_m2 && result.bound_m2 == again.bound_m2);
+        assert_true(lrcs_scene_hash(&scene.scene) == lrcs_scene_hash(&fine.scene));
+        assert_int_equal(scene.notices.count, fine.notices.count);
+        for (uint32_t i = 0; i < fine.notices.count; i++) {
+            assert_string_equal(scene.notices.text[i], fine.notices.text[i]);
+        }
+        double finer = division; /* from there on */
+        options.tolerance = 1e-6;
+        assert_true(refine(&scene, &pose, &options, &result, &finer) > 0);
+        assert_true(finer < division && !(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET));
+        assert_true(scene.scene.facet_count > fine.scene.facet_count);
+        lrcs_host_scene_free(&fine);
+        lrcs_host_scene_free(&scene);
+    }
 }
 
 /* Where facets are not what a bound comes from, dividing them further is no use. */
@@ -133,22 +167,20 @@ static void a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is(void **sta
     (void)state;
     lrcs_host_scene scene;
     lrcs_pose pose;
+    lrcs_result result;
     double division = -1;
     lrcs_run_options options = lrcs_run_options_default();
     options.tolerance = 1e-9;
     options.steps = 10;
     assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
-    scene_make(&scene, "demo", LRCS_HOST_DIVISION);
-    assert_int_equal(lrcs_host_scene_division(&scene, &pose, &options, &division, NULL, &error),
-                     LRCS_OK);
-    assert_true(division == LRCS_HOST_DIVISION);
-    lrcs_host_scene_free(&scene);
-    scene_make(&scene, "demo", 0);
-    assert_null(scene.levels);
-    assert_int_equal(lrcs_host_scene_division(&scene, &pose, &options, &division, NULL, &error),
-                     LRCS_OK);
-    assert_true(division == 0);
-    lrcs_host_scene_free(&scene);
+    for (int divided = 0; divided < 2; divided++) {
+        scene_make(&scene, "demo", divided ? LRCS_HOST_DIVISION : 0);
+        uint32_t facets = scene.scene.facet_count;
+        assert_true((scene.levels != NULL) == divided);
+        assert_int_equal(refine(&scene, &pose, &options, &result, &division), 0);
+        assert_true(division == -1 && scene.scene.facet_count == facets);
+        lrcs_host_scene_free(&scene);
+    }
 }
 
 int main(void)
@@ -156,7 +188,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pose_meets_its_tolerance_and_all_of_them_agree),
         cmocka_unit_test(order_and_threads_change_nothing),
-        cmocka_unit_test(a_division_is_found_with_which_the_pose_meets_the_tolerance),
+        cmocka_unit_test(a_scene_becomes_the_one_that_meets_the_tolerance),
         cmocka_unit_test(a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -105,16 +105,16 @@ static void crossings_are_searched_for_once(void **state)
     square(2.5, 0.5, 1, 1);
     look_from(0, 0, 1);
     uint32_t found[4];
-    uint32_t before = classification.asked;
+    uint32_t before = classification.searches;
     assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
     assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
-    assert_int_equal(classification.asked, before + 1);
+    assert_int_equal(classification.searches, before + 1);
     memcpy(found, classification.crossing, sizeof found);
     assert_int_equal(lrcsi_classify_crossings(&classification, 1, NULL), 0);
-    assert_int_equal(classification.asked, before + 2);
+    assert_int_equal(classification.searches, before + 2);
     assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
     assert_memory_equal(classification.crossing, found, sizeof found);
-    assert_int_equal(classification.asked, before + 3);
+    assert_int_equal(classification.searches, before + 3);
 }
 
 /* A rim that projects exactly onto another plate's rim, or only touches it, crosses nothing. */

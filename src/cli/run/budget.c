@@ -81,9 +81,12 @@ static int setting_run(run_job *job, budget_answer *answer)
         code = code ? code : cli_run_divide(job);
     }
     code = code == 0 && !job->scene.prepared ? cli_scene_prepare(&job->scene) : code;
-    code = code ? code
-                : cli_scene_run(&job->scene, &job->pose, &job->options, &answer->result, NULL, NULL,
-                                &answer->seconds_pose);
+    if (code == 0 && !job->divided) {
+        code = cli_scene_run(&job->scene, &job->pose, &job->options, &job->result, NULL, NULL,
+                             &job->seconds);
+    }
+    answer->result = job->result;
+    answer->seconds_pose = job->seconds;
     answer->options = job->options;
     answer->build = job->load.build;
     answer->seconds_load = job->scene.seconds_load;
@@ -293,6 +296,7 @@ static int budget_settle(run_job *job, const budget_answer *best)
     int code = 0;
     if (cli_has_curved_shapes(&job->scene.scene)) {
         lrcs_host_scene_free(&job->scene);
+        job->divided = 0;
         job->load.build = best->build;
         code = cli_scene_read(job->args, &job->load, &job->scene);
     }

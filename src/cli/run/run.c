@@ -121,26 +121,14 @@ static int options_read(run_job *job)
 
 /* ---- the run ---- */
 
-/* Allocates memory for what the outputs show. */
-static int run_room(run_job *job)
-{
-    job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
-    if (job->image_path) {
-        lrcs_host_picture picture = cli_run_picture(job);
-        job->image.size = lrcs_host_picture_need(&picture, job->image_size);
-        job->image.facet = calloc((size_t)job->image.size * job->image.size, sizeof(uint32_t));
-    }
-    if (!job->records || (!job->image.facet && job->image_path)) {
-        return cli_out_of_memory();
-    }
-    return 0;
-}
-
-/* Prints a notice if shapes became very many facets and the run takes long. */
-static void run_patience(const run_job *job)
+/* Prints a notice, once, if shapes became very many facets and the run takes long, unless the time
+   that it may take was given. */
+static void run_patience(run_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
-    if (scene->facet_count > RUN_MANY && cli_has_curved_shapes(scene)) {
+    if (scene->facet_count > RUN_MANY && cli_has_curved_shapes(scene) &&
+        !(job->budget.asked_ms > 0.0) && !job->announced) {
+        job->announced = 1;
         fprintf(stderr,
                 "lrcs: %lu facets for a tolerance of %g: preparing and running them takes a "
                 "while\n",
@@ -148,55 +136,75 @@ static void run_patience(const run_job *job)
     }
 }
 
+static int run_prepare(run_job *job)
+{
+    run_patience(job);
+    cli_watch_stage("preparing", &job->scene);
+    return cli_scene_prepare(&job->scene) != 0 ? CLI_FAILED : 0;
+}
+
+/* Allocates memory for the scene's records. */
+static int run_records(run_job *job)
+{
+    free(job->records);
+    job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
+    return job->records ? 0 : cli_out_of_memory();
+}
+
+/* Runs the pose, unless that is done, and makes what the outputs show. */
 static int run_pose(run_job *job)
 {
     lrcs_host_error error;
-    if (!job->scene.prepared) {
-        run_patience(job);
-        cli_watch_stage("preparing", &job->scene);
+    int code = job->scene.prepared ? 0 : run_prepare(job);
+    int done = job->divided && !job->image_path;
+    if (code == 0 && !done) {
+        code = run_records(job);
     }
-    if (!job->scene.prepared && cli_scene_prepare(&job->scene) != 0) {
-        return CLI_FAILED;
+    if (code == 0 && job->image_path) {
+        lrcs_host_picture picture = cli_run_picture(job);
+        job->image.size = lrcs_host_picture_need(&picture, job->image_size);
+        job->image.facet = calloc((size_t)job->image.size * job->image.size, sizeof(uint32_t));
+        code = job->image.facet ? 0 : cli_out_of_memory();
+    }
+    if (code != 0) {
+        return code;
     }
     cli_watch_stage("pose", NULL);
     job->options.progress = cli_watch_run();
     if (job->emulation.asked) {
         return cli_run_emulate(job);
     }
-    int status =
-        lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
-                            job->image_path ? &job->image : NULL, &job->seconds, &error);
-    if (status == LRCS_OK && job->polygons_path) {
-        status = lrcs_host_polygons_make(&job->scene, &job->pose, &job->polygons, &error);
+    if (!done) {
+        code = cli_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
+                             job->image_path ? &job->image : NULL, &job->seconds);
     }
-    if (status != LRCS_OK) {
-        return cli_failed(&error);
+    if (code == 0 && job->polygons_path &&
+        lrcs_host_polygons_make(&job->scene, &job->pose, &job->polygons, &error) != LRCS_OK) {
+        code = cli_failed(&error);
     }
-    return 0;
+    return code;
 }
 
 int cli_run_divide(run_job *job)
 {
-    lrcs_host_error error;
-    double division = 0.0;
-    if (!job->scene.levels) {
-        return 0;
+    lrcs_host_scene *scene = &job->scene;
+    job->divided = scene->levels != NULL;
+    int code = job->divided ? run_prepare(job) : 0;
+    for (int finer = job->divided; finer && code == 0;) {
+        cli_watch_stage("pose", NULL);
+        job->options.progress = cli_watch_run();
+        code = run_records(job);
+        code = code ? code
+                    : cli_scene_run(scene, &job->pose, &job->options, &job->result, job->records,
+                                    NULL, &job->seconds);
+        cli_watch_stage("dividing curved shapes", NULL);
+        finer = code == 0 && lrcs_host_scene_refine(scene, &job->options, &job->result,
+                                                    &job->load.build.division);
+        if (finer) {
+            run_patience(job);
+        }
     }
-    cli_watch_stage("dividing curved shapes", NULL);
-    int status = lrcs_host_scene_prepare(&job->scene, &error);
-    if (status == LRCS_OK) {
-        status = lrcs_host_scene_division(&job->scene, &job->pose, &job->options, &division, NULL,
-                                          &error);
-    }
-    if (status != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    if (division == job->load.build.division) {
-        return 0;
-    }
-    job->load.build.division = division;
-    lrcs_host_scene_free(&job->scene);
-    return cli_scene_read(job->args, &job->load, &job->scene);
+    return code;
 }
 
 /* A search for the best settings already has their result; files and shares need the run itself. */
@@ -209,8 +217,7 @@ static int run_scene(run_job *job)
     code = code ? code : cli_run_outputs_check(job);
     code = code ? code : searched ? cli_run_budget(job) : cli_run_divide(job);
     if (code == 0 && (files || !searched)) {
-        code = run_room(job);
-        code = code ? code : run_pose(job);
+        code = run_pose(job);
     }
     code = code ? code : cli_run_materials(job);
     return code == 0 && job->shares_asked

@@ -62,6 +62,8 @@ typedef struct run_job {
     lrcs_host_scene scene;
     lrcs_result result;
     lrcs_facet_record *records;
+    int announced; /* that it takes long */
+    int divided;   /* 1: cli_run_divide has run the pose */
     lrcs_image image;
     lrcs_host_polygons polygons;
     double seconds;
@@ -101,8 +103,8 @@ void cli_run_explain_json(const run_job *job, int effect, lrcs_host_json *json);
 void cli_run_explain_stages_json(const run_job *job, lrcs_host_json *json);
 void cli_run_explain_table(const run_job *job);
 
-/* Divides curved shapes as finely as the pose needs: reads the scene again if its own division does
-   not suffice. 0, CLI_FAILED or CLI_USAGE. */
+/* Runs the pose with curved shapes divided as finely as it needs, if they can be divided:
+   job->scene becomes the scene of that division, and job->divided 1. 0 or CLI_FAILED. */
 int cli_run_divide(run_job *job);
 
 /* 1 if a result meets a tolerance, by its bound and by the estimate of what curved normals add. A
