@@ -632,6 +632,8 @@ static void widths_and_numbers_of_bins_have_limits(void **state)
     assert_int_equal(profile_try(direction, 1e-300), LRCS_E_LIMIT);
     plate_at(1e9);
     assert_int_equal(profile_try(direction, 1e-4), LRCS_E_LIMIT); /* numbers beyond 2^40 */
+    plate_at(-1e9);
+    assert_int_equal(profile_try(direction, 1e-4), LRCS_E_LIMIT);
     assert_memory_equal(&profile, &before, sizeof profile);
     plate_at(0);
     profile_make(direction, 1e-5);

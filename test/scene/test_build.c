@@ -433,6 +433,18 @@ static void unfit_shapes_materials_and_options_are_refused(void **state)
     part.material = "none such";
     assert_int_equal(refused(&recipe, NULL, &where), LRCS_E_NAME);
     assert_string_equal(where.found, "none such");
+    recipe.binding_count = 0;
+    part = shape_part(LRCS_SHAPE_SPHERE, 1.0, 0.0, 0.0);
+    part.place.scale[1] = 0;
+    for (int only = LRCS_FACETS_BASE; only <= LRCS_FACETS_LOCAL; only++) {
+        static unsigned char area[1u << 20];
+        const lrcs_build_options coarse = {0.1, 4096, LRCS_NORMALS_FLAT, only, 0};
+        lrcs_work work = lrcs_work_make(area, sizeof area);
+        lrcs_scene scene;
+        assert_int_equal(lrcs_scene_build(&recipe, NULL, &coarse, &work, &scene, &where),
+                         LRCS_E_ARGUMENT);
+        assert_int_equal(work.used, 0);
+    }
     part = model_part("m");
     static const lrcs_build_options options[] = {{0.0, 64, 0, 0, 0},
                                                  {(double)NAN, 64, 0, 0, 0},
