@@ -516,7 +516,7 @@ static void batch_collect(total_run *run, total_batch *batch, uint32_t place,
         list[count] = place + i;
         count += (uint32_t)(pick[i] >> 63);
     }
-    if (run->visible || run->curved || run->clear || run->view->prepared->batches.redundant) {
+    if (run->visible || run->clear || run->view->prepared->batches.redundant) {
         count = keep_visible(run, list, count, side);
     }
     for (uint32_t i = 0; batch->back_reflects && i < count; i++) {

@@ -249,7 +249,7 @@ static void a_plate_all_but_edge_on_follows_eq_2_with_any_material(void **state)
     static const lrcs_brdf brdf[] = {{0, 0.25, 0, 0.5}, {1, 0.25, 2, 0.5}, {1, 0.25, 0.2, 0.5}};
     need_wide_long_double();
     for (int i = 0; i < 9; i++) {
-        double tangent = i / 3 == 0 ? 1e-9 : i / 3 == 1 ? 1e-40 : 1e-90;
+        double tangent = i / 3 == 0 ? 1e-9 : i / 3 == 1 ? 1e-40 : 1e-200;
         lrcs_pose pose;
         lrcs_work work;
         lrcs_result r;
