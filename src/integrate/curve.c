@@ -198,7 +198,7 @@ double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcs
 }
 
 /* The contribution of a facet with curved normals that o has opened, from its pieces; closes it. */
-static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occluding *o,
+static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occlusion *o,
                                       lrcsi_visible *visible)
 {
     const lrcsi_target *target = &o->alone.target;
@@ -224,7 +224,7 @@ int lrcsi_curve_from_pieces(lrcsi_classification *classification,
     const lrcsi_view *view = classification->view;
     uint32_t count = view->prepared->scene->facet_count;
     size_t mark = work->used;
-    lrcsi_occluding o;
+    lrcsi_occlusion o;
     lrcsi_curve_integral integral;
     lrcsi_curve_context context = lrcsi_curve_context_make(view, options);
     int status = lrcsi_occlude_make(classification, options->meter, work, &o);

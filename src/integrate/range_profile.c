@@ -444,7 +444,7 @@ static double fan_add(profile_run *run, const profile_facet *f, const lrcsi_targ
 /* Adds the visible pieces of a facet, and returns the area D of part (2). On a convex surface
    fronts are visible without clipping, except those at grazing incidence. */
 static double pieces_add(profile_run *run, const profile_facet *f, uint32_t facet,
-                         const lrcsi_incidence *incidence, lrcsi_occluding *o)
+                         const lrcsi_incidence *incidence, lrcsi_occlusion *o)
 {
     double corner_err = 2 * LRCSI_U * f->range_max + 1.01 * f->range_off;
     const double(*normal)[3] = f->curve ? (const double(*)[3])f->curve->normal : NULL;
@@ -484,7 +484,7 @@ static double pieces_add(profile_run *run, const profile_facet *f, uint32_t face
 }
 
 /* Adds a facet that reflects. */
-static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occluding *o)
+static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occlusion *o)
 {
     lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
     lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
@@ -694,7 +694,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     const lrcs_run_options options = {.method = LRCS_METHOD_EXACT};
     const lrcsi_clear clear = {0};
     lrcsi_classification classification;
-    lrcsi_occluding o;
+    lrcsi_occlusion o;
     int status = lrcsi_view_face(p, pose, lrcsi_plan_backs(p, &options), work, view);
     status = status == LRCS_OK ? lrcsi_view_project(work, view) : status;
     if (status != LRCS_OK) {

@@ -66,11 +66,11 @@
 /* The depth order of a facet against f: one of these, or the number of the segment in which the two
    intersect. */
 enum alone_order {
-    ORDER_NOT_COMPUTED = 0x7ffffff0, /* not computed yet */
-    ORDER_FRONT,                     /* nearer, wherever a line meets both */
-    ORDER_BEHIND,                    /* farther */
-    ORDER_DISJOINT,                  /* it lies beyond a side of f: not a candidate */
-    ORDER_UNKNOWN                    /* they intersect along a line that could not be computed */
+    ORDER_NOT_COMPUTED = 0x7ffffff0,
+    ORDER_FRONT,    /* nearer, wherever a line meets both */
+    ORDER_BEHIND,   /* farther */
+    ORDER_DISJOINT, /* it lies beyond a side of f: not a candidate */
+    ORDER_UNDECIDED /* they intersect along a line that could not be computed */
 };
 
 /* --- what a facet begins with ----------------------------------------------------------------- */
@@ -148,7 +148,7 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
                     ? -1
                     : lrcsi_sample_overlap_order(view, other, a->facet);
     }
-    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_UNKNOWN;
+    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_UNDECIDED;
 }
 
 /* Does another facet lie entirely beyond one side of f? */
@@ -169,8 +169,9 @@ static int facet_apart(const lrcsi_alone *a, const lrcsi_view_side own[3], uint3
     return apart;
 }
 
-/* Lists the candidates. 0 if the meter is spent. */
-static int alone_facets(lrcsi_alone *a)
+/* Lists the candidates: facets whose boxes overlap that of f and that are not entirely behind it or
+   beyond one of its sides. 0 if the meter is spent. */
+static int list_candidates(lrcsi_alone *a)
 {
     const lrcsi_grid *grid = &a->grid;
     lrcsi_cells_work *c = &a->cells;
@@ -236,8 +237,8 @@ static int edge_is_behind(lrcsi_alone *a, const uint32_t owner[2])
     return behind;
 }
 
-/* An edge, unless its facets are behind f. 0 if there is no room. */
-static int alone_edge(lrcsi_alone *a, uint32_t edge)
+/* Adds an edge, unless its facets are behind f. 0 if there is no room. */
+static int add_alone_edge(lrcsi_alone *a, uint32_t edge)
 {
     lrcsi_cells_work *c = &a->cells;
     const lrcs_prepared *p = c->view->prepared;
@@ -264,8 +265,9 @@ static int alone_edge(lrcsi_alone *a, uint32_t edge)
     return 1;
 }
 
-/* The depth order of a facet that touches f, and the segments due to it. 0 if there is no room. */
-static int alone_contact(lrcsi_alone *a, uint32_t other)
+/* Finds the depth order of a facet that meets the interior of f, and adds the segments due to it. 0
+   if there is no room. */
+static int add_alone_contact(lrcsi_alone *a, uint32_t other)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_contact contact;
@@ -274,7 +276,7 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
     a->order[other] = side > 0 ? ORDER_FRONT : side < 0 ? ORDER_BEHIND : ORDER_NOT_COMPUTED;
     if (side == 0 && kind != LRCSI_CONTACT_POINT) {
         a->order[other] = kind == LRCSI_CONTACT_FLAT      ? (uint32_t)ORDER_FRONT
-                          : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)ORDER_UNKNOWN
+                          : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)ORDER_UNDECIDED
                                                           : c->segment_count;
     }
     if (kind == LRCSI_CONTACT_POINT) {
@@ -283,7 +285,7 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
     if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
         int done = 1;
         for (int k = 0; k < 3 && done; k++) {
-            done = alone_edge(a, c->view->prepared->topology.facet_edge[other].corner[k]);
+            done = add_alone_edge(a, c->view->prepared->topology.facet_edge[other].corner[k]);
         }
         return done;
     }
@@ -301,20 +303,21 @@ static int alone_contact(lrcsi_alone *a, uint32_t other)
 }
 
 /* Lists the segments. 0 if there is no room, or the meter is spent. */
-static int alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
+static int list_alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     const lrcsi_intersections *intersections = &c->view->prepared->intersections;
     for (uint32_t i = intersections->first[a->facet]; i < intersections->first[a->facet + 1]; i++) {
-        const lrcsi_intersection *touch = &intersections->entry[i];
-        if (is_candidate(a, touch->other) && lrcsi_intersection_hides(c->view, a->facet, touch) &&
-            !alone_contact(a, touch->other)) {
+        const lrcsi_intersection *contact = &intersections->entry[i];
+        if (is_candidate(a, contact->other) &&
+            lrcsi_intersection_hides(c->view, a->facet, contact) &&
+            !add_alone_contact(a, contact->other)) {
             return 0;
         }
     }
     uint32_t crossings = lrcsi_classify_crossings(a->classification, a->facet, c->meter);
     for (uint32_t i = 0; i < crossings; i++) {
-        if (!alone_edge(a, a->classification->crossing[i])) {
+        if (!add_alone_edge(a, a->classification->crossing[i])) {
             return 0;
         }
     }
@@ -331,7 +334,7 @@ static void leave_area_undecided(lrcsi_alone *a, double area)
 
 /* Makes the record of f, the first cell, and the error along the sides of f. 0 if rounding may have
    reversed the triangle's orientation. */
-static int alone_shape(lrcsi_alone *a, lrcsi_cells_cell *cell)
+static int make_first_cell(lrcsi_alone *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_facet *f = &a->shape;
@@ -370,7 +373,7 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     c->facets = &a->number;
     c->segment_count = c->top = 0;
     c->stamp++;
-    if (!alone_shape(a, &cell) || !alone_facets(a) || !alone_segments(a, &cell)) {
+    if (!make_first_cell(a, &cell) || !list_candidates(a) || !list_alone_segments(a, &cell)) {
         leave_area_undecided(a, lrcsi_view_incidence(c->view, facet).projected / a->frame.unit);
         return;
     }
@@ -421,12 +424,13 @@ enum alone_test { TEST_BOUNDED, TEST_EXACT, TEST_GUESSED };
 /* A sample in a cell. */
 typedef struct alone_sample {
     double at[2], clear;
-    int test; /* an alone_way */
+    int test; /* an alone_test */
     double point[3];
     double err;                     /* the distance in the view between `at` and `point` */
     lrcsi_view_box box;             /* in the view; its depth does not count */
-    const lrcsi_cells_segment *cut; /* found: a segment of the component that ends at the */
-    uint32_t ends;                  /* fewest, and how many these are */
+    uint32_t ends;                  /* of the components in front of f, the fewest segments of the
+                                       cell at which one ends or meets f */
+    const lrcsi_cells_segment *cut; /* one of these segments */
 } alone_sample;
 
 /* Finds the sample's point in space from its barycentric coordinates; its coordinates are
@@ -453,7 +457,7 @@ static lrcsi_view_box sample_view_box(const lrcsi_alone *a, const alone_sample *
     double first[3];
     double x[3];
     lrcsi_view_coordinates(a->cells.view, a->target.origin, first);
-    lrcsi_target_unrefine(&a->frame, sample->at, x);
+    lrcsi_target_to_axes(&a->frame, sample->at, x);
     x[0] += first[0];
     x[1] += first[1];
     x[2] = first[2];
@@ -634,7 +638,7 @@ static void add_visible_piece(lrcsi_alone *a, const lrcsi_cells_cell *cell,
     a->piece = cell->shape;
     if (a->frame.needle) {
         for (uint32_t i = 0; i < cell->shape.count; i++) {
-            lrcsi_target_unrefine(&a->frame, cell->shape.corner[i], a->piece.corner[i]);
+            lrcsi_target_to_axes(&a->frame, cell->shape.corner[i], a->piece.corner[i]);
         }
         a->piece_err += 4 * LRCSI_U * a->target.reach * lrcsi_clip_perimeter(&a->piece);
     }
@@ -660,7 +664,7 @@ static int process_alone_cell(lrcsi_alone *a, lrcsi_cells_cell *cell)
         sample.ends = choose_segment(a, cell, sample.at, LRCS_NONE, &sample.cut);
     }
 
-    /* 2. If no segment is left that matters, the whole cell is visible or hidden as the sample is.
+    /* 2. If no segment is left that matters, all of the cell is visible or hidden, as the sample.
      */
     if (hidden >= 0 && sample.ends == 0) {
         a->area.uncertainty +=

@@ -124,37 +124,15 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *
     }
 }
 
-static void blocks_put_facet(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t facet)
-{
-    const lrcsi_view *view = c->classification->view;
-    const uint32_t *vertex = view->prepared->scene->facet[facet].corner;
-    const double *const corner[3] = {view->point[vertex[0]].x, view->point[vertex[1]].x,
-                                     view->point[vertex[2]].x};
-    blocks_put(c, b, corner, 3, facet);
-}
-
-static void blocks_put_edge(lrcsi_cells_grid *c, lrcsi_cells_lists *b, uint32_t event)
-{
-    const lrcsi_view *view = c->classification->view;
-    const lrcsi_edge *e = &view->prepared->topology.edge[c->classification->events.edge[event]];
-    const double *const corner[3] = {view->point[e->low].x, view->point[e->high].x, NULL};
-    blocks_put(c, b, corner, 2, event);
-}
-
-/* Is a facet proved to be hidden everywhere? */
-static int facet_hidden(const lrcsi_cells_grid *c, uint32_t facet)
-{
-    return c->answer && !c->classification->undecided[facet] &&
-           c->answer[facet] == LRCSI_QUERY_HIDDEN;
-}
-
-/* Lists the facets that can hide others, or the events: counts them, then lists them. 0 if memory
-   does not suffice, or the lists are too long. */
+/* Lists the facets that can hide others and are not proved to be hidden, or the events: counts
+   them, then lists them. 0 if memory does not suffice, or the lists are too long. */
 static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lrcs_work *work)
 {
+    const lrcsi_classification *classification = c->classification;
+    const lrcsi_view *view = classification->view;
+    const lrcs_prepared *p = view->prepared;
     size_t count = (size_t)c->side * c->side;
-    uint32_t items = events ? c->classification->events.count
-                            : c->classification->view->prepared->scene->facet_count;
+    uint32_t items = events ? classification->events.count : p->scene->facet_count;
     b->first = lrcsi_work_take_zero(work, count + 1, sizeof *b->first);
     b->item = NULL;
     if (!b->first) {
@@ -163,14 +141,19 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
     for (int pass = 0; pass < 2; pass++) {
         for (uint32_t i = 0; i < items; i++) {
             if (events) {
-                blocks_put_edge(c, b, i);
-            } else if (lrcsi_view_casts(c->classification->view, i) && !facet_hidden(c, i)) {
-                blocks_put_facet(c, b, i);
+                const lrcsi_edge *e = &p->topology.edge[classification->events.edge[i]];
+                const double *const end[3] = {view->point[e->low].x, view->point[e->high].x, NULL};
+                blocks_put(c, b, end, 2, i);
+            } else if (lrcsi_view_casts(view, i) && !(c->answer && !classification->undecided[i] &&
+                                                      c->answer[i] == LRCSI_QUERY_HIDDEN)) {
+                const uint32_t *vertex = p->scene->facet[i].corner;
+                const double *const corner[3] = {view->point[vertex[0]].x, view->point[vertex[1]].x,
+                                                 view->point[vertex[2]].x};
+                blocks_put(c, b, corner, 3, i);
             }
         }
         if (pass == 0 &&
-            lrcsi_lists_room(b->first, count, max_entries(c->classification->view->prepared), work,
-                             &b->item) != LRCS_OK) {
+            lrcsi_lists_room(b->first, count, max_entries(p), work, &b->item) != LRCS_OK) {
             return 0;
         }
     }

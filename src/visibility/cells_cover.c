@@ -352,11 +352,6 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
     return 0;
 }
 
-static void facet_charge(lrcsi_cells_work *c, uint32_t facet, double uncertainty)
-{
-    c->area[facet].uncertainty += c->wanted[facet] ? uncertainty : 0;
-}
-
 /* Is a facet that certainly covers the sample behind the component there? at NULL: yes. */
 static int behind_at(const lrcsi_cells_work *c, const lrcsi_cells_sides *s, const double *at,
                      uint32_t facet)
@@ -387,7 +382,7 @@ void lrcsi_cells_cull(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
              lrcsi_cells_facet_z_bound(&c->facet[f], s, 1) < low)) {
             c->listed[f] = 0;
             c->state[f] |= LRCSI_CELLS_HIDDEN;
-            facet_charge(c, f, cell->uncertainty + uncertainty);
+            c->area[f].uncertainty += c->wanted[f] ? cell->uncertainty + uncertainty : 0;
             continue;
         }
         lrcsi_cells_swap(c->facets, i, kept++);

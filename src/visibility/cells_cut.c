@@ -18,7 +18,7 @@
    of its own line, with the cell on one side of that line. Let c be the distance of the sample P
    from these lines; it exceeds 4 w. The path from P to x then crosses the segment only if x lies
    within 4 w of that line, and no farther along it from the segment than 4 w / c times the cell's
-   diameter. That is below STRIP_OVERHANG w if c exceeds LRCSI_CELLS_THIN times the perimeter. The
+   diameter. That is below STRIP_OVERHANG w if c exceeds MAX_THIN times the perimeter. The
    area of this strip is undecided. It is charged to the facets of the list, to each no more than
    its part of the strip, when the segment is removed from the list; the cells cut from this one
    then need not consider the segment. A segment shorter than STRIP_OVERHANG w may lie across the
@@ -47,10 +47,10 @@
 #include "base/constant.h"
 #include "base/range.h"
 
-/* A cell is thin if the distance of its sample from the border is below this part of the cell's
+/* A cell is thin if the distance of its sample from the border is below this fraction of the cell's
    perimeter. */
-#define LRCSI_CELLS_THIN 0x1p-32
-/* How far a strip may extend beyond its segment, in widths: 4 / LRCSI_CELLS_THIN. */
+#define MAX_THIN 0x1p-32
+/* How far a strip may extend beyond its segment, in widths: 4 / MAX_THIN. */
 #define STRIP_OVERHANG 0x1p34
 /* A cell that is no wider than so many strips may be charged whole. */
 #define NARROW_STRIPS 64
@@ -85,8 +85,8 @@ static inline void corners_along(const lrcsi_cells_facet *f, const double line[3
     along[1] = lrcsi_max(a, lrcsi_max(b, d)) - from;
 }
 
-/* The same for the part of the facet within `near` of the line; along[0] > along[1] if there is
-   none. Sides almost parallel to the line count as a whole. */
+/* The same for the part of the facet within the distance `near` of the line; along[0] > along[1] if
+   there is none. Sides almost parallel to the line count as a whole. */
 static void facet_along(const lrcsi_cells_facet *f, const double line[3], const double start[2],
                         double near, double along[2])
 {
@@ -200,7 +200,7 @@ static void charge_cut(lrcsi_cells_work *c, uint32_t index, double low, double h
 double lrcsi_cells_thin_uncertainty(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                                     double clear, uint32_t segments, double line_err)
 {
-    if (!(clear < LRCSI_CELLS_THIN * s->perimeter)) {
+    if (!(clear < MAX_THIN * s->perimeter)) {
         return 0;
     }
     double strips =
@@ -277,7 +277,7 @@ void lrcsi_cells_filter_segments(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
     cell->segments = kept;
 }
 
-/* The least and the greatest signed distance of a facet's corners from a line. */
+/* The smallest and the largest signed distance of a facet's corners from a line. */
 static inline void facet_range(const lrcsi_cells_facet *f, const double line[3], double range[2])
 {
     double a = lrcsi_line_at(line, f->x[0], f->y[0]);
@@ -287,18 +287,18 @@ static inline void facet_range(const lrcsi_cells_facet *f, const double line[3],
     range[1] = lrcsi_max(a, lrcsi_max(b, d));
 }
 
-/* Is all of a cell beyond one side of a facet? Ends at the first corner after which no side can
-   have all of them beyond it. */
+/* Are all corners of a cell beyond one side of a facet? Returns at the first corner after which
+   that is impossible for every side. */
 static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape, double w)
 {
-    double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    double max[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (uint32_t i = 0; i < shape->count; i++) {
         double x = shape->corner[i][0];
         double y = shape->corner[i][1];
-        most[0] = lrcsi_max(most[0], lrcsi_line_at(f->side[0], x, y));
-        most[1] = lrcsi_max(most[1], lrcsi_line_at(f->side[1], x, y));
-        most[2] = lrcsi_max(most[2], lrcsi_line_at(f->side[2], x, y));
-        if (!(lrcsi_min(most[0], lrcsi_min(most[1], most[2])) < -w)) {
+        max[0] = lrcsi_max(max[0], lrcsi_line_at(f->side[0], x, y));
+        max[1] = lrcsi_max(max[1], lrcsi_line_at(f->side[1], x, y));
+        max[2] = lrcsi_max(max[2], lrcsi_line_at(f->side[2], x, y));
+        if (!(lrcsi_min(max[0], lrcsi_min(max[1], max[2])) < -w)) {
             return 0;
         }
     }
@@ -337,8 +337,8 @@ static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const 
 }
 
 /* Divides its segments in the same way, except for the one along which it is cut. */
-static void cut_segments(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, uint32_t struck,
-                         lrcsi_cells_cell *left, lrcsi_cells_cell *right)
+static void cut_segments(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                         uint32_t removed_segment, lrcsi_cells_cell *left, lrcsi_cells_cell *right)
 {
     double g = lrcsi_cells_tolerance(c, left);
     uint32_t i = 0;
@@ -347,7 +347,7 @@ static void cut_segments(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, uint
         uint32_t index = c->segments[i];
         const lrcsi_cells_segment *e = &c->segment[index];
         double w = e->err + g;
-        if (index == struck) { /* it goes to the very end */
+        if (index == removed_segment) { /* it goes to the very end */
             end--;
             right->segments--;
             lrcsi_cells_swap(c->segments, i, end);
@@ -399,13 +399,14 @@ lrcsi_cells_cell lrcsi_cells_pop(lrcsi_cells_work *c)
     return cell;
 }
 
-/* Divides a cell along a line: that of segment number struck, or any if struck is LRCS_NONE. */
+/* Divides a cell along a line: that of a segment, which is removed from the list, or (LRCS_NONE)
+   any line. 0 if there is no room. */
 static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                    const double line[3], uint32_t struck)
+                    const double line[3], uint32_t removed_segment)
 {
     cut_strip strip = {NULL, 0, 0, 0, s->tolerance};
-    if (struck != LRCS_NONE) {
-        const lrcsi_cells_segment *along = &c->segment[struck];
+    if (removed_segment != LRCS_NONE) {
+        const lrcsi_cells_segment *along = &c->segment[removed_segment];
         lrcsi_cells_part part = {0, 1, 0};
         strip.along = along;
         strip.width = along->line_err + cell->shape_err + 12 * LRCSI_U * c->extent;
@@ -420,7 +421,7 @@ static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     }
     lrcsi_cells_cell left = *cell;
     lrcsi_cells_cell right = *cell;
-    double drift = lrcsi_clip_divide(&cell->shape, line, &left.shape, &right.shape);
+    double divide_err = lrcsi_clip_divide(&cell->shape, line, &left.shape, &right.shape);
     if (left.shape.count < 3 || right.shape.count < 3) {
         return 0;
     }
@@ -429,13 +430,13 @@ static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     left.cut_side = 1;
     right.cut_side = -1;
     left.cuts = right.cuts = cell->cuts + 1;
-    left.removed = right.removed = cell->removed + (struck != LRCS_NONE);
+    left.removed = right.removed = cell->removed + (removed_segment != LRCS_NONE);
     left.widest_strip = right.widest_strip = lrcsi_max(cell->widest_strip, 2 * strip.width);
-    left.shape_err = right.shape_err = cell->shape_err + drift;
+    left.shape_err = right.shape_err = cell->shape_err + divide_err;
     left.cut_strip = right.cut_strip = strip.width;
     left.facets = left.segments = 0;
     cut_facets(c, cell, &strip, &left, &right);
-    cut_segments(c, cell, struck, &left, &right);
+    cut_segments(c, cell, removed_segment, &left, &right);
     c->stack[c->top++] = right;
     c->stack[c->top++] = left;
     return 1;
@@ -457,8 +458,8 @@ int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const l
     return cut_cell(c, cell, s, line, LRCS_NONE);
 }
 
-/* Would the halves of a cell with many segments have few in common? If each has three quarters of
-   them at most, these may be an eighth; else at most one. */
+/* Do the halves of a cell with many segments have few in common? At most an eighth of them if
+   neither half has more than three quarters of all; otherwise at most one. */
 static int halving_separates(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                              const lrcsi_cells_sides *s)
 {
@@ -472,11 +473,11 @@ static int halving_separates(const lrcsi_cells_work *c, const lrcsi_cells_cell *
         side[0] += a > 0 || b > 0;
         side[1] += !(a > 0 && b > 0);
     }
-    uint32_t most = side[0] > side[1] ? side[0] : side[1];
+    uint32_t larger = side[0] > side[1] ? side[0] : side[1];
     uint32_t both = side[0] + side[1] - cell->segments;
     return cell->segments > MAX_SEGMENTS &&
-           (most <= cell->segments / 4 * 3 ? both <= cell->segments / 8
-                                           : both <= 1 && cell->cuts < MAX_HALVINGS);
+           (larger <= cell->segments / 4 * 3 ? both <= cell->segments / 8
+                                             : both <= 1 && cell->cuts < MAX_HALVINGS);
 }
 
 int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,

@@ -397,6 +397,18 @@ static int run_clear(const lrcsi_classification *c, uint32_t run, lrcsi_meter *m
     return 1;
 }
 
+/* Do these cells list any event? */
+static int cells_list_events(const lrcsi_grid *grid, lrcsi_cells cells)
+{
+    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+        lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
+        if (items.from != items.to) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* Decides whether a facet is undecided; and if not, whether it is the only one of its region. */
 static void facet_decide(lrcsi_classification *c, uint32_t f, lrcsi_meter *meter)
 {
@@ -404,7 +416,7 @@ static void facet_decide(lrcsi_classification *c, uint32_t f, lrcsi_meter *meter
     c->event_along_side = 0;
     c->undecided[f] =
         intersection_divides(c->view, f) ||
-        (lrcsi_grid_any(&c->grid, lrcsi_grid_cells(&c->grid, lrcsi_boxes_facet(&c->boxes, f))) &&
+        (cells_list_events(&c->grid, lrcsi_grid_cells(&c->grid, lrcsi_boxes_facet(&c->boxes, f))) &&
          crossings_find(c, f, LRCS_NONE, 1, &steps, meter) > 0) ||
         steps == 0 || lrcsi_meter_spent(meter);
     c->undecided_count += c->undecided[f];

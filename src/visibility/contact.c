@@ -18,7 +18,7 @@
 /* A height that is at least this many times its error gives intersections accurate to a double. */
 #define HEIGHT_SUFFICES 0x1p53
 
-/* The corners of a facet above the target's plane. */
+/* The heights of a facet's corners above the target's plane. */
 typedef struct contact_heights {
     double height[3]; /* along the plane's normal, times a positive constant */
     lrcsi_dd fine[3]; /* the same in double-double */
@@ -27,7 +27,7 @@ typedef struct contact_heights {
 } contact_heights;
 
 /* N . (x - a) for the target's plane, positive on its visible side, in double-double. The error is
-   32 u^2 |N| |x - a|, and that of N. */
+   32 u^2 |N| |x - a|, plus that of N. */
 static lrcsi_dd height_dd(const lrcsi_target *t, const double *x, double *err)
 {
     const lrcsi_normal *n = &t->view->prepared->normal[t->facet];
@@ -43,75 +43,30 @@ static lrcsi_dd height_dd(const lrcsi_target *t, const double *x, double *err)
     return t->view->facing[t->facet] > 0 ? sum : lrcsi_dd_negate(sum);
 }
 
-/* The height of a point, in double-double if that suffices, otherwise from the exact determinant;
-   in a needle always from the latter, because other facets may be 2^88 times as long as the needle
-   is wide. Returns the exact sign. */
-static int height_find(const lrcsi_target *t, const double *x, lrcsi_dd *height, double *err)
-{
-    const lrcs_prepared *p = t->view->prepared;
-    int accurate = 0;
-    if (!t->needle) {
-        *height = height_dd(t, x, err);
-        accurate = fabs(height->hi) > HEIGHT_SUFFICES * *err;
-    }
-    if (!accurate) {
-        lrcsi_dd up = lrcsi_exact_height(lrcsi_prepared_corner(p, t->facet, 0),
-                                         lrcsi_prepared_corner(p, t->facet, 1),
-                                         lrcsi_prepared_corner(p, t->facet, 2), x);
-        *height = t->view->facing[t->facet] > 0 ? up : lrcsi_dd_negate(up);
-        *err = 128 * LRCSI_U * LRCSI_U * fabs(up.hi);
-    }
-    return (height->hi > 0) - (height->hi < 0);
-}
-
+/* The heights in double-double if that suffices, otherwise from the exact determinant; for a needle
+   always from the latter, because other facets may be 2^88 times as long as the needle is wide. */
 static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
 {
+    const lrcs_prepared *p = t->view->prepared;
     contact_heights h;
     for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_own(t->view, other, k);
-        h.above[k] = height_find(t, x, &h.fine[k], &h.err[k]);
+        const double *x = lrcsi_target_frame_corner(t->view, other, k);
+        int accurate = 0;
+        if (!t->needle) {
+            h.fine[k] = height_dd(t, x, &h.err[k]);
+            accurate = fabs(h.fine[k].hi) > HEIGHT_SUFFICES * h.err[k];
+        }
+        if (!accurate) {
+            lrcsi_dd up = lrcsi_exact_height(lrcsi_prepared_corner(p, t->facet, 0),
+                                             lrcsi_prepared_corner(p, t->facet, 1),
+                                             lrcsi_prepared_corner(p, t->facet, 2), x);
+            h.fine[k] = t->view->facing[t->facet] > 0 ? up : lrcsi_dd_negate(up);
+            h.err[k] = 128 * LRCSI_U * LRCSI_U * fabs(up.hi);
+        }
+        h.above[k] = (h.fine[k].hi > 0) - (h.fine[k].hi < 0);
         h.height[k] = lrcsi_dd_value(h.fine[k]);
     }
     return h;
-}
-
-/* The point at which side k of the facet, whose ends lie on different sides of the target's plane,
-   intersects that plane; returns its position error. It lies at parameter t = h / (h + h') of the
-   side, counted from the nearer end. An error of h moves t by (1 - t) / (h + h') times it, an error
-   of h' by t / (h + h') times it. The ends have errors of 10 u of their distances; the point then
-   has 10 u of the distance interpolated at t, and its rounding error is less than 6 u of that. */
-static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, double at[2],
-                       double *reach)
-{
-    int next = (k + 1) % 3;
-    int near = c->away[k] <= c->away[next] ? k : next;
-    int far = near == k ? next : k;
-    double span = fabs(h->height[k]) + fabs(h->height[next]);
-    double t = lrcsi_min(1, fabs(h->height[near]) / span);
-    for (int i = 0; i < 2; i++) {
-        at[i] = c->corner[near][i] + t * (c->corner[far][i] - c->corner[near][i]);
-    }
-    *reach = (1 - t) * c->away[near] + t * c->away[far];
-    double err = (1 - t) * h->err[near] + t * h->err[far];
-    return 2 * (c->away[k] + c->away[next]) * (err / span);
-}
-
-/* Is the position error larger than about the width of the facet?
-   Given: area, that of the facet. */
-static int position_err_exceeds_width(const lrcsi_contact *c, double area)
-{
-    lrcsi_clip_polygon triangle;
-    lrcsi_clip_triangle((const double(*)[2])c->corner, &triangle);
-    return c->position_err > 0 && !(c->position_err * lrcsi_clip_perimeter(&triangle) < area);
-}
-
-/* The area of the facet. Its corners are relative to a near one, so that far coordinates do not
-   cancel. */
-static double contact_area(const lrcsi_contact *c)
-{
-    lrcsi_clip_polygon triangle;
-    lrcsi_clip_triangle((const double(*)[2])c->corner, &triangle);
-    return lrcsi_clip_area(&triangle);
 }
 
 /* Where the boundary of the facet, traversed counter-clockwise, crosses the target's plane:
@@ -137,8 +92,52 @@ static void contact_crossings(const contact_heights *h, int crossing[2])
     }
 }
 
-/* The ends of the segment's part near the target. */
-static void contact_ends(const lrcsi_target *t, const contact_heights *h, lrcsi_contact *c)
+/* Is the position error larger than about the width of the facet?
+   Given: area, that of the facet. */
+static int position_err_exceeds_width(const lrcsi_contact *c, double area)
+{
+    lrcsi_clip_polygon triangle;
+    lrcsi_clip_triangle((const double(*)[2])c->corner, &triangle);
+    return c->position_err > 0 && !(c->position_err * lrcsi_clip_perimeter(&triangle) < area);
+}
+
+/* --- in the frame along the view's axes --------------------------------------------------------
+ */
+
+/* The point at which side k of the facet, whose ends lie on different sides of the target's plane,
+   intersects that plane; returns its position error. It lies at parameter t = h / (h + h') of the
+   side, counted from the nearer end. An error of h moves t by (1 - t) / (h + h') times it, an error
+   of h' by t / (h + h') times it. The ends have errors of 10 u of their distances; the point then
+   has 10 u of the distance interpolated at t, and its rounding error is less than 6 u of that. */
+static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, double at[2],
+                       double *reach)
+{
+    int next = (k + 1) % 3;
+    int near = c->away[k] <= c->away[next] ? k : next;
+    int far = near == k ? next : k;
+    double span = fabs(h->height[k]) + fabs(h->height[next]);
+    double t = lrcsi_min(1, fabs(h->height[near]) / span);
+    for (int i = 0; i < 2; i++) {
+        at[i] = c->corner[near][i] + t * (c->corner[far][i] - c->corner[near][i]);
+    }
+    *reach = (1 - t) * c->away[near] + t * c->away[far];
+    double err = (1 - t) * h->err[near] + t * h->err[far];
+    return 2 * (c->away[k] + c->away[next]) * (err / span);
+}
+
+/* The segment's part near the target, and its kind. The segment's ends, and the single corner that
+   the plane separates from the other two, have errors of at most e: 16 u of their distances, and
+   the position error.
+   If that corner lies at least 4 e beyond the segment's line, the true line crosses the same two
+   sides of the facet, within e of the ends, and divides the facet as the segment does: LINE.
+   Otherwise the part of the facet that is cut off lies near the segment's line or, if the segment
+   is so short that the direction of its line is uncertain, near the line from the segment to the
+   corner. That distance is added to the position error, and the kind says where the rest of the
+   facet lies: FRONT or BEHIND. The part cut off extends along the line as far as the corner, which
+   may be far beyond the segment; within 4 diameters of the target, the corner's error moves it no
+   more than if the corner were there. */
+static int find_segment(const lrcsi_target *t, const contact_heights *h, lrcsi_contact *c,
+                        int above)
 {
     int crossing[2];
     double reach[2];
@@ -153,23 +152,8 @@ static void contact_ends(const lrcsi_target *t, const contact_heights *h, lrcsi_
         }
     }
     c->reach = lrcsi_target_segment(t, c->end, reach);
-}
 
-/* The kind of a contact along a segment. The segment's ends, and the single corner that the plane
-   separates from the other two, have errors of at most e: 16 u of their distances, and the position
-   error.
-   If that corner lies at least 4 e beyond the segment's line, the true line crosses the same two
-   sides of the facet, within e of the ends, and divides the facet as the segment does: LINE.
-   Otherwise the part of the facet that is cut off lies near the segment's line or, if the segment
-   is so short that the direction of its line is uncertain, near the line from the segment to the
-   corner. That distance is added to the position error, and the kind says where the rest of the
-   facet lies: FRONT or BEHIND. The part cut off extends along the line as far as the corner, which
-   may be far beyond the segment; within 4 diameters of the target, the corner's error moves it no
-   more than if the corner were there. */
-static int segment_kind(const lrcsi_target *t, const contact_heights *h, lrcsi_contact *c,
-                        int above)
-{
-    int lone = above == 1 ? 1 : -1; /* the sign of its height */
+    int lone = above == 1 ? 1 : -1; /* the sign of the single corner's height */
     int corner = h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2;
     const double *p = c->corner[corner];
     double err = 16 * LRCSI_U * lrcsi_max(c->away[corner], c->reach) + c->position_err;
@@ -177,7 +161,9 @@ static int segment_kind(const lrcsi_target *t, const contact_heights *h, lrcsi_c
     double length = lrcsi_length_flat(along[0], along[1]);
     double twice = along[0] * (p[1] - c->end[0][1]) - along[1] * (p[0] - c->end[0][0]);
     double beyond = length > 0 ? lone * twice / length : 0;
-    if (position_err_exceeds_width(c, contact_area(c))) {
+    lrcsi_clip_polygon triangle;
+    lrcsi_clip_triangle((const double(*)[2])c->corner, &triangle);
+    if (position_err_exceeds_width(c, lrcsi_clip_area(&triangle))) {
         return LRCSI_CONTACT_UNKNOWN;
     }
     if (beyond > 4 * err) {
@@ -202,20 +188,8 @@ typedef struct contact_dd {
     lrcsi_dd end[2][2];
 } contact_dd;
 
-static void corners_dd(const lrcsi_target *t, uint32_t other, contact_dd *f, lrcsi_contact *c)
-{
-    for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_own(t->view, other, k);
-        c->corner_err =
-            lrcsi_max(c->corner_err, lrcsi_needle_coordinates(t->needle, x, f->corner[k]));
-        for (int i = 0; i < 2; i++) {
-            c->corner[k][i] = lrcsi_dd_value(f->corner[k][i]);
-        }
-    }
-}
-
 /* As side_cut, with the parameter in double-double (errors: visibility/target.c). */
-static double side_cut_dd(const contact_heights *h, contact_dd *f, int k, lrcsi_dd at[2])
+static double side_cut_dd(const contact_heights *h, const contact_dd *f, int k, lrcsi_dd at[2])
 {
     int next = (k + 1) % 3;
     double span = fabs(h->height[k]) + fabs(h->height[next]);
@@ -230,9 +204,19 @@ static double side_cut_dd(const contact_heights *h, contact_dd *f, int k, lrcsi_
     return 2 * length * (err / span);
 }
 
-static void ends_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c)
+/* Twice the signed area of the triangle with these two sides. */
+static double cross_dd(const lrcsi_dd a[2], const lrcsi_dd b[2])
+{
+    return lrcsi_dd_value(lrcsi_dd_sub(lrcsi_dd_mul(a[0], b[1]), lrcsi_dd_mul(a[1], b[0])));
+}
+
+/* The ends of the whole segment. If it is so short that clipping will not shorten it, they are
+   rounded, and 1 is returned. The rounded segment then divides the facet: rounding may change the
+   direction of its line. */
+static int ends_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c)
 {
     int crossing[2];
+    int is_short = 1;
     contact_crossings(h, crossing);
     for (int i = 0; i < 2; i++) {
         if (crossing[i] >= SIDE) {
@@ -242,13 +226,6 @@ static void ends_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c)
             memcpy(f->end[i], f->corner[crossing[i]], sizeof f->end[i]);
         }
     }
-}
-
-/* If the segment is so short that clipping will not shorten it, rounds its ends and returns 1. The
-   rounded segment then divides the facet: rounding may change the direction of its line. */
-static int ends_round(contact_dd *f)
-{
-    int is_short = 1;
     for (int i = 0; i < 2; i++) {
         is_short &= fabs(f->end[1][i].hi - f->end[0][i].hi) < 0.5;
     }
@@ -258,38 +235,27 @@ static int ends_round(contact_dd *f)
     return is_short;
 }
 
-/* The area of the facet, in double-double because it may be a needle too: long, and as narrow as
-   the target. */
-static double area_dd(const contact_dd *f)
-{
-    lrcsi_dd side[2][2];
-    for (int i = 0; i < 4; i++) {
-        side[i / 2][i % 2] = lrcsi_dd_sub(f->corner[1 + i / 2][i % 2], f->corner[0][i % 2]);
-    }
-    return 0.5 * lrcsi_dd_value(lrcsi_dd_sub(lrcsi_dd_mul(side[0][0], side[1][1]),
-                                             lrcsi_dd_mul(side[0][1], side[1][0])));
-}
-
-/* As segment_kind. A long segment has not been clipped yet: with errors e of its ends and of the
+/* As find_segment. The segment is clipped only afterwards: with errors e of its ends and of the
    corner, its direction has an error of 2 e over its length, and the corner's distance from its
    line an error of 2 e plus that angle times the distance to the corner. `turned` is this second
-   term. */
-static int kind_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c, int above)
+   term. The facet's area is computed in double-double, because it may be a needle too. */
+static int find_segment_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c, int above)
 {
+    int is_short = ends_dd(h, f, c);
     int lone = above == 1 ? 1 : -1;
     const lrcsi_dd *p = f->corner[h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2];
-    lrcsi_dd to[2];
+    lrcsi_dd along[2];
     lrcsi_dd to_corner[2];
-    int is_short = ends_round(f);
+    lrcsi_dd side[2][2];
     for (int i = 0; i < 2; i++) {
-        to[i] = lrcsi_dd_sub(f->end[1][i], f->end[0][i]);
+        along[i] = lrcsi_dd_sub(f->end[1][i], f->end[0][i]);
         to_corner[i] = lrcsi_dd_sub(p[i], f->end[0][i]);
+        side[0][i] = lrcsi_dd_sub(f->corner[1][i], f->corner[0][i]);
+        side[1][i] = lrcsi_dd_sub(f->corner[2][i], f->corner[0][i]);
     }
     double err = c->corner_err + 16 * LRCSI_U + c->position_err;
-    double length = lrcsi_length_flat(to[0].hi, to[1].hi);
-    double side = lrcsi_dd_value(
-        lrcsi_dd_sub(lrcsi_dd_mul(to[0], to_corner[1]), lrcsi_dd_mul(to[1], to_corner[0])));
-    double beyond = length > 0 ? lone * side / length : 0;
+    double length = lrcsi_length_flat(along[0].hi, along[1].hi);
+    double beyond = length > 0 ? lone * cross_dd(along, to_corner) / length : 0;
     double far = lrcsi_length_flat(to_corner[0].hi, to_corner[1].hi);
     double turned = is_short ? 0 : 4 * far / length * (c->corner_err + c->position_err);
     int kind = LRCSI_CONTACT_LINE;
@@ -302,16 +268,10 @@ static int kind_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c, in
             memcpy(f->end[1], p, sizeof f->end[1]);
         }
     }
-    return position_err_exceeds_width(c, area_dd(f)) ? LRCSI_CONTACT_UNKNOWN : kind;
-}
-
-static int segment_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c, int above)
-{
-    ends_dd(h, f, c);
-    int kind = kind_dd(h, f, c, above);
     lrcsi_dd part[2];
     lrcsi_needle_clip((const lrcsi_dd *)f->end[0], (const lrcsi_dd *)f->end[1], c->end, part);
-    return kind;
+    return position_err_exceeds_width(c, 0.5 * cross_dd(side[0], side[1])) ? LRCSI_CONTACT_UNKNOWN
+                                                                           : kind;
 }
 
 /* --- either ----------------------------------------------------------------------------------- */
@@ -320,18 +280,21 @@ int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
 {
     contact_heights h = heights_of(t, other);
     contact_dd f = {0};
-    *c = (lrcsi_contact){.position_err = 0};
-    if (t->needle) {
-        corners_dd(t, other, &f, c);
-    }
-    for (int k = 0; k < 3 && !t->needle; k++) {
-        c->away[k] = lrcsi_target_coordinates(t, lrcsi_target_own(t->view, other, k), c->corner[k]);
-    }
     int above = 0;
     int below = 0;
+    *c = (lrcsi_contact){.position_err = 0};
     for (int k = 0; k < 3; k++) {
+        const double *x = lrcsi_target_frame_corner(t->view, other, k);
         above += h.above[k] > 0;
         below += h.above[k] < 0;
+        if (!t->needle) {
+            c->away[k] = lrcsi_target_coordinates(t, x, c->corner[k]);
+            continue;
+        }
+        double corner_err = lrcsi_needle_coordinates(t->needle, x, f.corner[k]);
+        c->corner_err = lrcsi_max(c->corner_err, corner_err);
+        c->corner[k][0] = lrcsi_dd_value(f.corner[k][0]);
+        c->corner[k][1] = lrcsi_dd_value(f.corner[k][1]);
     }
     int on = 3 - above - below;
     if (on == 3) {
@@ -340,9 +303,5 @@ int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
     if (on < 2 && (above == 0 || below == 0)) {
         return LRCSI_CONTACT_POINT;
     }
-    if (t->needle) {
-        return segment_dd(&h, &f, c, above);
-    }
-    contact_ends(t, &h, c);
-    return segment_kind(t, &h, c, above);
+    return t->needle ? find_segment_dd(&h, &f, c, above) : find_segment(t, &h, c, above);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The intersection of a facet with the plane of another facet, the target, whose interior it
-   contacts: a segment in the target's frame (for a needle, barycentric coordinates) with its
-   position error, or the whole facet. */
+/* The intersection of a facet with the plane of another facet, the target, whose interior it meets:
+   a segment in the target's frame (for a needle, in barycentric coordinates) with its position
+   error, or the whole facet. */
 #ifndef LRCSI_CONTACT_H
 #define LRCSI_CONTACT_H
 

@@ -199,11 +199,15 @@ static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1,
     return x1 - x0;
 }
 
+/* To the errors of the sides are added the rounding errors of what is computed from them (points at
+   t, rows, and the t at which a side enters a row), each less than 8 u of a coordinate between the
+   side's and the window's; and the rounding of boxes by 2^-24 of the latter. */
 void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
                       lrcsi_strip_segment *side)
 {
     const lrcs_point *point = grid->view->point;
-    double rounding = lrcsi_grid_rounding(grid) + near * grid->view->scale;
+    double rounding = 0x1p-23 * (fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side);
+    rounding += near * grid->view->scale;
     for (int k = 0; k < (count == 2 ? 1 : count); k++) {
         side[k] = lrcsi_strip_segment_make(point[corner[k]].x, point[corner[(k + 1) % count]].x,
                                            grid->view->scale, rounding);
@@ -331,21 +335,22 @@ static uint32_t needed_bits(uint32_t word, uint32_t x0, uint32_t x1)
     return bits;
 }
 
-static void needed_facet(const needed_cells *needed, lrcsi_cells cells)
+/* Marks these cells. */
+static void needed_mark(needed_cells needed, lrcsi_cells cells)
 {
+    uint32_t last = (cells.x1 - 1u) / NEEDED_BITS;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        uint32_t last = (cells.x1 - 1u) / NEEDED_BITS;
         for (uint32_t word = cells.x0 / NEEDED_BITS; word <= last; word++) {
-            needed->bit[y * needed->words + word] |= needed_bits(word, cells.x0, cells.x1);
+            needed.bit[y * needed.words + word] |= needed_bits(word, cells.x0, cells.x1);
         }
     }
 }
 
-/* Will any of these cells be read? */
-static int needed_meets(needed_cells needed, lrcsi_cells cells)
+/* Is any of these cells marked? */
+static int needed_any(needed_cells needed, lrcsi_cells cells)
 {
+    uint32_t last = (cells.x1 - 1u) / NEEDED_BITS;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        uint32_t last = (cells.x1 - 1u) / NEEDED_BITS;
         for (uint32_t word = cells.x0 / NEEDED_BITS; word <= last; word++) {
             if ((needed.bit[y * needed.words + word] & needed_bits(word, cells.x0, cells.x1)) !=
                 0) {
@@ -379,7 +384,7 @@ static int needed_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
             if ((readers->undecided[f] || (readers->region && readers->region[f] == f)) &&
                 lrcsi_view_casts(grid->view, f)) {
                 lrcsi_boxes_open(boxes, r);
-                needed_facet(needed, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
+                needed_mark(*needed, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
             }
         }
     }
@@ -398,7 +403,7 @@ static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, neede
     for (uint32_t start = 0; start < count && list; start += LRCSI_RUN) {
         uint32_t run = start / LRCSI_RUN;
         if (boxes->state[run] == LRCSI_BOXES_NONE ||
-            (needed.bit && !needed_meets(needed, lrcsi_grid_cells(grid, &boxes->run[run])))) {
+            (needed.bit && !needed_any(needed, lrcsi_grid_cells(grid, &boxes->run[run])))) {
             continue;
         }
         lrcsi_boxes_open(boxes, run);
@@ -406,7 +411,7 @@ static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, neede
         for (uint32_t f = start; f < end; f++) {
             if (lrcsi_view_casts(grid->view, f) &&
                 (!needed.bit ||
-                 needed_meets(needed, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f))))) {
+                 needed_any(needed, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f))))) {
                 list[listed++] = f;
             }
         }

@@ -115,14 +115,6 @@ void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count,
 lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *side, int sides,
                            uint32_t y);
 
-/* What is added to the errors of sides: the rounding errors of what is computed from them (points
-   at t, rows, and the t at which the segment enters a row), each less than 8 u of a coordinate
-   between the segment's and the window's; and the rounding of boxes by 2^-24 of the latter. */
-static inline double lrcsi_grid_rounding(const lrcsi_grid *grid)
-{
-    return 0x1p-23 * (fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side);
-}
-
 /* A range of grid->item: from <= i < to. */
 typedef struct lrcsi_grid_items {
     uint32_t from, to;
@@ -135,18 +127,6 @@ static inline lrcsi_grid_items lrcsi_grid_row_items(const lrcsi_grid *grid, uint
 {
     const uint32_t *row = grid->first + (size_t)y * grid->size;
     return (lrcsi_grid_items){row[x0], row[x1]};
-}
-
-/* Do the cells list any item? */
-static inline int lrcsi_grid_any(const lrcsi_grid *grid, lrcsi_cells cells)
-{
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
-        if (items.from != items.to) {
-            return 1;
-        }
-    }
-    return 0;
 }
 
 /* How often a facet is listed at most, on average. Facets that fill 16 cells fill at most 9 of

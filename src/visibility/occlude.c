@@ -18,7 +18,7 @@
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-static lrcsi_visible uniform_area(const lrcsi_occluding *o, uint32_t facet)
+static lrcsi_visible uniform_area(const lrcsi_occlusion *o, uint32_t facet)
 {
     double whole = lrcsi_view_incidence(o->classification->view, facet).projected;
     int answer = o->uniform[facet];
@@ -27,7 +27,7 @@ static lrcsi_visible uniform_area(const lrcsi_occluding *o, uint32_t facet)
     return (lrcsi_visible){0.5 * (low + high), low, high, 0, 0};
 }
 
-void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
+void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
 {
     lrcsi_classification *classification = o->classification;
     o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
@@ -45,7 +45,7 @@ void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet)
     }
 }
 
-int lrcsi_occlude_next(lrcsi_occluding *o)
+int lrcsi_occlude_next(lrcsi_occlusion *o)
 {
     if (!o->whole) {
         return o->undecided && lrcsi_alone_next(&o->alone);
@@ -56,12 +56,12 @@ int lrcsi_occlude_next(lrcsi_occluding *o)
     return 1;
 }
 
-lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o)
+lrcsi_visible lrcsi_occlude_close(lrcsi_occlusion *o)
 {
     return o->undecided ? lrcsi_alone_close(&o->alone) : o->answer;
 }
 
-lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o)
+lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o)
 {
     while (o->undecided && lrcsi_alone_next(&o->alone)) {
     }
@@ -87,7 +87,7 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 
 /* Everything except the memory for single facets. */
 static int occlude_begin(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                         lrcsi_occluding *o)
+                         lrcsi_occlusion *o)
 {
     memset(o, 0, sizeof *o); /* not a compound literal, which takes as much of the stack again */
     o->classification = classification;
@@ -98,7 +98,7 @@ static int occlude_begin(lrcsi_classification *classification, lrcsi_meter *mete
 }
 
 int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                       lrcsi_occluding *o)
+                       lrcsi_occlusion *o)
 {
     size_t mark = work->used;
     int status = occlude_begin(classification, meter, work, o);
@@ -120,7 +120,7 @@ static uint32_t next_facet_with(const unsigned char *values, int value, uint32_t
 }
 
 /* Undecided facets: together if there are many; then one by one those that remain. */
-static int occlude_undecided(lrcsi_occluding *o, lrcs_work *work, unsigned char *open,
+static int occlude_undecided(lrcsi_occlusion *o, lrcs_work *work, unsigned char *open,
                              lrcsi_visible *visible)
 {
     lrcsi_classification *classification = o->classification;
@@ -152,7 +152,7 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
     const lrcsi_view *view = classification->view;
     uint32_t count = view->prepared->scene->facet_count;
     size_t mark = work->used;
-    lrcsi_occluding o;
+    lrcsi_occlusion o;
     int status = occlude_begin(classification, meter, work, &o);
     unsigned char *open = lrcsi_work_take(work, count, 1);
     status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;

@@ -7,7 +7,7 @@
 #include "visibility/cells_alone.h"
 
 /* Data for all facets of a view, and the current facet. */
-typedef struct lrcsi_occluding {
+typedef struct lrcsi_occlusion {
     lrcsi_classification *classification;
     lrcsi_meter *meter;
     lrcsi_grid facets;
@@ -16,7 +16,7 @@ typedef struct lrcsi_occluding {
     lrcsi_visible answer;   /* the area of a facet that is not undecided */
     int undecided;
     int whole; /* all of it is visible, and its piece has not been returned yet */
-} lrcsi_occluding;
+} lrcsi_occlusion;
 
 /* Bytes at most. */
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
@@ -25,7 +25,7 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared);
    no limit.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
 int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                       lrcsi_occluding *o);
+                       lrcsi_occlusion *o);
 
 /* One facet piece by piece: call open, then next until it returns 0, then close. Each `next` that
    returns 1 leaves one of the disjoint convex pieces of the visible region in o->alone.piece, in
@@ -33,12 +33,12 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
    facet is one piece, its own triangle; a facet of which nothing is known to be visible has no
    pieces. The area in which the union of the pieces differs from the visible region is at most high
    - low of the returned area, and 20 u reach perimeter for the rounding of the corners. */
-void lrcsi_occlude_open(lrcsi_occluding *o, uint32_t facet);
-int lrcsi_occlude_next(lrcsi_occluding *o);
-lrcsi_visible lrcsi_occlude_close(lrcsi_occluding *o);
+void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet);
+int lrcsi_occlude_next(lrcsi_occlusion *o);
+lrcsi_visible lrcsi_occlude_close(lrcsi_occlusion *o);
 
 /* Closes a facet whose pieces are not needed, only its area; to be called right after open. */
-lrcsi_visible lrcsi_occlude_area(lrcsi_occluding *o);
+lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o);
 
 /* All facets: uniform ones by one exact sample; undecided ones together if there are many
    (visibility/cells.h), otherwise one by one. If the limit on cells is reached, the bounds of the

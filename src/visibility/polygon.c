@@ -102,7 +102,7 @@ static void ring_add_piece(ring_list *list, const lrcsi_target *t, const lrcsi_c
 
 /* If the bounds of the visible area admit the whole facet or nothing, but not both, that is taken:
    its error is at most the difference of the bounds. */
-static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
+static int facet_add(ring_list *list, lrcsi_occlusion *o, uint32_t facet)
 {
     ring_list before = *list;
     const lrcsi_target *target = &o->alone.target;
@@ -132,7 +132,7 @@ static int facet_add(ring_list *list, lrcsi_occluding *o, uint32_t facet)
     return list->points < LRCS_NONE ? LRCS_OK : LRCS_E_LIMIT;
 }
 
-static int facets_add(ring_list *list, lrcsi_occluding *o)
+static int facets_add(ring_list *list, lrcsi_occlusion *o)
 {
     int status = LRCS_OK;
     for (uint32_t f = 0;
@@ -155,53 +155,37 @@ size_t lrcs_polygon_need(const lrcs_prepared *prepared)
                           lrcsi_work_bytes(facets, ORDINARY_POINTS * sizeof(lrcs_ring_point)));
 }
 
-/* Takes room for the rings that were counted, and fills it. */
-static int list_fill(ring_list *list, lrcsi_occluding *o, lrcs_work *work)
-{
-    ring_list full = {.ring_room = list->rings, .point_room = list->points};
-    full.ring = lrcsi_work_take(work, full.ring_room, sizeof *full.ring);
-    full.point = lrcsi_work_take(work, full.point_room, sizeof *full.point);
-    *list = full;
-    return full.ring && full.point ? facets_add(list, o) : LRCS_E_MEMORY;
-}
-
-static int polygon_list(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
-                        ring_list *list)
-{
-    lrcsi_view view;
-    lrcsi_classification classification;
-    lrcsi_occluding o;
-    int status = lrcsi_view_make(prepared, pose, work, &view);
-    status = status == LRCS_OK ? lrcsi_classify_make(&view, NULL, work, &classification) : status;
-    status = status == LRCS_OK ? lrcsi_occlude_make(&classification, NULL, work, &o) : status;
-    status = status == LRCS_OK ? facets_add(list, &o) : status;
-    return status == LRCS_OK ? list_fill(list, &o, work) : status;
-}
-
-/* Moves the rings and points, which lie above the memory that was used to find them, to the
-   beginning of the work area. */
-static lrcs_polygons list_move(const ring_list *list, lrcs_work *work)
-{
-    lrcs_polygons p = {.rings = (uint32_t)list->rings, .points = (uint32_t)list->points};
-    p.ring = lrcsi_work_take(work, list->rings, sizeof *p.ring);
-    p.point = lrcsi_work_take(work, list->points, sizeof *p.point);
-    memmove(p.ring, list->ring, list->rings * sizeof *p.ring);
-    memmove(p.point, list->point, list->points * sizeof *p.point);
-    return p;
-}
-
+/* 1. Finds the rings of all facets to count them and their points. 2. Finds them again, and stores
+   them above the memory used so far. 3. Moves them to the beginning of the work area. */
 int lrcs_polygon_run(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,
                      lrcs_polygons *polygons)
 {
     size_t mark = work->used;
     ring_list list = {0};
-    int status = polygon_list(prepared, pose, work, &list);
-    work->used = mark;
+    lrcsi_view view;
+    lrcsi_classification classification;
+    lrcsi_occlusion o;
+    int status = lrcsi_view_make(prepared, pose, work, &view);
+    status = status == LRCS_OK ? lrcsi_classify_make(&view, NULL, work, &classification) : status;
+    status = status == LRCS_OK ? lrcsi_occlude_make(&classification, NULL, work, &o) : status;
+    status = status == LRCS_OK ? facets_add(&list, &o) : status;
     if (status == LRCS_OK) {
-        double count = prepared->scene->facet_count;
-        *polygons = list_move(&list, work);
-        polygons->bound_m2 =
-            lrcsi_prepared_area(prepared, list.bound * (1 + 1e-9 + 2 * count * LRCSI_U));
+        list = (ring_list){.ring_room = list.rings, .point_room = list.points};
+        list.ring = lrcsi_work_take(work, list.ring_room, sizeof *list.ring);
+        list.point = lrcsi_work_take(work, list.point_room, sizeof *list.point);
+        status = list.ring && list.point ? facets_add(&list, &o) : LRCS_E_MEMORY;
     }
-    return status;
+    work->used = mark;
+    if (status != LRCS_OK) {
+        return status;
+    }
+    double count = prepared->scene->facet_count;
+    *polygons = (lrcs_polygons){.rings = (uint32_t)list.rings, .points = (uint32_t)list.points};
+    polygons->ring = lrcsi_work_take(work, list.rings, sizeof *list.ring);
+    polygons->point = lrcsi_work_take(work, list.points, sizeof *list.point);
+    memmove(polygons->ring, list.ring, list.rings * sizeof *list.ring);
+    memmove(polygons->point, list.point, list.points * sizeof *list.point);
+    polygons->bound_m2 =
+        lrcsi_prepared_area(prepared, list.bound * (1 + 1e-9 + 2 * count * LRCSI_U));
+    return LRCS_OK;
 }

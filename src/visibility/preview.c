@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* Draws every facet into one item buffer, then counts samples. The owner of a sample is exact: it
-   is decided in floats or doubles if their error bounds allow it, which is nearly always so,
-   otherwise by visibility/sample.h. The errors of areas are estimates.
+/* Draws every facet into one z-buffer and counts samples. The owner of a sample is exact: heights
+   in floats or doubles decide it where their error bounds allow, nearly always, and otherwise
+   visibility/sample.h. The errors of areas are estimates; nothing is proved of them.
 
-   Depths are stored as floats. A facet is ordinary if the error of its heights, as floats, is below
-   a millionth of the window's side; nearly all are. Ordinary facets are drawn first, several
-   samples at once, and compared with the stored depths. The others (nearly edge-on, or reaching far
-   from the window) are drawn afterwards, sample by sample, with heights in doubles. */
+   The driver is lrcsi_preview_make:
+   1. draw_facets. Depths are stored as floats. A facet is ordinary if the error of its heights, as
+      floats, is below a millionth of the window's side; nearly all are. Ordinary facets are drawn
+      first, several samples at once, and compared with the stored depths. The others (nearly
+      edge-on, or reaching far from the window) are drawn afterwards, sample by sample, with heights
+      in doubles.
+   2. count_samples: the samples that each facet owns, and the borders of its visible region.
+   3. find_fractions: the visible fraction of each facet.
+   4. bias_of_small_facets, preview_area: the areas, and their estimated errors. */
 #include "visibility/preview.h"
 
 #include <math.h>
@@ -17,37 +22,38 @@
 #include "visibility/grid.h"
 #include "visibility/sample.h"
 
-/* The number of samples drawn at once. Samples beyond the end of a run are stored unchanged. */
+/* The number of samples drawn at once. Samples beyond the end of a span are stored unchanged. */
 enum { LANES = 8 };
 
 /* The largest error of an ordinary facet's heights, relative to the window's side. */
 #define ORDINARY_HEIGHT 0x1p-20
 
-/* A border between the samples of two owners, followed along a row or column of pixels: its facets,
-   where it was last met, and for how many pixels it has continued. */
+/* A border between the samples of two owners, followed along a row or column of pixels. */
 typedef struct preview_border {
-    uint32_t facet[2];
-    uint32_t at, length;
+    uint32_t facet[2];     /* the owners on its two sides */
+    uint32_t last, length; /* its last pixel, and for how many pixels it has continued */
 } preview_border;
 
-/* A facet's samples, and the borders of its visible region except those to its neighbours on the
-   same surface: the number of pixels on them, and on the longest along one row or column. */
+/* The samples of a facet, and the borders of its visible region. Borders to adjacent facets of the
+   mesh do not count. */
 typedef struct preview_counts {
-    uint32_t covered, owned, borders, longest;
-    uint32_t met;   /* 1 if there is any such border, also if it belongs to the other facet */
-    float share;    /* its visible fraction */
+    uint32_t covered, owned; /* samples */
+    uint32_t borders;  /* pixels on borders beyond which the facet continues, hidden by others */
+    uint32_t longest;  /* pixels on the longest of these along one row or column */
+    uint32_t bordered; /* 1 if there is any border, also if the facet does not continue beyond it */
+    float fraction;    /* its visible fraction */
     uint32_t round; /* the round in which that was found: 0 from its samples, LRCS_NONE not yet */
 } preview_counts;
 
 /* Facets with fewer samples than this are corrected for bias (preview_bias). */
 #define FEW_SAMPLES 16u
 
-/* Over how many neighbours visible fractions are passed on to facets without samples. */
-enum { SHARE_ROUNDS = 8 };
+/* Over how many adjacent facets visible fractions propagate to facets without samples. */
+enum { FRACTION_ROUNDS = 8 };
 
 typedef struct preview_job {
     const lrcsi_view *view;
-    lrcsi_raster raster; /* its geometry alone */
+    lrcsi_raster raster; /* only its geometry (lrcsi_raster_layout) */
     uint32_t *owner;     /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
     float *depth; /* N * N: height of an ordinary owner's plane; -HUGE_VALF if there is no owner */
     preview_counts *counts; /* facet */
@@ -59,28 +65,27 @@ typedef struct preview_job {
 
 /* --- drawing ---------------------------------------------------------------------------------- */
 
+/* No lrcsi_sample_order: not computed yet. */
+#define ORDER_UNKNOWN 2
+
 /* A facet being drawn. */
 typedef struct preview_facet {
     uint32_t facet;
     lrcsi_plane plane;
-    double err; /* of its heights */
+    double err; /* error bound of its heights */
     int ordinary;
-    float close;           /* ordinary: depths that differ by no more are not distinguished */
-    uint32_t met;          /* the owner last met at a depth too close for floats, or LRCS_NONE, */
-    lrcsi_plane met_plane; /* its plane, */
-    double met_err;        /* the error of its heights, */
-    int met_order;         /* and its lrcsi_sample_order */
+    float close; /* ordinary: depths that differ by no more are not distinguished */
+    /* Of the last owner for which floats did not decide: */
+    uint32_t rival;          /* the owner, or LRCS_NONE */
+    lrcsi_plane rival_plane; /* its plane */
+    double rival_err;        /* the error of its heights */
+    int rival_order;         /* its lrcsi_sample_order; ORDER_UNKNOWN */
 } preview_facet;
 
+/* The height of a plane at the centre of a pixel. */
 static double plane_height(const lrcsi_plane *plane, uint32_t x, uint32_t y)
 {
-    return plane->at + plane->along * (x + 0.5) + plane->up * (y + 0.5);
-}
-
-static void preview_point(const lrcsi_raster *r, uint32_t x, uint32_t y, double point[3])
-{
-    lrcsi_view_lift(r->view, r->view->low[0] + (x + 0.5) * r->pixel,
-                    r->view->low[1] + (y + 0.5) * r->pixel, point);
+    return plane->c + plane->dx * (x + 0.5) + plane->dy * (y + 0.5);
 }
 
 /* 1 if the facet is nearer than the owner of a sample that both cover: from heights in doubles,
@@ -88,31 +93,31 @@ static void preview_point(const lrcsi_raster *r, uint32_t x, uint32_t y, double 
 static int preview_nearer(preview_job *job, preview_facet *f, uint32_t owner, uint32_t x,
                           uint32_t y)
 {
-    if (owner != f->met) {
-        f->met = owner;
-        f->met_plane = lrcsi_raster_plane(&job->raster, owner);
-        f->met_err = lrcsi_raster_slack(&job->raster, owner);
-        f->met_order = 2; /* not asked yet */
+    if (owner != f->rival) {
+        f->rival = owner;
+        f->rival_plane = lrcsi_raster_plane(&job->raster, owner);
+        f->rival_err = lrcsi_raster_height_err(&job->raster, owner);
+        f->rival_order = ORDER_UNKNOWN;
     }
-    double ahead = plane_height(&f->plane, x, y) - plane_height(&f->met_plane, x, y);
-    if (fabs(ahead) > f->err + f->met_err) {
+    double ahead = plane_height(&f->plane, x, y) - plane_height(&f->rival_plane, x, y);
+    if (fabs(ahead) > f->err + f->rival_err) {
         return ahead > 0;
     }
-    if (f->met_order == 2) {
-        f->met_order = lrcsi_sample_order(job->view, f->facet, owner);
+    if (f->rival_order == ORDER_UNKNOWN) {
+        f->rival_order = lrcsi_sample_order(job->view, f->facet, owner);
     }
-    if (f->met_order != 0) {
-        return f->met_order > 0;
+    if (f->rival_order != 0) {
+        return f->rival_order > 0;
     }
     double point[3];
-    preview_point(&job->raster, x, y, point);
+    lrcsi_raster_sample(&job->raster, x, y, point);
     int nearer = lrcsi_sample_nearer(job->view, f->facet, owner, point, 1);
     job->undecided |= nearer == 0;
     return nearer > 0;
 }
 
 /* Gives the facet a sample that it covers, if it is nearer than the owner. */
-static void preview_sample(preview_job *job, preview_facet *f, uint32_t x, uint32_t y)
+static void draw_sample(preview_job *job, preview_facet *f, uint32_t x, uint32_t y)
 {
     size_t at = (size_t)y * job->raster.size + x;
     if (job->owner[at] == LRCS_NONE || preview_nearer(job, f, job->owner[at], x, y)) {
@@ -124,7 +129,7 @@ static void preview_sample(preview_job *job, preview_facet *f, uint32_t x, uint3
 /* Gives the facet those of the first `left` of LANES samples at which it is certainly nearer. The
    result is not 0 if there are samples at which its order is uncertain. Masks instead of branches,
    so that compilers vectorize the loop. */
-static inline uint32_t lanes_draw(uint32_t *restrict owner, float *restrict depth, float first,
+static inline uint32_t draw_lanes(uint32_t *restrict owner, float *restrict depth, float first,
                                   float along, float close, uint32_t facet, int32_t left)
 {
     uint32_t uncertainty[LANES];
@@ -154,35 +159,34 @@ static inline uint32_t lanes_draw(uint32_t *restrict owner, float *restrict dept
    an ordinary facet: with z the largest magnitude of a corner's depth, the heights of covered
    samples are at most z, and they change by at most 2 z along the run. Rounding the first height,
    the slope, two products and two sums adds less than 2^-21 z. */
-static void preview_run(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0, uint32_t x1)
+static void draw_run(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0, uint32_t x1)
 {
     size_t at = (size_t)y * job->raster.size + x0;
     float first = (float)plane_height(&f->plane, x0, y);
-    float along = (float)f->plane.along;
+    float along = (float)f->plane.dx;
     uint32_t uncertainty = !f->ordinary;
     for (uint32_t i = 0; i < x1 - x0 && f->ordinary; i += LANES) {
         uncertainty |=
-            lanes_draw(job->owner + at + i, job->depth + at + i, first + along * (float)(int32_t)i,
+            draw_lanes(job->owner + at + i, job->depth + at + i, first + along * (float)(int32_t)i,
                        along, f->close, f->facet, (int32_t)(x1 - x0 - i));
     }
     for (uint32_t i = 0; i < x1 - x0 && uncertainty != 0; i++) { /* those undecided, one by one */
         float ahead = first + along * (float)(int32_t)i - job->depth[at + i];
         if (job->owner[at + i] != f->facet && (!f->ordinary || ahead >= -f->close)) {
-            preview_sample(job, f, x0 + i, y);
+            draw_sample(job, f, x0 + i, y);
         }
     }
     job->counts[f->facet].covered += x1 - x0;
 }
 
 /* Samples for which the edge functions do not decide whether the facet covers them. */
-static void preview_uncertain(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0,
-                              uint32_t x1)
+static void draw_unsure(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0, uint32_t x1)
 {
     for (uint32_t x = x0; x < x1; x++) {
         double point[3];
-        preview_point(&job->raster, x, y, point);
+        lrcsi_raster_sample(&job->raster, x, y, point);
         if (lrcsi_sample_covers(job->view, f->facet, point)) {
-            preview_run(job, f, y, x, x + 1);
+            draw_run(job, f, y, x, x + 1);
         }
     }
 }
@@ -191,8 +195,8 @@ static void preview_uncertain(preview_job *job, preview_facet *f, uint32_t y, ui
 static int box_sampled(const lrcsi_raster *r, const double low[3], const double high[3])
 {
     for (int k = 0; k < 2; k++) {
-        double from = (low[k] - r->view->low[k]) * r->scale - r->off - 0.5;
-        double to = (high[k] - r->view->low[k]) * r->scale + r->off - 0.5;
+        double from = (low[k] - r->view->low[k]) * r->scale - r->sample_err - 0.5;
+        double to = (high[k] - r->view->low[k]) * r->scale + r->sample_err - 0.5;
         if (from > 0 && floor(to) < from) {
             return 0;
         }
@@ -203,7 +207,7 @@ static int box_sampled(const lrcsi_raster *r, const double low[3], const double 
 /* Draws a facet if it is ordinary and `ordinary` is 1, or if neither is so. Returns 1 if it is
    ordinary; facets that certainly cover no sample count as ordinary. The last term of `err` covers
    subnormal floats. */
-static int preview_draw(preview_job *job, uint32_t facet, int ordinary)
+static int draw_facet(preview_job *job, uint32_t facet, int ordinary)
 {
     double low[3];
     double high[3];
@@ -211,9 +215,9 @@ static int preview_draw(preview_job *job, uint32_t facet, int ordinary)
     if (!box_sampled(&job->raster, low, high)) {
         return 1; /* as most small ones */
     }
-    preview_facet f = {.facet = facet, .met = LRCS_NONE};
+    preview_facet f = {.facet = facet, .rival = LRCS_NONE};
     f.plane = lrcsi_raster_plane(&job->raster, facet);
-    f.err = lrcsi_raster_slack(&job->raster, facet);
+    f.err = lrcsi_raster_height_err(&job->raster, facet);
     double most = lrcsi_max(fabs(low[2]), fabs(high[2])) + f.err;
     double err = f.err + 0x1p-21 * most + 0x1p-140;
     f.ordinary = err <= job->ordinary_err;
@@ -221,35 +225,35 @@ static int preview_draw(preview_job *job, uint32_t facet, int ordinary)
         return f.ordinary;
     }
     f.close = f.ordinary ? (float)(1.01 * (err + job->ordinary_err)) : 0;
-    lrcsi_edges e = lrcsi_raster_edges(&job->raster, facet);
+    lrcsi_edge_functions e = lrcsi_raster_edge_functions(&job->raster, facet);
     for (uint32_t y = e.y0; y < e.y1; y++) {
-        lrcsi_samples row = lrcsi_span_samples(&e, y);
-        preview_uncertain(job, &f, y, row.may.x0, row.sure.x0);
-        if (row.sure.x0 < row.sure.x1) {
-            preview_run(job, &f, y, row.sure.x0, row.sure.x1);
+        lrcsi_sample_spans row = lrcsi_span_samples(&e, y);
+        draw_unsure(job, &f, y, row.possible.x0, row.certain.x0);
+        if (row.certain.x0 < row.certain.x1) {
+            draw_run(job, &f, y, row.certain.x0, row.certain.x1);
         }
-        preview_uncertain(job, &f, y, row.sure.x1, row.may.x1);
+        draw_unsure(job, &f, y, row.certain.x1, row.possible.x1);
     }
     return f.ordinary;
 }
 
-static void preview_facets(preview_job *job)
+static void draw_facets(preview_job *job)
 {
-    uint32_t left = 0; /* facets that are not ordinary */
+    uint32_t left = 0; /* facets that are not ordinary and not drawn yet */
     uint32_t count = job->view->prepared->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
-        left += lrcsi_view_casts(job->view, f) && !preview_draw(job, f, 1);
+        left += lrcsi_view_casts(job->view, f) && !draw_facet(job, f, 1);
     }
     for (uint32_t f = 0; f < count && left > 0; f++) {
-        left -= lrcsi_view_casts(job->view, f) && !preview_draw(job, f, 0);
+        left -= lrcsi_view_casts(job->view, f) && !draw_facet(job, f, 0);
     }
 }
 
 /* --- counting --------------------------------------------------------------------------------- */
 
-/* 0 if facet b is the neighbour of a across one of its sides, else 1: also if one of them is
-   LRCS_NONE. */
-static int preview_is_border(const lrcs_prepared *p, uint32_t a, uint32_t b)
+/* Is there a border between owners a and b? Not if they are adjacent across a side of a. Either may
+   be LRCS_NONE. */
+static int is_border(const lrcs_prepared *p, uint32_t a, uint32_t b)
 {
     if (a == LRCS_NONE || b == LRCS_NONE) {
         return 1;
@@ -258,10 +262,10 @@ static int preview_is_border(const lrcs_prepared *p, uint32_t a, uint32_t b)
     return across[0] != b && across[1] != b && across[2] != b;
 }
 
-/* 1 if a facet covers the sample beyond a border, which belongs to another owner that hides it
-   there. Only such borders cause errors of the visible fraction: at its own sides the facet's
-   visible and covered samples have the same error. */
-static int preview_reaches(const preview_job *job, uint32_t facet, uint32_t x, uint32_t y)
+/* Does a facet cover the sample beyond a border, where another owner hides it? Only such borders
+   cause errors of the visible fraction: at the facet's own sides, the numbers of its visible and of
+   its covered samples have the same error. */
+static int continues_beyond(const preview_job *job, uint32_t facet, uint32_t x, uint32_t y)
 {
     const lrcsi_raster *r = &job->raster;
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
@@ -288,17 +292,18 @@ static int preview_reflects(const preview_job *job, uint32_t owner)
     return owner != LRCS_NONE && lrcsi_view_reflects(job->view, owner);
 }
 
-/* Counts the border between two adjacent samples; `at` is their position along the border. */
-static void preview_step(preview_job *job, preview_border *border, uint32_t at, preview_owned a,
-                         preview_owned b)
+/* Counts the border between two adjacent samples of different owners; `position` is their pixel
+   along the border. */
+static void count_border(preview_job *job, preview_border *border, uint32_t position,
+                         preview_owned a, preview_owned b)
 {
     job->outline += preview_reflects(job, a.facet) != preview_reflects(job, b.facet);
-    if (!preview_is_border(job->view->prepared, a.facet, b.facet)) {
+    if (!is_border(job->view->prepared, a.facet, b.facet)) {
         return;
     }
-    int goes_on =
-        border->at + 1 == at && border->facet[0] == a.facet && border->facet[1] == b.facet;
-    *border = (preview_border){{a.facet, b.facet}, at, goes_on ? border->length + 1 : 1};
+    int continues =
+        border->last + 1 == position && border->facet[0] == a.facet && border->facet[1] == b.facet;
+    *border = (preview_border){{a.facet, b.facet}, position, continues ? border->length + 1 : 1};
     for (int k = 0; k < 2; k++) {
         const preview_owned *beyond = k == 0 ? &b : &a;
         uint32_t facet = border->facet[k];
@@ -306,15 +311,15 @@ static void preview_step(preview_job *job, preview_border *border, uint32_t at, 
             continue;
         }
         preview_counts *c = &job->counts[facet];
-        c->met = 1;
-        if (preview_reaches(job, facet, beyond->x, beyond->y)) {
+        c->bordered = 1;
+        if (continues_beyond(job, facet, beyond->x, beyond->y)) {
             c->borders++;
             c->longest = c->longest > border->length ? c->longest : border->length;
         }
     }
 }
 
-static void preview_count(preview_job *job)
+static void count_samples(preview_job *job)
 {
     uint32_t size = job->raster.size;
     for (uint32_t y = 0; y < size; y++) {
@@ -325,7 +330,7 @@ static void preview_count(preview_job *job)
         for (uint32_t x = 0; x < size; x++) {
             uint32_t owner = row[x];
             if (next[x] != owner) {
-                preview_step(job, &along, x, (preview_owned){owner, x, y},
+                count_border(job, &along, x, (preview_owned){owner, x, y},
                              (preview_owned){next[x], x, y + 1});
             }
             if (x + 1 < size && row[x + 1] == owner) {
@@ -336,7 +341,7 @@ static void preview_count(preview_job *job)
             }
             from = x + 1;
             if (x + 1 < size) {
-                preview_step(job, &job->column[x], y + 1, (preview_owned){owner, x, y},
+                count_border(job, &job->column[x], y + 1, (preview_owned){owner, x, y},
                              (preview_owned){row[x + 1], x + 1, y});
             }
         }
@@ -347,7 +352,7 @@ static void preview_count(preview_job *job)
 
 /* The visible fraction of a facet from its centroid: 1 if it is not more than a pixel behind the
    plane of the owner of the nearest sample, else 0. */
-static float preview_by_depth(const preview_job *job, uint32_t facet)
+static float fraction_by_depth(const preview_job *job, uint32_t facet)
 {
     const lrcsi_raster *r = &job->raster;
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
@@ -366,14 +371,14 @@ static float preview_by_depth(const preview_job *job, uint32_t facet)
         return 1;
     }
     lrcsi_plane plane = lrcsi_raster_plane(r, owner);
-    double height = plane.at + plane.along * middle[0] + plane.up * middle[1];
+    double height = plane.c + plane.dx * middle[0] + plane.dy * middle[1];
     return middle[2] > height - r->pixel;
 }
 
 /* The visible fraction of a facet without samples: the mean over the neighbours whose fractions
    were found in earlier rounds. Returns 0 if there are none. */
-static int preview_by_neighbours(const preview_job *job, uint32_t facet, uint32_t round,
-                                 float *share)
+static int fraction_by_neighbours(const preview_job *job, uint32_t facet, uint32_t round,
+                                  float *fraction)
 {
     const lrcs_prepared *p = job->view->prepared;
     const uint32_t *across = p->across.facet[facet].corner;
@@ -382,33 +387,32 @@ static int preview_by_neighbours(const preview_job *job, uint32_t facet, uint32_
     for (int k = 0; k < 3; k++) {
         if (across[k] != facet && across[k] != p->scene->facet_count &&
             job->counts[across[k]].round < round) {
-            sum += job->counts[across[k]].share;
+            sum += job->counts[across[k]].fraction;
             count += 1;
         }
     }
-    *share = count > 0 ? sum / count : 0;
+    *fraction = count > 0 ? sum / count : 0;
     return count > 0;
 }
 
-/* The visible fractions of all facets: from samples; without samples, from neighbours, in rounds,
-   so that the result does not depend on the order of facets; otherwise from the depth of the
-   centroid.
-   */
-static void preview_shares(preview_job *job)
+/* The visible fractions of all facets. With samples: from these. Without: from adjacent facets, in
+   rounds, so that the result does not depend on the order of facets. If that gives none: from the
+   depth of the centroid. */
+static void find_fractions(preview_job *job)
 {
     uint32_t facets = job->view->prepared->scene->facet_count;
     for (uint32_t f = 0; f < facets; f++) {
         preview_counts *c = &job->counts[f];
         c->round = c->covered != 0 ? 0 : LRCS_NONE;
-        c->share = c->covered != 0 ? (float)c->owned / (float)c->covered : 0;
+        c->fraction = c->covered != 0 ? (float)c->owned / (float)c->covered : 0;
     }
-    for (uint32_t round = 1; round <= SHARE_ROUNDS + 1; round++) {
+    for (uint32_t round = 1; round <= FRACTION_ROUNDS + 1; round++) {
         for (uint32_t f = 0; f < facets; f++) {
             preview_counts *c = &job->counts[f];
-            float share;
+            float fraction;
             if (c->round == LRCS_NONE && lrcsi_view_casts(job->view, f) &&
-                (preview_by_neighbours(job, f, round, &share) || round > SHARE_ROUNDS)) {
-                c->share = round > SHARE_ROUNDS ? preview_by_depth(job, f) : share;
+                (fraction_by_neighbours(job, f, round, &fraction) || round > FRACTION_ROUNDS)) {
+                c->fraction = round > FRACTION_ROUNDS ? fraction_by_depth(job, f) : fraction;
                 c->round = round;
             }
         }
@@ -436,37 +440,38 @@ typedef struct preview_bias {
     double left; /* the estimated remaining bias, relative to its visible area */
 } preview_bias;
 
-static int preview_few(const preview_job *job, uint32_t facet)
+static int few_samples(const preview_job *job, uint32_t facet)
 {
-    return job->counts[facet].covered < FEW_SAMPLES && job->counts[facet].share > 0 &&
+    return job->counts[facet].covered < FEW_SAMPLES && job->counts[facet].fraction > 0 &&
            lrcsi_view_reflects(job->view, facet);
 }
 
-static preview_bias preview_bias_of(const preview_job *job)
+static preview_bias bias_of_small_facets(const preview_job *job)
 {
     double pixel = job->raster.pixel * job->raster.pixel;
-    double over = 0;   /* area by visible fractions minus area by samples */
-    double shares = 0; /* visible area of facets with few samples */
-    double room = 0;   /* their hidden area */
+    double excess = 0;  /* area by visible fractions minus area by samples */
+    double visible = 0; /* visible area of facets with few samples */
+    double hidden = 0;  /* their hidden area */
     for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
         const preview_counts *c = &job->counts[f];
-        if (lrcsi_view_casts(job->view, f) && c->share > 0 && lrcsi_view_reflects(job->view, f)) {
+        if (lrcsi_view_casts(job->view, f) && c->fraction > 0 &&
+            lrcsi_view_reflects(job->view, f)) {
             double area = lrcsi_view_projected(job->view, f);
-            double shown = area * (double)c->share;
-            over += shown - pixel * c->owned;
-            shares += c->covered < FEW_SAMPLES ? shown : 0;
-            room += c->covered < FEW_SAMPLES ? area - shown : 0;
+            double by_fraction = area * (double)c->fraction;
+            excess += by_fraction - pixel * c->owned;
+            visible += c->covered < FEW_SAMPLES ? by_fraction : 0;
+            hidden += c->covered < FEW_SAMPLES ? area - by_fraction : 0;
         }
     }
     double chance = sqrt(LIKELY_SQUARE * job->outline) * pixel;
-    double both = sqrt(over * over + chance * chance);
+    double both = sqrt(excess * excess + chance * chance);
     preview_bias bias = {0, 0, 0};
-    if (both > 0 && shares > 0) {
-        double wanted = over * (over / both) * (over / both);
-        double taken = lrcsi_min(shares, lrcsi_max(-room, wanted));
-        bias.less = taken > 0 ? taken / shares : 0;
-        bias.more = taken < 0 ? -taken / room : 0;
-        bias.left = (2 * fabs(over) * (chance / both) + fabs(wanted - taken)) / shares;
+    if (both > 0 && visible > 0) {
+        double correction = excess * (excess / both) * (excess / both);
+        double applied = lrcsi_min(visible, lrcsi_max(-hidden, correction));
+        bias.less = applied > 0 ? applied / visible : 0;
+        bias.more = applied < 0 ? -applied / hidden : 0;
+        bias.left = (2 * fabs(excess) * (chance / both) + fabs(correction - applied)) / visible;
     }
     return bias;
 }
@@ -477,8 +482,8 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const 
     double area = lrcsi_view_projected(job->view, facet);
     double pixel = job->raster.pixel * job->raster.pixel;
     lrcsi_visible v = {0, 0, area, 0, 0};
-    v.area = area * (double)c->share;
-    if (preview_few(job, facet)) {
+    v.area = area * (double)c->fraction;
+    if (few_samples(job, facet)) {
         v.bias = bias->left * v.area;
         v.area += bias->more * (area - v.area) - bias->less * v.area;
         v.area = lrcsi_min(area, lrcsi_max(0, v.area));
@@ -487,7 +492,7 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const 
         v.likely = sqrt(LIKELY_SQUARE) * area;
     } else if (c->owned != 0) { /* even if it owns all, a strip may be hidden at a border */
         double square = c->borders + (double)c->longest * c->longest;
-        square = c->owned != c->covered ? square : c->met;
+        square = c->owned != c->covered ? square : c->bordered;
         v.likely = lrcsi_min(area, sqrt(LIKELY_SQUARE * square) * pixel);
     }
     return v;
@@ -496,57 +501,49 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const 
 /* --- the whole preview ------------------------------------------------------------------------ */
 
 /* The number of samples, with room for LANES samples after the last one. */
-static size_t preview_samples(uint32_t size)
+static size_t sample_room(uint32_t size)
 {
     return lrcsi_work_add(lrcsi_work_square(size), LANES);
 }
 
 size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size)
 {
-    size_t need = lrcsi_work_bytes(preview_samples(size), sizeof(uint32_t));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(preview_samples(size), sizeof(float)));
+    size_t need = lrcsi_work_bytes(sample_room(size), sizeof(uint32_t));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(sample_room(size), sizeof(float)));
     need = lrcsi_work_add(need,
                           lrcsi_work_bytes(prepared->scene->facet_count, sizeof(preview_counts)));
     return lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(preview_border)));
 }
 
-static int preview_start(preview_job *job, uint32_t size, lrcs_work *work)
-{
-    size_t samples = preview_samples(size);
-    lrcsi_raster_over(job->view, size, &job->raster);
-    job->ordinary_err = ORDINARY_HEIGHT * job->view->side;
-    job->owner = lrcsi_work_take(work, samples, sizeof *job->owner);
-    job->depth = lrcsi_work_take(work, samples, sizeof *job->depth);
-    job->counts =
-        lrcsi_work_take_zero(work, job->view->prepared->scene->facet_count, sizeof *job->counts);
-    job->column = lrcsi_work_take_zero(work, size, sizeof *job->column);
-    if (!job->owner || !job->depth || !job->counts || !job->column) {
-        return LRCS_E_MEMORY;
-    }
-    memset(job->owner, 0xff, samples * sizeof *job->owner); /* LRCS_NONE */
-    for (size_t i = 0; i < samples; i++) {
-        job->depth[i] = -HUGE_VALF;
-    }
-    return LRCS_OK;
-}
-
 int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
                        lrcsi_visible *visible, int *undecided)
 {
-    preview_job job = {.view = view};
-    size_t mark = work->used;
-    int status = preview_start(&job, size, work);
-    if (status == LRCS_OK) {
-        preview_facets(&job);
-        preview_count(&job);
-        preview_shares(&job);
-        preview_bias bias = preview_bias_of(&job);
-        for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-            visible[f] = lrcsi_view_casts(view, f) ? preview_area(&job, f, &bias)
-                                                   : (lrcsi_visible){0, 0, 0, 0, 0};
-        }
-        *undecided = job.undecided;
+    const uint32_t facets = view->prepared->scene->facet_count;
+    const size_t samples = sample_room(size);
+    const size_t mark = work->used;
+    preview_job job = {.view = view, .ordinary_err = ORDINARY_HEIGHT * view->side};
+    lrcsi_raster_layout(view, size, &job.raster);
+    job.owner = lrcsi_work_take(work, samples, sizeof *job.owner);
+    job.depth = lrcsi_work_take(work, samples, sizeof *job.depth);
+    job.counts = lrcsi_work_take_zero(work, facets, sizeof *job.counts);
+    job.column = lrcsi_work_take_zero(work, size, sizeof *job.column);
+    if (!job.owner || !job.depth || !job.counts || !job.column) {
+        work->used = mark;
+        return LRCS_E_MEMORY;
     }
+    memset(job.owner, 0xff, samples * sizeof *job.owner); /* LRCS_NONE */
+    for (size_t i = 0; i < samples; i++) {
+        job.depth[i] = -HUGE_VALF;
+    }
+    draw_facets(&job);
+    count_samples(&job);
+    find_fractions(&job);
+    const preview_bias bias = bias_of_small_facets(&job);
+    for (uint32_t f = 0; f < facets; f++) {
+        visible[f] = lrcsi_view_casts(view, f) ? preview_area(&job, f, &bias)
+                                               : (lrcsi_visible){0, 0, 0, 0, 0};
+    }
+    *undecided = job.undecided;
     work->used = mark;
-    return status;
+    return LRCS_OK;
 }

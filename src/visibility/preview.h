@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Visible areas at the cost of a raster, for answers that need no proof: an item buffer of N x N
-   samples at pixel centres, each owned by the facet nearest the laser there, exactly
-   (visibility/sample.h); of each facet the share of its samples that it owns. Nothing is proved of
-   the areas but that each lies between none and all of its facet; their likely error is told from
-   the pixels where owners change. */
+/* Visible areas at the cost of drawing, for answers that are accepted by estimate: a z-buffer of
+   N x N samples at pixel centres, whose owners are exact (visibility/raster.h), and for each facet
+   the fraction of its samples that it owns. The area of a facet is proved to lie between 0 and all
+   of the facet, and no more; its error is estimated from the pixels in which owners change. */
 #ifndef LRCSI_PREVIEW_H
 #define LRCSI_PREVIEW_H
 
@@ -12,8 +11,9 @@
 /* Bytes at most. */
 size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size);
 
-/* Finds visible[facet_count] from size x size samples. *undecided: 1 if some depth could not be
- * decided, else 0. Status: LRCS_OK; LRCS_E_MEMORY. Nothing stays in the work area. */
+/* Finds visible[facet_count] from size x size samples. *undecided: 1 if the depth order of some
+   facets could not be decided, else 0. Status: LRCS_OK; LRCS_E_MEMORY. Nothing stays in the work
+   area. */
 int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
                        lrcsi_visible *visible, int *undecided);
 

@@ -25,41 +25,41 @@
 
 #include "base/range.h"
 
-/* Squared estimates, in pixels, calibrated on scenes of seeds 101 and 102 (make bounds), on the
+/* Squares of estimates, in pixels, calibrated on scenes of seeds 101 and 102 (make bounds), on the
    demo and on three models (make estimate). */
 #define PARTIAL      0.9  /* a facet that owns some of its samples: errors at the ends of lines */
 #define PARTIAL_SUMS 1.4  /* times the squared range of the partial sums along a line */
-#define SIDES        0.3  /* the same for the facet's own sides, times share (1 - share) */
-#define MISCOUNT     1.5  /* times the squared error of the share that is caused by each side */
+#define SIDES        0.3  /* the same for the facet's own sides, times fraction (1 - fraction) */
+#define MISCOUNT     1.5  /* times the squared error of the fraction that is caused by each side */
 #define ALL          1.0  /* a facet that owns all of its samples */
 #define HIDERS       1.33 /* at most this, times the squared area of what could hide the facet */
 #define NONE         2.0  /* a facet that owns none of its samples */
 #define SMALL        0.8  /* any facet: at most this times its squared area */
 #define UNSAMPLED    0.5  /* a facet without samples: times its squared area */
 #define ROW          0.5  /* a facet that shares its samples: times its width */
-#define ROW_SEEN     3.0  /* the same: in addition, times its width and share (1 - share) */
+#define ROW_SEEN     3.0  /* the same: in addition, times its width and fraction (1 - fraction) */
 
-/* A facet, as the raster samples it. */
+/* A facet in a raster. */
 typedef struct sampled_facet {
     const lrcsi_raster *raster;
-    lrcsi_edges edges;
+    lrcsi_edge_functions edges;
     const uint32_t *component; /* of each facet */
     uint32_t facet;
-    double share; /* the fraction of its samples that it owns */
+    double fraction; /* the fraction of its samples that it owns */
 } sampled_facet;
 
 /* The sum of the offsets along a line, over the steps that count. */
 typedef struct miscount_sum {
     double sum, low, high; /* the sum, and the least and the largest partial sum */
     double bias;           /* signed: positive if too much of the facet counts as visible */
-    double miscount;       /* for a side: the error of the share that its offsets cause */
+    double miscount; /* for a side: the error of the visible fraction that its offsets cause */
 } miscount_sum;
 
 /* Does the facet cover the sample in the middle of a pixel? */
-static int sampled_covers(const lrcsi_edges *e, double x, double y)
+static int sampled_covers(const lrcsi_edge_functions *e, double x, double y)
 {
     for (int k = 0; k < 3; k++) {
-        if (e->at[k] + e->along[k] * (x + 0.5) + e->up[k] * (y + 0.5) < 0) {
+        if (e->c[k] + e->dx[k] * (x + 0.5) + e->dy[k] * (y + 0.5) < 0) {
             return 0;
         }
     }
@@ -109,7 +109,8 @@ static void miscount_step(miscount_sum *s, double offset, int above, int below, 
 }
 
 /* The error that a side causes in one step. If the side passes between the facet's inner sample of
-   that step and the limit, what this sample shows has too large a weight in the facet's share. */
+   that step and the limit, what this sample shows has too large a weight in the visible fraction.
+ */
 static double sampled_miscount(const sampled_facet *f, int axis, double along, double inner,
                                double offset)
 {
@@ -120,16 +121,17 @@ static double sampled_miscount(const sampled_facet *f, int axis, double along, d
         return 0;
     }
     int owns = lrcsi_raster_owner(r, (uint32_t)x, (uint32_t)y) == f->facet;
-    return (owns - f->share) * offset;
+    return (owns - f->fraction) * offset;
 }
 
 /* Clips the segment a b to the facet: from a + t[0] (b - a) to a + t[1] (b - a). Returns 0 if
    nothing remains. */
-static int segment_clip(const lrcsi_edges *e, const double a[2], const double b[2], double t[2])
+static int segment_clip(const lrcsi_edge_functions *e, const double a[2], const double b[2],
+                        double t[2])
 {
     for (int k = 0; k < 3; k++) {
-        double p = e->at[k] + e->along[k] * a[0] + e->up[k] * a[1] + e->off;
-        double q = e->at[k] + e->along[k] * b[0] + e->up[k] * b[1] + e->off;
+        double p = e->c[k] + e->dx[k] * a[0] + e->dy[k] * a[1] + e->value_err;
+        double q = e->c[k] + e->dx[k] * b[0] + e->dy[k] * b[1] + e->value_err;
         if (p < 0 && q < 0) {
             return 0;
         }
@@ -190,28 +192,27 @@ static void miscount_add_edge(const sampled_facet *f, uint32_t edge, lrcsi_sampl
     miscount_add(f, a, b, error);
 }
 
-/* Adds the line in which the planes of two facets intersect, as far as it may cross the facet's
-   box. */
+/* Adds the line in which the planes of two facets intersect, if it may cross the facet's box. */
 static void miscount_add_intersection(const sampled_facet *f, uint32_t other,
                                       lrcsi_sampling_error *error)
 {
-    const lrcsi_edges *box = &f->edges;
+    const lrcsi_edge_functions *box = &f->edges;
     lrcsi_plane p = lrcsi_raster_plane(f->raster, f->facet);
     lrcsi_plane q = lrcsi_raster_plane(f->raster, other);
-    double along = p.along - q.along;
-    double up = p.up - q.up;
-    double steep = sqrt(along * along + up * up);
+    double dx = p.dx - q.dx;
+    double dy = p.dy - q.dy;
+    double steep = sqrt(dx * dx + dy * dy);
     double x = 0.5 * ((double)box->x0 + box->x1);
     double y = 0.5 * ((double)box->y0 + box->y1);
     double reach = 2.0 + box->x1 - box->x0 + box->y1 - box->y0;
-    double far = (p.at - q.at + along * x + up * y) / steep; /* from the middle of the box */
+    double far = (p.c - q.c + dx * x + dy * y) / steep; /* distance from the middle of the box */
     if (!(fabs(far) < reach)) {
         return;
     }
-    along /= steep;
-    up /= steep;
-    const double a[2] = {x - along * far - up * reach, y - up * far + along * reach};
-    const double b[2] = {x - along * far + up * reach, y - up * far - along * reach};
+    dx /= steep;
+    dy /= steep;
+    const double a[2] = {x - dx * far - dy * reach, y - dy * far + dx * reach};
+    const double b[2] = {x - dx * far + dy * reach, y - dy * far - dx * reach};
     miscount_add(f, a, b, error);
 }
 
@@ -251,13 +252,13 @@ static void miscount_add_sides(const sampled_facet *f, lrcsi_sampling_error *err
         int above = c[!axis] - a[!axis] > slope * (c[axis] - a[axis]);
         miscount_sum s = miscount_along(f, a, b, above ? 1 : -1);
         double range = s.high - s.low;
-        error->square += SIDES * f->share * (1 - f->share) * range * range;
+        error->square += SIDES * f->fraction * (1 - f->fraction) * range * range;
         error->square += MISCOUNT * s.miscount * s.miscount;
     }
 }
 
 /* The projected area of a facet, in square pixels. */
-static double pixel_area(const lrcsi_raster *raster, uint32_t facet)
+static double area_in_pixels(const lrcsi_raster *raster, uint32_t facet)
 {
     return lrcsi_view_projected(raster->view, facet) * raster->scale * raster->scale;
 }
@@ -273,11 +274,11 @@ static double hiding_area(const lrcsi_raster *raster, uint32_t facet, const uint
     for (uint32_t i = 0; i < crossings; i++) {
         const lrcsi_edge *edge = &p->topology.edge[crossing[i]];
         for (uint32_t k = 0; k < edge->uses; k++) {
-            area += 0.5 * pixel_area(raster, p->topology.use[edge->first_use + k].facet);
+            area += 0.5 * area_in_pixels(raster, p->topology.use[edge->first_use + k].facet);
         }
     }
     for (uint32_t i = p->intersections.first[facet]; i < p->intersections.first[facet + 1]; i++) {
-        area += pixel_area(raster, p->intersections.entry[i].other);
+        area += area_in_pixels(raster, p->intersections.entry[i].other);
     }
     return area;
 }
@@ -299,8 +300,8 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
                                                 const lrcsi_raster *raster, uint32_t facet,
                                                 const uint32_t *crossing, uint32_t crossings)
 {
-    sampled_facet f = {raster, lrcsi_raster_edges(raster, facet), component, facet, 0};
-    double area = pixel_area(raster, facet);
+    sampled_facet f = {raster, lrcsi_raster_edge_functions(raster, facet), component, facet, 0};
+    double area = area_in_pixels(raster, facet);
     uint32_t owned = raster->owned[facet];
     uint32_t covered = raster->covered[facet];
     lrcsi_sampling_error error = {SMALL * area * area, 0};
@@ -312,7 +313,7 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
         double hiders = hiding_area(raster, facet, crossing, crossings);
         error.square = lrcsi_min(error.square, lrcsi_min(ALL, HIDERS * hiders * hiders));
     } else {
-        f.share = (double)owned / covered;
+        f.fraction = (double)owned / covered;
         error = error_partial(&f, crossing, crossings);
         error.square = lrcsi_min(error.square, SMALL * area * area);
     }
@@ -320,9 +321,9 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
 }
 
 lrcsi_sampling_error lrcsi_sampling_error_row(const lrcsi_raster *raster, uint32_t facet,
-                                              double longest, double share)
+                                              double longest, double fraction)
 {
-    double area = pixel_area(raster, facet);
+    double area = area_in_pixels(raster, facet);
     double width = longest > 0 ? lrcsi_min(1, 2 * area / longest) : 0;
-    return (lrcsi_sampling_error){width * (ROW + ROW_SEEN * share * (1 - share)), 0};
+    return (lrcsi_sampling_error){width * (ROW + ROW_SEEN * fraction * (1 - fraction)), 0};
 }

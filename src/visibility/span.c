@@ -1,29 +1,35 @@
 /* SPDX-License-Identifier: MIT */
-/* Where edge functions cross a row of pixels. Whether a sample near a side is covered is not
-   decided here, but exactly by visibility/sample.h.
+/* Where the edge functions of a facet cross a row of pixels. Whether the facet covers a sample near
+   one of its sides is not decided here, but exactly in visibility/sample.h.
 
-   Within a pixel an edge function differs from its value at the centre by at most bend = (|along| +
-   |up|) / 2. Therefore the limits of the four kinds of pixels are where it passes -off - bend
-   (touched), -off (may be covered), off (certainly covered) and off + bend (entirely covered). With
-   `row` its value at the left end of the row, it passes a limit at (limit - row) / along; pixel x
-   has its centre at x + 1/2.
+   Within a pixel, an edge function differs from its value at the centre by at most variation =
+   (|dx| + |dy|) / 2. A span therefore ends where the edge function passes one of four limits:
 
-   The computed position has an error of at most 4 u of its terms. This changes the value by at most
-   4 u (|row| + |limit|) <= 10 u N h + off / 16, for a box of half perimeter h on N x N pixels. That
-   is less than off / 4, because off is at least 64 u N (h + 2), and the edge function's own error
-   is at most 5/8 of it (visibility/raster.c). So the limits -off and off are still safe.
+     touched   -value_err - variation
+     possible  -value_err
+     certain    value_err
+     full       value_err + variation
 
-   Crossings are computed as cross_at + cross_up y: cross_at from at + up / 2 with three more
-   roundings, cross_up y with three, and their sum with one. With the limit the error is at most 5 u
-   (|at| + |up| (N + 1)) + 2 u |limit| <= 10 u N (h + 2) + off / 16, the same bound. */
+   If `row` is the value at the left end of the row, the limit is passed at (limit - row) / dx; the
+   centre of pixel x is at x + 1/2.
+
+   Error. The computed position has an error of at most 4 u of its terms, which changes the value by
+   at most 4 u (|row| + |limit|) <= 10 u N h + value_err / 16, for a box of half perimeter h on
+   N x N pixels. This is less than value_err / 4, because value_err is at least 64 u N (h + 2); and
+   the error of the edge function itself is at most 5/8 of value_err (visibility/raster.c).
+   Therefore the limits -value_err and value_err are still safe.
+
+   Crossings are computed as cross_x + cross_dx y: cross_x from c + dy / 2 with three more
+   roundings, cross_dx with three, and their sum with one. Including the limit, the error is at most
+   5 u (|c| + |dy| (N + 1)) + 2 u |limit| <= 10 u N (h + 2) + value_err / 16: the same bound. */
 #include "visibility/span.h"
 
 #include <math.h>
 
 #include "base/range.h"
 
-/* Where spans begin and end, before rounding to whole pixels; in the order of lrcsi_row. */
-enum { TOUCHED, MAY, SURE, WHOLE, KINDS };
+/* Where spans begin and end, before rounding to whole pixels; in the order of lrcsi_row_spans. */
+enum { TOUCHED, POSSIBLE, CERTAIN, FULL, KINDS };
 typedef struct span_ends {
     double from[KINDS], to[KINDS];
 } span_ends;
@@ -36,9 +42,9 @@ static inline uint32_t round_up(double x)
 }
 
 /* The largest difference of an edge function within a pixel from its value at the centre. */
-static double side_bend(const lrcsi_edges *e, int k)
+static double value_variation(const lrcsi_edge_functions *e, int k)
 {
-    return 0.5 * (fabs(e->along[k]) + fabs(e->up[k]));
+    return 0.5 * (fabs(e->dx[k]) + fabs(e->dy[k]));
 }
 
 /* The position error of the ends, and of every point between them, is at most a quarter of the
@@ -65,179 +71,179 @@ lrcsi_segment lrcsi_span_segment(const double *a, const double *b, double margin
     return s;
 }
 
-void lrcsi_span_prepare(lrcsi_edges *edges)
+void lrcsi_span_prepare(lrcsi_edge_functions *e)
 {
     for (int k = 0; k < 3; k++) {
-        double over = fabs(edges->along[k]) > 0x1p-1000 ? 1 / edges->along[k] : 0;
-        edges->over[k] = over;
-        edges->sample_offset[k] = 0.5 + edges->off * fabs(over);
-        edges->pixel_offset[k] = 0.5 + (edges->off + side_bend(edges, k)) * fabs(over);
+        double inv_dx = fabs(e->dx[k]) > 0x1p-1000 ? 1 / e->dx[k] : 0;
+        e->inv_dx[k] = inv_dx;
+        e->sample_margin[k] = 0.5 + e->value_err * fabs(inv_dx);
+        e->pixel_margin[k] = 0.5 + (e->value_err + value_variation(e, k)) * fabs(inv_dx);
     }
     int sides[2] = {0, 0};
-    edges->level = 0;
+    e->horizontal = 0;
     for (int i = 0; i < 4; i++) {
-        edges->cross_at[i] = i < 2 ? -HUGE_VAL : HUGE_VAL;
-        edges->cross_up[i] = edges->cross_sample_offset[i] = edges->cross_pixel_offset[i] = 0;
+        e->cross_x[i] = i < 2 ? -HUGE_VAL : HUGE_VAL;
+        e->cross_dx[i] = e->cross_sample_margin[i] = e->cross_pixel_margin[i] = 0;
     }
     for (int k = 0; k < 3; k++) { /* at most two sides bound a triangle on the same side */
-        int right = edges->over[k] < 0;
-        if (edges->over[k] == 0) {
-            edges->level = 1;
+        int right = e->inv_dx[k] < 0;
+        if (e->inv_dx[k] == 0) {
+            e->horizontal = 1;
         } else {
             int i = 2 * right + sides[right]++;
-            edges->cross_at[i] = -(edges->at[k] + 0.5 * edges->up[k]) * edges->over[k];
-            edges->cross_up[i] = -edges->up[k] * edges->over[k];
-            edges->cross_sample_offset[i] = edges->sample_offset[k];
-            edges->cross_pixel_offset[i] = edges->pixel_offset[k];
+            e->cross_x[i] = -(e->c[k] + 0.5 * e->dy[k]) * e->inv_dx[k];
+            e->cross_dx[i] = -e->dy[k] * e->inv_dx[k];
+            e->cross_sample_margin[i] = e->sample_margin[k];
+            e->cross_pixel_margin[i] = e->pixel_margin[k];
         }
     }
 }
 
-/* A side parallel to the row decides for all its pixels at once. */
-static inline void ends_level(span_ends *ends, const lrcsi_edges *e, int k, double row)
+/* Narrows the ends by a side that is parallel to the row: its value there, `row`, decides for all
+   pixels at once. */
+static inline void ends_narrow_horizontal(span_ends *ends, const lrcsi_edge_functions *e, int k,
+                                          double row)
 {
-    double far = e->off + side_bend(e, k);
-    ends->to[TOUCHED] = row < -far ? 0 : ends->to[TOUCHED];
-    ends->to[MAY] = row < -e->off ? 0 : ends->to[MAY];
-    ends->to[SURE] = row > e->off ? ends->to[SURE] : 0;
-    ends->to[WHOLE] = row > far ? ends->to[WHOLE] : 0;
+    double limit = e->value_err + value_variation(e, k);
+    ends->to[TOUCHED] = row < -limit ? 0 : ends->to[TOUCHED];
+    ends->to[POSSIBLE] = row < -e->value_err ? 0 : ends->to[POSSIBLE];
+    ends->to[CERTAIN] = row > e->value_err ? ends->to[CERTAIN] : 0;
+    ends->to[FULL] = row > limit ? ends->to[FULL] : 0;
 }
 
-/* Narrows the ends by one side of the facet. */
-static inline void ends_narrow(span_ends *ends, const lrcsi_edges *e, int k, double cy)
+/* Narrows the ends by side k of the facet; cy is the height of the row's centres. */
+static inline void ends_narrow(span_ends *ends, const lrcsi_edge_functions *e, int k, double cy)
 {
-    double row = e->at[k] + e->up[k] * cy;
-    double zero = -row * e->over[k];
-    if (e->over[k] > 0) {
-        ends->from[TOUCHED] = lrcsi_max(ends->from[TOUCHED], zero - e->pixel_offset[k]);
-        ends->from[MAY] = lrcsi_max(ends->from[MAY], zero - e->sample_offset[k]);
-        ends->from[SURE] = lrcsi_max(ends->from[SURE], zero + e->sample_offset[k]);
-        ends->from[WHOLE] = lrcsi_max(ends->from[WHOLE], zero + e->pixel_offset[k]);
-    } else if (e->over[k] < 0) {
-        ends->to[TOUCHED] = lrcsi_min(ends->to[TOUCHED], zero + e->pixel_offset[k]);
-        ends->to[MAY] = lrcsi_min(ends->to[MAY], zero + e->sample_offset[k]);
-        ends->to[SURE] = lrcsi_min(ends->to[SURE], zero - e->sample_offset[k]);
-        ends->to[WHOLE] = lrcsi_min(ends->to[WHOLE], zero - e->pixel_offset[k]);
+    double row = e->c[k] + e->dy[k] * cy;
+    double zero = -row * e->inv_dx[k];
+    if (e->inv_dx[k] > 0) {
+        ends->from[TOUCHED] = lrcsi_max(ends->from[TOUCHED], zero - e->pixel_margin[k]);
+        ends->from[POSSIBLE] = lrcsi_max(ends->from[POSSIBLE], zero - e->sample_margin[k]);
+        ends->from[CERTAIN] = lrcsi_max(ends->from[CERTAIN], zero + e->sample_margin[k]);
+        ends->from[FULL] = lrcsi_max(ends->from[FULL], zero + e->pixel_margin[k]);
+    } else if (e->inv_dx[k] < 0) {
+        ends->to[TOUCHED] = lrcsi_min(ends->to[TOUCHED], zero + e->pixel_margin[k]);
+        ends->to[POSSIBLE] = lrcsi_min(ends->to[POSSIBLE], zero + e->sample_margin[k]);
+        ends->to[CERTAIN] = lrcsi_min(ends->to[CERTAIN], zero - e->sample_margin[k]);
+        ends->to[FULL] = lrcsi_min(ends->to[FULL], zero - e->pixel_margin[k]);
     } else {
-        ends_level(ends, e, k, row);
+        ends_narrow_horizontal(ends, e, k, row);
     }
 }
 
-static inline lrcsi_pixels span_of(uint32_t x0, uint32_t x1)
+/* The span from x0 to x1, empty if x0 is beyond x1. */
+static inline lrcsi_pixel_span span_of(uint32_t x0, uint32_t x1)
 {
-    return (lrcsi_pixels){x0 < x1 ? x0 : x1, x1};
+    return (lrcsi_pixel_span){x0 < x1 ? x0 : x1, x1};
 }
 
-static inline lrcsi_pixels outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
+/* The pixels whose centres, or parts, lie between the ends of a kind that includes all in doubt. */
+static inline lrcsi_pixel_span outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
 {
     return span_of(round_up(lrcsi_min(ends->from[kind], x1)),
                    (uint32_t)lrcsi_max(ends->to[kind], x0));
 }
 
-static inline lrcsi_pixels inner_span(const span_ends *ends, int kind, lrcsi_pixels outer)
+/* The pixels of `outer` that lie between the ends of a kind that excludes all in doubt. */
+static inline lrcsi_pixel_span inner_span(const span_ends *ends, int kind, lrcsi_pixel_span outer)
 {
     return span_of((uint32_t)lrcsi_max(lrcsi_min(ends->from[kind], outer.x1), outer.x0),
                    round_up(lrcsi_min(lrcsi_max(ends->to[kind], outer.x0), outer.x1)));
 }
 
-lrcsi_row lrcsi_span_row(const lrcsi_edges *edges, uint32_t y)
+lrcsi_row_spans lrcsi_span_row(const lrcsi_edge_functions *e, uint32_t y)
 {
-    double x0 = edges->x0;
-    double x1 = edges->x1;
-    span_ends ends = {{edges->left, x0, x0, x0}, {edges->right, x1, x1, x1}};
-    ends_narrow(&ends, edges, 0,
-                y + 0.5); /* not a loop, so that compilers keep the ends in registers */
-    ends_narrow(&ends, edges, 1, y + 0.5);
-    ends_narrow(&ends, edges, 2, y + 0.5);
-    lrcsi_row row;
-    row.touched = outer_span(&ends, TOUCHED, edges->left, edges->right);
-    row.may = outer_span(&ends, MAY, edges->x0, edges->x1);
-    row.sure = inner_span(&ends, SURE, row.may);
-    row.whole = inner_span(&ends, WHOLE, row.sure);
+    double x0 = e->x0;
+    double x1 = e->x1;
+    span_ends ends = {{e->left, x0, x0, x0}, {e->right, x1, x1, x1}};
+    /* Not a loop, so that compilers keep the ends in registers. */
+    ends_narrow(&ends, e, 0, y + 0.5);
+    ends_narrow(&ends, e, 1, y + 0.5);
+    ends_narrow(&ends, e, 2, y + 0.5);
+    lrcsi_row_spans row;
+    row.touched = outer_span(&ends, TOUCHED, e->left, e->right);
+    row.possible = outer_span(&ends, POSSIBLE, e->x0, e->x1);
+    row.certain = inner_span(&ends, CERTAIN, row.possible);
+    row.full = inner_span(&ends, FULL, row.certain);
     return row;
 }
 
-/* The same, for samples only. */
-static void samples_level(const lrcsi_edges *e, uint32_t y, double may[2], double sure[2])
-{
-    for (int k = 0; k < 3; k++) {
-        if (e->over[k] == 0) {
-            double row = e->at[k] + e->up[k] * (y + 0.5);
-            may[1] = row < -e->off ? 0 : may[1];
-            sure[1] = row > e->off ? sure[1] : 0;
-        }
-    }
-}
-
-lrcsi_samples lrcsi_span_samples(const lrcsi_edges *e, uint32_t y)
+lrcsi_sample_spans lrcsi_span_samples(const lrcsi_edge_functions *e, uint32_t y)
 {
     double x0 = e->x0;
     double x1 = e->x1;
     double cross[4];
     for (int i = 0; i < 4; i++) {
-        cross[i] = e->cross_at[i] + e->cross_up[i] * y;
+        cross[i] = e->cross_x[i] + e->cross_dx[i] * y;
     }
-    const double *offset = e->cross_sample_offset;
-    double may[2] = {lrcsi_max(x0, lrcsi_max(cross[0] - offset[0], cross[1] - offset[1])),
-                     lrcsi_min(x1, lrcsi_min(cross[2] + offset[2], cross[3] + offset[3]))};
-    double sure[2] = {lrcsi_max(x0, lrcsi_max(cross[0] + offset[0], cross[1] + offset[1])),
-                      lrcsi_min(x1, lrcsi_min(cross[2] - offset[2], cross[3] - offset[3]))};
-    if (e->level) {
-        samples_level(e, y, may, sure);
+    const double *margin = e->cross_sample_margin;
+    double possible[2] = {lrcsi_max(x0, lrcsi_max(cross[0] - margin[0], cross[1] - margin[1])),
+                          lrcsi_min(x1, lrcsi_min(cross[2] + margin[2], cross[3] + margin[3]))};
+    double certain[2] = {lrcsi_max(x0, lrcsi_max(cross[0] + margin[0], cross[1] + margin[1])),
+                         lrcsi_min(x1, lrcsi_min(cross[2] - margin[2], cross[3] - margin[3]))};
+    if (e->horizontal) {
+        for (int k = 0; k < 3; k++) {
+            double row = e->c[k] + e->dy[k] * (y + 0.5);
+            if (e->inv_dx[k] == 0) {
+                possible[1] = row < -e->value_err ? 0 : possible[1];
+                certain[1] = row > e->value_err ? certain[1] : 0;
+            }
+        }
     }
-    lrcsi_samples samples;
-    samples.may = span_of(round_up(lrcsi_min(may[0], x1)), (uint32_t)lrcsi_max(may[1], x0));
-    x0 = samples.may.x0;
-    x1 = samples.may.x1;
-    samples.sure = span_of((uint32_t)lrcsi_max(lrcsi_min(sure[0], x1), x0),
-                           round_up(lrcsi_min(lrcsi_max(sure[1], x0), x1)));
+    lrcsi_sample_spans samples;
+    samples.possible =
+        span_of(round_up(lrcsi_min(possible[0], x1)), (uint32_t)lrcsi_max(possible[1], x0));
+    x0 = samples.possible.x0;
+    x1 = samples.possible.x1;
+    samples.certain = span_of((uint32_t)lrcsi_max(lrcsi_min(certain[0], x1), x0),
+                              round_up(lrcsi_min(lrcsi_max(certain[1], x0), x1)));
     return samples;
 }
 
-lrcsi_pixels lrcsi_span_whole(const lrcsi_edges *e, uint32_t y, lrcsi_pixels sure)
+lrcsi_pixel_span lrcsi_span_full(const lrcsi_edge_functions *e, uint32_t y,
+                                 lrcsi_pixel_span certain)
 {
-    span_ends ends = {.from = {[WHOLE] = sure.x0}, .to = {[WHOLE] = sure.x1}};
+    span_ends ends = {.from = {[FULL] = certain.x0}, .to = {[FULL] = certain.x1}};
     for (int i = 0; i < 2; i++) {
-        double left = e->cross_at[i] + e->cross_up[i] * y + e->cross_pixel_offset[i];
-        double right = e->cross_at[2 + i] + e->cross_up[2 + i] * y - e->cross_pixel_offset[2 + i];
-        ends.from[WHOLE] = lrcsi_max(ends.from[WHOLE], left);
-        ends.to[WHOLE] = lrcsi_min(ends.to[WHOLE], right);
+        double left = e->cross_x[i] + e->cross_dx[i] * y + e->cross_pixel_margin[i];
+        double right = e->cross_x[2 + i] + e->cross_dx[2 + i] * y - e->cross_pixel_margin[2 + i];
+        ends.from[FULL] = lrcsi_max(ends.from[FULL], left);
+        ends.to[FULL] = lrcsi_min(ends.to[FULL], right);
     }
-    for (int k = 0; e->level && k < 3; k++) {
-        if (e->over[k] == 0) {
-            ends_level(&ends, e, k, e->at[k] + e->up[k] * (y + 0.5));
+    for (int k = 0; e->horizontal && k < 3; k++) {
+        if (e->inv_dx[k] == 0) {
+            ends_narrow_horizontal(&ends, e, k, e->c[k] + e->dy[k] * (y + 0.5));
         }
     }
-    return inner_span(&ends, WHOLE, sure);
+    return inner_span(&ends, FULL, certain);
 }
 
-lrcsi_pixels lrcsi_span_touched(const lrcsi_edges *e, uint32_t y)
+lrcsi_pixel_span lrcsi_span_touched(const lrcsi_edge_functions *e, uint32_t y)
 {
     return lrcsi_span_touched_rows(e, y, y);
 }
 
-/* Where a side crosses the rows, and the value of one that is parallel to them, are linear in y: in
-   rows between the first and the last they lie between the values there, which have the errors of
-   those rows. */
-lrcsi_pixels lrcsi_span_touched_rows(const lrcsi_edges *e, uint32_t y0, uint32_t y1)
+/* The crossing of a side with the rows is linear in y, and so is the value of a side parallel to
+   them. Between the first and the last row both therefore lie between their values in these two
+   rows. */
+lrcsi_pixel_span lrcsi_span_touched_rows(const lrcsi_edge_functions *e, uint32_t y0, uint32_t y1)
 {
     double from[2];
     double to[2];
     for (int i = 0; i < 2; i++) {
-        double left[2] = {e->cross_at[i] + e->cross_up[i] * y0,
-                          e->cross_at[i] + e->cross_up[i] * y1};
-        double right[2] = {e->cross_at[2 + i] + e->cross_up[2 + i] * y0,
-                           e->cross_at[2 + i] + e->cross_up[2 + i] * y1};
-        from[i] = lrcsi_min(left[0], left[1]) - e->cross_pixel_offset[i];
-        to[i] = lrcsi_max(right[0], right[1]) + e->cross_pixel_offset[2 + i];
+        double left[2] = {e->cross_x[i] + e->cross_dx[i] * y0, e->cross_x[i] + e->cross_dx[i] * y1};
+        double right[2] = {e->cross_x[2 + i] + e->cross_dx[2 + i] * y0,
+                           e->cross_x[2 + i] + e->cross_dx[2 + i] * y1};
+        from[i] = lrcsi_min(left[0], left[1]) - e->cross_pixel_margin[i];
+        to[i] = lrcsi_max(right[0], right[1]) + e->cross_pixel_margin[2 + i];
     }
     span_ends ends = {.from = {lrcsi_max(e->left, lrcsi_max(from[0], from[1]))},
                       .to = {lrcsi_min(e->right, lrcsi_min(to[0], to[1]))}};
-    for (int k = 0; e->level && k < 3; k++) {
-        if (e->over[k] == 0) {
-            ends_level(
+    for (int k = 0; e->horizontal && k < 3; k++) {
+        if (e->inv_dx[k] == 0) {
+            ends_narrow_horizontal(
                 &ends, e, k,
-                lrcsi_max(e->at[k] + e->up[k] * (y0 + 0.5), e->at[k] + e->up[k] * (y1 + 0.5)));
+                lrcsi_max(e->c[k] + e->dy[k] * (y0 + 0.5), e->c[k] + e->dy[k] * (y1 + 0.5)));
         }
     }
     return outer_span(&ends, TOUCHED, e->left, e->right);

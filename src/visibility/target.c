@@ -91,7 +91,7 @@ const double *lrcsi_target_corner(const lrcsi_view *view, uint32_t facet, int k)
     return lrcsi_prepared_corner(view->prepared, facet, corner_number(view, facet, 0, k));
 }
 
-const double *lrcsi_target_own(const lrcsi_view *view, uint32_t facet, int k)
+const double *lrcsi_target_frame_corner(const lrcsi_view *view, uint32_t facet, int k)
 {
     int first = corner_first(view, facet);
     return lrcsi_prepared_corner(view->prepared, facet, corner_number(view, facet, first, k));
@@ -132,9 +132,10 @@ double lrcsi_target_segment(const lrcsi_target *t, double end[2][2], const doubl
 void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
 {
     *t = (lrcsi_target){.view = view, .facet = facet, .unit = 1};
-    t->origin = lrcsi_target_own(view, facet, 0);
+    t->origin = lrcsi_target_frame_corner(view, facet, 0);
     for (int k = 0; k < 3; k++) {
-        double away = lrcsi_target_coordinates(t, lrcsi_target_own(view, facet, k), t->corner[k]);
+        double away =
+            lrcsi_target_coordinates(t, lrcsi_target_frame_corner(view, facet, k), t->corner[k]);
         t->reach = lrcsi_max(t->reach, away);
     }
     for (int k = 0; k < 3; k++) {
@@ -170,7 +171,7 @@ double lrcsi_target_lift_err(const lrcsi_target *t)
    u^2): at most 15 u^2 |f| |d| in norm. Its product with g is three products and two sums, 13.2 u^2
    of |f| |d| |g|. So the error of the determinant is at most 29 u^2 r |d| |g|. The computed T is
    used as if it were exact: this scales the frame by 1 + 29 u^2 r^2 |d| / T, and moves the facet's
-   own corners, and the point that a position in the frame stands for, by as much. `relative_err`
+   own corners, and the point that a position in the frame represents, by as much. `relative_err`
    times the reach is more than twice that. The quotient adds 20 u^2 of a coordinate of at most 1.01
    r |d| |g| / T.
 
@@ -181,16 +182,16 @@ double lrcsi_target_lift_err(const lrcsi_target *t)
 
 /* Products of coordinates and components are multiples of 2^-1056 (base/exact.c). This exceeds by
    far what underflow in products of quotients and positions can lose, some 2^-1074. */
-#define UNDERFLOW_MOST 0x1p-900
+#define NEEDLE_UNDERFLOW 0x1p-900
 
-/* A needle is at least NEEDLE_LEAST and at most NEEDLE_MOST times as long as wide; the remaining
-   bits of 2^106 are its accuracy. In the frame along the axes, areas have errors of some 24 u of
-   the squared length. For facets more than half as long as the scene this may exceed 1e-15 of the
-   scene's squared size, and 1e-12 of the facet's area if it is NEEDLE_LARGE times as long as wide:
-   such facets count as needles from there on. */
-#define NEEDLE_LEAST 0x1p20
-#define NEEDLE_LARGE 0x1p8
-#define NEEDLE_MOST  0x1p88
+/* A needle is at least NEEDLE_MIN_RATIO and at most NEEDLE_MAX_RATIO times as long as wide; the
+   remaining bits of 2^106 are its accuracy. In the frame along the axes, areas have errors of some
+   24 u of the squared length. For facets more than half as long as the scene this may exceed 1e-15
+   of the scene's squared size, and 1e-12 of the facet's area if it is NEEDLE_LARGE_RATIO times as
+   long as wide: such facets count as needles from that ratio on. */
+#define NEEDLE_MIN_RATIO   0x1p20
+#define NEEDLE_LARGE_RATIO 0x1p8
+#define NEEDLE_MAX_RATIO   0x1p88
 
 lrcsi_dd lrcsi_needle_quotient(lrcsi_dd a, lrcsi_dd b)
 {
@@ -233,8 +234,8 @@ int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
     double turn = corner[1][0] * corner[2][1] - corner[1][1] * corner[2][0];
     const double *bulk = view->prepared->bulk;
     double large = lrcsi_max(bulk[0], lrcsi_max(bulk[1], bulk[2]));
-    double least = reach > large ? NEEDLE_LARGE : NEEDLE_LEAST;
-    if (turn * least > reach * reach) {
+    double ratio = reach > large ? NEEDLE_LARGE_RATIO : NEEDLE_MIN_RATIO;
+    if (turn * ratio > reach * reach) {
         return 0;
     }
     n->origin = point[0];
@@ -248,10 +249,10 @@ int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
     }
     cross_view(n->side[1], n->direction, 1, n->row[0]);
     cross_view(n->side[0], n->direction, -1, n->row[1]);
-    n->whole = dot_dd(n->row[1], n->side[1]);
-    n->relative_err = NEEDLE_ERR * n->reach * n->length / n->whole.hi;
-    return n->whole.hi > UNDERFLOW_MOST &&
-           n->whole.hi * NEEDLE_MOST > n->reach * n->reach * n->length;
+    n->determinant = dot_dd(n->row[1], n->side[1]);
+    n->relative_err = NEEDLE_ERR * n->reach * n->length / n->determinant.hi;
+    return n->determinant.hi > NEEDLE_UNDERFLOW &&
+           n->determinant.hi * NEEDLE_MAX_RATIO > n->reach * n->reach * n->length;
 }
 
 double lrcsi_needle_coordinates(const lrcsi_needle *n, const double x[3], lrcsi_dd out[2])
@@ -259,7 +260,7 @@ double lrcsi_needle_coordinates(const lrcsi_needle *n, const double x[3], lrcsi_
     lrcsi_dd gap[3];
     double far = difference_dd(x, n->origin, gap);
     for (int i = 0; i < 2; i++) {
-        out[i] = lrcsi_needle_quotient(dot_dd(n->row[i], gap), n->whole);
+        out[i] = lrcsi_needle_quotient(dot_dd(n->row[i], gap), n->determinant);
     }
     return n->relative_err * far;
 }
@@ -340,7 +341,7 @@ double lrcsi_needle_line(const lrcsi_needle *n, const double p[3], const double 
     line[1] = lrcsi_dd_value(dot_dd(row, n->side[1]));
     line[2] = lrcsi_dd_value(dot_dd(row, gap));
     return 8 * LRCSI_U * (2 * fabs(line[0]) + 2 * fabs(line[1]) + fabs(line[2])) +
-           64 * LRCSI_U * LRCSI_U * length * far * n->length + UNDERFLOW_MOST;
+           64 * LRCSI_U * LRCSI_U * length * far * n->length + NEEDLE_UNDERFLOW;
 }
 
 /* det(q - p, x - p, d) at x = origin + u e + v f. The error of x - p is 13 u^2 of the lengths of
@@ -359,7 +360,8 @@ double lrcsi_needle_side(const lrcsi_needle *n, const double p[3], const double 
     }
     cross_view(along, n->direction, -1, row);
     double side = lrcsi_dd_value(dot_dd(row, gap));
-    return guess || fabs(side) > 64 * LRCSI_U * LRCSI_U * length * far * n->length + UNDERFLOW_MOST
+    return guess ||
+                   fabs(side) > 64 * LRCSI_U * LRCSI_U * length * far * n->length + NEEDLE_UNDERFLOW
                ? side
                : 0;
 }
@@ -368,8 +370,8 @@ double lrcsi_needle_side(const lrcsi_needle *n, const double p[3], const double 
 
 void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_target *refined)
 {
-    const double *const point[3] = {t->origin, lrcsi_target_own(t->view, t->facet, 1),
-                                    lrcsi_target_own(t->view, t->facet, 2)};
+    const double *const point[3] = {t->origin, lrcsi_target_frame_corner(t->view, t->facet, 1),
+                                    lrcsi_target_frame_corner(t->view, t->facet, 2)};
     *refined = *t;
     if (lrcsi_needle_make(t->view, point, t->corner, t->reach, needle)) {
         *refined = (lrcsi_target){.view = t->view,
@@ -385,7 +387,7 @@ void lrcsi_target_refine(const lrcsi_target *t, lrcsi_needle *needle, lrcsi_targ
     }
 }
 
-void lrcsi_target_unrefine(const lrcsi_target *refined, const double at[2], double out[2])
+void lrcsi_target_to_axes(const lrcsi_target *refined, const double at[2], double out[2])
 {
     for (int k = 0; k < 2; k++) {
         out[k] = refined->needle

@@ -15,8 +15,8 @@
 typedef struct lrcsi_needle {
     const double *origin; /* the first corner */
     lrcsi_dd side[2][3];  /* from there to the other corners, exactly */
-    lrcsi_dd row[2][3];   /* a coordinate is row . (x - origin) / whole */
-    lrcsi_dd whole;
+    lrcsi_dd row[2][3];   /* a coordinate is row . (x - origin) / determinant */
+    lrcsi_dd determinant;
     const double *direction;
     double length;       /* |direction| */
     double reach;        /* upper bound of the sides from the origin */
@@ -47,19 +47,19 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *tar
    of the facet that lrcsi_target_weights gives for it, with rounded coordinates. */
 double lrcsi_target_lift_err(const lrcsi_target *target);
 
-/* The frame in which parts of the facet can be told apart: barycentric coordinates if it is a
-   needle, otherwise the same frame. */
+/* The frame that resolves the width of the facet: barycentric coordinates if it is a needle,
+   otherwise the same frame. */
 void lrcsi_target_refine(const lrcsi_target *target, lrcsi_needle *needle, lrcsi_target *refined);
 
-/* From the refined frame to that of the view's axes, within 3 u of the reach. */
-void lrcsi_target_unrefine(const lrcsi_target *refined, const double at[2], double out[2]);
+/* From the refined frame to the frame along the view's axes, within 3 u of the reach. */
+void lrcsi_target_to_axes(const lrcsi_target *refined, const double at[2], double out[2]);
 
 /* Corner k of a facet, counted so that they run counter-clockwise in the view. */
 const double *lrcsi_target_corner(const lrcsi_view *view, uint32_t facet, int k);
 
 /* The same, counted from the corner at which the facet's frame begins: one that is not far away
    from the bulk of the scene, if the facet has one. */
-const double *lrcsi_target_own(const lrcsi_view *view, uint32_t facet, int k);
+const double *lrcsi_target_frame_corner(const lrcsi_view *view, uint32_t facet, int k);
 
 /* A scene point in the target's frame. Returns a distance, at most that of the point from the first
    corner, in space: the position error is at most 10 u of it. */
@@ -70,14 +70,15 @@ double lrcsi_target_coordinates(const lrcsi_target *target, const double x[3], d
    errors of both ends are then at most 10 u of it. */
 double lrcsi_target_segment(const lrcsi_target *target, double end[2][2], const double away[2]);
 
-/* The point of the facet that is seen at `at`, a point of the frame, in barycentric coordinates, in
-   the order of the facet's corners: each at least 0, their sum 1 to rounding. A corner gives
+/* The point of the facet that is visible at `at`, a point of the frame, in barycentric coordinates,
+   in the order of the facet's corners: each at least 0, their sum 1 within rounding. A corner gives
    exactly that corner; a point outside the facet gives a point of its boundary. The projection of
    the point is within 100 u of the reach of `at`; along the direction the error may be tan(theta)
    times as large. */
 void lrcsi_target_weights(const lrcsi_target *target, const double at[2], double weight[3]);
 
-/* --- needles --- */
+/* --- needles ------------------------------------------------------------------------------------
+ */
 
 /* Given: the corners of a facet as scene points, and in its frame (corner, reach). Returns 1 and
    the frame if the facet is a needle in the view; 0 if it is not, or if it is too thin for

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* How much of each facet the laser sees: a projected area with its bounds, whichever method found
-   it. This is what visibility hands to integration. */
+/* The visible area of each facet, projected, with its bounds: the result of visibility for
+   integration, whichever method found it. Here: areas without shadows, areas that queries decide,
+   and areas from the samples of a z-buffer. */
 #ifndef LRCSI_VISIBLE_H
 #define LRCSI_VISIBLE_H
 
@@ -9,9 +10,9 @@
 #include "visibility/raster.h"
 #include "visibility/visible_area.h"
 
-/* The area of a facet that nothing is known to hide: all of it is visible. This is proved for
-   |cos(theta)| > grazing_cos; otherwise the area is an upper bound (low is 0), as for every facet
-   if grazing_cos is 1. */
+/* The area of a facet that nothing is known to hide: all of it. This is proved for |cos(theta)| >
+   grazing_cos. Otherwise the area is only an upper bound, and low is 0; so it is for every facet if
+   grazing_cos is 1. */
 static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_incidence *incidence,
                                                      double grazing_cos)
 {
@@ -19,8 +20,8 @@ static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_incidence *inci
     return (lrcsi_visible){incidence->projected, low, incidence->projected, 0, 0};
 }
 
-/* A visible area, with what is proved about back sides: in a scene that is closed and outward they
-   are never visible, and a search for them that does not find them hidden proves nothing else. */
+/* A visible area, corrected for back sides. In a scene that is closed and outward they are never
+   visible; a search that did not find one hidden does not prove that it is visible. */
 static inline lrcsi_visible lrcsi_visible_proved(const lrcsi_view *view, uint32_t facet,
                                                  lrcsi_visible visible)
 {
@@ -28,25 +29,25 @@ static inline lrcsi_visible lrcsi_visible_proved(const lrcsi_view *view, uint32_
     return visible;
 }
 
-/* All or nothing of each facet, by its lrcsi_query_answer; visible[facet] stays as it is where that
-   is undecided. */
+/* Sets visible[facet] to all of the facet or nothing, by its lrcsi_query_answer; leaves it as it is
+   if that is undecided. */
 void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
                             lrcsi_visible *visible);
 
 /* Bytes for lrcsi_visible_known, at most. */
 size_t lrcsi_visible_known_need(const lrcs_prepared *prepared);
 
-/* Asks of uniform facets whether they are visible, of undecided ones whether they are hidden.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. What is known stays in the work area. */
+/* Finds by queries which uniform facets are visible, and which undecided facets are proved hidden.
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The result stays in the work area. */
 int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, lrcsi_known *known);
 
 /* Bytes for lrcsi_visible_sampled, at most. */
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size);
 
-/* The hybrid of exact decisions and samples. A uniform facet has its exact projected area, or 0.
-   The area of an undecided facet is the fraction of its samples that it owns, within the bounds
-   that follow from the pixels in which visibility does not change. Only the tiles around undecided
-   facets are drawn.
+/* Finds visible areas by exact decisions and samples. A uniform facet has its exact projected area,
+   or 0. The area of an undecided facet follows from the fraction of its samples that it owns,
+   within the bounds that follow from the pixels in which its visibility does not change. Only the
+   tiles around undecided facets are drawn.
    Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area. */
 int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
                           lrcsi_raster *raster, lrcsi_visible *visible);

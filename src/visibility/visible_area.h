@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: MIT */
-/* What is known of the visible areas of facets: the area with its bounds, and what exact queries
-   decide before any sample is taken. */
+/* The visible area of a facet with its bounds, and what exact queries decide before samples are
+   taken. */
 #ifndef LRCSI_VISIBLE_AREA_H
 #define LRCSI_VISIBLE_AREA_H
 
 #include "visibility/classify.h"
 
-/* Projected areas in scaled units; 0 <= low <= area <= high <= the facet's projected area, but for
-   rounding. The truth lies between low and high. */
+/* Projected areas in scaled units. Except for rounding, 0 <= low <= area <= high <= the facet's
+   projected area. The true area is between low and high. */
 typedef struct lrcsi_visible {
     double area, low, high;
-    double likely; /* of a sampled area: its likely error; else 0 */
-    double bias;   /* the part of it that has a sign, too much being positive */
+    double likely; /* estimated error of an area from samples; else 0 */
+    double bias;   /* the part of that error that has a sign: positive if the area is too large */
 } lrcsi_visible;
 
-/* What exact queries tell of facets before any sample is taken. */
+/* What exact queries decide about facets before samples are taken. */
 typedef struct lrcsi_known {
     lrcsi_classification *classification;
     lrcsi_grid facets;
-    unsigned char *answer; /* facet: a lrcsi_query_answer; hidden where it casts nothing; undecided
-                              where samples are to tell */
-    uint32_t listed;       /* the event edges that cross facet f < listed are
-                              crossing[first[f] .. first[f + 1]), of undecided ones that samples are
-                              to tell of */
+    unsigned char *answer; /* facet: a lrcsi_query_answer; hidden if it casts no shadow; undecided
+                              if samples have to decide */
+    /* The event edges that cross facet f < listed, if its answer is undecided:
+       crossing[first[f] .. first[f + 1]). */
+    uint32_t listed;
     uint32_t *first, *crossing;
 } lrcsi_known;
 

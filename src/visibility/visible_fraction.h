@@ -20,7 +20,7 @@ typedef struct lrcsi_sharing {
 
 /* How the area of one facet follows from samples. */
 typedef struct lrcsi_visible_fraction {
-    int row;         /* it shares its samples with its neighbours */
+    int row;         /* 1 if it shares its samples with its neighbours */
     double fraction; /* the visible fraction of its samples, or of all shared ones */
     double longest;  /* its longest side, in pixels */
 } lrcsi_visible_fraction;

@@ -305,7 +305,7 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
     static lrcsi_visible together[MOST];
     lrcsi_view view;
     lrcsi_classification classification;
-    lrcsi_occluding o;
+    lrcsi_occlusion o;
     if (lrcsi_view_make(prepared, pose, &work, &view) != LRCS_OK ||
         lrcsi_classify_make(&view, NULL, &work, &classification) != LRCS_OK ||
         lrcsi_occlude_make(&classification, NULL, &work, &o) != LRCS_OK) {

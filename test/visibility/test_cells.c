@@ -50,7 +50,7 @@ static uint32_t agree(const double direction[3])
     uint32_t left;
     turned(direction);
     uint32_t asked = ask(&left);
-    lrcsi_occluding o;
+    lrcsi_occlusion o;
     assert_int_equal(lrcsi_occlude_make(&classification, NULL, &work, &o), LRCS_OK);
     const double *bulk = view.prepared->bulk;
     double extent = 2 * fmax(bulk[0], fmax(bulk[1], bulk[2]));

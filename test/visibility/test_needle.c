@@ -24,8 +24,9 @@ static int look(int thin)
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
     lrcsi_target target;
     lrcsi_target_make(&view, 0, &target);
-    const double *const point[3] = {lrcsi_target_own(&view, 0, 0), lrcsi_target_own(&view, 0, 1),
-                                    lrcsi_target_own(&view, 0, 2)};
+    const double *const point[3] = {lrcsi_target_frame_corner(&view, 0, 0),
+                                    lrcsi_target_frame_corner(&view, 0, 1),
+                                    lrcsi_target_frame_corner(&view, 0, 2)};
     return lrcsi_needle_make(&view, point, (const double(*)[2])target.corner, target.reach,
                              &needle);
 }

@@ -11,10 +11,10 @@ static lrcsi_view view;
 static lrcsi_classification classification;
 
 /* A level plate of two facets at height 0, seen from above, and whatever else was put there. */
-static lrcsi_occluding open_scene(void)
+static lrcsi_occlusion open_scene(void)
 {
     lrcs_pose pose;
-    lrcsi_occluding o;
+    lrcsi_occlusion o;
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction((const double[3]){0, 0, 1}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
@@ -31,7 +31,7 @@ static void start(void)
 }
 
 /* The area of all pieces, their count in *pieces; the facet's area as told in *told. */
-static double pieces_area(lrcsi_occluding *o, uint32_t facet, uint32_t *pieces, double *told)
+static double pieces_area(lrcsi_occlusion *o, uint32_t facet, uint32_t *pieces, double *told)
 {
     double area = 0;
     *pieces = 0;
@@ -53,7 +53,7 @@ static void whole_facet_is_its_own_triangle(void **state)
     uint32_t pieces;
     double told;
     start();
-    lrcsi_occluding o = open_scene();
+    lrcsi_occlusion o = open_scene();
     check_rel(pieces_area(&o, 1, &pieces, &told), 0.5, 1e-15);
     assert_int_equal(pieces, 1);
     lrcsi_occlude_open(&o, 1);
@@ -74,7 +74,7 @@ static void hidden_and_edge_on_facets_have_no_pieces(void **state)
                 (const double[3]){0, 4, 0});
     scene_plate(&scene, (const double[3]){5, 0, 0}, (const double[3]){1, 0, 0},
                 (const double[3]){0, 0, 1});
-    lrcsi_occluding o = open_scene();
+    lrcsi_occlusion o = open_scene();
     static const uint32_t none[] = {0, 1, 4, 5};
     for (int i = 0; i < 4; i++) {
         check_same(pieces_area(&o, none[i], &pieces, &told), 0);
@@ -94,7 +94,7 @@ static void pieces_of_an_undecided_facet_add_up_to_its_area(void **state)
         scene_plate(&scene, (const double[3]){0.125 * (i % 8), 0.125 * (i / 8), 1},
                     (const double[3]){0.0625, 0, 0}, (const double[3]){0, 0.0625, 0});
     }
-    lrcsi_occluding o = open_scene();
+    lrcsi_occlusion o = open_scene();
     double first = pieces_area(&o, 0, &pieces, &told);
     check_same(told, first);
     assert_true(pieces > 20);
@@ -111,7 +111,7 @@ static void pieces_of_an_undecided_facet_add_up_to_its_area(void **state)
 static double share_left(const double direction[3], double *error)
 {
     lrcs_pose pose;
-    lrcsi_occluding o;
+    lrcsi_occlusion o;
     const lrcs_prepared *prepared = scene_prepare(&scene, &work);
     assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
@@ -315,7 +315,7 @@ static void a_needle_shows_its_share_in_pieces(void **state)
     for (int n = 24; n <= 52; n += 4) {
         const double from[3] = {0, ldexp(1, -n), 1};
         double error = 0;
-        lrcsi_occluding o;
+        lrcsi_occlusion o;
         scene_start(&scene);
         scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){0, 0, 1},
                        (const double[3]){1, 0, 0});
@@ -329,7 +329,8 @@ static void a_needle_shows_its_share_in_pieces(void **state)
         while (lrcsi_occlude_next(&o)) {
             area += lrcsi_clip_area(&o.alone.piece);
         }
-        double off = o.alone.piece_err + 20 * 0x1p-53 * o.alone.target.reach * o.alone.target.perimeter;
+        double off =
+            o.alone.piece_err + 20 * 0x1p-53 * o.alone.target.reach * o.alone.target.perimeter;
         lrcsi_visible seen = lrcsi_occlude_close(&o);
         check_abs(area, seen.area, off);
         check_most(off, 1e-14);
@@ -363,7 +364,7 @@ static void a_fan_costs_pieces_along_its_rim_only(void **state)
 {
     (void)state;
     fan_over_plate();
-    lrcsi_occluding o = open_scene();
+    lrcsi_occlusion o = open_scene();
     lrcsi_occlude_open(&o, 0);
     int steps = 0;
     while (lrcsi_occlude_next(&o)) {

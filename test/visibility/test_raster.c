@@ -203,8 +203,8 @@ static void owners_do_not_depend_on_the_order_of_facets(void **state)
     }
 }
 
-/* Heights of owners' planes against long double, within their slack. */
-static void depths_lie_within_their_slack(void **state)
+/* Heights of owners' planes against long double, within their error bounds. */
+static void depths_lie_within_their_error_bounds(void **state)
 {
     (void)state;
     enum { N = 40 };
@@ -231,8 +231,8 @@ static void depths_lie_within_their_slack(void **state)
             base += ((long double)point[i] - p->centre[i]) * view.direction[i];
         }
         long double want = top / bottom * view.length + base / view.length;
-        check_abs(raster.depth[k], (double)want, raster.slack[f]);
-        check_most(raster.slack[f], 1e-10);
+        check_abs(raster.depth[k], (double)want, raster.height_err[f]);
+        check_most(raster.height_err[f], 1e-10);
     }
 }
 
@@ -244,7 +244,7 @@ int main(void)
         cmocka_unit_test(fan_covers_every_sample_once),
         cmocka_unit_test(highest_plate_owns_each_sample),
         cmocka_unit_test(owners_do_not_depend_on_the_order_of_facets),
-        cmocka_unit_test(depths_lie_within_their_slack),
+        cmocka_unit_test(depths_lie_within_their_error_bounds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,15 +10,15 @@
 enum { N = 64 };
 
 /* The edges of a triangle with corners in eighths of a pixel, counter-clockwise. */
-static lrcsi_edges edges_of(const int corner[3][2])
+static lrcsi_edge_functions edges_of(const int corner[3][2])
 {
-    lrcsi_edges e = {.off = 0x1p-40};
+    lrcsi_edge_functions e = {.value_err = 0x1p-40};
     for (int k = 0; k < 3; k++) {
         const int *a = corner[k];
         const int *b = corner[(k + 1) % 3];
-        e.along[k] = -(b[1] - a[1]) / 8.0;
-        e.up[k] = (b[0] - a[0]) / 8.0;
-        e.at[k] = -(e.along[k] * a[0] + e.up[k] * a[1]) / 8;
+        e.dx[k] = -(b[1] - a[1]) / 8.0;
+        e.dy[k] = (b[0] - a[0]) / 8.0;
+        e.c[k] = -(e.dx[k] * a[0] + e.dy[k] * a[1]) / 8;
     }
     lrcsi_span_prepare(&e);
     return e;
@@ -69,19 +69,19 @@ static void triangle_of(uint64_t *seed, int sliver, int corner[3][2])
    Returns how many are touched. */
 static unsigned check_row(const int corner[3][2], int y, int x0, int x1)
 {
-    lrcsi_edges e = edges_of(corner);
+    lrcsi_edge_functions e = edges_of(corner);
     e.x0 = (uint32_t)x0;
     e.x1 = (uint32_t)x1;
     e.left = (uint32_t)(x0 > 0 ? x0 - 1 : 0);
     e.right = (uint32_t)(x1 < N ? x1 + 1 : N);
-    lrcsi_row row = lrcsi_span_row(&e, (uint32_t)y);
-    lrcsi_pixels touched = lrcsi_span_touched(&e, (uint32_t)y);
-    lrcsi_samples samples = lrcsi_span_samples(&e, (uint32_t)y);
-    assert_memory_equal(&samples.may, &row.may, sizeof row.may);
-    assert_memory_equal(&samples.sure, &row.sure, sizeof row.sure);
-    lrcsi_pixels whole = lrcsi_span_whole(&e, (uint32_t)y, samples.sure);
-    assert_int_equal(whole.x1 - whole.x0, row.whole.x1 - row.whole.x0);
-    assert_true(whole.x0 == whole.x1 || whole.x0 == row.whole.x0);
+    lrcsi_row_spans row = lrcsi_span_row(&e, (uint32_t)y);
+    lrcsi_pixel_span touched = lrcsi_span_touched(&e, (uint32_t)y);
+    lrcsi_sample_spans samples = lrcsi_span_samples(&e, (uint32_t)y);
+    assert_memory_equal(&samples.possible, &row.possible, sizeof row.possible);
+    assert_memory_equal(&samples.certain, &row.certain, sizeof row.certain);
+    lrcsi_pixel_span full = lrcsi_span_full(&e, (uint32_t)y, samples.certain);
+    assert_int_equal(full.x1 - full.x0, row.full.x1 - row.full.x0);
+    assert_true(full.x0 == full.x1 || full.x0 == row.full.x0);
     assert_int_equal(touched.x0, row.touched.x0);
     assert_int_equal(touched.x1, row.touched.x1);
     for (uint32_t x = 0; x < N; x++) {
@@ -89,14 +89,14 @@ static unsigned check_row(const int corner[3][2], int y, int x0, int x1)
         int about = x >= e.left && x < e.right;
         assert_int_equal(lrcsi_span_has(row.touched, x),
                          about && least_of(corner, 1, 1, (int)x, y) >= 0);
-        assert_int_equal(lrcsi_span_has(row.may, x),
+        assert_int_equal(lrcsi_span_has(row.possible, x),
                          among && least_of(corner, 0, 1, (int)x, y) >= 0);
-        assert_int_equal(lrcsi_span_has(row.sure, x),
+        assert_int_equal(lrcsi_span_has(row.certain, x),
                          among && least_of(corner, 0, -1, (int)x, y) > 0);
-        assert_int_equal(lrcsi_span_has(row.whole, x),
+        assert_int_equal(lrcsi_span_has(row.full, x),
                          among && least_of(corner, 1, -1, (int)x, y) > 0);
     }
-    assert_true(row.may.x0 <= row.sure.x0 && row.sure.x1 <= row.may.x1);
+    assert_true(row.possible.x0 <= row.certain.x0 && row.certain.x1 <= row.possible.x1);
     return row.touched.x1 - row.touched.x0;
 }
 
@@ -112,15 +112,15 @@ static void a_range_for_several_rows_holds_what_each_of_them_touches(void **stat
         if (i % 5 == 0) { /* a side along the rows */
             corner[1][1] = corner[0][1];
         }
-        lrcsi_edges e = edges_of((const int(*)[2])corner);
+        lrcsi_edge_functions e = edges_of((const int(*)[2])corner);
         e.right = N;
         uint32_t y0 = random_below(&seed, N);
         uint32_t y1 = y0 + random_below(&seed, N - y0);
-        lrcsi_pixels all = lrcsi_span_touched_rows(&e, y0, y1);
+        lrcsi_pixel_span all = lrcsi_span_touched_rows(&e, y0, y1);
         uint32_t low = N;
         uint32_t high = 0;
         for (uint32_t y = y0; y <= y1; y++) {
-            lrcsi_pixels row = lrcsi_span_touched(&e, y);
+            lrcsi_pixel_span row = lrcsi_span_touched(&e, y);
             if (row.x0 < row.x1) {
                 assert_true(row.x0 >= all.x0 && row.x1 <= all.x1);
                 low = row.x0 < low ? row.x0 : low;
@@ -162,19 +162,19 @@ static void sides_along_the_rows_are_decided_for_the_whole_row(void **state)
     }
 }
 
-/* What an error leaves open may be covered and is not sure. */
+/* What an error leaves open is possible and not certain. */
 static void what_is_within_the_error_is_not_sure(void **state)
 {
     (void)state;
     static const int corner[3][2] = {{84, 0}, {500, 256}, {84, 512}}; /* a side through centres */
-    lrcsi_edges e = edges_of(corner);
+    lrcsi_edge_functions e = edges_of(corner);
     e.x1 = e.right = N;
     for (uint32_t y = 10; y < 50; y++) {
-        lrcsi_row row = lrcsi_span_row(&e, y);
-        assert_int_equal(row.may.x0, 10);
-        assert_int_equal(row.sure.x0, 11);
+        lrcsi_row_spans row = lrcsi_span_row(&e, y);
+        assert_int_equal(row.possible.x0, 10);
+        assert_int_equal(row.certain.x0, 11);
         assert_int_equal(row.touched.x0, 10);
-        assert_int_equal(row.whole.x0, 11);
+        assert_int_equal(row.full.x0, 11);
     }
 }
 

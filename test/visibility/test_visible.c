@@ -51,11 +51,11 @@ static lrcsi_raster sampled(const lrcsi_view *view, lrcsi_classification *classi
     return raster;
 }
 
-static void wanted_tiles_hold_what_the_whole_picture_holds(void **state)
+static void active_tiles_hold_what_the_whole_picture_holds(void **state)
 {
     (void)state;
     static lrcsi_visible visible[SCENE_FACETS];
-    unsigned wanted = 0;
+    unsigned active = 0;
     unsigned left = 0;
     for (int i = 0; i < 4; i++) {
         crowd();
@@ -68,14 +68,14 @@ static void wanted_tiles_hold_what_the_whole_picture_holds(void **state)
         for (uint32_t k = 0; k < N * N; k++) {
             uint32_t tile = k / N / LRCSI_RASTER_TILE * raster.tiles + k % N / LRCSI_RASTER_TILE;
             uint32_t owner = lrcsi_raster_owner(&raster, k % N, k / N);
-            if (raster.wanted[tile]) {
-                wanted++;
+            if (raster.active[tile]) {
+                active++;
                 assert_int_equal(owner, whole.owner[k]);
             } else {
                 left++;
                 assert_int_equal(owner, LRCS_NONE);
                 assert_int_equal(raster.owner[k], 0xa5a5a5a5);
-                assert_int_equal(raster.pure[k], untouched);
+                assert_int_equal(raster.full[k], untouched);
             }
         }
         for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
@@ -88,11 +88,11 @@ static void wanted_tiles_hold_what_the_whole_picture_holds(void **state)
             }
         }
     }
-    assert_true(wanted > 1000 && left > 1000);
+    assert_true(active > 1000 && left > 1000);
 }
 
 /* Undecided facets have samples wherever they may be touched, and two pixels farther. */
-static void tiles_about_undecided_facets_are_wanted(void **state)
+static void tiles_about_undecided_facets_are_active(void **state)
 {
     (void)state;
     static lrcsi_visible visible[SCENE_FACETS];
@@ -104,16 +104,16 @@ static void tiles_about_undecided_facets_are_wanted(void **state)
         lrcsi_known known;
         lrcsi_raster raster = sampled(&view, &classification, &known, visible);
         for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-            lrcsi_edges e = lrcsi_raster_edges(&raster, f);
+            lrcsi_edge_functions e = lrcsi_raster_edge_functions(&raster, f);
             for (uint32_t y = e.bottom; known.answer[f] == LRCSI_QUERY_UNDECIDED && y < e.top;
                  y++) {
-                lrcsi_pixels row = lrcsi_span_touched(&e, y);
+                lrcsi_pixel_span row = lrcsi_span_touched(&e, y);
                 for (uint32_t k = 0; k < 25 * (row.x1 - row.x0); k++) {
                     uint32_t at_x = row.x0 + k / 25 + k % 5;
                     uint32_t at_y = y + k % 25 / 5;
                     if (at_x >= 2 && at_x < N + 2 && at_y >= 2 && at_y < N + 2) {
                         seen++;
-                        assert_true(raster.wanted[(at_y - 2) / LRCSI_RASTER_TILE * raster.tiles +
+                        assert_true(raster.active[(at_y - 2) / LRCSI_RASTER_TILE * raster.tiles +
                                                   (at_x - 2) / LRCSI_RASTER_TILE]);
                     }
                 }
@@ -139,9 +139,9 @@ static void tangle(uint64_t seed)
     }
 }
 
-/* A pure pixel shows its owner in every part: so says a picture eight times as fine. Adds up the
+/* A full pixel shows its owner in every part: so says a picture eight times as fine. Adds up the
    samples of uniform and undecided owners. */
-static void check_pure(int direction, unsigned pure[2])
+static void check_full(int direction, unsigned full[2])
 {
     static lrcsi_visible visible[SCENE_FACETS];
     lrcsi_view view = seen_from(direction);
@@ -154,33 +154,33 @@ static void check_pure(int direction, unsigned pure[2])
         uint32_t x = k % (N * FINE) / FINE;
         uint32_t y = k / (N * FINE) / FINE;
         uint32_t owner = lrcsi_raster_owner(&raster, x, y);
-        if (owner != LRCS_NONE && raster.pure[y * N + x]) {
+        if (owner != LRCS_NONE && raster.full[y * N + x]) {
             assert_int_equal(fine.owner[k], owner);
-            pure[classification.undecided[owner]]++;
+            full[classification.undecided[owner]]++;
         }
     }
 }
 
-static void pure_pixels_show_their_owner_in_every_part(void **state)
+static void full_pixels_show_their_owner_in_every_part(void **state)
 {
     (void)state;
-    unsigned pure[2] = {0, 0};
+    unsigned full[2] = {0, 0};
     for (int i = 0; i < 4; i++) {
         crowd();
-        check_pure(i, pure);
+        check_full(i, full);
     }
-    assert_true(pure[0] > 1000 && pure[1] > 1000);
+    assert_true(full[0] > 1000 && full[1] > 1000);
 }
 
-static void pixels_where_facets_pierce_each_other_are_not_pure(void **state)
+static void pixels_where_facets_pierce_each_other_are_not_full(void **state)
 {
     (void)state;
-    unsigned pure[2] = {0, 0};
+    unsigned full[2] = {0, 0};
     for (int i = 0; i < 12; i++) {
         tangle((uint64_t)i + 1);
-        check_pure(i % 4, pure);
+        check_full(i % 4, full);
     }
-    assert_true(pure[0] == 0 && pure[1] > 50000);
+    assert_true(full[0] == 0 && full[1] > 50000);
 }
 
 /* Symptom: where no facet was known to be seen whole, the areas of none were computed, from
@@ -201,18 +201,18 @@ static void facets_that_pierce_each_other_are_seen_as_clipping_sees_them(void **
     check_most(raster.bound_m2, 0.1 * exact.sigma_m2);
 }
 
-/* Draws all facets that cast, asking for occluded heights; returns how many pixels have one. What
+/* Draws all facets that cast, asking for occluder heights; returns how many pixels have one. What
    is visible in any part of a pixel, says a picture eight times as fine, lies no lower. */
-static unsigned check_occluded(int direction)
+static unsigned check_occluders(int direction)
 {
-    static float occluded[N * N];
+    static float occluder[N * N];
     lrcsi_view view = seen_from(direction);
     lrcsi_raster raster;
     lrcsi_raster fine;
     unsigned count = 0;
     assert_int_equal(lrcsi_raster_start(&view, N, &work, &raster), LRCS_OK);
-    raster.occluded = occluded;
-    memset(raster.wanted, 1, (size_t)raster.tiles * raster.tiles);
+    raster.occluder = occluder;
+    memset(raster.active, 1, (size_t)raster.tiles * raster.tiles);
     lrcsi_raster_clear(&raster);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         if (lrcsi_view_casts(&view, f)) {
@@ -222,10 +222,10 @@ static unsigned check_occluded(int direction)
     assert_int_equal(lrcsi_raster_make(&view, N * FINE, &work, &fine), LRCS_OK);
     for (uint32_t k = 0; k < N * N * FINE * FINE; k++) {
         uint32_t pixel = k / (N * FINE) / FINE * N + k % (N * FINE) / FINE;
-        if (occluded[pixel] > -HUGE_VALF) {
+        if (occluder[pixel] > -HUGE_VALF) {
             count += k % FINE == 0 && k / (N * FINE) % FINE == 0;
             assert_true(fine.owner[k] != LRCS_NONE);
-            assert_true(fine.depth[k] + fine.slack[fine.owner[k]] >= (double)occluded[pixel]);
+            assert_true(fine.depth[k] + fine.height_err[fine.owner[k]] >= (double)occluder[pixel]);
         }
     }
     return count;
@@ -237,9 +237,9 @@ static void nothing_is_visible_below_the_occluded_height_of_a_pixel(void **state
     unsigned count = 0;
     for (int i = 0; i < 12; i++) {
         crowd();
-        count += i < 4 ? check_occluded(i) : 0;
+        count += i < 4 ? check_occluders(i) : 0;
         tangle((uint64_t)i + 1);
-        count += check_occluded(i % 4);
+        count += check_occluders(i % 4);
     }
     assert_true(count > 5000);
 }
@@ -275,10 +275,10 @@ static void what_one_of_several_covers_is_hidden_in_mixed_pixels_too(void **stat
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wanted_tiles_hold_what_the_whole_picture_holds),
-        cmocka_unit_test(tiles_about_undecided_facets_are_wanted),
-        cmocka_unit_test(pure_pixels_show_their_owner_in_every_part),
-        cmocka_unit_test(pixels_where_facets_pierce_each_other_are_not_pure),
+        cmocka_unit_test(active_tiles_hold_what_the_whole_picture_holds),
+        cmocka_unit_test(tiles_about_undecided_facets_are_active),
+        cmocka_unit_test(full_pixels_show_their_owner_in_every_part),
+        cmocka_unit_test(pixels_where_facets_pierce_each_other_are_not_full),
         cmocka_unit_test(nothing_is_visible_below_the_occluded_height_of_a_pixel),
         cmocka_unit_test(what_one_of_several_covers_is_hidden_in_mixed_pixels_too),
         cmocka_unit_test(facets_that_pierce_each_other_are_seen_as_clipping_sees_them),

@@ -294,7 +294,7 @@ static lrcsi_view_box line_box(const lrcsi_target *t, const double at[2])
     lrcsi_view_coordinates(t->view, t->origin, first);
     x[2] = first[2];
     double reach = t->needle ? t->needle->reach : t->reach;
-    lrcsi_target_unrefine(t, at, x);
+    lrcsi_target_to_axes(t, at, x);
     x[0] += first[0];
     x[1] += first[1];
     return lrcsi_view_box_about(

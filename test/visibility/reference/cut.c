@@ -128,9 +128,9 @@ static void cuts_outline(ref_cuts *cuts, uint32_t other, const lrcsi_contact *c)
         memcpy(end[0], c->corner[k], sizeof end[0]);
         memcpy(end[1], c->corner[next], sizeof end[1]);
         if (t->needle) {
-            width =
-                width_in_needle(lrcsi_needle_segment(t->needle, lrcsi_target_own(t->view, other, k),
-                                                     lrcsi_target_own(t->view, other, next), end));
+            width = width_in_needle(
+                lrcsi_needle_segment(t->needle, lrcsi_target_frame_corner(t->view, other, k),
+                                     lrcsi_target_frame_corner(t->view, other, next), end));
         } else {
             width = width_of(cuts, lrcsi_target_segment(t, end, away));
         }

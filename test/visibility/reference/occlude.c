@@ -129,7 +129,7 @@ static void cell_piece(ref_occluding *o, const lrcsi_clip_polygon *shape)
     o->piece = *shape;
     if (o->frame.needle) {
         for (uint32_t i = 0; i < shape->count; i++) {
-            lrcsi_target_unrefine(&o->frame, shape->corner[i], o->piece.corner[i]);
+            lrcsi_target_to_axes(&o->frame, shape->corner[i], o->piece.corner[i]);
         }
         o->bent += 4 * U * o->target.reach * lrcsi_clip_perimeter(&o->piece);
     }
