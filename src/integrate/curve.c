@@ -201,14 +201,14 @@ double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcs
 static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occlusion *o,
                                       lrcsi_visible *visible)
 {
-    const lrcsi_target *target = &o->alone.target;
+    const lrcsi_target *target = &o->single.target;
     double area_err = 20 * LRCSI_U * target->reach * target->perimeter;
     integral->sum.position_err = lrcsi_curve_position_err(integral, target);
     while (lrcsi_occlude_next(o)) {
-        area_err += piece_add(integral, target, (const double(*)[2])o->alone.piece.corner,
-                              o->alone.piece.count);
+        area_err += piece_add(integral, target, (const double(*)[2])o->single.piece.corner,
+                              o->single.piece.count);
     }
-    area_err += o->alone.piece_err;
+    area_err += o->single.piece_err;
     *visible = lrcsi_visible_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = integral_part(integral, 1);
     part.visibility = LRCS_FOUR_PI * (lrcsi_curve_upper_bound(integral) *

@@ -459,23 +459,23 @@ static double pieces_add(profile_run *run, const profile_facet *f, uint32_t face
     double area_err = 0;
     lrcsi_occlude_open(o, facet);
     if (f->curve && o->undecided) {
-        f->curve->sum.position_err = lrcsi_curve_position_err(f->curve, &o->alone.target);
+        f->curve->sum.position_err = lrcsi_curve_position_err(f->curve, &o->single.target);
     }
     while (lrcsi_occlude_next(o)) {
-        const lrcsi_target *target = &o->alone.target;
+        const lrcsi_target *target = &o->single.target;
         double slope = sqrt(incidence->tan2) * (1 + incidence->tan2_err);
         double range_err = 9 * LRCSI_U * f->range_max + 1.01 * f->range_off +
                            101 * LRCSI_U * target->reach * slope;
         if (o->undecided) {
-            area_err += fan_add(run, f, target, &o->alone.piece, range_err);
+            area_err += fan_add(run, f, target, &o->single.piece, range_err);
         } else {
             triangle_add(run, f, incidence->projected, f->range, normal, corner_err);
         }
     }
     lrcsi_visible visible = lrcsi_visible_proved(run->view, facet, lrcsi_occlude_close(o));
     if (o->undecided) {
-        const lrcsi_target *target = &o->alone.target;
-        area_err += 20 * LRCSI_U * target->reach * target->perimeter + o->alone.piece_err;
+        const lrcsi_target *target = &o->single.target;
+        area_err += 20 * LRCSI_U * target->reach * target->perimeter + o->single.piece_err;
     }
     if (run->visible) {
         run->visible[facet] = visible;

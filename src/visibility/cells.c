@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Exact visibility of all undecided facets together, in convex cells of the view plane: for each
    facet a visible area with bounds. The visible pieces are not found here:
-   visibility/cells_alone.c finds them, one facet at a time.
+   visibility/cells_single.c finds them, one facet at a time.
 
    A cell is the convex hull of its corners, which are doubles. It has a list of the facets that may
    be visible in it, and a list of segments: event edges and contacts.
@@ -21,7 +21,7 @@
       added up. If one is left, the cell is cut along it.
    6. Area that rounding leaves undecided along events is charged to the facets near them
       (visibility/cells_cut.c). An area is reported where its error is small enough; other facets
-      are left to visibility/cells_alone.c.
+      are left to visibility/cells_single.c.
 
    Error of a facet's area in a cell: the error of the facet's sides times their length in the cell,
    and 4 u b and the cell's shape error times the perimeter of its part there (b: the largest
@@ -48,10 +48,10 @@
 #define ACCURACY_OF_FACET 1e-12
 #define ACCURACY_OF_SCENE 1e-15
 /* If the number of facets that remain to be processed alone, times that of all facets, exceeds
-   MANY_LEFT, errors of up to ALONE_FACTOR times those of a facet processed alone are accepted: a
+   MANY_LEFT, errors of up to SINGLE_FACTOR times those of a facet processed alone are accepted: a
    facet alone is compared with every facet that might hide it. */
-#define MANY_LEFT    65536u
-#define ALONE_FACTOR 4
+#define MANY_LEFT     65536u
+#define SINGLE_FACTOR 4
 /* A facet is a needle if its projected area is less than this, relative to its diameter squared. */
 #define MAX_NEEDLE_AREA 0x1p-18
 
@@ -298,13 +298,13 @@ static double extent_of(const lrcs_prepared *p)
 }
 
 /* The largest error at which a facet's area is accepted: 1e-12 of the area or 1e-15 of the squared
-   extent; or, if as_alone, ALONE_FACTOR times the least error of the facet processed alone
-   (visibility/cells_alone.c): 52 u of its diameter times its perimeter, and for each cut a strip
+   extent; or, if as_single, SINGLE_FACTOR times the least error of the facet processed alone
+   (visibility/cells_single.c): 52 u of its diameter times its perimeter, and for each cut a strip
    128 u of the diameter wide. Needles, and facets larger than the bulk of the scene, are much more
    accurate alone: for these only the first limit applies, unless they represent a curved surface,
    from which they differ by far more. */
 static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double projected,
-                             int as_alone)
+                             int as_single)
 {
     const uint32_t *corner = c->view->prepared->scene->facet[facet].corner;
     double diameter = 0;
@@ -318,14 +318,14 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double p
     int ordinary = scene->part[scene->facet_part[facet]].reach > 0 ||
                    (projected > MAX_NEEDLE_AREA * diameter * diameter && diameter < 2 * extent);
     double alone = LRCSI_U * diameter * (104 * diameter + 128 * c->area[facet].strip_length);
-    alone = as_alone ? ALONE_FACTOR * alone : 0;
+    alone = as_single ? SINGLE_FACTOR * alone : 0;
     return ACCURACY_OF_FACET * projected +
            (ordinary ? lrcsi_max(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
 }
 
 /* Reports the areas that are accurate enough. Returns the number of facets that the cells decided
    but less accurately. */
-static uint32_t areas_report(const lrcsi_cells_work *c, int as_alone, lrcsi_visible *visible)
+static uint32_t areas_report(const lrcsi_cells_work *c, int as_single, lrcsi_visible *visible)
 {
     uint32_t left = 0;
     for (uint32_t f = 0; f < c->view->prepared->scene->facet_count; f++) {
@@ -336,7 +336,7 @@ static uint32_t areas_report(const lrcsi_cells_work *c, int as_alone, lrcsi_visi
         double projected = lrcsi_view_projected(c->view, f);
         lrcsi_visible area = facet_decided(c, f, projected, &err);
         if (err <= ACCURACY_OF_FACET * projected ||
-            err <= facet_accuracy(c, f, projected, as_alone)) {
+            err <= facet_accuracy(c, f, projected, as_single)) {
             visible[f] = area;
             c->wanted[f] = 0;
         } else {

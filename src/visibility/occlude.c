@@ -31,7 +31,7 @@ void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
 {
     lrcsi_classification *classification = o->classification;
     o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
-    o->alone.facet = o->alone.target.facet = facet;
+    o->single.facet = o->single.target.facet = facet;
     o->undecided = o->whole = 0;
     if (!lrcsi_view_casts(classification->view, facet)) {
         return;
@@ -41,29 +41,29 @@ void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
         o->whole = o->answer.low > 0;
     } else if (!lrcsi_query_screened(classification, &o->facets, facet, o->meter)) {
         o->undecided = 1;
-        lrcsi_alone_open(&o->alone, facet);
+        lrcsi_cells_single_open(&o->single, facet);
     }
 }
 
 int lrcsi_occlude_next(lrcsi_occlusion *o)
 {
     if (!o->whole) {
-        return o->undecided && lrcsi_alone_next(&o->alone);
+        return o->undecided && lrcsi_cells_single_next(&o->single);
     }
     o->whole = 0;
-    lrcsi_target_make(o->classification->view, o->alone.facet, &o->alone.target);
-    lrcsi_clip_triangle((const double(*)[2])o->alone.target.corner, &o->alone.piece);
+    lrcsi_target_make(o->classification->view, o->single.facet, &o->single.target);
+    lrcsi_clip_triangle((const double(*)[2])o->single.target.corner, &o->single.piece);
     return 1;
 }
 
 lrcsi_visible lrcsi_occlude_close(lrcsi_occlusion *o)
 {
-    return o->undecided ? lrcsi_alone_close(&o->alone) : o->answer;
+    return o->undecided ? lrcsi_cells_single_close(&o->single) : o->answer;
 }
 
 lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o)
 {
-    while (o->undecided && lrcsi_alone_next(&o->alone)) {
+    while (o->undecided && lrcsi_cells_single_next(&o->single)) {
     }
     return lrcsi_occlude_close(o);
 }
@@ -79,7 +79,7 @@ static int cells_serve(const lrcs_prepared *prepared)
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
     size_t need = 2 * lrcsi_work_bytes(prepared->scene->facet_count, 1);
-    size_t alone = lrcsi_alone_need(prepared);
+    size_t alone = lrcsi_cells_single_need(prepared);
     size_t cells = cells_serve(prepared) ? lrcsi_cells_need(prepared) : 0;
     need = lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
     return lrcsi_work_add(need, alone > cells ? alone : cells);
@@ -103,7 +103,7 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
     size_t mark = work->used;
     int status = occlude_begin(classification, meter, work, o);
     status = status == LRCS_OK
-                 ? lrcsi_alone_make(classification, o->meter, &o->facets, work, &o->alone)
+                 ? lrcsi_cells_single_make(classification, o->meter, &o->facets, work, &o->single)
                  : status;
     if (status != LRCS_OK) {
         work->used = mark;
@@ -134,7 +134,7 @@ static int occlude_undecided(lrcsi_occlusion *o, lrcs_work *work, unsigned char 
     if (f == count) {
         return LRCS_OK;
     }
-    int status = lrcsi_alone_make(classification, o->meter, &o->facets, work, &o->alone);
+    int status = lrcsi_cells_single_make(classification, o->meter, &o->facets, work, &o->single);
     for (; f < count && status == LRCS_OK; f = next_facet_with(open, 1, f + 1, count)) {
         lrcsi_view_progress(classification->view, LRCS_PROGRESS_VISIBILITY, f, count);
         lrcsi_occlude_open(o, f);

@@ -4,16 +4,16 @@
 #ifndef LRCSI_OCCLUDE_H
 #define LRCSI_OCCLUDE_H
 
-#include "visibility/cells_alone.h"
+#include "visibility/cells_single.h"
 
 /* Data for all facets of a view, and the current facet. */
 typedef struct lrcsi_occlusion {
     lrcsi_classification *classification;
     lrcsi_meter *meter;
     lrcsi_grid facets;
-    unsigned char *uniform; /* of each uniform facet: a lrcsi_query_answer */
-    lrcsi_alone alone;      /* target and piece of the current facet */
-    lrcsi_visible answer;   /* the area of a facet that is not undecided */
+    unsigned char *uniform;    /* of each uniform facet: a lrcsi_query_answer */
+    lrcsi_cells_single single; /* target and piece of the current facet */
+    lrcsi_visible answer;      /* the area of a facet that is not undecided */
     int undecided;
     int whole; /* all of it is visible, and its piece has not been returned yet */
 } lrcsi_occlusion;
@@ -28,8 +28,8 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
                        lrcsi_occlusion *o);
 
 /* One facet piece by piece: call open, then next until it returns 0, then close. Each `next` that
-   returns 1 leaves one of the disjoint convex pieces of the visible region in o->alone.piece, in
-   the frame of o->alone.target (lrcsi_target_weights leads back to the facet). An entirely visible
+   returns 1 leaves one of the disjoint convex pieces of the visible region in o->single.piece, in
+   the frame of o->single.target (lrcsi_target_weights leads back to the facet). An entirely visible
    facet is one piece, its own triangle; a facet of which nothing is known to be visible has no
    pieces. The area in which the union of the pieces differs from the visible region is at most high
    - low of the returned area, and 20 u reach perimeter for the rounding of the corners. */

@@ -105,13 +105,13 @@ static void ring_add_piece(ring_list *list, const lrcsi_target *t, const lrcsi_c
 static int facet_add(ring_list *list, lrcsi_occlusion *o, uint32_t facet)
 {
     ring_list before = *list;
-    const lrcsi_target *target = &o->alone.target;
+    const lrcsi_target *target = &o->single.target;
     lrcsi_occlude_open(o, facet);
     while (lrcsi_occlude_next(o)) {
         if (o->undecided) {
-            ring_add_piece(list, target, &o->alone.piece);
+            ring_add_piece(list, target, &o->single.piece);
         } else {
-            ring_add_facet(list, target, (const double(*)[2])o->alone.piece.corner);
+            ring_add_facet(list, target, (const double(*)[2])o->single.piece.corner);
         }
     }
     lrcsi_visible visible = lrcsi_occlude_close(o);
@@ -119,7 +119,7 @@ static int facet_add(ring_list *list, lrcsi_occlusion *o, uint32_t facet)
     if (!o->undecided) {
         return LRCS_OK;
     }
-    list->bound += o->alone.piece_err;
+    list->bound += o->single.piece_err;
     int all = visible.high >= lrcsi_view_incidence(o->classification->view, facet).projected;
     int none = visible.low <= 0;
     if (all != none) {

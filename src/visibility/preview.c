@@ -59,7 +59,7 @@ typedef struct preview_job {
     preview_counts *counts; /* facet */
     preview_border *column; /* column of pixels */
     double ordinary_err;    /* bound on the error of an ordinary facet's depth */
-    double outline;         /* pairs of adjacent samples of which exactly one reflects */
+    double outline;         /* pairs of adjacent samples with exactly one owner that reflects */
     int undecided;
 } preview_job;
 
@@ -119,24 +119,24 @@ static int preview_nearer(preview_job *job, preview_facet *f, uint32_t owner, ui
 /* Gives the facet a sample that it covers, if it is nearer than the owner. */
 static void draw_sample(preview_job *job, preview_facet *f, uint32_t x, uint32_t y)
 {
-    size_t at = (size_t)y * job->raster.size + x;
-    if (job->owner[at] == LRCS_NONE || preview_nearer(job, f, job->owner[at], x, y)) {
-        job->owner[at] = f->facet;
-        job->depth[at] = (float)plane_height(&f->plane, x, y);
+    size_t i = (size_t)y * job->raster.size + x;
+    if (job->owner[i] == LRCS_NONE || preview_nearer(job, f, job->owner[i], x, y)) {
+        job->owner[i] = f->facet;
+        job->depth[i] = (float)plane_height(&f->plane, x, y);
     }
 }
 
-/* Gives the facet those of the first `left` of LANES samples at which it is certainly nearer. The
-   result is not 0 if there are samples at which its order is uncertain. Masks instead of branches,
-   so that compilers vectorize the loop. */
+/* The depth test for the first `count` of LANES samples: the facet becomes the owner of those at
+   which it is certainly nearer. Its height at sample k is first + slope k. Returns 0 if its order
+   is certain at all of them. Masks instead of branches, so that compilers vectorize the loop. */
 static inline uint32_t draw_lanes(uint32_t *restrict owner, float *restrict depth, float first,
-                                  float along, float close, uint32_t facet, int32_t left)
+                                  float slope, float close, uint32_t facet, int32_t count)
 {
     uint32_t uncertainty[LANES];
     for (int32_t k = 0; k < LANES; k++) {
-        float height = first + along * (float)k;
+        float height = first + slope * (float)k;
         float ahead = height - depth[k];
-        uint32_t within = 0u - (uint32_t)(k < left);
+        uint32_t within = 0u - (uint32_t)(k < count);
         uint32_t nearer = (0u - (uint32_t)(ahead > close)) & within;
         uint32_t close_by = (0u - (uint32_t)(ahead >= -close)) & within;
         uint32_t new_bits;
@@ -157,41 +157,43 @@ static inline uint32_t draw_lanes(uint32_t *restrict owner, float *restrict dept
 
 /* Draws samples x0 <= x < x1 of a row, all of which the facet covers. Error of the float heights of
    an ordinary facet: with z the largest magnitude of a corner's depth, the heights of covered
-   samples are at most z, and they change by at most 2 z along the run. Rounding the first height,
+   samples are at most z, and they change by at most 2 z along the span. Rounding the first height,
    the slope, two products and two sums adds less than 2^-21 z. */
-static void draw_run(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0, uint32_t x1)
+static void draw_row_span(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0, uint32_t x1)
 {
-    size_t at = (size_t)y * job->raster.size + x0;
+    size_t start = (size_t)y * job->raster.size + x0;
     float first = (float)plane_height(&f->plane, x0, y);
-    float along = (float)f->plane.dx;
+    float slope = (float)f->plane.dx;
     uint32_t uncertainty = !f->ordinary;
     for (uint32_t i = 0; i < x1 - x0 && f->ordinary; i += LANES) {
-        uncertainty |=
-            draw_lanes(job->owner + at + i, job->depth + at + i, first + along * (float)(int32_t)i,
-                       along, f->close, f->facet, (int32_t)(x1 - x0 - i));
+        uncertainty |= draw_lanes(job->owner + start + i, job->depth + start + i,
+                                  first + slope * (float)(int32_t)i, slope, f->close, f->facet,
+                                  (int32_t)(x1 - x0 - i));
     }
-    for (uint32_t i = 0; i < x1 - x0 && uncertainty != 0; i++) { /* those undecided, one by one */
-        float ahead = first + along * (float)(int32_t)i - job->depth[at + i];
-        if (job->owner[at + i] != f->facet && (!f->ordinary || ahead >= -f->close)) {
+    for (uint32_t i = 0; i < x1 - x0 && uncertainty != 0; i++) { /* those undecided */
+        float ahead = first + slope * (float)(int32_t)i - job->depth[start + i];
+        if (job->owner[start + i] != f->facet && (!f->ordinary || ahead >= -f->close)) {
             draw_sample(job, f, x0 + i, y);
         }
     }
     job->counts[f->facet].covered += x1 - x0;
 }
 
-/* Samples for which the edge functions do not decide whether the facet covers them. */
-static void draw_unsure(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0, uint32_t x1)
+/* Draws samples x0 <= x < x1 of a row for which edge functions do not decide whether the facet
+   covers them. */
+static inline void draw_if_covered(preview_job *job, preview_facet *f, uint32_t y, uint32_t x0,
+                                   uint32_t x1)
 {
     for (uint32_t x = x0; x < x1; x++) {
         double point[3];
         lrcsi_raster_sample(&job->raster, x, y, point);
         if (lrcsi_sample_covers(job->view, f->facet, point)) {
-            draw_run(job, f, y, x, x + 1);
+            draw_row_span(job, f, y, x, x + 1);
         }
     }
 }
 
-/* 0 if a box of the view certainly contains no sample, else 1. */
+/* May a box of the view contain a sample? */
 static int box_sampled(const lrcsi_raster *r, const double low[3], const double high[3])
 {
     for (int k = 0; k < 2; k++) {
@@ -204,16 +206,15 @@ static int box_sampled(const lrcsi_raster *r, const double low[3], const double 
     return 1;
 }
 
-/* Draws a facet if it is ordinary and `ordinary` is 1, or if neither is so. Returns 1 if it is
-   ordinary; facets that certainly cover no sample count as ordinary. The last term of `err` covers
-   subnormal floats. */
+/* Draws a facet if it is as `ordinary` says, 1 or 0. Returns 1 if it is ordinary; facets that
+   certainly cover no sample count as ordinary. The last term of `err` covers subnormal floats. */
 static int draw_facet(preview_job *job, uint32_t facet, int ordinary)
 {
     double low[3];
     double high[3];
     lrcsi_view_bounds(job->view, job->view->prepared->scene->facet[facet].corner, 3, low, high);
     if (!box_sampled(&job->raster, low, high)) {
-        return 1; /* as most small ones */
+        return 1; /* most small facets */
     }
     preview_facet f = {.facet = facet, .rival = LRCS_NONE};
     f.plane = lrcsi_raster_plane(&job->raster, facet);
@@ -228,24 +229,24 @@ static int draw_facet(preview_job *job, uint32_t facet, int ordinary)
     lrcsi_edge_functions e = lrcsi_raster_edge_functions(&job->raster, facet);
     for (uint32_t y = e.y0; y < e.y1; y++) {
         lrcsi_sample_spans row = lrcsi_span_samples(&e, y);
-        draw_unsure(job, &f, y, row.possible.x0, row.certain.x0);
+        draw_if_covered(job, &f, y, row.possible.x0, row.certain.x0);
         if (row.certain.x0 < row.certain.x1) {
-            draw_run(job, &f, y, row.certain.x0, row.certain.x1);
+            draw_row_span(job, &f, y, row.certain.x0, row.certain.x1);
         }
-        draw_unsure(job, &f, y, row.certain.x1, row.possible.x1);
+        draw_if_covered(job, &f, y, row.certain.x1, row.possible.x1);
     }
     return f.ordinary;
 }
 
 static void draw_facets(preview_job *job)
 {
-    uint32_t left = 0; /* facets that are not ordinary and not drawn yet */
+    uint32_t others = 0; /* facets that are not ordinary and not drawn yet */
     uint32_t count = job->view->prepared->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
-        left += lrcsi_view_casts(job->view, f) && !draw_facet(job, f, 1);
+        others += lrcsi_view_casts(job->view, f) && !draw_facet(job, f, 1);
     }
-    for (uint32_t f = 0; f < count && left > 0; f++) {
-        left -= lrcsi_view_casts(job->view, f) && !draw_facet(job, f, 0);
+    for (uint32_t f = 0; f < count && others > 0; f++) {
+        others -= lrcsi_view_casts(job->view, f) && !draw_facet(job, f, 0);
     }
 }
 
@@ -319,6 +320,8 @@ static void count_border(preview_job *job, preview_border *border, uint32_t posi
     }
 }
 
+/* Counts the samples that each facet owns, and the borders between owners. Borders along rows are
+   followed in `along`, borders along columns in job->column. */
 static void count_samples(preview_job *job)
 {
     uint32_t size = job->raster.size;
@@ -326,7 +329,7 @@ static void count_samples(preview_job *job)
         const uint32_t *row = job->owner + (size_t)y * size;
         const uint32_t *next = y + 1 < size ? row + size : row;
         preview_border along = {{LRCS_NONE, LRCS_NONE}, LRCS_NONE - 1, 0};
-        uint32_t from = 0; /* of the run of samples that one owner has */
+        uint32_t from = 0; /* the first sample of a row of samples with one owner */
         for (uint32_t x = 0; x < size; x++) {
             uint32_t owner = row[x];
             if (next[x] != owner) {
@@ -440,12 +443,14 @@ typedef struct preview_bias {
     double left; /* the estimated remaining bias, relative to its visible area */
 } preview_bias;
 
+/* Is the facet corrected for bias? */
 static int few_samples(const preview_job *job, uint32_t facet)
 {
     return job->counts[facet].covered < FEW_SAMPLES && job->counts[facet].fraction > 0 &&
            lrcsi_view_reflects(job->view, facet);
 }
 
+/* The correction of facets with few samples, from the difference described above. */
 static preview_bias bias_of_small_facets(const preview_job *job)
 {
     double pixel = job->raster.pixel * job->raster.pixel;

@@ -214,7 +214,7 @@ static void draw_span(raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
 }
 
 /* The same for samples that the facet may or may not cover. */
-static void draw_uncertain(raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
+static inline void draw_uncertain(raster_job *job, uint32_t y, uint32_t x0, uint32_t x1)
 {
     for (uint32_t x = x0; x < x1; x++) {
         if (job_covers(job, x, y)) {

@@ -16,7 +16,7 @@
 
    A facet that owns all of its samples or none, or that has no samples, may still be visible in
    part; the hidden part is at most as large as what could hide it. These cases have constants that
-   were calibrated (see below), and so has the error of thin facets that share their samples.
+   were calibrated (see below), and so has the error of thin facets whose samples are pooled.
 
    Strips that are thinner than a pixel and hide the facet between all samples are not noticed. */
 #include "visibility/sampling_error.h"
@@ -36,8 +36,8 @@
 #define NONE         2.0  /* a facet that owns none of its samples */
 #define SMALL        0.8  /* any facet: at most this times its squared area */
 #define UNSAMPLED    0.5  /* a facet without samples: times its squared area */
-#define ROW          0.5  /* a facet that shares its samples: times its width */
-#define ROW_SEEN     3.0  /* the same: in addition, times its width and fraction (1 - fraction) */
+#define POOLED       0.5  /* a facet whose samples are pooled: times its width */
+#define POOLED_PART  3.0  /* the same: in addition, times its width and fraction (1 - fraction) */
 
 /* A facet in a raster. */
 typedef struct sampled_facet {
@@ -320,10 +320,10 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
     return error;
 }
 
-lrcsi_sampling_error lrcsi_sampling_error_row(const lrcsi_raster *raster, uint32_t facet,
-                                              double longest, double fraction)
+lrcsi_sampling_error lrcsi_sampling_error_pooled(const lrcsi_raster *raster, uint32_t facet,
+                                                 double longest, double fraction)
 {
     double area = area_in_pixels(raster, facet);
     double width = longest > 0 ? lrcsi_min(1, 2 * area / longest) : 0;
-    return (lrcsi_sampling_error){width * (ROW + ROW_SEEN * fraction * (1 - fraction)), 0};
+    return (lrcsi_sampling_error){width * (POOLED + POOLED_PART * fraction * (1 - fraction)), 0};
 }

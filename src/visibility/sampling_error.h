@@ -22,9 +22,10 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
                                                 const lrcsi_raster *raster, uint32_t facet,
                                                 const uint32_t *crossing, uint32_t crossings);
 
-/* For a facet that shares its samples with its neighbours (visibility/visible_fraction.h).
-   Given: its longest side, in pixels; fraction, the visible fraction of all those samples. */
-lrcsi_sampling_error lrcsi_sampling_error_row(const lrcsi_raster *raster, uint32_t facet,
-                                              double longest, double fraction);
+/* For a facet whose samples are pooled with those of its neighbours
+   (visibility/visible_fraction.h). Given: its longest side, in pixels; fraction, the visible
+   fraction of all those samples. */
+lrcsi_sampling_error lrcsi_sampling_error_pooled(const lrcsi_raster *raster, uint32_t facet,
+                                                 double longest, double fraction);
 
 #endif

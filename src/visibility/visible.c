@@ -424,25 +424,25 @@ static pixel_sums second_pass(visible_job *job, uint32_t facet, size_t *next)
 /* The area of an undecided facet, its bounds and its estimated error. The area of a pixel is
    side^2 / N^2 within a few roundings, for which 1e-12 of it is subtracted. If a depth order of the
    facet could not be decided, its sums are 0, and nothing is certain. */
-static void sampled_area(const lrcsi_sharing *sharing, const pixel_sums *sums, uint32_t facet,
+static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, uint32_t facet,
                          lrcsi_visible *v)
 {
-    const lrcsi_raster *raster = sharing->raster;
+    const lrcsi_raster *raster = pool->raster;
     const double area = lrcsi_view_projected(raster->view, facet);
     const double pixel = raster->pixel * raster->pixel;
-    const lrcsi_visible_fraction fraction = lrcsi_visible_fraction_facet(sharing, facet);
+    const lrcsi_visible_fraction fraction = lrcsi_visible_fraction_facet(pool, facet);
     lrcsi_sampling_error error = {HUGE_VAL, 0};
-    if (!raster->undecided[facet] && fraction.row) {
-        error = lrcsi_sampling_error_row(raster, facet, fraction.longest, fraction.fraction);
+    if (!raster->undecided[facet] && fraction.pooled) {
+        error = lrcsi_sampling_error_pooled(raster, facet, fraction.longest, fraction.fraction);
     } else if (!raster->undecided[facet]) {
         uint32_t crossings;
-        const uint32_t *crossing = known_crossings(sharing->known, facet, &crossings);
-        error = lrcsi_sampling_error_facet(sharing->known->classification->component, raster, facet,
+        const uint32_t *crossing = known_crossings(pool->known, facet, &crossings);
+        error = lrcsi_sampling_error_facet(pool->known->classification->component, raster, facet,
                                            crossing, crossings);
     }
     v->low = lrcsi_min(area, (sums->full_visible + sums->visible) * pixel * (1 - 1e-12));
     v->high = lrcsi_max(v->low, area - (sums->full_hidden + sums->hidden) * pixel * (1 - 1e-12));
-    lrcsi_visible_fraction_keep(sharing, facet, area, &fraction, v);
+    lrcsi_visible_fraction_apply(pool, facet, area, &fraction, v);
     double gap = v->high - v->low;
     v->likely = lrcsi_min(gap, sqrt(error.square) * pixel);
     v->bias = lrcsi_min(gap, lrcsi_max(-gap, error.bias * pixel));
@@ -544,7 +544,7 @@ static void draw_undecided(const lrcsi_known *known, lrcsi_raster *raster)
 }
 
 /* Finds the areas of the facets that queries left undecided. */
-static void find_areas(visible_job *job, const lrcsi_sharing *sharing, lrcsi_visible *visible)
+static void find_areas(visible_job *job, const lrcsi_sample_pool *pool, lrcsi_visible *visible)
 {
     const lrcsi_known *known = job->known;
     const unsigned char *undecided = known->classification->undecided;
@@ -573,7 +573,7 @@ static void find_areas(visible_job *job, const lrcsi_sharing *sharing, lrcsi_vis
         if (!raster->undecided[f]) {
             sums = second_pass(job, f, &next);
         }
-        sampled_area(sharing, &sums, f, &visible[f]);
+        sampled_area(pool, &sums, f, &visible[f]);
     }
 }
 
@@ -590,7 +590,7 @@ int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *wo
     }
     const size_t end = work->used;
     visible_job job = {.known = known, .raster = raster};
-    lrcsi_sharing sharing;
+    lrcsi_sample_pool pool;
     job.mixed = lrcsi_work_take(work, pixels, 1);
     raster->occluder = lrcsi_work_take(work, pixels, sizeof *raster->occluder);
     job.row = lrcsi_work_take(work, size, sizeof *job.row);
@@ -598,14 +598,14 @@ int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *wo
     job.unresolved_room = unresolved_room(prepared, size);
     job.unresolved = lrcsi_work_take(work, job.unresolved_room, sizeof *job.unresolved);
     if (!job.mixed || !raster->occluder || !job.row || !job.first || !job.unresolved ||
-        lrcsi_visible_fraction_make(known, raster, work, &sharing) != LRCS_OK) {
+        lrcsi_visible_fraction_make(known, raster, work, &pool) != LRCS_OK) {
         work->used = mark;
         return LRCS_E_MEMORY;
     }
     draw_undecided(known, raster);
     lrcsi_visible_answered(view, known->answer, visible);
-    find_areas(&job, &sharing, visible);
-    lrcsi_visible_fraction_correct(&sharing, visible);
+    find_areas(&job, &pool, visible);
+    lrcsi_visible_fraction_correct(&pool, visible);
     raster->occluder = NULL;
     work->used = end;
     return LRCS_OK;

@@ -5,14 +5,15 @@
    With many samples, the visible fraction is the fraction of its samples that the facet owns. The
    facet's own sides, which cause errors in both counts, then cancel.
 
-   With few samples this would be biased: in a row of facets thinner than a pixel or two that one
-   edge cuts in the same way, all fractions err in the same direction. Such a facet takes the area
-   of the samples that it owns; to the rest of its area applies the visible fraction of its own and
-   its neighbours' samples together. Where the facet's bounds reduce this area, the difference goes
-   to other facets of its component, so that the facets together have the area of their samples.
+   With few samples, this would be biased: in a row of facets that are thinner than a pixel or two,
+   and that one edge crosses in the same way, all fractions have errors of the same sign. The
+   samples of such a facet are pooled with those of its neighbours. Its visible area is that of the
+   samples that it owns, plus the visible fraction of the pooled samples times the rest of its area.
+   If the bounds of the facet reduce this area, the difference goes to other facets of its
+   component, so that the facets together have the area of their samples.
 
-   Small facets need neither: their error is smaller than a pixel. Nothing here depends on the order
-   of facets. */
+   Small facets need no pooling: their error is smaller than a pixel. The results do not depend on
+   the order of facets. */
 #include "visibility/visible_fraction.h"
 
 #include <math.h>
@@ -36,50 +37,51 @@ size_t lrcsi_visible_fraction_need(const lrcs_prepared *prepared)
 }
 
 int lrcsi_visible_fraction_make(const lrcsi_known *known, const lrcsi_raster *raster,
-                                lrcs_work *work, lrcsi_sharing *sharing)
+                                lrcs_work *work, lrcsi_sample_pool *pool)
 {
     const lrcsi_classification *classification = known->classification;
     uint32_t facets = raster->view->prepared->scene->facet_count;
-    *sharing = (lrcsi_sharing){known, raster, NULL};
-    sharing->sum = lrcsi_work_take(work, facets, sizeof *sharing->sum);
-    if (!sharing->sum) {
+    *pool = (lrcsi_sample_pool){known, raster, NULL};
+    pool->sum = lrcsi_work_take(work, facets, sizeof *pool->sum);
+    if (!pool->sum) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t f = 0; f < facets; f++) { /* only for undecided facets: they are few */
         if (classification->undecided[f]) {
-            sharing->sum[classification->component[f]] = (lrcsi_component_sum){0, 0, 0, 0, 0, 0};
+            pool->sum[classification->component[f]] = (lrcsi_component_sum){0, 0, 0, 0, 0, 0};
         }
     }
     return LRCS_OK;
 }
 
 /* Adds the samples of one facet, or its area in pixels if a query has decided its visibility. */
-static void samples_add(const lrcsi_sharing *s, uint32_t facet, double *owned, double *covered)
+static void samples_add(const lrcsi_sample_pool *pool, uint32_t facet, double *owned,
+                        double *covered)
 {
-    if (s->known->answer[facet] == LRCSI_QUERY_UNDECIDED) {
-        *owned += s->raster->owned[facet];
-        *covered += s->raster->covered[facet];
+    if (pool->known->answer[facet] == LRCSI_QUERY_UNDECIDED) {
+        *owned += pool->raster->owned[facet];
+        *covered += pool->raster->covered[facet];
         return;
     }
-    double area = lrcsi_view_projected(s->raster->view, facet);
-    double pixels = area / (s->raster->pixel * s->raster->pixel);
-    *owned += s->known->answer[facet] == LRCSI_QUERY_VISIBLE ? pixels : 0;
+    double area = lrcsi_view_projected(pool->raster->view, facet);
+    double pixels = area / (pool->raster->pixel * pool->raster->pixel);
+    *owned += pool->known->answer[facet] == LRCSI_QUERY_VISIBLE ? pixels : 0;
     *covered += pixels;
 }
 
 /* Adds the samples of a facet's neighbours in its component. Returns the number of neighbours. */
-static uint32_t samples_add_neighbours(const lrcsi_sharing *s, uint32_t facet, double *owned,
+static uint32_t samples_add_neighbours(const lrcsi_sample_pool *pool, uint32_t facet, double *owned,
                                        double *covered)
 {
-    const lrcsi_topology *topology = &s->raster->view->prepared->topology;
-    const uint32_t *component = s->known->classification->component;
+    const lrcsi_topology *topology = &pool->raster->view->prepared->topology;
+    const uint32_t *component = pool->known->classification->component;
     uint32_t count = 0;
     for (int k = 0; k < 3; k++) {
         const lrcsi_edge *edge = &topology->edge[topology->facet_edge[facet].corner[k]];
         for (uint32_t i = 0; i < edge->uses; i++) {
             uint32_t other = topology->use[edge->first_use + i].facet;
             if (other != facet && component[other] == component[facet]) {
-                samples_add(s, other, owned, covered);
+                samples_add(pool, other, owned, covered);
                 count++;
             }
         }
@@ -105,20 +107,20 @@ static double longest_in_pixels(const lrcsi_raster *raster, uint32_t facet)
     return sqrt(square);
 }
 
-/* Does the facet share its samples with its neighbours? Returned in *owned and *covered: the
-   samples that determine its visible fraction, its own or those of the row. */
-static int samples_find(const lrcsi_sharing *s, uint32_t facet, double longest, double *owned,
-                        double *covered)
+/* Finds the samples that determine the visible fraction of a facet: *owned of *covered. Returns 1
+   if they are pooled with those of its neighbours, 0 if they are its own. */
+static int pooled_samples(const lrcsi_sample_pool *pool, uint32_t facet, double longest,
+                          double *owned, double *covered)
 {
-    *owned = s->raster->owned[facet];
-    *covered = s->raster->covered[facet];
+    *owned = pool->raster->owned[facet];
+    *covered = pool->raster->covered[facet];
     if (longest < SMALL_SIDE || *covered >= lrcsi_max(FEW, 4 * longest)) {
         return 0;
     }
     double all_owned = *owned;
     double all_covered = *covered;
-    if (samples_add_neighbours(s, facet, &all_owned, &all_covered) < 2) {
-        return 0; /* two facets do not form a row */
+    if (samples_add_neighbours(pool, facet, &all_owned, &all_covered) < 2) {
+        return 0; /* two facets are too few */
     }
     *owned = all_owned;
     *covered = all_covered;
@@ -148,71 +150,72 @@ static void random_point(const lrcsi_raster *raster, uint32_t facet, double poin
 /* The visible fraction of a facet without samples: 1 or 0, as one of its points is visible or
    hidden. The point is not the centroid: in a regular pattern, such as the cells of a panel, the
    errors of many facets would then be equal. */
-static double fraction_of_point(const lrcsi_sharing *s, uint32_t facet)
+static double fraction_of_point(const lrcsi_sample_pool *pool, uint32_t facet)
 {
     static const double fraction[] = {0, 1, 0.5}; /* by lrcsi_query_answer */
     double point[3];
-    random_point(s->raster, facet, point);
-    int answer = lrcsi_query_point(&s->known->facets, facet, point, NULL);
+    random_point(pool->raster, facet, point);
+    int answer = lrcsi_query_point(&pool->known->facets, facet, point, NULL);
     return fraction[answer != LRCSI_QUERY_UNDECIDED
                         ? answer
-                        : lrcsi_query_facet(&s->known->facets, facet, NULL)];
+                        : lrcsi_query_facet(&pool->known->facets, facet, NULL)];
 }
 
-lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sharing *s, uint32_t facet)
+lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sample_pool *pool, uint32_t facet)
 {
     double owned;
     double covered;
     lrcsi_visible_fraction found;
-    found.longest = longest_in_pixels(s->raster, facet);
-    found.row = samples_find(s, facet, found.longest, &owned, &covered);
-    found.fraction = covered > 0 ? owned / covered : fraction_of_point(s, facet);
+    found.longest = longest_in_pixels(pool->raster, facet);
+    found.pooled = pooled_samples(pool, facet, found.longest, &owned, &covered);
+    found.fraction = covered > 0 ? owned / covered : fraction_of_point(pool, facet);
     return found;
 }
 
-void lrcsi_visible_fraction_keep(const lrcsi_sharing *s, uint32_t facet, double area,
-                                 const lrcsi_visible_fraction *found, lrcsi_visible *visible)
+void lrcsi_visible_fraction_apply(const lrcsi_sample_pool *pool, uint32_t facet, double area,
+                                  const lrcsi_visible_fraction *found, lrcsi_visible *visible)
 {
-    double pixel = s->raster->pixel * s->raster->pixel;
+    double pixel = pool->raster->pixel * pool->raster->pixel;
     double target = area * found->fraction;
-    if (found->row) {
-        target += (s->raster->owned[facet] - found->fraction * s->raster->covered[facet]) * pixel;
+    if (found->pooled) {
+        target +=
+            (pool->raster->owned[facet] - found->fraction * pool->raster->covered[facet]) * pixel;
     }
     visible->area = lrcsi_min(visible->high, lrcsi_max(visible->low, target));
-    if (found->row) {
-        lrcsi_component_sum *component = &s->sum[s->known->classification->component[facet]];
-        component->owned += s->raster->owned[facet];
-        component->covered += s->raster->covered[facet];
+    if (found->pooled) {
+        lrcsi_component_sum *component = &pool->sum[pool->known->classification->component[facet]];
+        component->owned += pool->raster->owned[facet];
+        component->covered += pool->raster->covered[facet];
         component->area += area;
-        component->kept += visible->area;
+        component->applied += visible->area;
         component->low += visible->low;
         component->high += visible->high;
     }
 }
 
-/* The area of a facet after the difference between the samples of its component and the areas kept
-   so far has been distributed, in proportion to the distance of each area from its bound. */
+/* The area of a facet after the difference between the samples of its component and the areas so
+   far has been distributed, in proportion to the distance of each area from its bound. */
 static double area_corrected(const lrcsi_component_sum *component, const lrcsi_visible *v)
 {
-    double missing = component->area * component->owned / component->covered - component->kept;
+    double missing = component->area * component->owned / component->covered - component->applied;
     double room =
-        missing > 0 ? component->high - component->kept : component->kept - component->low;
+        missing > 0 ? component->high - component->applied : component->applied - component->low;
     double part = fabs(missing) < room ? fabs(missing) / room : 1;
     return v->area + part * ((missing > 0 ? v->high : v->low) - v->area);
 }
 
-void lrcsi_visible_fraction_correct(const lrcsi_sharing *s, lrcsi_visible *visible)
+void lrcsi_visible_fraction_correct(const lrcsi_sample_pool *pool, lrcsi_visible *visible)
 {
-    const lrcsi_classification *classification = s->known->classification;
+    const lrcsi_classification *classification = pool->known->classification;
     for (uint32_t f = 0; f < classification->view->prepared->scene->facet_count; f++) {
         if (!classification->undecided[f]) {
             continue;
         }
-        const lrcsi_component_sum *component = &s->sum[classification->component[f]];
+        const lrcsi_component_sum *component = &pool->sum[classification->component[f]];
         lrcsi_visible *v = &visible[f];
         double samples[2];
         if (component->covered > 0 && v->high > v->low &&
-            samples_find(s, f, longest_in_pixels(s->raster, f), &samples[0], &samples[1])) {
+            pooled_samples(pool, f, longest_in_pixels(pool->raster, f), &samples[0], &samples[1])) {
             v->area = lrcsi_min(v->high, lrcsi_max(v->low, area_corrected(component, v)));
         }
     }

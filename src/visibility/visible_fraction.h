@@ -6,22 +6,23 @@
 #include "visibility/raster.h"
 #include "visibility/visible_area.h"
 
-/* Sums over the facets of one component that share their samples; areas in scaled units. */
+/* Sums over the facets of one component whose samples are pooled; areas in scaled units. */
 typedef struct lrcsi_component_sum {
     double owned, covered, area;
-    double kept, low, high; /* the areas kept so far, and their bounds */
+    double applied, low, high; /* the areas so far, and their bounds */
 } lrcsi_component_sum;
 
-typedef struct lrcsi_sharing {
+/* The data that the facets of one raster share. */
+typedef struct lrcsi_sample_pool {
     const lrcsi_known *known;
     const lrcsi_raster *raster;
     lrcsi_component_sum *sum; /* by component */
-} lrcsi_sharing;
+} lrcsi_sample_pool;
 
 /* How the area of one facet follows from samples. */
 typedef struct lrcsi_visible_fraction {
-    int row;         /* 1 if it shares its samples with its neighbours */
-    double fraction; /* the visible fraction of its samples, or of all shared ones */
+    int pooled;      /* 1 if its samples are pooled with those of its neighbours */
+    double fraction; /* the visible fraction of its samples, or of the pooled ones */
     double longest;  /* its longest side, in pixels */
 } lrcsi_visible_fraction;
 
@@ -29,18 +30,18 @@ size_t lrcsi_visible_fraction_need(const lrcs_prepared *prepared);
 
 /* Status: LRCS_OK; LRCS_E_MEMORY. What it takes stays in the work area. */
 int lrcsi_visible_fraction_make(const lrcsi_known *known, const lrcsi_raster *raster,
-                                lrcs_work *work, lrcsi_sharing *sharing);
+                                lrcs_work *work, lrcsi_sample_pool *pool);
 
 /* Finds the visible fraction of an undecided facet. */
-lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sharing *sharing, uint32_t facet);
+lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sample_pool *pool, uint32_t facet);
 
 /* Sets visible->area from the fraction found, within visible->low and visible->high.
    Given: area, the projected area of the facet. */
-void lrcsi_visible_fraction_keep(const lrcsi_sharing *sharing, uint32_t facet, double area,
-                                 const lrcsi_visible_fraction *found, lrcsi_visible *visible);
+void lrcsi_visible_fraction_apply(const lrcsi_sample_pool *pool, uint32_t facet, double area,
+                                  const lrcsi_visible_fraction *found, lrcsi_visible *visible);
 
-/* Distributes what the bounds cut off over the other facets of the component. To be called once,
-   after lrcsi_visible_fraction_keep for all undecided facets. */
-void lrcsi_visible_fraction_correct(const lrcsi_sharing *sharing, lrcsi_visible *visible);
+/* Distributes area that the bounds cut off over the other facets of the component. Called once,
+   after lrcsi_visible_fraction_apply for all undecided facets. */
+void lrcsi_visible_fraction_correct(const lrcsi_sample_pool *pool, lrcsi_visible *visible);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Cells of the view plane, of all facets together (visibility/cells.h) and of each alone
-   (visibility/cells_alone.h), against the clipping that they replaced (visibility/reference): on
+   (visibility/cells_single.h), against the clipping that they replaced (visibility/reference): on
    each model or scene given, from so many directions, whether the bounds of all facets overlap, and
    what all three cost. Ends with 1 where some do not.
    Given: agree DIRECTIONS FILE... */
@@ -14,7 +14,7 @@
 
 #include "base/work.h"
 #include "visibility/cells.h"
-#include "visibility/cells_alone.h"
+#include "visibility/cells_single.h"
 #include "visibility/reference/occlude.h"
 
 #define MEMORY ((size_t)1 << 30)
@@ -91,7 +91,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
     lrcsi_view view;
     lrcsi_classification classification;
     ref_occluding o;
-    lrcsi_alone a;
+    lrcsi_cells_single a;
     uint32_t count = prepared->scene->facet_count;
     lrcs_pose pose = pose_of(number);
     work->used = 0;
@@ -104,7 +104,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
     lrcsi_cells_areas(&classification, NULL, work, NULL, open, found);
     sums->together.ms += now_ms() - start;
     must(ref_occlude_make(&classification, work, &o));
-    must(lrcsi_alone_make(&classification, NULL, &o.cover.facets, work, &a));
+    must(lrcsi_cells_single_make(&classification, NULL, &o.cover.facets, work, &a));
     for (uint32_t f = 0; f < count; f++) {
         if (!lrcsi_view_casts(&view, f)) {
             continue;
@@ -120,10 +120,10 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
         }
         if (classification.undecided[f]) {
             start = now_ms();
-            lrcsi_alone_open(&a, f);
-            while (lrcsi_alone_next(&a)) {
+            lrcsi_cells_single_open(&a, f);
+            while (lrcsi_cells_single_next(&a)) {
             }
-            lrcsi_visible one = lrcsi_alone_close(&a);
+            lrcsi_visible one = lrcsi_cells_single_close(&a);
             sums->alone.ms += now_ms() - start;
             sums->alone.left += a.uncertainty[0] + a.uncertainty[1] > 0;
             agree_facet(&sums->alone, number, f, projected, &one, &clipped);

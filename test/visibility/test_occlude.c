@@ -38,7 +38,7 @@ static double pieces_area(lrcsi_occlusion *o, uint32_t facet, uint32_t *pieces, 
     size_t used = work.used;
     lrcsi_occlude_open(o, facet);
     while (lrcsi_occlude_next(o)) {
-        area += lrcsi_clip_area(&o->alone.piece);
+        area += lrcsi_clip_area(&o->single.piece);
         ++*pieces;
     }
     assert_false(lrcsi_occlude_next(o));
@@ -58,9 +58,10 @@ static void whole_facet_is_its_own_triangle(void **state)
     assert_int_equal(pieces, 1);
     lrcsi_occlude_open(&o, 1);
     assert_true(lrcsi_occlude_next(&o));
-    assert_int_equal(o.alone.piece.count, 3);
-    assert_memory_equal(o.alone.piece.corner, o.alone.target.corner, sizeof o.alone.target.corner);
-    assert_int_equal(o.alone.target.facet, 1);
+    assert_int_equal(o.single.piece.count, 3);
+    assert_memory_equal(o.single.piece.corner, o.single.target.corner,
+                        sizeof o.single.target.corner);
+    assert_int_equal(o.single.target.facet, 1);
     lrcsi_occlude_close(&o);
 }
 
@@ -327,10 +328,10 @@ static void a_needle_shows_its_share_in_pieces(void **state)
         lrcsi_occlude_open(&o, 0);
         double area = 0;
         while (lrcsi_occlude_next(&o)) {
-            area += lrcsi_clip_area(&o.alone.piece);
+            area += lrcsi_clip_area(&o.single.piece);
         }
         double off =
-            o.alone.piece_err + 20 * 0x1p-53 * o.alone.target.reach * o.alone.target.perimeter;
+            o.single.piece_err + 20 * 0x1p-53 * o.single.target.reach * o.single.target.perimeter;
         lrcsi_visible seen = lrcsi_occlude_close(&o);
         check_abs(area, seen.area, off);
         check_most(off, 1e-14);

@@ -34,7 +34,7 @@
    frame's position error, segments are clipped to a box with coordinates of at most 3, and the side
    of another facet on which a point lies is computed in double-double. Areas are then in units of
    twice the projected area of f. */
-#include "visibility/cells_alone.h"
+#include "visibility/cells_single.h"
 
 #include <math.h>
 #include <string.h>
@@ -65,7 +65,7 @@
 
 /* The depth order of a facet against f: one of these, or the number of the segment in which the two
    intersect. */
-enum alone_order {
+enum single_order {
     ORDER_NOT_COMPUTED = 0x7ffffff0,
     ORDER_FRONT,    /* nearer, wherever a line meets both */
     ORDER_BEHIND,   /* farther */
@@ -76,7 +76,7 @@ enum alone_order {
 /* --- what a facet begins with ----------------------------------------------------------------- */
 
 /* May a facet be in front of f? */
-static int is_candidate(const lrcsi_alone *a, uint32_t other)
+static int is_candidate(const lrcsi_cells_single *a, uint32_t other)
 {
     return a->listed[other] == a->cells.stamp && a->order[other] != ORDER_DISJOINT;
 }
@@ -97,7 +97,7 @@ static double needle_segment_err(double end_err)
    rounding included; that of the vector G from n to the point is 12 u r_n + 2 u d, where d is the
    length of f. So T x G has an error of 12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the
    1-norm, and a rounding error of 2 u |T| |G|, which is below 3 u (r_p + r_q) |G|. */
-static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side side[3])
+static void sides_make(const lrcsi_cells_single *a, uint32_t other, lrcsi_cells_single_side side[3])
 {
     const lrcsi_target *frame = &a->frame;
     double corner[3][2];
@@ -137,7 +137,7 @@ static void sides_make(const lrcsi_alone *a, uint32_t other, lrcsi_alone_side si
 
 /* The depth order of a facet whose interior does not intersect that of f: from their planes; if
    they are coplanar, from the rules of precedence; otherwise from where they overlap. */
-static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
+static uint32_t order_of(const lrcsi_cells_single *a, uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
     int order = lrcsi_sample_side(view, other, a->facet);
@@ -152,7 +152,7 @@ static uint32_t order_of(const lrcsi_alone *a, uint32_t other)
 }
 
 /* Does another facet lie entirely beyond one side of f? */
-static int facet_apart(const lrcsi_alone *a, const lrcsi_view_side own[3], uint32_t other)
+static int facet_apart(const lrcsi_cells_single *a, const lrcsi_view_side own[3], uint32_t other)
 {
     const lrcsi_view *view = a->cells.view;
     const uint32_t *its = view->prepared->scene->facet[other].corner;
@@ -171,7 +171,7 @@ static int facet_apart(const lrcsi_alone *a, const lrcsi_view_side own[3], uint3
 
 /* Lists the candidates: facets whose boxes overlap that of f and that are not entirely behind it or
    beyond one of its sides. 0 if the meter is spent. */
-static int list_candidates(lrcsi_alone *a)
+static int list_candidates(lrcsi_cells_single *a)
 {
     const lrcsi_grid *grid = &a->grid;
     lrcsi_cells_work *c = &a->cells;
@@ -224,7 +224,7 @@ static void segment_ends(lrcsi_cells_segment *e, const double (*end)[2])
 }
 
 /* Is neither of an edge's facets in front of f anywhere? */
-static int edge_is_behind(lrcsi_alone *a, const uint32_t owner[2])
+static int edge_is_behind(lrcsi_cells_single *a, const uint32_t owner[2])
 {
     int behind = 1;
     for (int i = 0; i < 2 && behind; i++) {
@@ -238,7 +238,7 @@ static int edge_is_behind(lrcsi_alone *a, const uint32_t owner[2])
 }
 
 /* Adds an edge, unless its facets are behind f. 0 if there is no room. */
-static int add_alone_edge(lrcsi_alone *a, uint32_t edge)
+static int add_single_edge(lrcsi_cells_single *a, uint32_t edge)
 {
     lrcsi_cells_work *c = &a->cells;
     const lrcs_prepared *p = c->view->prepared;
@@ -267,7 +267,7 @@ static int add_alone_edge(lrcsi_alone *a, uint32_t edge)
 
 /* Finds the depth order of a facet that meets the interior of f, and adds the segments due to it. 0
    if there is no room. */
-static int add_alone_contact(lrcsi_alone *a, uint32_t other)
+static int add_single_contact(lrcsi_cells_single *a, uint32_t other)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_contact contact;
@@ -285,7 +285,7 @@ static int add_alone_contact(lrcsi_alone *a, uint32_t other)
     if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
         int done = 1;
         for (int k = 0; k < 3 && done; k++) {
-            done = add_alone_edge(a, c->view->prepared->topology.facet_edge[other].corner[k]);
+            done = add_single_edge(a, c->view->prepared->topology.facet_edge[other].corner[k]);
         }
         return done;
     }
@@ -303,7 +303,7 @@ static int add_alone_contact(lrcsi_alone *a, uint32_t other)
 }
 
 /* Lists the segments. 0 if there is no room, or the meter is spent. */
-static int list_alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
+static int list_single_segments(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     const lrcsi_intersections *intersections = &c->view->prepared->intersections;
@@ -311,13 +311,13 @@ static int list_alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
         const lrcsi_intersection *contact = &intersections->entry[i];
         if (is_candidate(a, contact->other) &&
             lrcsi_intersection_hides(c->view, a->facet, contact) &&
-            !add_alone_contact(a, contact->other)) {
+            !add_single_contact(a, contact->other)) {
             return 0;
         }
     }
     uint32_t crossings = lrcsi_classify_crossings(a->classification, a->facet, c->meter);
     for (uint32_t i = 0; i < crossings; i++) {
-        if (!add_alone_edge(a, a->classification->crossing[i])) {
+        if (!add_single_edge(a, a->classification->crossing[i])) {
             return 0;
         }
     }
@@ -326,7 +326,7 @@ static int list_alone_segments(lrcsi_alone *a, lrcsi_cells_cell *cell)
 }
 
 /* Leaves an area undecided: it counts as half visible. */
-static void leave_area_undecided(lrcsi_alone *a, double area)
+static void leave_area_undecided(lrcsi_cells_single *a, double area)
 {
     a->uncertainty[0] += 0.5 * area;
     a->uncertainty[1] += 0.5 * area;
@@ -334,7 +334,7 @@ static void leave_area_undecided(lrcsi_alone *a, double area)
 
 /* Makes the record of f, the first cell, and the error along the sides of f. 0 if rounding may have
    reversed the triangle's orientation. */
-static int make_first_cell(lrcsi_alone *a, lrcsi_cells_cell *cell)
+static int make_first_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_facet *f = &a->shape;
@@ -355,7 +355,7 @@ static int make_first_cell(lrcsi_alone *a, lrcsi_cells_cell *cell)
     return lrcsi_clip_area(&cell->shape) > 8 * err * frame->diameter;
 }
 
-void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
+void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_cell cell = {.cuts = 0};
@@ -373,7 +373,7 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
     c->facets = &a->number;
     c->segment_count = c->top = 0;
     c->stamp++;
-    if (!make_first_cell(a, &cell) || !list_candidates(a) || !list_alone_segments(a, &cell)) {
+    if (!make_first_cell(a, &cell) || !list_candidates(a) || !list_single_segments(a, &cell)) {
         leave_area_undecided(a, lrcsi_view_incidence(c->view, facet).projected / a->frame.unit);
         return;
     }
@@ -386,7 +386,8 @@ void lrcsi_alone_open(lrcsi_alone *a, uint32_t facet)
  */
 
 /* Does a component end at a segment, or meet f there? */
-static int component_ends(const lrcsi_alone *a, const lrcsi_cells_segment *e, uint32_t component)
+static int component_ends(const lrcsi_cells_single *a, const lrcsi_cells_segment *e,
+                          uint32_t component)
 {
     const uint32_t *of = a->classification->component;
     return e->contact ? of[e->owner[1]] == component
@@ -396,7 +397,7 @@ static int component_ends(const lrcsi_alone *a, const lrcsi_cells_segment *e, ui
 /* Chooses, of a cell's segments, the one whose line passes nearest to a point, so that both parts
    are of similar size. Given a component, only segments at which it ends count. Returns how many
    there are to choose from. */
-static uint32_t choose_segment(const lrcsi_alone *a, const lrcsi_cells_cell *cell,
+static uint32_t choose_segment(const lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
                                const double at[2], uint32_t component,
                                const lrcsi_cells_segment **best)
 {
@@ -419,23 +420,23 @@ static uint32_t choose_segment(const lrcsi_alone *a, const lrcsi_cells_cell *cel
 
 /* How the facets at a sample are found: with error bounds, at its point of the frame; exactly, at a
    nearby point in space; or by the signs of rounded values, which is only a guess. */
-enum alone_test { TEST_BOUNDED, TEST_EXACT, TEST_GUESSED };
+enum single_test { TEST_BOUNDED, TEST_EXACT, TEST_GUESSED };
 
 /* A sample in a cell. */
-typedef struct alone_sample {
+typedef struct single_sample {
     double at[2], clear;
-    int test; /* an alone_test */
+    int test; /* an single_test */
     double point[3];
     double err;                     /* the distance in the view between `at` and `point` */
     lrcsi_view_box box;             /* in the view; its depth does not count */
     uint32_t ends;                  /* of the components in front of f, the fewest segments of the
                                        cell at which one ends or meets f */
     const lrcsi_cells_segment *cut; /* one of these segments */
-} alone_sample;
+} single_sample;
 
 /* Finds the sample's point in space from its barycentric coordinates; its coordinates are
    rounded. */
-static void sample_lift(const lrcsi_alone *a, alone_sample *sample)
+static void sample_lift(const lrcsi_cells_single *a, single_sample *sample)
 {
     const lrcs_prepared *p = a->cells.view->prepared;
     double weight[3];
@@ -452,7 +453,7 @@ static void sample_lift(const lrcsi_alone *a, alone_sample *sample)
 /* The sample in the view: f's first corner plus the vector from there. The vector has the error of
    f's own corners, 10 u of their reach, a rounding error of 3 u, and in a needle the frame's
    position error. */
-static lrcsi_view_box sample_view_box(const lrcsi_alone *a, const alone_sample *sample)
+static lrcsi_view_box sample_view_box(const lrcsi_cells_single *a, const single_sample *sample)
 {
     double first[3];
     double x[3];
@@ -469,7 +470,8 @@ static lrcsi_view_box sample_view_box(const lrcsi_alone *a, const alone_sample *
 /* Does a facet cover the point of a needle with these barycentric coordinates? 1 certainly, -1
    certainly not, 0 the point is too near a side. The point has the frame's position error. Lines in
    plain doubles nearly always suffice; they are kept as far as there is room. */
-static int needle_covered(const lrcsi_alone *a, const alone_sample *sample, uint32_t candidate)
+static int needle_covered(const lrcsi_cells_single *a, const single_sample *sample,
+                          uint32_t candidate)
 {
     const lrcsi_view *view = a->cells.view;
     uint32_t other = a->candidate[candidate];
@@ -478,12 +480,12 @@ static int needle_covered(const lrcsi_alone *a, const alone_sample *sample, uint
     int guess = sample->test == TEST_GUESSED;
     int inside = 1;
     for (int k = 0; k < 3 && kept && !made; k++) {
-        lrcsi_alone_side *side = &a->side[candidate][k];
+        lrcsi_cells_single_side *side = &a->side[candidate][k];
         side->err = lrcsi_needle_line(a->frame.needle, lrcsi_target_corner(view, other, k),
                                       lrcsi_target_corner(view, other, (k + 1) % 3), side->line);
     }
     for (int k = 0; k < 3; k++) {
-        const lrcsi_alone_side *side = &a->side[kept ? candidate : 0][k];
+        const lrcsi_cells_single_side *side = &a->side[kept ? candidate : 0][k];
         double left = kept ? lrcsi_line_at(side->line, sample->at[0], sample->at[1]) : 0;
         if (!kept || !(fabs(left) > side->err)) {
             left =
@@ -501,7 +503,7 @@ static int needle_covered(const lrcsi_alone *a, const alone_sample *sample, uint
 /* Does a candidate cover the sample? 1 certainly; -1 certainly not, or it is behind f; 0 the sample
    is too near a side. Boxes exclude most candidates. The order and the sides of others are computed
    when they are first needed; sides are kept as far as there is room. */
-static int candidate_covers(lrcsi_alone *a, const alone_sample *sample, uint32_t candidate,
+static int candidate_covers(lrcsi_cells_single *a, const single_sample *sample, uint32_t candidate,
                             double tolerance)
 {
     const double *at = sample->at;
@@ -521,15 +523,15 @@ static int candidate_covers(lrcsi_alone *a, const alone_sample *sample, uint32_t
     if (sample->test == TEST_EXACT) {
         return lrcsi_sample_covers(a->cells.view, other, sample->point) ? 1 : -1;
     }
-    lrcsi_alone_side made[3] = {{.err = -1}};
-    lrcsi_alone_side *sides = candidate < a->side_room ? a->side[candidate] : made;
+    lrcsi_cells_single_side made[3] = {{.err = -1}};
+    lrcsi_cells_single_side *sides = candidate < a->side_room ? a->side[candidate] : made;
     if (sides[0].err < 0) {
         sides_make(a, other, sides);
     }
     int inside = 1;
     int guess = sample->test == TEST_GUESSED;
     for (int k = 0; k < 3; k++) {
-        const lrcsi_alone_side *side = &sides[k];
+        const lrcsi_cells_single_side *side = &sides[k];
         double left = lrcsi_line_at(side->line, at[0], at[1]);
         double err = guess ? 0 : side->err + tolerance;
         if (left < -err) {
@@ -542,8 +544,8 @@ static int candidate_covers(lrcsi_alone *a, const alone_sample *sample, uint32_t
 
 /* Is a facet that covers the sample in front of f there? 1 yes, -1 no, 0 it cannot be decided: the
    sample is near the line in which they intersect. */
-static int candidate_in_front(const lrcsi_alone *a, const alone_sample *sample, uint32_t other,
-                              double tolerance)
+static int candidate_in_front(const lrcsi_cells_single *a, const single_sample *sample,
+                              uint32_t other, double tolerance)
 {
     uint32_t order = a->order[other];
     if (order < a->cells.segment_count) {
@@ -561,8 +563,8 @@ static int candidate_in_front(const lrcsi_alone *a, const alone_sample *sample, 
 /* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided. If it is hidden, sample->cut is
    a segment of the component with the fewest segments in the cell; a component with none ends the
    search. */
-static int sample_is_hidden(lrcsi_alone *a, const lrcsi_cells_cell *cell,
-                            const lrcsi_cells_sides *s, alone_sample *sample)
+static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
+                            const lrcsi_cells_sides *s, single_sample *sample)
 {
     uint32_t last = LRCS_NONE;
     int answer = 0;
@@ -593,14 +595,14 @@ static int sample_is_hidden(lrcsi_alone *a, const lrcsi_cells_cell *cell,
 
 /* Takes samples in the cell until one is decided: 1, 0, or -1 as above. If none is decided, *guess
    is set. */
-static int find_sample(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                       alone_sample *sample, int *guess)
+static int find_sample(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
+                       const lrcsi_cells_sides *s, single_sample *sample, int *guess)
 {
     double margin = 4 * (cell->widest_strip + a->shape.err + s->tolerance);
     double lift = lrcsi_target_lift_err(&a->target);
     int answer = -1;
     for (int t = 0; t < LRCSI_CELLS_SAMPLES && answer < 0; t++) {
-        *sample = (alone_sample){.test = TEST_BOUNDED};
+        *sample = (single_sample){.test = TEST_BOUNDED};
         lrcsi_cells_sample_point(cell, t, sample->at);
         sample->clear = lrcsi_cells_border_distance(s, sample->at);
         if (!(sample->clear > margin)) {
@@ -617,7 +619,7 @@ static int find_sample(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi
         }
     }
     if (answer < 0) {
-        *sample = (alone_sample){.test = TEST_GUESSED};
+        *sample = (single_sample){.test = TEST_GUESSED};
         lrcsi_cells_sample_point(cell, 0, sample->at);
         sample_lift(a, sample);
         sample->test = TEST_GUESSED;
@@ -631,7 +633,7 @@ static int find_sample(lrcsi_alone *a, const lrcsi_cells_cell *cell, const lrcsi
 
 /* Returns the cell as a visible piece. The corners of a needle's piece are rounded to the frame
    along the view's axes. */
-static void add_visible_piece(lrcsi_alone *a, const lrcsi_cells_cell *cell,
+static void add_visible_piece(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
                               const lrcsi_cells_sides *s)
 {
     lrcsi_cells_found *area = &a->area;
@@ -649,11 +651,11 @@ static void add_visible_piece(lrcsi_alone *a, const lrcsi_cells_cell *cell,
 }
 
 /* Processes one cell. Returns 1 if it is a visible piece; else it is hidden, cut, or undecided. */
-static int process_alone_cell(lrcsi_alone *a, lrcsi_cells_cell *cell)
+static int process_single_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_sides s;
-    alone_sample sample;
+    single_sample sample;
     lrcsi_cells_sides_make(&cell->shape, lrcsi_cells_tolerance(c, cell), &s);
     lrcsi_cells_filter_segments(c, cell, &s);
 
@@ -691,7 +693,7 @@ static int process_alone_cell(lrcsi_alone *a, lrcsi_cells_cell *cell)
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-int lrcsi_alone_next(lrcsi_alone *a)
+int lrcsi_cells_single_next(lrcsi_cells_single *a)
 {
     lrcsi_cells_work *c = &a->cells;
     while (c->top > 0) {
@@ -702,14 +704,14 @@ int lrcsi_alone_next(lrcsi_alone *a)
             continue;
         }
         a->cells_left--;
-        if (process_alone_cell(a, &cell)) {
+        if (process_single_cell(a, &cell)) {
             return 1;
         }
     }
     return 0;
 }
 
-lrcsi_visible lrcsi_alone_close(lrcsi_alone *a)
+lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
 {
     const lrcsi_cells_found *found = &a->area;
     lrcsi_incidence incidence = lrcsi_view_incidence(a->cells.view, a->facet);
@@ -746,22 +748,23 @@ static size_t max_segments(const lrcs_prepared *p, size_t events)
     return events + 3 * contacts;
 }
 
-size_t lrcsi_alone_need(const lrcs_prepared *p)
+size_t lrcsi_cells_single_need(const lrcs_prepared *p)
 {
     size_t segments = max_segments(p, p->topology.edge_count);
-    size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_alone_side));
+    size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_cells_single_side));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_STACK, sizeof(lrcsi_cells_cell)));
 }
 
-int lrcsi_alone_make(lrcsi_classification *classification, lrcsi_meter *meter,
-                     const lrcsi_grid *grid, lrcs_work *work, lrcsi_alone *a)
+int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *meter,
+                            const lrcsi_grid *grid, lrcs_work *work, lrcsi_cells_single *a)
 {
     const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
-    *a = (lrcsi_alone){.classification = classification, .grid = *grid, .side_room = sides_room(p)};
+    *a = (lrcsi_cells_single){
+        .classification = classification, .grid = *grid, .side_room = sides_room(p)};
     lrcsi_cells_work c = {.view = classification->view, .meter = meter};
     c.segment_room = (uint32_t)max_segments(p, classification->events.count);
     a->side = lrcsi_work_take(work, a->side_room, sizeof *a->side);
