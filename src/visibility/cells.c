@@ -277,20 +277,6 @@ static void process_block(lrcsi_cells_work *c, uint32_t x, uint32_t y)
 
 /* --- all blocks ------------------------------------------------------------------------------- */
 
-static lrcsi_visible facet_decided(const lrcsi_cells_work *c, uint32_t facet, double whole,
-                                   double *err)
-{
-    const lrcsi_cells_found *a = &c->area[facet];
-    double visible = (c->state[facet] & LRCSI_CELLS_HIDDEN) == 0    ? whole
-                     : (c->state[facet] & LRCSI_CELLS_VISIBLE) == 0 ? 0
-                                                                    : lrcsi_min(whole, a->visible);
-    int mixed =
-        (c->state[facet] & LRCSI_CELLS_VISIBLE) != 0 && (c->state[facet] & LRCSI_CELLS_HIDDEN) != 0;
-    *err = a->uncertainty + (mixed ? a->visible_err + 64 * LRCSI_U * a->visible : 0);
-    return (lrcsi_visible){visible, lrcsi_max(0, visible - *err), lrcsi_min(whole, visible + *err),
-                           0, 0};
-}
-
 /* The extent of the bulk of a scene. */
 static double extent_of(const lrcs_prepared *p)
 {
@@ -323,7 +309,7 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double p
            (ordinary ? lrcsi_max(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
 }
 
-/* Reports the areas that are accurate enough. Returns the number of facets that the cells decided
+/* Reports the areas that are accurate enough. Returns the number of facets that the cells decided,
    but less accurately. */
 static uint32_t areas_report(const lrcsi_cells_work *c, int as_single, lrcsi_visible *visible)
 {
@@ -332,12 +318,16 @@ static uint32_t areas_report(const lrcsi_cells_work *c, int as_single, lrcsi_vis
         if (!c->wanted[f] || (c->state[f] & LRCSI_CELLS_UNDECIDED) != 0 || c->state[f] == 0) {
             continue;
         }
-        double err;
-        double projected = lrcsi_view_projected(c->view, f);
-        lrcsi_visible area = facet_decided(c, f, projected, &err);
-        if (err <= ACCURACY_OF_FACET * projected ||
-            err <= facet_accuracy(c, f, projected, as_single)) {
-            visible[f] = area;
+        const lrcsi_cells_found *a = &c->area[f];
+        double whole = lrcsi_view_projected(c->view, f);
+        int some_visible = (c->state[f] & LRCSI_CELLS_VISIBLE) != 0;
+        int some_hidden = (c->state[f] & LRCSI_CELLS_HIDDEN) != 0;
+        double area = !some_hidden ? whole : !some_visible ? 0 : lrcsi_min(whole, a->visible);
+        double err = a->uncertainty;
+        err += some_visible && some_hidden ? a->visible_err + 64 * LRCSI_U * a->visible : 0;
+        if (err <= ACCURACY_OF_FACET * whole || err <= facet_accuracy(c, f, whole, as_single)) {
+            visible[f] =
+                (lrcsi_visible){area, lrcsi_max(0, area - err), lrcsi_min(whole, area + err), 0, 0};
             c->wanted[f] = 0;
         } else {
             left++;

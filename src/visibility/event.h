@@ -20,21 +20,22 @@ enum lrcsi_edge_kind {
     LRCSI_EDGE_EVENT
 };
 
-/* The kind of an edge, of any number of facets; if it joins two, they are returned in pair.
-   part: LRCS_NONE, or a part of the scene, as if it were alone. Then its facets count whether or
-   not they can hide anything, and only two of consistent winding that are not seen edge-on are
-   joined: the true surface of the part continues from one to the other. */
+/* The kind of an edge with any number of facets; if it joins two, they are returned in pair.
+   part: LRCS_NONE, or a part of the scene, as if there were no others. Then its facets count
+   whether or not they can hide anything, and two facets are joined only if their winding is
+   consistent and they are not edge-on: the true surface of the part continues from one to the
+   other. */
 int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part, uint32_t pair[2]);
 
 size_t lrcsi_events_need(const lrcs_prepared *prepared);
 
 /* Given: cast[facet], the direction in which it faces (1 or -1) if it can hide something, otherwise
-   0; zeros behind the last facet, one more than fill its run (lrcsi_runs_room). Returned: events,
-   which stay in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
+   0; after the last facet zeros that fill its run, and one more (lrcsi_runs_room). Returned:
+   events, which stay in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
                       lrcsi_events *events);
 
-/* Are the LRCSI_RUN values of a run all the same? */
+/* Are all LRCSI_RUN values of a run equal? */
 static inline int lrcsi_run_alike(const signed char *value, uint32_t run)
 {
     uint64_t word[LRCSI_RUN / sizeof(uint64_t)];
@@ -46,7 +47,7 @@ static inline int lrcsi_run_alike(const signed char *value, uint32_t run)
 enum lrcsi_joined {
     LRCSI_JOINED_NONE, /* joins none of them */
     LRCSI_JOINED_ALL,  /* joins all of them into one group */
-    LRCSI_JOINED_SOME  /* neither, or that is not known before */
+    LRCSI_JOINED_SOME  /* some of them, or all but this is not known in advance */
 };
 
 static inline int lrcsi_events_joined(const lrcs_prepared *p, const signed char *joinable,
@@ -59,7 +60,7 @@ static inline int lrcsi_events_joined(const lrcs_prepared *p, const signed char 
 }
 
 /* Joins facets into groups (base/join.h) across all edges that are not event edges.
-   Given: joinable[facet], as cast, but also 0 for facets that shall not be joined. Returned: the
+   Given: joinable[facet], as cast, but also 0 for facets that are not to be joined. Returned: the
    first facet of each facet's group; group[] has lrcsi_runs_room entries. */
 void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group);
 

@@ -288,11 +288,6 @@ int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_w
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-static uint64_t cells_count(lrcsi_cells cells)
-{
-    return (uint64_t)(cells.x1 - cells.x0) * (cells.y1 - cells.y0);
-}
-
 /* In one cell each facet is listed once, so that this ends. */
 int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
 {
@@ -304,7 +299,8 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
             if (boxes->state[f / LRCSI_RUN] != LRCSI_BOXES_FACETS) {
                 f += LRCSI_RUN - 1;
             } else if (lrcsi_view_casts(grid->view, f)) {
-                filled += cells_count(lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
+                lrcsi_cells cells = lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f));
+                filled += (uint64_t)(cells.x1 - cells.x0) * (cells.y1 - cells.y0);
                 facets++;
             }
         }

@@ -26,28 +26,27 @@
    walk lie above y - e, the lower convex and w above y + r - e_Q, so that where its rim lies lower
    the walk climbs past y on W itself, and (1) holds. []
 
-   In projection only the part of the way from y to x counts that lies across the line of sight, in
-   place of e_P: on the curved wall of a shape, placed without distortion, points move by known
-   distances along the axis, from it, and across both (lrcs_part.displaced), and the first two count
-   by the sines of their angles to the line of sight. For let every z be x plus a vector of at most
-   e_Q: then (1) and (2) hold as above for the way from y over x to z, and if S hides all these z,
-   all of them lie within e_Q of V(B), and x in it. This does not apply where Q is open and e_Q > 0:
-   the walk below may come as far as e_P.
+   Distance in projection. Only the component of x - y across the line of sight matters there. On
+   the curved wall of a shape that is placed without distortion, points move by known distances
+   along the axis, away from it, and across both (lrcs_part.displaced); the first two are multiplied
+   by the sines of their angles with the line of sight. The sum replaces e_P in the distance of (2)
+   from y, unless Q is open and e_Q > 0. For in the proof it suffices to take for z the points x +
+   v, |v|
+   <= e_Q, and the straight paths from y to them: the place of b hides one of them; and if S hides
+   them all, the ball of radius e_Q about x lies within e_Q of V(B), so that x lies in V(B).
 
-   Which way they differ. Let an event edge be one-sided if all facets of Q on it lie on one side of
-   it in projection; the other side is its outer side. On the way from y, straight to a point z of
-   the ball, the first facet of Q comes into the way, or the last one leaves it, at an event edge E
-   (or near a facet, (1)); the first comes from the outer side of E and the last goes there, if E is
-   one-sided.
-   - Q hides x but not y: the way to the z that the place of b hides meets its first facet. So y is
-     on the outer side of such an edge, or near one with facets on both sides.
-   - Q hides y but not x, and Q is closed or e_Q = 0: if y is on the outer side of all edges near it
-     no way from y leaves the last facet, and S hides the whole ball, as above: Q hides x. So y is
-     not on the outer side of some edge near it. The same holds where Q has one opening and x is not
-     in B: the ray of x, which is behind B, enters B and leaves it, only once through the opening.
-     Other Q may differ on both sides of their edges.
-   So the truth gains visible area on the inner sides of edges only, and loses some on the outer
-   sides only, each within the slack.
+   Gain and loss. Call an event edge one-sided if all facets of Q on it lie on the same side of it
+   in projection, its inner side. Along a straight path from y to such a z, the number of facets of
+   Q in front of the moving point rises from 0 only where the path crosses an edge from its outer to
+   its inner side, and falls to 0 only where it crosses one the other way; or at edges that are not
+   one-sided, or at (1).
+   - Loss: Q hides x but not y. The number rises from 0 on the path to the z that the place of b
+     hides. So y is on the outer side of a one-sided edge near it, or near an edge of another kind.
+   - Gain: Q hides y but not x, and Q is closed or e_Q = 0. If y were on the outer side of all edges
+     near it, the number would never fall to 0, S would hide all z, and Q would hide x. So y is on
+     the inner side of some edge near it. The same holds if Q has one opening and x is not in B: the
+     ray of x enters B and leaves it, and passes the opening only once.
+   For other Q a gain is possible on both sides.
 
    A part's own fronts are never hidden by it: they are the upper side of B. The inside of an open
    part, where it reflects (two-sided), is the lower side, seen through an opening: x is visible

@@ -12,10 +12,10 @@ enum lrcsi_query_answer {
                                  or the meter is spent */
 };
 
-/* All of these take their steps from a meter; NULL: no limit. */
+/* All queries take their steps from a meter; NULL: no limit. */
 
 /* A query at the facet's centroid, or at another interior point if rounding moves the centroid
-   outside. */
+   outside the facet. */
 int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet, lrcsi_meter *meter);
 
 /* A query at a given point of the facet, rounded; undecided if the facet does not cover it. */
