@@ -140,7 +140,7 @@ portable: $(JOINED)/lrcs.c
 PORTABLE =
 # Those that take minutes under emulation are left out.
 PORTABLE_TESTS = $(filter-out $(addprefix %/test_,$(addsuffix .c,bound closed cubature divide fit large \
-    proximity_band mean polygon random shadows steps switch workspace)),$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
+    proximity_band mean polygon random range_shapes shadows steps switch uncertainty workspace)),$(filter $(CORE:%=test/%/%),$(TEST_SRC)))
 
 # Every target of test/fuzz under libFuzzer and the sanitizers (needs clang), each for FUZZ_SECONDS;
 # fuzz-NAME: one of them. fuzz-long, fuzz-long-NAME: FUZZ_RUNS executions of each, without

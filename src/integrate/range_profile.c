@@ -43,9 +43,10 @@
    which position_err includes (integrate/curve.c). The error of the cubature itself is an estimate,
    and is not part of any bound.
 
-   e: the range of a corner is rounded once, 1.01 u |z|; a point of a piece is a sum of corners with
-   weights that add up to 1 within 4 u, and three roundings, 7 u |z|; its projection has an error of
-   100 u of the reach of visibility/target.h, which is tan(theta) times as much in range. */
+   e: the range of a corner in double-double has the error RANGE_DD_ERROR, which matters where z is
+   nearly 0, and is rounded once, 1.01 u |z|; a point of a piece is a sum of corners with weights
+   that add up to 1 within 4 u, and three roundings, 7 u |z|; its projection has an error of 100 u
+   of the reach of visibility/target.h, which is tan(theta) times as much in range. */
 #include <lrcs/profile.h>
 
 #include <float.h>
@@ -108,6 +109,7 @@ typedef struct profile_run {
    visible projected area. */
 typedef struct profile_facet {
     double range[3], range_max; /* at its corners; the largest |range| */
+    double range_off;           /* the error of the ranges of corners before they were rounded */
     double extent;              /* upper bound of the distance in range of any two of its points */
     uint32_t first, last;
     double glint, diffuse, rounding; /* of a flat facet */
@@ -215,7 +217,7 @@ static lrcsi_dd range_of(const lrcsi_view *view, const double x[3], double *err)
 }
 
 /* The bins that may contain a corner: two if its range cannot be distinguished from their common
-   edge. */
+   edge. Where the range is exact, bin_of is. */
 static void corner_bins(const profile_run *run, lrcsi_dd range, double err, uint32_t *low,
                         uint32_t *high)
 {
@@ -224,10 +226,9 @@ static void corner_bins(const profile_run *run, lrcsi_dd range, double err, uint
     double above = lrcsi_dd_value(lrcsi_dd_sub(range, (lrcsi_dd){edge_of(run, *high + 1), 0}));
     if (*low > 0 && below < 2 * err) {
         *low -= 1;
-        *high -= err == 0 || below < -2 * err ? 1 : 0;
-    } else if (*high + 1 < run->count && above >= -2 * err) {
+        *high -= below < -2 * err ? 1 : 0;
+    } else if (*high + 1 < run->count && err > 0 && above >= -2 * err) {
         *high += 1;
-        *low += err == 0 || above > 2 * err ? 1 : 0;
     }
 }
 
@@ -237,6 +238,7 @@ static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *
     f->first = run->count;
     f->last = 0;
     f->range_max = 0;
+    f->range_off = 0;
     for (int k = 0; k < 3; k++) {
         double err;
         uint32_t low;
@@ -245,12 +247,13 @@ static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *
         corner_bins(run, range, err, &low, &high);
         f->range[k] = lrcsi_dd_value(range);
         f->range_max = lrcsi_max(f->range_max, fabs(f->range[k]));
+        f->range_off = lrcsi_max(f->range_off, err);
         f->first = low < f->first ? low : f->first;
         f->last = high > f->last ? high : f->last;
     }
     const double *z = f->range;
     f->extent = lrcsi_max(z[0], lrcsi_max(z[1], z[2])) - lrcsi_min(z[0], lrcsi_min(z[1], z[2])) +
-                8 * LRCSI_U * f->range_max;
+                8 * LRCSI_U * f->range_max + 2.01 * f->range_off;
 }
 
 /* --- one triangle ----------------------------------------------------------------------------- */
@@ -443,7 +446,7 @@ static double fan_add(profile_run *run, const profile_facet *f, const lrcsi_targ
 static double pieces_add(profile_run *run, const profile_facet *f, uint32_t facet,
                          const lrcsi_incidence *incidence, lrcsi_occlusion *o)
 {
-    double corner_err = 2 * LRCSI_U * f->range_max;
+    double corner_err = 2 * LRCSI_U * f->range_max + 1.01 * f->range_off;
     const double(*normal)[3] = f->curve ? (const double(*)[3])f->curve->normal : NULL;
     if (run->plan.unshadowed && run->view->facing[facet] > 0) {
         lrcsi_visible known = lrcsi_visible_unshadowed(incidence, run->plan.grazing_cos);
@@ -461,7 +464,8 @@ static double pieces_add(profile_run *run, const profile_facet *f, uint32_t face
     while (lrcsi_occlude_next(o)) {
         const lrcsi_target *target = &o->single.target;
         double slope = sqrt(incidence->tan2) * (1 + incidence->tan2_err);
-        double range_err = 9 * LRCSI_U * f->range_max + 101 * LRCSI_U * target->reach * slope;
+        double range_err = 9 * LRCSI_U * f->range_max + 1.01 * f->range_off +
+                           101 * LRCSI_U * target->reach * slope;
         if (o->undecided) {
             area_err += fan_add(run, f, target, &o->single.piece, range_err);
         } else {
@@ -561,7 +565,7 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     facet_ranges(run, parts.partner, &other);
     const lrcs_part *part = &run->prepared->scene->part[run->prepared->scene->facet_part[facet]];
     double reach = ldexp(part->reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
-                   8 * LRCSI_U * f.range_max; /* with the error of the ranges of corners */
+                   8 * LRCSI_U * f.range_max + 1.01 * f.range_off; /* with the corners' errors */
     profile_triangle t = triangle_of(1, f.range, NULL);
     double low =
         lrcsi_min(t.z[0], lrcsi_min(other.range[0], lrcsi_min(other.range[1], other.range[2])));
@@ -594,12 +598,14 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* The largest reach of any part, m. */
+/* The largest reach of the parts whose curvature is known, m. That of others may be infinite; where
+   one of them counts, no error of its facets is added. */
 static double max_reach(const lrcs_prepared *prepared)
 {
     double reach = 0;
     for (uint32_t i = 0; i < prepared->scene->part_count; i++) {
-        reach = lrcsi_max(reach, prepared->scene->part[i].reach);
+        const lrcs_part *part = &prepared->scene->part[i];
+        reach = part->curvature_known ? lrcsi_max(reach, part->reach) : reach;
     }
     return reach;
 }
@@ -823,7 +829,7 @@ int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_
     lrcsi_sum density = {0, 0};
     double bound = 0;
     double estimate = 0;
-    if (!(fwhm_m > 0) || !(d >= DBL_MIN && peak <= DBL_MAX)) {
+    if (!(fwhm_m > 0 && d >= DBL_MIN)) { /* the peak is then below 2^1022 */
         return LRCS_E_ARGUMENT;
     }
     for (uint32_t i = 0; i < profile->count; i++) {

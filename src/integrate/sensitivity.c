@@ -52,17 +52,14 @@ typedef struct unit_response {
     double diffuse, diffuse_m;
 } unit_response;
 
-/* Of a flat facet. Given: the BRDF with amplitudes of 1. */
+/* Of a flat facet. Given: the BRDF with amplitudes of 1, and u, which is finite for a facet that
+   faces the laser or faces away from it. */
 static unit_response flat_response(const lrcs_brdf *unit, double u)
 {
     const double s = unit->s;
-    lrcsi_reflection at = {0, 0, 0};
-    if (isfinite(u)) {
-        at = lrcsi_reflect(unit, u, 0);
-    }
+    lrcsi_reflection at = lrcsi_reflect(unit, u, 0);
     return (unit_response){at.glint, at.glint > 0 ? at.glint * (2 * (u / s / s) / s) : 0,
-                           at.diffuse,
-                           at.diffuse > 0 ? at.diffuse * (-0.5 * lrcsi_log1p(u).hi) : 0};
+                           at.diffuse, at.diffuse * (-0.5 * lrcsi_log1p(u).hi)};
 }
 
 /* Of a facet, as the sum counts it: with the mean over its patch of a wall, or flat. Which of them

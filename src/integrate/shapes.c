@@ -88,11 +88,11 @@ static void unit_terms(const lrcs_shape *shape, const lrcsi_dd direction[3], dou
     out[1] = sum.value[LRCSI_DIFFUSE];
 }
 
-/* The logarithmic slope |change / value| / step of a term: the inverse of the scale over which it
-   varies. */
+/* The logarithmic slope |change / value| / step of a term whose value is above 0: the inverse of
+   the scale over which it varies. */
 static double term_slope(double value, double moved, double step)
 {
-    return value > 0 && moved > 0 ? fabs(moved - value) / value / step : 0;
+    return fabs(moved - value) / value / step;
 }
 
 /* The derivative of the glint in s: a central difference of order 8 at steps h s,

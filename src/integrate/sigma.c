@@ -416,7 +416,7 @@ static int run_previews(lrcsi_sigma *run)
     uint32_t size = lrcsi_cost_size(&cost, any ? 1 : run->options->tolerance, LAST_SIZE);
     double abandoned_ns = 0;
     int status = LRCS_OK;
-    for (int rasters = 0; status == LRCS_OK; rasters++) {
+    for (int rasters = 0;; rasters++) {
         double undecided =
             run->classified ? run->classification.undecided_count : lrcsi_cost_undecided(&cost);
         double ns = lrcsi_cost_draw(&cost, size);

@@ -326,12 +326,6 @@ static void add_any_facet(total_run *run, uint32_t facet)
     }
 }
 
-/* Does a facet represent a patch of a curved wall in this run (integrate/patch.h)? */
-static int represents_patch(const total_run *run, uint32_t facet)
-{
-    return run->plan->patches && lrcsi_patch_exists(run->view->prepared, facet);
-}
-
 /* Adds the error of a facet that replaces a part of a curved shape. Facets with curved normals add
    what may be visible or hidden within the proximity band; clear shapes have no such error. */
 static void add_tessellation_error(total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
@@ -522,7 +516,7 @@ static void batch_collect(total_run *run, total_batch *batch, uint32_t place,
         list[count] = place + i;
         count += (uint32_t)(pick[i] >> 63);
     }
-    if (run->visible || run->curved || run->clear || run->view->prepared->batches.redundant) {
+    if (run->visible || run->clear || run->view->prepared->batches.redundant) {
         count = keep_visible(run, list, count, side);
     }
     for (uint32_t i = 0; batch->back_reflects && i < count; i++) {
@@ -622,7 +616,7 @@ static void add_places(total_run *run, total_batch *batch, uint32_t place, uint3
     total_selection pick;
     select_facets(run, batch, place, count, &pick);
     for (uint32_t i = 0; run->plan->patches && i < count; i++) {
-        if (represents_patch(run, facet[i])) {
+        if (lrcsi_patch_exists(run->view->prepared, facet[i])) {
             pick.front[i] = pick.back[i] = 0;
             pick.any_other = UINT64_MAX;
         }
@@ -631,20 +625,16 @@ static void add_places(total_run *run, total_batch *batch, uint32_t place, uint3
         batch_collect(run, batch, place, pick.front, 1);
     }
     int back = (int)(pick.any_back >> 63);
-    if (back && batch->back_visible && batch->back_reflects) {
+    if (back && batch->back_reflects) { /* then they cast shadows, and may be visible */
         batch_collect(run, batch, place, pick.back, -1);
     } else if (back && batch->back_visible) {
         add_back_areas(run, batch, place, pick.back);
-    } else if (back && batch->back_reflects) {
-        for (uint32_t i = 0; i < count; i++) {
-            run->total.hidden += (uint32_t)(pick.back[i] >> 63);
-        }
     }
     for (uint32_t i = 0; pick.any_other >> 63 && i < count; i++) {
         if (!((pick.front[i] | pick.back[i]) >> 63)) {
             add_any_facet(run, facet[i]);
             if (run->tessellation &&
-                represents_patch(run, facet[i])) { /* run->patch is its patch */
+                lrcsi_patch_exists(run->view->prepared, facet[i])) { /* run->patch is its patch */
                 lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet[i]);
                 add_tessellation_error(run, facet[i], &incidence);
             }
@@ -712,7 +702,7 @@ static void add_tessellation_errors(total_run *run)
         uint32_t count = left < LRCSI_INCIDENCES ? left : LRCSI_INCIDENCES;
         lrcsi_view_incidences(run->view, b->facet + place, count, incidence);
         for (uint32_t i = 0; i < count; i++) {
-            if (!represents_patch(run, b->facet[place + i])) {
+            if (!lrcsi_patch_exists(run->view->prepared, b->facet[place + i])) {
                 add_tessellation_error(run, b->facet[place + i], &incidence[i]);
             }
         }
@@ -834,7 +824,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                      .answer = areas->answer,
                      .curved = curved,
                      .band = band,
-                     .clear = clear && clear->count > 0 ? clear : NULL,
+                     .clear = clear->count > 0 ? clear : NULL,
                      .records = records};
     if (records) {
         records_start(&run);

@@ -442,9 +442,6 @@ static int is_inside_segment(const double *a, const double *b, const double *p)
 static int corner_on_side(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
 {
     for (int i = 0; i < 3; i++) {
-        if (is_corner_of(f, t->x[i])) {
-            continue;
-        }
         for (int k = 0; k < 3; k++) {
             if (is_inside_segment(f->x[k], f->x[(k + 1) % 3], t->x[i])) {
                 return 1;

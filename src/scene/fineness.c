@@ -250,7 +250,7 @@ int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part
     const double *scale = part->place.scale;
     double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
     double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
-    double ratio = small > 0.0 && large / small < RATIO_MOST ? large / small : 1.0;
+    double ratio = large / small < RATIO_MOST ? large / small : 1.0; /* not if small is 0 */
     double spread = ratio > 1.0 ? 1.5 * ratio * ratio : 1.0;
     const lrcs_fineness wanted = {shape_tolerance(fineness, part) / spread, material->brdf,
                                   fineness->max_facets};

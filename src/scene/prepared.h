@@ -83,8 +83,8 @@ typedef struct lrcsi_run {
     int has_contacts; /* some facet has a contact or is marked in `met` (mesh/intersection.h) */
 } lrcsi_run;
 
-/* A side of a facet of a run across which (scene/across.h) there is a facet of another run that
-   comes earlier, or no facet, or a facet that does not have this facet across. */
+/* A side of a facet of a run across which (scene/across.h) there is a facet of an earlier run, or
+   no facet. */
 typedef struct lrcsi_run_side {
     uint32_t facet, other;
     uint32_t edge; /* of the topology */

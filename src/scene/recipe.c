@@ -162,11 +162,11 @@ static int read_brdf_error(const lrcsi_draft *draft, const lrcs_brdf *brdf, lrcs
     if (status == LRCS_E_ARGUMENT) {
         return lrcsi_draft_refuse(draft, status, "no A_error and no s_error where s is 0");
     }
-    return status != LRCS_OK && correlation
+    return status != LRCS_OK /* only correlations can be wrong */
                ? lrcsi_draft_refuse_value(draft, LRCSI_KEY_CORRELATION, status,
                                           "correlations of A and B, A and s, A and m, B and s, B "
                                           "and m, s and m: a matrix without negative eigenvalues")
-               : status;
+               : LRCS_OK;
 }
 
 /* A [[material]]. */

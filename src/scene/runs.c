@@ -9,13 +9,6 @@
 #include "base/range.h"
 #include "base/work.h"
 
-/* Is a facet across some side of another? */
-static int lies_across(const lrcsi_across *across, uint32_t facet, uint32_t other)
-{
-    const uint32_t *corner = across->facet[other].corner;
-    return corner[0] == facet || corner[1] == facet || corner[2] == facet;
-}
-
 /* Lists the runs that the sides of a run lead to. */
 static void run_link(lrcsi_runs *runs, uint32_t run, uint32_t facet_count)
 {
@@ -34,7 +27,9 @@ static void run_link(lrcsi_runs *runs, uint32_t run, uint32_t facet_count)
     runs->first_link[run + 1] = end;
 }
 
-/* Joins the facets of a run, and lists the sides that leave it. */
+/* Joins the facets of a run, and lists the sides that leave it. A facet has another across a side
+   if and only if that one has it across (scene/across.c), so that sides towards later runs are
+   listed there. */
 static void run_join(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, uint32_t end)
 {
     uint32_t group[LRCSI_RUN];
@@ -47,8 +42,7 @@ static void run_join(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, u
             uint32_t other = p->across.facet[f].corner[k];
             if (other >= start && other < f) {
                 lrcsi_join(group, other - start, f - start);
-            } else if (other < start ||
-                       (other >= end && (other == count || !lies_across(&p->across, f, other)))) {
+            } else if (other < start || other == count) {
                 runs->side[(*sides)++] =
                     (lrcsi_run_side){f, other, p->topology.facet_edge[f].corner[k]};
             }

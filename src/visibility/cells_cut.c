@@ -329,10 +329,8 @@ static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const 
         }
         if (on_left) {
             lrcsi_cells_swap(c->facets, i++, left->facets++);
-        } else if (on_right) {
+        } else { /* what is not on the left is on the right */
             lrcsi_cells_swap(c->facets, i, --end);
-        } else {
-            i++;
         }
     }
     right->maybe[0] = end;

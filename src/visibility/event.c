@@ -93,8 +93,7 @@ static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t
         }
         for (uint32_t i = p->runs.run[r].first_side; i < p->runs.run[r + 1].first_side; i++) {
             const lrcsi_run_side *side = &p->runs.side[i];
-            if (cast[side->facet] != cast[side->other] &&
-                (cast[side->facet] != 0 || side->other < side->facet)) {
+            if (cast[side->facet] != cast[side->other]) {
                 mark_edge_event(mark, side->edge);
             }
         }

@@ -263,9 +263,32 @@ static void the_most_is_above_every_value_and_near_the_largest(void **state)
     }
 }
 
+/* Moments: of the glint by u, of the diffuse part by log(1 + u), 0 for a term that is absent or too
+   small for a double. */
+static void moments_of_one_incidence_are_products(void **state)
+{
+    (void)state;
+    const double tilted[3] = {0.6, 0, 0.8};
+    const double normal[3][3] = {
+        {tilted[0], 0, tilted[2]}, {tilted[0], 0, tilted[2]}, {tilted[0], 0, tilted[2]}};
+    double u = 0.5625;
+    for (int i = 0; i < 4; i++) {
+        const lrcs_brdf brdf = {i % 2, i / 2, i == 3 ? 0.4 : 0.02, i == 3 ? 2 : 1e4};
+        lrcsi_cubature sum = start(&brdf, normal, 1e-6);
+        sum.moments = 1;
+        lrcsi_cubature_add(&sum, normal, 1);
+        double glint = lrcsi_sum_value(&sum.glint);
+        double diffuse = lrcsi_sum_value(&sum.diffuse);
+        check_abs(lrcsi_sum_value(&sum.glint_u), glint * u, 1e-14 * glint);
+        check_abs(lrcsi_sum_value(&sum.diffuse_log), diffuse * log1p(u), 1e-14 * diffuse);
+        assert_true((glint > 0) == (i == 3) && (diffuse > 0) == (i == 3));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(moments_of_one_incidence_are_products),
         cmocka_unit_test(the_glint_is_within_its_estimate_and_that_within_the_tolerance),
         cmocka_unit_test(the_diffuse_part_is_too),
         cmocka_unit_test(both_parts_together_are_each_what_they_are_alone),

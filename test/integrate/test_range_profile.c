@@ -130,6 +130,50 @@ static void plate_that_rounding_puts_on_an_edge_is_in_both_bounds(void **state)
     assert_true(most >= sigma * (1 - 1e-12));
 }
 
+/* The same through the origin, at the edge of bins -1 and 0: the ranges of its corners have either
+   sign and are no larger than their errors. Symptom: half of it in each bin, with bounds of
+   rounding. */
+static void plate_that_rounding_puts_before_or_behind_zero_is_in_both_bounds(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 40; i++) {
+        double direction[3] = {0, 0, 1};
+        const int q[4] = {3 + i % 5, 1 + i % 7, 2 - i % 4, 1 + i / 7};
+        plate_at(0);
+        double scale = scene_turn(&scene, q, direction);
+        profile_make(direction, 5 * scale);
+        double sigma = 4 * 3.14159265358979323846 * 2 * scale * scale * 1.25;
+        check_rel(profile.sigma_glint_m2 + profile.sigma_diffuse_m2, sigma, 1e-9);
+        assert_true(profile.bound_m2 < 1e-9 * sigma);
+        for (int64_t k = -1; k < 1; k++) {
+            lrcs_profile_bin bin = bin_at(k);
+            double lacks = sigma - bin.sigma_glint_m2 - bin.sigma_diffuse_m2;
+            assert_true(fabs(lacks) < 1e-9 * sigma || bin.bound_m2 >= sigma * (1 - 1e-12));
+        }
+    }
+}
+
+/* One unit in the last place nearer than an edge: in the nearer bin, however the quotient rounds.
+ */
+static void plates_just_before_an_edge_are_in_the_nearer_bin(void **state)
+{
+    (void)state;
+    const double direction[3] = {0, 0, 1};
+    uint64_t seed = 3;
+    unsigned misled = 0;
+    for (int i = 0; i < 4000; i++) {
+        double bin = 0.001 + random_below(&seed, 1u << 20) * 0x1p-20;
+        int64_t k = 1 + random_below(&seed, 100);
+        double range = nextafter((double)k * bin, 0);
+        misled += floor(range / bin) >= (double)k;
+        plate_at(-range);
+        profile_make(direction, bin);
+        assert_int_equal(profile.first, k - 1);
+        assert_int_equal(profile.count, 1);
+    }
+    assert_true(misled > 0); /* that the test tests it */
+}
+
 static void hidden_facets_contribute_nothing(void **state)
 {
     (void)state;
@@ -159,6 +203,27 @@ static void back_sides_contribute_only_where_two_sided(void **state)
     profile_make(below, 0.25);
     assert_int_equal(profile.count, 1);
     assert_int_equal(profile.first, 0);
+}
+
+/* Facets stored twice are redundant: the second adds nothing to a bin, nor to its bound. */
+static void a_plate_stored_twice_counts_once(void **state)
+{
+    (void)state;
+    const double direction[3] = {3, 0, 4};
+    plate_at(0.1);
+    profile_make(direction, 0.1);
+    lrcs_profile once = profile;
+    lrcs_profile_bin bins[16];
+    assert_true(once.count <= 16);
+    memcpy(bins, once.bin, once.count * sizeof *bins);
+    scene_plate(&scene, (const double[3]){-1, -0.5, 0.1}, (const double[3]){2, 0, 0},
+                (const double[3]){0, 1, 0});
+    profile_make(direction, 0.1);
+    assert_int_equal(profile.count, once.count);
+    for (uint32_t i = 0; i < once.count; i++) {
+        check_rel(sigma_of(i), bins[i].sigma_glint_m2 + bins[i].sigma_diffuse_m2, 1e-14);
+        check_most(profile.bin[i].bound_m2, 4 * bins[i].bound_m2);
+    }
 }
 
 /* --- against triangles cut in long double ----------------------------------------------------- */
@@ -567,6 +632,8 @@ static void widths_and_numbers_of_bins_have_limits(void **state)
     assert_int_equal(profile_try(direction, 1e-300), LRCS_E_LIMIT);
     plate_at(1e9);
     assert_int_equal(profile_try(direction, 1e-4), LRCS_E_LIMIT); /* numbers beyond 2^40 */
+    plate_at(-1e9);
+    assert_int_equal(profile_try(direction, 1e-4), LRCS_E_LIMIT);
     assert_memory_equal(&profile, &before, sizeof profile);
     plate_at(0);
     profile_make(direction, 1e-5);
@@ -609,6 +676,30 @@ static void bins_too_wide_for_the_scale_of_the_scene_are_refused(void **state)
     plate_at(0);
     scene_move(&scene, 0x1p-900, still);
     assert_int_equal(profile_try(direction, 1e200), LRCS_E_ARGUMENT);
+    plate_at(0);
+    scene_move(&scene, 0x1p300, still); /* and in one of 2^300 m, bins of 1e-300 m too narrow */
+    assert_int_equal(profile_try(direction, 1e-300), LRCS_E_ARGUMENT);
+}
+
+/* Facets so large that sigma is beyond doubles; a vertex that no facet has, far away. */
+static void sigma_beyond_doubles_is_refused_and_loose_vertices_have_no_bins(void **state)
+{
+    (void)state;
+    const double direction[3] = {3, 0, 4};
+    const double still[3] = {0, 0, 0};
+    plate_at(0);
+    scene_move(&scene, 0x1p300, still);
+    scene.material[0].brdf.B = 1e200;
+    assert_int_equal(profile_try(direction, 0x1p290), LRCS_E_NUMBER);
+    plate_at(0);
+    profile_make(direction, 0.1);
+    lrcs_profile before = profile;
+    scene_vertex(&scene, 1e6, 1e6, 1e6);
+    profile_make(direction, 0.1);
+    assert_int_equal(profile.first, before.first);
+    assert_int_equal(profile.count, before.count);
+    const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+    assert_true(lrcs_profile_need(prepared, 1e-300) == lrcs_profile_need(prepared, 1e-200));
 }
 
 static const lrcs_prepared *hungry;
@@ -668,6 +759,9 @@ int main(void)
         cmocka_unit_test(plate_normal_to_the_beam_is_in_one_bin),
         cmocka_unit_test(plate_on_an_edge_is_in_the_farther_bin),
         cmocka_unit_test(plate_that_rounding_puts_on_an_edge_is_in_both_bounds),
+        cmocka_unit_test(plate_that_rounding_puts_before_or_behind_zero_is_in_both_bounds),
+        cmocka_unit_test(plates_just_before_an_edge_are_in_the_nearer_bin),
+        cmocka_unit_test(a_plate_stored_twice_counts_once),
         cmocka_unit_test(hidden_facets_contribute_nothing),
         cmocka_unit_test(back_sides_contribute_only_where_two_sided),
         cmocka_unit_test(bins_hold_the_truth_of_random_triangles),
@@ -680,6 +774,7 @@ int main(void)
         cmocka_unit_test(widths_and_numbers_of_bins_have_limits),
         cmocka_unit_test(nothing_has_no_bins),
         cmocka_unit_test(bins_too_wide_for_the_scale_of_the_scene_are_refused),
+        cmocka_unit_test(sigma_beyond_doubles_is_refused_and_loose_vertices_have_no_bins),
         cmocka_unit_test(the_work_area_grows_until_it_suffices),
         cmocka_unit_test(a_scene_scaled_by_a_power_of_two_has_the_same_profile)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -27,13 +27,14 @@ static void *memory_of(size_t size)
 }
 
 /* What is prepared points to the scene, which stays where it is. */
-static void build(const lrcs_recipe *recipe, double tolerance, uint32_t most, built *b)
+static void build_models(const lrcs_recipe *recipe, const lrcs_mesh *models, double tolerance,
+                         uint32_t most, int only, built *b)
 {
-    const lrcs_build_options options = {tolerance, most, LRCS_NORMALS_FLAT, 1, 0};
-    size_t need = lrcs_scene_need(recipe, NULL, &options);
+    const lrcs_build_options options = {tolerance, most, LRCS_NORMALS_FLAT, only, 0};
+    size_t need = lrcs_scene_need(recipe, models, &options);
     b->memory[0] = memory_of(need);
     lrcs_work work = lrcs_work_make(b->memory[0], need);
-    assert_int_equal(lrcs_scene_build(recipe, NULL, &options, &work, &b->scene, NULL), LRCS_OK);
+    assert_int_equal(lrcs_scene_build(recipe, models, &options, &work, &b->scene, NULL), LRCS_OK);
     int status = LRCS_E_MEMORY;
     b->memory[1] = NULL;
     for (need = lrcs_prepare_need(&b->scene); status == LRCS_E_MEMORY; need *= 2) {
@@ -43,6 +44,12 @@ static void build(const lrcs_recipe *recipe, double tolerance, uint32_t most, bu
         status = lrcs_prepare_run(&b->scene, &work, &b->prepared);
     }
     assert_int_equal(status, LRCS_OK);
+}
+
+/* With the facets that profiles want, as hosts do. */
+static void build(const lrcs_recipe *recipe, double tolerance, uint32_t most, built *b)
+{
+    build_models(recipe, NULL, tolerance, most, LRCS_FACETS_LOCAL, b);
 }
 
 static void unbuild(built *b)
@@ -280,7 +287,7 @@ static void bins_of_walls_hold_the_integral_over_them(void **state)
         }
         const double d[3] = {sin(truth.tilt), 0, cos(truth.tilt)};
         built b;
-        build(&recipe, 1e-4, 4000, &b);
+        build_models(&recipe, NULL, 1e-4, 4000, i % 2 ? LRCS_FACETS_TOTAL : LRCS_FACETS_LOCAL, &b);
         for (int fine = 0; fine < 2; fine++) {
             lrcs_profile profile;
             void *memory = profile_make(&b, d, fine ? 0.05 : 0.4, &profile);
@@ -364,6 +371,121 @@ static void coarse_and_fine_scenes_agree_within_their_bounds(void **state)
     assert_true(known > 4 * NASTY_FAMILIES);
 }
 
+/* --- what is not known, and what takes no part -------------------------------------------------
+ */
+
+/* The sum of the bins is sigma of the facets, within the bounds of both but for what curved shapes
+   would add to them. */
+static void check_facets(const built *b, const double d[3], const lrcs_profile *profile)
+{
+    lrcs_pose pose;
+    lrcs_result r;
+    lrcs_run_options options = lrcs_run_options_default();
+    options.method = LRCS_METHOD_EXACT;
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    size_t need = lrcs_sigma_need(b->prepared, &options);
+    void *memory = memory_of(need);
+    lrcs_work work = lrcs_work_make(memory, need);
+    assert_int_equal(lrcs_sigma_run(b->prepared, &pose, &options, &work, &r, NULL, NULL), LRCS_OK);
+    double bound = profile->bound_m2 + r.budget.visibility_m2 + r.budget.rounding_m2;
+    check_abs(profile->sigma_glint_m2 + profile->sigma_diffuse_m2, r.sigma_m2, bound);
+    check_most(bound, 1e-6 * r.sigma_m2);
+    assert_true((r.budget.tessellation_m2 < 0) == !profile->tessellation_known);
+    free(memory);
+}
+
+/* A ball that is sheared, and one so far away that rounding leaves facets without area: the bounds
+   refer to the facets, and say so. Symptom: a profile of the former had more bins than there may
+   be. */
+static void bounds_without_known_curvature_are_those_of_facets(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        lrcs_recipe_part part[2];
+        lrcs_recipe_material material;
+        lrcs_recipe recipe = recipe_of(&part[0], &material);
+        recipe.part_count = 1 + (uint32_t)i / 2;
+        part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5};
+        part[1] = part[0];
+        part[1].place.translate[0] = 0.25;
+        part[1].place.translate[2] = 2;
+        if (i % 2) {
+            part[0].place.translate[0] = part[1].place.translate[0] = 0x1p51;
+            part[0].place.translate[1] = part[1].place.translate[1] = 0x1p51;
+            part[0].place.scale[0] = part[0].place.scale[1] = part[0].place.scale[2] = 4;
+        } else {
+            part[0].place.rotate[0][1] = 0.5;
+        }
+        built b;
+        lrcs_profile profile;
+        const double d[3] = {i % 2 ? 0 : 0.1, 0, 1};
+        build(&recipe, 0.05, 2000, &b);
+        void *memory = profile_make(&b, d, 0.3, &profile);
+        assert_int_equal(profile.tessellation_known, 0);
+        if (i % 2 == 0) {
+            check_facets(&b, d, &profile);
+        }
+        assert_true(profile.sigma_diffuse_m2 > 0);
+        free(memory);
+        unbuild(&b);
+    }
+}
+
+/* A pane of glass before a ball, and a facet of no area: they have no place in the profile, and do
+   not touch its bounds. */
+static void what_takes_no_part_changes_no_bin(void **state)
+{
+    (void)state;
+    static lrcs_point vertex[6] = {{{-1, -1, 2}}, {{1, -1, 2}},  {{0, 1, 2}},
+                                   {{0, 0, -9}},  {{9, 9, -20}}, {{0, 0, 30}}};
+    static lrcs_facet facet[3] = {{{0, 1, 2}}, {{3, 3, 4}}, {{0, 1, 3}}};
+    static uint32_t pane[3] = {0, 1, 1};
+    static uint32_t zero[3];
+    static lrcs_surface surface[2] = {{.name = "glass", .transparency = 1}, {.name = "skin"}};
+    static const char *name[1] = {"model"};
+    lrcs_profile profile[2];
+    void *memory[2];
+    built b[2];
+    for (int i = 0; i < 2; i++) {
+        lrcs_recipe_part part[2];
+        lrcs_recipe_material material;
+        lrcs_recipe recipe = recipe_of(&part[0], &material);
+        part[1] = (lrcs_recipe_part){
+            .name = "model", .file = "model", .place = lrcs_place_default(), .material_index = -1};
+        const lrcs_mesh models[2] = {{0},
+                                     {.vertex_count = 6,
+                                      .facet_count = 3,
+                                      .material_count = 2,
+                                      .part_count = 1,
+                                      .vertex = vertex,
+                                      .facet = facet,
+                                      .facet_material = pane,
+                                      .facet_part = zero,
+                                      .facet_smooth = zero,
+                                      .material = surface,
+                                      .part = name}};
+        lrcs_mesh without[2] = {{0}, models[1]};
+        without[1].facet_count = 1; /* the third facet, of skin, alone */
+        without[1].facet = facet + 2;
+        without[1].facet_material = pane + 2;
+        recipe.part_count = 2;
+        part[0].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5};
+        build_models(&recipe, i ? without : models, 0.01, 2000, LRCS_FACETS_TOTAL, &b[i]);
+        memory[i] = profile_make(&b[i], (const double[3]){0.2, 0.1, 1}, 0.1, &profile[i]);
+        assert_true(profile[i].tessellation_known);
+    }
+    assert_int_equal(profile[0].count, profile[1].count);
+    assert_int_equal(profile[0].first, profile[1].first);
+    for (uint32_t k = 0; k < profile[0].count; k++) {
+        check_rel(sigma_of(&profile[0].bin[k]), sigma_of(&profile[1].bin[k]), 1e-12);
+        check_rel(profile[0].bin[k].bound_m2, profile[1].bin[k].bound_m2, 1e-9);
+    }
+    for (int i = 0; i < 2; i++) {
+        free(memory[i]);
+        unbuild(&b[i]);
+    }
+}
+
 /* --- memory ----------------------------------------------------------------------------------- */
 
 static const built *hungry;
@@ -404,6 +526,8 @@ int main(void)
         cmocka_unit_test(bins_of_a_sphere_hold_the_integral_over_it),
         cmocka_unit_test(bins_of_walls_hold_the_integral_over_them),
         cmocka_unit_test(coarse_and_fine_scenes_agree_within_their_bounds),
+        cmocka_unit_test(bounds_without_known_curvature_are_those_of_facets),
+        cmocka_unit_test(what_takes_no_part_changes_no_bin),
         cmocka_unit_test(the_work_area_grows_until_it_suffices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -241,6 +241,132 @@ static void a_glint_forced_on_a_matt_surface_adds_nothing(void **state)
     }
 }
 
+/* Whatever its material: a glint that is forced on a surface without slope, one as wide as s = 2.
+ */
+static void a_plate_all_but_edge_on_follows_eq_2_with_any_material(void **state)
+{
+    (void)state;
+    static const lrcs_brdf brdf[] = {{0, 0.25, 0, 0.5}, {1, 0.25, 2, 0.5}, {1, 0.25, 0.2, 0.5}};
+    need_wide_long_double();
+    for (int i = 0; i < 9; i++) {
+        double tangent = i / 3 == 0 ? 1e-9 : i / 3 == 1 ? 1e-40 : 1e-200;
+        lrcs_pose pose;
+        lrcs_work work;
+        lrcs_result r;
+        lrcs_run_options options = lrcs_run_options_default();
+        scene_start(&scene);
+        unit_plate(0);
+        unit_plate(-9);
+        scene.material[0].brdf = brdf[i % 3];
+        options.with = 1u << LRCS_EFFECT_GLINT;
+        const lrcs_prepared *prepared = scene_prepare(&scene, &work);
+        assert_int_equal(lrcs_pose_from_direction((const double[3]){1, 0, tangent}, &pose),
+                         LRCS_OK);
+        assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL), LRCS_OK);
+        long double cosine = (long double)tangent / sqrtl(1 + (long double)tangent * tangent);
+        lrcs_brdf sloped = brdf[i % 3];
+        sloped.s = sloped.s > 0 ? sloped.s : 1;
+        check_bound(r, 2 * (double)scene_eq2(&sloped, 1, cosine * cosine));
+    }
+}
+
+/* Two plates in one place are one, from behind too: without a search for shadows its back counts
+   once among the back sides that are seen. */
+static void back_sides_stored_twice_count_once(void **state)
+{
+    (void)state;
+    const double below[3] = {0.6, 0, -0.8};
+    for (int twice = 0; twice < 2; twice++) {
+        scene_start(&scene);
+        unit_plate(0);
+        if (twice) {
+            unit_plate(0);
+        }
+        lrcs_result r = scene_run(&scene, below, LRCS_METHOD_FACET, 0);
+        check_same(r.sigma_m2, 0);
+        check_abs(r.back_side_area_m2, 0.8, 1e-14);
+        assert_int_equal(r.back_side_facets, 2);
+    }
+}
+
+/* --- round bodies ----------------------------------------------------------------------------- */
+
+static unsigned char built_area[1u << 22], prepared_area[1u << 24];
+
+/* A ball alone, stretched, of so many facets. */
+static const lrcs_prepared *ball(const lrcs_brdf *brdf, double stretch, int only, lrcs_scene *built)
+{
+    lrcs_recipe_part part = {.name = "", .place = lrcs_place_default(), .material_index = -1};
+    part.shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5};
+    part.place.scale[0] = stretch;
+    lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = 0};
+    const lrcs_recipe recipe = {
+        .part = &part, .part_count = 1, .binding = &binding, .binding_count = 1};
+    const lrcs_build_options options = {1e-2, 8000, LRCS_NORMALS_FLAT, only, 0};
+    const lrcs_prepared *prepared;
+    lrcs_work work = lrcs_work_make(built_area, sizeof built_area);
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, built, NULL), LRCS_OK);
+    work = lrcs_work_make(prepared_area, sizeof prepared_area);
+    assert_int_equal(lrcs_prepare_run(built, &work, &prepared), LRCS_OK);
+    return prepared;
+}
+
+/* An ellipsoid is convex by construction, however it is seen; a search for shadows finds as much.
+ */
+static void a_search_for_shadows_on_a_convex_body_finds_none(void **state)
+{
+    (void)state;
+    const lrcs_brdf brdf = {1, 0.25, 0.3, 0.5};
+    lrcs_scene built;
+    const lrcs_prepared *prepared = ball(&brdf, 3, LRCS_FACETS_TOTAL, &built);
+    for (int i = 0; i < 40; i++) {
+        lrcs_pose pose;
+        lrcs_result r[2];
+        lrcs_run_options options = lrcs_run_options_default();
+        const double d[3] = {cos(i), sin(i), 0.7 * sin(0.37 * i)};
+        assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+        for (int k = 0; k < 2; k++) {
+            lrcs_work work = lrcs_work_make(scene_memory, sizeof scene_memory);
+            options.method = k ? LRCS_METHOD_EXACT : LRCS_METHOD_FACET;
+            options.with = k ? 1u << LRCS_EFFECT_SELF_SHADOWING : 0;
+            assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r[k], NULL, NULL),
+                             LRCS_OK);
+            assert_int_equal(r[k].method, options.method);
+        }
+        check_abs(r[0].sigma_m2, r[1].sigma_m2,
+                  r[0].budget.visibility_m2 + r[1].budget.visibility_m2 + 1e-13);
+    }
+}
+
+/* The closed form of a clear ball is divided among its facets, each term by itself. */
+static void records_of_a_clear_ball_add_up_to_it(void **state)
+{
+    (void)state;
+    static const lrcs_brdf brdf[] = {
+        {1, 0, 0.3, 0.5}, {0, 0.25, 0.3, 0.5}, {1, 0.25, 0.3, 0.5}, {1, 0, 1e-3, 0.5}};
+    for (int i = 0; i < 4; i++) {
+        lrcs_scene built;
+        lrcs_pose pose;
+        lrcs_result r;
+        const lrcs_prepared *prepared = ball(&brdf[i], 1, LRCS_FACETS_BASE, &built);
+        lrcs_run_options options = lrcs_run_options_default();
+        lrcs_work work = lrcs_work_make(scene_memory, sizeof scene_memory);
+        assert_true(built.facet_count <= SCENE_FACETS);
+        assert_int_equal(lrcs_pose_from_direction((const double[3]){0.2, 0.3, 1}, &pose), LRCS_OK);
+        assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, scene.record, NULL),
+                         LRCS_OK);
+        assert_int_equal(r.method, LRCS_METHOD_CLOSED);
+        double sum[2] = {0, 0};
+        for (uint32_t f = 0; f < built.facet_count; f++) {
+            assert_true(scene.record[f].sigma_m2 >= 0);
+            sum[0] += scene.record[f].sigma_m2;
+            sum[1] += scene.record[f].sigma_glint_m2;
+        }
+        check_rel(sum[0], r.sigma_m2, 1e-12);
+        check_abs(sum[1], r.sigma_glint_m2, 1e-12 * r.sigma_m2);
+    }
+}
+
 /* --- a run as far as a stage ------------------------------------------------------------------ */
 
 /* Each stage takes the steps of those before it and its own, and all memory is given back: so hosts
@@ -304,6 +430,10 @@ int main(void)
         cmocka_unit_test(a_plate_nearly_edge_on_keeps_a_useful_bound),
         cmocka_unit_test(rasters_are_refined_until_they_meet_the_tolerance),
         cmocka_unit_test(a_glint_forced_on_a_matt_surface_adds_nothing),
+        cmocka_unit_test(a_plate_all_but_edge_on_follows_eq_2_with_any_material),
+        cmocka_unit_test(back_sides_stored_twice_count_once),
+        cmocka_unit_test(a_search_for_shadows_on_a_convex_body_finds_none),
+        cmocka_unit_test(records_of_a_clear_ball_add_up_to_it),
         cmocka_unit_test(a_run_ends_after_the_stage_that_is_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

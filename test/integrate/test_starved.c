@@ -4,6 +4,7 @@
    output nor a byte beyond the area, and tells that it wanted more; once served it is served by
    every larger area; at _need it is served, and undegraded. */
 #include "build3ds.h"
+#include "curved.h"
 #include "integrate/cubature.h"
 #include "scene/proximity.h"
 #include "scene/solid.h"
@@ -189,6 +190,33 @@ static void a_pose_over_curved_normals_grows_until_it_fits(void **state)
     assert_true(out.result.curvature_estimate_m2 > 0 && out.result.facets_partial > 0);
 }
 
+static lrcs_recipe round_recipe;
+static lrcs_mesh round_mesh;
+static lrcs_build_options round_options;
+
+static int call_round(lrcs_work *work)
+{
+    return lrcs_scene_build(&round_recipe, &round_mesh, &round_options, work, &out.scene, NULL);
+}
+
+/* The room for the normals of a model among the rest. */
+static void building_with_normals_grows_until_it_fits(void **state)
+{
+    (void)state;
+    static char round_text[CURVED_TEXT];
+    curved_cylinder(round_text, 8, 0.5, 1, 'v');
+    curved_case c = curved_obj(round_text);
+    lrcs_recipe_part part = {
+        .name = "model", .file = "model", .place = lrcs_place_default(), .material_index = -1};
+    round_recipe = (lrcs_recipe){.part = &part, .part_count = 1};
+    round_mesh = c.mesh;
+    round_options = (lrcs_build_options){1e-2, 64, LRCS_NORMALS_SMOOTH, 1, 0};
+    starve(STARVED("normals", lrcs_scene_need(&round_recipe, &round_mesh, &round_options),
+                   call_round, out.scene, 1));
+    assert_non_null(out.scene.corner_normal);
+    curved_free(&c);
+}
+
 /* Where size_t has 32 bits, a product of counts that wrapped would ask for too little. */
 static void needs_never_shrink_as_counts_grow(void **state)
 {
@@ -291,6 +319,7 @@ int main(void)
         cmocka_unit_test(building_grows_until_it_fits),
         cmocka_unit_test(a_pose_grows_until_it_fits),
         cmocka_unit_test(a_pose_over_curved_normals_grows_until_it_fits),
+        cmocka_unit_test(building_with_normals_grows_until_it_fits),
         cmocka_unit_test(needs_never_shrink_as_counts_grow),
         cmocka_unit_test(steps_within_grow_until_they_fit),
     };

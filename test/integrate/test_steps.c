@@ -154,6 +154,29 @@ static void bodies_behind_each_other(void **state)
     }
 }
 
+/* A body before more edges than a run of its facets is compared with: it is seen as if they were
+   not there, whatever steps it takes to know. */
+static void a_body_before_much(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 16);
+    uint32_t body = scene.scene.facet_count;
+    for (int i = 0; i < 2025; i++) {
+        double x = -1 + 2.0 * (i % 45) / 45;
+        double y = -1 + 2.0 * (i / 45) / 45;
+        scene_triangle(&scene, (const double[3]){x, y, -3}, (const double[3]){x + 0.03, y, -3},
+                       (const double[3]){x, y + 0.03, -3});
+    }
+    prepared = scene_prepare(&scene, &work);
+    look(0.01, 0.02, 1, 1e-4);
+    for (uint32_t f = 0; f < body; f++) {
+        double whole = record[f].area_m2 * fmax(0, record[f].cos_theta);
+        check_abs(record[f].visible_area_m2, whole, 1e-12);
+    }
+    check_method(LRCS_METHOD_EXACT, 2);
+}
+
 /* Normals that sway by `sway` over the plane. */
 static void bend_normals(double sway)
 {
@@ -227,6 +250,13 @@ static void curved_shapes(void **state)
     assert_int_equal(lrcs_prepare_run(&shapes, &work, &prepared), LRCS_OK);
     look(0.3, 0.2, 1, 1e-4);
     assert_true(truth.budget.tessellation_m2 > 0);
+    options.accept = LRCS_ACCEPT_ESTIMATE; /* their bound needs more than samples */
+    options.tolerance = 0.01;
+    lrcs_result guess = run(LRCS_METHOD_AUTO, 0);
+    assert_int_equal(guess.method, LRCS_METHOD_EXACT);
+    check_abs(guess.sigma_m2, truth.sigma_m2, guess.bound_m2 + truth.bound_m2);
+    options.accept = LRCS_ACCEPT_BOUND;
+    options.tolerance = 1e-4;
     check_method(LRCS_METHOD_EXACT, 20);
 }
 
@@ -248,6 +278,7 @@ int main(void)
         cmocka_unit_test(sheets_over_each_other),
         cmocka_unit_test(triangles_through_each_other),
         cmocka_unit_test(bodies_behind_each_other),
+        cmocka_unit_test(a_body_before_much),
         cmocka_unit_test(curved_normals),
         cmocka_unit_test(a_curved_peak),
         cmocka_unit_test(curved_shapes),

@@ -314,9 +314,9 @@ static void derivatives_over_walls_are_differences_of_runs(void **state)
 {
     (void)state;
     static const double directions[][3] = {{0.9, 0.2, 0.3}, {0.1, -0.3, 1}};
-    static const int method[] = {LRCS_METHOD_EXACT, LRCS_METHOD_ZBUFFER, LRCS_METHOD_FACET};
+    static const int method[] = {LRCS_METHOD_EXACT, LRCS_METHOD_FACET};
     const lrcs_uncertainty_options how = {0, 1};
-    const lrcs_build_options build = {1e-3, 500, LRCS_NORMALS_FLAT, 1, 0};
+    const lrcs_build_options build = {1e-3, 250, LRCS_NORMALS_FLAT, 1, 0};
     lrcs_recipe_part part[3];
     for (int i = 0; i < 3; i++) {
         part[i] = (lrcs_recipe_part){
@@ -375,6 +375,191 @@ static void derivatives_over_walls_are_differences_of_runs(void **state)
             }
         }
     }
+}
+
+/* Terms that a wall's material lacks: the derivative in an amplitude of 0 is that in a small one,
+   and there is none where there is no slope. A ball before a plate that is seen in part, and a ball
+   that nothing hides. */
+static void absent_terms_of_walls_have_the_derivatives_of_small_ones(void **state)
+{
+    (void)state;
+    static const lrcs_brdf lacking[] = {
+        {0, 0.25, 0.3, 0.5}, {1, 0, 0.3, 0.5}, {0, 0.25, 1e-4, 0.5}, {0, 0.25, 0, 0.5}};
+    static const int method[] = {LRCS_METHOD_EXACT, LRCS_METHOD_AUTO};
+    const double direction[3] = {0.9, 0.2, 0.3};
+    const lrcs_uncertainty_options how = {0, 1};
+    const lrcs_build_options build = {1e-3, 500, LRCS_NORMALS_FLAT, 1, 0};
+    for (size_t i = 0; i < 2 * ROWS(lacking); i++) {
+        outcome got[2];
+        double small = 1e-3;
+        int glint = lacking[i / 2].A == 0;
+        for (int k = 0; k < 2; k++) {
+            lrcs_recipe_part part[4];
+            lrcs_recipe_material material = {.name = "a", .brdf = lacking[i / 2]};
+            *(glint ? &material.brdf.A : &material.brdf.B) = k * small;
+            material.brdf.s = k == 1 && material.brdf.s == 0 ? 1e-3 : material.brdf.s;
+            for (int n = 0; n < 4; n++) {
+                part[n] =
+                    (lrcs_recipe_part){.name = "", .place = lrcs_place_default(), .material = "a"};
+                part[n].shape = (lrcs_shape){.kind = LRCS_SHAPE_SPHERE, .radius = 0.5};
+            }
+            part[1].place.translate[0] = -1;
+            part[2].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {2, 2}};
+            part[2].place.translate[2] = -0.5;
+            part[3].place.translate[1] = 9;
+            const lrcs_recipe recipe = {
+                .part = part, .part_count = 4, .material = &material, .material_count = 1};
+            lrcs_scene walls;
+            const lrcs_prepared *prepared;
+            lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
+            assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &work, &walls, NULL), LRCS_OK);
+            assert_int_equal(lrcs_prepare_run(&walls, &work, &prepared), LRCS_OK);
+            got[k] = run_with(prepared, direction, method[i % 2], &how);
+        }
+        double is = glint ? got[0].d[0].dA : got[0].d[0].dB;
+        double next = glint ? got[1].d[0].dA : got[1].d[0].dB;
+        if (lacking[i / 2].s > 0.01) { /* a facet at the limb may have a mean in one of them only */
+            check_rel(is, next, 1e-2);
+            assert_true(is > 0);
+        } else if (lacking[i / 2].s == 0) {
+            check_same(is, 0);
+        } else {
+            assert_true(is >= 0 && isfinite(is));
+        }
+        check_same(glint ? got[0].d[0].ds : got[0].d[0].dm, 0);
+        check_rel(got[0].d[0].dB * lacking[i / 2].B, got[0].result.sigma_diffuse_m2, 1e-12);
+        check_rel(got[0].d[0].dA * lacking[i / 2].A, got[0].result.sigma_glint_m2, 1e-12);
+    }
+}
+
+/* A plate stored twice counts once, and one that the laser sees from 1e-200 rad off its plane not
+   at all: without a search for shadows too. */
+static void redundant_and_edge_on_facets_have_no_derivatives(void **state)
+{
+    (void)state;
+    const lrcs_uncertainty_options how = {0, 1};
+    double once = 0;
+    for (int i = 0; i < 4; i++) {
+        lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
+        scene_start(&scene);
+        for (int k = 0; k <= i % 2; k++) {
+            scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
+                        (const double[3]){0, 1, 0});
+        }
+        const double above[3] = {0.2, 0.1, 1};
+        const double aside[3] = {1, 0, 1e-200};
+        outcome got =
+            run_with(scene_prepare(&scene, &work), i / 2 ? aside : above, LRCS_METHOD_FACET, &how);
+        once = i == 0 ? got.d[0].dA : once;
+        check_same(got.d[0].dA, i / 2 ? 0 : once);
+        check_abs(got.d[0].dB * 0.25, got.result.sigma_diffuse_m2, 1e-15 * got.result.sigma_m2);
+        assert_true(isfinite(got.d[0].ds) && isfinite(got.d[0].dm));
+    }
+}
+
+/* With curved normals each node is a pose of its own: the sample against the same distribution put
+   together from runs at other slopes; and with a material that has no slope, beside. */
+static void over_curved_normals_the_sample_is_that_of_runs(void **state)
+{
+    (void)state;
+    static char text[CURVED_TEXT];
+    const lrcs_uncertainty_options how = {1u << 16, 5};
+    const double direction[3] = {1, 0.2, 0.05};
+    const lrcs_brdf own = {1, 0.05, 0.3, 0.8};
+    curved_cylinder(text, 12, 0.5, 2, 'v');
+    curved_case c = curved_obj(text);
+    c.tolerance = 1e-5;
+    double sums[3] = {0, 0, 0};
+    for (int k = -16; k <= 16; k++) {
+        double z = k * 0.25;
+        double weight = exp(-z * z / 2);
+        c.brdf = own;
+        c.brdf.s = fmax(own.s / 16, own.s + 0.04 * z);
+        curved_build(&c, LRCS_NORMALS_SMOOTH);
+        double sigma = curved_run(&c, direction, LRCS_METHOD_AUTO, 0).sigma_m2;
+        sums[0] += weight;
+        sums[1] += weight * sigma;
+        sums[2] += weight * sigma * sigma;
+        free(c.built);
+        free(c.kept);
+        c.built = c.kept = NULL;
+    }
+    double mean = sums[1] / sums[0];
+    double deviation = sqrt(sums[2] / sums[0] - mean * mean);
+    c.brdf = own;
+    curved_build(&c, LRCS_NORMALS_SMOOTH);
+    lrcs_scene uncertain = c.scene;
+    lrcs_material material[8];
+    assert_true(uncertain.material_count <= 8);
+    memcpy(material, uncertain.material, uncertain.material_count * sizeof *material);
+    for (uint32_t i = 0; i < uncertain.material_count; i++) {
+        material[i].error = (lrcs_brdf_error){.s = 0.04};
+    }
+    uncertain.material = material;
+    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
+    const lrcs_prepared *prepared;
+    assert_int_equal(lrcs_prepare_run(&uncertain, &work, &prepared), LRCS_OK);
+    outcome got = run_with(prepared, direction, LRCS_METHOD_AUTO, &how);
+    check_rel(got.u.sample_mean_m2, mean, 0.01);
+    check_rel(got.u.sample_m2, deviation, 0.03);
+    const lrcs_run_options options = lrcs_run_options_default();
+    size_t need = lrcs_uncertainty_need(prepared, &options, &how);
+    int before = LRCS_E_MEMORY; /* it ends in a later node, or before */
+    for (size_t size = need / 2; size <= need; size += need / 40) {
+        outcome less = got;
+        work = lrcs_work_make(run_area, size);
+        int status = try_run(prepared, direction, LRCS_METHOD_AUTO, &how, &work, &less);
+        assert_true(status == LRCS_OK || (status == LRCS_E_MEMORY && before != LRCS_OK));
+        before = status;
+    }
+    curved_free(&c);
+    c = curved_obj(text);
+    c.brdf = (lrcs_brdf){0, 0.25, 0, 0.8};
+    curved_build(&c, LRCS_NORMALS_SMOOTH);
+    outcome flat = run_with(c.prepared, direction, LRCS_METHOD_AUTO, &how);
+    check_same(flat.d[0].dA, 0);
+    check_rel(0.25 * flat.d[0].dB, flat.result.sigma_m2, 1e-6);
+    curved_free(&c);
+}
+
+/* A little curvature moves the mean by more than a tenth of the deviation, which it leaves as it
+   is: then too the sample is reported. */
+static void a_mean_that_is_off_is_reported_too(void **state)
+{
+    (void)state;
+    const lrcs_uncertainty_options how = {1u << 16, 3};
+    const lrcs_shape plate = PLATE;
+    const lrcs_brdf brdf = {1, 0, 0.2, 0};
+    const lrcs_brdf_error error = {.s = 0.0038};
+    double direction[3];
+    aspect(30, direction);
+    outcome got =
+        run_with(shape_prepare(&plate, &brdf, &error, 1), direction, LRCS_METHOD_AUTO, &how);
+    check_rel(got.u.first_order_m2, got.u.sample_m2, 0.05);
+    assert_true(got.u.sample_mean_m2 - got.result.sigma_m2 > 0.1 * got.u.sample_m2);
+    assert_int_equal(got.u.sampled, 1);
+    check_same(got.u.deviation_m2, got.u.sample_m2);
+}
+
+/* Shapes that nothing hides: a plate that faces away reflects nothing, whatever its material; so
+   does a glint of next to no width off its normal. */
+static void clear_shapes_that_show_nothing_have_no_derivatives(void **state)
+{
+    (void)state;
+    const lrcs_uncertainty_options how = {0, 1};
+    const lrcs_shape plate = PLATE;
+    const lrcs_shape ball = SPHERE;
+    const lrcs_brdf brdf = {1, 0.25, 0.2, 0.5};
+    const lrcs_brdf narrow = {1, 0.25, 0x1p-340, 0.5};
+    const double below[3] = {0.1, 0, -1};
+    outcome got = run_with(shape_prepare(&plate, &brdf, NULL, 1), below, LRCS_METHOD_AUTO, &how);
+    check_same(got.d[0].dA, 0);
+    check_same(got.d[0].dB, 0);
+    check_same(got.d[0].ds, 0);
+    check_same(got.d[0].dm, 0);
+    got = run_with(shape_prepare(&ball, &narrow, NULL, 1), below, LRCS_METHOD_AUTO, &how);
+    check_same(got.d[0].ds, 0);
+    check_rel(0.25 * got.d[0].dB, got.result.sigma_diffuse_m2, 1e-13);
 }
 
 static void the_result_is_that_of_the_pose_alone(void **state)
@@ -762,6 +947,11 @@ int main(void)
         cmocka_unit_test(derivatives_under_shadow_are_differences_of_runs),
         cmocka_unit_test(derivatives_over_curved_normals_are_differences_of_runs),
         cmocka_unit_test(derivatives_over_walls_are_differences_of_runs),
+        cmocka_unit_test(absent_terms_of_walls_have_the_derivatives_of_small_ones),
+        cmocka_unit_test(redundant_and_edge_on_facets_have_no_derivatives),
+        cmocka_unit_test(over_curved_normals_the_sample_is_that_of_runs),
+        cmocka_unit_test(a_mean_that_is_off_is_reported_too),
+        cmocka_unit_test(clear_shapes_that_show_nothing_have_no_derivatives),
         cmocka_unit_test(the_result_is_that_of_the_pose_alone),
         cmocka_unit_test(without_errors_there_is_no_uncertainty),
         cmocka_unit_test(first_order_is_the_square_root_of_g_c_g),

@@ -3,6 +3,8 @@
    touches nothing, or falls back to a coarser raster whose bound still holds. */
 #include "scenes.h"
 
+#include "scene/prepared.h"
+
 static test_scene scene;
 static unsigned char little[8u << 20];
 static const double direction[3] = {0.25, -0.5, 1};
@@ -281,6 +283,13 @@ static void deep_scenes_fit_into_what_is_asked_for(void **state)
         }
         check_need(from);
     }
+    scene_start(&scene); /* each over nearly all of the one below it */
+    for (uint32_t i = 0; i < 300; i++) {
+        double z = 0x1p-10 * i;
+        scene_plate(&scene, (const double[3]){z, 0.5 * z, z}, (const double[3]){1, 0, 0},
+                    (const double[3]){0, 1, 0});
+    }
+    check_need(from);
     uint64_t seed = 8;
     for (uint32_t count = 8; count <= 128; count *= 2) { /* through one another */
         scene_start(&scene);
@@ -295,10 +304,37 @@ static void deep_scenes_fit_into_what_is_asked_for(void **state)
     }
 }
 
+/* Triangles through each other have more contacts than scenes ordinarily do: preparing them fails
+   in the middle of the search, and is clean. */
+static void preparing_what_pierces_grows_until_it_fits(void **state)
+{
+    (void)state;
+    uint64_t seed = 4;
+    scene_start(&scene);
+    for (int i = 0; i < 60; i++) {
+        double corner[3][3];
+        for (int k = 0; k < 9; k++) {
+            corner[k / 3][k % 3] = random_below(&seed, 4096) / 4096.0;
+        }
+        scene_triangle(&scene, corner[0], corner[1], corner[2]);
+    }
+    lrcs_work work;
+    const lrcs_prepared *prepared;
+    size_t fits = 0;
+    while (prepare_in(fits, &work, &prepared) != LRCS_OK) {
+        fits += 16;
+    }
+    for (size_t size = fits; size < fits + 4096; size += 16) {
+        assert_int_equal(prepare_in(size, &work, &prepared), LRCS_OK);
+    }
+    assert_true(prepared->intersections.count > 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(preparing_grows_until_it_fits),
+        cmocka_unit_test(preparing_what_pierces_grows_until_it_fits),
         cmocka_unit_test(running_grows_until_it_fits),
         cmocka_unit_test(every_size_is_survived),
         cmocka_unit_test(less_memory_means_a_coarser_raster_and_a_wider_bound),

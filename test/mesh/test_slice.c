@@ -36,9 +36,26 @@ static void nothing_has_no_extent_and_no_triangle_all_of_it(void **state)
     check_same(lrcsi_slice_extent(&slice, corner_o, corner_p, corner_q), 0);
 }
 
+/* What touches a half-space from outside at a corner, or along a side, has no share in it. */
+static void a_touch_is_no_share(void **state)
+{
+    (void)state;
+    static const double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const double n[3] = {1, 0, 0};
+    for (int side = 0; side < 2; side++) {
+        lrcsi_slice slice = lrcsi_slice_start(x[0], x[1], side ? x[3] : x[2]);
+        lrcsi_slice_cut(&slice, n, x[0], 0);
+        assert_int_equal(slice.count, 1 + side);
+        assert_true(lrcsi_slice_share(&slice, 0.5, 1.5) == 0);
+        lrcsi_slice_cut(&slice, n, x[0], 0x1p-20);
+        assert_int_equal(slice.count, 1 + side);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_touch_is_no_share),
         cmocka_unit_test(an_extent_is_the_interval_of_heights),
         cmocka_unit_test(nothing_has_no_extent_and_no_triangle_all_of_it),
     };

@@ -650,9 +650,45 @@ static void a_starved_work_area_is_left_as_it_was(void **state)
     assert_true(size > 40 * sizeof(lrcs_facet));
 }
 
+/* Every facet of a wall is one of the two of its patch, or the one at an apex; those of caps, of
+   discs and of plane faces have none. Each patch is listed as often as it has facets. */
+static void walls_have_patches_and_what_is_flat_has_none(void **state)
+{
+    (void)state;
+    static const int kinds[] = {LRCS_SHAPE_PLATE,    LRCS_SHAPE_BOX,  LRCS_SHAPE_DISC,
+                                LRCS_SHAPE_CYLINDER, LRCS_SHAPE_CONE, LRCS_SHAPE_DOME,
+                                LRCS_SHAPE_SPHERE};
+    for (int i = 0; i < 14; i++) {
+        lrcs_shape shape = {.kind = kinds[i / 2], .size = {1, 1, 1}, .radius = 1, .length = 1};
+        shape.parts = i % 2 ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
+        int is_round = kinds[i / 2] >= LRCS_SHAPE_DOME || kinds[i / 2] == LRCS_SHAPE_SPHERE;
+        lrcs_divisions divisions = {.around = i < 4 ? 4 : 12, .along = is_round ? 3 : 1};
+        if (lrcsi_tessellate_fits(&shape, &divisions) == 0) {
+            divisions.along = 1;
+        }
+        lrcs_mesh_counts counts = lrcsi_tessellate_counts(&shape, &divisions);
+        uint32_t shares = 0; /* in twelfths of patches */
+        uint32_t patches = 0;
+        for (uint32_t f = 0; f < counts.facets + 2; f++) {
+            lrcsi_wall_patch on;
+            if (lrcsi_tessellate_patch(&shape, &divisions, f, &on)) {
+                assert_true(f < counts.facets && i >= 6);
+                assert_true(on.row < divisions.along && on.sector < divisions.around);
+                assert_true(on.facets == 1 || on.facets == 2);
+                shares += 2 / on.facets;
+                patches++;
+            }
+        }
+        uint32_t halves = kinds[i / 2] == LRCS_SHAPE_SPHERE ? 2 : 1;
+        assert_int_equal(shares, i < 6 ? 0 : halves * 2 * divisions.around * divisions.along);
+        assert_true(i < 6 || patches <= counts.facets);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(walls_have_patches_and_what_is_flat_has_none),
         cmocka_unit_test(areas_and_volumes_tend_to_the_bodys_as_the_square),
         cmocka_unit_test(solids_are_closed_manifolds_that_face_outward),
         cmocka_unit_test(solids_are_convex_up_to_rounding),

@@ -433,6 +433,18 @@ static void unfit_shapes_materials_and_options_are_refused(void **state)
     part.material = "none such";
     assert_int_equal(refused(&recipe, NULL, &where), LRCS_E_NAME);
     assert_string_equal(where.found, "none such");
+    recipe.binding_count = 0;
+    part = shape_part(LRCS_SHAPE_SPHERE, 1.0, 0.0, 0.0);
+    part.place.scale[1] = 0;
+    for (int only = LRCS_FACETS_BASE; only <= LRCS_FACETS_LOCAL; only++) {
+        static unsigned char area[1u << 20];
+        const lrcs_build_options coarse = {0.1, 4096, LRCS_NORMALS_FLAT, only, 0};
+        lrcs_work work = lrcs_work_make(area, sizeof area);
+        lrcs_scene scene;
+        assert_int_equal(lrcs_scene_build(&recipe, NULL, &coarse, &work, &scene, &where),
+                         LRCS_E_ARGUMENT);
+        assert_int_equal(work.used, 0);
+    }
     part = model_part("m");
     static const lrcs_build_options options[] = {{0.0, 64, 0, 0, 0},
                                                  {(double)NAN, 64, 0, 0, 0},
@@ -589,6 +601,74 @@ static void a_rim_no_count_can_refine_stays_as_its_disc_has_it(void **state)
     assert_int_equal(scene.facet_count, 2 * counts.facets);
 }
 
+static uint32_t facets_of(const lrcs_recipe *recipe, const lrcs_build_options *options)
+{
+    static unsigned char area[1u << 23];
+    lrcs_work work = lrcs_work_make(area, sizeof area);
+    lrcs_scene scene;
+    assert_int_equal(lrcs_scene_build(recipe, NULL, options, &work, &scene, NULL), LRCS_OK);
+    return scene.facet_count;
+}
+
+/* A ball alone has fewer facets where they represent patches of it; not if each of them is to be
+   good by itself, nor where a glint is too narrow or a lobe too steep for the rules of patches, nor
+   if it is not placed as it is. */
+static void a_lone_ball_is_divided_for_what_its_facets_are_for(void **state)
+{
+    (void)state;
+    static const lrcs_brdf odd[] = {{1, 0.25, 1e-7, 0.5}, {0, 0.25, 0.2, 60}, {1, 0.25, 0.2, 0.5}};
+    lrcs_recipe_part part = shape_part(LRCS_SHAPE_SPHERE, 1, 0, 0);
+    lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = odd[2], .two_sided = -1};
+    lrcs_recipe recipe = {.part = &part, .part_count = 1, .binding = &binding, .binding_count = 1};
+    lrcs_build_options options = {1e-4, 60000, LRCS_NORMALS_FLAT, LRCS_FACETS_TOTAL, 0};
+    uint32_t total = facets_of(&recipe, &options);
+    options.facets_only = LRCS_FACETS_BASE;
+    uint32_t base = facets_of(&recipe, &options);
+    options.facets_only = LRCS_FACETS_LOCAL;
+    uint32_t local = facets_of(&recipe, &options);
+    assert_true(base < 2000 && base < total && total < local);
+    options.facets_only = LRCS_FACETS_TOTAL;
+    for (int i = 0; i < 2; i++) {
+        binding.brdf = odd[i];
+        options.max_facets = 8000;
+        uint32_t most = facets_of(&recipe, &options);
+        options.facets_only = LRCS_FACETS_LOCAL;
+        assert_int_equal(most, facets_of(&recipe, &options));
+        options.facets_only = LRCS_FACETS_TOTAL;
+    }
+    binding.brdf = odd[2];
+    options.tolerance = 1e-12; /* more than a million corners */
+    assert_true(facets_of(&recipe, &options) <= options.max_facets);
+    options.tolerance = 1e-2;
+    uint32_t round = facets_of(&recipe, &options);
+    options.max_facets = 60000;
+    part.place.scale[0] = 2;
+    uint32_t stretched = facets_of(&recipe, &options);
+    part.place.scale[0] = 1e5; /* no number would do */
+    uint32_t needle = facets_of(&recipe, &options);
+    assert_true(stretched > round && needle <= stretched);
+    options.facets_only = LRCS_FACETS_BASE; /* it has no closed form */
+    assert_int_equal(facets_of(&recipe, &options), needle);
+}
+
+/* A division that is asked for replaces the tolerance of shapes among others. */
+static void a_division_is_what_shapes_are_divided_for(void **state)
+{
+    (void)state;
+    lrcs_recipe_part part[2] = {shape_part(LRCS_SHAPE_SPHERE, 1, 0, 0),
+                                shape_part(LRCS_SHAPE_CYLINDER, 1, 1, 0)};
+    lrcs_recipe recipe = {.part = part, .part_count = 2};
+    lrcs_build_options options = {0.5, 60000, LRCS_NORMALS_FLAT, LRCS_FACETS_TOTAL, 0};
+    uint32_t least = facets_of(&recipe, &options);
+    options.division = 1e-2;
+    uint32_t some = facets_of(&recipe, &options);
+    options.division = 1e-3;
+    uint32_t more = facets_of(&recipe, &options);
+    assert_true(least < some && some < more);
+    options.tolerance = 1e-2; /* which no longer counts */
+    assert_int_equal(facets_of(&recipe, &options), more);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -600,6 +680,8 @@ int main(void)
         cmocka_unit_test(shapes_say_what_they_are),
         cmocka_unit_test(nothing_is_known_of_a_ball_placed_by_no_rotation),
         cmocka_unit_test(a_lone_ball_keeps_to_the_most_facets),
+        cmocka_unit_test(a_lone_ball_is_divided_for_what_its_facets_are_for),
+        cmocka_unit_test(a_division_is_what_shapes_are_divided_for),
         cmocka_unit_test(a_cones_length_follows_its_half_angle),
         cmocka_unit_test(misplacement_bounds_what_rounding_does),
         cmocka_unit_test(unfit_scenes_are_refused_with_the_parts_name),

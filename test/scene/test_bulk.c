@@ -100,11 +100,29 @@ static void scenes_without_facets_have_none(void **state)
     }
 }
 
+/* One triangle stored many times, each with a first corner of its own: most vertices are in one
+   place, and the box is that of the triangle. */
+static void copies_of_one_vertex_are_no_bulk(void **state)
+{
+    (void)state;
+    scene_start(&scene);
+    uint32_t a = scene_vertex(&scene, 2, 0, 0);
+    uint32_t b = scene_vertex(&scene, 0, 3, 0);
+    for (int i = 0; i < 40; i++) {
+        scene_facet(&scene, scene_vertex(&scene, 0, 0, 0), a, b);
+    }
+    check_all();
+    lrcs_result r = scene_run(&scene, (const double[3]){0, 0, 1}, LRCS_METHOD_AUTO, 0);
+    check_abs(r.sigma_m2, (double)scene_eq2(&scene.material[0].brdf, 3, 1), r.bound_m2 + 1e-14);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ordinary_scenes_have_the_box_of_all),
-        cmocka_unit_test(of_two_bodies_both_count), cmocka_unit_test(what_is_far_is_left_out),
-        cmocka_unit_test(a_mast_is_left_out), cmocka_unit_test(scenes_without_facets_have_none)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(copies_of_one_vertex_are_no_bulk),
+                                       cmocka_unit_test(ordinary_scenes_have_the_box_of_all),
+                                       cmocka_unit_test(of_two_bodies_both_count),
+                                       cmocka_unit_test(what_is_far_is_left_out),
+                                       cmocka_unit_test(a_mast_is_left_out),
+                                       cmocka_unit_test(scenes_without_facets_have_none)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -378,6 +378,64 @@ static void soups_on_few_points_agree_with_clipping(void **state)
     assert_true(decided > 10000);
 }
 
+/* A facet that reaches from among the others to 1e9 times their distances, listed from its far
+   corner or another, with a spike through it where the others are. */
+static void a_facet_with_one_far_corner_is_pierced_near_the_others(void **state)
+{
+    (void)state;
+    for (int first = 0; first < 3; first++) {
+        scene_start(&scene);
+        scene_sphere(&scene, (const double[3]){0, 0, -3}, 1, 16);
+        uint32_t v = scene.scene.vertex_count;
+        point(1e9, 0, 0);
+        point(-0.25, 1, 0);
+        point(-0.25, -1, 0);
+        uint32_t third = (uint32_t)first;
+        scene_facet(&scene, v + third, v + (third + 1) % 3, v + (third + 2) % 3);
+        for (int i = 0; i < 6; i++) {
+            double x = 0.1 * i;
+            scene_triangle(&scene, (const double[3]){x, -0.3, -1},
+                           (const double[3]){x + 0.1, 0.3, -1},
+                           (const double[3]){x + 0.02, 0.1, 1});
+        }
+        scene.material[0].two_sided = 1;
+        assert_true(agree((const double[3]){0, 0, 1}) > 0);
+        agree((const double[3]){0.1, 0.3, 1});
+        agree((const double[3]){-0.2, 0.1, -1});
+    }
+}
+
+/* Triangles that are needles wherever they are seen from, 2^-30 to 2^-60 of their length wide,
+   among facets on few points. */
+static void needles_of_any_width_agree_with_clipping(void **state)
+{
+    (void)state;
+    static const double direction[][3] = {{0, 0, 1}, {1, 1, 1}, {0.3, -0.2, 0.9}};
+    for (uint32_t seed = 0; seed < 60; seed++) {
+        uint32_t points = 8 + seed % 8;
+        soup(seed, points, 4, 10);
+        for (int i = 0; i < 12; i++) {
+            const double *p = scene.vertex[dice(points)].x;
+            const double *q = scene.vertex[dice(points)].x;
+            double wide = ldexp(1, -30 - (int)dice(31));
+            double along = dice(3) * 0.25 + 0.25;
+            uint32_t v = scene.scene.vertex_count;
+            double corner[3];
+            for (int k = 0; k < 3; k++) {
+                corner[k] = p[k] + along * (q[k] - p[k]) + wide * dice(4);
+            }
+            point(p[0], p[1], p[2]);
+            point(q[0], q[1], q[2]);
+            point(corner[0], corner[1], corner[2]);
+            uint32_t turn = dice(2);
+            scene_facet(&scene, v, v + 1 + turn, v + 2 - turn);
+        }
+        for (size_t i = 0; i < sizeof direction / sizeof *direction; i++) {
+            agree(direction[i]);
+        }
+    }
+}
+
 /* --- limits ----------------------------------------------------------------------------------- */
 
 static void hatch(int n)
@@ -534,6 +592,8 @@ int main(void)
         cmocka_unit_test(moebius_strip_wound_at_random),
         cmocka_unit_test(needle_along_the_line_of_sight_has_all_of_its_area),
         cmocka_unit_test(soups_on_few_points_agree_with_clipping),
+        cmocka_unit_test(a_facet_with_one_far_corner_is_pierced_near_the_others),
+        cmocka_unit_test(needles_of_any_width_agree_with_clipping),
         cmocka_unit_test(hatch_takes_steps_like_the_pieces_that_are_seen),
         cmocka_unit_test(steps_that_run_out_leave_facets_open),
         cmocka_unit_test(memory_that_does_not_suffice_leaves_all_open),

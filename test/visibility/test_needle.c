@@ -97,6 +97,38 @@ static void segments_are_clipped_to_what_is_near(void **state)
 }
 
 /* A line through (1/4, 1/4) along u: on it nothing is sure; 2^-40 of the width beside it all is. */
+/* The square from -1 to 2, and segments past its corners: each coordinate is within it somewhere,
+   but not both at once. What touches a corner does not miss it. */
+static void segments_past_a_corner_are_not_near(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 16; i++) {
+        int touches = i / 8;
+        double far = touches ? 4 : 4 + 0x1p-60 * (1 << 3 * (i % 4)) * 1024;
+        lrcsi_dd from[2] = {{far, 0}, {0, 0}};
+        lrcsi_dd to[2] = {{0, 0}, {far, 0}};
+        double end[2][2];
+        lrcsi_dd part[2];
+        if (i % 8 / 4) { /* the other way round */
+            lrcsi_dd swap = from[0];
+            from[0] = from[1];
+            from[1] = swap;
+            swap = to[0];
+            to[0] = to[1];
+            to[1] = swap;
+        }
+        if (!touches) {
+            from[i % 8 / 4].lo = 0x1p-70; /* less than half a unit in the last place of 4 */
+        }
+        lrcsi_needle_clip(from, to, end, part);
+        for (int k = 0; k < 4; k++) {
+            check_same(end[k / 2][k % 2], 2);
+        }
+        double length = lrcsi_dd_value(lrcsi_dd_sub(part[1], part[0]));
+        assert_true(touches ? length == 0 : length < 0);
+    }
+}
+
 static void sides_are_decided_within_the_width_of_a_needle(void **state)
 {
     (void)state;
@@ -145,6 +177,7 @@ int main(void)
         cmocka_unit_test(only_what_double_double_tells_is_a_needle),
         cmocka_unit_test(shares_are_exact_however_thin),
         cmocka_unit_test(segments_are_clipped_to_what_is_near),
+        cmocka_unit_test(segments_past_a_corner_are_not_near),
         cmocka_unit_test(sides_are_decided_within_the_width_of_a_needle),
         cmocka_unit_test(lines_have_the_sign_of_the_side),
     };

@@ -116,6 +116,35 @@ static void shares_are_those_of_the_exact_raster(void **state)
     assert_true(parted > 1000);
 }
 
+/* Plates through each other, along a line that meets samples exactly; beside them, and behind one
+   of them, plates so steep that no float holds their heights. */
+static void samples_on_a_crossing_and_steep_facets_are_those_of_the_exact_raster(void **state)
+{
+    (void)state;
+    unsigned parted = 0;
+    for (int steep = 0; steep < 4; steep++) {
+        double rise = ldexp(1, 18 + 2 * steep);
+        scene_start(&scene);
+        scene_plate(&scene, (const double[3]){-1, -1, 0}, (const double[3]){2, 0, 0},
+                    (const double[3]){0, 2, 0});
+        scene_plate(&scene, (const double[3]){-1, -1, -1}, (const double[3]){2, 0, 2},
+                    (const double[3]){0, 2, 0});
+        scene_plate(&scene, (const double[3]){-1, -1, 2}, (const double[3]){1, 0, 0},
+                    (const double[3]){0, 1, -2});
+        if (steep > 0) {
+            scene_plate(&scene, (const double[3]){1, -1, -rise}, (const double[3]){1, 0, rise},
+                        (const double[3]){0, 2, 0});
+            scene_plate(&scene, (const double[3]){-2, -1, rise}, (const double[3]){1.5, 0, -rise},
+                        (const double[3]){0, 2, -2 * rise});
+        }
+        lrcsi_view view = seen_from(0);
+        for (uint32_t size = 1; size < 70; size++) {
+            check_shares(&view, size, &parted);
+        }
+    }
+    assert_true(parted > 100);
+}
+
 /* Facets far smaller than a pixel take what their neighbours show. */
 static void facets_without_samples_show_what_those_beside_them_show(void **state)
 {
@@ -267,6 +296,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shares_are_those_of_the_exact_raster),
+        cmocka_unit_test(samples_on_a_crossing_and_steep_facets_are_those_of_the_exact_raster),
         cmocka_unit_test(facets_without_samples_show_what_those_beside_them_show),
         cmocka_unit_test(facets_with_few_samples_show_together_what_the_samples_count),
         cmocka_unit_test(areas_do_not_depend_on_the_order_of_facets),
