@@ -125,6 +125,31 @@ static void a_sphere_over_a_plate(void **state)
     }
 }
 
+/* All of the cone is lit. Its shadow is that of its base, and what lies between it and the tip. */
+static void a_cone_on_its_tip_over_a_plate(void **state)
+{
+    (void)state;
+    const lrcs_shape cone = {.kind = LRCS_SHAPE_CONE, .radius = 0.5, .length = 1};
+    const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {8, 8}};
+    const double R = cone.radius;
+    for (int i = 0; i < 4; i++) {
+        double deg = 18 * i; /* in the first two the tip is in the shadow of the base */
+        double theta = deg * PI / 180;
+        double away = cone.length * tan(theta);
+        double shadow =
+            away > R ? R * R * (PI - acos(R / away)) + R * sqrt(away * away - R * R) : PI * R * R;
+        const lrcs_aspect aspect = {.deg = 180 - deg};
+        const double d[3] = {sin(theta), 0, cos(theta)};
+        lrcs_closed whole;
+        shadow_scene s = scene_of(glossy, 0);
+        turn_over(add(&s, cone, 0.125, 0.25, cone.length));
+        add(&s, plate, 0, 0, 0);
+        assert_int_equal(lrcs_closed_eval(&cone, &glossy, &aspect, &whole), LRCS_OK);
+        double truth = whole.sigma_m2 + lambertian(&glossy, theta) * (64 - shadow);
+        check_truth(&s, d, truth, 1e-12 * truth, i % 3 == 2 ? 0.1 : 0);
+    }
+}
+
 /* The plate's hidden part is the base and all that it sweeps over the length of the shadow. */
 static void a_cylinder_on_a_plate(void **state)
 {
@@ -419,6 +444,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sphere_over_a_plate),
+        cmocka_unit_test(a_cone_on_its_tip_over_a_plate),
         cmocka_unit_test(a_cylinder_on_a_plate),
         cmocka_unit_test(a_nozzle_flush_on_a_box),
         cmocka_unit_test(the_inside_of_an_open_dish),
