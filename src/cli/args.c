@@ -68,6 +68,11 @@ const char *cli_nearest(const char *text, const char *best, const char *candidat
                : best;
 }
 
+int cli_is_near(const char *text, const char *name)
+{
+    return lrcs_host_name_distance(text, name) <= strlen(text) / 2;
+}
+
 const char *cli_dashes(const char *name)
 {
     return name[1] ? "--" : "-";
@@ -82,7 +87,9 @@ static int unknown_option(const cli_command *command, const char *word, size_t s
     for (const cli_option *option = command->option; option->name; option++) {
         best = cli_nearest(name, best, option->name);
     }
-    best = best ? best : "help";
+    if (!best || !cli_is_near(name, best)) {
+        return cli_usage(command, "unknown option '%.*s'", (int)size, word);
+    }
     return cli_usage(command, "unknown option '%.*s'; the nearest is %s%s", (int)size, word,
                      cli_dashes(best), best);
 }

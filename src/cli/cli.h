@@ -136,6 +136,10 @@ int cli_list(const char *text, double *value, int count);
    distance. */
 const char *cli_nearest(const char *text, const char *best, const char *candidate);
 
+/* 1 if a name is near enough to `text` to be suggested in its place: at most half of the letters
+   differ. */
+int cli_is_near(const char *text, const char *name);
+
 /* Prints a message on stderr, "lrcs run: ...", and how to get help. Returns CLI_USAGE. */
 __attribute__((format(printf, 2, 3))) int cli_usage(const cli_command *command, const char *format,
                                                     ...);

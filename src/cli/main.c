@@ -63,7 +63,9 @@ static int unknown_command(const char *name)
     for (size_t i = 0; i < MAIN_COMMANDS; i++) {
         best = cli_nearest(name, best, main_commands[i]->name);
     }
-    return cli_usage(NULL, "unknown command '%s'; the nearest is %s", name, best);
+    return cli_is_near(name, best)
+               ? cli_usage(NULL, "unknown command '%s'; the nearest is %s", name, best)
+               : cli_usage(NULL, "unknown command '%s'", name);
 }
 
 /* Prints a command's help, and the material library if it takes a material. */

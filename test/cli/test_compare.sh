@@ -252,8 +252,8 @@ cp -r kit broken
 sed 's/^box,a,2,[^,]*/box,a,2,x/' kit/cases.csv >broken/cases.csv
 failure a_kit_that_was_damaged "column qw: found 'x', expected a number" compare broken kit/cases.csv
 
-usage_error two_names_are_asked_for "found 1 names" compare kit
-usage_error and_not_three "found 3 names" compare kit a b
+usage_error two_names_are_asked_for "found 1 operand" compare kit
+usage_error and_not_three "found 3 operands" compare kit a b
 usage_error a_class_of_its_own "expected exact, float or raster, found 'good'" compare kit kit/cases.csv --class good
 usage_error answers_are_not_overwritten "would overwrite what is to be judged" compare kit theirs.csv --json theirs.csv
 usage_error one_file_for_two_outputs "name the same file" compare kit theirs.csv --json x --junit x

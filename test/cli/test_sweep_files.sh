@@ -71,6 +71,7 @@ for kind in csv jsonl npy; do
     # shellcheck disable=SC2086
     run sweep $what -o again.$kind --resume
     same "a_damaged_${kind}_is_not_taken_for_whole" "$rc $(printf '%s\n' "$err" | grep -c 'is damaged: line .* found .* expected\|is not what its .head says')" "1 1"
+    same "a_damaged_${kind}_has_one_message" "$(printf '%s\n' "$err" | grep -c '^lrcs: ')" 1
     rm again.$kind
 done
 cp whole.npy again.npy

@@ -115,6 +115,7 @@ same scenes_in_threads_are_the_same_bytes "$(wc -l <jobs.1 | tr -d ' ') $(cmp jo
 usage_error a_part_without_a_joint "no part 'bus' has a joint; the nearest is" sweep base.toml --joint bus:0:1:1
 usage_error a_scene_without_joints "no part of the scene has a joint" sweep fin.obj --joint fin:0:1:1
 usage_error a_joint_without_a_range "expected PART:A:B:STEP" sweep base.toml --joint tank
+usage_error a_range_after_an_equals_sign "found 'foo=1:2:1'" sweep base.toml --vary foo=1:2:1
 usage_error a_key_that_is_none "the nearest is .radius" sweep base.toml --vary tank.radios:0:1:1
 usage_error a_material_that_is_none "no material 'god'; the nearest is 'gold'" sweep base.toml --vary god.s:0.1:0.2:0.1
 usage_error a_slope_of_zero "gold.s cannot be 0" sweep base.toml --vary gold.s:0:1:1

@@ -108,6 +108,14 @@ bad dates_after_seconds "line 3, column time: found '2026-02-28T23:00:00Z', expe
 bad an_angle_that_is_no_number "column joint:dish: found 'up', expected a finite number" time,x,y,z,joint:dish 0,0,0,1,up
 bad one_joint_twice "two columns are the same" time,x,y,z,joint:dish,joint:dish 0,0,0,1,1,1
 bad a_joint_of_nothing "expected joint:PART" time,x,y,z,joint: 0,0,0,1,1
+bad a_track_of_nothing "bad.csv: no attitude in the file; expected rows of time,w,x,y,z (quaternion" ''
+bad a_track_of_names_alone "bad.csv: no attitude in the file; expected rows of time,w,x,y,z (quaternion" time,x,y,z
+printf 'az,el\n1,2\n' >bad.csv
+run sweep arm.toml --poses bad.csv
+same columns_that_are_no_pose_are_one_message "$rc $err" "1 lrcs: bad.csv: line 1: expected columns time,w,x,y,z (quaternion, body to observation) or time,x,y,z (direction to the laser)"
+printf 'time,x,y,z,mo\033[2Jde\n0,0,0,1,1\n' >bad.csv
+run sweep arm.toml --poses bad.csv
+same a_notice_prints_no_control_characters "$rc $(printf '%s\n' "$err" | grep -c "^notice: bad.csv: column 'mo?\[2Jde' is not used")" "0 1"
 printf 'time,x,y,z,joint:dsh\n0,0,0,1,1\n' >bad.csv
 usage_error a_part_that_is_not_there "--poses: no part 'dsh' has a joint; the nearest is 'dish'" sweep arm.toml --poses bad.csv
 printf 'time,x,y,z,joint:bus\n0,0,0,1,1\n' >bad.csv

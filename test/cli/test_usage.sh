@@ -13,6 +13,10 @@ usage_error two_scenes "found 'a' and 'b'" run a b
 usage_error verify_takes_no_operand "found 'x'" verify x
 
 usage_error misspelt_option_names_the_nearest "'--dirction'; the nearest is --direction" run demo --dirction 1,0,0
+run run demo --threads 2
+same an_option_like_no_other_suggests_none "$rc $(printf '%s\n' "$err" | sed -n 1p)" "2 lrcs run: unknown option '--threads'"
+run xyzzy
+same a_command_like_no_other_suggests_none "$rc $(printf '%s\n' "$err" | sed -n 1p)" "2 lrcs: unknown command 'xyzzy'"
 usage_error shortened_option_names_the_whole "the nearest is --tolerance" run demo --tol=1e-3
 usage_error single_dash_option "unknown option '-json'; the nearest is --json" run demo -json
 usage_error option_of_another_command "unknown option '--radius'" run demo --radius 1

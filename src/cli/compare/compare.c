@@ -60,8 +60,8 @@ static int options_read(compare_job *job, const char **folder)
         }
     }
     if (count != 2) {
-        return cli_usage(args->command, "expected a kit's folder and a table, found %d names",
-                         count);
+        return cli_usage(args->command, "expected a kit's folder and one table, found %d operand%s",
+                         count, count == 1 ? "" : "s");
     }
     *folder = name[0];
     job->theirs = name[1];

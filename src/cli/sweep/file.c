@@ -214,10 +214,12 @@ static int waiting_flush(sweep_file *file, int last, lrcs_host_error *error)
 
 /* ---- what is there already ---- */
 
+enum { OTHER_SWEEP = -1 }; /* differs from every exit code: no message has been printed yet */
+
 /* Recovers the rows of a file that begins with the right head. Returns 0 if they end properly, in a
-   checksum or in a truncated line; file->size and file->sum are then set to match; 1, without a
-   message, if the file is not of this sweep and shard; CLI_FAILED, with a message, if a row is
-   damaged. */
+   checksum or in a truncated line; file->size and file->sum are then set to match; OTHER_SWEEP,
+   without a message, if the file is not of this sweep and shard; CLI_FAILED, with a message, if a
+   row is damaged. */
 static int rows_recover(sweep_file *file, const char *path, const sweep_plan *plan,
                         const lrcs_host_file *there, const char *head, size_t head_size,
                         int *summed)
@@ -229,13 +231,13 @@ static int rows_recover(sweep_file *file, const char *path, const sweep_plan *pl
     const char *bytes = (const char *)there->bytes;
     if (there->size < head_size || memcmp(bytes, head, head_size) != 0 ||
         cli_text_open(bytes, there->size, &text) != 0) {
-        return 1;
+        return OTHER_SWEEP;
     }
     const char *good = text.at;
     int more;
     while ((more = cli_text_next(&text, plan, &row, &line, &size)) == 1) {
         if (row.index >= plan->end || (row.index != file->next && good == text.head + head_size)) {
-            return 1; /* of another shard */
+            return OTHER_SWEEP; /* or of another shard */
         }
         if (row.index != file->next) {
             return cli_fail("%s: line %llu: found row %llu, expected row %llu", path,
@@ -272,7 +274,7 @@ static int partial_continue(sweep_file *file, const sweep_plan *plan, const char
     int torn = there.size < head_size && memcmp(there.bytes, head, there.size) == 0;
     int code = torn ? 0 : rows_recover(file, file->partial, plan, &there, head, head_size, &summed);
     lrcs_host_file_free(&there);
-    if (code == 1) {
+    if (code == OTHER_SWEEP) {
         return cli_fail("%s: is of another sweep (scene, options, shard or version): remove it, or "
                         "give the same",
                         file->partial);
@@ -300,7 +302,7 @@ static int whole_recover(sweep_file *file, const sweep_plan *plan, const char *c
     int summed = 0;
     int code;
     if (file->npy) {
-        code = cli_map_recover(file, plan, head, size) == 0 ? 0 : 1;
+        code = cli_map_recover(file, plan, head, size) == 0 ? 0 : OTHER_SWEEP;
         summed = 1;
     } else if (lrcs_host_file_read(file->path, &there, &error) != LRCS_OK) {
         return cli_failed(&error);
@@ -309,7 +311,7 @@ static int whole_recover(sweep_file *file, const sweep_plan *plan, const char *c
         code = rows_recover(file, file->path, plan, &there, head[format], size[format], &summed);
         lrcs_host_file_free(&there);
     }
-    if (code == 1) {
+    if (code == OTHER_SWEEP) {
         return cli_fail("%s: is not of this sweep (scene, options, shard or version)%s: --resume "
                         "replaces no whole file: remove it, or give another name",
                         file->path, file->npy ? ", or is not what its .head says" : "");

@@ -39,8 +39,9 @@ static const struct {
 
 /* ---- the command line ---- */
 
-/* Splits "NAME.KEY"; returns the key, or -1 with the message printed. */
-static int whom_split(const cli_args *args, char *whom)
+/* Splits "NAME.KEY", which begins the `value` of --vary; returns the key, or -1 with the message
+   printed. */
+static int whom_split(const cli_args *args, const char *value, char *whom)
 {
     char *dot = strrchr(whom, '.');
     const char *best = NULL;
@@ -53,7 +54,7 @@ static int whom_split(const cli_args *args, char *whom)
         cli_usage(args->command,
                   "--vary: expected MATERIAL.A, .B, .s or .m, or PART.radius, .length, .. , then "
                   ":A:B:STEP; found '%s'%s%s",
-                  whom, best ? "; the nearest is ." : "", best ? best : "");
+                  value, best ? "; the nearest is ." : "", best ? best : "");
         return -1;
     }
     *dot = '\0';
@@ -76,7 +77,7 @@ static int scene_axis_read(const cli_args *args, const cli_given *one, sweep_pla
                          one->name[0] == 'j' ? "PART" : "NAME.KEY", one->value);
     }
     memcpy(axis.whom, one->value, size);
-    axis.key = one->name[0] == 'j' ? 0 : whom_split(args, axis.whom);
+    axis.key = one->name[0] == 'j' ? 0 : whom_split(args, one->value, axis.whom);
     if (axis.key < 0) {
         return CLI_USAGE;
     }

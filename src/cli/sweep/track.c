@@ -21,6 +21,9 @@ static const track_name track_names[] = {
 
 #define PLACE_JOINT 5
 
+#define TRACK_COLUMNS                                                                              \
+    "time,w,x,y,z (quaternion, body to observation) or time,x,y,z (direction to the laser)"
+
 typedef struct track_reader {
     lrcs_host_table table;
     lrcs_host_error error;
@@ -35,6 +38,20 @@ static int track_fault(const track_reader *reader, const char *what)
 {
     return cli_fail("%s: line %llu: %s", reader->table.path, (unsigned long long)reader->table.line,
                     what);
+}
+
+/* A notice that a column is ignored. Its name may be long or hold control characters: at most 64
+   bytes are printed, with '?' in the place of each control character. */
+static void notice_print(const lrcs_host_table *table, const lrcs_host_field *field)
+{
+    char name[65];
+    size_t size = field->size < sizeof name - 1 ? field->size : sizeof name - 1;
+    for (size_t i = 0; i < size; i++) {
+        unsigned char byte = (unsigned char)field->text[i];
+        name[i] = byte < 0x20 || byte == 0x7f ? '?' : field->text[i];
+    }
+    name[size] = '\0';
+    fprintf(stderr, "notice: %s: column '%s' is not used\n", table->path, name);
 }
 
 static const track_name *name_find(const lrcs_host_field *field)
@@ -90,9 +107,6 @@ static int names_read(track_reader *reader, sweep_track *track)
             if (code != 0) {
                 return code;
             }
-        } else if (!name) {
-            fprintf(stderr, "notice: %s: column '%.*s' is not used\n", table->path,
-                    (int)table->field[i].size, table->field[i].text);
         }
         if (name && seen[reader->place[i]]++) {
             return track_fault(reader, "two columns are the same");
@@ -100,8 +114,12 @@ static int names_read(track_reader *reader, sweep_track *track)
     }
     for (int k = 0; k < 4 + track->quaternions; k++) {
         if (!seen[k]) {
-            return track_fault(reader, "expected columns time,w,x,y,z (quaternion, body to "
-                                       "observation) or time,x,y,z (direction to the laser)");
+            return track_fault(reader, "expected columns " TRACK_COLUMNS);
+        }
+    }
+    for (uint32_t i = 0; i < table->columns; i++) {
+        if (reader->place[i] < 0) {
+            notice_print(table, &table->field[i]);
         }
     }
     return 0;
@@ -236,8 +254,7 @@ static int first_read(track_reader *reader, sweep_track *track)
         return names_read(reader, track);
     }
     if (count != 4 && count != 5) {
-        return track_fault(reader, "expected time,w,x,y,z (quaternion, body to observation) or "
-                                   "time,x,y,z (direction to the laser)");
+        return track_fault(reader, "expected " TRACK_COLUMNS);
     }
     track->quaternions = count == 5;
     for (int i = 0; i < (int)count; i++) {
@@ -275,7 +292,7 @@ int cli_track_read(const char *path, sweep_track *track)
     if (code == 0 && status < 0) {
         code = cli_failed(&reader.error);
     } else if (code == 0 && track->count == 0) {
-        code = track_fault(&reader, "no attitude in the file");
+        code = cli_fail("%s: no attitude in the file; expected rows of " TRACK_COLUMNS, path);
     }
     lrcs_host_file_free(&file);
     return code;
