@@ -121,7 +121,7 @@ static double most_questions(const lrcs_prepared *p)
     if (steps != 0) {
         return 4.0 * (double)steps + most_passes(p);
     }
-    double most = 48 * n * n * n + 208 * n * n + 32 * n * k + 1100 * n + 160000;
+    double most = 48 * n * n * n + 224 * n * n + 32 * n * k + 1100 * n + 160000;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         double own = lrcsi_intersection_of(&p->intersections, f);
         double cuts = most_cuts(p, f);

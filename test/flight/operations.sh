@@ -7,7 +7,7 @@ folder=$1/operations
 mkdir -p "$folder" || exit 1
 # A facet or edge against an event, a line, a cut or a cell, each in bounded time.
 questions='lrcsi_view_box_beside lrcsi_view_box_behind edge_crosses intersection_divides
-lrcsi_sample_covers_towards line_nearer touched_by facet_apart order_of candidate_covers candidate_in_front
+lrcsi_sample_covers_towards line_nearer lrcsi_intersection_find facet_apart order_of candidate_covers candidate_in_front
 component_ends lrcsi_cells_locate lrcsi_cells_facet_order event_slack grid_put'
 # A curved facet, a triangle of it, a part of that.
 parts='lrcsi_cubature_make lrcsi_cubature_add cube_step'
@@ -18,7 +18,7 @@ cp "$1/lrcs.c" "$1/lrcs.h" "$folder" && (cd "$folder" && gcc $flags --coverage -
     gcc --coverage -o "$folder/operations" "$folder/main.o" "$folder/lrcs.o" -lm || exit 1
 bad=0
 for name in $questions $parts; do
-    grep -qE "^[a-z].*[ *]$name\(" "$folder/lrcs.c" || { echo "operations: the core has no function $name"; bad=1; }
+    grep -qE "^([a-z].*[ *])?$name\(" "$folder/lrcs.c" || { echo "operations: the core has no function $name"; bad=1; }
 done
 printf '%-18s %6s %6s %9s %-10s %12s %14s\n' scene facets touch cells steps taken 'at most'
 for scene in 'boxes 2' 'boxes 16' 'boxes 64' 'sheets 8' 'sheets 64' 'random 8' 'random 32' 'random 128' \
