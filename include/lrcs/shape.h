@@ -121,9 +121,9 @@ int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
 
 /* Makes the mesh. Facets share vertices by position and face outward; the mesh is symmetric to the
    bit; coordinates are accurate to a few ulp. Every circle becomes an N-gon of the same area with
-   its first corner on +x. The length of a cylinder, cone or frustum is kept. The curved wall is smoothing group 1; flat faces are in none. curvature may be NULL.
-   Status: LRCS_OK; LRCS_E_ARGUMENT, LRCS_E_NUMBER (shape, or divisions invalid for it);
-   LRCS_E_MEMORY. */
+   its first corner on +x. The length of a cylinder, cone or frustum is kept. The curved wall is
+   smoothing group 1; flat faces are in none. curvature may be NULL. Status: LRCS_OK;
+   LRCS_E_ARGUMENT, LRCS_E_NUMBER (shape, or divisions invalid for it); LRCS_E_MEMORY. */
 int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_work *work,
                     lrcs_mesh *mesh, lrcs_curvature *curvature);
 

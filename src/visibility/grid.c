@@ -332,12 +332,12 @@ static uint32_t needed_bits(uint32_t word, uint32_t x0, uint32_t x1)
 }
 
 /* Marks these cells. */
-static void needed_mark(needed_cells needed, lrcsi_cells cells)
+static void needed_mark(const needed_cells *needed, lrcsi_cells cells)
 {
     uint32_t last = (cells.x1 - 1u) / NEEDED_BITS;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         for (uint32_t word = cells.x0 / NEEDED_BITS; word <= last; word++) {
-            needed.bit[y * needed.words + word] |= needed_bits(word, cells.x0, cells.x1);
+            needed->bit[y * needed->words + word] |= needed_bits(word, cells.x0, cells.x1);
         }
     }
 }
@@ -380,7 +380,7 @@ static int needed_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
             if ((readers->undecided[f] || (readers->region && readers->region[f] == f)) &&
                 lrcsi_view_casts(grid->view, f)) {
                 lrcsi_boxes_open(boxes, r);
-                needed_mark(*needed, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
+                needed_mark(needed, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
             }
         }
     }
