@@ -109,7 +109,7 @@ typedef struct profile_run {
    visible projected area. */
 typedef struct profile_facet {
     double range[3], range_max; /* at its corners; the largest |range| */
-    double range_off;           /* the error of the ranges of corners before they were rounded */
+    double range_dd_err;        /* the error of the ranges of corners before they were rounded */
     double extent;              /* upper bound of the distance in range of any two of its points */
     uint32_t first, last;
     double glint, diffuse, rounding; /* of a flat facet */
@@ -238,7 +238,7 @@ static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *
     f->first = run->count;
     f->last = 0;
     f->range_max = 0;
-    f->range_off = 0;
+    f->range_dd_err = 0;
     for (int k = 0; k < 3; k++) {
         double err;
         uint32_t low;
@@ -247,13 +247,13 @@ static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *
         corner_bins(run, range, err, &low, &high);
         f->range[k] = lrcsi_dd_value(range);
         f->range_max = lrcsi_max(f->range_max, fabs(f->range[k]));
-        f->range_off = lrcsi_max(f->range_off, err);
+        f->range_dd_err = lrcsi_max(f->range_dd_err, err);
         f->first = low < f->first ? low : f->first;
         f->last = high > f->last ? high : f->last;
     }
     const double *z = f->range;
     f->extent = lrcsi_max(z[0], lrcsi_max(z[1], z[2])) - lrcsi_min(z[0], lrcsi_min(z[1], z[2])) +
-                8 * LRCSI_U * f->range_max + 2.01 * f->range_off;
+                8 * LRCSI_U * f->range_max + 2.01 * f->range_dd_err;
 }
 
 /* --- one triangle ----------------------------------------------------------------------------- */
@@ -446,7 +446,7 @@ static double fan_add(profile_run *run, const profile_facet *f, const lrcsi_targ
 static double pieces_add(profile_run *run, const profile_facet *f, uint32_t facet,
                          const lrcsi_incidence *incidence, lrcsi_occlusion *o)
 {
-    double corner_err = 2 * LRCSI_U * f->range_max + 1.01 * f->range_off;
+    double corner_err = 2 * LRCSI_U * f->range_max + 1.01 * f->range_dd_err;
     const double(*normal)[3] = f->curve ? (const double(*)[3])f->curve->normal : NULL;
     if (run->plan.unshadowed && run->view->facing[facet] > 0) {
         lrcsi_visible known = lrcsi_visible_unshadowed(incidence, run->plan.grazing_cos);
@@ -464,7 +464,7 @@ static double pieces_add(profile_run *run, const profile_facet *f, uint32_t face
     while (lrcsi_occlude_next(o)) {
         const lrcsi_target *target = &o->single.target;
         double slope = sqrt(incidence->tan2) * (1 + incidence->tan2_err);
-        double range_err = 9 * LRCSI_U * f->range_max + 1.01 * f->range_off +
+        double range_err = 9 * LRCSI_U * f->range_max + 1.01 * f->range_dd_err +
                            101 * LRCSI_U * target->reach * slope;
         if (o->undecided) {
             area_err += fan_add(run, f, target, &o->single.piece, range_err);
@@ -565,7 +565,7 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     facet_ranges(run, parts.partner, &other);
     const lrcs_part *part = &run->prepared->scene->part[run->prepared->scene->facet_part[facet]];
     double reach = ldexp(part->reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
-                   8 * LRCSI_U * f.range_max + 1.01 * f.range_off; /* with the corners' errors */
+                   8 * LRCSI_U * f.range_max + 1.01 * f.range_dd_err; /* with the corners' errors */
     profile_triangle t = triangle_of(1, f.range, NULL);
     double low =
         lrcsi_min(t.z[0], lrcsi_min(other.range[0], lrcsi_min(other.range[1], other.range[2])));

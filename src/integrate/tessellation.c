@@ -140,22 +140,21 @@ typedef struct patch_fractions {
 } patch_fractions;
 
 /* Only what is hidden may be gained, and only what is visible lost. */
-static patch_fractions patch_fractions_of(const lrcsi_view *view, uint32_t facet,
+static patch_fractions patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
                                           const lrcsi_visible *visible,
                                           const lrcsi_proximity_band *band)
 {
-    lrcsi_incidence incidence = lrcsi_view_incidence(view, facet);
-    double error = incidence.error + 8 * LRCSI_U;
+    double error = incidence->error + 8 * LRCSI_U;
     patch_fractions f = {0, 0, 0};
     if (!band) {
         return f;
     }
     if (band->classification->undecided[facet] || !(visible[facet].low > 0)) {
-        f.hidden = 1 + error - visible[facet].low / incidence.projected;
+        f.hidden = 1 + error - visible[facet].low / incidence->projected;
     }
     f.hidden = f.hidden >= 0 ? fmin(1, f.hidden) : 1;
     f.gain = fmin(band->gain[facet], f.hidden);
-    f.loss = fmin(band->loss[facet], visible[facet].high / incidence.projected * (1 + 2 * error));
+    f.loss = fmin(band->loss[facet], visible[facet].high / incidence->projected * (1 + 2 * error));
     return f;
 }
 
@@ -231,8 +230,9 @@ static sector_bound sector_choose(const lrcsi_view *view, const lrcsi_plan *plan
     lrcsi_incidence incidence = lrcsi_view_incidence(view, first);
     double stretch;
     lrcsi_deviation deviation = patch_deviation(view, plan, first, &incidence, c, patch, &stretch);
-    const patch_fractions one = patch_fractions_of(view, first, visible, band);
-    const patch_fractions two = patch_fractions_of(view, first + 1, visible, band);
+    lrcsi_incidence other = lrcsi_view_incidence(view, first + 1);
+    const patch_fractions one = patch_fractions_of(&incidence, first, visible, band);
+    const patch_fractions two = patch_fractions_of(&other, first + 1, visible, band);
     double hidden = fmax(one.hidden + one.loss, two.hidden + two.loss);
     double a = patch_area_error(view->prepared, facet, c);
     double rows = sector_rows(view, part->kind == LRCS_SHAPE_CONE ? facet : first, band);
@@ -360,7 +360,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
                              : patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
     patch_fractions f = {0, 0, 0};
     if (state != PATCH_UNLIT) {
-        f = patch_fractions_of(view, facet, visible, band);
+        f = patch_fractions_of(incidence, facet, visible, band);
     }
     lrcsi_tessellation unit = {f.gain * deviation.most, f.loss * deviation.most};
     if (is_curved) {

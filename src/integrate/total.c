@@ -40,8 +40,7 @@
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
     double visibility, rounding, curvature;
-    double above,
-        below; /* bounds on how far the truth exceeds the tessellation's sum, or is less */
+    double above, below; /* bounds on how far the truth is above and below the facets' sum */
     double likely, bias; /* estimated errors: independent ones (root of squares); one of one sign */
     uint32_t seen;
 } total_sums;
@@ -56,9 +55,8 @@ typedef struct total_run {
     const lrcsi_proximity_band *band; /* NULL: none was made */
     const lrcsi_clear *clear;         /* NULL: no shape is evaluated by its closed form */
     lrcs_facet_record *records;       /* NULL: none are asked for */
-    int tessellation;         /* facets replace curved shapes, and the error of that is known */
-    int tessellation_unknown; /* it is not known */
-    lrcsi_patch patch;        /* of the last facet that has one */
+    int tessellation;  /* facets replace curved shapes, and the error of that is known */
+    lrcsi_patch patch; /* of the last facet that has one */
     lrcsi_total total;
     total_sums sums;
 } total_run;
@@ -803,7 +801,7 @@ static void total_finish(total_run *run)
     total->back_side = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->back_side));
     total->visibility = lrcsi_bound_area(p, sums->visibility * outward);
     double either = isfinite(sums->above + sums->below) ? fmax(sums->above, sums->below) : HUGE_VAL;
-    total->tessellation = run->tessellation_unknown ? -1 : lrcsi_bound_area(p, either * outward);
+    total->tessellation = lrcsi_bound_area(p, either * outward);
     double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
     total->rounding = lrcsi_bound_area(p, (sums->rounding + adding) * outward);
     double likely = lrcsi_length_flat(sums->likely, sums->bias);
@@ -829,8 +827,8 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     if (records) {
         records_start(&run);
     }
-    run.tessellation =
-        plan->method != LRCS_METHOD_CLOSED && p->curved && lrcsi_tessellation_known(p, plan);
+    int replaced = plan->method != LRCS_METHOD_CLOSED && p->curved;
+    run.tessellation = replaced && lrcsi_tessellation_known(p, plan);
     for (uint32_t i = 0; i < p->scene->material_count; i++) {
         add_batch(&run, i);
     }
@@ -841,9 +839,10 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     }
     if (run.tessellation) {
         add_tessellation_errors(&run);
-    } else if (p->curved && plan->method != LRCS_METHOD_CLOSED) {
-        run.tessellation_unknown = 1;
     }
     total_finish(&run);
+    if (replaced && !run.tessellation) {
+        run.total.tessellation = -1;
+    }
     return run.total;
 }

@@ -30,7 +30,7 @@ typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
     double *share, *gain, *loss, *rows;
-    lrcsi_part_set *near;
+    lrcsi_part_set *parts;
     uint32_t *edge, *part; /* event: its topology edge, the part for which it is one */
     signed char *side;     /* event: on which side of it, from low to high, the part's facets lie: 1
                               left, -1 right, 0 both or not known */
@@ -374,7 +374,7 @@ static band_walk walk_make(const band_job *job, uint32_t facet)
    these parts. */
 static void add_both(band_job *job, uint32_t facet, double share, lrcsi_part_set parts)
 {
-    job->near[facet] |= parts;
+    job->parts[facet] |= parts;
     job->share[facet] += share;
     job->gain[facet] += share;
     job->loss[facet] += share;
@@ -422,18 +422,18 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *
     const uint32_t *vertex = p->scene->facet[facet].corner;
     const double *const corner[3] = {job->view->point[vertex[0]].x, job->view->point[vertex[1]].x,
                                      job->view->point[vertex[2]].x};
-    lrcsi_part_set near = lrcsi_part_set_of(job->part[event]);
+    lrcsi_part_set part = lrcsi_part_set_of(job->part[event]);
     double whole = 0.5 * p->normal[facet].length;
     double longest = lrcsi_proximity_longest(p, facet);
     job->rows[facet] += lrcsi_proximity_rows(p, facet, corner, &slice);
     if (side == 0) {
-        add_both(job, facet, lrcsi_slice_share(&slice, whole, longest), near);
+        add_both(job, facet, lrcsi_slice_share(&slice, whole, longest), part);
         return;
     }
     lrcsi_slice outer = edge_half(slice, &box, -side);
     lrcsi_slice inner = edge_half(slice, &box, side);
     double share = lrcsi_slice_share(&slice, whole, longest);
-    job->near[facet] |= near;
+    job->parts[facet] |= part;
     job->share[facet] += share;
     job->loss[facet] += lrcsi_slice_share(&outer, whole, longest);
     job->gain[facet] += gain_is_inside(job, walk, job->part[event])
@@ -458,7 +458,7 @@ static void add_events(band_job *job, uint32_t facet, band_walk *walk)
         for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t event = grid->item[i];
             if (job->gain[facet] >= 1 && job->loss[facet] >= 1) {
-                job->near[facet] = LRCSI_PART_SET_ALL; /* the others are not looked for */
+                job->parts[facet] = LRCSI_PART_SET_ALL; /* the others are not looked for */
                 return;
             }
             if (job->seen[event] != facet + 1) {
@@ -546,28 +546,30 @@ static void band_boxes(band_job *job)
 
 /* --- regions ---------------------------------------------------------------------------------- */
 
-static void band_regions(const lrcsi_proximity_band *band)
+/* Joins facets of one part across edges into groups, each named by its first facet: facets of
+   curved parts without bands or, if `ask` is given, facets that it marks and that meet bands of the
+   same parts. */
+static void join_facets(const lrcsi_proximity_band *band, const unsigned char *ask, uint32_t *group)
 {
     const lrcs_prepared *p = band->classification->view->prepared;
     const uint32_t *part = p->scene->facet_part;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        band->region[f] = f;
+        group[f] = f;
     }
     for (uint32_t e = 0; e < p->topology.edge_count; e++) {
-        const lrcsi_edge *edge = &p->topology.edge[e];
-        const lrcsi_edge_use *use = p->topology.use + edge->first_use;
-        for (uint32_t i = 1; i < edge->uses; i++) {
+        const lrcsi_edge_use *use = p->topology.use + p->topology.edge[e].first_use;
+        for (uint32_t i = 1; i < p->topology.edge[e].uses; i++) {
             uint32_t a = use[i - 1].facet;
             uint32_t b = use[i].facet;
-            if (part[a] == part[b] && p->proximity.reach[part[a]] > 0 && band->share[a] == 0 &&
-                band->share[b] == 0) {
-                lrcsi_join(band->region, a, b);
+            int alike =
+                ask ? ask[a] && ask[b] && band->parts[a] == band->parts[b]
+                    : p->proximity.reach[part[a]] > 0 && band->share[a] == 0 && band->share[b] == 0;
+            if (part[a] == part[b] && alike) {
+                lrcsi_join(group, a, b);
             }
         }
     }
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        band->region[f] = lrcsi_join_root(band->region, f);
-    }
+    lrcsi_join_settle(group, p->scene->facet_count);
 }
 
 /* --- what is hidden --------------------------------------------------------------------------- */
@@ -602,7 +604,7 @@ static uint32_t facets_to_ask(const lrcsi_proximity_band *band, const lrcsi_visi
     const lrcsi_view *view = band->classification->view;
     uint32_t count = 0;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        ask[f] = band->share[f] > 0 && band->near[f] != LRCSI_PART_SET_ALL &&
+        ask[f] = band->share[f] > 0 && band->parts[f] != LRCSI_PART_SET_ALL &&
                  lrcsi_view_casts(view, f) &&
                  visible[f].high <= ASKED_FRACTION * lrcsi_view_projected(view, f);
         count += ask[f];
@@ -610,36 +612,14 @@ static uint32_t facets_to_ask(const lrcsi_proximity_band *band, const lrcsi_visi
     return count;
 }
 
-/* Groups of facets to be asked about that meet bands of the same parts and are joined across edges.
-   Other parts hide all of a group or nothing of it. Each is named by one of its facets. */
-static void group_facets(const lrcsi_proximity_band *band, const unsigned char *ask,
-                         uint32_t *group)
-{
-    const lrcs_prepared *p = band->classification->view->prepared;
-    const uint32_t *part = p->scene->facet_part;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        group[f] = f;
-    }
-    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
-        const lrcsi_edge_use *use = p->topology.use + p->topology.edge[e].first_use;
-        for (uint32_t i = 1; i < p->topology.edge[e].uses; i++) {
-            uint32_t a = use[i - 1].facet;
-            uint32_t b = use[i].facet;
-            if (ask[a] && ask[b] && part[a] == part[b] && band->near[a] == band->near[b]) {
-                lrcsi_join(group, a, b);
-            }
-        }
-    }
-    lrcsi_join_settle(group, p->scene->facet_count);
-}
-
-/* A part never hides its own fronts; its inside is left to its rims. */
+/* Other parts than those whose bands it meets hide all of a group or nothing of it. Of its own
+   part, fronts are never hidden, and the inside is left to the rims. */
 static void settle_groups(const lrcsi_proximity_band *band, const unsigned char *ask,
                           const uint32_t *group, const lrcsi_grid *facets, lrcsi_meter *meter)
 {
     const lrcs_scene *scene = band->classification->view->prepared->scene;
     for (uint32_t f = 0; f < scene->facet_count; f++) {
-        lrcsi_part_set others = band->near[f] | lrcsi_part_set_of(scene->facet_part[f]);
+        lrcsi_part_set others = band->parts[f] | lrcsi_part_set_of(scene->facet_part[f]);
         if (ask[f] && group[f] == f && lrcsi_query_hidden_by_others(facets, f, others, meter)) {
             band->hidden[f] = HIDDEN_FACET;
         }
@@ -671,7 +651,7 @@ void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_v
     lrcsi_grid facets;
     if (ask && group && facets_to_ask(band, visible, ask) > 0) {
         const lrcsi_grid_readers readers = {.undecided = ask};
-        group_facets(band, ask, group);
+        join_facets(band, ask, group);
         if (lrcsi_grid_facets(&c->grid, &c->boxes, &readers, work, &facets) == LRCS_OK) {
             settle_groups(band, ask, group, &facets, meter);
         }
@@ -745,7 +725,7 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_
     m.gain = lrcsi_work_take_zero(work, facets, sizeof *m.gain);
     m.loss = lrcsi_work_take_zero(work, facets, sizeof *m.loss);
     m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
-    m.near = lrcsi_work_take_zero(work, facets, sizeof *m.near);
+    m.parts = lrcsi_work_take_zero(work, facets, sizeof *m.parts);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     m.hidden = lrcsi_work_take_zero(work, facets, 1);
     band_job job = {.view = view,
@@ -754,15 +734,15 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_
                     .gain = m.gain,
                     .loss = m.loss,
                     .rows = m.rows,
-                    .near = m.near};
-    int status = m.share && m.gain && m.loss && m.rows && m.near && m.region && m.hidden
+                    .parts = m.parts};
+    int status = m.share && m.gain && m.loss && m.rows && m.parts && m.region && m.hidden
                      ? band_shares(&job, work)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    band_regions(&m);
+    join_facets(&m, NULL, m.region);
     *band = m;
     return LRCS_OK;
 }

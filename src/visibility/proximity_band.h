@@ -85,7 +85,7 @@ typedef struct lrcsi_proximity_band {
     double *gain;  /* facet: fraction that the facets hide and the true shapes may not */
     double *loss;  /* facet: fraction that the true shapes may hide and the facets do not */
     double *rows;  /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
-    lrcsi_part_set *near;  /* facet: the parts whose bands it meets */
+    lrcsi_part_set *parts; /* facet: the parts whose bands it meets */
     uint32_t *region;      /* facet of a curved part: its region, named by one of its facets */
     unsigned char *hidden; /* region: not 0 if other parts hide all of it, in truth too */
 } lrcsi_proximity_band;
