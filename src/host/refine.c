@@ -20,6 +20,8 @@
 /* The number of levels kept, and of their facets, besides those in use. */
 #define LEVELS_MOST 32u
 #define FACETS_MOST (UINT32_C(1) << 19)
+/* All parts are divided alike if that takes at most this many times the facets. */
+#define SHARED_MOST 1.1
 /* The cost of a halving is at least that of so many facets. */
 #define FACETS_LEAST 16.0
 
@@ -152,36 +154,63 @@ static uint32_t choice_best(const part_choice *choice, uint32_t parts)
     return best;
 }
 
-/* The halvings with which the tolerance is likely to be met, or all that are allowed. Returns 0 if
-   they are those of `from`. */
+/* Halves one part, unless it would be too fine; then it is fixed. */
+static void choice_halve(const struct lrcsi_host_levels *levels, double tolerance,
+                         part_choice *choice, unsigned char *halvings)
+{
+    double division = ldexp(levels->build.division, -(int)*halvings - 1);
+    if (choice->fixed || division < tolerance / DIVISION_LEAST ||
+        choice->facets * choice->growth > levels->build.max_facets) {
+        choice->fixed = 1;
+        return;
+    }
+    ++*halvings;
+    choice->facets *= choice->growth;
+    choice->error *= 0.5;
+}
+
+/* Halves parts until their errors together are allowed, or no part can be halved: all parts at a
+   time, or the best one each time. Returns the number of facets. */
+static double choices_halve(const struct lrcsi_host_levels *levels, double tolerance,
+                            double allowed, int all, part_choice *choice, unsigned char *halvings)
+{
+    for (;;) {
+        double error = 0.0;
+        double facets = 0.0;
+        for (uint32_t i = 0; i < levels->parts; i++) {
+            error += choice[i].error;
+            facets += choice[i].facets;
+        }
+        uint32_t best = choice_best(choice, levels->parts);
+        if (!(error > allowed) || best == levels->parts) {
+            return facets;
+        }
+        for (uint32_t i = all ? 0 : best; i < (all ? levels->parts : best + 1); i++) {
+            choice_halve(levels, tolerance, &choice[i], &halvings[i]);
+        }
+    }
+}
+
+/* The halvings with which the tolerance is likely to be met, or all that are allowed: of the parts
+   that the error is due to; but of all parts alike, which more poses share, if that takes about as
+   few facets. There is room for twice as many. Returns 0 if they are those of `from`. */
 static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_scene *scene,
                            const lrcs_run_options *options, const lrcs_result *result,
                            const unsigned char *from, unsigned char *halvings)
 {
     double allowed = error_allowed(options, result);
-    double left = result->budget.tessellation_m2;
     part_choice *choice = malloc(levels->parts * sizeof *choice);
+    unsigned char *alike = halvings + levels->parts;
     memcpy(halvings, from, levels->parts);
-    if (!choice || allowed == 0.0) {
-        free(choice);
-        return 0;
-    }
-    choices_start(scene, options, result, choice);
-    while (left > allowed) {
-        uint32_t i = choice_best(choice, levels->parts);
-        if (i == levels->parts) {
-            break;
+    memcpy(alike, from, levels->parts);
+    if (choice && allowed > 0.0) {
+        choices_start(scene, options, result, choice);
+        double facets = choices_halve(levels, options->tolerance, allowed, 0, choice, halvings);
+        choices_start(scene, options, result, choice);
+        if (choices_halve(levels, options->tolerance, allowed, 1, choice, alike) <
+            SHARED_MOST * facets) {
+            memcpy(halvings, alike, levels->parts);
         }
-        double division = ldexp(levels->build.division, -(int)halvings[i] - 1);
-        if (division < options->tolerance / DIVISION_LEAST ||
-            choice[i].facets * choice[i].growth > levels->build.max_facets) {
-            choice[i].fixed = 1;
-            continue;
-        }
-        halvings[i]++;
-        choice[i].facets *= choice[i].growth;
-        choice[i].error *= 0.5;
-        left -= choice[i].error;
     }
     free(choice);
     return memcmp(halvings, from, levels->parts) != 0;
@@ -307,7 +336,7 @@ lrcsi_host_level *lrcsi_host_finer(const lrcs_host_scene *scene, const lrcs_run_
 {
     struct lrcsi_host_levels *levels = scene->levels;
     lrcsi_host_level *level = NULL;
-    unsigned char *halvings = levels ? malloc(levels->parts) : NULL;
+    unsigned char *halvings = levels ? malloc(2 * (size_t)levels->parts) : NULL;
     if (halvings) {
         const unsigned char *now = from ? from->halvings : levels->own;
         int finer = halvings_choose(levels, from ? &from->scene->scene : &scene->scene, options,

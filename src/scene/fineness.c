@@ -202,7 +202,7 @@ static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *
                         const lrcs_brdf *brdf, lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     int is_round = shape_is_round(&part->shape);
-    double tolerance = fmin(fineness->tolerance, 1.0);
+    double tolerance = fmin(ldexp(fineness->tolerance, -fineness->halvings), 1.0);
     double corners = fmax(ALONE_LEAST, brdf->A > 0.0 ? ALONE_PER_SLOPE / brdf->s : 0.0);
     corners = is_round ? corners : fmax(corners, sqrt(ALONE_STRAIGHT / tolerance));
     while (is_round && corners < ALONE_MOST &&

@@ -446,13 +446,13 @@ static void unfit_shapes_materials_and_options_are_refused(void **state)
         assert_int_equal(work.used, 0);
     }
     part = model_part("m");
-    static const lrcs_build_options options[] = {{0.0, 64, 0, 0, 0},
-                                                 {(double)NAN, 64, 0, 0, 0},
-                                                 {HUGE_VAL, 64, 0, 0, 0},
-                                                 {1e-3, 63, 0, 0, 0},
-                                                 {1e-3, 64, LRCS_NORMALS_SMOOTH + 1, 0, 0},
-                                                 {1e-3, 64, 0, 0, -1},
-                                                 {1e-3, 64, 0, 0, HUGE_VAL}};
+    static const lrcs_build_options options[] = {{0.0, 64, 0, 0, 0, NULL},
+                                                 {(double)NAN, 64, 0, 0, 0, NULL},
+                                                 {HUGE_VAL, 64, 0, 0, 0, NULL},
+                                                 {1e-3, 63, 0, 0, 0, NULL},
+                                                 {1e-3, 64, LRCS_NORMALS_SMOOTH + 1, 0, 0, NULL},
+                                                 {1e-3, 64, 0, 0, -1, NULL},
+                                                 {1e-3, 64, 0, 0, HUGE_VAL, NULL}};
     recipe.binding_count = 0;
     for (size_t i = 0; i < ROWS(options); i++) {
         lrcs_work work = lrcs_work_make(NULL, 0);
