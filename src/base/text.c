@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Decides whether a name's bytes are UTF-8 or Latin-1 and writes them out as UTF-8. It does not
-   know where a name ends; its caller does. */
+/* Decides whether the bytes of a name are UTF-8 or Latin-1, and writes them as UTF-8. Its caller
+   decides where a name ends. */
 #include "base/text.h"
 
 /* Unicode Standard 15, table 3-7: the second byte's range depends on the first. */

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "base/join.h"
+#include "base/disjoint.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/slice.h"
@@ -565,11 +565,11 @@ static void join_facets(const lrcsi_proximity_band *band, const unsigned char *a
                 ask ? ask[a] && ask[b] && band->parts[a] == band->parts[b]
                     : p->proximity.reach[part[a]] > 0 && band->share[a] == 0 && band->share[b] == 0;
             if (part[a] == part[b] && alike) {
-                lrcsi_join(group, a, b);
+                lrcsi_disjoint_union(group, a, b);
             }
         }
     }
-    lrcsi_join_settle(group, p->scene->facet_count);
+    lrcsi_disjoint_flatten(group, p->scene->facet_count);
 }
 
 /* --- what is hidden --------------------------------------------------------------------------- */
