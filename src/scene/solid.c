@@ -6,8 +6,8 @@
 #include <math.h>
 
 #include "base/constant.h"
-#include "base/exact.h"
 #include "base/disjoint.h"
+#include "base/exact.h"
 #include "base/work.h"
 #include "mesh/convex.h"
 

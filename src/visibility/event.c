@@ -197,7 +197,7 @@ static void join_sides(const lrcs_prepared *p, const signed char *joinable, uint
         if (side->other < side->facet && joinable[side->facet] != 0 &&
             joinable[side->other] == joinable[side->facet]) {
             lrcsi_disjoint_union(group, group_entry(p, joinable, side->other),
-                       group_entry(p, joinable, side->facet));
+                                 group_entry(p, joinable, side->facet));
         }
     }
 }
@@ -245,7 +245,8 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
         uint32_t pair[2];
         if (lrcsi_edge_kind_of(view, p->across.irregular[i], LRCS_NONE, pair) == LRCSI_EDGE_JOINS &&
             joinable[pair[0]] != 0 && joinable[pair[1]] != 0) {
-            lrcsi_disjoint_union(group, group_entry(p, joinable, pair[0]), group_entry(p, joinable, pair[1]));
+            lrcsi_disjoint_union(group, group_entry(p, joinable, pair[0]),
+                                 group_entry(p, joinable, pair[1]));
         }
     }
     join_finish(p, joinable, group);
