@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The four-parameter mono-station BRDF, and a library of typical satellite materials.
+/* The four-parameter monostatic BRDF, and a library of typical satellite materials.
    f_r(theta) = A / cos^6(theta) exp(-tan^2(theta) / s^2) + B cos^m(theta), 1/sr.
    Source: O. Steinvall, Appl. Opt. 39 (2000) 4381; Y. Han et al., Opt. Laser Technol. 56 (2014)
    151-157, Eq. 1. */
