@@ -5,9 +5,12 @@
 
 #include <stddef.h>
 
+/* The largest number of bytes of a UTF-8 sequence. */
+#define LRCSI_TEXT_SEQUENCE_MAX 4u
+
 /* The length of the well-formed UTF-8 sequence at the beginning of the text, 0 if there is none.
-   For terminated text `size` may be 4 even if fewer bytes follow, because a terminator ends a
-   sequence. */
+   For terminated text `size` may be LRCSI_TEXT_SEQUENCE_MAX even if fewer bytes follow, because a
+   terminator ends a sequence. */
 size_t lrcsi_text_sequence(const char *bytes, size_t size);
 
 /* 1 if the bytes are well-formed UTF-8 (RFC 3629: no overlong forms, surrogates or code points

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Curved shapes among other parts, divided as finely as a pose needs. A scene is built and prepared
-   with few facets; where the tessellation's share of a bound makes it miss the tolerance, the pose
-   is run again at the division for which that share is likely to be small enough. Divisions differ
+   with few facets; where the tessellation's part of a bound makes it miss the tolerance, the pose
+   is run again at the division for which that part is likely to be small enough. Divisions differ
    by factors of two, so that all poses share them, and each is built when a pose needs it for the
    first time. Every pose begins with the scene's own division: its result does not depend on what
    other poses needed. */
@@ -12,12 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The tessellation's part of a bound is about proportional to the division. This share of what the
-   tolerance leaves for it is aimed at. */
-#define AIM 0.8
-/* Some poses are so dark that their tolerance cannot be met, or only at a high price: no division
-   is less than the tolerance over this. */
-#define DIVISION_LEAST 64.0
+/* The tessellation's part of a bound is about proportional to the division. A division is chosen
+   for this fraction of what the tolerance leaves for that part. */
+#define TOLERANCE_FRACTION 0.8
+/* Some poses are so dark that their tolerance cannot be met, or only at a high cost: no division is
+   smaller than the tolerance divided by this factor. */
+#define DIVISION_FACTOR_MAX 64.0
 /* The number of divisions: level k has the scene's own over 2^k. */
 #define DIVISIONS 32u
 
@@ -81,7 +81,7 @@ static uint32_t halvings(const lrcs_run_options *options, const lrcs_result *res
     double visibility = options->accept == LRCS_ACCEPT_BOUND || result->estimate_m2 < 0.0
                             ? result->budget.visibility_m2
                             : fmin(result->estimate_m2, result->budget.visibility_m2);
-    double left = AIM * (allowed - visibility - result->budget.rounding_m2);
+    double left = TOLERANCE_FRACTION * (allowed - visibility - result->budget.rounding_m2);
     uint32_t count = 0;
     if (!(result->flags & LRCS_FLAG_TOLERANCE_NOT_MET) || !(left > 0.0)) {
         return 0;
@@ -128,7 +128,8 @@ const lrcs_host_scene *lrcsi_host_finer(const lrcs_host_scene *scene,
     pthread_mutex_lock(&levels->lock);
     uint32_t from = levels->own + *level;
     uint32_t wanted = from + more < levels->finest ? from + more : levels->finest;
-    while (level_division(levels, wanted) < options->tolerance / DIVISION_LEAST && wanted > 0) {
+    while (level_division(levels, wanted) < options->tolerance / DIVISION_FACTOR_MAX &&
+           wanted > 0) {
         wanted--;
     }
     while (!found && wanted > from) {
@@ -145,7 +146,7 @@ const lrcs_host_scene *lrcsi_host_finer(const lrcs_host_scene *scene,
     return found;
 }
 
-uint32_t lrcsi_host_level_settle(lrcs_host_scene *scene, uint32_t level, double *division)
+uint32_t lrcsi_host_level_adopt(lrcs_host_scene *scene, uint32_t level, double *division)
 {
     struct lrcsi_host_levels *levels = scene->levels;
     levels->own += level;

@@ -5,8 +5,8 @@
 
 #include <lrcs/load.h>
 
-/* For a scene built with a division, whose recipe and models last as long as it: what is kept of
-   its finer divisions, all of them yet to be built. NULL if no part is curved, or if there is no
+/* For a scene built with a division, whose recipe and models last as long as it: the list of
+   its finer divisions, none of them built yet. NULL if no part is curved, or if there is no
    memory. */
 struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
                                                  const lrcs_build_options *build);
@@ -23,6 +23,6 @@ const lrcs_host_scene *lrcsi_host_finer(const lrcs_host_scene *scene,
 /* Makes the scene the one that lrcsi_host_finer returned for `level`, which becomes its own. Not
    while other threads use the scene. Returned: its division; how many of its notices hold for any
    division. */
-uint32_t lrcsi_host_level_settle(lrcs_host_scene *scene, uint32_t level, double *division);
+uint32_t lrcsi_host_level_adopt(lrcs_host_scene *scene, uint32_t level, double *division);
 
 #endif
