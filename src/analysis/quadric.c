@@ -34,12 +34,11 @@
 #include "base/length.h"
 #include "base/vec3.h"
 
-#define DISTANCE_ERROR         (80 * LRCSI_U)
-#define CROSS_MIN              0x1p-500
-#define CROSS_MAX              0x1p500 /* above it, squares overflow */
-#define QUADRIC_SLOPE_MAX      1e6     /* slope: cos(alpha) and sin(alpha) stay normal numbers */
-#define QUADRIC_COORDINATE_MAX 1e100
-#define RIGHT_ANGLE_CHORD      1.4142 /* a little less than the chord of a right angle */
+#define DISTANCE_ERROR    (80 * LRCSI_U)
+#define CROSS_MIN         0x1p-500
+#define CROSS_MAX         0x1p500 /* above it, squares overflow */
+#define QUADRIC_SLOPE_MAX 1e6     /* slope: cos(alpha) and sin(alpha) stay normal numbers */
+#define RIGHT_ANGLE_CHORD 1.4142  /* a little less than the chord of a right angle */
 
 lrcsi_quadric_at lrcsi_quadric_locate(const lrcs_quadric *surface, const double p[3])
 {
@@ -219,14 +218,14 @@ int lrcsi_quadric_check(const lrcs_quadric *s)
         return LRCS_E_ARGUMENT;
     }
     for (int k = 0; k < 3; k++) {
-        if (!(fabs(s->point[k]) <= QUADRIC_COORDINATE_MAX)) {
+        if (!(fabs(s->point[k]) <= LRCSI_COORDINATE_MAX)) {
             return LRCS_E_NUMBER;
         }
         if (s->kind != LRCS_QUADRIC_SPHERE && !(fabs(s->axis[k]) <= 2.0)) {
             return isfinite(s->axis[k]) ? LRCS_E_ARGUMENT : LRCS_E_NUMBER;
         }
     }
-    if ((round && !(s->radius <= QUADRIC_COORDINATE_MAX)) ||
+    if ((round && !(s->radius <= LRCSI_COORDINATE_MAX)) ||
         (s->kind == LRCS_QUADRIC_CONE && !(s->slope <= QUADRIC_SLOPE_MAX))) {
         return LRCS_E_NUMBER;
     }
@@ -245,7 +244,7 @@ int lrcs_quadric_facet_bound(const lrcs_quadric *surface, const lrcs_point corne
     double normal[3];
     int status = lrcsi_quadric_check(surface);
     for (int i = 0; i < 9 && status == LRCS_OK; i++) {
-        status = fabs(corner[i / 3].x[i % 3]) <= QUADRIC_COORDINATE_MAX ? LRCS_OK : LRCS_E_NUMBER;
+        status = fabs(corner[i / 3].x[i % 3]) <= LRCSI_COORDINATE_MAX ? LRCS_OK : LRCS_E_NUMBER;
     }
     if (status != LRCS_OK) {
         return status;

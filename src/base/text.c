@@ -3,6 +3,8 @@
    decides where a name ends. */
 #include "base/text.h"
 
+#include <string.h>
+
 /* Unicode Standard 15, table 3-7: the second byte's range depends on the first. */
 size_t lrcsi_text_sequence(const char *bytes, size_t size)
 {
@@ -26,6 +28,11 @@ size_t lrcsi_text_sequence(const char *bytes, size_t size)
         }
     }
     return length;
+}
+
+size_t lrcsi_text_mark(const char *bytes, size_t size)
+{
+    return size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
 }
 
 int lrcsi_text_is_utf8(const char *bytes, size_t size)

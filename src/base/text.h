@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Names from files, whatever bytes they are, as UTF-8 text. */
+/* Text from files: UTF-8 sequences, and names of any bytes as UTF-8. */
 #ifndef LRCSI_TEXT_H
 #define LRCSI_TEXT_H
 
@@ -12,6 +12,10 @@
    For terminated text `size` may be LRCSI_TEXT_SEQUENCE_MAX even if fewer bytes follow, because a
    terminator ends a sequence. */
 size_t lrcsi_text_sequence(const char *bytes, size_t size);
+
+/* The length of the UTF-8 byte order mark at the beginning of the bytes: 3, or 0 if there is none.
+ */
+size_t lrcsi_text_mark(const char *bytes, size_t size);
 
 /* 1 if the bytes are well-formed UTF-8 (RFC 3629: no overlong forms, surrogates or code points
    above U+10FFFF), else 0. Plain ASCII and no bytes at all are. */

@@ -22,7 +22,6 @@
 #include "optics/reflect.h"
 
 #define AROUND_MIN 8u
-#define AROUND_MAX (1u << 24)
 #define PLAN_NODES 48
 /* The fraction of the tolerance that is used: errors between the sampled aspects may be larger. */
 #define PLAN_AIM    0.8
@@ -222,7 +221,7 @@ static double plan_error(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_
 static uint32_t plan_around_max(const lrcs_shape *shape, uint32_t max_facets)
 {
     uint32_t good = AROUND_MIN / 4;
-    uint32_t bad = AROUND_MAX / 4 + 1;
+    uint32_t bad = LRCSI_AROUND_MAX / 4 + 1;
     while (bad - good > 1) {
         uint32_t middle = good + (bad - good) / 2;
         lrcs_divisions divisions = plan_divisions(shape, 4 * middle);
