@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Fits the four parameters of a material to readings of its BRDF at several angles, in mono-station
+/* Fits the four parameters of a material to readings of its BRDF at several angles, in monostatic
    (retro) geometry: the best fit, confidence limits, and which of the four parameters the readings
    do not determine. All results are statistical estimates; none is a proved bound. */
 #ifndef LRCS_FIT_H
@@ -38,7 +38,7 @@ enum lrcs_fit_index { LRCS_FIT_A, LRCS_FIT_B, LRCS_FIT_S, LRCS_FIT_M, LRCS_FIT_P
 enum lrcs_fit_verdict {
     LRCS_FIT_DETERMINED, /* both limits exist; the lower limit of m may be 0 */
     LRCS_FIT_ABSENT,     /* A or B: not distinguishable from 0; has an upper limit */
-    LRCS_FIT_MOOT,       /* s or m: the A or B it belongs to is not distinguishable from 0 */
+    LRCS_FIT_UNDEFINED,  /* s or m: its A or B is not distinguishable from 0 */
     LRCS_FIT_AT_MOST,    /* no lower limit */
     LRCS_FIT_AT_LEAST,   /* no upper limit */
     LRCS_FIT_FREE        /* no limits */
@@ -103,7 +103,7 @@ size_t lrcs_fit_need(uint32_t count);
    6. Search range: s from 1/6 of the smallest tangent read to 2, m from 0 to 1000, A and B up to
    1e9 times the largest value. A limit outside this range counts as no limit.
    7. An outlier at the smallest angle cannot be distinguished from a narrow glint, nor can an
-   outlier among the only three readings on the flank of a glint: a glint needs about five. */
+   outlier among the only three readings on the slope of a glint: a glint needs about five. */
 int lrcs_fit_run(const lrcs_fit_reading *reading, uint32_t count, const lrcs_fit_options *options,
                  lrcs_work *work, lrcs_fit *fit, lrcs_fit_point *point);
 

@@ -19,9 +19,10 @@ typedef struct lrcs_host_options {
 
 lrcs_host_options lrcs_host_options_default(void);
 
-/* A division (lrcs_build_options) with which curved shapes have a few hundred facets. Poses that
-   need more are run at finer divisions: lrcs_host_scene_refine, lrcs_host_sweep.refine. And a
-   limit for the facets of one shape then: preparing so many takes about a tenth of a second. */
+/* A division (lrcs_build_options) with which curved shapes have a few hundred facets; poses that
+   need more are run at finer divisions: lrcs_host_scene_refine, lrcs_host_sweep.refine. And the
+   limit for the facets of one shape at finer divisions: preparing so many takes about a tenth of a
+   second. */
 #define LRCS_HOST_DIVISION 1e-2
 #define LRCS_HOST_FACETS   (UINT32_C(1) << 17)
 
@@ -39,14 +40,14 @@ typedef struct lrcs_host_input {
 enum lrcs_host_prepare_stage {
     LRCS_HOST_PREPARE_EDGES,      /* checks; points welded; edges */
     LRCS_HOST_PREPARE_NEIGHBOURS, /* coincident facets; which facet lies across each side */
-    LRCS_HOST_PREPARE_CONTACTS,   /* between facets; is the scene closed and outward? */
+    LRCS_HOST_PREPARE_CONTACTS,   /* between facets; whether the scene is closed and outward */
     LRCS_HOST_PREPARE_NORMALS,
-    LRCS_HOST_PREPARE_PROOFS, /* convex, what is near curved shapes */
+    LRCS_HOST_PREPARE_PROOFS, /* convexity; which facets are near curved shapes */
     LRCS_HOST_PREPARE_STAGES
 };
 enum lrcs_host_pose_stage {
     LRCS_HOST_POSE_VIEW,
-    LRCS_HOST_POSE_CLASSIFY, /* facets seen whole or not at all, and undecided ones */
+    LRCS_HOST_POSE_CLASSIFY, /* entirely visible, entirely hidden and undecided facets */
     LRCS_HOST_POSE_VISIBILITY,
     LRCS_HOST_POSE_SUM,
     LRCS_HOST_POSE_STAGES
@@ -108,7 +109,7 @@ int lrcs_host_output_same(const char *path, const char *other);
 
 /* The bounding box of all facets that are not omitted, m, body frame; all zero if there are none.
  */
-void lrcs_host_scene_box(const lrcs_scene *scene, double least[3], double most[3]);
+void lrcs_host_scene_box(const lrcs_scene *scene, double box_min[3], double box_max[3]);
 
 /* Prepares a scene, once for all poses: lrcs_prepare_run with memory from the heap.
    Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_prepare_run. */
@@ -151,8 +152,8 @@ int lrcs_host_scene_run_until(const lrcs_host_scene *scene, const lrcs_pose *pos
                               const lrcs_run_options *options, int stage, lrcs_host_error *error);
 
 /* The time that runs of a pose are expected to take, before any of them, by the cost model with
-   which auto chooses a method: from a sample of the facets, in a small part of the time of a run.
-   Its constants were measured on one machine: divide by a measured time for another one. An
+   which auto chooses a method: from a sample of the facets, in a small fraction of the time of a
+   run. Its constants were measured on one machine: divide by a measured time for another one. An
    estimate, mostly within a factor of two. Given: a prepared scene; pose; options[count]: with
    method zbuffer a resolution of 0 counts as 256; steps are not considered. Returned:
    seconds[count]. Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_ARGUMENT (options); LRCS_E_NUMBER (the

@@ -22,8 +22,8 @@ typedef struct lrcs_pose {
 /* The initial attitude: laser on +z, R the identity. */
 lrcs_pose lrcs_pose_default(void);
 
-/* From a direction in the body frame, any length. R is the shortest arc; for -z it is a turn of
-   180 deg about x'. The direction is scaled by a power of two only.
+/* From a direction in the body frame, any length. R is the rotation along the shortest arc; for -z
+   a rotation by 180 deg about x. The direction is scaled by a power of two only.
    Status: LRCS_OK; LRCS_E_NUMBER (not finite); LRCS_E_ARGUMENT (zero). */
 int lrcs_pose_from_direction(const double direction[3], lrcs_pose *pose);
 

@@ -58,16 +58,17 @@ typedef struct lrcs_quadric_region {
                                  2 normal_angle, as in lrcs/glint.h; 0 for a plane, or if A is 0 */
 } lrcs_quadric_region;
 
-/* A region has at least so many facets. */
+/* The smallest number of facets of a region. */
 #define LRCS_QUADRIC_FACETS 12u
 
-/* No region is displaced from a curved surface by more than this part of its size: of the lesser of
-   the region's extent (the diagonal of its box) and the largest radius there. A polygon of 12 sides
-   in a circle is displaced by 3.4 % of the radius, one of 10 sides by 4.9 %: a prism of fewer sides
-   is as often meant to have them as to stand for a cylinder. */
+/* No region is displaced from a curved surface by more than this fraction of its size, which is the
+   lesser of the region's extent (the diagonal of its box) and the largest radius there. A polygon
+   of 12 sides in a circle is displaced by 3.4 % of the radius, one of 10 sides by 4.9 %: prisms of
+   fewer sides are as often intended as prisms as they approximate cylinders. */
 #define LRCS_QUADRIC_SHARE 0.04
 
-/* For a plane: of the region's extent, and of the angle in rad. */
+/* For a plane: the limits of the displacement, as a fraction of the region's extent, and of the
+   angle in rad. */
 #define LRCS_QUADRIC_FLAT 1e-3
 
 /* Finds such regions among the facets of models (not of engine-made shapes, whose surfaces are

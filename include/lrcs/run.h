@@ -22,8 +22,7 @@ enum lrcs_flag {
     LRCS_FLAG_DEPTH_UNDECIDED = 1 << 2, /* two facets too close at a sample to order by depth */
     LRCS_FLAG_STEPS_SPENT = 1 << 3,     /* lrcs_run_options.steps did not suffice */
     /* the bound exceeds the tolerance; estimate_m2, a heuristic, does not, and the options accept
-     * it
-     */
+       the estimate */
     LRCS_FLAG_ACCEPTED_BY_ESTIMATE = 1 << 4,
     /* bound and estimate exceed the tolerance, or there is no estimate; the options accept any
        answer */

@@ -53,10 +53,11 @@ typedef struct lrcs_part {
     lrcs_divisions divisions; /* of its mesh */
     double unit;              /* metres per unit */
     double origin[3];         /* m, position of its origin, to within `misplaced` */
-    double axis[3][3];        /* unit vectors, body frame: its x, y and z axes, rounded; axis + */
-    double axis_low[3]
-                   [3]; /* axis_low is accurate to 2^-97. The truth is the shape rotated by the */
-    int axis_exact;     /* rotations nearest to the matrices given; 1: nothing was rounded */
+    /* Its x, y and z axes in the body frame: unit vectors, rounded; axis + axis_low is accurate to
+       2^-97. The truth is the shape rotated by the rotations nearest to the matrices given. */
+    double axis[3][3];
+    double axis_low[3][3];
+    int axis_exact; /* 1: the axes were not rounded */
 } lrcs_part;
 
 /* The scene, the engine's input. Facets keep the order of the recipe's parts and of each file,

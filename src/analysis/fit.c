@@ -19,27 +19,27 @@
 /* The number of vectors of lrcsi_fit_data. */
 #define FIT_VECTORS 12u
 
-/* The limits of the search. Beyond them the model loses its meaning (for s > 0.7 the glint peaks
-   off the normal). */
-#define FIT_SLOPE_MOST     2.0
-#define FIT_FALL_MOST      1000.0
-#define FIT_AMPLITUDE_MOST 1e9
-#define FIT_SLOPE_SHARE    6.0 /* at a sixth of the smallest tangent a glint is exp(-36) there */
+/* The limits of the search. Beyond them the model loses its meaning (for s > 0.7 the glint does
+   not peak at the normal). */
+#define FIT_S_MAX         2.0
+#define FIT_M_MAX         1000.0
+#define FIT_AMPLITUDE_MAX 1e9
+#define FIT_S_DIVISOR     6.0 /* with s a sixth of the smallest tangent, a glint is exp(-36) there */
 
-/* For the first estimate of errors, if errors are relative: readings below this share of the
-   largest are as uncertain as this share. */
-#define FIT_FIRST_SHARE 0.01
+/* For the first estimate of relative errors: readings below this fraction of the largest are as
+   uncertain as a reading of this fraction. */
+#define FIT_FLOOR 0.01
 
 /* Upper limits of the largest f_r, and of the largest f_r in standard errors, of which determinants
    take the fourth power; the lower limits are their reciprocals. */
-#define FIT_SIZE_MOST  1e100
-#define FIT_RATIO_MOST 1e70
+#define FIT_SIZE_MAX  1e100
+#define FIT_RATIO_MAX 1e70
 
-#define FIT_TRIMS 20 /* rounds of excluding outliers */
-#define FIT_LOOKS 4  /* fits repeated after a profile has found a better one */
+#define FIT_TRIM_ROUNDS 20 /* rounds of excluding outliers */
+#define FIT_REPEATS     4  /* fits repeated after a profile has found a better one */
 
 /* Errors that follow the fit have converged if the sum of squares changes by less than this. */
-#define FIT_SAME 1e-6
+#define FIT_CONVERGED 1e-6
 
 /* The variance that rounding leaves in readings that fit exactly, relative to their squares. */
 #define FIT_ROUNDING 0x1p-100
@@ -61,24 +61,19 @@ size_t lrcs_fit_need(uint32_t count)
 
 /* ---- readings as vectors ---- */
 
-static int reading_is_good(const lrcs_fit_reading *reading)
+/* 1 if a size is within its limits; 0 if not, or if it is a NaN. */
+static int size_is_good(double size, double high)
 {
-    return fabs(reading->angle_deg) < 90.0 && isfinite(reading->value);
-}
-
-/* 1 if a size is within its limits, 0 for a NaN. */
-static int size_is_good(double size, double most)
-{
-    return size > 1.0 / most && size < most;
+    return size > 1.0 / high && size < high;
 }
 
 static int sizes_are_good(const lrcs_fit_reading *reading, uint32_t count,
                           const lrcs_fit_options *options, double largest)
 {
     int given = options->noise == LRCS_FIT_GIVEN || options->noise == LRCS_FIT_WEIGHTED;
-    int good = size_is_good(options->unit * largest, FIT_SIZE_MOST);
+    int good = size_is_good(options->unit * largest, FIT_SIZE_MAX);
     for (uint32_t i = 0; i < count && given && good; i++) {
-        good = size_is_good(largest / reading[i].sigma, FIT_RATIO_MOST);
+        good = size_is_good(largest / reading[i].sigma, FIT_RATIO_MAX);
     }
     return good;
 }
@@ -91,15 +86,15 @@ static int readings_check(const lrcs_fit_reading *reading, uint32_t count,
         options->noise > LRCS_FIT_WEIGHTED) {
         return LRCS_E_ARGUMENT;
     }
-    double most = 0.0;
+    double highest = 0.0; /* reading, by its sign */
     for (uint32_t i = 0; i < count; i++) {
-        if (!reading_is_good(&reading[i])) {
+        if (!(fabs(reading[i].angle_deg) < 90.0) || !isfinite(reading[i].value)) {
             return LRCS_E_NUMBER;
         }
-        most = lrcsi_max(most, reading[i].value);
+        highest = lrcsi_max(highest, reading[i].value);
         *largest = lrcsi_max(*largest, fabs(reading[i].value));
     }
-    if (count < LRCS_FIT_READINGS || !(most > 0.0)) {
+    if (count < LRCS_FIT_READINGS || !(highest > 0.0)) {
         return LRCS_E_EMPTY;
     }
     return sizes_are_good(reading, count, options, *largest) ? LRCS_OK : LRCS_E_NUMBER;
@@ -124,16 +119,15 @@ static int data_take(lrcs_work *work, uint32_t count, lrcsi_fit_data *data)
 /* The limits of the search for each coordinate. */
 static void data_limits(lrcsi_fit_data *data)
 {
-    double least = HUGE_VAL; /* the smallest tan^2 above 0 */
+    double tan2_min = HUGE_VAL; /* the smallest above 0 */
     for (uint32_t i = 0; i < data->count; i++) {
-        least = data->u[i] > 0.0 ? lrcsi_min(least, data->u[i]) : least;
+        tan2_min = data->u[i] > 0.0 ? lrcsi_min(tan2_min, data->u[i]) : tan2_min;
     }
-    double slope = lrcsi_min(sqrt(least) / FIT_SLOPE_SHARE, 0.1 * FIT_SLOPE_MOST);
-    const double most[] = {FIT_AMPLITUDE_MOST, FIT_AMPLITUDE_MOST, log(FIT_SLOPE_MOST),
-                           log1p(FIT_FALL_MOST)};
+    double slope = lrcsi_min(sqrt(tan2_min) / FIT_S_DIVISOR, 0.1 * FIT_S_MAX);
+    const double high[] = {FIT_AMPLITUDE_MAX, FIT_AMPLITUDE_MAX, log(FIT_S_MAX), log1p(FIT_M_MAX)};
     const double low[] = {0.0, 0.0, log(slope), 0.0};
-    memcpy(data->least, low, sizeof low);
-    memcpy(data->most, most, sizeof most);
+    memcpy(data->low, low, sizeof low);
+    memcpy(data->high, high, sizeof high);
 }
 
 /* 1 / (the first estimate of the error of a reading). */
@@ -143,14 +137,14 @@ static double error_inverse(const lrcs_fit_reading *reading, int noise, double y
     case LRCS_FIT_ABSOLUTE:
         return 1.0;
     case LRCS_FIT_RELATIVE:
-        return 1.0 / lrcsi_max(fabs(y), FIT_FIRST_SHARE);
+        return 1.0 / lrcsi_max(fabs(y), FIT_FLOOR);
     default:
         return scale / reading->sigma;
     }
 }
 
-/* Divides the readings by the power of two below the largest: this is exact, and no square
-   overflows. */
+/* Divides the readings by the power of two just below the largest: an exact operation, after which
+   no square overflows. */
 static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *options,
                       double scale, lrcsi_fit_data *data)
 {
@@ -175,11 +169,11 @@ typedef struct fit_job {
     lrcsi_fit_parameters start[LRCSI_FIT_STARTS];
     uint32_t starts;
     uint32_t kept;
-    lrcsi_fit_parameters whole; /* the best fit of all four parameters */
-    lrcsi_fit_parameters best;  /* that, or the best without an insignificant part */
-    int absent[2];              /* A or B of the part that is not significant */
-    double error;               /* standard deviation of a weighted residual */
-    double rise;                /* of the sum of squares at the confidence limits */
+    lrcsi_fit_parameters full; /* the best fit of all four parameters */
+    lrcsi_fit_parameters best; /* that, or the best fit without an insignificant part */
+    int absent[2];             /* A or B of the part that is not significant */
+    double error;              /* standard deviation of a weighted residual */
+    double rise;               /* of the sum of squares at the confidence limits */
     lrcsi_fit_spread spread;
     double limit[LRCS_FIT_PARAMETERS][2];
 } fit_job;
@@ -189,12 +183,12 @@ typedef struct fit_job {
 static void starts_make(fit_job *job)
 {
     uint32_t best = 0;
-    double least = HUGE_VAL;
+    double sum_min = HUGE_VAL;
     job->starts = lrcsi_fit_search(&job->data, job->start);
     for (uint32_t i = 0; i < job->starts; i++) {
-        double sum = lrcsi_fit_soften(&job->data, job->noise, &job->start[i]);
-        best = sum < least ? i : best;
-        least = lrcsi_min(sum, least);
+        double sum = lrcsi_fit_huber(&job->data, job->noise, &job->start[i]);
+        best = sum < sum_min ? i : best;
+        sum_min = lrcsi_min(sum, sum_min);
     }
     lrcsi_fit_parameters first = job->start[best];
     job->start[best] = job->start[0];
@@ -203,62 +197,57 @@ static void starts_make(fit_job *job)
 
 /* The lowest minimum from all starting points and from the fit so far, with A or B held at 0 if
    `without` names it. */
-static lrcsi_fit_parameters starts_descend(const fit_job *job, unsigned without)
+static lrcsi_fit_parameters starts_minimize(const fit_job *job, unsigned without)
 {
-    lrcsi_fit_parameters best = job->whole;
+    lrcsi_fit_parameters best = job->full;
     for (uint32_t i = 0; i <= job->starts; i++) {
-        lrcsi_fit_parameters parameters = i > 0 ? job->start[i - 1] : job->whole;
+        lrcsi_fit_parameters parameters = i > 0 ? job->start[i - 1] : job->full;
         for (int k = 0; k < 2; k++) {
             parameters.at[k] = (without & (1u << k)) ? 0.0 : parameters.at[k];
         }
-        lrcsi_fit_descend(&job->data, without, &parameters);
+        lrcsi_fit_minimize(&job->data, without, &parameters);
         best = i == 0 || parameters.square < best.square ? parameters : best;
     }
     return best;
 }
 
-static void kept_count(fit_job *job)
+/* Least squares over the readings that are kept: outliers and errors are updated until they no
+   longer change. */
+static void full_fit(fit_job *job)
 {
+    lrcsi_fit_noise(&job->data, job->noise, &job->full);
+    for (int i = 0; i < FIT_TRIM_ROUNDS; i++) {
+        int changed = lrcsi_fit_trim(&job->data, &job->full);
+        double before = job->full.square;
+        job->full = starts_minimize(job, 0);
+        lrcsi_fit_noise(&job->data, job->noise, &job->full);
+        int moved = fabs(job->full.square - before) > FIT_CONVERGED * before;
+        if (!changed && (job->noise != LRCS_FIT_RELATIVE || !moved)) {
+            break;
+        }
+    }
     job->kept = 0;
     for (uint32_t i = 0; i < job->data.count; i++) {
         job->kept += job->data.weight[i] > 0.0;
     }
 }
 
-/* Least squares over the readings that are kept: outliers and errors are updated until they no
-   longer change. */
-static void whole_settle(fit_job *job)
-{
-    lrcsi_fit_noise(&job->data, job->noise, &job->whole);
-    for (int i = 0; i < FIT_TRIMS; i++) {
-        int changed = lrcsi_fit_trim(&job->data, &job->whole);
-        double before = job->whole.square;
-        job->whole = starts_descend(job, 0);
-        lrcsi_fit_noise(&job->data, job->noise, &job->whole);
-        int moved = fabs(job->whole.square - before) > FIT_SAME * before;
-        if (!changed && (job->noise != LRCS_FIT_RELATIVE || !moved)) {
-            break;
-        }
-    }
-    kept_count(job);
-}
-
-/* The fit that is reported: without the less significant part, if that part is not significant; or
-   else without the other one, if that is not significant. */
+/* The fit that is reported: without the less significant part if that is not significant, or else
+   without the other part if that is not significant, or else with both. */
 static void parts_choose(fit_job *job)
 {
     lrcsi_fit_parameters without[2];
     int known = job->noise == LRCS_FIT_GIVEN &&
-                job->whole.square < (double)(job->kept - LRCS_FIT_PARAMETERS);
+                job->full.square < (double)(job->kept - LRCS_FIT_PARAMETERS);
     for (int k = 0; k < 2; k++) {
-        without[k] = starts_descend(job, 1u << k);
+        without[k] = starts_minimize(job, 1u << k);
         job->absent[k] = 0;
     }
-    job->best = job->whole;
-    int less = without[1].square < without[0].square;
+    job->best = job->full;
+    int weaker = without[1].square < without[0].square;
     for (int i = 0; i < 2; i++) {
-        int part = i == 0 ? less : !less;
-        if (!lrcsi_fit_presence(&job->data, part, &without[part], job->whole.square, job->kept,
+        int part = i == 0 ? weaker : !weaker;
+        if (!lrcsi_fit_presence(&job->data, part, &without[part], job->full.square, job->kept,
                                 known)) {
             job->absent[part] = 1;
             job->best = without[part];
@@ -278,7 +267,7 @@ static double readings_size(const lrcsi_fit_data *data, int all)
     return size;
 }
 
-/* The variance of errors that the residuals show, where each part that is present uses two
+/* The variance of the errors, estimated from the residuals; each part that is present has two
    parameters. It is at least that of rounding; if the squares of all kept readings vanish, the
    rounding of excluded readings counts too. */
 static void errors_estimate(fit_job *job)
@@ -300,16 +289,17 @@ static void fit_make(fit_job *job)
 {
     int done = 0;
     starts_make(job);
-    job->whole = job->start[0];
-    for (int look = 0; look < FIT_LOOKS && !done; look++) {
-        whole_settle(job);
+    job->full = job->start[0];
+    for (int repeat = 0; repeat < FIT_REPEATS && !done; repeat++) {
+        full_fit(job);
         parts_choose(job);
         errors_estimate(job);
         int known = job->noise == LRCS_FIT_GIVEN && job->error < 1.0;
-        unsigned gone = (job->absent[0] ? 1u << LRCS_FIT_A | 1u << LRCS_FIT_S : 0u) |
-                        (job->absent[1] ? 1u << LRCS_FIT_B | 1u << LRCS_FIT_M : 0u);
-        job->spread = lrcsi_fit_spread_make(&job->data, gone, &job->best, known ? 1.0 : job->error);
-        done = lrcsi_fit_profile(&job->data, &job->spread, job->rise, &job->best, &job->whole,
+        unsigned fixed = (job->absent[0] ? 1u << LRCS_FIT_A | 1u << LRCS_FIT_S : 0u) |
+                         (job->absent[1] ? 1u << LRCS_FIT_B | 1u << LRCS_FIT_M : 0u);
+        job->spread =
+            lrcsi_fit_spread_make(&job->data, fixed, &job->best, known ? 1.0 : job->error);
+        done = lrcsi_fit_profile(&job->data, &job->spread, job->rise, &job->best, &job->full,
                                  job->limit);
     }
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
@@ -356,7 +346,7 @@ static int parameter_verdict(int p, const double limit[2], int absent)
 {
     int open = limit[0] == -HUGE_VAL || (limit[0] == 0.0 && p < LRCS_FIT_S);
     if (p >= LRCS_FIT_S && absent) {
-        return LRCS_FIT_MOOT;
+        return LRCS_FIT_UNDEFINED;
     }
     if (limit[1] == HUGE_VAL) {
         return open || (p == LRCS_FIT_M && limit[0] == 0.0) ? LRCS_FIT_FREE : LRCS_FIT_AT_LEAST;
@@ -434,19 +424,20 @@ const char *lrcs_fit_verdict_text(int parameter, int verdict)
         [LRCS_FIT_DETERMINED] = {"determined", "determined", "determined", "determined"},
         [LRCS_FIT_ABSENT] = {"may be 0: no glint is needed to explain the readings",
                              "may be 0: no diffuse part is needed to explain the readings"},
-        [LRCS_FIT_MOOT] = {[LRCS_FIT_S] = "not determined: there may be no glint",
-                           [LRCS_FIT_M] = "not determined: there may be no diffuse part"},
-        [LRCS_FIT_AT_MOST] = {[LRCS_FIT_S] = "not determined, only limited above: the glint may be "
-                                             "narrower, too few readings are on its flank"},
-        [LRCS_FIT_AT_LEAST] = {"not determined, only limited below: the readings begin on the "
-                               "glint's flank",
-                               "not determined, only limited below: the readings begin too far "
+        [LRCS_FIT_UNDEFINED] = {[LRCS_FIT_S] = "not determined: there may be no glint",
+                                [LRCS_FIT_M] = "not determined: there may be no diffuse part"},
+        [LRCS_FIT_AT_MOST] = {[LRCS_FIT_S] =
+                                  "not determined, only an upper limit: the glint may be "
+                                  "narrower, with too few readings on its slope"},
+        [LRCS_FIT_AT_LEAST] = {"not determined, only a lower limit: the readings begin on the "
+                               "slope of the glint",
+                               "not determined, only a lower limit: the readings begin too far "
                                "from the normal",
-                               "not determined, only limited below: so wide a glint looks diffuse",
-                               "not determined, only limited below: the diffuse part may be as "
+                               "not determined, only a lower limit: so wide a glint looks diffuse",
+                               "not determined, only a lower limit: the diffuse part may be as "
                                "narrow as a glint"},
-        [LRCS_FIT_FREE] = {"not determined: a glint narrower than the readings reach would not "
-                           "show",
+        [LRCS_FIT_FREE] = {"not determined: a glint narrower than the smallest angle read would "
+                           "not be seen",
                            "not determined: the readings begin too far from the normal",
                            "not determined: the readings do not limit it",
                            "not determined: the readings do not limit it"}};

@@ -3,18 +3,18 @@
    by how much the sum of squares must fall before a part counts as present.
 
    Without the part, its shape parameter (s or m) has no meaning, and the fit takes the most
-   favourable of all shapes: the usual t test of one parameter would find a glint in every fifth
+   favourable of all shapes: the usual t test of one parameter would find a glint in one of five
    series of pure noise. H. Hotelling (1939) gives the correct probability, and M. Knowles and D.
    Siegmund (Int. Stat. Rev. 57 (1989) 205) its application here: let v be the part's vector over
    the readings, made orthogonal to what the other part can represent (its vector and the derivative
    of that), and L the length of the arc that v/|v| draws on the unit sphere as the shape runs over
-   its range. Noise of N dimensions comes so near to that arc that it lowers the sum of squares by a
-   share of q or more with a probability of at most
+   its range. The probability that noise of N dimensions is so near to that arc that the part lowers
+   the sum of squares by a fraction of q or more is at most
      (1 - q)^((N-2)/2) (sqrt(1 - q)/2 + L/(2 pi)),
-   which is a tube about the arc and half a cap at its end (a cap of angle a is at most
-   sin(a)^(N-1)/2 of the sphere). With known errors the power becomes exp(-fall/2). The bound is
-   exact if the rest of the model is linear; the derivative of the other part's shape makes it so to
-   first order. */
+   the volume of a tube about the arc with half a cap at its end (a cap of angle a is at most
+   sin(a)^(N-1)/2 of the sphere). With known errors the power becomes exp(-fall/2), where fall is
+   the decrease of the sum of squares. The bound is exact if the rest of the model is linear; the
+   derivative of the other part's shape makes it so to first order. */
 #include "analysis/fit_presence.h"
 
 #include <math.h>
@@ -25,11 +25,12 @@
 #define PRESENCE_LEVEL 0.05
 #define PRESENCE_STEPS 240
 
-/* If the other part explains a vector to within rounding, its remainder has no usable direction. */
+/* If the other part represents a vector to within rounding, the direction of the residual is not
+   usable. */
 #define PRESENCE_ROUNDING 1e-12
 
-/* The part's vector at given s and m, made orthogonal to the other part's and normalised, into
-   rest[]. Returns 0 if nothing is left. */
+/* The part's vector at given s and m, made orthogonal to the other part's and normalised, in
+   residual[]. Returns 0 if it is zero to within rounding. */
 static int presence_vector(const lrcsi_fit_data *data, int part,
                            const lrcsi_fit_parameters *parameters)
 {
@@ -37,7 +38,7 @@ static int presence_vector(const lrcsi_fit_data *data, int part,
     int shape = other + LRCS_FIT_S;
     lrcsi_fit_parameters at = *parameters;
     lrcsi_fit_normal normal;
-    lrcsi_fit_settle(data, 3u, &at, &normal);
+    lrcsi_fit_evaluate(data, 3u, &at, &normal);
     double a = normal.gram[other][other];
     double b = normal.gram[shape][shape];
     double ab = normal.gram[other][shape];
@@ -73,15 +74,14 @@ static double presence_arc(const lrcsi_fit_data *data, int part,
     lrcsi_fit_parameters parameters = *without;
     for (int k = 0; k <= PRESENCE_STEPS; k++) {
         double chord = 0.0;
-        double share = (double)k / PRESENCE_STEPS;
-        parameters.at[shape] =
-            data->least[shape] + share * (data->most[shape] - data->least[shape]);
+        double fraction = (double)k / PRESENCE_STEPS;
+        parameters.at[shape] = data->low[shape] + fraction * (data->high[shape] - data->low[shape]);
         if (!presence_vector(data, part, &parameters)) {
             continue;
         }
         for (uint32_t i = 0; i < data->count; i++) {
-            double off = data->residual[i] - data->spare[i];
-            chord += off * off;
+            double change = data->residual[i] - data->spare[i];
+            chord += change * change;
             data->spare[i] = data->residual[i];
         }
         arc += before ? 2.0 * asin(lrcsi_min(1.0, 0.5 * sqrt(chord))) : 0.0;
@@ -94,11 +94,11 @@ int lrcsi_fit_presence(const lrcsi_fit_data *data, int part, const lrcsi_fit_par
                        double square, uint32_t kept, int known)
 {
     double fall = lrcsi_max(0.0, without->square - square);
-    double left = without->square > 0.0 ? square / without->square : 1.0; /* 1 - q */
+    double ratio = without->square > 0.0 ? square / without->square : 1.0; /* 1 - q */
     double freedom = (double)kept - 2.0;
     double arc = presence_arc(data, part, without) / (2.0 * LRCS_PI);
-    left = lrcsi_min(1.0, left);
-    double chance = known ? exp(-0.5 * fall) * (0.5 + arc)
-                          : pow(left, 0.5 * freedom - 1.0) * (0.5 * sqrt(left) + arc);
-    return chance < PRESENCE_LEVEL;
+    ratio = lrcsi_min(1.0, ratio);
+    double probability = known ? exp(-0.5 * fall) * (0.5 + arc)
+                               : pow(ratio, 0.5 * freedom - 1.0) * (0.5 * sqrt(ratio) + arc);
+    return probability < PRESENCE_LEVEL;
 }

@@ -9,7 +9,7 @@
    squares as much in 1 of 20 cases or more. Given: without, the best fit in which the amplitude of
    that part is 0; square, the sum of squares of the best fit with it; kept, the number of readings
    with a weight above 0; known, 1 if the weights are the inverses of the errors themselves, 0 if
-   only up to a factor. Uses column[], rest[] and spare[]. */
+   only up to a factor. Uses column[], residual[] and spare[]. */
 int lrcsi_fit_presence(const lrcsi_fit_data *data, int part, const lrcsi_fit_parameters *without,
                        double square, uint32_t kept, int known);
 

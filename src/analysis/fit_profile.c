@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* How well readings determine the parameters of a fit: by the matrix of its derivatives, and by
    moving one parameter away from the fit, with the others minimized, until the sum of squares has
-   risen to the limit. This file decides where that is; fit.c decides what an interval without a
-   finite limit means. */
+   risen to the limit. This file decides where that happens; fit.c decides what an interval without
+   a finite limit means. */
 #include "analysis/fit_profile.h"
 
 #include <math.h>
@@ -10,16 +10,16 @@
 
 #include "base/range.h"
 
-#define PROFILE_STRIDES 60
-#define PROFILE_CUTS    24
+#define PROFILE_STRIDES    60
+#define PROFILE_ITERATIONS 24
 
 #define PROFILE_SHAPES 12
 
 /* The relative error to which a limit is found, in the square root of the rise. */
-#define PROFILE_NEAR 1e-4
+#define PROFILE_TOLERANCE 1e-4
 
-/* A sum that is lower than the minimum by more than this share belongs to another minimum and is
-   not due to rounding. */
+/* A sum that is lower than the minimum by more than this fraction of the rise belongs to another
+   minimum and is not due to rounding. */
 #define PROFILE_LOWER 1e-6
 
 #define PROFILE_PIVOT 1e-12
@@ -35,11 +35,11 @@ static void matrix_invert(double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS],
         in[p] = m[p][p] > PROFILE_PIVOT;
         double pivot = in[p] ? 1.0 / m[p][p] : 0.0;
         for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
-            double share = m[j][p] * pivot;
+            double factor = m[j][p] * pivot;
             for (int k = 0; k < LRCS_FIT_PARAMETERS && j != p; k++) {
-                m[j][k] -= k == p ? 0.0 : share * m[p][k];
+                m[j][k] -= k == p ? 0.0 : factor * m[p][k];
             }
-            m[j][p] = j == p ? pivot : -share;
+            m[j][p] = j == p ? pivot : -factor;
         }
         for (int k = 0; k < LRCS_FIT_PARAMETERS; k++) {
             m[p][k] *= k == p ? 1.0 : pivot;
@@ -58,7 +58,7 @@ lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixe
     lrcsi_fit_parameters parameters = *best;
     lrcsi_fit_normal normal;
     lrcsi_fit_spread spread;
-    lrcsi_fit_settle(data, 3u, &parameters, &normal);
+    lrcsi_fit_evaluate(data, 3u, &parameters, &normal);
     for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
         length[j] = (fixed & (1u << j)) ? 0.0 : scale[j] * sqrt(normal.gram[j][j]);
     }
@@ -87,20 +87,20 @@ typedef struct profile_walk {
     const lrcsi_fit_data *data;
     int parameter;
     double rise;
-    const lrcsi_fit_parameters *best, *whole;
-    lrcsi_fit_parameters last; /* the minimum at the last place below the limit */
+    const lrcsi_fit_parameters *best, *full;
+    lrcsi_fit_parameters last; /* the minimum at the last x below the limit */
     lrcsi_fit_parameters low;  /* the lowest minimum found */
 } profile_walk;
 
-/* Minimizes from a parameter vector with the profiled parameter fixed at x; the lower of this
-   minimum and *least is kept in *least. */
-static void walk_descend(const profile_walk *walk, double x, const lrcsi_fit_parameters *from,
-                         lrcsi_fit_parameters *least)
+/* Minimizes from a parameter vector with the profiled parameter fixed at x; *lowest
+   becomes the lower of this minimum and *lowest. */
+static void walk_minimize(const profile_walk *walk, double x, const lrcsi_fit_parameters *from,
+                          lrcsi_fit_parameters *lowest)
 {
     lrcsi_fit_parameters parameters = *from;
     parameters.at[walk->parameter] = x;
-    lrcsi_fit_descend(walk->data, 1u << walk->parameter, &parameters);
-    *least = parameters.square < least->square ? parameters : *least;
+    lrcsi_fit_minimize(walk->data, 1u << walk->parameter, &parameters);
+    *lowest = parameters.square < lowest->square ? parameters : *lowest;
 }
 
 /* The best minimum over several shapes of a part, with the profiled parameter at x: a glint may lie
@@ -111,44 +111,44 @@ static lrcsi_fit_parameters walk_shape(const profile_walk *walk, double x)
     int p = walk->parameter;
     int shape = p == LRCS_FIT_A || p == LRCS_FIT_M ? LRCS_FIT_S : LRCS_FIT_M;
     unsigned fixed = 1u << p | 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
-    double least = walk->data->least[shape];
-    double most = walk->data->most[shape];
+    double low = walk->data->low[shape];
+    double high = walk->data->high[shape];
     lrcsi_fit_parameters best = walk->last;
     best.square = HUGE_VAL;
     for (int k = 0; k <= PROFILE_SHAPES; k++) {
         lrcsi_fit_normal normal;
         lrcsi_fit_parameters parameters = walk->last;
         parameters.at[p] = x;
-        parameters.at[shape] = least + (most - least) * k / PROFILE_SHAPES;
-        lrcsi_fit_settle(walk->data, fixed, &parameters, &normal);
+        parameters.at[shape] = low + (high - low) * k / PROFILE_SHAPES;
+        lrcsi_fit_evaluate(walk->data, fixed, &parameters, &normal);
         best = parameters.square < best.square ? parameters : best;
     }
     return best;
 }
 
-/* The square root of the relative rise at a place; it is 1 at the limit. */
+/* The square root of the relative rise at x; it is 1 at the limit. */
 static double walk_rise(profile_walk *walk, double x, lrcsi_fit_parameters *parameters)
 {
     *parameters = walk->last;
     parameters->square = HUGE_VAL;
-    walk_descend(walk, x, &walk->last, parameters);
-    walk_descend(walk, x, walk->whole, parameters);
+    walk_minimize(walk, x, &walk->last, parameters);
+    walk_minimize(walk, x, walk->full, parameters);
     lrcsi_fit_parameters from = walk_shape(walk, x);
-    walk_descend(walk, x, &from, parameters);
+    walk_minimize(walk, x, &from, parameters);
     if (parameters->square < walk->low.square) {
         walk->low = *parameters;
     }
     return sqrt(lrcsi_max(0.0, parameters->square - walk->best->square) / walk->rise);
 }
 
-/* The place between x below and x above at which the root of the rise is 1: false position, with
-   the value at the end that does not move halved (Illinois). */
-static double walk_cut(profile_walk *walk, double in, double f_in, double out, double f_out)
+/* The x between `in` and `out` at which the root of the rise is 1, by the Illinois variant of false
+   position: the value at an end that stays is halved. */
+static double walk_crossing(profile_walk *walk, double in, double f_in, double out, double f_out)
 {
     double f_low = f_in - 1.0;
     double f_high = f_out - 1.0;
     int side = 0;
-    for (int i = 0; i < PROFILE_CUTS && fabs(f_high) > PROFILE_NEAR; i++) {
+    for (int i = 0; i < PROFILE_ITERATIONS && fabs(f_high) > PROFILE_TOLERANCE; i++) {
         lrcsi_fit_parameters parameters;
         double x = in + (out - in) * (f_low / (f_low - f_high));
         double f = walk_rise(walk, x, &parameters) - 1.0;
@@ -164,7 +164,7 @@ static double walk_cut(profile_walk *walk, double in, double f_in, double out, d
             f_low *= side > 0 ? 0.5 : 1.0;
             side = 1;
         }
-        if (fabs(f) <= PROFILE_NEAR) {
+        if (fabs(f) <= PROFILE_TOLERANCE) {
             return x;
         }
     }
@@ -176,7 +176,7 @@ static double walk_limit(profile_walk *walk, double stride, int direction)
 {
     const lrcsi_fit_data *data = walk->data;
     int p = walk->parameter;
-    double end = direction < 0 ? data->least[p] : data->most[p];
+    double end = direction < 0 ? data->low[p] : data->high[p];
     double in = walk->best->at[p];
     double f_in = 0.0;
     walk->last = *walk->best;
@@ -186,7 +186,7 @@ static double walk_limit(profile_walk *walk, double stride, int direction)
         x = direction < 0 ? lrcsi_max(x, end) : lrcsi_min(x, end);
         double f = walk_rise(walk, x, &parameters);
         if (f > 1.0) {
-            return walk_cut(walk, in, f_in, x, f);
+            return walk_crossing(walk, in, f_in, x, f);
         }
         in = x;
         f_in = f;
@@ -196,20 +196,20 @@ static double walk_limit(profile_walk *walk, double stride, int direction)
 }
 
 int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
-                      const lrcsi_fit_parameters *best, lrcsi_fit_parameters *whole,
+                      const lrcsi_fit_parameters *best, lrcsi_fit_parameters *full,
                       double limit[LRCS_FIT_PARAMETERS][2])
 {
-    lrcsi_fit_parameters low = *whole;
+    lrcsi_fit_parameters low = *full;
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
-        profile_walk walk = {data, p, rise, best, whole, *best, low};
-        double most = p < LRCS_FIT_S ? HUGE_VAL : 0.5;
-        double stride = lrcsi_min(2.0 * spread->error[p], most);
+        profile_walk walk = {data, p, rise, best, full, *best, low};
+        double stride_max = p < LRCS_FIT_S ? HUGE_VAL : 0.5;
+        double stride = lrcsi_min(2.0 * spread->error[p], stride_max);
         stride = stride > 0.0 && stride < HUGE_VAL ? stride : 0.1;
         limit[p][0] = walk_limit(&walk, stride, -1);
         limit[p][1] = walk_limit(&walk, stride, 1);
         low = walk.low;
     }
-    int lower = whole->square - low.square > PROFILE_LOWER * rise;
-    *whole = lower ? low : *whole;
+    int lower = full->square - low.square > PROFILE_LOWER * rise;
+    *full = lower ? low : *full;
     return !lower;
 }

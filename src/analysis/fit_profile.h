@@ -18,14 +18,14 @@ lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixe
 
 /* Profile limits: the values of each coordinate at which the sum of squares, minimized over the
    other coordinates, exceeds that at `best` by `rise`.
-   Given: best, the minimum that is reported; whole, the minimum over all coordinates, which is at
+   Given: best, the minimum that is reported; full, the minimum over all coordinates, which is at
    most that; spread at best.
    Returned: limit[p][0] below and [p][1] above; -HUGE_VAL or HUGE_VAL if the sum does not exceed it
    anywhere in the search range (for A, B and log(1 + m) the range ends at 0 below, and 0 is
    returned).
-   Status: 1; or 0 if a sum below `whole` was found: *whole is then that parameter vector. */
+   Status: 1; or 0 if a sum below `full` was found: *full is then that parameter vector. */
 int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
-                      const lrcsi_fit_parameters *best, lrcsi_fit_parameters *whole,
+                      const lrcsi_fit_parameters *best, lrcsi_fit_parameters *full,
                       double limit[LRCS_FIT_PARAMETERS][2]);
 
 #endif

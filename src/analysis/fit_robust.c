@@ -15,14 +15,14 @@
 #define ROBUST_NORMAL 1.4826
 
 /* Readings are excluded beyond this many standard deviations: one in 2000 for normal errors. */
-#define ROBUST_CUT    3.5
-#define ROBUST_FEWEST 8u
+#define ROBUST_CUT       3.5
+#define ROBUST_COUNT_MIN 8u
 
 /* For readings whose fitted value is nearly 0, the expected error is a fraction of the
    largest fitted value. A fit that is negligible compared with the largest reading carries no
    information about errors, and squares divided by it overflow. */
 #define ROBUST_RELATIVE 1e-4
-#define ROBUST_LEAST    0x1p-400
+#define ROBUST_FIT_MIN  0x1p-400
 
 /* Residuals this small relative to the readings are rounding errors. */
 #define ROBUST_ROUNDING 0x1p-44
@@ -63,24 +63,24 @@ static double value_ranked(double *value, uint32_t count, uint32_t rank)
 
 void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_parameters *parameters)
 {
-    double most = 0.0;
+    double largest = 0.0;
     if (noise != LRCS_FIT_RELATIVE) {
         return;
     }
     lrcsi_fit_residuals(data, parameters);
     for (uint32_t i = 0; i < data->count; i++) {
         data->spare[i] = data->y[i] - data->residual[i];
-        most = lrcsi_max(most, data->spare[i]);
+        largest = lrcsi_max(largest, data->spare[i]);
     }
-    for (uint32_t i = 0; i < data->count && most > ROBUST_LEAST; i++) {
-        data->inverse[i] = 1.0 / lrcsi_max(data->spare[i], ROBUST_RELATIVE * most);
+    for (uint32_t i = 0; i < data->count && largest > ROBUST_FIT_MIN; i++) {
+        data->inverse[i] = 1.0 / lrcsi_max(data->spare[i], ROBUST_RELATIVE * largest);
     }
 }
 
-/* Computes |y - f| * inverse into spare[]; returns the smallest size that is not due to rounding
-   alone. */
-static double offsets_fill(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters,
-                           double *sum)
+/* Computes |y - f| * inverse into spare[] and its sum. Returns the size below which such a value
+   may be due to rounding alone. */
+static double deviations_fill(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters,
+                              double *sum)
 {
     double size = 0.0;
     *sum = 0.0;
@@ -96,27 +96,28 @@ static double offsets_fill(const lrcsi_fit_data *data, const lrcsi_fit_parameter
 /* The standard deviation of the values in spare[], from their median. A fit with nearly as many
    parameters as readings leaves small residuals; the factor 1 + 5/(n - p) corrects for that
    (Rousseeuw and Leroy 1987, ch. 5, Eq. 1.3). */
-static double offsets_scale(const lrcsi_fit_data *data, double rounding)
+static double deviations_scale(const lrcsi_fit_data *data, double rounding)
 {
     double few = 1.0 + 5.0 / (data->count - LRCS_FIT_PARAMETERS);
     double median = value_ranked(data->spare, data->count, data->count / 2);
     return lrcsi_max(ROBUST_NORMAL * few * median, rounding);
 }
 
-double lrcsi_fit_soften(const lrcsi_fit_data *data, int noise, lrcsi_fit_parameters *parameters)
+double lrcsi_fit_huber(const lrcsi_fit_data *data, int noise, lrcsi_fit_parameters *parameters)
 {
     double sum = 0.0;
     for (int round = 0; round < ROBUST_ROUNDS; round++) {
-        double rounding = offsets_fill(data, parameters, &sum);
-        double most = ROBUST_HUBER * offsets_scale(data, rounding);
+        double rounding = deviations_fill(data, parameters, &sum);
+        double limit = ROBUST_HUBER * deviations_scale(data, rounding);
         for (uint32_t i = 0; i < data->count; i++) {
-            double off = fabs(data->residual[i]) * data->inverse[i];
-            data->weight[i] = data->inverse[i] * (off > most ? sqrt(most / off) : 1.0);
+            double deviation = fabs(data->residual[i]) * data->inverse[i];
+            data->weight[i] =
+                data->inverse[i] * (deviation > limit ? sqrt(limit / deviation) : 1.0);
         }
-        lrcsi_fit_descend(data, 0, parameters);
+        lrcsi_fit_minimize(data, 0, parameters);
         lrcsi_fit_noise(data, noise, parameters);
     }
-    offsets_fill(data, parameters, &sum);
+    deviations_fill(data, parameters, &sum);
     return sum;
 }
 
@@ -124,17 +125,17 @@ int lrcsi_fit_trim(const lrcsi_fit_data *data, const lrcsi_fit_parameters *param
 {
     double sum = 0.0;
     int changed = 0;
-    double most = HUGE_VAL;
-    double rounding = offsets_fill(data, parameters, &sum);
-    if (data->count >= ROBUST_FEWEST) {
-        most = ROBUST_CUT * offsets_scale(data, rounding);
-        /* Even if more than half of the readings agree to the last digit, the others are not
-           necessarily outliers. */
+    double limit = HUGE_VAL;
+    double rounding = deviations_fill(data, parameters, &sum);
+    if (data->count >= ROBUST_COUNT_MIN) {
+        limit = ROBUST_CUT * deviations_scale(data, rounding);
+        /* If more than half of the readings agree to the last digit, the others are not
+           necessarily outliers: seven of ten readings are kept in any case. */
         uint32_t seven = (uint32_t)((7 * (uint64_t)data->count + 9) / 10) - 1;
-        most = lrcsi_max(most, 2.0 * value_ranked(data->spare, data->count, seven));
+        limit = lrcsi_max(limit, 2.0 * value_ranked(data->spare, data->count, seven));
     }
     for (uint32_t i = 0; i < data->count; i++) {
-        int keep = fabs(data->residual[i]) * data->inverse[i] <= most;
+        int keep = fabs(data->residual[i]) * data->inverse[i] <= limit;
         changed |= keep != (data->weight[i] > 0.0);
         data->weight[i] = keep ? data->inverse[i] : 0.0;
     }

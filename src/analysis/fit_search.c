@@ -9,28 +9,28 @@
 
 #include "base/range.h"
 
-#define SEARCH_SLOPES 24
-#define SEARCH_FALLS  10
+#define SEARCH_S_STEPS 24
+#define SEARCH_M_STEPS 10
 
-/* Least squares, reweighted with the inverse of the previous residuals: five passes come near
-   enough to the least absolute sum for a starting point. */
+/* Least squares, reweighted with the inverse of the previous residuals: after five passes
+   the sum of absolute residuals is close enough to its minimum for a starting point. */
 #define SEARCH_PASSES 5
 #define SEARCH_FLOOR  0.01
 
-static lrcsi_fit_parameters node_parameters(const lrcsi_fit_data *data, int slope, int fall)
+static lrcsi_fit_parameters node_parameters(const lrcsi_fit_data *data, int i_s, int i_m)
 {
     lrcsi_fit_parameters parameters = {{0.0}, 0.0};
-    const int step[2] = {slope, fall};
-    const int steps[2] = {SEARCH_SLOPES - 1, SEARCH_FALLS - 1};
+    const int step[2] = {i_s, i_m};
+    const int steps[2] = {SEARCH_S_STEPS - 1, SEARCH_M_STEPS - 1};
     for (int k = 0; k < 2; k++) {
         int p = LRCS_FIT_S + k;
-        double share = (double)step[k] / steps[k];
-        parameters.at[p] = data->least[p] + share * (data->most[p] - data->least[p]);
+        double fraction = (double)step[k] / steps[k];
+        parameters.at[p] = data->low[p] + fraction * (data->high[p] - data->low[p]);
     }
     return parameters;
 }
 
-/* The sum of absolute residuals, from weighted ones in rest[]. */
+/* The sum of absolute residuals, from weighted ones in residual[]. */
 static double node_sum(const lrcsi_fit_data *data)
 {
     double sum = 0.0;
@@ -40,14 +40,14 @@ static double node_sum(const lrcsi_fit_data *data)
     return sum;
 }
 
-/* Weights readings and columns by the inverse of the residuals, each taken as at least a share of
-   their mean. */
+/* Weights readings and columns by the inverse of the residuals, each taken as at least SEARCH_FLOOR
+   of their mean. */
 static void node_weigh(const lrcsi_fit_data *data, double mean)
 {
     double floor = lrcsi_max(SEARCH_FLOOR * mean, 0x1p-500);
     for (uint32_t i = 0; i < data->count; i++) {
-        double off = fabs(data->residual[i]) * (data->inverse[i] / data->weight[i]);
-        double weight = data->inverse[i] / sqrt(lrcsi_max(off, floor));
+        double deviation = fabs(data->residual[i]) * (data->inverse[i] / data->weight[i]);
+        double weight = data->inverse[i] / sqrt(lrcsi_max(deviation, floor));
         data->column[LRCS_FIT_A][i] *= weight / data->weight[i];
         data->column[LRCS_FIT_B][i] *= weight / data->weight[i];
         data->weight[i] = weight;
@@ -55,7 +55,7 @@ static void node_weigh(const lrcsi_fit_data *data, double mean)
 }
 
 /* The least sum of absolute residuals for the s and m of a node. */
-static double node_least(const lrcsi_fit_data *data, const lrcsi_fit_parameters *node)
+static double node_minimize(const lrcsi_fit_data *data, const lrcsi_fit_parameters *node)
 {
     const unsigned shapes = 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
     lrcsi_fit_parameters parameters = *node;
@@ -72,14 +72,13 @@ static double node_least(const lrcsi_fit_data *data, const lrcsi_fit_parameters 
     return sum;
 }
 
-static int is_least(double sum[SEARCH_SLOPES][SEARCH_FALLS], int slope, int fall)
+static int is_local_minimum(double sum[SEARCH_S_STEPS][SEARCH_M_STEPS], int i_s, int i_m)
 {
-    for (int i = slope - 1; i <= slope + 1; i++) {
-        for (int k = fall - 1; k <= fall + 1; k++) {
-            int inside = i >= 0 && i < SEARCH_SLOPES && k >= 0 && k < SEARCH_FALLS;
-            int before = i < slope || (i == slope && k < fall); /* of equal minima the first */
-            if (inside &&
-                (sum[i][k] < sum[slope][fall] || (before && sum[i][k] == sum[slope][fall]))) {
+    for (int i = i_s - 1; i <= i_s + 1; i++) {
+        for (int k = i_m - 1; k <= i_m + 1; k++) {
+            int inside = i >= 0 && i < SEARCH_S_STEPS && k >= 0 && k < SEARCH_M_STEPS;
+            int before = i < i_s || (i == i_s && k < i_m); /* the first of equal values counts */
+            if (inside && (sum[i][k] < sum[i_s][i_m] || (before && sum[i][k] == sum[i_s][i_m]))) {
                 return 0;
             }
         }
@@ -108,19 +107,19 @@ static uint32_t start_enter(lrcsi_fit_parameters start[LRCSI_FIT_STARTS], uint32
 
 uint32_t lrcsi_fit_search(const lrcsi_fit_data *data, lrcsi_fit_parameters start[LRCSI_FIT_STARTS])
 {
-    double sum[SEARCH_SLOPES][SEARCH_FALLS];
+    double sum[SEARCH_S_STEPS][SEARCH_M_STEPS];
     uint32_t count = 0;
-    for (int i = 0; i < SEARCH_SLOPES; i++) {
-        for (int k = 0; k < SEARCH_FALLS; k++) {
+    for (int i = 0; i < SEARCH_S_STEPS; i++) {
+        for (int k = 0; k < SEARCH_M_STEPS; k++) {
             lrcsi_fit_parameters parameters = node_parameters(data, i, k);
-            sum[i][k] = node_least(data, &parameters);
+            sum[i][k] = node_minimize(data, &parameters);
         }
     }
-    for (int i = 0; i < SEARCH_SLOPES; i++) {
-        for (int k = 0; k < SEARCH_FALLS; k++) {
+    for (int i = 0; i < SEARCH_S_STEPS; i++) {
+        for (int k = 0; k < SEARCH_M_STEPS; k++) {
             lrcsi_fit_parameters parameters = node_parameters(data, i, k);
             parameters.square = sum[i][k];
-            count = is_least(sum, i, k) ? start_enter(start, count, &parameters) : count;
+            count = is_local_minimum(sum, i, k) ? start_enter(start, count, &parameters) : count;
         }
     }
     return count;

@@ -8,7 +8,8 @@
 #define LRCSI_FIT_STARTS 8u
 
 /* Starting points: the local minima of the sum of |y - f| * inverse over a grid of s and m, the
-   smallest first. Uses weight[], column[] and rest[]. Returns their number, 1 .. LRCSI_FIT_STARTS.
+   smallest first. Uses weight[], column[] and residual[]. Returns their number, 1 ..
+   LRCSI_FIT_STARTS.
  */
 uint32_t lrcsi_fit_search(const lrcsi_fit_data *data, lrcsi_fit_parameters start[LRCSI_FIT_STARTS]);
 
@@ -18,7 +19,7 @@ void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_para
 
 /* Minimizes from a starting point with Huber's weights, which bound the influence of single
    readings. Returns the sum of |y - f| * inverse at the minimum. */
-double lrcsi_fit_soften(const lrcsi_fit_data *data, int noise, lrcsi_fit_parameters *parameters);
+double lrcsi_fit_huber(const lrcsi_fit_data *data, int noise, lrcsi_fit_parameters *parameters);
 
 /* Sets the weight of readings that are too far from the fit to 0, and restores that of all others.
    Returns 1 if this changed which readings are kept, else 0. */

@@ -17,17 +17,18 @@
 #define SOLVE_STEPS 80
 
 /* If no step up to this damping lowers the sum, it is at its minimum to within rounding. */
-#define SOLVE_DAMPING_MOST 1e10
+#define SOLVE_DAMPING_MAX 1e10
 
-/* A longer step in log(s) or log(1 + m) would leave the range in which the linear model is valid.
+/* The largest step in log(s) or log(1 + m): a longer one would leave the range in which the linear
+   model is valid.
  */
 #define SOLVE_STRIDE 1.0
 
 /* A column that is a multiple of another one to within rounding is redundant. */
 #define SOLVE_PIVOT 1e-13
 
-/* For x above this, exp(-x) is 0 in all that follows. */
-#define SOLVE_FAR 700.0
+/* For x above this, exp(-x) counts as 0. */
+#define SOLVE_EXPONENT_MAX 700.0
 
 /* ---- columns, residuals and sums ---- */
 
@@ -39,10 +40,10 @@ void lrcsi_fit_columns(const lrcsi_fit_data *data, const lrcsi_fit_parameters *p
     for (uint32_t i = 0; i < data->count; i++) {
         double weight = data->weight[i] * data->factor[i];
         double x = data->u[i] / s / s;
-        double far = x - 3.0 * data->log_w[i];
-        double glint = far < SOLVE_FAR ? weight * exp(-far) : 0.0;
-        double fall = half_m * data->log_w[i];
-        double diffuse = fall < SOLVE_FAR ? weight * exp(-fall) : 0.0;
+        double exponent = x - 3.0 * data->log_w[i];
+        double glint = exponent < SOLVE_EXPONENT_MAX ? weight * exp(-exponent) : 0.0;
+        double exponent_m = half_m * data->log_w[i];
+        double diffuse = exponent_m < SOLVE_EXPONENT_MAX ? weight * exp(-exponent_m) : 0.0;
         data->column[LRCS_FIT_A][i] = glint;
         data->column[LRCS_FIT_B][i] = diffuse;
         data->column[LRCS_FIT_S][i] = glint > 0.0 ? 2.0 * x * glint : 0.0;
@@ -55,14 +56,15 @@ void lrcsi_fit_residuals(const lrcsi_fit_data *data, const lrcsi_fit_parameters 
     double s = exp(parameters->at[LRCS_FIT_S]);
     double half_m = 0.5 * expm1(parameters->at[LRCS_FIT_M]);
     for (uint32_t i = 0; i < data->count; i++) {
-        double far = data->u[i] / s / s - 3.0 * data->log_w[i];
-        double f = far < SOLVE_FAR ? parameters->at[LRCS_FIT_A] * exp(-far) : 0.0;
+        double exponent = data->u[i] / s / s - 3.0 * data->log_w[i];
+        double f =
+            exponent < SOLVE_EXPONENT_MAX ? parameters->at[LRCS_FIT_A] * exp(-exponent) : 0.0;
         f += parameters->at[LRCS_FIT_B] * exp(-half_m * data->log_w[i]);
         data->residual[i] = data->y[i] - data->factor[i] * f;
     }
 }
 
-/* The sums of the first `order` columns. */
+/* The products of the first `order` columns. */
 static void gram_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_normal *normal)
 {
     memset(normal, 0, sizeof *normal);
@@ -80,9 +82,9 @@ static void gram_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_normal *n
     }
 }
 
-/* The slopes and the sum of squares, from the residuals themselves, so that nothing cancels. */
-static void slope_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_parameters *parameters,
-                       lrcsi_fit_normal *normal)
+/* The gradient and the sum of squares, from the residuals themselves, which avoids cancellation. */
+static void gradient_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_parameters *parameters,
+                          lrcsi_fit_normal *normal)
 {
     double sum[LRCS_FIT_PARAMETERS] = {0.0};
     parameters->square = 0.0;
@@ -96,28 +98,28 @@ static void slope_fill(const lrcsi_fit_data *data, int order, lrcsi_fit_paramete
             sum[j] += data->column[j][i] * residual;
         }
     }
-    memcpy(normal->slope, sum, sizeof sum);
+    memcpy(normal->gradient, sum, sizeof sum);
 }
 
 /* ---- A and B ---- */
 
-/* The changes of A and B that take their slopes to 0; only coordinates in `moving` change. */
+/* The changes of A and B that make their gradients 0; only coordinates in `moving` change. */
 static void amplitude_step(const lrcsi_fit_normal *normal, unsigned moving, double step[2])
 {
     double a = normal->gram[0][0];
     double b = normal->gram[1][1];
     double ab = normal->gram[0][1];
     double det = a * b - ab * ab;
-    step[0] = (moving & 1u) && a > 0.0 ? normal->slope[0] / a : 0.0;
-    step[1] = (moving & 2u) && b > 0.0 ? normal->slope[1] / b : 0.0;
+    step[0] = (moving & 1u) && a > 0.0 ? normal->gradient[0] / a : 0.0;
+    step[1] = (moving & 2u) && b > 0.0 ? normal->gradient[1] / b : 0.0;
     if (moving == 3u && det > SOLVE_PIVOT * a * b) {
-        step[0] = (b * normal->slope[0] - ab * normal->slope[1]) / det;
-        step[1] = (a * normal->slope[1] - ab * normal->slope[0]) / det;
+        step[0] = (b * normal->gradient[0] - ab * normal->gradient[1]) / det;
+        step[1] = (a * normal->gradient[1] - ab * normal->gradient[0]) / det;
     }
 }
 
-/* Which of A and B are above 0 in the best solution, found from the slopes at A = B = 0 (or at
-   their values if fixed). */
+/* Which of A and B are above 0 in the best solution, found from the gradients at A = B = 0 (or
+   at their values if fixed). */
 static unsigned amplitude_active(const lrcsi_fit_normal *normal, unsigned free)
 {
     double step[2];
@@ -130,8 +132,8 @@ static unsigned amplitude_active(const lrcsi_fit_normal *normal, unsigned free)
     if (free != 3u || (step[0] >= 0.0 && step[1] >= 0.0)) {
         return free & ((step[0] > 0.0 ? 1u : 0u) | (step[1] > 0.0 ? 2u : 0u));
     }
-    const double alone[2] = {a > 0.0 ? lrcsi_max(normal->slope[0], 0.0) / sqrt(a) : 0.0,
-                             b > 0.0 ? lrcsi_max(normal->slope[1], 0.0) / sqrt(b) : 0.0};
+    const double alone[2] = {a > 0.0 ? lrcsi_max(normal->gradient[0], 0.0) / sqrt(a) : 0.0,
+                             b > 0.0 ? lrcsi_max(normal->gradient[1], 0.0) / sqrt(b) : 0.0};
     if (alone[0] == 0.0 && alone[1] == 0.0) {
         return 0;
     }
@@ -148,20 +150,20 @@ void lrcsi_fit_amplitudes(const lrcsi_fit_data *data, unsigned fixed,
     for (int k = 0; k < 2; k++) {
         parameters->at[k] = (free & (1u << k)) ? 0.0 : parameters->at[k];
     }
-    slope_fill(data, order, parameters, normal);
+    gradient_fill(data, order, parameters, normal);
     unsigned active = amplitude_active(normal, free);
     for (int pass = 0; pass < 2 && active; pass++) { /* the second pass removes rounding errors */
         amplitude_step(normal, active, step);
         for (int k = 0; k < 2; k++) {
             parameters->at[k] =
-                lrcsi_min(data->most[k], lrcsi_max(0.0, parameters->at[k] + step[k]));
+                lrcsi_min(data->high[k], lrcsi_max(0.0, parameters->at[k] + step[k]));
         }
-        slope_fill(data, order, parameters, normal);
+        gradient_fill(data, order, parameters, normal);
     }
 }
 
-void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_parameters *parameters,
-                      lrcsi_fit_normal *normal)
+void lrcsi_fit_evaluate(const lrcsi_fit_data *data, unsigned fixed,
+                        lrcsi_fit_parameters *parameters, lrcsi_fit_normal *normal)
 {
     lrcsi_fit_columns(data, parameters);
     lrcsi_fit_amplitudes(data, fixed, parameters, normal);
@@ -169,9 +171,9 @@ void lrcsi_fit_settle(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_para
 
 /* ---- s and m ---- */
 
-/* The matrix of log(s) and log(1 + m) with A and B eliminated, and the slopes. */
+/* The matrix of log(s) and log(1 + m) with A and B eliminated, and the gradient. */
 typedef struct solve_shape {
-    double matrix[2][2], slope[2];
+    double matrix[2][2], gradient[2];
     int moves[2];
 } solve_shape;
 
@@ -184,7 +186,7 @@ static solve_shape shape_make(const lrcsi_fit_data *data, unsigned fixed,
     double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS];
     double r[LRCS_FIT_PARAMETERS];
     for (int j = 0; j < LRCS_FIT_PARAMETERS; j++) {
-        r[j] = scale[j] * normal->slope[j];
+        r[j] = scale[j] * normal->gradient[j];
         for (int k = 0; k < LRCS_FIT_PARAMETERS; k++) {
             m[j][k] = scale[j] * scale[k] * normal->gram[j][k];
         }
@@ -195,10 +197,10 @@ static solve_shape shape_make(const lrcsi_fit_data *data, unsigned fixed,
             continue;
         }
         for (int j = p + 1; j < LRCS_FIT_PARAMETERS; j++) {
-            double share = m[j][p] / m[p][p];
-            r[j] -= share * r[p];
+            double factor = m[j][p] / m[p][p];
+            r[j] -= factor * r[p];
             for (int k = p + 1; k < LRCS_FIT_PARAMETERS; k++) {
-                m[j][k] -= share * m[p][k];
+                m[j][k] -= factor * m[p][k];
             }
         }
     }
@@ -206,10 +208,10 @@ static solve_shape shape_make(const lrcsi_fit_data *data, unsigned fixed,
     for (int j = 0; j < 2; j++) {
         int p = LRCS_FIT_S + j;
         int outward =
-            r[p] > 0.0 ? parameters->at[p] >= data->most[p] : parameters->at[p] <= data->least[p];
+            r[p] > 0.0 ? parameters->at[p] >= data->high[p] : parameters->at[p] <= data->low[p];
         double whole = scale[p] * scale[p] * normal->gram[p][p];
         shape.moves[j] = !(fixed & (1u << p)) && !outward && m[p][p] > SOLVE_PIVOT * whole;
-        shape.slope[j] = r[p];
+        shape.gradient[j] = r[p];
         shape.matrix[j][0] = m[p][LRCS_FIT_S];
         shape.matrix[j][1] = m[p][LRCS_FIT_M];
     }
@@ -223,11 +225,11 @@ static int shape_step(const solve_shape *shape, double damping, double step[2])
     double b = shape->matrix[1][1] * (1.0 + damping);
     double ab = shape->matrix[0][1];
     double det = a * b - ab * ab;
-    step[0] = shape->moves[0] ? shape->slope[0] / a : 0.0;
-    step[1] = shape->moves[1] ? shape->slope[1] / b : 0.0;
+    step[0] = shape->moves[0] ? shape->gradient[0] / a : 0.0;
+    step[1] = shape->moves[1] ? shape->gradient[1] / b : 0.0;
     if (shape->moves[0] && shape->moves[1] && det > SOLVE_PIVOT * a * b) {
-        step[0] = (b * shape->slope[0] - ab * shape->slope[1]) / det;
-        step[1] = (a * shape->slope[1] - ab * shape->slope[0]) / det;
+        step[0] = (b * shape->gradient[0] - ab * shape->gradient[1]) / det;
+        step[1] = (a * shape->gradient[1] - ab * shape->gradient[0]) / det;
     }
     for (int k = 0; k < 2; k++) {
         step[k] = lrcsi_max(-SOLVE_STRIDE, lrcsi_min(SOLVE_STRIDE, step[k]));
@@ -235,13 +237,14 @@ static int shape_step(const solve_shape *shape, double damping, double step[2])
     return shape->moves[0] || shape->moves[1];
 }
 
-void lrcsi_fit_descend(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_parameters *parameters)
+void lrcsi_fit_minimize(const lrcsi_fit_data *data, unsigned fixed,
+                        lrcsi_fit_parameters *parameters)
 {
     lrcsi_fit_normal normal;
     double damping = 1e-3;
     double step[2];
-    lrcsi_fit_settle(data, fixed, parameters, &normal);
-    for (int i = 0; i < SOLVE_STEPS && damping < SOLVE_DAMPING_MOST; i++) {
+    lrcsi_fit_evaluate(data, fixed, parameters, &normal);
+    for (int i = 0; i < SOLVE_STEPS && damping < SOLVE_DAMPING_MAX; i++) {
         solve_shape shape = shape_make(data, fixed, parameters, &normal);
         lrcsi_fit_normal there;
         lrcsi_fit_parameters next = *parameters;
@@ -250,18 +253,18 @@ void lrcsi_fit_descend(const lrcsi_fit_data *data, unsigned fixed, lrcsi_fit_par
         }
         for (int k = 0; k < 2; k++) {
             int p = LRCS_FIT_S + k;
-            next.at[p] = lrcsi_max(data->least[p], lrcsi_min(data->most[p], next.at[p] + step[k]));
+            next.at[p] = lrcsi_max(data->low[p], lrcsi_min(data->high[p], next.at[p] + step[k]));
         }
-        lrcsi_fit_settle(data, fixed, &next, &there);
+        lrcsi_fit_evaluate(data, fixed, &next, &there);
         if (!(next.square < parameters->square)) {
             damping *= 8.0;
             continue;
         }
-        int settled = parameters->square - next.square <= 1e-14 * parameters->square;
+        int converged = parameters->square - next.square <= 1e-14 * parameters->square;
         *parameters = next;
         normal = there;
         damping *= 0.125;
-        if (settled) {
+        if (converged) {
             break;
         }
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The expected time of runs. The counts of a view are made once; from them follow the times of
-   drawing and of clipping, of which the time of each setting is composed. */
+/* The expected time of runs. The candidates of a view are counted once; from
+   these counts follow the times of drawing and of clipping that make up the time of each setting.
+ */
 #include "analysis/forecast.h"
 
 #include "base/work.h"
@@ -8,10 +9,10 @@
 #include "integrate/plan.h"
 #include "integrate/sigma.h"
 
-/* What a raster with a bound takes besides its drawing, in times of clipping: the classification,
-   and proving which samples of undecided facets stand for their pixels. Measured on six spacecraft
-   in two poses each: 0.45 to 0.7. */
-#define PROVED_SHARE 0.55
+/* The time that a raster with a bound takes besides drawing, relative to that of clipping: for the
+   classification, and for proving which samples of undecided facets represent their pixels.
+   Measured on six spacecraft in two poses each: 0.45 to 0.7. */
+#define PROOF_FRACTION 0.55
 
 /* Without a search for shadows: ns per facet. */
 #define FACING_FACET 100.0
@@ -31,7 +32,7 @@ static double forecast_ns(const lrcsi_plan *plan, const lrcsi_cost *cost,
     double clip = lrcsi_cost_clip(cost, lrcsi_cost_undecided(cost));
     uint32_t size = options->resolution != 0 ? options->resolution : SIZE_DEFAULT;
     double draw = lrcsi_cost_draw(cost, size);
-    double proof = plan->samples_only ? 0 : PROVED_SHARE * clip;
+    double proof = plan->samples_only ? 0 : PROOF_FRACTION * clip;
     switch (plan->method) {
     case LRCS_METHOD_EXACT:
         return facing + clip;

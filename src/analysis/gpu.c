@@ -18,7 +18,7 @@
 
 /* A window is at least this fraction of the extent of the scene, so that its matrix fits a
    float. */
-#define WINDOW_LEAST 0x1p-100
+#define WINDOW_MIN 0x1p-100
 
 /* The margin of the depth range at each end, as a fraction of the window's side: no end of the
    scene is clipped, and the depth range of a scene without depth is not 0. */
@@ -29,21 +29,21 @@
 /* What the host uploads for a pose: the transformation from body to clip coordinates, which range
    from -1 to 1. */
 typedef struct clip_matrix {
-    double turn[3][3], move[3];
+    double rotation[3][3], translation[3];
     double unit; /* per scaled unit: a power of two */
 } clip_matrix;
 
 /* The smallest and largest depth of the facets that are drawn. */
-static void depth_range(const lrcsi_view *view, double *least, double *most)
+static void depth_range(const lrcsi_view *view, double *low, double *high)
 {
     const lrcs_prepared *p = view->prepared;
-    *least = HUGE_VAL;
-    *most = -HUGE_VAL;
+    *low = HUGE_VAL;
+    *high = -HUGE_VAL;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
             double z = view->point[p->scene->facet[f].corner[corner]].x[2];
-            *least = lrcsi_min(*least, z);
-            *most = lrcsi_max(*most, z);
+            *low = lrcsi_min(*low, z);
+            *high = lrcsi_max(*high, z);
         }
     }
 }
@@ -64,30 +64,31 @@ static clip_matrix clip_make(const lrcsi_gpu *gpu)
 {
     const lrcsi_view *view = gpu->view;
     clip_matrix clip = {.unit = ldexp(1, -ilogb(view->prepared->radius))};
-    double least;
-    double most;
-    depth_range(view, &least, &most);
+    double low;
+    double high;
+    depth_range(view, &low, &high);
     const double middle[3] = {view->low[0] + 0.5 * view->side, view->low[1] + 0.5 * view->side,
-                              0.5 * (least + most)};
+                              0.5 * (low + high)};
     const double half[3] = {0.5 * view->side, 0.5 * view->side,
-                            -(0.5 * (most - least) + DEPTH_MARGIN * view->side)};
+                            -(0.5 * (high - low) + DEPTH_MARGIN * view->side)};
     for (int k = 0; k < 3; k++) {
         for (int j = 0; j < 3; j++) {
-            clip.turn[k][j] = lrcsi_single(gpu->single, view->R[k][j] / (half[k] * clip.unit));
+            clip.rotation[k][j] = lrcsi_single(gpu->single, view->R[k][j] / (half[k] * clip.unit));
         }
-        clip.move[k] = lrcsi_single(gpu->single, (centre_along(view, k) - middle[k]) / half[k]);
+        clip.translation[k] =
+            lrcsi_single(gpu->single, (centre_along(view, k) - middle[k]) / half[k]);
     }
     return clip;
 }
 
 /* Converts a clip coordinate to a window coordinate, from 0 to 2 `half`. */
-static double window_coordinate(int single, const double *turn, double move, const double *p,
-                                double half)
+static double window_coordinate(int single, const double *rotation, double translation,
+                                const double *p, double half)
 {
-    double x = lrcsi_single(single, turn[0] * p[0]);
-    x = lrcsi_single(single, x + lrcsi_single(single, turn[1] * p[1]));
-    x = lrcsi_single(single, x + lrcsi_single(single, turn[2] * p[2]));
-    x = lrcsi_single(single, x + move);
+    double x = lrcsi_single(single, rotation[0] * p[0]);
+    x = lrcsi_single(single, x + lrcsi_single(single, rotation[1] * p[1]));
+    x = lrcsi_single(single, x + lrcsi_single(single, rotation[2] * p[2]));
+    x = lrcsi_single(single, x + translation);
     return lrcsi_single(single, lrcsi_single(single, x * half) + half);
 }
 
@@ -97,25 +98,26 @@ static lrcsi_gpu_vertex gpu_vertex(const lrcsi_gpu *gpu, const clip_matrix *clip
     lrcsi_gpu_vertex vertex;
     double p[3];
     for (int k = 0; k < 3; k++) {
-        double about = prepared->vertex[i].x[k] - prepared->centre[k];
-        p[k] = lrcsi_single(gpu->single, about * clip->unit);
+        double from_centre = prepared->vertex[i].x[k] - prepared->centre[k];
+        p[k] = lrcsi_single(gpu->single, from_centre * clip->unit);
     }
     for (int k = 0; k < 2; k++) {
-        double x = window_coordinate(gpu->single, clip->turn[k], clip->move[k], p, 0.5 * gpu->size);
+        double x = window_coordinate(gpu->single, clip->rotation[k], clip->translation[k], p,
+                                     0.5 * gpu->size);
         x = lrcsi_min(lrcsi_max(x, -GUARD_BAND), GUARD_BAND);
         vertex.at[k] = (int64_t)floor(x * SUBPIXELS + 0.5);
     }
-    vertex.depth = window_coordinate(gpu->single, clip->turn[2], clip->move[2], p, 0.5);
+    vertex.depth = window_coordinate(gpu->single, clip->rotation[2], clip->translation[2], p, 0.5);
     return vertex;
 }
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-/* Twice the signed area of the triangle of an edge and the centre of a pixel, in sub-pixels: at +
-   along x + up y for pixel (x, y), positive inside. The pixel is covered if the value is `least` or
-   more. */
+/* Twice the signed area of the triangle of an edge and the centre of a pixel, in sub-pixels:
+   at + along x + up y for pixel (x, y), positive inside. The pixel is covered if the value is at
+   least `threshold`. */
 typedef struct gpu_edge {
-    int64_t at, along, up, least;
+    int64_t at, along, up, threshold;
 } gpu_edge;
 
 /* A facet that is being drawn: edge k is opposite corner k. */
@@ -134,19 +136,19 @@ static gpu_edge edge_make(const int64_t a[2], const int64_t b[2])
     int64_t dy = b[1] - a[1];
     gpu_edge e = {.along = -dy * SUBPIXELS, .up = dx * SUBPIXELS};
     e.at = dx * (SUBPIXELS / 2 - a[1]) - dy * (SUBPIXELS / 2 - a[0]);
-    e.least = dy < 0 || (dy == 0 && dx < 0) ? 0 : 1;
+    e.threshold = dy < 0 || (dy == 0 && dx < 0) ? 0 : 1;
     return e;
 }
 
 /* Floor and ceiling of a quotient, for b > 0. */
-static int64_t whole_below(int64_t a, int64_t b)
+static int64_t floor_divide(int64_t a, int64_t b)
 {
     return a / b - (a % b < 0);
 }
 
-static int64_t whole_above(int64_t a, int64_t b)
+static int64_t ceil_divide(int64_t a, int64_t b)
 {
-    return -whole_below(-a, b);
+    return -floor_divide(-a, b);
 }
 
 /* The pixels of the window whose centres lie between the minimum and the maximum of three
@@ -154,17 +156,17 @@ static int64_t whole_above(int64_t a, int64_t b)
 static void facet_extent(const lrcsi_gpu *gpu, int64_t a, int64_t b, int64_t c, int64_t *from,
                          int64_t *to)
 {
-    int64_t least = a < b ? a : b;
-    int64_t most = a > b ? a : b;
-    least = least < c ? least : c;
-    most = most > c ? most : c;
-    *from = whole_above(least - SUBPIXELS / 2, SUBPIXELS);
-    *to = whole_below(most - SUBPIXELS / 2, SUBPIXELS) + 1;
+    int64_t low = a < b ? a : b;
+    int64_t high = a > b ? a : b;
+    low = low < c ? low : c;
+    high = high > c ? high : c;
+    *from = ceil_divide(low - SUBPIXELS / 2, SUBPIXELS);
+    *to = floor_divide(high - SUBPIXELS / 2, SUBPIXELS) + 1;
     *from = *from > 0 ? *from : 0;
     *to = *to < gpu->size ? *to : gpu->size;
 }
 
-/* Prepares a facet for drawing. Returns 0 if it covers nothing: snapping leaves some facets without
+/* Prepares a facet for drawing. Returns 0 if it covers nothing: after snapping, some facets have no
    area. */
 static int facet_start(const lrcsi_gpu *gpu, uint32_t facet, gpu_facet *out)
 {
@@ -197,7 +199,7 @@ static int facet_start(const lrcsi_gpu *gpu, uint32_t facet, gpu_facet *out)
 
 /* The depth, as the buffer stores it, at the point where the edge functions of corners 1 and 2 are
    e1 and e2. */
-static double depth_kept(const lrcsi_gpu *gpu, const gpu_facet *f, int64_t e1, int64_t e2)
+static double depth_stored(const lrcsi_gpu *gpu, const gpu_facet *f, int64_t e1, int64_t e2)
 {
     int single = gpu->single;
     double w1 = lrcsi_single(single, lrcsi_single(single, (double)e1) * f->inverse);
@@ -216,14 +218,14 @@ static void row_span(const gpu_facet *f, int64_t y, int64_t *from, int64_t *to)
     *to = f->x1;
     for (int k = 0; k < 3; k++) {
         const gpu_edge *e = &f->edge[k];
-        int64_t short_of = e->least - (e->at + e->up * y); /* along x must be at least this */
+        int64_t needed = e->threshold - (e->at + e->up * y); /* along x must be at least this */
         if (e->along > 0) {
-            int64_t x = whole_above(short_of, e->along);
+            int64_t x = ceil_divide(needed, e->along);
             *from = x > *from ? x : *from;
         } else if (e->along < 0) {
-            int64_t x = whole_below(-short_of, -e->along) + 1;
+            int64_t x = floor_divide(-needed, -e->along) + 1;
             *to = x < *to ? x : *to;
-        } else if (short_of > 0) {
+        } else if (needed > 0) {
             *to = *from;
         }
     }
@@ -242,8 +244,8 @@ static void facet_draw(lrcsi_gpu *gpu, uint32_t facet)
         for (int64_t x = from; x < to; x++) {
             size_t at = (size_t)y * gpu->size + (size_t)x;
             double depth =
-                depth_kept(gpu, &f, f.edge[1].at + f.edge[1].along * x + f.edge[1].up * y,
-                           f.edge[2].at + f.edge[2].along * x + f.edge[2].up * y);
+                depth_stored(gpu, &f, f.edge[1].at + f.edge[1].along * x + f.edge[1].up * y,
+                             f.edge[2].at + f.edge[2].along * x + f.edge[2].up * y);
             if (depth < gpu->depth[at]) {
                 gpu->depth[at] = depth;
                 gpu->owner[at] = facet;
@@ -296,7 +298,7 @@ static void gpu_draw(lrcsi_gpu *gpu)
 /* Enlarges the window of a needle that is seen along its axis, about the same centre. */
 static void window_widen(lrcsi_view *view)
 {
-    double wider = WINDOW_LEAST * view->prepared->radius - view->side;
+    double wider = WINDOW_MIN * view->prepared->radius - view->side;
     if (wider > 0) {
         view->low[0] -= 0.5 * wider;
         view->low[1] -= 0.5 * wider;

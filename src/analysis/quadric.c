@@ -14,20 +14,20 @@
    which is linear in p and least at a corner. Every w gives a bound; the best is r/rho at the point
    of the facet with the least d. That lies on a side, or inside the facet where the normals agree:
    so w is tried at the least point of each side, and along the facet's normal.
-   A corner of a facet with z < 0 lies beyond the apex, by h at most: the facet moved by h along
-   the axis does not; that changes d by h sin(alpha), and distances by h.
-   Plane: the distance z is linear.
+   A corner of a facet with z < 0 lies beyond the apex, by h at most. Moved by h along the axis, the
+   facet does not; that changes d by h sin(alpha), and distances by h.
+   For a plane, the distance z is linear.
 
    Normals: that of the surface at the point nearest to p is N = r/rho cos(alpha) - a sin(alpha).
    Let n be the facet's unit normal and s = 1 or -1. {r: s n.r >= m rho} is convex for m >= 0, so
    that s n.r/rho is least at a corner if it is not negative there; so is then s n.N, and the angle
    between n and s N is greatest there. It is 2 asin(|n - s N|/2).
 
-   Rounding, u = 2^-53, terms of second order left to the margins of the constants. |a|^2 computed
-   is within 16 u of 1, so its length within 10 u. q is accurate to u |q|; z to 1 + 3 + 10 = 14 u
-   |q|, r to 1 + 14 + 10 + 2 = 27 u |q|, rho or w.r to 27 + 3 + 5 = 35 u |q|; cos(alpha) to 4 u and
-   sin(alpha) to 5 u relative; so d to (35 + 4 + 1) + (14 + 5 + 1) + 3 = 63 u |q| + 2 u R, below
-   80 u (|q| + R). Underflow adds less than 2^-500. */
+   Rounding, u = 2^-53, second-order terms covered by the margins of the constants. |a|^2
+   computed is within 16 u of 1, so its length within 10 u. q is accurate to u |q|; z to 1 + 3 + 10
+   = 14 u |q|, r to 1 + 14 + 10 + 2 = 27 u |q|, rho or w.r to 27 + 3 + 5 = 35 u |q|; cos(alpha) to 4
+   u and sin(alpha) to 5 u relative; so d to (35 + 4 + 1) + (14 + 5 + 1) + 3 = 63 u |q| + 2 u R,
+   below 80 u (|q| + R). Underflow adds less than 2^-500. */
 #include "analysis/quadric.h"
 
 #include "base/constant.h"
@@ -35,11 +35,10 @@
 #include "base/vec3.h"
 
 #define DISTANCE_ERROR    (80 * LRCSI_U)
-#define CROSS_LEAST       0x1p-500
-#define CROSS_MOST        0x1p500 /* above it, squares overflow */
-#define STEEPEST          1e6     /* slope: cos(alpha) and sin(alpha) stay normal numbers */
-#define COORDINATE_MOST   1e100
-#define RIGHT_ANGLE_CHORD 1.4142 /* a little less than the chord of a right angle */
+#define CROSS_MIN         0x1p-500
+#define CROSS_MAX         0x1p500 /* above it, squares overflow */
+#define QUADRIC_SLOPE_MAX 1e6     /* slope: cos(alpha) and sin(alpha) stay normal numbers */
+#define RIGHT_ANGLE_CHORD 1.4142  /* a little less than the chord of a right angle */
 
 lrcsi_quadric_at lrcsi_quadric_locate(const lrcs_quadric *surface, const double p[3])
 {
@@ -85,14 +84,14 @@ double lrcsi_quadric_cross(const lrcs_point corner[3], double n[3])
 
 static double error_of(const lrcsi_quadric_at *at)
 {
-    return DISTANCE_ERROR * (lrcsi_length(at->q) + at->radius) + CROSS_LEAST;
+    return DISTANCE_ERROR * (lrcsi_length(at->q) + at->radius) + CROSS_MIN;
 }
 
 /* The greatest lower bound of d over the facet that w gives; w of any length, all zero for none. */
 static double lower_bound(const lrcsi_quadric_at at[3], const double w[3])
 {
     double length = lrcsi_length(w);
-    if (!(length > CROSS_LEAST && length < CROSS_MOST)) {
+    if (!(length > CROSS_MIN && length < CROSS_MAX)) {
         return -HUGE_VAL;
     }
     double least = HUGE_VAL;
@@ -137,15 +136,15 @@ static void nearest_on_side(const lrcs_quadric *surface, const lrcsi_quadric_at 
 static double displacement_bound(const lrcs_quadric *surface, const lrcsi_quadric_at at[3],
                                  const double normal[3])
 {
-    double most = 0.0;
+    double bound = 0.0;
     double low = -HUGE_VAL;
     double beyond = 0.0; /* h */
     for (int i = 0; i < 3; i++) {
         double w[3];
         double error = error_of(&at[i]);
-        most = fmax(most, at[i].distance + error);
+        bound = fmax(bound, at[i].distance + error);
         if (surface->kind == LRCS_QUADRIC_PLANE) {
-            most = fmax(most, error - at[i].distance);
+            bound = fmax(bound, error - at[i].distance);
             continue;
         }
         if (surface->kind == LRCS_QUADRIC_CONE) {
@@ -163,11 +162,9 @@ static double displacement_bound(const lrcs_quadric *surface, const lrcsi_quadri
             w[k] = sign * (normal[k] - (centre ? 0.0 : along * surface->axis[k]));
         }
         low = fmax(low, lower_bound(at, w));
+        bound = fmax(bound, -low);
     }
-    if (surface->kind != LRCS_QUADRIC_PLANE) {
-        most = fmax(most, -low);
-    }
-    return (most + 2.0 * beyond) * (1.0 + 8 * LRCSI_U);
+    return (bound + 2.0 * beyond) * (1.0 + 8 * LRCSI_U);
 }
 
 /* A bound of the angle between the normals. The cross product of two sides is accurate to 8 u of
@@ -178,11 +175,11 @@ static double normal_angle_bound(const lrcs_quadric *surface, const lrcsi_quadri
     double n[3];
     double product = lrcsi_quadric_cross(corner, n);
     double length = lrcsi_length(n);
-    if (!(length > 32 * LRCSI_U * product) || !(length > CROSS_LEAST && length < CROSS_MOST)) {
+    if (!(length > 32 * LRCSI_U * product) || !(length > CROSS_MIN && length < CROSS_MAX)) {
         return HUGE_VAL;
     }
     int used = 0;
-    double most = 0.0;
+    double chord_max = 0.0;
     int flat = surface->kind == LRCS_QUADRIC_PLANE;
     double toward = flat ? lrcsi_vec3_dot(n, surface->axis) : 0.0;
     for (int i = 0; i < 3 && !flat; i++) {
@@ -206,12 +203,12 @@ static double normal_angle_bound(const lrcs_quadric *surface, const lrcsi_quadri
         if (!(chord <= RIGHT_ANGLE_CHORD) || !(outward > error)) {
             return HUGE_VAL;
         }
-        most = fmax(most, chord);
+        chord_max = fmax(chord_max, chord);
         used++;
     }
     *inside = sign < 0.0;
     int enough = surface->kind == LRCS_QUADRIC_CONE ? used >= 2 : used == 3;
-    return enough ? 2.0 * asin(0.5 * most) * (1.0 + 16 * LRCSI_U) : HUGE_VAL;
+    return enough ? 2.0 * asin(0.5 * chord_max) * (1.0 + 16 * LRCSI_U) : HUGE_VAL;
 }
 
 int lrcsi_quadric_check(const lrcs_quadric *s)
@@ -221,15 +218,15 @@ int lrcsi_quadric_check(const lrcs_quadric *s)
         return LRCS_E_ARGUMENT;
     }
     for (int k = 0; k < 3; k++) {
-        if (!(fabs(s->point[k]) <= COORDINATE_MOST)) {
+        if (!(fabs(s->point[k]) <= LRCSI_COORDINATE_MAX)) {
             return LRCS_E_NUMBER;
         }
         if (s->kind != LRCS_QUADRIC_SPHERE && !(fabs(s->axis[k]) <= 2.0)) {
             return isfinite(s->axis[k]) ? LRCS_E_ARGUMENT : LRCS_E_NUMBER;
         }
     }
-    if ((round && !(s->radius <= COORDINATE_MOST)) ||
-        (s->kind == LRCS_QUADRIC_CONE && !(s->slope <= STEEPEST))) {
+    if ((round && !(s->radius <= LRCSI_COORDINATE_MAX)) ||
+        (s->kind == LRCS_QUADRIC_CONE && !(s->slope <= QUADRIC_SLOPE_MAX))) {
         return LRCS_E_NUMBER;
     }
     if ((round && !(s->radius > 0.0)) || (s->kind == LRCS_QUADRIC_CONE && !(s->slope > 0.0)) ||
@@ -247,7 +244,7 @@ int lrcs_quadric_facet_bound(const lrcs_quadric *surface, const lrcs_point corne
     double normal[3];
     int status = lrcsi_quadric_check(surface);
     for (int i = 0; i < 9 && status == LRCS_OK; i++) {
-        status = fabs(corner[i / 3].x[i % 3]) <= COORDINATE_MOST ? LRCS_OK : LRCS_E_NUMBER;
+        status = fabs(corner[i / 3].x[i % 3]) <= LRCSI_COORDINATE_MAX ? LRCS_OK : LRCS_E_NUMBER;
     }
     if (status != LRCS_OK) {
         return status;

@@ -5,18 +5,19 @@
 
    1. Facets are neighbours if they share an edge, a part and a material and turn little across the
       edge (neighbours_find).
-   2. Facets are taken in turn as seeds, the largest first. Neighbours of neighbours of the seed,
-      some thirty, are its surroundings (surroundings_list).
+   2. Facets are taken in turn as seeds, the largest first. The facets nearest to the seed by steps
+      between neighbours, about thirty, are its surroundings (seed_region).
    3. For each kind, the seed with one or two of its surroundings determines a surface; the one with
       which most of the surroundings agree is tried (best_guess).
    4. The region of the seed grows over neighbours that agree with the surface, and the surface is
-      fitted to the region, in turn, until the region grows no more (region_settle).
+      fitted to the region, in turn, until the region grows no more (region_fit).
    5. The bounds of all its facets are computed. If they are small enough (region_measure), the kind
       with the most facets, of several the closest, becomes the seed's region. */
 #include "analysis/quadric.h"
 
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/constant.h"
 #include "base/length.h"
 #include "base/sort.h"
@@ -25,38 +26,40 @@
 #include "mesh/topology.h"
 #include "optics/ripple.h"
 
-/* Neighbours turn by less than 37 deg: facets in a circle that turn by more are displaced by more
-   than LRCS_QUADRIC_SHARE. */
+/* The normals of neighbours differ by less than 37 deg: on a circle of facets that turn by more,
+   the displacement exceeds LRCS_QUADRIC_SHARE. */
 #define COS_NEIGHBOUR 0.8
 
 /* The cosine of the angle to the surface's normal at a facet's centroid: 18 deg. */
 #define COS_AGREE 0.95
 
-/* Distance of a corner from a surface that agrees, of the facet's longest side or the radius; where
-   the region is not good enough, a quarter of it is tried, three times. */
+/* A facet agrees with a surface if the distances of its corners from it are at most this fraction
+   of its longest side or of the radius. If the region does not meet the limits, a quarter of the
+   fraction is tried, up to three times. */
 #define AGREE_FIRST  0.02
 #define AGREE_TRIALS 4
 
-/* Corners displaced by less than this, of the region's size, are as exact as files are. */
+/* Corners displaced by less than this fraction of the region's size are as accurate as the
+   coordinates of files. */
 #define CORNER_EXACT 1e-6
 
 /* From the seed on, the surface's normals turn within a region by this many times the angle between
-   them and the facets' normals (which is half the turn between two strips of a cylinder), or by all
-   that is possible. Less is no evidence: crumpled foil has such regions. A narrow ribbon of any
-   smooth surface lies close to some cylinder or cone: a region with more than half as many sides as
-   facets across which the mesh goes on smoothly must turn by CURVED_MOST. */
-#define CURVED_LEAST 4.0
-#define CURVED_MOST  (0.75 * LRCS_PI)
+   them and the facets' normals (which is half the turn between two strips of a cylinder), or by
+   the most that is possible. Less is no evidence: crumpled foil has such regions. A narrow ribbon
+   of any smooth surface lies close to some cylinder or cone: a region with more than half as many
+   sides as facets across which the mesh goes on smoothly must turn by CURVED_MAX. */
+#define CURVED_MIN 4.0
+#define CURVED_MAX (0.75 * LRCS_PI)
 
 #define SURROUNDINGS 32u
-#define COMPANIONS   7u   /* of a seed, for guesses */
-#define GROWTHS      8    /* times that a region grows and is fitted anew */
-#define FITTED_MOST  500u /* facets, about, that a fit uses */
+#define COMPANIONS   7u   /* surroundings from which surfaces are guessed */
+#define GROWTHS      8    /* rounds of growing and fitting */
+#define FITTED_MAX   500u /* approximate number of facets that a fit uses */
 #define BUDGET       100u /* comparisons per facet */
 
 typedef struct finder {
     const lrcs_scene *scene;
-    lrcs_facet *beside;     /* the neighbour across each side, or LRCS_NONE */
+    lrcs_facet *neighbour;  /* the neighbour across each side, or LRCS_NONE */
     lrcs_point *normal;     /* unit; zeros if the facet is not examined */
     double *area;           /* m2 */
     uint32_t *region;       /* in which the facet is, or LRCS_NONE */
@@ -64,7 +67,7 @@ typedef struct finder {
     uint32_t *queue, *best; /* facets of the region that grows, and of the best one so far */
     unsigned char *tried;   /* 1: no seed */
     uint32_t growth;
-    uint64_t left; /* of the budget */
+    uint64_t comparisons_left; /* of the budget */
 } finder;
 
 static void corners_get(const finder *f, uint32_t facet, lrcs_point corner[3])
@@ -102,10 +105,10 @@ static void neighbours_find(finder *f, const lrcsi_topology *topology)
     const lrcs_scene *scene = f->scene;
     for (uint32_t i = 0; i < 3 * scene->facet_count; i++) {
         uint32_t facet = i / 3;
-        uint32_t *beside = &f->beside[facet].corner[i % 3];
+        uint32_t *neighbour = &f->neighbour[facet].corner[i % 3];
         uint32_t index = topology->facet_edge[facet].corner[i % 3];
-        double most = COS_NEIGHBOUR;
-        *beside = LRCS_NONE;
+        double cos_best = COS_NEIGHBOUR;
+        *neighbour = LRCS_NONE;
         if (index == LRCS_NONE) {
             continue;
         }
@@ -115,11 +118,11 @@ static void neighbours_find(finder *f, const lrcsi_topology *topology)
         for (uint32_t k = 0; k < uses; k++) {
             const lrcsi_edge_use *use = &topology->use[edge->first_use + k];
             double cos = lrcsi_vec3_dot(f->normal[facet].x, f->normal[use->facet].x);
-            if (use->forward != forward && cos > most &&
+            if (use->forward != forward && cos > cos_best &&
                 scene->facet_part[use->facet] == scene->facet_part[facet] &&
                 scene->facet_material[use->facet] == scene->facet_material[facet]) {
-                most = cos;
-                *beside = use->facet;
+                cos_best = cos;
+                *neighbour = use->facet;
             }
         }
     }
@@ -133,7 +136,7 @@ static int facet_agrees(finder *f, const lrcs_quadric *surface, uint32_t facet, 
     lrcs_point middle;
     double normal[3];
     double side = 0.0;
-    f->left -= f->left > 0;
+    f->comparisons_left -= f->comparisons_left > 0;
     corners_get(f, facet, corner);
     for (int k = 0; k < 3; k++) {
         double between[3];
@@ -162,9 +165,9 @@ static int facet_agrees(finder *f, const lrcs_quadric *surface, uint32_t facet, 
 }
 
 /* Puts the facets connected with a seed into the queue, breadth first: those in no region that
-   agree with the surface (if not NULL), at most `most`. Returns their number. */
+   agree with the surface (if not NULL), at most `limit`. Returns their number. */
 static uint32_t region_grow(finder *f, uint32_t seed, const lrcs_quadric *surface, double tolerance,
-                            uint32_t most)
+                            uint32_t limit)
 {
     uint32_t count = 0;
     f->growth += 2;
@@ -174,8 +177,8 @@ static uint32_t region_grow(finder *f, uint32_t seed, const lrcs_quadric *surfac
     f->queue[count++] = seed;
     f->mark[seed] = f->growth + 1;
     for (uint32_t i = 0; i < count; i++) {
-        for (int k = 0; k < 3 && count < most; k++) {
-            uint32_t next = f->beside[f->queue[i]].corner[k];
+        for (int k = 0; k < 3 && count < limit; k++) {
+            uint32_t next = f->neighbour[f->queue[i]].corner[k];
             if (next == LRCS_NONE || f->region[next] != LRCS_NONE || f->mark[next] >= f->growth) {
                 continue;
             }
@@ -240,7 +243,7 @@ static int region_measure(finder *f, uint32_t count, lrcs_quadric_region *region
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     double radius = 0.0;
     double corners = 0.0; /* their greatest distance from the surface */
-    double least = 1.0;   /* cosine between the surface's normals at the first and another facet */
+    double cos_min = 1.0; /* cosine between the surface's normals at the first and another facet */
     double first[3];
     uint32_t open = 0; /* sides across which the mesh goes on, but not the region */
     int flat = region->surface.kind == LRCS_QUADRIC_PLANE;
@@ -263,14 +266,14 @@ static int region_measure(finder *f, uint32_t count, lrcs_quadric_region *region
             high[k % 3] = fmax(high[k % 3], corner[k / 3].x[k % 3]);
         }
         for (int k = 0; k < 3 && !flat; k++) {
-            uint32_t next = f->beside[facet].corner[k];
+            uint32_t next = f->neighbour[facet].corner[k];
             open += next != LRCS_NONE && f->mark[next] != f->growth + 1;
             double normal[3];
             lrcsi_quadric_at at = lrcsi_quadric_locate(&region->surface, corner[k].x);
             corners = fmax(corners, fabs(at.distance));
             radius = fmax(radius, at.rho);
             lrcsi_quadric_normal(&region->surface, &at, i + (uint32_t)k > 0 ? normal : first);
-            least = fmin(least, i + (uint32_t)k > 0 ? lrcsi_vec3_dot(normal, first) : 1.0);
+            cos_min = fmin(cos_min, i + (uint32_t)k > 0 ? lrcsi_vec3_dot(normal, first) : 1.0);
         }
         region->bound.displacement = fmax(region->bound.displacement, bound.displacement);
         region->bound.normal_angle = fmax(region->bound.normal_angle, bound.normal_angle);
@@ -286,8 +289,8 @@ static int region_measure(finder *f, uint32_t count, lrcs_quadric_region *region
     }
     size = fmin(size, radius);
     return region->bound.displacement <= LRCS_QUADRIC_SHARE * size &&
-           (2 * open <= count || least <= cos(CURVED_MOST)) &&
-           least <= cos(fmin(CURVED_LEAST * region->bound.normal_angle, CURVED_MOST)) &&
+           (2 * open <= count || cos_min <= cos(CURVED_MAX)) &&
+           cos_min <= cos(fmin(CURVED_MIN * region->bound.normal_angle, CURVED_MAX)) &&
            (corners <= 0.5 * region->bound.displacement || corners <= CORNER_EXACT * size);
 }
 
@@ -322,19 +325,19 @@ static void surface_place(const finder *f, uint32_t count, lrcs_quadric *surface
 
 /* Grows the seed's region and fits its surface. The number of facets, in the queue, if the region
    meets the limits; else 0. */
-static uint32_t region_settle(finder *f, uint32_t seed, lrcs_quadric_region *region)
+static uint32_t region_fit(finder *f, uint32_t seed, lrcs_quadric_region *region)
 {
     double tolerance = AGREE_FIRST;
     for (int trial = 0; trial < AGREE_TRIALS; trial++) {
         lrcs_quadric surface = region->surface;
         uint32_t count = 0;
-        for (int i = 0; i < GROWTHS && f->left > 0; i++) {
+        for (int i = 0; i < GROWTHS && f->comparisons_left > 0; i++) {
             uint32_t before = count;
             count = region_grow(f, seed, &surface, tolerance, LRCS_NONE);
             if (count < LRCS_QUADRIC_FACETS || (i > 2 && count <= before)) {
                 break;
             }
-            uint32_t stride = count / FITTED_MOST + 1;
+            uint32_t stride = count / FITTED_MAX + 1;
             int fitted = lrcsi_quadric_step(&surface, f->scene, f->queue, count, stride) &&
                          lrcsi_quadric_step(&surface, f->scene, f->queue, count, stride);
             if (!fitted) {
@@ -370,7 +373,7 @@ static int seed_region(finder *f, uint32_t seed, lrcs_quadric_region *region)
         if (!best_guess(f, kind, around, around_count, &one.surface)) {
             continue;
         }
-        uint32_t count = region_settle(f, seed, &one);
+        uint32_t count = region_fit(f, seed, &one);
         if (count > most || (count == most && count > 0 &&
                              one.bound.displacement < 0.9 * region->bound.displacement)) {
             most = count;
@@ -384,11 +387,9 @@ static int seed_region(finder *f, uint32_t seed, lrcs_quadric_region *region)
     return most > 0;
 }
 
-static uint64_t descending(double area)
+static uint64_t descending_key(double area)
 {
-    uint64_t bits;
-    memcpy(&bits, &area, sizeof bits); /* of doubles that are not negative, in their order */
-    return ~bits;
+    return ~lrcsi_bits_of(area); /* bits of doubles that are not negative have their order */
 }
 
 static double region_glint_error(const lrcs_scene *scene, const lrcs_quadric_region *region)
@@ -399,7 +400,7 @@ static double region_glint_error(const lrcs_scene *scene, const lrcs_quadric_reg
                : lrcsi_ripple_error(2.0 * region->bound.normal_angle, brdf->s);
 }
 
-static size_t regions_most(const lrcs_scene *scene)
+static size_t regions_max(const lrcs_scene *scene)
 {
     return scene->facet_count / LRCS_QUADRIC_FACETS + 1;
 }
@@ -415,7 +416,7 @@ size_t lrcs_quadric_need(const lrcs_scene *scene)
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, each[i]));
     }
     return lrcsi_work_add(need,
-                          2 * lrcsi_work_bytes(regions_most(scene), sizeof(lrcs_quadric_region)));
+                          2 * lrcsi_work_bytes(regions_max(scene), sizeof(lrcs_quadric_region)));
 }
 
 /* Sorts the regions, and renumbers those of the facets. */
@@ -424,7 +425,7 @@ static void regions_sort(finder *f, const lrcs_quadric_region *found, uint32_t c
                          lrcs_quadric_region *list)
 {
     for (uint32_t i = 0; i < count; i++) {
-        key[i] = descending(found[i].area);
+        key[i] = descending_key(found[i].area);
         order[i] = i;
     }
     lrcsi_sort_pairs(key, order, key_spare, order_spare, count);
@@ -443,11 +444,11 @@ int lrcs_quadric_find(const lrcs_scene *scene, lrcs_work *work, lrcs_quadric_reg
     size_t start = work->used;
     uint32_t n = scene->facet_count;
     lrcsi_topology topology;
-    finder f = {.scene = scene, .left = (uint64_t)BUDGET * n + 1};
-    lrcs_quadric_region *regions = lrcsi_work_take(work, regions_most(scene), sizeof *regions);
+    finder f = {.scene = scene, .comparisons_left = (uint64_t)BUDGET * n + 1};
+    lrcs_quadric_region *regions = lrcsi_work_take(work, regions_max(scene), sizeof *regions);
     size_t end = work->used;
-    lrcs_quadric_region *found = lrcsi_work_take(work, regions_most(scene), sizeof *found);
-    f.beside = lrcsi_work_take(work, n, sizeof *f.beside);
+    lrcs_quadric_region *found = lrcsi_work_take(work, regions_max(scene), sizeof *found);
+    f.neighbour = lrcsi_work_take(work, n, sizeof *f.neighbour);
     f.normal = lrcsi_work_take(work, n, sizeof *f.normal);
     f.area = lrcsi_work_take(work, n, sizeof *f.area);
     f.region = lrcsi_work_take(work, n, sizeof *f.region);
@@ -459,7 +460,7 @@ int lrcs_quadric_find(const lrcs_scene *scene, lrcs_work *work, lrcs_quadric_reg
     uint64_t *key_spare = lrcsi_work_take(work, n, sizeof *key_spare);
     uint32_t *order = lrcsi_work_take(work, n, sizeof *order);
     uint32_t *order_spare = lrcsi_work_take(work, n, sizeof *order_spare);
-    int taken = regions && found && f.beside && f.normal && f.area && f.region && f.mark &&
+    int taken = regions && found && f.neighbour && f.normal && f.area && f.region && f.mark &&
                 f.queue && f.best && f.tried && key && key_spare && order && order_spare;
     int status = taken ? lrcsi_topology_make(scene->vertex, scene->vertex_count, scene->facet, n,
                                              work, &topology)
@@ -472,12 +473,12 @@ int lrcs_quadric_find(const lrcs_scene *scene, lrcs_work *work, lrcs_quadric_reg
     neighbours_find(&f, &topology);
     for (uint32_t i = 0; i < n; i++) {
         f.region[i] = LRCS_NONE;
-        key[i] = descending(f.area[i]);
+        key[i] = descending_key(f.area[i]);
         order[i] = i;
     }
     lrcsi_sort_pairs(key, order, key_spare, order_spare, n);
     uint32_t used = 0;
-    for (uint32_t i = 0; i < n && f.left > 0; i++) {
+    for (uint32_t i = 0; i < n && f.comparisons_left > 0; i++) {
         uint32_t seed = order[i];
         lrcs_quadric_region region;
         if (f.region[seed] != LRCS_NONE || f.tried[seed] || !(f.area[seed] > 0.0) ||

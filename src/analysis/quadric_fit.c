@@ -8,15 +8,15 @@
 #include "base/length.h"
 #include "base/vec3.h"
 
-#define PARAMETERS_MOST 6
+#define PARAMETERS_MAX 6
 
 /* Normal equations of least squares: matrix x = right. */
 typedef struct normal_equations {
-    double matrix[PARAMETERS_MOST][PARAMETERS_MOST], right[PARAMETERS_MOST];
+    double matrix[PARAMETERS_MAX][PARAMETERS_MAX], right[PARAMETERS_MAX];
     int count;
 } normal_equations;
 
-static void equation_add(normal_equations *e, const double row[PARAMETERS_MOST], double right)
+static void equation_add(normal_equations *e, const double row[PARAMETERS_MAX], double right)
 {
     for (int i = 0; i < e->count; i++) {
         for (int j = 0; j <= i; j++) {
@@ -28,7 +28,7 @@ static void equation_add(normal_equations *e, const double row[PARAMETERS_MOST],
 
 /* Cholesky's decomposition; a parameter that the equations do not determine becomes about 0. 0 if
    the result is not finite. */
-static int equations_solve(normal_equations *e, double x[PARAMETERS_MOST])
+static int equations_solve(normal_equations *e, double x[PARAMETERS_MAX])
 {
     double trace = 0.0;
     for (int i = 0; i < e->count; i++) {
@@ -88,7 +88,7 @@ static int centre_guess(const lrcs_point *corner, int facets, const double *axis
     e.count = 3;
     for (int i = 0; i < 3 * facets; i++) {
         double end[2][3];
-        double row[PARAMETERS_MOST] = {0};
+        double row[PARAMETERS_MAX] = {0};
         int next = i % 3 == 2 ? i - 2 : i + 1;
         lrcsi_vec3_between(corner[0].x, corner[i].x, end[0]);
         lrcsi_vec3_between(corner[0].x, corner[next].x, end[1]);
@@ -102,7 +102,7 @@ static int centre_guess(const lrcs_point *corner, int facets, const double *axis
         equation_add(&e, row,
                      0.5 * (lrcsi_vec3_dot(end[1], end[1]) - lrcsi_vec3_dot(end[0], end[0])));
     }
-    double x[PARAMETERS_MOST] = {0};
+    double x[PARAMETERS_MAX] = {0};
     int solved = equations_solve(&e, x);
     for (int k = 0; k < 3 && solved; k++) {
         centre[k] = x[k];
@@ -121,12 +121,12 @@ static int cone_guess(const lrcs_point corner[9], double normal[3][3], lrcs_quad
     memset(&e, 0, sizeof e);
     e.count = 3;
     for (int i = 0; i < 3; i++) {
-        const double row[PARAMETERS_MOST] = {normal[i][0], normal[i][1], normal[i][2]};
+        const double row[PARAMETERS_MAX] = {normal[i][0], normal[i][1], normal[i][2]};
         double to[3];
         lrcsi_vec3_between(corner[0].x, corner[(ptrdiff_t)3 * i].x, to);
         equation_add(&e, row, lrcsi_vec3_dot(normal[i], to));
     }
-    double x[PARAMETERS_MOST] = {0};
+    double x[PARAMETERS_MAX] = {0};
     if (!vector_unit(surface->axis) || !equations_solve(&e, x)) {
         return 0;
     }
@@ -184,9 +184,9 @@ int lrcsi_quadric_guess(int kind, const lrcs_point corner[9], lrcs_quadric *surf
 /* The derivatives of d in the parameters: shifts of the point along u, v and the axis; the axis
    turned towards u and v; the radius or slope. A parameter that the kind lacks has 0. */
 static void derivatives(const lrcs_quadric *surface, const lrcsi_quadric_at *at, const double u[3],
-                        const double v[3], double row[PARAMETERS_MOST])
+                        const double v[3], double row[PARAMETERS_MAX])
 {
-    memset(row, 0, PARAMETERS_MOST * sizeof *row);
+    memset(row, 0, PARAMETERS_MAX * sizeof *row);
     double outward[2] = {0.0, 0.0}; /* components of r/rho */
     if (surface->kind == LRCS_QUADRIC_PLANE) {
         row[2] = -1.0;
@@ -221,10 +221,10 @@ int lrcsi_quadric_step(lrcs_quadric *surface, const lrcs_scene *scene, const uin
     lrcs_quadric next = *surface;
     double u[3] = {0};
     double v[3];
-    double x[PARAMETERS_MOST] = {0};
+    double x[PARAMETERS_MAX] = {0};
     normal_equations e;
     memset(&e, 0, sizeof e);
-    e.count = PARAMETERS_MOST;
+    e.count = PARAMETERS_MAX;
     if (surface->kind == LRCS_QUADRIC_SPHERE) { /* any frame serves */
         next.axis[0] = next.axis[1] = 0.0;
         next.axis[2] = 1.0;
@@ -236,7 +236,7 @@ int lrcsi_quadric_step(lrcs_quadric *surface, const lrcs_scene *scene, const uin
     lrcsi_vec3_cross(v, next.axis, u);
     for (uint32_t i = 0; i < count; i += stride) {
         for (int k = 0; k < 3; k++) {
-            double row[PARAMETERS_MOST];
+            double row[PARAMETERS_MAX];
             const double *p = scene->vertex[scene->facet[facet[i]].corner[k]].x;
             lrcsi_quadric_at at = lrcsi_quadric_locate(&next, p);
             derivatives(&next, &at, u, v, row);

@@ -2,28 +2,34 @@
 /* Decimal text to double, correctly rounded. Decides what a number looks like and its rounding;
    the caller decides whether a value is acceptable (finite, in range).
 
-   The value is 0.d1 d2 ... dn * 10^point. Up to 15 digits with a power of ten up to 10^22 both
-   are doubles exactly, so one multiplication or division rounds once and correctly (Clinger
-   1990). All else is a quotient of two big integers, divided bit by bit: the leading 53 bits (or
-   those a subnormal has) and an exact comparison of the remainder with one half. */
+   The value is 0.d1 d2 ... dn * 10^point. Up to 15 digits, and powers of ten up to 10^22, are
+   doubles exactly, so that one multiplication or division rounds once and correctly (Clinger 1990).
+   Every other value is a quotient of two big integers, divided bit by bit: the leading 53 bits
+   (fewer if the result is subnormal), then an exact comparison of the remainder with one half. */
 #include "base/decimal.h"
 
 #include <stdint.h>
 #include <string.h>
 
+#include "base/bits.h"
+
 /* The smallest points halfway between doubles are k * 2^-1075 with k < 2^54: such a point is
    k * 5^1075 / 10^1075 and has at most 54 log10(2) + 1075 log10(5) < 768 significant digits.
-   Later digits only show that the value is above: one digit 1 replaces them all. */
+   Of later digits it only matters whether one of them differs from 0: a single digit 1 replaces
+   them. */
 #define DIGITS_KEPT 800
-/* 0.d * 10^point with d1 > 0: from 1e309 on it is infinity, below 1e-324 < 2^-1075 zero. */
-#define POINT_MOST  309
-#define POINT_LEAST (-323)
+/* 0.d1... * 10^point with d1 > 0: infinity if point exceeds POINT_MAX (the value is at least
+   1e309), zero if point is below POINT_MIN (the value is below 1e-324 < 2^-1075). */
+#define POINT_MAX 309
+#define POINT_MIN (-323)
 /* The larger integer is at most 10^(801 + 323), 3734 bits, and is doubled once; 118 words hold
    3776. (Integers: at most 10^309.) */
 #define BIG_WORDS 118
-/* Exponents beyond this take no further digits: it exceeds the length of any text, and ten times as
-   much does not overflow. */
-#define EXPONENT_MOST INT64_C(100000000000000000)
+/* An exponent above this ignores its further digits: it already exceeds the length of any text, and
+   ten times as much does not overflow. */
+#define EXPONENT_MAX INT64_C(100000000000000000)
+
+#define INFINITY_BITS (UINT64_C(0x7ff) << 52)
 
 typedef struct decimal_text {
     int64_t point;
@@ -106,14 +112,13 @@ static void big_subtract(big_natural *a, const big_natural *b)
     }
 }
 
-/* Rounds n/d, 1 <= n/d * 2^-exponent < 2 with both already aligned to that: n/d now lies in
-   [1, 2). Returns the bits of the double; a carry out of the mantissa lands in the exponent, and
-   from the largest exponent in infinity. */
+/* Rounds n/d * 2^exponent, 1 <= n/d < 2. Returns the bits of the double. A carry out of the
+   mantissa increments the exponent; from the largest exponent it gives infinity. */
 static uint64_t round_quotient(big_natural *n, const big_natural *d, int exponent)
 {
     int precision = exponent >= -1022 ? 53 : 53 - (-1022 - exponent);
     if (exponent > 1023 || precision < 0) {
-        return exponent > 1023 ? UINT64_C(0x7ff) << 52 : 0;
+        return exponent > 1023 ? INFINITY_BITS : 0;
     }
     uint64_t q = 0;
     for (int i = 0; i < precision; i++) {
@@ -124,7 +129,7 @@ static uint64_t round_quotient(big_natural *n, const big_natural *d, int exponen
         }
         big_shift(n, 1);
     }
-    int above = big_compare(n, d); /* n/d is the rest in half units of the last place */
+    int above = big_compare(n, d); /* n/d is the remainder, in half units of the last place */
     q += above > 0 || (above == 0 && (q & 1));
     return exponent >= -1022 ? q + ((uint64_t)(exponent + 1022) << 52) : q;
 }
@@ -148,10 +153,7 @@ static double value_by_division(const decimal_text *t)
         big_shift(&n, 1);
         exponent--;
     }
-    uint64_t bits = round_quotient(&n, &d, exponent);
-    double value = 0.0;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return lrcsi_bits_double(round_quotient(&n, &d, exponent));
 }
 
 static double decimal_value(const decimal_text *t)
@@ -159,14 +161,11 @@ static double decimal_value(const decimal_text *t)
     static const double ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                  1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                  1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-    if (t->count == 0 || t->point < POINT_LEAST) {
+    if (t->count == 0 || t->point < POINT_MIN) {
         return 0.0;
     }
-    if (t->point > POINT_MOST) {
-        const uint64_t bits = UINT64_C(0x7ff) << 52;
-        double value = 0.0;
-        memcpy(&value, &bits, sizeof value);
-        return value;
+    if (t->point > POINT_MAX) {
+        return lrcsi_bits_double(INFINITY_BITS);
     }
     int power = (int)t->point - t->count;
     if (t->count > 15 || power < -22 || power > 22) {
@@ -214,7 +213,7 @@ static const char *read_exponent(const char *at, const char *end, decimal_text *
     }
     int64_t exponent = 0;
     for (; is_digit(p, end); p++) {
-        exponent = exponent < EXPONENT_MOST ? exponent * 10 + (*p - '0') : exponent;
+        exponent = exponent < EXPONENT_MAX ? exponent * 10 + (*p - '0') : exponent;
     }
     t->point += negative ? -exponent : exponent;
     return p;

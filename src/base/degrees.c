@@ -8,14 +8,14 @@
 /* pi/180 to 107 bits. */
 static const lrcsi_dd radians_per_degree = {0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
 
-/* a / b for a small integer b: the remainder of the first quotient is exact, so the relative error
-   is at most 4 * 2^-106. */
+/* a / b for a small integer b. The remainder of the first division is exact, so that the relative
+   error is at most 4 * 2^-106. */
 static lrcsi_dd dd_over_integer(lrcsi_dd a, double b)
 {
     double q = a.hi / b;
     lrcsi_dd p = lrcsi_dd_two_product(q, b);
-    double rest = ((a.hi - p.hi) - p.lo) + a.lo;
-    return lrcsi_dd_quick_sum(q, rest / b);
+    double remainder = ((a.hi - p.hi) - p.lo) + a.lo;
+    return lrcsi_dd_quick_sum(q, remainder / b);
 }
 
 /* 1 - y/(n(n+1)) (1 - y/((n+2)(n+3)) (1 - ...)), y = x^2 <= 0.62: from n = 2 this is sin(x)/x, from
@@ -32,14 +32,14 @@ static lrcsi_dd alternating_series(lrcsi_dd y, int n)
     return sum;
 }
 
-void lrcsi_degrees_sincos_dd(double deg, double more, lrcsi_dd *sine, lrcsi_dd *cosine)
+void lrcsi_degrees_sincos_dd(double deg, double addend, lrcsi_dd *sine, lrcsi_dd *cosine)
 {
-    lrcsi_dd sum = lrcsi_dd_two_sum(deg, more); /* exact */
+    lrcsi_dd sum = lrcsi_dd_two_sum(deg, addend); /* exact */
     int quarter = 0;
-    double rest = remquo(sum.hi, 90.0, &quarter); /* exact, |rest| <= 45 */
+    double remainder = remquo(sum.hi, 90.0, &quarter); /* exact, |remainder| <= 45 */
     int quarter_lo = 0;
-    double rest_lo = remquo(sum.lo, 90.0, &quarter_lo);
-    lrcsi_dd x = lrcsi_dd_two_sum(rest, rest_lo);
+    double remainder_lo = remquo(sum.lo, 90.0, &quarter_lo);
+    lrcsi_dd x = lrcsi_dd_two_sum(remainder, remainder_lo);
     int quarter_sum = 0;
     x.hi = remquo(x.hi, 90.0, &quarter_sum);
     x = lrcsi_dd_mul(lrcsi_dd_two_sum(x.hi, x.lo), radians_per_degree);

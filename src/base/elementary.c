@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Exponential and logarithm. Argument reduction after Cody and Waite (1980), then Taylor series,
-   whose coefficients need no derivation. Integers are made and used via the bits of
-   doubles, because without AVX-512 there is no other vector conversion.
+   whose coefficients need no derivation. Doubles are converted to integers and back through their
+   bits, because vector units without AVX-512 have no such conversion.
 
    ln 2 = LN2_HIGH + LN2_LOW within 2^-86. LN2_HIGH has 32 bits: k LN2_HIGH is exact for |k| <= 2^11
    and a multiple of 2^-32.
@@ -20,7 +20,7 @@
 
    Logarithm: x = 2^k f with f in [sqrt(1/2), sqrt(2)), s = (f - 1)/(f + 1), |s| <= 0.17158,
    z = s^2 <= 0.02944, log(f) = 2 s + s z Q(z), Q = 2/3 + 2 z/5 + ... + 2 z^9/21. f - 1 is exact.
-   The series' rest, 2 s z^11/23 (1 + ...), is below 2^-59 of 2 s.
+   The remainder of the series, 2 s z^11/23 (1 + ...), is below 2^-59 of 2 s.
    Double-double: the quotient of f - 1 and f + 1 = b + b' exactly, with its remainder, is accurate
    to 2^-100; s z Q to 10 relative units (s, z, Q and products), and it is at most 0.01 of log(f):
    0.1. The terms added to it (k LN2_LOW, and the rounding error of 2 s + k LN2_HIGH) are below it
@@ -38,7 +38,7 @@
 #define LN2_HIGH 0x1.62e42ff000000p-1
 #define LN2_LOW  (-0x1.718432a1b0e26p-35)
 
-/* Adding it rounds to an integer, which is then in the lowest bits. */
+/* Adding it to a number rounds that to an integer, which then occupies the lowest bits. */
 #define ROUND_TO_INTEGER 0x1.8p52
 
 /* e^x for |x| <= 708. */
@@ -63,8 +63,8 @@ static inline double exp_reduced(double x)
     return p * lrcsi_bits_double((lrcsi_bits_of(shifted) + 1023) << 52);
 }
 
-/* Closer to the ends of the range of doubles the power of two might not be representable: e^(x/2)
-   squared. x/2 is exact unless x is subnormal. */
+/* Near the ends of the range of doubles the power of two might not be representable; there the
+   result is e^(x/2) squared. x/2 is exact unless x is subnormal. */
 double lrcsi_exp(double x)
 {
     if (x >= -700.0 && x <= 700.0) {
@@ -118,9 +118,9 @@ lrcsi_dd lrcsi_log(double x)
     lrcsi_dd b = lrcsi_dd_two_sum(f, 1.0);
     double s = a / b.hi;
     lrcsi_dd product = lrcsi_dd_two_product(s, b.hi);
-    double rest = (((a - product.hi) - product.lo) - s * b.lo) / b.hi;
+    double s_low = (((a - product.hi) - product.lo) - s * b.lo) / b.hi; /* (f-1)/(f+1) - s */
     lrcsi_dd high = lrcsi_dd_two_sum(k * LN2_HIGH, 2.0 * s);
-    double low = high.lo + (k * LN2_LOW + (2.0 * rest + s * (s * s) * log_series(s * s)));
+    double low = high.lo + (k * LN2_LOW + (2.0 * s_low + s * (s * s) * log_series(s * s)));
     return lrcsi_dd_quick_sum(high.hi, low);
 }
 

@@ -24,6 +24,7 @@
 
 #include "base/constant.h"
 #include "base/dd.h"
+#include "base/vec3.h"
 
 /* 10 u */
 #define EXACT_FILTER (10.0 * LRCSI_U)
@@ -117,11 +118,6 @@ static int expansion_cross(const lrcsi_dd p[3], const lrcsi_dd q[3], int k, doub
     return expansion_sum(plus, pn, minus, mn, h);
 }
 
-static int expansion_sign(const double *e, int n)
-{
-    return n == 0 ? 0 : e[n - 1] > 0.0 ? 1 : -1;
-}
-
 /* all = p x q . r, without error, EXACT_DET terms at most. */
 static int expansion_det(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_dd r[3], double *all)
 {
@@ -140,8 +136,8 @@ static int expansion_det(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_d
 static int exact_det_sign(const lrcsi_dd p[3], const lrcsi_dd q[3], const lrcsi_dd r[3])
 {
     double all[EXACT_DET];
-    int m = expansion_det(p, q, r, all);
-    return expansion_sign(all, m);
+    int n = expansion_det(p, q, r, all);
+    return n == 0 ? 0 : all[n - 1] > 0.0 ? 1 : -1;
 }
 
 /* Sign of p x q . r if the filter proves it, else EXACT_UNDECIDED. */
@@ -171,13 +167,6 @@ static int same_point(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-static void rounded_difference(const double a[3], const double b[3], double d[3])
-{
-    for (int k = 0; k < 3; k++) {
-        d[k] = b[k] - a[k];
-    }
-}
-
 static void exact_difference(const double a[3], const double b[3], lrcsi_dd d[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -189,8 +178,8 @@ int lrcsi_exact_turn(const double a[3], const double b[3], const double c[3], co
 {
     double p[3];
     double q[3];
-    rounded_difference(a, b, p);
-    rounded_difference(a, c, q);
+    lrcsi_vec3_between(a, b, p);
+    lrcsi_vec3_between(a, c, q);
     int sign = filtered_det_sign(p, q, d);
     if (sign != EXACT_UNDECIDED) {
         return sign;
@@ -211,9 +200,9 @@ int lrcsi_exact_side(const double a[3], const double b[3], const double c[3], co
     double ab[3];
     double ac[3];
     double ap[3];
-    rounded_difference(a, b, ab);
-    rounded_difference(a, c, ac);
-    rounded_difference(a, p, ap);
+    lrcsi_vec3_between(a, b, ab);
+    lrcsi_vec3_between(a, c, ac);
+    lrcsi_vec3_between(a, p, ap);
     int sign = filtered_det_sign(ab, ac, ap);
     if (sign != EXACT_UNDECIDED) {
         return sign;
@@ -230,8 +219,8 @@ int lrcsi_exact_side(const double a[3], const double b[3], const double c[3], co
     return exact_det_sign(bb, cc, pp);
 }
 
-/* 1 if the filter proves some component of p x q to differ from zero. */
-static int surely_not_parallel(const double p[3], const double q[3])
+/* 1 if the filter proves that some component of p x q is not zero. */
+static int proved_not_parallel(const double p[3], const double q[3])
 {
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3;
@@ -249,9 +238,9 @@ int lrcsi_exact_collinear(const double a[3], const double b[3], const double c[3
 {
     double p[3];
     double q[3];
-    rounded_difference(a, b, p);
-    rounded_difference(a, c, q);
-    if (surely_not_parallel(p, q)) {
+    lrcsi_vec3_between(a, b, p);
+    lrcsi_vec3_between(a, c, q);
+    if (proved_not_parallel(p, q)) {
         return 0;
     }
     if (same_point(a, b) || same_point(b, c) || same_point(c, a)) {

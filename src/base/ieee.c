@@ -3,7 +3,7 @@
 #include "base/ieee.h"
 
 /* Volatile, so that the compiler, whose arithmetic may differ, evaluates nothing of this. */
-int lrcsi_ieee_kept(void)
+int lrcsi_ieee_conforms(void)
 {
     volatile double one = 1;
     volatile double ulp = DBL_EPSILON;

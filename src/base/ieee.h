@@ -17,8 +17,9 @@ _Static_assert(sizeof 1.0 == sizeof(double),
 _Static_assert(FLT_RADIX == 2 && DBL_MANT_DIG == 53 && DBL_MAX_EXP == 1024, "doubles are IEEE 754");
 _Static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1, "double operations round to double");
 
-/* 1 if doubles round to nearest, products and sums are rounded separately, and subnormal numbers
-   are kept; else 0. The rounding mode and flushing to zero are properties of the thread. */
-int lrcsi_ieee_kept(void);
+/* 1 if the arithmetic is as above: doubles round to nearest, products and sums are rounded
+   separately, and subnormal numbers are kept; else 0. The rounding mode and flushing to zero are
+   properties of the thread. */
+int lrcsi_ieee_conforms(void);
 
 #endif

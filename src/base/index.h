@@ -23,7 +23,7 @@ typedef struct lrcsi_index {
 /* Bytes for an index of at most `count` names (upper bound). */
 size_t lrcsi_index_need(size_t count);
 
-/* An empty index for at most `count` names, which are not copied. Status: LRCS_OK;
+/* An empty index for at most `count` names, whose bytes are not copied. Status: LRCS_OK;
    LRCS_E_MEMORY. */
 int lrcsi_index_make(lrcs_work *work, uint32_t count, lrcsi_index *names);
 

@@ -46,10 +46,10 @@ static inline lrcsi_inverse lrcsi_length_inverse(const double high[3], const dou
     lrcsi_dd xy = lrcsi_dd_two_sum(xx.hi, yy.hi);
     lrcsi_dd xyz = lrcsi_dd_two_sum(xy.hi, zz.hi);
     double cross = 2 * ((high[0] * low[0] + high[1] * low[1]) + high[2] * low[2]);
-    double rest = (((xx.lo + yy.lo) + zz.lo) + (xy.lo + xyz.lo)) + cross;
+    double low_sum = (((xx.lo + yy.lo) + zz.lo) + (xy.lo + xyz.lo)) + cross;
     double y = 1 / plain;
     lrcsi_dd length = lrcsi_dd_two_product(y, xyz.hi);
-    length.lo += y * rest;
+    length.lo += y * low_sum;
     lrcsi_dd one = lrcsi_dd_two_product(y, length.hi);
     double half = 0.5 * (((1 - one.hi) - one.lo) - y * length.lo);
     return (lrcsi_inverse){y, half, length.hi + (length.lo + length.hi * half)};

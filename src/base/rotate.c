@@ -23,7 +23,7 @@ int lrcsi_rotate_scale(const double *given, int count, double *scaled)
         return LRCS_E_ARGUMENT;
     }
     int exponent;
-    if (frexp(largest, &exponent) == 0.5) { /* 1 stays 1: directions along an axis look the same */
+    if (frexp(largest, &exponent) == 0.5) { /* so that 1 stays 1, and (0, 0, 1) is unchanged */
         exponent--;
     }
     for (int i = 0; i < count; i++) {
@@ -32,8 +32,8 @@ int lrcsi_rotate_scale(const double *given, int count, double *scaled)
     return LRCS_OK;
 }
 
-/* a b into out. Three products and two sums of numbers at most 1: error at most 3 u beyond what
-   the factors bring (their rows and columns are unit vectors, so errors add, not multiply). */
+/* out = a b. Three products and two sums of numbers of magnitude at most 1: the error is at most 3
+   u more than the sum of those of the factors, whose rows and columns are unit vectors. */
 static void multiply(double a[3][3], double b[3][3], double out[3][3])
 {
     for (int i = 0; i < 3; i++) {
@@ -43,8 +43,8 @@ static void multiply(double a[3][3], double b[3][3], double out[3][3])
     }
 }
 
-/* The turn about coordinate axis 0, 1 or 2. */
-static void turn_about(int axis, double deg, double R[3][3])
+/* The rotation about coordinate axis 0, 1 or 2. */
+static void rotation_about(int axis, double deg, double R[3][3])
 {
     double sine;
     double cosine;
@@ -93,9 +93,9 @@ int lrcsi_rotate_euler(const char *sequence, const double deg[3], double R[3][3]
     double right[3][3];
     double pair[3][3];
     int first = intrinsic ? 0 : 2;
-    turn_about(axis[first], deg[first], left);
-    turn_about(axis[1], deg[1], middle);
-    turn_about(axis[2 - first], deg[2 - first], right);
+    rotation_about(axis[first], deg[first], left);
+    rotation_about(axis[1], deg[1], middle);
+    rotation_about(axis[2 - first], deg[2 - first], right);
     multiply(left, middle, pair);
     multiply(pair, right, R);
     return LRCS_OK;

@@ -39,19 +39,6 @@ const char *lrcs_status_text(int status)
     }
 }
 
-static int where_set(lrcs_where *where, int status, uint64_t offset, uint32_t line,
-                     const char *item, const char *expected)
-{
-    if (where) {
-        where->offset = offset;
-        where->line = line;
-        where->item = item;
-        where->expected = expected;
-        where->found[0] = '\0';
-    }
-    return status;
-}
-
 /* Appends one byte of an excerpt, escaped if it cannot be printed. Returns the new length, or
    `used` if it no longer fits. */
 static size_t append_printable(char *out, size_t used, size_t size, unsigned char byte)
@@ -76,9 +63,12 @@ static size_t append_printable(char *out, size_t used, size_t size, unsigned cha
 int lrcsi_where_text(lrcs_where *where, int status, uint64_t offset, uint32_t line,
                      const char *item, const char *expected, const char *found, size_t size)
 {
-    where_set(where, status, offset, line, item, expected);
+    if (!where) {
+        return status;
+    }
+    *where = (lrcs_where){.offset = offset, .line = line, .item = item, .expected = expected};
     size_t used = 0;
-    for (size_t i = 0; where && i < size; i++) {
+    for (size_t i = 0; i < size; i++) {
         size_t next =
             append_printable(where->found, used, sizeof where->found, (unsigned char)found[i]);
         if (next == used) {

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Decides whether a name's bytes are UTF-8 or Latin-1 and writes them out as UTF-8. It does not
-   know where a name ends; its caller does. */
+/* Decides whether the bytes of a name are UTF-8 or Latin-1, and writes them as UTF-8. Its caller
+   decides where a name ends. */
 #include "base/text.h"
+
+#include <string.h>
 
 /* Unicode Standard 15, table 3-7: the second byte's range depends on the first. */
 size_t lrcsi_text_sequence(const char *bytes, size_t size)
@@ -26,6 +28,11 @@ size_t lrcsi_text_sequence(const char *bytes, size_t size)
         }
     }
     return length;
+}
+
+size_t lrcsi_text_mark(const char *bytes, size_t size)
+{
+    return size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
 }
 
 int lrcsi_text_is_utf8(const char *bytes, size_t size)

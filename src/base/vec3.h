@@ -9,7 +9,7 @@ static inline double lrcsi_vec3_dot(const double a[3], const double b[3])
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-/* out = a x b, which is neither of them. */
+/* out = a x b. `out` must be neither a nor b. */
 static inline void lrcsi_vec3_cross(const double a[3], const double b[3], double out[3])
 {
     out[0] = a[1] * b[2] - a[2] * b[1];

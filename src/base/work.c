@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The bump arena over the caller's bytes. It decides alignment and refuses what does not fit;
-   it never grows, and knows nothing of what is kept in it. */
+   it never grows, and does not know what is stored in it. */
 #include "base/work.h"
 
 #include <stdint.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Taking from the caller's work area: in order, aligned, checked, never freed but to a mark. */
+/* Allocation from the caller's work area: in order, aligned, checked; memory is released only by
+   returning to a mark. */
 #ifndef LRCSI_WORK_H
 #define LRCSI_WORK_H
 
@@ -23,7 +24,6 @@ size_t lrcsi_work_square(uint32_t side);
 /* a + b, saturating at SIZE_MAX. */
 size_t lrcsi_work_add(size_t a, size_t b);
 
-/* Release is setting `used` back to what it was: size_t mark = work->used; ... work->used = mark.
- */
+/* To release memory, set `used` back: size_t mark = work->used; ... work->used = mark;*/
 
 #endif

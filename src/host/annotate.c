@@ -13,14 +13,6 @@
 #define ANNOTATE_MARGIN 16.0
 #define ANNOTATE_TYPE   14.0
 
-/* Draws text within a width, in a smaller size if it would not fit. */
-static void words_draw(lrcsi_plotter *plotter, lrcsi_words words, double room)
-{
-    double width = words.size * lrcsi_letters_width(words.text);
-    words.size *= width > room ? room / width : 1.0;
-    plotter->text(plotter, &words);
-}
-
 /* Seen from the laser, an axis of the body is a column of R; the farthest axis is drawn first. */
 static void axes_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter,
                       lrcsi_plot_point corner, double length)
@@ -43,15 +35,15 @@ static void axes_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter,
         uint32_t colour = lrcsi_palette_named(hue[colouring->picture->white != 0][axis]);
         const lrcsi_plot_point line[2] = {
             corner, {corner.x + length * R[0][axis], corner.y - length * R[1][axis]}};
-        const lrcsi_ink ink = {colour, 1.8, {0.0, 0.0}};
-        const lrcsi_words words = {.text = name[axis],
-                                   .at = {corner.x + 1.28 * length * R[0][axis],
-                                          corner.y - 1.28 * length * R[1][axis] + 4.0},
-                                   .size = ANNOTATE_TYPE,
-                                   .anchor = LRCSI_ANCHOR_MIDDLE,
-                                   .colour = colour};
-        plotter->line(plotter, line, 2, &ink);
-        plotter->text(plotter, &words);
+        const lrcsi_line_style style = {colour, 1.8, {0.0, 0.0}};
+        const lrcsi_plot_text label = {.text = name[axis],
+                                       .at = {corner.x + 1.28 * length * R[0][axis],
+                                              corner.y - 1.28 * length * R[1][axis] + 4.0},
+                                       .size = ANNOTATE_TYPE,
+                                       .anchor = LRCSI_ANCHOR_MIDDLE,
+                                       .colour = colour};
+        plotter->line(plotter, line, 2, &style);
+        plotter->text(plotter, &label);
     }
 }
 
@@ -64,16 +56,17 @@ void lrcsi_annotate(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, do
     double az = atan2(d[1], d[0]) * (180.0 / LRCS_PI) + 0.0;
     double el = atan2(d[2], hypot(d[0], d[1])) * (180.0 / LRCS_PI) + 0.0;
     snprintf(pose, sizeof pose, "azimuth %.4g deg, elevation %.4g deg", az, el);
-    const lrcsi_words title = {.text = colouring->picture->title ? colouring->picture->title : "",
-                               .at = {ANNOTATE_MARGIN, 21.0},
-                               .size = ANNOTATE_TYPE,
-                               .bold = 1,
-                               .colour = lrcsi_colouring_ink(colouring)};
-    const lrcsi_words place = {.text = pose,
-                               .at = {ANNOTATE_MARGIN, 39.0},
-                               .size = 12.0,
-                               .colour = lrcsi_colouring_ink(colouring)};
-    words_draw(plotter, title, width - 2.0 * ANNOTATE_MARGIN);
-    words_draw(plotter, place, width - 2.0 * ANNOTATE_MARGIN);
+    const lrcsi_plot_text title = {.text =
+                                       colouring->picture->title ? colouring->picture->title : "",
+                                   .at = {ANNOTATE_MARGIN, 21.0},
+                                   .size = ANNOTATE_TYPE,
+                                   .bold = 1,
+                                   .colour = lrcsi_colouring_text_colour(colouring)};
+    const lrcsi_plot_text place = {.text = pose,
+                                   .at = {ANNOTATE_MARGIN, 39.0},
+                                   .size = 12.0,
+                                   .colour = lrcsi_colouring_text_colour(colouring)};
+    lrcsi_letters_fit(plotter, title, width - 2.0 * ANNOTATE_MARGIN);
+    lrcsi_letters_fit(plotter, place, width - 2.0 * ANNOTATE_MARGIN);
     axes_draw(colouring, plotter, corner, length);
 }

@@ -6,9 +6,9 @@
 #include "host/colouring.h"
 #include "host/plotter.h"
 
-#define LRCSI_ANNOTATE_TITLE 34.0 /* the height of title and pose, units of the paper */
+#define LRCSI_ANNOTATE_TITLE 34.0 /* the height of title and pose, units of the drawing */
 
-/* Draws the title and the pose at the top of paper of the given width, and the body's axes from
+/* Draws the title and the pose at the top of a drawing of the given width, and the body's axes from
    `corner`, at most `length` long. */
 void lrcsi_annotate(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double width,
                     lrcsi_plot_point corner, double length);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which materials a binding means if none of them has its name: one with * or ?, or one that
-   differs in case. It replaces such bindings by bindings of the names that they match. The core
+/* Which materials a binding stands for if none has its name: its name contains * or ?, or differs
+   in case. Such bindings are replaced by bindings of the names that they match. The core
    decides which binding a surface gets: the last one for its name. Therefore patterns come first in
    the list, then names that differ in case, and exact names last. */
 #include "host/binding.h"
@@ -24,7 +24,7 @@ typedef struct binding_match {
     const char *first; /* of them, or "" */
 } binding_match;
 
-/* ---- the names that there are ---- */
+/* ---- existing names ---- */
 
 static uint32_t names_count(const lrcs_host_scene *scene)
 {
@@ -62,7 +62,7 @@ const char *const *lrcsi_host_binding_names(lrcs_host_scene *scene, int kind, ui
     return (const char *const *)list;
 }
 
-/* ---- which of them a binding means ---- */
+/* ---- the names that a binding matches ---- */
 
 static int is_named(const lrcs_binding *binding)
 {
@@ -113,8 +113,8 @@ static void folded_note(lrcs_host_scene *scene, const lrcs_binding *binding,
                   is_match(binding->name, names->name[i], match);
     }
     lrcsi_host_note(&scene->notices,
-                    "%s%.200s%s: no material has that name in these letters; taken for '%.200s'%s, "
-                    "upper and lower case alike",
+                    "%s%.200s%s: no material has exactly that name; taken for '%.200s'%s, "
+                    "ignoring case",
                     map ? "[[map]] name = \"" : "--material '", binding->name, map ? "\"" : "'",
                     match->first, others ? " and others" : "");
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Lines, convex areas and words as pixels. It decides how much of each pixel a stroke covers; a
-   whole stroke is collected before it is coloured, so that it does not become darker where it
-   overlaps itself. */
+/* Lines, convex areas and text as pixels. It decides how much of each pixel a stroke covers. The
+   coverage of a whole stroke is accumulated before it is coloured, so that it does not become
+   darker where it overlaps itself. */
 #include "host/canvas.h"
 
 #include "host/fail.h"
@@ -11,34 +11,35 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CANVAS_SLICES 4   /* of a pixel's height, in areas */
-#define STROKE_MOST   64  /* points of a stroke: the font's longest has 44 */
-#define STROKE_PIECES 5   /* straight pieces from point to point */
-#define STROKE_CORNER 0.6 /* the cosine of a turn that is a corner */
+#define CANVAS_SLICES     4   /* of a pixel's height, in areas */
+#define STROKE_POINTS_MAX 64  /* points of a stroke: the font's longest has 44 */
+#define STROKE_PIECES     5   /* straight pieces from point to point */
+#define STROKE_CORNER     0.6 /* cosine: strokes that turn more have a corner there */
 
-static uint32_t canvas_clamp(double value, uint32_t most)
+static uint32_t canvas_clamp(double value, uint32_t high)
 {
-    return value <= 0.0 ? 0 : value >= most ? most : (uint32_t)value;
+    return value <= 0.0 ? 0 : value >= high ? high : (uint32_t)value;
 }
 
-/* Widens the box by x0 .. x1, y0 .. y1 in pixels, and gives the part of it on the canvas. */
-static void canvas_touch(lrcsi_canvas *canvas, const double reach[4], uint32_t part[4])
+/* Extends the box of the stroke by `bounds`: x0, y0, x1, y1 in pixels. Returned: the part of these
+   bounds that is on the canvas. */
+static void canvas_extend(lrcsi_canvas *canvas, const double bounds[4], uint32_t part[4])
 {
     uint32_t *box = canvas->box;
-    part[0] = canvas_clamp(floor(reach[0]), canvas->width);
-    part[1] = canvas_clamp(floor(reach[1]), canvas->height);
-    part[2] = canvas_clamp(ceil(reach[2]), canvas->width);
-    part[3] = canvas_clamp(ceil(reach[3]), canvas->height);
+    part[0] = canvas_clamp(floor(bounds[0]), canvas->width);
+    part[1] = canvas_clamp(floor(bounds[1]), canvas->height);
+    part[2] = canvas_clamp(ceil(bounds[2]), canvas->width);
+    part[3] = canvas_clamp(ceil(bounds[3]), canvas->height);
     for (int k = 0; k < 2; k++) {
         box[k] = part[k] < box[k] ? part[k] : box[k];
         box[k + 2] = part[k + 2] > box[k + 2] ? part[k + 2] : box[k + 2];
     }
 }
 
-/* Colours what the stroke covers, and clears it. */
-static void canvas_settle(lrcsi_canvas *canvas, uint32_t colour)
+/* Blends the colour into the pixels that the stroke covers, and clears the coverage. */
+static void canvas_composite(lrcsi_canvas *canvas, uint32_t colour)
 {
-    const double ink[3] = {(double)(colour >> 16 & 255u), (double)(colour >> 8 & 255u),
+    const double rgb[3] = {(double)(colour >> 16 & 255u), (double)(colour >> 8 & 255u),
                            (double)(colour & 255u)};
     uint32_t *box = canvas->box;
     for (uint32_t y = box[1]; y < box[3]; y++) {
@@ -47,7 +48,7 @@ static void canvas_settle(lrcsi_canvas *canvas, uint32_t colour)
             double part = fmin((double)canvas->cover[at], 1.0);
             unsigned char *pixel = canvas->rgb + 3 * at;
             for (int k = 0; part > 0.0 && k < 3; k++) {
-                pixel[k] = (unsigned char)(pixel[k] + part * (ink[k] - pixel[k]) + 0.5);
+                pixel[k] = (unsigned char)(pixel[k] + part * (rgb[k] - pixel[k]) + 0.5);
             }
             canvas->cover[at] = 0.0f;
         }
@@ -57,17 +58,18 @@ static void canvas_settle(lrcsi_canvas *canvas, uint32_t colour)
     box[2] = box[3] = 0;
 }
 
-/* A piece of a line, in pixels, with round ends. The coverage of a pixel follows from the distance
-   of its centre. */
-static void canvas_piece(lrcsi_canvas *canvas, lrcsi_plot_point a, lrcsi_plot_point b, double half)
+/* A segment of a line, in pixels, with round ends. The coverage of a pixel follows from the
+   distance of its centre. */
+static void canvas_segment(lrcsi_canvas *canvas, lrcsi_plot_point a, lrcsi_plot_point b,
+                           double half)
 {
-    const double reach[4] = {fmin(a.x, b.x) - half - 1.0, fmin(a.y, b.y) - half - 1.0,
-                             fmax(a.x, b.x) + half + 1.0, fmax(a.y, b.y) + half + 1.0};
+    const double bounds[4] = {fmin(a.x, b.x) - half - 1.0, fmin(a.y, b.y) - half - 1.0,
+                              fmax(a.x, b.x) + half + 1.0, fmax(a.y, b.y) + half + 1.0};
     double dx = b.x - a.x;
     double dy = b.y - a.y;
     double square = dx * dx + dy * dy;
     uint32_t part[4];
-    canvas_touch(canvas, reach, part);
+    canvas_extend(canvas, bounds, part);
     for (uint32_t y = part[1]; y < part[3]; y++) {
         for (uint32_t x = part[0]; x < part[2]; x++) {
             double px = x + 0.5 - a.x;
@@ -81,23 +83,23 @@ static void canvas_piece(lrcsi_canvas *canvas, lrcsi_plot_point a, lrcsi_plot_po
     }
 }
 
-/* A straight stretch, dashed: `gone` is the length since the line began. */
-static void canvas_stretch(lrcsi_canvas *canvas, lrcsi_plot_point a, lrcsi_plot_point b,
-                           const lrcsi_ink *ink, double gone)
+/* A segment of a line, dashed: `offset` is the length of the line before it. */
+static void canvas_dashes(lrcsi_canvas *canvas, lrcsi_plot_point a, lrcsi_plot_point b,
+                          const lrcsi_line_style *style, double offset)
 {
-    double half = 0.5 * ink->width * canvas->scale;
+    double half = 0.5 * style->width * canvas->scale;
     double length = hypot(b.x - a.x, b.y - a.y);
-    double on = ink->dash[0] * canvas->scale;
-    double period = on + ink->dash[1] * canvas->scale;
+    double on = style->dash[0] * canvas->scale;
+    double period = on + style->dash[1] * canvas->scale;
     if (!(on > 0.0) || !(length > 0.0)) {
-        canvas_piece(canvas, a, b, half);
+        canvas_segment(canvas, a, b, half);
         return;
     }
-    for (double from = -fmod(gone, period); from < length; from += period) {
+    for (double from = -fmod(offset, period); from < length; from += period) {
         double begin = fmax(from, 0.0) / length;
         double end = fmin(from + on, length) / length;
         if (end > begin) {
-            canvas_piece(
+            canvas_segment(
                 canvas, (lrcsi_plot_point){a.x + begin * (b.x - a.x), a.y + begin * (b.y - a.y)},
                 (lrcsi_plot_point){a.x + end * (b.x - a.x), a.y + end * (b.y - a.y)}, half);
         }
@@ -105,20 +107,20 @@ static void canvas_stretch(lrcsi_canvas *canvas, lrcsi_plot_point a, lrcsi_plot_
 }
 
 static void canvas_line(lrcsi_plotter *plotter, const lrcsi_plot_point *point, uint32_t count,
-                        const lrcsi_ink *ink)
+                        const lrcsi_line_style *style)
 {
     lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
-    double gone = 0.0;
+    double offset = 0.0;
     for (uint32_t i = 0; i + 1 < count; i++) {
         lrcsi_plot_point a = {point[i].x * canvas->scale, point[i].y * canvas->scale};
         lrcsi_plot_point b = {point[i + 1].x * canvas->scale, point[i + 1].y * canvas->scale};
-        canvas_stretch(canvas, a, b, ink, gone);
-        gone += hypot(b.x - a.x, b.y - a.y);
+        canvas_dashes(canvas, a, b, style, offset);
+        offset += hypot(b.x - a.x, b.y - a.y);
     }
-    canvas_settle(canvas, ink->colour);
+    canvas_composite(canvas, style->colour);
 }
 
-/* Where the horizontal at y, in pixels, runs inside a convex polygon: from span[0] to span[1]. */
+/* The part of the horizontal line at y, in pixels, inside a convex polygon: span[0] to span[1]. */
 static void area_span(const lrcsi_plot_point *point, uint32_t count, double scale, double y,
                       double span[2])
 {
@@ -141,15 +143,15 @@ static void canvas_area(lrcsi_plotter *plotter, const lrcsi_plot_point *point, u
                         uint32_t colour)
 {
     lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
-    double reach[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    double bounds[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     uint32_t part[4];
     for (uint32_t i = 0; i < count; i++) {
-        reach[0] = fmin(reach[0], point[i].x * canvas->scale);
-        reach[1] = fmin(reach[1], point[i].y * canvas->scale);
-        reach[2] = fmax(reach[2], point[i].x * canvas->scale);
-        reach[3] = fmax(reach[3], point[i].y * canvas->scale);
+        bounds[0] = fmin(bounds[0], point[i].x * canvas->scale);
+        bounds[1] = fmin(bounds[1], point[i].y * canvas->scale);
+        bounds[2] = fmax(bounds[2], point[i].x * canvas->scale);
+        bounds[3] = fmax(bounds[3], point[i].y * canvas->scale);
     }
-    canvas_touch(canvas, reach, part);
+    canvas_extend(canvas, bounds, part);
     for (uint32_t i = part[1] * CANVAS_SLICES; i < part[3] * CANVAS_SLICES; i++) {
         double span[2];
         float *row = canvas->cover + (size_t)(i / CANVAS_SLICES) * canvas->width;
@@ -159,7 +161,7 @@ static void canvas_area(lrcsi_plotter *plotter, const lrcsi_plot_point *point, u
             row[x] += (float)(fmax(in, 0.0) / CANVAS_SLICES);
         }
     }
-    canvas_settle(canvas, colour);
+    canvas_composite(canvas, colour);
 }
 
 /* The direction in which a curve through three points passes the middle one, times a length; zero
@@ -208,7 +210,7 @@ static void canvas_stroke(lrcsi_canvas *canvas, const lrcsi_plot_point *point, u
             double to = t * t * (3.0 - 2.0 * t);
             lrcsi_plot_point next = {a.x + to * (b.x - a.x) + fa * ta.x + fb * tb.x,
                                      a.y + to * (b.y - a.y) + fa * ta.y + fb * tb.y};
-            canvas_piece(canvas, last, next, half);
+            canvas_segment(canvas, last, next, half);
             last = next;
         }
     }
@@ -219,14 +221,14 @@ static void canvas_letters(lrcsi_canvas *canvas, const char *text, lrcsi_plot_po
                            double size, int upwards, double half)
 {
     lrcsi_letters letters = {text, NULL, 0.0};
-    lrcsi_plot_point stroke[STROKE_MOST];
+    lrcsi_plot_point stroke[STROKE_POINTS_MAX];
     lrcsi_plot_point at;
     uint32_t count = 0;
     for (int move; (move = lrcsi_letters_next(&letters, &at)) != LRCSI_LETTERS_END;) {
-        if (move == LRCSI_LETTERS_JUMP || count == STROKE_MOST) {
+        if (move == LRCSI_LETTERS_JUMP || count == STROKE_POINTS_MAX) {
             canvas_stroke(canvas, stroke, count, half);
-            stroke[0] = count == STROKE_MOST ? stroke[count - 1] : stroke[0];
-            count = count == STROKE_MOST && move == LRCSI_LETTERS_DRAW ? 1 : 0;
+            stroke[0] = count == STROKE_POINTS_MAX ? stroke[count - 1] : stroke[0];
+            count = count == STROKE_POINTS_MAX && move == LRCSI_LETTERS_DRAW ? 1 : 0;
         }
         stroke[count++] = (lrcsi_plot_point){from.x + size * (upwards ? -at.y : at.x),
                                              from.y - size * (upwards ? at.x : at.y)};
@@ -234,24 +236,24 @@ static void canvas_letters(lrcsi_canvas *canvas, const char *text, lrcsi_plot_po
     canvas_stroke(canvas, stroke, count, half);
 }
 
-static void canvas_text(lrcsi_plotter *plotter, const lrcsi_words *words)
+static void canvas_text(lrcsi_plotter *plotter, const lrcsi_plot_text *label)
 {
     lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
-    double size = words->size * canvas->scale;
-    double half = size * (words->bold ? 0.062 : 0.041);
-    double width = size * lrcsi_letters_width(words->text);
-    double raised = words->raised ? 0.75 * size * lrcsi_letters_width(words->raised) : 0.0;
-    double back = 0.5 * words->anchor * (width + raised);
-    lrcsi_plot_point from = {words->at.x * canvas->scale, words->at.y * canvas->scale};
-    from.x -= words->upwards ? 0.0 : back;
-    from.y += words->upwards ? back : 0.0;
-    canvas_letters(canvas, words->text, from, size, words->upwards, half);
-    if (words->raised) {
-        from.x += words->upwards ? -0.4 * size : width;
-        from.y -= words->upwards ? width : 0.4 * size;
-        canvas_letters(canvas, words->raised, from, 0.75 * size, words->upwards, half);
+    double size = label->size * canvas->scale;
+    double half = size * (label->bold ? 0.062 : 0.041);
+    double width = size * lrcsi_letters_width(label->text);
+    double raised = label->raised ? 0.75 * size * lrcsi_letters_width(label->raised) : 0.0;
+    double back = 0.5 * label->anchor * (width + raised);
+    lrcsi_plot_point from = {label->at.x * canvas->scale, label->at.y * canvas->scale};
+    from.x -= label->upwards ? 0.0 : back;
+    from.y += label->upwards ? back : 0.0;
+    canvas_letters(canvas, label->text, from, size, label->upwards, half);
+    if (label->raised) {
+        from.x += label->upwards ? -0.4 * size : width;
+        from.y -= label->upwards ? width : 0.4 * size;
+        canvas_letters(canvas, label->raised, from, 0.75 * size, label->upwards, half);
     }
-    canvas_settle(canvas, words->colour);
+    canvas_composite(canvas, label->colour);
 }
 
 int lrcsi_canvas_make(double width, double height, double scale, lrcsi_canvas *canvas,

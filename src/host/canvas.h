@@ -8,13 +8,13 @@
 typedef struct lrcsi_canvas {
     lrcsi_plotter plotter; /* first: a plotter is a canvas */
     uint32_t width, height;
-    double scale;       /* pixels a unit of the paper */
+    double scale;       /* pixels per unit of the drawing */
     unsigned char *rgb; /* width x height */
     float *cover;       /* of the current stroke; all zero between strokes */
-    uint32_t box[4];    /* the pixels that it touches: x and y from, x and y to (exclusive) */
+    uint32_t box[4];    /* its pixels: x and y from, x and y to (exclusive) */
 } lrcsi_canvas;
 
-/* White paper of width x height units. Status: LRCS_OK; LRCS_E_SYSTEM (memory). */
+/* A white canvas of width x height units. Status: LRCS_OK; LRCS_E_SYSTEM (memory). */
 int lrcsi_canvas_make(double width, double height, double scale, lrcsi_canvas *canvas,
                       lrcs_host_error *error);
 void lrcsi_canvas_free(lrcsi_canvas *canvas);

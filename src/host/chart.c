@@ -11,17 +11,17 @@
 
 #include <math.h>
 
-#define GRID_MOST 60u /* ticks */
+#define GRID_TICKS_MAX 60u /* ticks */
 
 typedef struct chart_plan {
     const lrcs_host_chart *chart;
     lrcsi_plotter *plotter;
     lrcsi_axis x, y;
-    double right; /* of the plot; the legend stands beyond */
-    lrcsi_board *board;
+    double right; /* of the plot; the legend is to the right of it */
+    lrcsi_label_area *labels;
 } chart_plan;
 
-/* ---- where things are ---- */
+/* ---- positions ---- */
 
 static double chart_x(const chart_plan *plan, double value)
 {
@@ -40,7 +40,7 @@ static int chart_shows(int log, double floor, double *value)
     if (log && floor > 0.0 && *value <= floor) {
         *value = floor;
     }
-    return fabs(*value) <= 0.1 * LRCSI_AXIS_MOST && (!log || *value >= 10.0 * LRCSI_AXIS_LEAST);
+    return fabs(*value) <= 0.1 * LRCSI_AXIS_MAX && (!log || *value >= 10.0 * LRCSI_AXIS_MIN);
 }
 
 static int chart_point(const chart_plan *plan, const lrcs_host_series *series, uint32_t i,
@@ -56,7 +56,7 @@ static int chart_point(const chart_plan *plan, const lrcs_host_series *series, u
     return 1;
 }
 
-/* The least and the largest value that an axis has to show, with a small margin. */
+/* The range of values that an axis has to show, with a small margin. */
 static void chart_range(const lrcs_host_chart *chart, int vertical, double range[2])
 {
     int log = vertical ? chart->y_log : chart->x_log;
@@ -80,28 +80,18 @@ static void chart_range(const lrcs_host_chart *chart, int vertical, double range
     if (vertical && chart->y_from_0 && !log) {
         range[0] = fmin(range[0], 0.0);
     }
-    if (floor > 0.0) { /* room for the arrows; less than three decades would exaggerate */
+    if (floor > 0.0) { /* room for the arrows; an axis of less than three decades would exaggerate
+                          differences */
         range[0] = floor / 5.0;
         range[1] = fmax(range[1], 1000.0 * range[0]);
     }
     if (log) {
         range[0] /= 1.2;
-        range[1] *= vertical ? 4.0 : 1.2; /* labels stand above */
+        range[1] *= vertical ? 4.0 : 1.2; /* room for labels above */
     }
 }
 
 /* ---- the frame ---- */
-
-/* Fills the region below the floor, where values are indistinguishable. */
-static void chart_floor(const chart_plan *plan)
-{
-    double y = chart_y(plan, plan->chart->floor);
-    const lrcsi_plot_point corner[4] = {{LRCSI_CHART_LEFT, y},
-                                        {plan->right, y},
-                                        {plan->right, LRCSI_CHART_BOTTOM},
-                                        {LRCSI_CHART_LEFT, LRCSI_CHART_BOTTOM}};
-    plan->plotter->area(plan->plotter, corner, 4, LRCSI_COLOUR_FLOOR);
-}
 
 /* Lines at the major ticks, or at the minor ones if these are not too dense. */
 static void chart_grid(const chart_plan *plan, int major)
@@ -110,15 +100,15 @@ static void chart_grid(const chart_plan *plan, int major)
     double width = major ? 0.9 : 0.7;
     for (uint32_t i = 0; i < plan->x.count; i++) {
         double x = chart_x(plan, plan->x.tick[i].value);
-        if (plan->x.tick[i].major == major && (major || plan->x.count <= GRID_MOST)) {
-            lrcsi_chart_stroke(plan->plotter, x, LRCSI_CHART_TOP, x, LRCSI_CHART_BOTTOM, colour,
-                               width);
+        if (plan->x.tick[i].major == major && (major || plan->x.count <= GRID_TICKS_MAX)) {
+            lrcsi_plot_line(plan->plotter, x, LRCSI_CHART_TOP, x, LRCSI_CHART_BOTTOM, colour,
+                            width);
         }
     }
     for (uint32_t i = 0; i < plan->y.count; i++) {
         double y = chart_y(plan, plan->y.tick[i].value);
-        if (plan->y.tick[i].major == major && (major || plan->y.count <= GRID_MOST)) {
-            lrcsi_chart_stroke(plan->plotter, LRCSI_CHART_LEFT, y, plan->right, y, colour, width);
+        if (plan->y.tick[i].major == major && (major || plan->y.count <= GRID_TICKS_MAX)) {
+            lrcsi_plot_line(plan->plotter, LRCSI_CHART_LEFT, y, plan->right, y, colour, width);
         }
     }
 }
@@ -142,14 +132,14 @@ static void chart_ticks(const chart_plan *plan)
 static void run_draw(const chart_plan *plan, const lrcs_host_series *series,
                      const lrcsi_plot_point *point, uint32_t count)
 {
-    const lrcsi_ink ink = lrcsi_series_ink(series);
+    const lrcsi_line_style style = lrcsi_series_ink(series);
     int joined = series->dash != LRCS_HOST_NO_LINE;
     if (count > 1 && joined) {
-        plan->plotter->line(plan->plotter, point, count, &ink);
+        plan->plotter->line(plan->plotter, point, count, &style);
     }
     for (uint32_t i = 0; i < count; i++) {
-        lrcsi_board_point(plan->board, point[i], LRCSI_CHART_RING);
-        lrcsi_board_line(plan->board, point[i > 0 && joined ? i - 1 : i], point[i]);
+        lrcsi_label_block_point(plan->labels, point[i], LRCSI_CHART_RING);
+        lrcsi_label_block_line(plan->labels, point[i > 0 && joined ? i - 1 : i], point[i]);
     }
 }
 
@@ -177,10 +167,9 @@ static void arrow_draw(const chart_plan *plan, uint32_t colour, lrcsi_plot_point
 {
     const lrcsi_plot_point head[3] = {
         {at.x - 3.2, at.y + 9.5}, {at.x + 3.2, at.y + 9.5}, {at.x, at.y + 14.5}};
-    lrcsi_chart_stroke(plan->plotter, at.x, at.y + LRCSI_CHART_MARK, at.x, at.y + 10.0, colour,
-                       1.4);
+    lrcsi_plot_line(plan->plotter, at.x, at.y + LRCSI_CHART_MARK, at.x, at.y + 10.0, colour, 1.4);
     plan->plotter->area(plan->plotter, head, 3, colour);
-    lrcsi_board_line(plan->board, at, head[2]);
+    lrcsi_label_block_line(plan->labels, at, head[2]);
 }
 
 static void series_marks(const chart_plan *plan, const lrcs_host_series *series)
@@ -202,11 +191,11 @@ static void series_labels(const chart_plan *plan, const lrcs_host_series *series
 {
     for (uint32_t i = 0; series->label && i < series->count; i++) {
         lrcsi_plot_point at;
-        lrcsi_words words = {
+        lrcsi_plot_text label = {
             .text = series->label[i], .size = 10.5, .colour = lrcsi_palette_named(series->colour)};
-        if (words.text && chart_point(plan, series, i, &at) &&
-            lrcsi_board_text(plan->board, at, 8.0, words.text, words.size, &words.at)) {
-            plan->plotter->text(plan->plotter, &words);
+        if (label.text && chart_point(plan, series, i, &at) &&
+            lrcsi_label_place(plan->labels, at, 8.0, label.text, label.size, &label.at)) {
+            plan->plotter->text(plan->plotter, &label);
         }
     }
 }
@@ -215,20 +204,17 @@ static void series_labels(const chart_plan *plan, const lrcs_host_series *series
 static void legend_floor(const chart_plan *plan, double x, double y)
 {
     const lrcs_host_chart *chart = plan->chart;
-    const lrcsi_words words = {
+    const lrcsi_plot_text label = {
         .text = chart->floor_name,
         .at = {x + LRCSI_CHART_SAMPLE + 8.0, y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
         .size = LRCSI_CHART_SMALL,
         .colour = LRCSI_COLOUR_TEXT};
-    const lrcsi_plot_point corner[4] = {{x, y - 5.0},
-                                        {x + LRCSI_CHART_SAMPLE, y - 5.0},
-                                        {x + LRCSI_CHART_SAMPLE, y + 6.0},
-                                        {x, y + 6.0}};
-    plan->plotter->area(plan->plotter, corner, 4, LRCSI_COLOUR_FLOOR);
-    lrcsi_chart_stroke(plan->plotter, x, y - 5.0, x + LRCSI_CHART_SAMPLE, y - 5.0,
-                       LRCSI_COLOUR_FAINT, 1.2);
+    lrcsi_plot_rectangle(plan->plotter, x, y - 5.0, x + LRCSI_CHART_SAMPLE, y + 6.0,
+                         LRCSI_COLOUR_FLOOR);
+    lrcsi_plot_line(plan->plotter, x, y - 5.0, x + LRCSI_CHART_SAMPLE, y - 5.0, LRCSI_COLOUR_FAINT,
+                    1.2);
     arrow_draw(plan, LRCSI_COLOUR_FAINT, (lrcsi_plot_point){x + 0.5 * LRCSI_CHART_SAMPLE, y - 8.5});
-    plan->plotter->text(plan->plotter, &words);
+    plan->plotter->text(plan->plotter, &label);
 }
 
 static void chart_legend(const chart_plan *plan)
@@ -241,19 +227,21 @@ static void chart_legend(const chart_plan *plan)
     }
 }
 
-/* The background of the data. */
-static void chart_ground(const chart_plan *plan)
+/* The background of the data: the region below the floor, where values are indistinguishable, and
+   the grid. */
+static void chart_background(const chart_plan *plan)
 {
     int floor = plan->chart->y_log && plan->chart->floor > 0.0;
+    double y = floor ? chart_y(plan, plan->chart->floor) : LRCSI_CHART_BOTTOM;
     if (floor) {
-        chart_floor(plan);
+        lrcsi_plot_rectangle(plan->plotter, LRCSI_CHART_LEFT, y, plan->right, LRCSI_CHART_BOTTOM,
+                             LRCSI_COLOUR_FLOOR);
     }
     chart_grid(plan, 0);
     chart_grid(plan, 1);
     if (floor) {
-        double y = chart_y(plan, plan->chart->floor);
-        lrcsi_chart_stroke(plan->plotter, LRCSI_CHART_LEFT, y, plan->right, y, LRCSI_COLOUR_FAINT,
-                           1.2);
+        lrcsi_plot_line(plan->plotter, LRCSI_CHART_LEFT, y, plan->right, y, LRCSI_COLOUR_FAINT,
+                        1.2);
     }
 }
 
@@ -301,8 +289,8 @@ static void chart_data(const chart_plan *plan)
     }
 }
 
-/* Marks and numbers of both axes, and their titles. */
-static void chart_say(const chart_plan *plan)
+/* The frame, both axes with their titles, the title and the legend. */
+static void chart_annotate(const chart_plan *plan)
 {
     const lrcs_host_chart *chart = plan->chart;
     lrcsi_chart_box(plan->plotter, LRCSI_CHART_LEFT, plan->right);
@@ -321,9 +309,9 @@ static void chart_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
     double right =
         LRCSI_CHART_WIDTH - LRCSI_CHART_MARGIN - (legend > 0.0 ? legend + LRCSI_CHART_MARGIN : 8.0);
     right = fmax(right, 0.5 * LRCSI_CHART_WIDTH); /* a longer legend is cut */
-    lrcsi_board board = {.frame = {(float)LRCSI_CHART_LEFT, (float)LRCSI_CHART_TOP, (float)right,
-                                   (float)LRCSI_CHART_BOTTOM}};
-    chart_plan plan = {.chart = chart, .plotter = plotter, .right = right, .board = &board};
+    lrcsi_label_area labels = {.frame = {(float)LRCSI_CHART_LEFT, (float)LRCSI_CHART_TOP,
+                                         (float)right, (float)LRCSI_CHART_BOTTOM}};
+    chart_plan plan = {.chart = chart, .plotter = plotter, .right = right, .labels = &labels};
     double range[2];
     int kind = chart->x_log ? LRCSI_AXIS_LOG : chart->x_deg ? LRCSI_AXIS_DEG : LRCSI_AXIS_LINEAR;
     chart_range(chart, 0, range);
@@ -331,13 +319,13 @@ static void chart_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
     chart_range(chart, 1, range);
     plan.y = lrcsi_axis_make(chart->y_log, range[0], range[1],
                              (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP) / 26.0);
-    chart_ground(&plan);
+    chart_background(&plan);
     chart_data(&plan);
-    chart_say(&plan);
+    chart_annotate(&plan);
 }
 
-/* Either kind. */
-static void drawing_of(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
+/* A chart of either kind. */
+static void chart_or_polar_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
 {
     if (chart->polar) {
         lrcsi_polar_draw(chart, plotter);
@@ -352,7 +340,7 @@ void lrcs_host_chart_svg(FILE *out, const lrcs_host_chart *chart)
 {
     lrcsi_svg svg =
         lrcsi_svg_begin(out, LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, chart->title, chart->about);
-    drawing_of(chart, &svg.plotter);
+    chart_or_polar_draw(chart, &svg.plotter);
     lrcsi_svg_end(&svg);
 }
 
@@ -362,7 +350,7 @@ int lrcs_host_chart_png(FILE *out, const lrcs_host_chart *chart, lrcs_host_error
     int status = lrcsi_canvas_make(LRCSI_CHART_WIDTH, LRCSI_CHART_HEIGHT, LRCSI_CHART_PIXELS,
                                    &canvas, error);
     if (status == LRCS_OK) {
-        drawing_of(chart, &canvas.plotter);
+        chart_or_polar_draw(chart, &canvas.plotter);
         status = lrcsi_canvas_end(&canvas, out, chart->about, error);
     }
     return status;

@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SCALE_DB      40.0 /* what the scale of sigma spans at most */
+#define SCALE_DB      40.0 /* the largest range of the scale of sigma */
 #define SCALE_BINS    800  /* a histogram of -400 .. 400 dB */
-#define SCALE_TEXTS   9.0
+#define SCALE_LABELS  9.0
 #define DEGREES       (180.0 / LRCS_PI)
 #define COLOUR_PLAIN  0xc8c8c8u /* facets without a colour of their own, shaded */
 #define VISIBLE_SLOPE 1e-9      /* a slope that no colour shows */
@@ -38,12 +38,12 @@ int lrcs_host_colouring_find(const char *name)
     return LRCS_E_NAME;
 }
 
-uint32_t lrcsi_colouring_ground(const lrcsi_colouring *colouring)
+uint32_t lrcsi_colouring_background(const lrcsi_colouring *colouring)
 {
     return colouring->picture->white ? 0xffffffu : 0x0d111cu;
 }
 
-uint32_t lrcsi_colouring_ink(const lrcsi_colouring *colouring)
+uint32_t lrcsi_colouring_text_colour(const lrcsi_colouring *colouring)
 {
     return colouring->picture->white ? 0x222222u : 0xcdd2dcu;
 }
@@ -104,8 +104,8 @@ static void facet_plane(const lrcsi_colouring *colouring, uint32_t facet, double
 
 /* ---- scales ---- */
 
-/* The value below which `share` of the area lies, from a histogram of whole dB. */
-static double histogram_at(const double area[SCALE_BINS], double share)
+/* The value below which a fraction of the area lies, from a histogram of whole dB. */
+static double histogram_quantile(const double area[SCALE_BINS], double fraction)
 {
     double total = 0.0;
     double seen = 0.0;
@@ -113,32 +113,32 @@ static double histogram_at(const double area[SCALE_BINS], double share)
     for (int i = 0; i < SCALE_BINS; i++) {
         total += area[i];
     }
-    while (bin < SCALE_BINS - 1 && seen + area[bin] <= share * total) {
+    while (bin < SCALE_BINS - 1 && seen + area[bin] <= fraction * total) {
         seen += area[bin++];
     }
     return bin - SCALE_BINS / 2.0;
 }
 
-/* The scale covers all returns seen but the weakest and strongest half percent of the area, in
-   steps of 5 dB; values beyond them have the colours of its ends. */
+/* The scale covers all visible returns except the weakest and the strongest half percent of the
+   area, in steps of 5 dB; values beyond its ends have the colours of the ends. */
 static void sigma_range(const lrcs_host_picture *picture, double range[2])
 {
     double area[SCALE_BINS] = {0};
-    double most = 0.0;
+    double largest = 0.0;
     for (uint32_t f = 0; f < picture->scene->facet_count; f++) {
         double bin = floor(facet_return(&picture->records[f])) + SCALE_BINS / 2.0;
         if (bin >= 0.0 && bin < SCALE_BINS) {
             area[(int)bin] += picture->records[f].visible_area_m2;
-            most = fmax(most, area[(int)bin]);
+            largest = fmax(largest, area[(int)bin]);
         }
     }
-    if (!(most > 0.0)) { /* nothing returns: no scale is better than another */
+    if (!(largest > 0.0)) { /* nothing is returned: any scale will do */
         range[0] = -10.0;
         range[1] = 0.0;
         return;
     }
-    range[1] = 5.0 * ceil((histogram_at(area, 0.995) + 1.0) / 5.0);
-    range[0] = 5.0 * floor(histogram_at(area, 0.005) / 5.0);
+    range[1] = 5.0 * ceil((histogram_quantile(area, 0.995) + 1.0) / 5.0);
+    range[0] = 5.0 * floor(histogram_quantile(area, 0.005) / 5.0);
     range[0] = fmax(range[0], range[1] - SCALE_DB);
     range[0] = fmin(range[0], range[1] - 10.0);
 }
@@ -167,7 +167,7 @@ static void scale_make(lrcsi_colouring *colouring)
     } else if (colouring->picture->colouring == LRCS_HOST_BY_RANGE) {
         height_range(colouring, range);
     }
-    colouring->scale = lrcsi_axis_make(0, range[0], range[1], SCALE_TEXTS);
+    colouring->scale = lrcsi_axis_make(0, range[0], range[1], SCALE_LABELS);
 }
 
 const char *lrcsi_colouring_name(const lrcsi_colouring *colouring)
@@ -230,7 +230,7 @@ static void materials_list(lrcsi_colouring *colouring)
         }
     }
     free(used);
-    lrcsi_palette_apart(colouring->materials, colouring->hue);
+    lrcsi_palette_categorical(colouring->materials, colouring->hue);
 }
 
 const char *lrcsi_colouring_material_name(const lrcsi_colouring *colouring, uint32_t material)
@@ -247,20 +247,13 @@ uint32_t lrcsi_colouring_material(const lrcsi_colouring *colouring, uint32_t mat
 
 /* ---- colours of facets ---- */
 
-static void find_centre(lrcsi_colouring *colouring)
+static void centre_make(lrcsi_colouring *colouring)
 {
-    const lrcs_scene *scene = colouring->picture->scene;
-    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (size_t i = 0; i < 3 * (size_t)scene->facet_count; i++) {
-        const double *x = scene->vertex[scene->facet[i / 3].corner[i % 3]].x;
-        for (int k = 0; k < 3 && !facet_material_of(colouring, (uint32_t)(i / 3))->omitted; k++) {
-            low[k] = fmin(low[k], x[k]);
-            high[k] = fmax(high[k], x[k]);
-        }
-    }
+    double low[3];
+    double high[3];
+    lrcs_host_scene_box(colouring->picture->scene, low, high);
     for (int k = 0; k < 3; k++) {
-        colouring->centre[k] = low[k] <= high[k] ? 0.5 * (low[k] + high[k]) : 0.0;
+        colouring->centre[k] = 0.5 * (low[k] + high[k]);
     }
 }
 
@@ -272,7 +265,7 @@ lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture)
         materials_list(&colouring);
     }
     if (picture->colouring == LRCS_HOST_BY_RANGE) {
-        find_centre(&colouring);
+        centre_make(&colouring);
     }
     if (colouring.scaled && picture->records) {
         scale_make(&colouring);
@@ -315,7 +308,7 @@ static uint32_t facet_shaded(const lrcsi_colouring *colouring, uint32_t facet)
     return lrcsi_palette_shade(material->has_colour ? own : COLOUR_PLAIN, light);
 }
 
-/* Nothing to show is -HUGE_VAL. */
+/* The value on the scale; -HUGE_VAL if there is none. */
 static double facet_value(const lrcsi_colouring *colouring, uint32_t facet, const double view[2])
 {
     const lrcs_facet_record *record = &colouring->picture->records[facet];
@@ -336,7 +329,7 @@ uint32_t lrcsi_colouring_colour(const lrcsi_colouring *colouring, uint32_t facet
 {
     if (colouring->scaled) {
         double value = facet_value(colouring, facet, view);
-        return isfinite(value) ? lrcsi_palette_even(lrcsi_axis_at(&colouring->scale, value))
+        return isfinite(value) ? lrcsi_palette_viridis(lrcsi_axis_at(&colouring->scale, value))
                                : facet_grey(&colouring->picture->records[facet]);
     }
     switch (colouring->picture->colouring) {

@@ -23,9 +23,9 @@ typedef struct lrcsi_colouring {
 /* Without records, fills only what does not depend on them: everything except the scale. */
 lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture);
 
-/* The background of a picture, and the colour of words on it. */
-uint32_t lrcsi_colouring_ground(const lrcsi_colouring *colouring);
-uint32_t lrcsi_colouring_ink(const lrcsi_colouring *colouring);
+/* The background of a picture, and the colour of text on it. */
+uint32_t lrcsi_colouring_background(const lrcsi_colouring *colouring);
+uint32_t lrcsi_colouring_text_colour(const lrcsi_colouring *colouring);
 
 /* The title of the scale, or NULL. */
 const char *lrcsi_colouring_name(const lrcsi_colouring *colouring);

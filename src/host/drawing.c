@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Visible polygons as vector graphics: one path per facet, in metres, under one transform to the
-   paper. colouring.c decides colours, legend.c the strip below. */
+   drawing. colouring.c decides colours, legend.c the strip below. */
 #include "host/legend.h"
 #include "host/palette.h"
 #include "host/svg.h"
@@ -11,12 +11,12 @@
 #define DRAWING_HEIGHT 900.0 /* at most */
 #define DRAWING_MARGIN 24.0
 #define DRAWING_LEGEND 300.0 /* at most */
-#define DRAWING_SEAM   0.7   /* paths are that much wider, so that nothing shines through between */
+#define DRAWING_SEAM   0.7   /* the width of outlines, which cover the gaps between facets */
 
-/* Where things stand: x = left + metre (u - low[0]), y = top - metre (v - high[1]). */
+/* The layout: x = left + metre (u - low[0]), y = top - metre (v - high[1]). */
 typedef struct drawing_plan {
     double low[2], high[2];  /* m */
-    double left, top, metre; /* units of the paper, units a metre */
+    double left, top, metre; /* units of the drawing; units per metre */
     double legend, height;
 } drawing_plan;
 
@@ -61,7 +61,7 @@ static void scale_stops(FILE *out)
     for (int i = 0; i < LRCSI_PALETTE_KNOTS; i++) {
         double place = (double)i / (LRCSI_PALETTE_KNOTS - 1);
         drawing_number(out, "<stop offset=\"", place);
-        fprintf(out, "\" stop-color=\"#%06lx\"/>", (unsigned long)lrcsi_palette_even(place));
+        fprintf(out, "\" stop-color=\"#%06lx\"/>", (unsigned long)lrcsi_palette_viridis(place));
     }
     fputs("</linearGradient>\n", out);
 }
@@ -72,8 +72,8 @@ static void slope_write(FILE *out, const lrcsi_colouring *colouring, uint32_t fa
                         const double at[3])
 {
     double steep = at[1] * at[1] + at[2] * at[2];
-    double from = (colouring->scale.least - at[0]) / steep;
-    double to = (colouring->scale.most - at[0]) / steep;
+    double from = (colouring->scale.low - at[0]) / steep;
+    double to = (colouring->scale.high - at[0]) / steep;
     fprintf(out, "<linearGradient id=\"g%lu\" xlink:href=\"#scale\"", (unsigned long)facet);
     drawing_number(out, " gradientUnits=\"userSpaceOnUse\" x1=\"", from * at[1]);
     drawing_number(out, "\" y1=\"", from * at[2]);
@@ -148,10 +148,10 @@ void lrcs_host_picture_svg(FILE *out, const lrcs_host_picture *picture,
     if (!picture->white) {
         const lrcsi_plot_point corner[4] = {
             {0.0, 0.0}, {DRAWING_WIDTH, 0.0}, {DRAWING_WIDTH, plan.height}, {0.0, plan.height}};
-        svg.plotter.area(&svg.plotter, corner, 4, lrcsi_colouring_ground(&colouring));
+        svg.plotter.area(&svg.plotter, corner, 4, lrcsi_colouring_background(&colouring));
     }
     facets_draw(out, &colouring, polygons, &plan);
     lrcsi_legend_draw(&colouring, &svg.plotter, plan.height - plan.legend, DRAWING_WIDTH,
-                      DRAWING_LEGEND, plan.metre, lrcsi_colouring_ink(&colouring));
+                      DRAWING_LEGEND, plan.metre, lrcsi_colouring_text_colour(&colouring));
     lrcsi_svg_end(&svg);
 }

@@ -10,7 +10,7 @@
 
 /* A name from a file may hold any bytes; control characters become '?', because they could move a
    terminal's cursor. */
-static void text_tame(char *text)
+static void text_sanitize(char *text)
 {
     for (; *text; text++) {
         if ((unsigned char)*text < 0x20 || *text == 0x7f) {
@@ -26,7 +26,7 @@ int lrcsi_host_fail(lrcs_host_error *error, int status, const char *format, ...)
         va_start(list, format);
         vsnprintf(error->text, sizeof error->text, format, list);
         va_end(list);
-        text_tame(error->text);
+        text_sanitize(error->text);
     }
     return status;
 }
@@ -66,7 +66,7 @@ void lrcsi_host_note(lrcs_host_notices *notices, const char *format, ...)
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
-    text_tame(text);
+    text_sanitize(text);
     for (uint32_t i = 0; i < notices->count; i++) {
         if (strcmp(notices->text[i], text) == 0) {
             return;

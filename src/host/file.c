@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 /* Far above the size of any sensible mesh of 2^32 facets; a guard against /dev/zero. */
-#define FILE_MOST ((size_t)1 << 34)
+#define FILE_SIZE_MAX ((size_t)1 << 34)
 
 /* Reads to the end into a growing buffer, whose first size is that of the file if it is known. */
 static int file_fill(FILE *stream, size_t guess, const char *path, lrcs_host_file *file,
@@ -25,10 +25,10 @@ static int file_fill(FILE *stream, size_t guess, const char *path, lrcs_host_fil
         if (used < room) {
             break;
         }
-        if (room > FILE_MOST) {
+        if (room > FILE_SIZE_MAX) {
             free(bytes);
             return lrcsi_host_fail(error, LRCS_E_LIMIT, "%s: larger than %zu bytes", path,
-                                   FILE_MOST);
+                                   FILE_SIZE_MAX);
         }
         room *= 2;
         unsigned char *grown = realloc(bytes, room);
@@ -62,8 +62,9 @@ int lrcsi_host_file_read(const char *path, lrcs_host_file *file, struct stat *ab
     } else if (S_ISDIR(about->st_mode)) {
         errno = EISDIR;
         status = lrcsi_host_fail_file(error, path, "read");
-    } else if (S_ISREG(about->st_mode) && (uint64_t)about->st_size > FILE_MOST) {
-        status = lrcsi_host_fail(error, LRCS_E_LIMIT, "%s: larger than %zu bytes", path, FILE_MOST);
+    } else if (S_ISREG(about->st_mode) && (uint64_t)about->st_size > FILE_SIZE_MAX) {
+        status =
+            lrcsi_host_fail(error, LRCS_E_LIMIT, "%s: larger than %zu bytes", path, FILE_SIZE_MAX);
     } else {
         size_t guess = S_ISREG(about->st_mode) ? (size_t)about->st_size : 4096;
         status = file_fill(stream, guess, path, file, error);

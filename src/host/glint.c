@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "base/constant.h"
+#include "base/vec3.h"
 #include "optics/ripple.h"
 
 /* Neighbours that turn by less are treated as halves of one flat polygon; those that turn by more
@@ -62,19 +63,17 @@ static void glint_normal(const lrcs_scene *scene, uint32_t facet, double n[3])
     const uint32_t *corner = scene->facet[facet].corner;
     double u[3];
     double v[3];
-    double most = 0.0;
+    double largest = 0.0;
+    lrcsi_vec3_between(scene->vertex[corner[0]].x, scene->vertex[corner[1]].x, u);
+    lrcsi_vec3_between(scene->vertex[corner[0]].x, scene->vertex[corner[2]].x, v);
     for (int k = 0; k < 3; k++) {
-        u[k] = scene->vertex[corner[1]].x[k] - scene->vertex[corner[0]].x[k];
-        v[k] = scene->vertex[corner[2]].x[k] - scene->vertex[corner[0]].x[k];
-        most = fmax(most, fmax(fabs(u[k]), fabs(v[k])));
+        largest = fmax(largest, fmax(fabs(u[k]), fabs(v[k])));
     }
-    for (int k = 0; k < 3 && most > 0.0; k++) {
-        u[k] /= most;
-        v[k] /= most;
+    for (int k = 0; k < 3 && largest > 0.0; k++) {
+        u[k] /= largest;
+        v[k] /= largest;
     }
-    for (int k = 0; k < 3; k++) {
-        n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
-    }
+    lrcsi_vec3_cross(u, v, n);
 }
 
 /* The angle between two facets' normals; 0 if one has none. */
@@ -82,16 +81,11 @@ static double facets_turn(const lrcs_scene *scene, uint32_t a, uint32_t b)
 {
     double n[3];
     double p[3];
-    double cross = 0.0;
-    double dot = 0.0;
+    double cross[3];
     glint_normal(scene, a, n);
     glint_normal(scene, b, p);
-    for (int k = 0; k < 3; k++) {
-        double c = n[(k + 1) % 3] * p[(k + 2) % 3] - n[(k + 2) % 3] * p[(k + 1) % 3];
-        cross += c * c;
-        dot += n[k] * p[k];
-    }
-    return atan2(sqrt(cross), dot);
+    lrcsi_vec3_cross(n, p, cross);
+    return atan2(sqrt(lrcsi_vec3_dot(cross, cross)), lrcsi_vec3_dot(n, p) + 0.0); /* no -0 */
 }
 
 static size_t edges_list(const lrcs_scene *scene, glint_edge *edges)
@@ -134,17 +128,17 @@ static size_t turns_list(const lrcs_scene *scene, const glint_edge *edges, size_
 static double corners_turn(const lrcs_scene *scene, uint32_t facet)
 {
     const lrcs_point *n = &scene->corner_normal[3 * (size_t)facet];
-    double most = 0.0;
+    double largest = 0.0;
     for (int i = 0; i < 3; i++) {
         const double *a = n[i].x;
         const double *b = n[(i + 1) % 3].x;
         double chord = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-        most = fmax(most, 2.0 * asin(fmin(1.0, 0.5 * chord)));
+        largest = fmax(largest, 2.0 * asin(fmin(1.0, 0.5 * chord)));
     }
-    return most;
+    return largest;
 }
 
-/* Facets in no group whose corners have normals of their own turn by those. */
+/* The turns of facets in no smoothing group, between the normals at their corners. */
 static size_t corners_list(const lrcs_scene *scene, glint_turn *turns)
 {
     size_t count = 0;
@@ -217,9 +211,9 @@ static int entry_order(const void *a, const void *b)
 int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint32_t *count,
                           lrcs_host_error *error)
 {
-    size_t most = 3 * (size_t)scene->facet_count + 1;
-    glint_edge *edges = malloc(most * sizeof *edges);
-    glint_turn *turns = malloc(most * sizeof *turns);
+    size_t capacity = 3 * (size_t)scene->facet_count + 1;
+    glint_edge *edges = malloc(capacity * sizeof *edges);
+    glint_turn *turns = malloc(capacity * sizeof *turns);
     size_t turn_count = 0;
     size_t entries = scene->part_count + (size_t)1;
     if (edges && turns) {
@@ -241,7 +235,7 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
     }
     free(edges);
     free(turns);
-    return all ? LRCS_OK : lrcsi_host_fail_memory(error, most * sizeof *edges);
+    return all ? LRCS_OK : lrcsi_host_fail_memory(error, capacity * sizeof *edges);
 }
 
 /* The entry of a facet's part and material, or NULL. The list is in the order of entry_order. */
@@ -258,7 +252,7 @@ static double face_glint(const lrcs_scene *scene, const lrcs_facet_record *recor
 {
     double glint = 0.0;
     for (uint32_t i = 0; i < scene->facet_count; i++) {
-        /* cosines of incidence differ by no more than normals turn */
+        /* cosines of incidence differ by at most the angle between the normals */
         if (records[i].sigma_glint_m2 > 0.0 && scene->facet_part[i] == scene->facet_part[facet] &&
             scene->facet_material[i] == scene->facet_material[facet] &&
             fabs(records[i].cos_theta - records[facet].cos_theta) <= FLAT_TURN &&

@@ -7,8 +7,6 @@
 
 #include <string.h>
 
-#define SEQUENCE_MOST 4 /* bytes; the terminator ends a shorter one */
-
 /* U+FFFE and U+FFFF, which XML excludes. */
 static int html_is_none(const char *at, size_t count)
 {
@@ -19,7 +17,7 @@ void lrcs_host_html_text(FILE *out, const char *text)
 {
     while (*text) {
         unsigned char byte = (unsigned char)*text;
-        size_t count = lrcsi_text_sequence(text, SEQUENCE_MOST);
+        size_t count = lrcsi_text_sequence(text, LRCSI_TEXT_SEQUENCE_MAX);
         if (byte == '<' || byte == '>') {
             fputs(byte == '<' ? "&lt;" : "&gt;", out);
         } else if (byte == '&' || byte == '"') {

@@ -7,14 +7,12 @@
 
 #include <math.h>
 
-#define JSON_SEQUENCE 4 /* bytes; the terminator ends a shorter one */
-
 static void json_quote(FILE *out, const char *text)
 {
     putc('"', out);
     while (*text) {
         unsigned char byte = (unsigned char)*text;
-        size_t count = lrcsi_text_sequence(text, JSON_SEQUENCE);
+        size_t count = lrcsi_text_sequence(text, LRCSI_TEXT_SEQUENCE_MAX);
         if (count == 0) {
             fputs("\\ufffd", out);
             count = 1;

@@ -15,15 +15,16 @@
 #define LEGEND_SWATCH 12.0
 #define LEGEND_STEPS  128 /* of the colour bar */
 #define LEGEND_BAR    11.0
-#define LEGEND_LENGTH 0.2 /* of the width: what the bar of metres may take */
+#define LEGEND_LINE   1.2
+#define LEGEND_LENGTH 0.2 /* fraction of the width: the largest length of the scale bar */
 
-/* ---- how long a metre is ---- */
+/* ---- the scale bar ---- */
 
-/* The longest of 1, 2, 5 x 10^n that is not above `most`; its name with a unit. */
-static double length_choose(double most, char name[32])
+/* The largest of 1, 2, 5 x 10^n that does not exceed `limit`; its name with a unit. */
+static double length_choose(double limit, char name[32])
 {
-    int decade = (int)floor(log10(most) + 1e-9);
-    double part = most / pow(10.0, decade);
+    int decade = (int)floor(log10(limit) + 1e-9);
+    double part = limit / pow(10.0, decade);
     int digit = part >= 5.0 ? 5 : part >= 2.0 ? 2 : 1;
     if (decade < -6 || decade > 6) {
         snprintf(name, 32, "%de%d m", digit, decade);
@@ -40,50 +41,29 @@ static double length_choose(double most, char name[32])
     return digit * pow(10.0, decade);
 }
 
-static void legend_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
-                          uint32_t ink)
-{
-    const lrcsi_plot_point point[2] = {{x0, y0}, {x1, y1}};
-    const lrcsi_ink line = {ink, 1.2, {0.0, 0.0}};
-    plotter->line(plotter, point, 2, &line);
-}
-
-/* The bar of metres with its ends, on a line at y. */
-static void length_draw(lrcsi_plotter *plotter, double y, double width, double scale, uint32_t ink)
+/* The scale bar with its ends, at height y. */
+static void length_draw(lrcsi_plotter *plotter, double y, double width, double scale,
+                        uint32_t colour)
 {
     char name[32];
-    double most = (LEGEND_LENGTH * width) / scale;
-    if (!(scale > 0.0) || !isfinite(most) || !(most > 0.0)) {
-        return; /* nothing is seen */
+    double limit = (LEGEND_LENGTH * width) / scale;
+    if (!(scale > 0.0) || !isfinite(limit) || !(limit > 0.0)) {
+        return; /* nothing is visible */
     }
-    double length = scale * length_choose(most, name);
+    double length = scale * length_choose(limit, name);
     double x = LEGEND_MARGIN;
-    legend_stroke(plotter, x, y, x + length, y, ink);
-    legend_stroke(plotter, x, y - 4.0, x, y + 4.0, ink);
-    legend_stroke(plotter, x + length, y - 4.0, x + length, y + 4.0, ink);
-    const lrcsi_words words = {.text = name,
-                               .at = {x + 0.5 * length, y + 17.0},
-                               .size = LEGEND_TYPE,
-                               .anchor = LRCSI_ANCHOR_MIDDLE,
-                               .colour = ink};
-    plotter->text(plotter, &words);
+    lrcsi_plot_line(plotter, x, y, x + length, y, colour, LEGEND_LINE);
+    lrcsi_plot_line(plotter, x, y - 4.0, x, y + 4.0, colour, LEGEND_LINE);
+    lrcsi_plot_line(plotter, x + length, y - 4.0, x + length, y + 4.0, colour, LEGEND_LINE);
+    const lrcsi_plot_text label = {.text = name,
+                                   .at = {x + 0.5 * length, y + 17.0},
+                                   .size = LEGEND_TYPE,
+                                   .anchor = LRCSI_ANCHOR_MIDDLE,
+                                   .colour = colour};
+    plotter->text(plotter, &label);
 }
 
 /* ---- the colour scale ---- */
-
-static void rectangle_draw(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
-                           uint32_t colour)
-{
-    const lrcsi_plot_point corner[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-    plotter->area(plotter, corner, 4, colour);
-}
-
-static void words_fit(lrcsi_plotter *plotter, lrcsi_words words, double room)
-{
-    double width = words.size * lrcsi_letters_width(words.text);
-    words.size *= width > room ? room / width : 1.0;
-    plotter->text(plotter, &words);
-}
 
 /* The number of ticks from one labelled tick to the next, so that all labels fit. */
 static uint32_t numbers_step(const lrcsi_axis *scale, double width)
@@ -100,59 +80,60 @@ static uint32_t numbers_step(const lrcsi_axis *scale, double width)
 
 /* Numbers under the scale, among them 0 if it is on the scale. */
 static void scale_numbers(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double left,
-                          double width, double y, uint32_t ink)
+                          double width, double y, uint32_t colour)
 {
     uint32_t step = numbers_step(&colouring->scale, width);
     uint32_t named = 0;
     for (uint32_t i = 0; i < colouring->scale.count && colouring->scale.tick[i].value < 0.0; i++) {
         named += colouring->scale.tick[i].major != 0;
     }
-    named = colouring->scale.most < 0.0
+    named = colouring->scale.high < 0.0
                 ? 0
                 : (step - named % step) % step; /* so that 0 counts as one */
     for (uint32_t i = 0; i < colouring->scale.count; i++) {
         const lrcsi_tick *tick = &colouring->scale.tick[i];
         double x = left + width * lrcsi_axis_at(&colouring->scale, tick->value);
         if (tick->major && named++ % step == 0) {
-            const lrcsi_words words = {.text = tick->text,
-                                       .at = {x, y + 15.0},
-                                       .size = LEGEND_TYPE,
-                                       .anchor = LRCSI_ANCHOR_MIDDLE,
-                                       .colour = ink};
-            legend_stroke(plotter, x, y, x, y + 3.0, ink);
-            plotter->text(plotter, &words);
+            const lrcsi_plot_text label = {.text = tick->text,
+                                           .at = {x, y + 15.0},
+                                           .size = LEGEND_TYPE,
+                                           .anchor = LRCSI_ANCHOR_MIDDLE,
+                                           .colour = colour};
+            lrcsi_plot_line(plotter, x, y, x, y + 3.0, colour, LEGEND_LINE);
+            plotter->text(plotter, &label);
         }
     }
 }
 
 static void scale_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double top,
-                       double width, uint32_t ink)
+                       double width, uint32_t colour)
 {
     double left = LEGEND_MARGIN + (LEGEND_LENGTH + 0.06) * width;
     double bar = width - LEGEND_MARGIN - 8.0 - left;
     double y = top + 16.0;
-    const lrcsi_words title = {.text = lrcsi_colouring_name(colouring),
-                               .at = {left + 0.5 * bar, top + 10.0},
-                               .size = LEGEND_TYPE,
-                               .anchor = LRCSI_ANCHOR_MIDDLE,
-                               .colour = ink};
-    words_fit(plotter, title, bar);
+    const lrcsi_plot_text title = {.text = lrcsi_colouring_name(colouring),
+                                   .at = {left + 0.5 * bar, top + 10.0},
+                                   .size = LEGEND_TYPE,
+                                   .anchor = LRCSI_ANCHOR_MIDDLE,
+                                   .colour = colour};
+    lrcsi_letters_fit(plotter, title, bar);
     for (int i = 0; i < LEGEND_STEPS; i++) { /* each extends to the end, so that there are no
                                                 gaps */
-        rectangle_draw(plotter, left + bar * i / LEGEND_STEPS, y, left + bar, y + LEGEND_BAR,
-                       lrcsi_palette_even((i + 0.5) / LEGEND_STEPS));
+        lrcsi_plot_rectangle(plotter, left + bar * i / LEGEND_STEPS, y, left + bar, y + LEGEND_BAR,
+                             lrcsi_palette_viridis((i + 0.5) / LEGEND_STEPS));
     }
-    scale_numbers(colouring, plotter, left, bar, y + LEGEND_BAR, ink);
+    scale_numbers(colouring, plotter, left, bar, y + LEGEND_BAR, colour);
 }
 
 /* ---- materials ---- */
 
 typedef struct legend_grid {
-    uint32_t columns, rows, shown; /* shown: materials, the rest is "more" */
+    uint32_t columns, rows,
+        shown; /* shown: materials that are listed; "and N more" stands for the others */
     double column;
 } legend_grid;
 
-static legend_grid grid_make(const lrcsi_colouring *colouring, double width, double most)
+static legend_grid grid_make(const lrcsi_colouring *colouring, double width, double height_max)
 {
     legend_grid grid = {.columns = 1, .column = width - 2.0 * LEGEND_MARGIN};
     double widest = colouring->more > 0 ? lrcsi_letters_width("and 100 more") : 0.0;
@@ -161,7 +142,7 @@ static legend_grid grid_make(const lrcsi_colouring *colouring, double width, dou
                                   colouring, colouring->material[i])));
     }
     double wanted = LEGEND_TYPE * widest + LEGEND_SWATCH + 18.0;
-    uint32_t room = (uint32_t)fmax((most - LEGEND_STRIP) / LEGEND_ROW, 0.0);
+    uint32_t room = (uint32_t)fmax((height_max - LEGEND_STRIP) / LEGEND_ROW, 0.0);
     uint32_t items = colouring->materials + (colouring->more != 0);
     grid.columns = (uint32_t)fmin(fmax(floor(grid.column / wanted), 1.0), fmax(items, 1.0));
     grid.column /= grid.columns;
@@ -175,7 +156,7 @@ static legend_grid grid_make(const lrcsi_colouring *colouring, double width, dou
 }
 
 static void materials_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter,
-                           const legend_grid *grid, double top, uint32_t ink)
+                           const legend_grid *grid, double top, uint32_t colour)
 {
     uint32_t more = colouring->more + colouring->materials - grid->shown;
     char others[32];
@@ -184,43 +165,43 @@ static void materials_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plot
         double x = LEGEND_MARGIN + grid->column * (i % grid->columns);
         uint32_t row = i / grid->columns;
         double y = top + LEGEND_ROW * row;
-        lrcsi_words words = {.text = others,
-                             .at = {x + LEGEND_SWATCH + 7.0, y + 10.5},
-                             .size = LEGEND_TYPE,
-                             .colour = ink};
+        lrcsi_plot_text label = {.text = others,
+                                 .at = {x + LEGEND_SWATCH + 7.0, y + 10.5},
+                                 .size = LEGEND_TYPE,
+                                 .colour = colour};
         if (i < grid->shown) {
-            words.text = lrcsi_colouring_material_name(colouring, colouring->material[i]);
-            rectangle_draw(plotter, x - 1.0, y - 1.0, x + LEGEND_SWATCH + 1.0,
-                           y + LEGEND_SWATCH + 1.0, ink);
-            rectangle_draw(plotter, x, y, x + LEGEND_SWATCH, y + LEGEND_SWATCH,
-                           lrcsi_colouring_material(colouring, colouring->material[i]));
+            label.text = lrcsi_colouring_material_name(colouring, colouring->material[i]);
+            lrcsi_plot_rectangle(plotter, x - 1.0, y - 1.0, x + LEGEND_SWATCH + 1.0,
+                                 y + LEGEND_SWATCH + 1.0, colour);
+            lrcsi_plot_rectangle(plotter, x, y, x + LEGEND_SWATCH, y + LEGEND_SWATCH,
+                                 lrcsi_colouring_material(colouring, colouring->material[i]));
         }
-        words_fit(plotter, words, grid->column - LEGEND_SWATCH - 12.0);
+        lrcsi_letters_fit(plotter, label, grid->column - LEGEND_SWATCH - 12.0);
     }
 }
 
 /* ---- the strip ---- */
 
-double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, double most)
+double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, double height_max)
 {
     double rows = 0.0;
     if (colouring->materials > 0) {
-        legend_grid grid = grid_make(colouring, width, most);
+        legend_grid grid = grid_make(colouring, width, height_max);
         rows = LEGEND_ROW * grid.rows;
     }
     return rows + LEGEND_STRIP;
 }
 
 void lrcsi_legend_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double top,
-                       double width, double most, double scale, uint32_t ink)
+                       double width, double height_max, double scale, uint32_t colour)
 {
     if (colouring->materials > 0) {
-        legend_grid grid = grid_make(colouring, width, most);
-        materials_draw(colouring, plotter, &grid, top, ink);
+        legend_grid grid = grid_make(colouring, width, height_max);
+        materials_draw(colouring, plotter, &grid, top, colour);
         top += LEGEND_ROW * grid.rows;
     }
     if (colouring->scaled) {
-        scale_draw(colouring, plotter, top, width, ink);
+        scale_draw(colouring, plotter, top, width, colour);
     }
-    length_draw(plotter, top + 16.0 + 0.5 * LEGEND_BAR, width, scale, ink);
+    length_draw(plotter, top + 16.0 + 0.5 * LEGEND_BAR, width, scale, colour);
 }

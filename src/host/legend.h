@@ -6,12 +6,12 @@
 #include "host/colouring.h"
 #include "host/plotter.h"
 
-/* The height of a legend on paper of the given width, at most `most`. */
-double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, double most);
+/* The height of a legend of the given width, at most height_max. */
+double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, double height_max);
 
-/* Draws it with its top at `top`, all across the paper.
-   Given: scale, units of the paper a metre; ink, the colour of words. */
+/* Draws it with its top at `top`.
+   Given: scale, units of the drawing per metre; colour, of text and lines. */
 void lrcsi_legend_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double top,
-                       double width, double most, double scale, uint32_t ink);
+                       double width, double height_max, double scale, uint32_t colour);
 
 #endif

@@ -140,6 +140,13 @@ double lrcsi_letters_width(const char *text)
     return width;
 }
 
+void lrcsi_letters_fit(lrcsi_plotter *plotter, lrcsi_plot_text label, double room)
+{
+    double width = label.size * lrcsi_letters_width(label.text);
+    label.size *= width > room ? room / width : 1.0;
+    plotter->text(plotter, &label);
+}
+
 int lrcsi_letters_next(lrcsi_letters *letters, lrcsi_plot_point *point)
 {
     int move = LRCSI_LETTERS_DRAW;

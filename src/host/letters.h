@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Letters as strokes, for words on a canvas of pixels. */
+/* A stroke font, for text on a canvas of pixels, and the width of text in any drawing. */
 #ifndef LRCSI_HOST_LETTERS_H
 #define LRCSI_HOST_LETTERS_H
 
@@ -7,6 +7,9 @@
 
 /* Width of a text in em: close enough to that of a common sans serif to lay out SVG too. */
 double lrcsi_letters_width(const char *text);
+
+/* Draws a text, in a smaller size if it is wider than `room`. */
+void lrcsi_letters_fit(lrcsi_plotter *plotter, lrcsi_plot_text label, double room);
 
 /* The next point of a text's strokes in em, x to the right from the text's beginning, y up from the
    base line. */

@@ -60,7 +60,7 @@ static int recipe_from_text(lrcs_host_scene *scene, const char *path, const char
     if (error && strcmp(path, "demo") != 0 && !names_scene_file(path)) {
         size_t used = strlen(error->text);
         snprintf(error->text + used, sizeof error->text - used,
-                 "; it is no 3DS, OBJ or STL model and was read as a scene file");
+                 "; it is not a 3DS, OBJ or STL model and was read as a scene file");
     }
     return status;
 }
@@ -324,7 +324,7 @@ int lrcs_host_scene_refine(lrcs_host_scene *scene, const lrcs_run_options *optio
     if (!level) {
         return 0;
     }
-    uint32_t kept = lrcsi_host_level_settle(scene, level, &build->halvings);
+    uint32_t kept = lrcsi_host_level_adopt(scene, level, &build->halvings);
     if (scene->notices.count > kept) {
         lrcsi_host_scene_notes(scene, kept);
     }

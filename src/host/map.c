@@ -11,21 +11,21 @@
 
 #include <math.h>
 
-#define MAP_COLUMNS 360u /* the largest number of cells that can be distinguished */
-#define MAP_ROWS    240u
-#define MAP_RIGHT   (LRCSI_CHART_WIDTH - 130.0)
-#define MAP_BAR     16.0 /* width of the scale of colours */
-#define MAP_STEPS   128
-#define MAP_LAP     1.0 /* cells overlap the next by this much, so that no gaps are visible */
-#define MAP_NOTHING 0xbdbdbdu
-#define MAP_TEXTS   9.0
+#define MAP_COLUMNS        360u /* the largest number of cells that can be distinguished */
+#define MAP_ROWS           240u
+#define MAP_RIGHT          (LRCSI_CHART_WIDTH - 130.0)
+#define MAP_BAR            16.0 /* width of the scale of colours */
+#define MAP_STEPS          128
+#define MAP_OVERLAP        1.0 /* cells overlap the next by this much, so that no gaps are visible */
+#define MAP_COLOUR_MISSING 0xbdbdbdu
+#define MAP_LABELS         9.0
 
-/* Mollweide's ellipse: twice as wide as high. */
+/* Mollweide's ellipse, twice as wide as high: its centre and its semi-axes. */
 #define ELLIPSE_X     (0.5 * (LRCSI_CHART_LEFT + MAP_RIGHT))
 #define ELLIPSE_Y     (0.5 * (LRCSI_CHART_TOP + LRCSI_CHART_BOTTOM))
-#define ELLIPSE_WIDE  (0.5 * (MAP_RIGHT - LRCSI_CHART_LEFT)) /* half of it */
-#define ELLIPSE_HIGH  (0.5 * ELLIPSE_WIDE)
-#define ELLIPSE_STRIP 3.0 /* deg: a meridian is straight over so much */
+#define ELLIPSE_A     (0.5 * (MAP_RIGHT - LRCSI_CHART_LEFT))
+#define ELLIPSE_B     (0.5 * ELLIPSE_A)
+#define ELLIPSE_STRIP 3.0 /* deg of latitude over which a meridian is drawn straight */
 #define ELLIPSE_EMPTY 0xf0f0f0u
 
 typedef struct map_plan {
@@ -84,13 +84,6 @@ static double cell_begin(const double *place, uint32_t cell, uint32_t each, uint
                             : 0.5 * (place[first - 1] + place[first]);
 }
 
-static void box_fill(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
-                     uint32_t colour)
-{
-    const lrcsi_plot_point corner[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-    plotter->area(plotter, corner, 4, colour);
-}
-
 /* ---- Mollweide's projection ---- */
 
 /* The height of a latitude, -1 .. 1: sin(t) where 2 t + sin(2 t) = pi sin(latitude), by Newton's
@@ -98,13 +91,13 @@ static void box_fill(lrcsi_plotter *plotter, double x0, double y0, double x1, do
    Source: J. P. Snyder, Map Projections: A Working Manual, USGS PP 1395 (1987) 251. */
 static double ellipse_height(double degrees)
 {
-    double want = LRCS_PI * sin(degrees * LRCS_PI / 180.0);
+    double target = LRCS_PI * sin(degrees * LRCS_PI / 180.0);
     double t = degrees * LRCS_PI / 180.0;
     if (fabs(degrees) >= 90.0) {
         return degrees > 0.0 ? 1.0 : -1.0;
     }
     for (int i = 0; i < 60; i++) {
-        double step = (2.0 * t + sin(2.0 * t) - want) / (2.0 + 2.0 * cos(2.0 * t));
+        double step = (2.0 * t + sin(2.0 * t) - target) / (2.0 + 2.0 * cos(2.0 * t));
         t -= step;
         if (fabs(step) < 1e-9) {
             break;
@@ -117,24 +110,25 @@ static double ellipse_height(double degrees)
 static lrcsi_plot_point ellipse_point(double longitude, double height)
 {
     double narrow = sqrt(fmax(1.0 - height * height, 0.0));
-    return (lrcsi_plot_point){ELLIPSE_X + ELLIPSE_WIDE * narrow * longitude / 180.0,
-                              ELLIPSE_Y - ELLIPSE_HIGH * height};
+    return (lrcsi_plot_point){ELLIPSE_X + ELLIPSE_A * narrow * longitude / 180.0,
+                              ELLIPSE_Y - ELLIPSE_B * height};
 }
 
-/* The term that reduces a longitude to -180 .. 180. */
-static double ellipse_turn(double longitude)
+/* The multiple of 360 that reduces a longitude to -180 .. 180 when added to it. */
+static double longitude_shift(double longitude)
 {
     return -360.0 * floor((longitude + 180.0) / 360.0);
 }
 
-/* A piece of a row of cells; each reaches a little under the next, to the right and above. */
+/* A piece of a row of cells. Each overlaps the next one to the right and above, which is drawn
+ * later. */
 static void ellipse_piece(const map_plan *plan, double west, double east, const double height[2],
                           uint32_t colour)
 {
     double low = height[0];
-    double high = fmin(height[1] + MAP_LAP / ELLIPSE_HIGH, 1.0);
-    double lap = 180.0 * MAP_LAP / ELLIPSE_WIDE;
-    east = fmin(east + lap, 180.0);
+    double high = fmin(height[1] + MAP_OVERLAP / ELLIPSE_B, 1.0);
+    double overlap = 180.0 * MAP_OVERLAP / ELLIPSE_A;
+    east = fmin(east + overlap, 180.0);
     const lrcsi_plot_point corner[4] = {ellipse_point(west, low), ellipse_point(east, low),
                                         ellipse_point(east, high), ellipse_point(west, high)};
     plan->plotter->area(plan->plotter, corner, 4, colour);
@@ -146,9 +140,9 @@ static void ellipse_cells(const map_plan *plan, double west, double east, const 
                           uint32_t colour)
 {
     int strips = (int)ceil((latitude[1] - latitude[0]) / ELLIPSE_STRIP);
-    double turn = ellipse_turn(west);
-    west += turn;
-    east += turn;
+    double shift = longitude_shift(west);
+    west += shift;
+    east += shift;
     for (int i = 0; i < strips; i++) {
         double each = (latitude[1] - latitude[0]) / strips;
         const double height[2] = {ellipse_height(latitude[0] + i * each),
@@ -163,21 +157,21 @@ static void ellipse_cells(const map_plan *plan, double west, double east, const 
 static void ellipse_line(const map_plan *plan, double longitude, uint32_t colour, double width)
 {
     lrcsi_plot_point point[61];
-    const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
+    const lrcsi_line_style style = {colour, width, {0.0, 0.0}};
     for (int i = 0; i <= 60; i++) {
         point[i] = ellipse_point(longitude, sin(LRCS_PI * (i - 30) / 60.0));
     }
-    plan->plotter->line(plan->plotter, point, 61, &ink);
+    plan->plotter->line(plan->plotter, point, 61, &style);
 }
 
 /* The background below the cells, for what they do not cover. */
-static void ellipse_ground(const map_plan *plan)
+static void ellipse_background(const map_plan *plan)
 {
     lrcsi_plot_point point[120];
     for (int i = 0; i < 120; i++) {
         double t = LRCS_PI * i / 60.0;
-        point[i] = (lrcsi_plot_point){ELLIPSE_X + ELLIPSE_WIDE * cos(t),
-                                      ELLIPSE_Y - ELLIPSE_HIGH * sin(t)};
+        point[i] =
+            (lrcsi_plot_point){ELLIPSE_X + ELLIPSE_A * cos(t), ELLIPSE_Y - ELLIPSE_B * sin(t)};
     }
     plan->plotter->area(plan->plotter, point, 120, ELLIPSE_EMPTY);
 }
@@ -186,20 +180,17 @@ static void ellipse_number(const map_plan *plan, int degrees, lrcsi_plot_point a
 {
     char text[16];
     snprintf(text, sizeof text, "%d", degrees);
-    const lrcsi_words words = {.text = text,
-                               .at = {at.x, at.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
-                               .size = LRCSI_CHART_SMALL,
-                               .anchor = anchor,
-                               .colour = LRCSI_COLOUR_TEXT};
+    const lrcsi_plot_text label = {.text = text,
+                                   .at = {at.x, at.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
+                                   .size = LRCSI_CHART_SMALL,
+                                   .anchor = anchor,
+                                   .colour = LRCSI_COLOUR_TEXT};
     if (anchor == LRCSI_ANCHOR_MIDDLE) { /* on the map */
         double half = 0.5 * LRCSI_CHART_SMALL * lrcsi_letters_width(text) + 2.0;
-        const lrcsi_plot_point corner[4] = {{at.x - half, at.y - 7.0},
-                                            {at.x + half, at.y - 7.0},
-                                            {at.x + half, at.y + 7.0},
-                                            {at.x - half, at.y + 7.0}};
-        plan->plotter->area(plan->plotter, corner, 4, LRCSI_COLOUR_PAPER);
+        lrcsi_plot_rectangle(plan->plotter, at.x - half, at.y - 7.0, at.x + half, at.y + 7.0,
+                             LRCSI_COLOUR_BACKGROUND);
     }
-    plan->plotter->text(plan->plotter, &words);
+    plan->plotter->text(plan->plotter, &label);
 }
 
 /* Meridians and parallels every 30 degrees, with numbers along the equator and on the left. */
@@ -212,7 +203,7 @@ static void ellipse_graticule(const map_plan *plan)
         double height = ellipse_height(degrees);
         lrcsi_plot_point left = ellipse_point(-180.0, height);
         lrcsi_plot_point right = ellipse_point(180.0, height);
-        lrcsi_chart_stroke(plan->plotter, left.x, left.y, right.x, right.y, 0x777777u, 0.5);
+        lrcsi_plot_line(plan->plotter, left.x, left.y, right.x, right.y, 0x777777u, 0.5);
         left.x -= 8.0;
         ellipse_number(plan, degrees, left, LRCSI_ANCHOR_RIGHT);
     }
@@ -230,10 +221,10 @@ static uint32_t cell_colour_of(const map_plan *plan, uint32_t column, uint32_t r
 {
     double value = cell_value(plan, column, row);
     if (!isfinite(value)) {
-        return MAP_NOTHING;
+        return MAP_COLOUR_MISSING;
     }
     double part = fmin(fmax(lrcsi_axis_at(&plan->z, value), 0.0), 1.0);
-    return lrcsi_palette_even(floor(part * MAP_STEPS + 0.5) / MAP_STEPS);
+    return lrcsi_palette_viridis(floor(part * MAP_STEPS + 0.5) / MAP_STEPS);
 }
 
 static void row_draw(const map_plan *plan, uint32_t row)
@@ -243,7 +234,7 @@ static void row_draw(const map_plan *plan, uint32_t row)
                             cell_begin(map->y, row + 1, plan->high, map->rows)};
     double low = map_y(plan, side[0]);
     double high = map_y(plan, side[1]);
-    double top = fmax(high - MAP_LAP, map_y(plan, map->y[map->rows - 1]));
+    double top = fmax(high - MAP_OVERLAP, map_y(plan, map->y[map->rows - 1]));
     double end = map_x(plan, map->x[map->columns - 1]);
     for (uint32_t column = 0; column < plan->columns;) {
         uint32_t colour = cell_colour_of(plan, column, row);
@@ -255,8 +246,8 @@ static void row_draw(const map_plan *plan, uint32_t row)
         if (map->mollweide) {
             ellipse_cells(plan, from, to, side, colour);
         } else {
-            box_fill(plan->plotter, map_x(plan, from), top, fmin(map_x(plan, to) + MAP_LAP, end),
-                     low, colour);
+            lrcsi_plot_rectangle(plan->plotter, map_x(plan, from), top,
+                                 fmin(map_x(plan, to) + MAP_OVERLAP, end), low, colour);
         }
     }
 }
@@ -276,7 +267,7 @@ static lrcsi_plot_point contour_cross(const lrcsi_plot_point corner[4], const do
 /* The pieces of a contour between four points, two of them at a saddle: then the mean decides which
    corners are connected. */
 static void contour_square(const map_plan *plan, const lrcsi_plot_point corner[4],
-                           const double z[4], double level, const lrcsi_ink *ink)
+                           const double z[4], double level, const lrcsi_line_style *style)
 {
     lrcsi_plot_point point[4];
     int count = 0;
@@ -286,14 +277,15 @@ static void contour_square(const map_plan *plan, const lrcsi_plot_point corner[4
         }
     }
     if (count == 2) {
-        plan->plotter->line(plan->plotter, point, 2, ink);
+        plan->plotter->line(plan->plotter, point, 2, style);
     } else if (count == 4) {
         int middle = 0.25 * (z[0] + z[1] + z[2] + z[3]) >= level;
-        int round = middle == (z[0] >= level); /* corners 1 and 3 are cut off, not 0 and 2 */
-        const lrcsi_plot_point pair[4] = {point[round ? 0 : 3], point[round ? 1 : 0],
-                                          point[round ? 2 : 1], point[round ? 3 : 2]};
-        plan->plotter->line(plan->plotter, pair, 2, ink);
-        plan->plotter->line(plan->plotter, pair + 2, 2, ink);
+        int separate =
+            middle == (z[0] >= level); /* contours separate corners 1 and 3, not 0 and 2 */
+        const lrcsi_plot_point pair[4] = {point[separate ? 0 : 3], point[separate ? 1 : 0],
+                                          point[separate ? 2 : 1], point[separate ? 3 : 2]};
+        plan->plotter->line(plan->plotter, pair, 2, style);
+        plan->plotter->line(plan->plotter, pair + 2, 2, style);
     }
 }
 
@@ -303,29 +295,29 @@ static void contours_between(const map_plan *plan, uint32_t column, uint32_t row
     const lrcs_host_map *map = plan->map;
     lrcsi_plot_point corner[4];
     double z[4];
-    double turn = ellipse_turn(cell_place(map->x, column, plan->wide, map->columns));
+    double shift = longitude_shift(cell_place(map->x, column, plan->wide, map->columns));
     for (int k = 0; k < 4; k++) {
         uint32_t c = column + step[k][0];
         uint32_t r = row + step[k][1];
         double x = cell_place(map->x, c, plan->wide, map->columns);
         double y = cell_place(map->y, r, plan->high, map->rows);
         z[k] = cell_value(plan, c, r);
-        corner[k] = map->mollweide ? ellipse_point(x + turn, ellipse_height(y))
+        corner[k] = map->mollweide ? ellipse_point(x + shift, ellipse_height(y))
                                    : (lrcsi_plot_point){map_x(plan, x), map_y(plan, y)};
-        if (!isfinite(z[k]) || (map->mollweide && x + turn > 180.0)) {
+        if (!isfinite(z[k]) || (map->mollweide && x + shift > 180.0)) {
             return; /* nothing there, or on both sides of the map */
         }
     }
     for (uint32_t i = 0; i < plan->z.count; i++) {
         double part = lrcsi_axis_at(&plan->z, plan->z.tick[i].value);
-        const lrcsi_ink ink = {part < 0.6 ? 0xffffffu : 0x333333u, 0.7, {0.0, 0.0}};
+        const lrcsi_line_style style = {part < 0.6 ? 0xffffffu : 0x333333u, 0.7, {0.0, 0.0}};
         if (plan->z.tick[i].major && part > 0.0 && part < 1.0) {
-            contour_square(plan, corner, z, plan->z.tick[i].value, &ink);
+            contour_square(plan, corner, z, plan->z.tick[i].value, &style);
         }
     }
 }
 
-/* ---- the rest of the paper ---- */
+/* ---- scale, frame and titles ---- */
 
 /* The scale of colours, with the levels of the contours. */
 static void map_scale(const map_plan *plan)
@@ -333,31 +325,32 @@ static void map_scale(const map_plan *plan)
     double left = MAP_RIGHT + 24.0;
     double high = LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP;
     for (int i = MAP_STEPS; i-- > 0;) { /* each begins at the bottom, so that there are no gaps */
-        box_fill(plan->plotter, left, LRCSI_CHART_BOTTOM - high * (i + 1) / MAP_STEPS,
-                 left + MAP_BAR, LRCSI_CHART_BOTTOM, lrcsi_palette_even((i + 0.5) / MAP_STEPS));
+        lrcsi_plot_rectangle(plan->plotter, left, LRCSI_CHART_BOTTOM - high * (i + 1) / MAP_STEPS,
+                             left + MAP_BAR, LRCSI_CHART_BOTTOM,
+                             lrcsi_palette_viridis((i + 0.5) / MAP_STEPS));
     }
     lrcsi_chart_box(plan->plotter, left, left + MAP_BAR);
     for (uint32_t i = 0; i < plan->z.count; i++) {
         const lrcsi_tick *tick = &plan->z.tick[i];
         double y = LRCSI_CHART_BOTTOM - high * lrcsi_axis_at(&plan->z, tick->value);
         double x = left + MAP_BAR;
-        const lrcsi_words words = {.text = tick->text,
-                                   .at = {x + 8.0, y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
-                                   .size = LRCSI_CHART_SMALL,
-                                   .colour = LRCSI_COLOUR_TEXT};
+        const lrcsi_plot_text label = {.text = tick->text,
+                                       .at = {x + 8.0, y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
+                                       .size = LRCSI_CHART_SMALL,
+                                       .colour = LRCSI_COLOUR_TEXT};
         if (tick->major) {
-            lrcsi_chart_stroke(plan->plotter, x, y, x + 5.0, y, LRCSI_COLOUR_TEXT, 0.9);
-            plan->plotter->text(plan->plotter, &words);
+            lrcsi_plot_line(plan->plotter, x, y, x + 5.0, y, LRCSI_COLOUR_TEXT, 0.9);
+            plan->plotter->text(plan->plotter, &label);
         }
     }
-    const lrcsi_words name = {
+    const lrcsi_plot_text name = {
         .text = plan->map->z_name,
         .at = {LRCSI_CHART_WIDTH - 14.0, 0.5 * (LRCSI_CHART_TOP + LRCSI_CHART_BOTTOM)},
         .size = LRCSI_CHART_NAMES,
         .anchor = LRCSI_ANCHOR_MIDDLE,
         .upwards = 1,
         .colour = LRCSI_COLOUR_TEXT};
-    lrcsi_chart_words(plan->plotter, name, high);
+    lrcsi_letters_fit(plan->plotter, name, high);
 }
 
 /* Frame and numbers of a map in a rectangle. */
@@ -376,7 +369,7 @@ static void map_frame(const map_plan *plan)
     }
 }
 
-static void map_say(const map_plan *plan)
+static void map_annotate(const map_plan *plan)
 {
     const lrcs_host_map *map = plan->map;
     if (map->mollweide) {
@@ -413,7 +406,7 @@ static map_plan map_place(const lrcs_host_map *map, lrcsi_plotter *plotter)
                              (MAP_RIGHT - LRCSI_CHART_LEFT) / 50.0);
     plan.y = lrcsi_axis_make(map->y_deg ? LRCSI_AXIS_DEG : 0, map->y[0], map->y[map->rows - 1],
                              (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP) / 30.0);
-    plan.z = lrcsi_axis_make(0, range[0], range[1], MAP_TEXTS);
+    plan.z = lrcsi_axis_make(0, range[0], range[1], MAP_LABELS);
     return plan;
 }
 
@@ -421,7 +414,7 @@ static void map_draw(const lrcs_host_map *map, lrcsi_plotter *plotter)
 {
     map_plan plan = map_place(map, plotter);
     if (map->mollweide) {
-        ellipse_ground(&plan);
+        ellipse_background(&plan);
     }
     for (uint32_t row = 0; row < plan.rows; row++) {
         row_draw(&plan, row);
@@ -431,7 +424,7 @@ static void map_draw(const lrcs_host_map *map, lrcsi_plotter *plotter)
             contours_between(&plan, column, row);
         }
     }
-    map_say(&plan);
+    map_annotate(&plan);
 }
 
 /* ---- in public ---- */

@@ -77,7 +77,7 @@ static int materials_read(lrcs_host_scene *scene, const char *path, lrcs_mesh *m
     if (!beside) {
         if (named) {
             lrcsi_host_note(&scene->notices,
-                            "%s: material file '%s' not found: materials have names, no colours",
+                            "%s: material file '%s' not found: materials have names but no colours",
                             label, named);
         }
         return LRCS_OK;

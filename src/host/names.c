@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#define NAME_MOST 64u /* bytes that count for the distance of two names */
+#define NAME_BYTES_MAX 64u /* bytes that count for the distance of two names */
 
 /* ---- matching ---- */
 
@@ -29,9 +29,9 @@ int lrcsi_name_is_pattern(const char *text)
     return strpbrk(text, "*?") != NULL;
 }
 
-/* A mismatch after a * goes back to that star, which takes one character more. Earlier stars need
-   no second look: the text between two stars can be matched at its first occurrence without
-   loss. */
+/* After a mismatch the match resumes at the last *, which takes one character more. Earlier stars
+   need not be tried again, because the text between two stars can always be matched at its first
+   occurrence. */
 int lrcsi_name_matches(const char *pattern, const char *name, int fold)
 {
     const char *star = NULL;
@@ -67,9 +67,9 @@ int lrcsi_name_same_folded(const char *a, const char *b)
     return *a == *b;
 }
 
-/* ---- likeness ---- */
+/* ---- similarity ---- */
 
-static unsigned least_of(unsigned a, unsigned b)
+static unsigned smaller_of(unsigned a, unsigned b)
 {
     return a < b ? a : b;
 }
@@ -77,11 +77,11 @@ static unsigned least_of(unsigned a, unsigned b)
 /* Levenshtein's distance, with neighbours swapped counted once (optimal string alignment). */
 static unsigned edit_distance(const char *a, const char *b, int fold)
 {
-    unsigned row[3][NAME_MOST + 1];
-    size_t na = strlen(a) < NAME_MOST ? strlen(a) : NAME_MOST;
-    size_t nb = strlen(b) < NAME_MOST ? strlen(b) : NAME_MOST;
-    unsigned char fa[NAME_MOST];
-    unsigned char fb[NAME_MOST];
+    unsigned row[3][NAME_BYTES_MAX + 1];
+    size_t na = strlen(a) < NAME_BYTES_MAX ? strlen(a) : NAME_BYTES_MAX;
+    size_t nb = strlen(b) < NAME_BYTES_MAX ? strlen(b) : NAME_BYTES_MAX;
+    unsigned char fa[NAME_BYTES_MAX];
+    unsigned char fb[NAME_BYTES_MAX];
     for (size_t i = 0; i < na; i++) {
         fa[i] = fold_byte((unsigned char)a[i], fold);
     }
@@ -96,10 +96,10 @@ static unsigned edit_distance(const char *a, const char *b, int fold)
         const unsigned *last = row[(i - 1) % 3];
         now[0] = (unsigned)i;
         for (size_t k = 1; k <= nb; k++) {
-            now[k] =
-                least_of(least_of(last[k], now[k - 1]) + 1, last[k - 1] + (fa[i - 1] != fb[k - 1]));
+            now[k] = smaller_of(smaller_of(last[k], now[k - 1]) + 1,
+                                last[k - 1] + (fa[i - 1] != fb[k - 1]));
             if (i > 1 && k > 1 && fa[i - 1] == fb[k - 2] && fa[i - 2] == fb[k - 1]) {
-                now[k] = least_of(now[k], row[(i - 2) % 3][k - 2] + 1);
+                now[k] = smaller_of(now[k], row[(i - 2) % 3][k - 2] + 1);
             }
         }
     }
@@ -128,30 +128,30 @@ static int contains(const char *whole, const char *part)
     return 0;
 }
 
-static unsigned unlikeness(const char *text, const char *name)
+static unsigned name_difference(const char *text, const char *name)
 {
     return contains(name, text) || contains(text, name) ? 0 : edit_distance(text, name, 1);
 }
 
 /* Insertion into a short sorted list; names of equal similarity keep their order. */
 uint32_t lrcs_host_names_near(const char *text, const char *const *name, uint32_t count,
-                              const char **near, uint32_t most)
+                              const char **near, uint32_t capacity)
 {
     uint32_t used = 0;
     for (uint32_t i = 0; i < count; i++) {
-        unsigned distance = unlikeness(text, name[i]);
+        unsigned distance = name_difference(text, name[i]);
         uint32_t at = used;
         int known = 0;
         for (uint32_t k = 0; k < used; k++) {
             known |= strcmp(near[k], name[i]) == 0;
         }
-        while (!known && at > 0 && unlikeness(text, near[at - 1]) > distance) {
+        while (!known && at > 0 && name_difference(text, near[at - 1]) > distance) {
             at--;
         }
-        if (known || at >= most || name[i][0] == '\0') {
+        if (known || at >= capacity || name[i][0] == '\0') {
             continue;
         }
-        used += used < most;
+        used += used < capacity;
         memmove(near + at + 1, near + at, (used - at - 1) * sizeof *near);
         near[at] = name[i];
     }

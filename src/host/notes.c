@@ -10,24 +10,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Spacecraft and their parts are of these sizes, m. */
-#define SIZE_LEAST 0.1
-#define SIZE_MOST  200.0
+/* The usual sizes of spacecraft and their parts, m. */
+#define SIZE_USUAL_MIN 0.1
+#define SIZE_USUAL_MAX 200.0
 
 /* ---- sizes ---- */
 
 /* The box of facets first .. first + count - 1 except those left out. Returns 0 if there are
    none. */
-static int facets_box(const lrcs_scene *scene, uint32_t first, uint32_t count, double least[3],
-                      double most[3])
+static int facets_box(const lrcs_scene *scene, uint32_t first, uint32_t count, double box_min[3],
+                      double box_max[3])
 {
     int any = 0;
     for (uint32_t i = first; i < first + count; i++) {
         for (int k = 0; k < 3 && !scene->material[scene->facet_material[i]].omitted; k++) {
             const double *x = scene->vertex[scene->facet[i].corner[k]].x;
             for (int axis = 0; axis < 3; axis++) {
-                least[axis] = any ? fmin(least[axis], x[axis]) : x[axis];
-                most[axis] = any ? fmax(most[axis], x[axis]) : x[axis];
+                box_min[axis] = any ? fmin(box_min[axis], x[axis]) : x[axis];
+                box_max[axis] = any ? fmax(box_max[axis], x[axis]) : x[axis];
             }
             any = 1;
         }
@@ -35,22 +35,22 @@ static int facets_box(const lrcs_scene *scene, uint32_t first, uint32_t count, d
     return any;
 }
 
-void lrcs_host_scene_box(const lrcs_scene *scene, double least[3], double most[3])
+void lrcs_host_scene_box(const lrcs_scene *scene, double box_min[3], double box_max[3])
 {
-    if (!facets_box(scene, 0, scene->facet_count, least, most)) {
-        memset(least, 0, 3 * sizeof *least);
-        memset(most, 0, 3 * sizeof *most);
+    if (!facets_box(scene, 0, scene->facet_count, box_min, box_max)) {
+        memset(box_min, 0, 3 * sizeof *box_min);
+        memset(box_max, 0, 3 * sizeof *box_max);
     }
 }
 
 static double part_size(const lrcs_scene *scene, const lrcs_part *part)
 {
-    double least[3];
-    double most[3];
+    double box_min[3];
+    double box_max[3];
     double size = 0.0;
-    if (facets_box(scene, part->first_facet, part->facet_count, least, most)) {
+    if (facets_box(scene, part->first_facet, part->facet_count, box_min, box_max)) {
         for (int axis = 0; axis < 3; axis++) {
-            size = fmax(size, most[axis] - least[axis]);
+            size = fmax(size, box_max[axis] - box_min[axis]);
         }
     }
     return size;
@@ -70,7 +70,7 @@ static void unit_note(lrcs_host_scene *host, uint32_t part)
     if (!given->file || given->unit_m > 0.0 || !(size > 0.0)) {
         return;
     }
-    if (size >= SIZE_LEAST && size <= SIZE_MOST) {
+    if (size >= SIZE_USUAL_MIN && size <= SIZE_USUAL_MAX) {
         lrcsi_host_note(&host->notices,
                         "%s: no unit is stated: metres are assumed, it is %.4g m across",
                         given->name, size);
@@ -78,7 +78,7 @@ static void unit_note(lrcs_host_scene *host, uint32_t part)
     }
     for (size_t i = 0; i < sizeof unit / sizeof unit[0]; i++) {
         double other = size * unit[i].metres;
-        if (other >= SIZE_LEAST && other <= SIZE_MOST) {
+        if (other >= SIZE_USUAL_MIN && other <= SIZE_USUAL_MAX) {
             used += (size_t)snprintf(others + used, sizeof others - used, "%s%.4g m in %s",
                                      used ? ", " : ": it would be ", other, unit[i].name);
         }
@@ -112,16 +112,16 @@ static int models_match(const lrcs_host_scene *host, const lrcs_binding *binding
     return 0;
 }
 
-#define NEAR_MOST 4u /* names reported */
+#define NEAREST_MAX 4u /* names reported */
 
 static void map_name_note(lrcs_host_scene *host, const char *name)
 {
-    const char *near[NEAR_MOST];
+    const char *near[NEAREST_MAX];
     char list[400] = "";
     size_t used = 0;
     uint32_t count = 0;
     const char *const *names = lrcsi_host_binding_names(host, LRCS_BIND_MAP_NAME, &count);
-    uint32_t found = names ? lrcs_host_names_near(name, names, count, near, NEAR_MOST) : 0;
+    uint32_t found = names ? lrcs_host_names_near(name, names, count, near, NEAREST_MAX) : 0;
     for (uint32_t i = 0; i < found; i++) {
         used += (size_t)snprintf(list + used, sizeof list - used, "%s'%.60s'",
                                  i > 1   ? ", "

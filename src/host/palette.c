@@ -14,12 +14,12 @@ static const unsigned char palette_viridis[LRCSI_PALETTE_KNOTS][3] = {
     {68, 1, 84},    {71, 44, 122}, {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
     {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}};
 
-#define APART_SIDE  9u   /* candidates a channel */
-#define APART_DARK  38.0 /* the least and the most L* of a candidate */
-#define APART_LIGHT 90.0
-#define APART_ALL   (APART_SIDE * APART_SIDE * APART_SIDE)
+#define GRID_SIDE    9u   /* candidates per channel */
+#define GRID_L_MIN   38.0 /* the range of L* of candidates */
+#define GRID_L_MAX   90.0
+#define GRID_COLOURS (GRID_SIDE * GRID_SIDE * GRID_SIDE)
 
-static uint32_t palette_join(const double rgb[3])
+static uint32_t palette_pack(const double rgb[3])
 {
     uint32_t colour = 0;
     for (int k = 0; k < 3; k++) {
@@ -33,7 +33,7 @@ uint32_t lrcsi_palette_named(int colour)
     return palette_names[colour & 7];
 }
 
-uint32_t lrcsi_palette_even(double value)
+uint32_t lrcsi_palette_viridis(double value)
 {
     double place = (LRCSI_PALETTE_KNOTS - 1) * fmin(fmax(value, 0.0), 1.0);
     int low = (int)fmin(place, LRCSI_PALETTE_KNOTS - 2);
@@ -42,7 +42,7 @@ uint32_t lrcsi_palette_even(double value)
         double from = palette_viridis[low][k];
         rgb[k] = from + (place - low) * (palette_viridis[low + 1][k] - from);
     }
-    return palette_join(rgb);
+    return palette_pack(rgb);
 }
 
 /* Successive hues differ by the golden ratio of a turn, so that any few neighbours are far apart;
@@ -56,7 +56,7 @@ uint32_t lrcsi_palette_distinct(uint32_t number)
         double wave = cos(2.0 * LRCS_PI * (turn - k / 3.0));
         rgb[k] = 115.0 + 0.6 * pale + (105.0 - 0.4 * pale) * wave;
     }
-    return palette_join(rgb);
+    return palette_pack(rgb);
 }
 
 /* CIE 1976 L*, a*, b* of an sRGB colour under D65 (IEC 61966-2-1, CIE 15): equal distances look
@@ -82,11 +82,11 @@ static void palette_lab(uint32_t colour, double lab[3])
     lab[2] = 200.0 * (f[1] - f[2]);
 }
 
-static uint32_t apart_candidate(uint32_t i)
+static uint32_t grid_colour(uint32_t i)
 {
-    uint32_t step = 255u / (APART_SIDE - 1u);
-    return i % APART_SIDE * step << 16 | i / APART_SIDE % APART_SIDE * step << 8 |
-           i / (APART_SIDE * APART_SIDE) * step;
+    uint32_t step = 255u / (GRID_SIDE - 1u);
+    return i % GRID_SIDE * step << 16 | i / GRID_SIDE % GRID_SIDE * step << 8 |
+           i / (GRID_SIDE * GRID_SIDE) * step;
 }
 
 static double lab_distance(const double a[3], const double b[3])
@@ -94,27 +94,28 @@ static double lab_distance(const double a[3], const double b[3])
     return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-/* The first seven are Okabe and Ito's; each one after them is the colour of a 9 x 9 x 9 grid that
-   is farthest from all before it and from the grounds that pictures have. */
-void lrcsi_palette_apart(uint32_t count, uint32_t *colour)
+/* The first seven are Okabe and Ito's; each further one is the colour of a 9 x 9 x 9 grid that
+   is farthest from all previous ones and from the backgrounds of pictures. */
+void lrcsi_palette_categorical(uint32_t count, uint32_t *colour)
 {
-    static const uint32_t ground[] = {0xffffffu, 0x0d111cu, 0x787878u};
-    double away[APART_ALL]; /* of a candidate from all that are taken */
-    double candidate[APART_ALL][3];
+    static const uint32_t background[] = {0xffffffu, 0x0d111cu, 0x787878u};
+    double distance[GRID_COLOURS]; /* of a candidate from all that are taken */
+    double candidate[GRID_COLOURS][3];
     double lab[3];
-    for (uint32_t i = 0; i < APART_ALL; i++) {
-        palette_lab(apart_candidate(i), candidate[i]);
-        away[i] = candidate[i][0] >= APART_DARK && candidate[i][0] <= APART_LIGHT ? HUGE_VAL : -1.0;
+    for (uint32_t i = 0; i < GRID_COLOURS; i++) {
+        palette_lab(grid_colour(i), candidate[i]);
+        distance[i] =
+            candidate[i][0] >= GRID_L_MIN && candidate[i][0] <= GRID_L_MAX ? HUGE_VAL : -1.0;
     }
     for (uint32_t n = 0; n < count + 3; n++) {
         uint32_t best = 0;
-        for (uint32_t i = 0; n >= 10 && i < APART_ALL; i++) {
-            best = away[i] > away[best] ? i : best;
+        for (uint32_t i = 0; n >= 10 && i < GRID_COLOURS; i++) {
+            best = distance[i] > distance[best] ? i : best;
         }
-        uint32_t taken = n < 3 ? ground[n] : n < 10 ? palette_names[n - 2] : apart_candidate(best);
+        uint32_t taken = n < 3 ? background[n] : n < 10 ? palette_names[n - 2] : grid_colour(best);
         palette_lab(taken, lab);
-        for (uint32_t i = 0; i < APART_ALL; i++) {
-            away[i] = fmin(away[i], lab_distance(lab, candidate[i]));
+        for (uint32_t i = 0; i < GRID_COLOURS; i++) {
+            distance[i] = fmin(distance[i], lab_distance(lab, candidate[i]));
         }
         if (n >= 3) {
             colour[n - 3] = taken;
@@ -128,14 +129,14 @@ uint32_t lrcsi_palette_shade(uint32_t colour, double light)
     for (int k = 0; k < 3; k++) {
         rgb[k] = light * (colour >> (16 - 8 * k) & 255u);
     }
-    return palette_join(rgb);
+    return palette_pack(rgb);
 }
 
-uint32_t lrcsi_palette_tint(uint32_t colour, double share)
+uint32_t lrcsi_palette_tint(uint32_t colour, double fraction)
 {
     uint32_t tint = 0;
     for (int shift = 16; shift >= 0; shift -= 8) {
-        double part = 255.0 - share * (255.0 - (double)(colour >> shift & 0xffu));
+        double part = 255.0 - fraction * (255.0 - (double)(colour >> shift & 0xffu));
         tint |= (uint32_t)(part + 0.5) << shift;
     }
     return tint;

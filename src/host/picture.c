@@ -8,16 +8,16 @@
 
 #include <math.h>
 
-#define OVERSAMPLE    2u    /* raster cells a pixel, each way: smooth outlines */
-#define LEGEND_FROM   160u  /* smaller pictures have no legend */
-#define LEGEND_SHARE  0.4   /* of the height: the most it takes */
-#define PICTURE_UNITS 640.0 /* larger pictures have larger letters */
-#define OUTLINE_LIGHT 0.55  /* of an outline, beside what it surrounds */
+#define OVERSAMPLE      2u    /* raster cells per pixel in x and in y: smooth outlines */
+#define LEGEND_FROM     160u  /* smaller pictures have no legend */
+#define LEGEND_FRACTION 0.4   /* the largest fraction of the height that it takes */
+#define PICTURE_UNITS   640.0 /* larger pictures have larger text */
+#define OUTLINE_LIGHT   0.55  /* brightness of an outline relative to its surroundings */
 
-/* Where things stand, in pixels. */
+/* The layout, in pixels. */
 typedef struct picture_layout {
     uint32_t left, top, side; /* the drawing */
-    double unit;              /* pixels a unit of the paper */
+    double unit;              /* pixels per unit of the drawing */
     double legend;            /* its height, units; 0: none */
     double title;             /* likewise, above the drawing */
 } picture_layout;
@@ -32,7 +32,7 @@ static picture_layout picture_place(const lrcs_host_picture *picture, uint32_t s
             .scene = picture->scene, .pose = picture->pose, .colouring = picture->colouring};
         lrcsi_colouring colouring = lrcsi_colouring_make(&plain);
         double side = size / at.unit;
-        at.legend = lrcsi_legend_height(&colouring, side, LEGEND_SHARE * side);
+        at.legend = lrcsi_legend_height(&colouring, side, LEGEND_FRACTION * side);
         at.title = picture->annotated ? LRCSI_ANNOTATE_TITLE : 0.0;
         strip = (uint32_t)lround((at.legend + at.title) * at.unit);
     }
@@ -53,7 +53,7 @@ static uint32_t cell_colour(const lrcsi_colouring *colouring, const lrcs_image *
     size_t side = image->size;
     const uint32_t *cell = image->facet + y * side + x;
     if (*cell >= colouring->picture->scene->facet_count) {
-        return lrcsi_colouring_ground(colouring);
+        return lrcsi_colouring_background(colouring);
     }
     double step = image->side_m / (double)side;
     const double view[2] = {image->left_m + ((double)x + 0.5) * step,
@@ -86,9 +86,9 @@ static void picture_draw(const lrcsi_colouring *colouring, const lrcs_image *ima
                          const picture_layout *at, lrcsi_canvas *canvas)
 {
     uint32_t size = canvas->width;
-    uint32_t ground = lrcsi_colouring_ground(colouring);
+    uint32_t background = lrcsi_colouring_background(colouring);
     for (size_t i = 0; i < 3 * (size_t)size * size; i++) {
-        canvas->rgb[i] = (unsigned char)(ground >> (16 - 8 * (i % 3)) & 255u);
+        canvas->rgb[i] = (unsigned char)(background >> (16 - 8 * (i % 3)) & 255u);
     }
     for (uint32_t y = 0; y < at->side; y++) {
         for (uint32_t x = 0; x < at->side; x++) {
@@ -105,8 +105,8 @@ static void picture_draw(const lrcsi_colouring *colouring, const lrcs_image *ima
     if (at->legend > 0.0) {
         double side = size / at->unit;
         double metre = at->side / at->unit / image->side_m;
-        lrcsi_legend_draw(colouring, &canvas->plotter, side - at->legend, side, LEGEND_SHARE * side,
-                          metre, lrcsi_colouring_ink(colouring));
+        lrcsi_legend_draw(colouring, &canvas->plotter, side - at->legend, side,
+                          LEGEND_FRACTION * side, metre, lrcsi_colouring_text_colour(colouring));
     }
 }
 

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MATCH_LEAST 3u
-#define MATCH_MOST  258u
-#define WINDOW      32768u
+#define MATCH_MIN 3u
+#define MATCH_MAX 258u
+#define WINDOW    32768u
 
 /* Bits, least significant first, into bytes that are known to suffice. */
 typedef struct bit_writer {
@@ -33,11 +33,11 @@ static void put_bits(bit_writer *out, uint32_t value, unsigned count)
 /* Huffman codes go most significant bit first. */
 static void put_code(bit_writer *out, uint32_t code, unsigned count)
 {
-    uint32_t turned = 0;
+    uint32_t reversed = 0;
     for (unsigned i = 0; i < count; i++) {
-        turned |= ((code >> i) & 1u) << (count - 1 - i);
+        reversed |= ((code >> i) & 1u) << (count - 1 - i);
     }
-    put_bits(out, turned, count);
+    put_bits(out, reversed, count);
 }
 
 /* A literal, the end or a length symbol in the fixed code (RFC 1951, 3.2.6). */
@@ -57,8 +57,8 @@ static void put_symbol(bit_writer *out, uint32_t symbol)
 /* A match (3.2.5): groups of four lengths, two distances, whose extra bits grow by one. */
 static void put_match(bit_writer *out, size_t length, size_t distance)
 {
-    uint32_t rest = (uint32_t)length - MATCH_LEAST;
-    if (length == MATCH_MOST) {
+    uint32_t rest = (uint32_t)length - MATCH_MIN;
+    if (length == MATCH_MAX) {
         put_symbol(out, 285);
     } else {
         unsigned extra = 0;
@@ -77,18 +77,18 @@ static void put_match(bit_writer *out, size_t length, size_t distance)
     put_bits(out, rest & ((1u << extra) - 1), extra);
 }
 
-/* How many bytes from `at` on repeat those `distance` before. */
+/* The number of bytes from `at` on that equal those `distance` before them. */
 static size_t match_length(const unsigned char *bytes, size_t at, size_t size, size_t distance)
 {
     size_t length = 0;
-    size_t most = size - at;
+    size_t limit = size - at;
     if (distance > at || distance > WINDOW) {
         return 0;
     }
-    if (most > MATCH_MOST) {
-        most = MATCH_MOST;
+    if (limit > MATCH_MAX) {
+        limit = MATCH_MAX;
     }
-    while (length < most && bytes[at + length] == bytes[at + length - distance]) {
+    while (length < limit && bytes[at + length] == bytes[at + length - distance]) {
         length++;
     }
     return length;
@@ -104,7 +104,7 @@ static void deflate_bytes(bit_writer *out, const unsigned char *bytes, size_t si
         size_t left = match_length(bytes, at, size, pixel);
         size_t up = match_length(bytes, at, size, row);
         size_t length = left > up ? left : up;
-        if (length >= MATCH_LEAST) {
+        if (length >= MATCH_MIN) {
             put_match(out, length, left > up ? pixel : row);
             at += length;
         } else {

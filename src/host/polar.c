@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#define POLAR_DEEP  40.0 /* what lies that far below the largest is at the pole */
+#define POLAR_DEPTH 40.0 /* values that far below the largest are drawn at the pole */
 #define POLAR_RINGS 5.0
 #define POLAR_SPOKE 30   /* deg */
 #define POLAR_ROOM  26.0 /* for the spokes' names */
@@ -28,7 +28,7 @@ static lrcsi_plot_point polar_point(const polar_plan *plan, double deg, double p
                               plan->pole.y - away * sin(deg * POLAR_RAD)};
 }
 
-/* The range of distances to be shown; of negative ones, which are decibels, only a part. */
+/* The range of distances to be shown; unless it begins at 0, at most POLAR_DEPTH. */
 static void polar_range(const lrcs_host_chart *chart, double range[2])
 {
     range[0] = HUGE_VAL;
@@ -46,17 +46,17 @@ static void polar_range(const lrcs_host_chart *chart, double range[2])
             }
         }
     }
-    range[0] = chart->y_from_0 ? 0.0 : fmax(range[0], range[1] - POLAR_DEEP);
+    range[0] = chart->y_from_0 ? 0.0 : fmax(range[0], range[1] - POLAR_DEPTH);
 }
 
 static void ring_draw(const polar_plan *plan, double part, uint32_t colour, double width)
 {
     lrcsi_plot_point point[181];
-    const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
+    const lrcsi_line_style style = {colour, width, {0.0, 0.0}};
     for (int i = 0; i <= 180; i++) {
         point[i] = polar_point(plan, 2.0 * i, part);
     }
-    plan->plotter->line(plan->plotter, point, 181, &ink);
+    plan->plotter->line(plan->plotter, point, 181, &style);
 }
 
 static void spoke_draw(const polar_plan *plan, int deg)
@@ -65,17 +65,17 @@ static void spoke_draw(const polar_plan *plan, int deg)
     lrcsi_plot_point end = polar_point(plan, deg, 1.0);
     lrcsi_plot_point name = polar_point(plan, deg, 1.0 + 15.0 / plan->radius);
     snprintf(text, sizeof text, "%d", deg);
-    const lrcsi_words words = {.text = text,
-                               .at = {name.x, name.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
-                               .size = LRCSI_CHART_SMALL,
-                               .anchor = LRCSI_ANCHOR_MIDDLE,
-                               .colour = LRCSI_COLOUR_TEXT};
-    lrcsi_chart_stroke(plan->plotter, plan->pole.x, plan->pole.y, end.x, end.y, LRCSI_COLOUR_GRID,
-                       0.9);
-    plan->plotter->text(plan->plotter, &words);
+    const lrcsi_plot_text label = {.text = text,
+                                   .at = {name.x, name.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
+                                   .size = LRCSI_CHART_SMALL,
+                                   .anchor = LRCSI_ANCHOR_MIDDLE,
+                                   .colour = LRCSI_COLOUR_TEXT};
+    lrcsi_plot_line(plan->plotter, plan->pole.x, plan->pole.y, end.x, end.y, LRCSI_COLOUR_GRID,
+                    0.9);
+    plan->plotter->text(plan->plotter, &label);
 }
 
-static void polar_ground(const polar_plan *plan)
+static void polar_background(const polar_plan *plan)
 {
     for (int deg = 0; deg < 360; deg += POLAR_SPOKE) {
         spoke_draw(plan, deg);
@@ -115,7 +115,7 @@ static void polar_band(const polar_plan *plan, const lrcs_host_series *series)
 /* A line as long as its points can be shown; points below the pole are drawn at it. */
 static void polar_line(const polar_plan *plan, const lrcs_host_series *series)
 {
-    const lrcsi_ink ink = lrcsi_series_ink(series);
+    const lrcsi_line_style style = lrcsi_series_ink(series);
     lrcsi_plot_point run[256];
     uint32_t count = 0;
     for (uint32_t i = 0; i < series->count; i++) {
@@ -127,7 +127,7 @@ static void polar_line(const polar_plan *plan, const lrcs_host_series *series)
             continue;
         }
         if (count > 1) {
-            plan->plotter->line(plan->plotter, run, count, &ink);
+            plan->plotter->line(plan->plotter, run, count, &style);
         }
         if (shown) { /* the line goes on from here */
             run[0] = run[count - 1];
@@ -136,7 +136,7 @@ static void polar_line(const polar_plan *plan, const lrcs_host_series *series)
     }
 }
 
-/* Numbers of the rings on a ray between two spokes, on paper where they cross lines. */
+/* Numbers of the rings along a ray between two spokes, on a background that covers the lines. */
 static void polar_numbers(const polar_plan *plan)
 {
     for (uint32_t i = 0; i < plan->axis.count; i++) {
@@ -148,35 +148,32 @@ static void polar_numbers(const polar_plan *plan)
         double size = LRCSI_CHART_SMALL - 1.0;
         double half = 0.5 * size * lrcsi_letters_width(tick->text) + 2.0;
         lrcsi_plot_point at = polar_point(plan, 75.0, part);
-        const lrcsi_plot_point box[4] = {{at.x - half, at.y - 7.0},
-                                         {at.x + half, at.y - 7.0},
-                                         {at.x + half, at.y + 7.0},
-                                         {at.x - half, at.y + 7.0}};
-        const lrcsi_words words = {.text = tick->text,
-                                   .at = {at.x, at.y + LRCSI_CHART_DROP * size},
-                                   .size = size,
-                                   .anchor = LRCSI_ANCHOR_MIDDLE,
-                                   .colour = LRCSI_COLOUR_TEXT};
-        plan->plotter->area(plan->plotter, box, 4, LRCSI_COLOUR_PAPER);
-        plan->plotter->text(plan->plotter, &words);
+        const lrcsi_plot_text label = {.text = tick->text,
+                                       .at = {at.x, at.y + LRCSI_CHART_DROP * size},
+                                       .size = size,
+                                       .anchor = LRCSI_ANCHOR_MIDDLE,
+                                       .colour = LRCSI_COLOUR_TEXT};
+        lrcsi_plot_rectangle(plan->plotter, at.x - half, at.y - 7.0, at.x + half, at.y + 7.0,
+                             LRCSI_COLOUR_BACKGROUND);
+        plan->plotter->text(plan->plotter, &label);
     }
 }
 
-/* What the distance and the angle are, in words beside. */
+/* The meaning of the distance and of the angle, as text beside the chart. */
 static void polar_names(const polar_plan *plan, double left)
 {
     char text[256];
-    lrcsi_words words = {.text = text,
-                         .at = {left, LRCSI_CHART_TOP + 24.0},
-                         .size = LRCSI_CHART_NAMES,
-                         .colour = LRCSI_COLOUR_TEXT};
+    lrcsi_plot_text label = {.text = text,
+                             .at = {left, LRCSI_CHART_TOP + 24.0},
+                             .size = LRCSI_CHART_NAMES,
+                             .colour = LRCSI_COLOUR_TEXT};
     double room = LRCSI_CHART_WIDTH - left - LRCSI_CHART_MARGIN;
     snprintf(text, sizeof text, "radius: %.100s, %s at the pole", plan->chart->y_name,
              plan->axis.tick[0].text);
-    lrcsi_chart_words(plan->plotter, words, room);
-    words.at.y += 19.0;
+    lrcsi_letters_fit(plan->plotter, label, room);
+    label.at.y += 19.0;
     snprintf(text, sizeof text, "angle: %.200s", plan->chart->x_name);
-    lrcsi_chart_words(plan->plotter, words, room);
+    lrcsi_letters_fit(plan->plotter, label, room);
 }
 
 void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
@@ -191,7 +188,7 @@ void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
     plan.pole.x = LRCSI_CHART_LEFT + 0.5 * high;
     plan.pole.y = LRCSI_CHART_TOP + 0.5 * high;
     double right = plan.pole.x + 0.5 * high + LRCSI_CHART_MARGIN;
-    polar_ground(&plan);
+    polar_background(&plan);
     for (uint32_t i = 0; i < chart->series_count; i++) {
         polar_band(&plan, &chart->series[i]);
     }

@@ -81,7 +81,7 @@ static int header_read(readings_table *table)
         if (table->role[role] != LRCS_NONE) {
             return column_refuse(table, LRCS_E_NAME, i,
                                  role == ROLE_ANGLE
-                                     ? "one column of angles (mono-station readings: laser and "
+                                     ? "one column of angles (monostatic readings: laser and "
                                        "detector at the same angle)"
                                      : "one column of a kind");
         }

@@ -11,19 +11,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The error due to a part is about proportional to its division. This share of what the tolerance
-   leaves for all parts together is aimed at. */
-#define AIM 0.8
-/* Some poses are so dark that their tolerance cannot be met, or only at a high price: no division
-   is less than the tolerance over this. */
-#define DIVISION_LEAST 64.0
+/* The error due to a part is about proportional to its division. Divisions are chosen for this
+   fraction of what the tolerance leaves for all parts together. */
+#define TOLERANCE_FRACTION 0.8
+/* Some poses are so dark that their tolerance cannot be met, or only at a high cost: no division is
+   smaller than the tolerance divided by this factor. */
+#define DIVISION_FACTOR_MAX 64.0
 /* The number of levels kept, and of their facets, besides those in use. */
-#define LEVELS_MOST 32u
-#define FACETS_MOST (UINT32_C(1) << 19)
+#define LEVELS_MAX 32u
+#define FACETS_MAX (UINT32_C(1) << 19)
 /* All parts are divided alike if that takes at most this many times the facets. */
-#define SHARED_MOST 1.1
+#define SHARED_MAX 1.1
 /* The cost of a halving is at least that of so many facets. */
-#define FACETS_LEAST 16.0
+#define FACETS_MIN 16.0
 
 struct lrcsi_host_levels {
     pthread_mutex_t lock;
@@ -100,8 +100,8 @@ static double error_allowed(const lrcs_run_options *options, const lrcs_result *
     double visibility = options->accept == LRCS_ACCEPT_BOUND || result->estimate_m2 < 0.0
                             ? result->budget.visibility_m2
                             : fmin(result->estimate_m2, result->budget.visibility_m2);
-    double left =
-        AIM * (options->tolerance * result->sigma_m2 - visibility - result->budget.rounding_m2);
+    double left = TOLERANCE_FRACTION *
+                  (options->tolerance * result->sigma_m2 - visibility - result->budget.rounding_m2);
     return (result->flags & LRCS_FLAG_TOLERANCE_NOT_MET) && left > 0.0 &&
                    result->budget.tessellation_m2 > left
                ? left
@@ -145,7 +145,7 @@ static uint32_t choice_best(const part_choice *choice, uint32_t parts)
     uint32_t best = parts;
     double most = 0.0;
     for (uint32_t i = 0; i < parts; i++) {
-        double price = (choice[i].growth - 1.0) * choice[i].facets + FACETS_LEAST;
+        double price = (choice[i].growth - 1.0) * choice[i].facets + FACETS_MIN;
         if (!choice[i].fixed && choice[i].error / price > most) {
             most = choice[i].error / price;
             best = i;
@@ -159,7 +159,7 @@ static void choice_halve(const struct lrcsi_host_levels *levels, double toleranc
                          part_choice *choice, unsigned char *halvings)
 {
     double division = ldexp(levels->build.division, -(int)*halvings - 1);
-    if (choice->fixed || division < tolerance / DIVISION_LEAST ||
+    if (choice->fixed || division < tolerance / DIVISION_FACTOR_MAX ||
         choice->facets * choice->growth > levels->build.max_facets) {
         choice->fixed = 1;
         return;
@@ -208,7 +208,7 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
         double facets = choices_halve(levels, options->tolerance, allowed, 0, choice, halvings);
         choices_start(scene, options, result, choice);
         if (choices_halve(levels, options->tolerance, allowed, 1, choice, alike) <
-            SHARED_MOST * facets) {
+            SHARED_MAX * facets) {
             memcpy(halvings, alike, levels->parts);
         }
     }
@@ -263,7 +263,7 @@ static void levels_limit(struct lrcsi_host_levels *levels)
                 idle++;
             }
         }
-        if (idle == 0 || (idle <= LEVELS_MOST && facets <= FACETS_MOST)) {
+        if (idle == 0 || (idle <= LEVELS_MAX && facets <= FACETS_MAX)) {
             return;
         }
         level_remove(levels, oldest);
@@ -366,8 +366,8 @@ void lrcsi_host_level_release(const lrcs_host_scene *scene, lrcsi_host_level *le
     }
 }
 
-uint32_t lrcsi_host_level_settle(lrcs_host_scene *scene, const lrcsi_host_level *level,
-                                 const unsigned char **halvings)
+uint32_t lrcsi_host_level_adopt(lrcs_host_scene *scene, const lrcsi_host_level *level,
+                                const unsigned char **halvings)
 {
     struct lrcsi_host_levels *levels = scene->levels;
     const lrcs_host_scene *finer = level->scene;

@@ -14,8 +14,8 @@ typedef struct lrcsi_host_level {
     uint64_t used;           /* when it was last asked for */
 } lrcsi_host_level;
 
-/* For a scene built with a division, whose recipe and models last as long as it: what is kept of
-   its finer divisions, all of them yet to be built. NULL if no part is curved, or if there is no
+/* For a scene built with a division, whose recipe and models last as long as it: the list of
+   its finer divisions, none of them built yet. NULL if no part is curved, or if there is no
    memory. */
 struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
                                                  const lrcs_build_options *build);
@@ -35,7 +35,7 @@ void lrcsi_host_level_release(const lrcs_host_scene *scene, lrcsi_host_level *le
 /* Makes the scene the one of a level that lrcsi_host_finer returned, and which is never released.
    Not while other threads use the scene. Returned: the halvings, which last as long as the scene;
    how many of its notices hold for any division. */
-uint32_t lrcsi_host_level_settle(lrcs_host_scene *scene, const lrcsi_host_level *level,
-                                 const unsigned char **halvings);
+uint32_t lrcsi_host_level_adopt(lrcs_host_scene *scene, const lrcsi_host_level *level,
+                                const unsigned char **halvings);
 
 #endif

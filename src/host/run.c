@@ -54,7 +54,7 @@ typedef struct sigma_step {
     lrcs_result *result;
     lrcs_facet_record *records;
     lrcs_image *image;
-    int tries; /* with more memory, if the answer was degraded because of lack of memory */
+    int tries; /* left, with more memory, if the answer is degraded for lack of memory */
 } sigma_step;
 
 /* LRCS_E_MEMORY, which asks for a larger work area, if the answer was degraded because of lack of
@@ -80,9 +80,10 @@ static int run_sigma(void *context, lrcs_work *work)
     return more_memory(status, step->result, work, &step->tries);
 }
 
-/* The bytes to begin with: fewer than requested give a coarser raster, and a flag. */
-static size_t sigma_room(const lrcs_host_scene *scene, const lrcs_run_options *options,
-                         const lrcs_image *image, const lrcsi_host_area *area)
+/* The size of the first work area. If the heap has less than needed, the raster is coarser, and a
+   flag is set. */
+static size_t sigma_bytes(const lrcs_host_scene *scene, const lrcs_run_options *options,
+                          const lrcs_image *image, const lrcsi_host_area *area)
 {
     size_t need = lrcs_sigma_need(scene->prepared, options);
     if (image) { /* its raster comes after the run's own */
@@ -109,7 +110,7 @@ int lrcsi_host_sigma(const lrcs_host_scene *scene, const lrcs_pose *pose,
                      lrcs_facet_record *records, lrcs_image *image, lrcs_host_error *error)
 {
     sigma_step step = {scene->prepared, pose, options, result, records, image, 6};
-    size_t need = sigma_room(scene, options, image, area);
+    size_t need = sigma_bytes(scene, options, image, area);
     int status = lrcsi_host_area_run(area, need, run_sigma, &step, error);
     return run_fail(error, status, "sigma");
 }
@@ -158,7 +159,7 @@ int lrcsi_host_uncertainty(const lrcs_host_scene *scene, const lrcs_pose *pose,
                              result,          sensitivity, uncertainty, 6};
     size_t own = lrcs_uncertainty_need(scene->prepared, options, how) -
                  lrcs_sigma_need(scene->prepared, options);
-    size_t need = sigma_room(scene, options, NULL, area) + own;
+    size_t need = sigma_bytes(scene, options, NULL, area) + own;
     int status = lrcsi_host_area_run(area, need, run_uncertainty, &step, error);
     return run_fail(error, status, "the uncertainty of sigma");
 }
@@ -195,7 +196,7 @@ int lrcs_host_scene_attitude_slope(const lrcs_host_scene *scene, const lrcs_pose
 {
     slope_step step = {scene->prepared, pose, options, slope};
     lrcsi_host_area area = {NULL, 0};
-    size_t need = sigma_room(scene, options, NULL, &area);
+    size_t need = sigma_bytes(scene, options, NULL, &area);
     int status = lrcsi_host_area_run(&area, need, run_slope, &step, error);
     lrcsi_host_area_free(&area);
     return run_fail(error, status, "the derivatives in attitude");
@@ -221,7 +222,7 @@ int lrcs_host_scene_run_until(const lrcs_host_scene *scene, const lrcs_pose *pos
     lrcsi_host_area area = {NULL, 0};
     int status = stage >= 0 && stage < LRCS_HOST_POSE_STAGES ? LRCS_OK : LRCS_E_ARGUMENT;
     if (status == LRCS_OK) {
-        size_t need = sigma_room(scene, options, NULL, &area);
+        size_t need = sigma_bytes(scene, options, NULL, &area);
         status = lrcsi_host_area_run(&area, need, run_until, &step, error);
     }
     lrcsi_host_area_free(&area);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The look of series, titles and legends, the same in every chart. Where data stand is decided by
-   each kind of chart. */
+/* The appearance of series, titles and legends, the same in every chart. Each kind of chart decides
+   the positions of its data. */
 #include "host/series.h"
 
 #include "base/constant.h"
@@ -9,22 +9,7 @@
 
 #include <math.h>
 
-#define BAND_COLOUR 0.25 /* the share of a colour in the tint of a band */
-
-void lrcsi_chart_stroke(lrcsi_plotter *plotter, double x0, double y0, double x1, double y1,
-                        uint32_t colour, double width)
-{
-    const lrcsi_plot_point point[2] = {{x0, y0}, {x1, y1}};
-    const lrcsi_ink ink = {colour, width, {0.0, 0.0}};
-    plotter->line(plotter, point, 2, &ink);
-}
-
-void lrcsi_chart_words(lrcsi_plotter *plotter, lrcsi_words words, double room)
-{
-    double width = words.size * lrcsi_letters_width(words.text);
-    words.size *= width > room ? room / width : 1.0;
-    plotter->text(plotter, &words);
-}
+#define BAND_TINT 0.25 /* the fraction of a colour in the tint of a band */
 
 /* ---- axes ---- */
 
@@ -33,19 +18,19 @@ void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_plot
 {
     double length = tick->major ? 5.0 : 3.0;
     lrcsi_plot_point end = {at.x - (upright ? length : 0.0), at.y + (upright ? 0.0 : length)};
-    lrcsi_words words = {.text = tick->text,
-                         .raised = tick->raised[0] ? tick->raised : NULL,
-                         .at = {at.x, at.y + 19.0},
-                         .size = LRCSI_CHART_SMALL,
-                         .anchor = LRCSI_ANCHOR_MIDDLE,
-                         .colour = LRCSI_COLOUR_TEXT};
+    lrcsi_plot_text label = {.text = tick->text,
+                             .raised = tick->raised[0] ? tick->raised : NULL,
+                             .at = {at.x, at.y + 19.0},
+                             .size = LRCSI_CHART_SMALL,
+                             .anchor = LRCSI_ANCHOR_MIDDLE,
+                             .colour = LRCSI_COLOUR_TEXT};
     if (upright) {
-        words.at = (lrcsi_plot_point){at.x - 9.0, at.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
-        words.anchor = LRCSI_ANCHOR_RIGHT;
+        label.at = (lrcsi_plot_point){at.x - 9.0, at.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
+        label.anchor = LRCSI_ANCHOR_RIGHT;
     }
-    lrcsi_chart_stroke(plotter, at.x, at.y, end.x, end.y, LRCSI_COLOUR_TEXT, 0.9);
+    lrcsi_plot_line(plotter, at.x, at.y, end.x, end.y, LRCSI_COLOUR_TEXT, 0.9);
     if (tick->major) {
-        plotter->text(plotter, &words);
+        plotter->text(plotter, &label);
     }
 }
 
@@ -56,22 +41,22 @@ void lrcsi_chart_box(lrcsi_plotter *plotter, double left, double right)
                                         {right, LRCSI_CHART_BOTTOM},
                                         {left, LRCSI_CHART_BOTTOM},
                                         {left, LRCSI_CHART_TOP}};
-    const lrcsi_ink ink = {LRCSI_COLOUR_TEXT, 0.9, {0.0, 0.0}};
-    plotter->line(plotter, corner, 5, &ink);
+    const lrcsi_line_style style = {LRCSI_COLOUR_TEXT, 0.9, {0.0, 0.0}};
+    plotter->line(plotter, corner, 5, &style);
 }
 
 /* ---- series ---- */
 
-lrcsi_ink lrcsi_series_ink(const lrcs_host_series *series)
+lrcsi_line_style lrcsi_series_ink(const lrcs_host_series *series)
 {
     static const double dash[3][2] = {{0.0, 0.0}, {7.0, 5.0}, {0.1, 4.5}};
-    lrcsi_ink ink = {lrcsi_palette_named(series->colour), 1.7, {0.0, 0.0}};
+    lrcsi_line_style style = {lrcsi_palette_named(series->colour), 1.7, {0.0, 0.0}};
     int kind =
         series->dash == LRCS_HOST_DASHED || series->dash == LRCS_HOST_DOTTED ? series->dash : 0;
-    ink.dash[0] = dash[kind][0];
-    ink.dash[1] = dash[kind][1];
-    ink.width = kind == LRCS_HOST_DOTTED ? 2.2 : 1.7;
-    return ink;
+    style.dash[0] = dash[kind][0];
+    style.dash[1] = dash[kind][1];
+    style.width = kind == LRCS_HOST_DOTTED ? 2.2 : 1.7;
+    return style;
 }
 
 /* The corners of a marker about the origin, half a width of 1; their number. */
@@ -97,15 +82,15 @@ void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series,
 {
     lrcsi_plot_point corner[25];
     uint32_t colour = lrcsi_palette_named(series->colour);
-    const lrcsi_ink ink = {colour, 1.4, {0.0, 0.0}};
+    const lrcsi_line_style style = {colour, 1.4, {0.0, 0.0}};
     if (series->marker == LRCS_HOST_NO_MARKER) {
         return;
     }
     if (series->marker == LRCS_HOST_CROSS) {
-        lrcsi_chart_stroke(plotter, at.x - LRCSI_CHART_MARK, at.y - LRCSI_CHART_MARK,
-                           at.x + LRCSI_CHART_MARK, at.y + LRCSI_CHART_MARK, colour, 1.7);
-        lrcsi_chart_stroke(plotter, at.x - LRCSI_CHART_MARK, at.y + LRCSI_CHART_MARK,
-                           at.x + LRCSI_CHART_MARK, at.y - LRCSI_CHART_MARK, colour, 1.7);
+        lrcsi_plot_line(plotter, at.x - LRCSI_CHART_MARK, at.y - LRCSI_CHART_MARK,
+                        at.x + LRCSI_CHART_MARK, at.y + LRCSI_CHART_MARK, colour, 1.7);
+        lrcsi_plot_line(plotter, at.x - LRCSI_CHART_MARK, at.y + LRCSI_CHART_MARK,
+                        at.x + LRCSI_CHART_MARK, at.y - LRCSI_CHART_MARK, colour, 1.7);
         return;
     }
     uint32_t count = marker_corners(series->marker, corner);
@@ -115,8 +100,8 @@ void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series,
         corner[i].y = at.y + half * corner[i].y;
     }
     corner[count] = corner[0];
-    plotter->area(plotter, corner, count, series->hollow ? LRCSI_COLOUR_PAPER : colour);
-    plotter->line(plotter, corner, count + 1, &ink);
+    plotter->area(plotter, corner, count, series->hollow ? LRCSI_COLOUR_BACKGROUND : colour);
+    plotter->line(plotter, corner, count + 1, &style);
 }
 
 /* In a light tint. A line covers the last side, where the next piece begins, because the
@@ -124,45 +109,45 @@ void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series,
 void lrcsi_series_band(lrcsi_plotter *plotter, const lrcs_host_series *series,
                        const lrcsi_plot_point corner[4])
 {
-    uint32_t tint = lrcsi_palette_tint(lrcsi_palette_named(series->colour), BAND_COLOUR);
+    uint32_t tint = lrcsi_palette_tint(lrcsi_palette_named(series->colour), BAND_TINT);
     plotter->area(plotter, corner, 4, tint);
-    lrcsi_chart_stroke(plotter, corner[2].x, corner[2].y, corner[3].x, corner[3].y, tint, 0.7);
+    lrcsi_plot_line(plotter, corner[2].x, corner[2].y, corner[3].x, corner[3].y, tint, 0.7);
 }
 
-/* ---- what is said about a chart ---- */
+/* ---- titles and legends ---- */
 
 void lrcsi_chart_title(lrcsi_plotter *plotter, const char *title, const char *note)
 {
     double room = LRCSI_CHART_WIDTH - LRCSI_CHART_LEFT - LRCSI_CHART_MARGIN;
-    const lrcsi_words first = {.text = title,
-                               .at = {LRCSI_CHART_LEFT, 26.0},
-                               .size = 16.0,
-                               .bold = 1,
-                               .colour = LRCSI_COLOUR_TEXT};
-    const lrcsi_words second = {.text = note ? note : "",
-                                .at = {LRCSI_CHART_LEFT, 46.0},
-                                .size = LRCSI_CHART_SMALL,
-                                .colour = LRCSI_COLOUR_FAINT};
-    lrcsi_chart_words(plotter, first, room);
-    lrcsi_chart_words(plotter, second, room);
+    const lrcsi_plot_text first = {.text = title,
+                                   .at = {LRCSI_CHART_LEFT, 26.0},
+                                   .size = 16.0,
+                                   .bold = 1,
+                                   .colour = LRCSI_COLOUR_TEXT};
+    const lrcsi_plot_text second = {.text = note ? note : "",
+                                    .at = {LRCSI_CHART_LEFT, 46.0},
+                                    .size = LRCSI_CHART_SMALL,
+                                    .colour = LRCSI_COLOUR_FAINT};
+    lrcsi_letters_fit(plotter, first, room);
+    lrcsi_letters_fit(plotter, second, room);
 }
 
 void lrcsi_chart_names(lrcsi_plotter *plotter, const char *below, double x, double wide,
                        const char *beside, double y, double high)
 {
-    const lrcsi_words first = {.text = below,
-                               .at = {x, LRCSI_CHART_HEIGHT - 14.0},
-                               .size = LRCSI_CHART_NAMES,
-                               .anchor = LRCSI_ANCHOR_MIDDLE,
-                               .colour = LRCSI_COLOUR_TEXT};
-    const lrcsi_words second = {.text = beside,
-                                .at = {22.0, y},
-                                .size = LRCSI_CHART_NAMES,
-                                .anchor = LRCSI_ANCHOR_MIDDLE,
-                                .upwards = 1,
-                                .colour = LRCSI_COLOUR_TEXT};
-    lrcsi_chart_words(plotter, first, wide);
-    lrcsi_chart_words(plotter, second, high);
+    const lrcsi_plot_text first = {.text = below,
+                                   .at = {x, LRCSI_CHART_HEIGHT - 14.0},
+                                   .size = LRCSI_CHART_NAMES,
+                                   .anchor = LRCSI_ANCHOR_MIDDLE,
+                                   .colour = LRCSI_COLOUR_TEXT};
+    const lrcsi_plot_text second = {.text = beside,
+                                    .at = {22.0, y},
+                                    .size = LRCSI_CHART_NAMES,
+                                    .anchor = LRCSI_ANCHOR_MIDDLE,
+                                    .upwards = 1,
+                                    .colour = LRCSI_COLOUR_TEXT};
+    lrcsi_letters_fit(plotter, first, wide);
+    lrcsi_letters_fit(plotter, second, high);
 }
 
 double lrcsi_chart_legend_width(const lrcs_host_chart *chart)
@@ -177,22 +162,22 @@ double lrcsi_chart_legend_width(const lrcs_host_chart *chart)
 
 double lrcsi_chart_legend(lrcsi_plotter *plotter, const lrcs_host_chart *chart, double x, double y)
 {
-    lrcsi_words words = {.size = LRCSI_CHART_SMALL, .colour = LRCSI_COLOUR_TEXT};
+    lrcsi_plot_text label = {.size = LRCSI_CHART_SMALL, .colour = LRCSI_COLOUR_TEXT};
     for (uint32_t i = 0; i < chart->series_count; i++) {
         const lrcs_host_series *series = &chart->series[i];
-        const lrcsi_ink ink = lrcsi_series_ink(series);
+        const lrcsi_line_style style = lrcsi_series_ink(series);
         const lrcsi_plot_point sample[2] = {{x, y}, {x + LRCSI_CHART_SAMPLE, y}};
         if (!series->name) {
             continue;
         }
         if (series->dash != LRCS_HOST_NO_LINE) {
-            plotter->line(plotter, sample, 2, &ink);
+            plotter->line(plotter, sample, 2, &style);
         }
         lrcsi_series_marker(plotter, series, (lrcsi_plot_point){x + 0.5 * LRCSI_CHART_SAMPLE, y});
-        words.text = series->name;
-        words.at = (lrcsi_plot_point){x + LRCSI_CHART_SAMPLE + 8.0,
+        label.text = series->name;
+        label.at = (lrcsi_plot_point){x + LRCSI_CHART_SAMPLE + 8.0,
                                       y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
-        plotter->text(plotter, &words);
+        plotter->text(plotter, &label);
         y += LRCSI_CHART_LINE;
     }
     return y;

@@ -27,7 +27,7 @@ typedef struct shares_plan {
     uint32_t parts, materials;
 } shares_plan;
 
-/* ---- which rows there are ---- */
+/* ---- rows ---- */
 
 /* The mesh of a part that has several objects, or NULL. */
 static const lrcs_mesh *part_objects(const shares_plan *plan, uint32_t part)
@@ -88,7 +88,7 @@ static int alike_compare(const void *a, const void *b)
 
 /* Numbers objects that share a name as "name #3"; they are frequent in 3DS files, whose names have
    at most 10 letters. */
-static int parts_tell(const shares_plan *plan, lrcs_host_shares *shares)
+static int parts_number(const shares_plan *plan, lrcs_host_shares *shares)
 {
     shares_alike *list = calloc((size_t)plan->parts + 1, sizeof *list);
     int status = list ? 0 : -1;
@@ -144,7 +144,7 @@ static int rows_name(const shares_plan *plan, lrcs_host_shares *shares)
     for (uint32_t i = 0; i < plan->materials; i++) {
         named &= shares->material[i].name != NULL;
     }
-    return named ? parts_tell(plan, shares) : -1;
+    return named ? parts_number(plan, shares) : -1;
 }
 
 /* ---- sums ---- */
@@ -158,8 +158,8 @@ static void row_fill(lrcs_host_share *row, const shares_tally *tally)
 }
 
 /* Inserts a facet if it is among the brightest. */
-static void facet_offer(const shares_plan *plan, uint32_t facet, const lrcs_facet_record *record,
-                        lrcs_host_shares *shares)
+static void brightest_insert(const shares_plan *plan, uint32_t facet,
+                             const lrcs_facet_record *record, lrcs_host_shares *shares)
 {
     uint32_t at = shares->facets;
     while (at > 0 && shares->facet[at - 1].sigma_m2 < record->sigma_m2) {
@@ -197,7 +197,7 @@ static void records_add(const shares_plan *plan, const lrcs_facet_record *record
             lrcsi_sum_add(&tally[row[k]].diffuse, one->sigma_m2 - one->sigma_glint_m2);
             tally[row[k]].facets++;
         }
-        facet_offer(plan, i, one, shares);
+        brightest_insert(plan, i, one, shares);
     }
     for (uint32_t i = 0; i < plan->parts + plan->materials; i++) {
         row_fill(i < plan->parts ? &shares->part[i] : &shares->material[i - plan->parts],

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* SVG 1.1 as text. It decides how a plotter's strokes are written; text remains text, in the
    viewer's sans serif font. Bytes that are not UTF-8 and control characters become '?', so that
-   every XML parser takes it. */
+   every XML parser accepts the text. */
 #include "host/svg.h"
 
 #include "base/text.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Hundredths, with a point whatever the locale. */
+/* A number in hundredths, with a decimal point in every locale. */
 static void svg_number(FILE *out, double value)
 {
     long hundredths = lround(value * 100.0);
@@ -53,16 +53,16 @@ static void svg_points(FILE *out, const lrcsi_plot_point *point, uint32_t count)
 }
 
 static void svg_line(lrcsi_plotter *plotter, const lrcsi_plot_point *point, uint32_t count,
-                     const lrcsi_ink *ink)
+                     const lrcsi_line_style *style)
 {
     FILE *out = ((lrcsi_svg *)plotter)->out;
-    fprintf(out, "<polyline fill=\"none\" stroke=\"#%06lx\"", (unsigned long)ink->colour);
-    svg_attribute(out, "stroke-width", ink->width);
-    if (ink->dash[0] > 0.0) {
+    fprintf(out, "<polyline fill=\"none\" stroke=\"#%06lx\"", (unsigned long)style->colour);
+    svg_attribute(out, "stroke-width", style->width);
+    if (style->dash[0] > 0.0) {
         fputs(" stroke-dasharray=\"", out);
-        svg_number(out, ink->dash[0]);
+        svg_number(out, style->dash[0]);
         putc(' ', out);
-        svg_number(out, ink->dash[1]);
+        svg_number(out, style->dash[1]);
         putc('"', out);
     }
     svg_points(out, point, count);
@@ -78,28 +78,28 @@ static void svg_area(lrcsi_plotter *plotter, const lrcsi_plot_point *point, uint
     fputs("/>\n", out);
 }
 
-static void svg_text(lrcsi_plotter *plotter, const lrcsi_words *words)
+static void svg_text(lrcsi_plotter *plotter, const lrcsi_plot_text *label)
 {
     static const char *const anchor[] = {"start", "middle", "end"};
     FILE *out = ((lrcsi_svg *)plotter)->out;
-    fprintf(out, "<text text-anchor=\"%s\" fill=\"#%06lx\"", anchor[words->anchor],
-            (unsigned long)words->colour);
-    svg_attribute(out, "font-size", words->size);
-    svg_attribute(out, "x", words->at.x);
-    svg_attribute(out, "y", words->at.y);
-    fputs(words->bold ? " font-weight=\"bold\"" : "", out);
-    if (words->upwards) {
+    fprintf(out, "<text text-anchor=\"%s\" fill=\"#%06lx\"", anchor[label->anchor],
+            (unsigned long)label->colour);
+    svg_attribute(out, "font-size", label->size);
+    svg_attribute(out, "x", label->at.x);
+    svg_attribute(out, "y", label->at.y);
+    fputs(label->bold ? " font-weight=\"bold\"" : "", out);
+    if (label->upwards) {
         fputs(" transform=\"rotate(-90 ", out);
-        svg_number(out, words->at.x);
+        svg_number(out, label->at.x);
         putc(' ', out);
-        svg_number(out, words->at.y);
+        svg_number(out, label->at.y);
         fputs(")\"", out);
     }
     putc('>', out);
-    svg_escape(out, words->text);
-    if (words->raised) {
+    svg_escape(out, label->text);
+    if (label->raised) {
         fputs("<tspan dy=\"-0.45em\" font-size=\"75%\">", out);
-        svg_escape(out, words->raised);
+        svg_escape(out, label->raised);
         fputs("</tspan>", out);
     }
     fputs("</text>\n", out);

@@ -10,7 +10,7 @@ typedef struct lrcsi_svg {
     FILE *out;
 } lrcsi_svg;
 
-/* Begins a drawing of a size on white paper, and ends it. */
+/* Begins a drawing of a given size on a white background, and ends it. */
 lrcsi_svg lrcsi_svg_begin(FILE *out, double width, double height, const char *title,
                           const char *about);
 void lrcsi_svg_end(lrcsi_svg *svg);

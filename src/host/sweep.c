@@ -20,7 +20,7 @@ typedef struct sweep_slot {
     lrcs_uncertainty uncertainty;
     lrcs_host_glint_sum glint;
     int status;
-    int crowded;           /* short of memory beside other threads: not an answer yet */
+    int crowded; /* memory did not suffice beside other threads: to be repeated with fewer */
     lrcs_host_error error; /* where the status says so */
 } sweep_slot;
 
@@ -30,7 +30,7 @@ typedef struct sweep_run {
     const lrcs_host_sweep *sweep;
     lrcsi_host_area *area; /* one for each thread */
     uint32_t threads;
-    int crowded; /* the sweep ended at a pose that may do with fewer threads */
+    int crowded; /* the sweep ended at a pose that may succeed with fewer threads */
     lrcs_host_error *error;
 } sweep_run;
 
@@ -210,7 +210,7 @@ int lrcs_host_sweep_run(const lrcs_host_scene *scene, const lrcs_run_options *op
             lrcsi_host_fail(error, LRCS_E_ARGUMENT, "sweep: %s", lrcs_status_text(LRCS_E_ARGUMENT));
     } else {
         status = sweep_threads_run(&run, &taken);
-        /* what is an answer for one thread is one: the loop ends there */
+        /* with one thread no pose is crowded, so that the loop ends */
         while (run.crowded) {
             run.threads = (run.threads + 1) / 2;
             status = sweep_threads_run(&run, &taken);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/text.h"
 #include "base/where.h"
 #include "host/fail.h"
 
@@ -89,12 +90,9 @@ static uint32_t line_split(lrcs_host_table *table, const char *line, const char 
 
 lrcs_host_table lrcs_host_table_make(const char *path, const lrcs_host_file *file)
 {
-    static const char mark[] = "\xef\xbb\xbf"; /* a byte order mark is passed over */
     lrcs_host_table table = {.path = path, .at = (const char *)file->bytes};
     table.end = table.at + file->size;
-    if (file->size >= 3 && memcmp(table.at, mark, 3) == 0) {
-        table.at += 3;
-    }
+    table.at += lrcsi_text_mark(table.at, file->size);
     return table;
 }
 

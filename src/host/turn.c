@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* A pose turned about an axis of the body. base/rotate computes the matrix from the axis. */
+/* A pose rotated about an axis of the body. base/rotate computes the matrix from the axis. */
 #include <lrcs/sweep.h>
 
 #include <string.h>
 
 #include "base/rotate.h"
 
-/* s_hat = R^T (0, 0, 1) for v_obs = R_pose R(axis, deg) v_body: the given direction, turned back.
+/* s_hat = R^T (0, 0, 1) for v_obs = R_pose R(axis, deg) v_body: the given direction, rotated back.
    It is computed from the given direction, not from R, which is rounded. */
 int lrcs_host_pose_turn(const lrcs_pose *pose, const double axis[3], double deg, lrcs_pose *turned)
 {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The scene with its records as a surface that VTK and ParaView read. It decides how numbers become
-   bytes of their two formats; the numbers are those of the run. */
+/* The scene with its records as a surface in the two formats of VTK and ParaView. It decides how
+   numbers become bytes; the numbers are those of the run. */
 #include <lrcs/picture.h>
 
 #include <math.h>
-#include <string.h>
+
+#include "base/bits.h"
 
 /* An array of one number, or three, for each of its items. */
 typedef struct vtk_array {
@@ -104,9 +105,8 @@ static void legacy_numbers(FILE *out, const lrcs_host_picture *picture, const vt
 {
     for (size_t i = 0; i < array->count * array->each; i++) {
         double value = array->value(picture, i);
-        uint64_t bits;
-        memcpy(&bits, &value, sizeof bits);
-        bytes_write(out, array->whole ? (uint64_t)value : bits, array->whole ? 4 : 8);
+        bytes_write(out, array->whole ? (uint64_t)value : lrcsi_bits_of(value),
+                    array->whole ? 4 : 8);
     }
     putc('\n', out);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Jobs in threads. It decides which member does which job (the next one, whoever is free), how far
-   the fast may run ahead of the slow (a ring of slots), and when to stop; it does not depend on
-   what the jobs are. The calling thread is a member too: it hands over results that are ready and
-   works if there are none. It does all jobs if the system grants no threads. */
+   fast members may run ahead of slow ones (a ring buffer of slots), and when to stop; it does not
+   depend on what the jobs are. The calling thread is a member too: it hands over results that are
+   ready and works if there are none. It does all jobs if the system grants no threads. */
 #include "host/workers.h"
 
 #include <lrcs/sweep.h>
@@ -11,14 +11,14 @@
 #include <stdlib.h>
 
 /* Slots per member: enough for jobs of unequal length and an occasional slow hand-over. */
-#define CREW_SLOTS 16u
+#define WORKERS_SLOTS 16u
 /* The core keeps no large arrays on the stack; some systems give threads very little. */
-#define CREW_STACK ((size_t)1 << 20)
+#define WORKERS_STACK ((size_t)1 << 20)
 
 typedef struct workers_ring {
     const lrcsi_workers *workers;
     unsigned char *slot; /* of job i: i % window */
-    unsigned char *done; /* 1: that slot holds what a job made */
+    unsigned char *done; /* 1: that slot holds the result of a job */
     uint64_t window;
     uint64_t head, next, end; /* to be taken; to be done; one past the last */
     int stop;
@@ -121,7 +121,7 @@ static uint32_t workers_start(workers_ring *ring, workers_member *member)
     if (ring->workers->members == 1 || pthread_attr_init(&attributes) != 0) {
         return 0;
     }
-    pthread_attr_setstacksize(&attributes, CREW_STACK);
+    pthread_attr_setstacksize(&attributes, WORKERS_STACK);
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     while (started + 1 < ring->workers->members) {
@@ -166,7 +166,7 @@ int lrcsi_workers_run(const lrcsi_workers *workers, uint64_t *done, lrcs_host_er
                          .head = workers->first,
                          .next = workers->first,
                          .end = workers->first + workers->count,
-                         .window = (uint64_t)CREW_SLOTS * workers->members,
+                         .window = (uint64_t)WORKERS_SLOTS * workers->members,
                          .lock = PTHREAD_MUTEX_INITIALIZER,
                          .room = PTHREAD_COND_INITIALIZER,
                          .ready = PTHREAD_COND_INITIALIZER};

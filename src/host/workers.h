@@ -10,13 +10,14 @@
 typedef struct lrcsi_workers {
     uint64_t first, count; /* jobs */
     uint32_t members;      /* threads, the calling one among them; >= 1 */
-    size_t slot_size;      /* bytes that a job makes */
+    size_t slot_size;      /* bytes of the result of a job */
     void *context;
     /* does a job; several at a time, each with a member number and a slot of its own */
     void (*work)(void *context, uint32_t member, uint64_t index, void *slot);
-    /* takes what it made, on the calling thread, in order; not LRCS_OK ends the work */
+    /* takes its result, on the calling thread, in order; a status other than LRCS_OK ends the work
+     */
     int (*take)(void *context, uint64_t index, const void *slot);
-    const volatile sig_atomic_t *cancel; /* or NULL; looked at by the calling thread alone */
+    const volatile sig_atomic_t *cancel; /* or NULL; read by the calling thread only */
 } lrcsi_workers;
 
 /* Returned: done, the number of jobs taken.

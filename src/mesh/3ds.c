@@ -102,11 +102,11 @@ static int tds_find_root(lrcsi_tds_walk *walk, lrcsi_tds_chunk *root)
         return lrcsi_tds_fail(walk, LRCS_E_SYNTAX, 2, "length of the root chunk", "at least 6",
                               length);
     }
-    walk->cut = length > walk->size;
+    walk->truncated = length > walk->size;
     if (length != walk->size) {
         walk->notices |= LRCS_MESH_TRAILING_BYTES;
     }
-    *root = (lrcsi_tds_chunk){LRCSI_TDS_ROOT, 6, walk->cut ? walk->size : length};
+    *root = (lrcsi_tds_chunk){LRCSI_TDS_ROOT, 6, walk->truncated ? walk->size : length};
     return LRCS_OK;
 }
 
@@ -158,7 +158,8 @@ int lrcs_3ds_read(const void *bytes, size_t size, lrcs_work *work, lrcs_mesh *me
     }
     size_t mark = work->used;
     lrcs_mesh made;
-    lrcsi_tds_walk walk = {.bytes = bytes, .size = size, .cut = count.cut, .where = where};
+    lrcsi_tds_walk walk = {
+        .bytes = bytes, .size = size, .truncated = count.truncated, .where = where};
     walk.notices = count.notices;
     status = lrcsi_store_take(&count.counts, work, &made, &walk.text);
     if (status == LRCS_OK) {

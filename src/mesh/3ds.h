@@ -39,7 +39,7 @@ enum lrcsi_tds_id {
     LRCSI_TDS_LAST_NODE = 0xb007
 };
 
-/* The unread rest of a chunk. */
+/* The part of a chunk that is not yet read. */
 typedef struct lrcsi_tds_chunk {
     unsigned id;
     size_t at, end;
@@ -48,7 +48,7 @@ typedef struct lrcsi_tds_chunk {
 typedef struct lrcsi_tds_walk {
     const unsigned char *bytes;
     size_t size;
-    int cut; /* the root claims more bytes than there are */
+    int truncated; /* the length of the root chunk exceeds the file */
     lrcs_where *where;
     lrcs_mesh_counts counts;
     uint32_t notices;
@@ -83,10 +83,10 @@ const char *lrcsi_tds_store_name(lrcsi_tds_walk *walk, lrcsi_span name);
 int lrcsi_tds_add(const lrcsi_tds_walk *walk, uint32_t *sum, uint32_t count, size_t at,
                   const char *item);
 
-/* Reads one material (the rest of a chunk 0xAFFF). */
+/* Reads one material, the content of a chunk 0xAFFF. */
 int lrcsi_tds_read_material(lrcsi_tds_walk *walk, lrcsi_tds_chunk material);
 
-/* Reads one mesh (the rest of a chunk 0x4100); `name` is the name of its part, NULL while
+/* Reads one mesh, the content of a chunk 0x4100; `name` is the name of its part, NULL while
    counting. */
 int lrcsi_tds_read_trimesh(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const char *name);
 

@@ -36,7 +36,7 @@ int lrcsi_tds_next(lrcsi_tds_walk *walk, lrcsi_tds_chunk *parent, lrcsi_tds_chun
         return 0;
     }
     if (left < TDS_HEADER) {
-        if (walk->cut && parent->end == walk->size) {
+        if (walk->truncated && parent->end == walk->size) {
             return lrcsi_tds_fail(walk, LRCS_E_TRUNCATED, at, "chunk header", "6 bytes", left);
         }
         walk->notices |= LRCS_MESH_TRAILING_BYTES;

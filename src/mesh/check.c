@@ -83,14 +83,14 @@ static double vector_length(const lrcsi_dd v[3])
     double x = fabs(lrcsi_dd_value(v[0]));
     double y = fabs(lrcsi_dd_value(v[1]));
     double z = fabs(lrcsi_dd_value(v[2]));
-    double most = fmax(x, fmax(y, z));
-    if (most == 0.0) {
+    double largest = fmax(x, fmax(y, z));
+    if (largest == 0.0) {
         return 0.0;
     }
-    x /= most;
-    y /= most;
-    z /= most;
-    return most * sqrt(x * x + y * y + z * z);
+    x /= largest;
+    y /= largest;
+    z /= largest;
+    return largest * sqrt(x * x + y * y + z * z);
 }
 
 static double measure_area(const measured_mesh *m, const unsigned char *degenerate, double scale)
@@ -197,9 +197,9 @@ size_t lrcs_mesh_check_need(uint32_t vertex_count, uint32_t facet_count)
     size_t convex = lrcsi_convex_need(vertex_count, facet_count);
     size_t duplicates = lrcsi_duplicate_need(facet_count);
     size_t points = lrcsi_work_bytes(vertex_count, 1);
-    size_t most = convex > duplicates ? convex : duplicates;
+    size_t scratch = convex > duplicates ? convex : duplicates;
     return lrcsi_work_add(lrcsi_topology_need(vertex_count, facet_count),
-                          most > points ? most : points);
+                          scratch > points ? scratch : points);
 }
 
 int lrcs_mesh_check(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,

@@ -14,15 +14,16 @@
    of great arcs shorter than pi, one for each facet, that seen from v turns left or goes straight
    at each corner, never back. Merge straight stretches: let r_0 .. r_{m-1} be the corners at
    creases and call the facets between two consecutive ones a chain. m = 0: all is flat; the polygon
-   is a great circle, passed k times: r_0 (any corner) must lie in one facet only. m = 1 cannot be.
-   In all other cases no chain may span more than pi. m = 2: two great circles meet at opposite
-   points only, so that both chains span pi: a wedge. m > 2: no chain may span pi. Let s(i, j, k) be
-   the sign of -det(r_i - v, r_j - v, r_k - v): positive if the corners turn left as seen from v.
-   Require s(0, 1, i) > 0 for all i > 1 and s(0, i, i+1) > 0 for all 0 < i < m-1. By the first the
-   longitudes of r_2 .. about the axis r_0, counted from r_1, lie in (0, pi); by the second they
-   increase. So the triangles (r_0, r_i, r_{i+1}) lie side by side and fill a simple polygon inside
-   a lune narrower than pi that leaves out -r_0; it lies in an open hemisphere, and is seen from v
-   as a plane polygon that is simple and turns left at each corner: convex. A convex cone passes. */
+   is a great circle, passed k times: r_0 (any corner) must lie in one facet only. m = 1 is
+   impossible. In all other cases no chain may span more than pi. m = 2: two great circles meet at
+   opposite points only, so that both chains span pi: a wedge. m > 2: no chain may span pi. Let s(i,
+   j, k) be the sign of -det(r_i - v, r_j - v, r_k - v): positive if the corners turn left as seen
+   from v. Require s(0, 1, i) > 0 for all i > 1 and s(0, i, i+1) > 0 for all 0 < i < m-1. By the
+   first the longitudes of r_2 .. about the axis r_0, counted from r_1, lie in (0, pi); by the
+   second they increase. So the triangles (r_0, r_i, r_{i+1}) lie side by side and fill a simple
+   polygon inside a lune narrower than pi that leaves out -r_0; it lies in an open hemisphere, and
+   is seen from v as a plane polygon that is simple and turns left at each corner: convex. A convex
+   cone passes. */
 #include "mesh/convex.h"
 
 #include "base/exact.h"
@@ -67,13 +68,14 @@ static int edges_are_paired(const lrcsi_topology *t)
 }
 
 /* The corner of a facet opposite one of its edges. */
-static uint32_t corner_off_edge(const lrcsi_topology *t, uint32_t facet, uint32_t edge)
+static uint32_t corner_opposite_edge(const lrcsi_topology *t, uint32_t facet, uint32_t edge)
 {
     const uint32_t *side = t->facet_edge[facet].corner;
     return side[0] == edge ? 2 : side[1] == edge ? 0 : 1;
 }
 
-/* An axis along which a facet is not seen edge-on; `sign` is the sense in which it then turns. */
+/* A coordinate axis along which a facet is not edge-on, and its orientation seen along that axis.
+ */
 static void facet_axis(const double *a, const double *b, const double *c, double axis[3], int *sign)
 {
     for (int k = 0; k < 3; k++) {
@@ -104,11 +106,11 @@ static int edge_bend(const convex_mesh *m, uint32_t edge)
     const lrcsi_topology *t = m->topology;
     uint32_t f = t->use[t->edge[edge].first_use].facet;
     uint32_t g = t->use[t->edge[edge].first_use + 1].facet;
-    uint32_t k = corner_off_edge(t, f, edge);
+    uint32_t k = corner_opposite_edge(t, f, edge);
     const double *apex = corner_position(m, f, k);
     const double *from = corner_position(m, f, k + 1);
     const double *to = corner_position(m, f, k + 2);
-    const double *beyond = corner_position(m, g, corner_off_edge(t, g, edge));
+    const double *beyond = corner_position(m, g, corner_opposite_edge(t, g, edge));
     int side = lrcsi_exact_side(apex, from, to, beyond);
     if (side != 0) {
         return -side;
@@ -186,14 +188,14 @@ static int flat_fan_winds_once(const convex_mesh *m, fan_place start, uint32_t s
     const double *v = corner_position(m, start.facet, start.corner);
     const double *a = fan_ray(m, start);
     const double *b = fan_ray_after(m, start);
-    uint32_t held = 0;
+    uint32_t containing = 0;
     fan_place p = start;
     for (uint32_t i = 0; i < size; i++) {
-        held += turn_in_plane(v, a, b, v, fan_ray(m, p), a) >= 0 &&
-                turn_in_plane(v, a, b, v, a, fan_ray_after(m, p)) > 0;
+        containing += turn_in_plane(v, a, b, v, fan_ray(m, p), a) >= 0 &&
+                      turn_in_plane(v, a, b, v, a, fan_ray_after(m, p)) > 0;
         p = fan_next(m, p);
     }
-    return held == 1;
+    return containing == 1;
 }
 
 /* Walks along the chain that starts at the crease *p, and sets *p to the next crease. Returns 1 if
@@ -265,7 +267,7 @@ static int fan_is_convex(const convex_mesh *m, fan_place start, uint32_t size)
     return creased_fan_is_convex(m, crease, size, creases);
 }
 
-/* All points; size[] and start[] are scratch, one entry a vertex. */
+/* Condition 4 at all points; size[] and start[] are scratch, one entry per vertex. */
 static int points_are_convex(const convex_mesh *m, uint32_t *size, fan_place *start)
 {
     for (uint32_t f = 0; f < m->facet_count; f++) {

@@ -5,10 +5,11 @@
 
 #include "base/text.h"
 
-int lrcsi_distinct_make(const char **name, uint32_t most, lrcs_work *work, lrcsi_distinct *distinct)
+int lrcsi_distinct_make(const char **name, uint32_t capacity, lrcs_work *work,
+                        lrcsi_distinct *distinct)
 {
     distinct->name = name;
-    return lrcsi_index_make(work, most, &distinct->index);
+    return lrcsi_index_make(work, capacity, &distinct->index);
 }
 
 uint32_t lrcsi_distinct_add(lrcsi_distinct *distinct, const char *bytes, size_t size, char **text)

@@ -10,9 +10,9 @@ typedef struct lrcsi_distinct {
     lrcsi_index index;
 } lrcsi_distinct;
 
-/* An empty table for up to `most` names, lrcsi_index_need(most) bytes of the work area.
+/* An empty table for up to `capacity` names, lrcsi_index_need(capacity) bytes of the work area.
    Status: LRCS_OK; LRCS_E_MEMORY. */
-int lrcsi_distinct_make(const char **name, uint32_t most, lrcs_work *work,
+int lrcsi_distinct_make(const char **name, uint32_t capacity, lrcs_work *work,
                         lrcsi_distinct *distinct);
 
 /* The number of a name. One whose UTF-8 text (lrcsi_text_utf8) is new is written to *text, which is

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/bytes.h"
+#include "base/text.h"
 #include "mesh/3ds.h"
 #include "mesh/stl.h"
 
@@ -33,7 +34,7 @@ static int format_is_obj(const unsigned char *bytes, size_t size)
 {
     static const char *const word[] = {"v", "vn", "vt", "vp", "f",      "o",
                                        "g", "s",  "l",  "p",  "mtllib", "usemtl"};
-    size_t at = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    size_t at = lrcsi_text_mark((const char *)bytes, size);
     while (at < size && (format_is_blank(bytes[at]) || bytes[at] == '#')) {
         if (bytes[at] == '#') {
             while (at < size && bytes[at] != '\n' && bytes[at] != '\r') {

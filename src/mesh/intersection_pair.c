@@ -42,7 +42,7 @@ static const double unit_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 #define PAIR_FILTER (10.0 * LRCSI_U)
 
 /* A sign that rounded arithmetic does not decide. */
-enum { UNSURE = 2 };
+enum { PAIR_UNDECIDED = 2 };
 
 /* The axis is that of the largest component of the normal, unless the facet may be edge-on along
    it. */
@@ -79,7 +79,7 @@ static inline int is_corner_of(const lrcsi_pair_facet *f, const double *p)
 
 /* ---- separated, in rounded arithmetic ---- */
 
-/* The side of F's plane on which p is proved to lie; 0 for a corner of F; else UNSURE. */
+/* The side of F's plane on which p is proved to lie; 0 for a corner of F; else PAIR_UNDECIDED. */
 static inline int rounded_side(const lrcsi_pair_facet *f, const double *p)
 {
     const double *a = f->x[0];
@@ -92,7 +92,7 @@ static inline int rounded_side(const lrcsi_pair_facet *f, const double *p)
     double height = (f->normal[0] * x + f->normal[1] * y) + f->normal[2] * z;
     double error =
         PAIR_FILTER * ((f->weight[0] * fabs(x) + f->weight[1] * fabs(y)) + f->weight[2] * fabs(z));
-    return height > error ? 1 : height < -error ? -1 : UNSURE;
+    return height > error ? 1 : height < -error ? -1 : PAIR_UNDECIDED;
 }
 
 /* Given the sides on which T's corners lie: are those that are not corners of F all strictly on one
@@ -102,8 +102,9 @@ static int plane_separates(const int side[3])
 {
     int above = side[0] == 1 || side[1] == 1 || side[2] == 1;
     int below = side[0] == -1 || side[1] == -1 || side[2] == -1;
-    int unsure = side[0] == UNSURE || side[1] == UNSURE || side[2] == UNSURE;
-    return above != below && !unsure;
+    int undecided =
+        side[0] == PAIR_UNDECIDED || side[1] == PAIR_UNDECIDED || side[2] == PAIR_UNDECIDED;
+    return above != below && !undecided;
 }
 
 /* Seen along an axis along which F has the orientation `turn`: are all corners of T proved to lie
@@ -199,13 +200,13 @@ static int segment_meets_flat(const lrcsi_pair_facet *t, const double *a, const 
     return 1;
 }
 
-/* Step 1: decides exactly on which side of F's plane the corners of T lie that are UNSURE.
+/* Step 1: decides exactly on which side of F's plane the corners of T lie that are PAIR_UNDECIDED.
    Returned: whether a corner of T that is not one of F lies on the plane. */
 static int exact_sides(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t, int side[3])
 {
     int on = 0;
     for (int k = 0; k < 3; k++) {
-        if (side[k] == UNSURE) {
+        if (side[k] == PAIR_UNDECIDED) {
             side[k] = lrcsi_exact_side(f->x[0], f->x[1], f->x[2], t->x[k]);
             on |= side[k] == 0;
         }
@@ -260,7 +261,7 @@ static void meet_flat(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t,
 
 /* Two facets f[0] and f[1] whose planes intersect. of[i][k]: the side of the other's plane on which
    corner k of f[i] lies; cross[j][k]: the sign of the determinant of side j of f[0] and side k of
-   f[1], UNSURE until it is computed. */
+   f[1], PAIR_UNDECIDED until it is computed. */
 typedef struct pair_crossing {
     const lrcsi_pair_facet *f[2];
     const int *of[2];
@@ -271,7 +272,7 @@ typedef struct pair_crossing {
 static int cross_sign(pair_crossing *c, int i, int j, int k)
 {
     int *sign = i == 0 ? &c->cross[j][k] : &c->cross[k][j];
-    if (*sign == UNSURE) {
+    if (*sign == PAIR_UNDECIDED) {
         const double *u = c->f[i]->x[j];
         const double *w = c->f[i]->x[(j + 1) % 3];
         const double *a = c->f[!i]->x[k];
@@ -352,7 +353,7 @@ static void meet_across(pair_crossing *c, lrcsi_pair_result *result)
             return;
         }
     }
-    for (int i = 0; i < 2; i++) { /* what f[i] does to the other */
+    for (int i = 0; i < 2; i++) { /* how f[i] meets the other */
         result->kind[i] = meets[i] ? LRCSI_INTERSECTION_CROSS : LRCSI_INTERSECTION_NONE;
         result->met[i] =
             meets[i] || side_is_met(c, i, 0) || side_is_met(c, i, 1) || side_is_met(c, i, 2);
@@ -366,7 +367,7 @@ int lrcsi_pair_meet(const lrcsi_pair_facet *f, lrcsi_pair_facet *t, lrcsi_pair_r
     *result = (lrcsi_pair_result){{LRCSI_INTERSECTION_NONE, LRCSI_INTERSECTION_NONE}, {0, 0}};
     of_t[0] = rounded_side(f, t->x[0]);
     int flat =
-        of_t[0] == UNSURE; /* in one plane, as it seems: then lines are more likely to decide */
+        of_t[0] == PAIR_UNDECIDED; /* probably in one plane: then lines are more likely to decide */
     if (flat && lines_separate(f, t)) {
         return 0;
     }
@@ -393,10 +394,11 @@ int lrcsi_pair_meet(const lrcsi_pair_facet *f, lrcsi_pair_facet *t, lrcsi_pair_r
         if (!on_t && plane_separates(of_f)) {
             return 0;
         }
-        pair_crossing c = {
-            {t, f},
-            {of_t, of_f},
-            {{UNSURE, UNSURE, UNSURE}, {UNSURE, UNSURE, UNSURE}, {UNSURE, UNSURE, UNSURE}}};
+        pair_crossing c = {{t, f},
+                           {of_t, of_f},
+                           {{PAIR_UNDECIDED, PAIR_UNDECIDED, PAIR_UNDECIDED},
+                            {PAIR_UNDECIDED, PAIR_UNDECIDED, PAIR_UNDECIDED},
+                            {PAIR_UNDECIDED, PAIR_UNDECIDED, PAIR_UNDECIDED}}};
         meet_across(&c, result);
     }
     return result->met[0] || result->met[1];

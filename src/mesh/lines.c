@@ -4,6 +4,7 @@
 #include "mesh/lines.h"
 
 #include "base/decimal.h"
+#include "base/text.h"
 #include "base/where.h"
 
 #include <math.h>
@@ -19,7 +20,7 @@ static int is_newline(char c)
     return c == '\n' || c == '\r';
 }
 
-/* Skips the line ending at `at`, unless the bytes end there. */
+/* Skips the line break at `at`, unless the bytes end there. */
 static void skip_newline(lrcsi_lines *lines)
 {
     if (lines->at < lines->end) {
@@ -42,11 +43,8 @@ static int at_word_end(const lrcsi_lines *lines)
 
 lrcsi_lines lrcsi_lines_make(const void *bytes, size_t size)
 {
-    lrcsi_lines lines = {bytes, bytes, (const char *)bytes + size, 1};
-    if (size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0) {
-        lines.at += 3;
-    }
-    return lines;
+    const char *start = bytes;
+    return (lrcsi_lines){start, start + lrcsi_text_mark(start, size), start + size, 1};
 }
 
 int lrcsi_lines_done(lrcsi_lines *lines)

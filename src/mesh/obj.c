@@ -3,6 +3,7 @@
    a mesh to fill, it also stores. lrcs_obj_read counts first, so any failure occurs before memory
    is allocated. It decides what facets, parts and materials a file holds; the material library is
    another file, read by mtl.c. */
+#include "base/constant.h"
 #include "base/text.h"
 #include "base/where.h"
 #include "base/work.h"
@@ -15,9 +16,8 @@
 #include <math.h>
 #include <string.h>
 
-#define COORDINATE_MOST 1e100
-#define COUNT_MOST      (UINT32_MAX - 1)
-#define NO_INDEX        INT64_MAX
+#define OBJ_COUNT_MAX (UINT32_MAX - 1)
+#define NO_INDEX      INT64_MAX
 
 /* A name that later facets belong to; it counts once a facet does. */
 typedef struct obj_name {
@@ -32,7 +32,7 @@ typedef struct obj_walk {
     lrcs_where *where;
     lrcs_mesh_counts counts;
     uint32_t vertex_limit, normal_limit; /* positive indices are at most this */
-    uint32_t vertex_most, normal_most;   /* the largest positive index so far */
+    uint32_t vertex_max, normal_max;     /* the largest positive index so far */
     uint32_t notices;
     uint32_t smooth;
     obj_name part, material, library;
@@ -92,7 +92,7 @@ static void enter_material(obj_walk *w)
 
 static int add_facet(obj_walk *w, const lrcs_facet *corner, const lrcs_facet *normal)
 {
-    if (w->counts.facets == COUNT_MOST) {
+    if (w->counts.facets == OBJ_COUNT_MAX) {
         return obj_fail(w, LRCS_E_LIMIT, "facets", "fewer than 2^32 - 1");
     }
     if (w->part.pending) {
@@ -125,7 +125,7 @@ static int read_point(obj_walk *w, const char *item, lrcs_point *points, uint32_
         if (status != LRCS_OK) {
             return status;
         }
-        if (fabs(point.x[k]) > COORDINATE_MOST) {
+        if (fabs(point.x[k]) > LRCSI_COORDINATE_MAX) {
             w->lines = from;
             return obj_fail(w, LRCS_E_NUMBER, item, "a magnitude of at most 1e100");
         }
@@ -137,7 +137,7 @@ static int read_point(obj_walk *w, const char *item, lrcs_point *points, uint32_
             return status;
         }
     }
-    if (*count == COUNT_MOST) {
+    if (*count == OBJ_COUNT_MAX) {
         return obj_fail(w, LRCS_E_LIMIT, item, "fewer than 2^32 - 1");
     }
     if (points) {
@@ -179,14 +179,14 @@ static int parse_corner(const char *word, size_t size, int64_t index[3])
 
 /* Converts an index in the file to one in a list that has `count` items so far. Returns 0 if there
    is no such item. */
-static int resolve_index(int64_t index, uint32_t count, uint32_t limit, uint32_t *most,
+static int resolve_index(int64_t index, uint32_t count, uint32_t limit, uint32_t *index_max,
                          uint32_t *place)
 {
     if (index == 0 || index > limit || -index > (int64_t)count) {
         return 0;
     }
     *place = (uint32_t)(index > 0 ? index - 1 : (int64_t)count + index);
-    *most = *place >= *most ? *place + 1 : *most;
+    *index_max = *place >= *index_max ? *place + 1 : *index_max;
     return 1;
 }
 
@@ -210,12 +210,12 @@ static int read_corner(obj_walk *w, uint32_t *corner, uint32_t *normal)
         w->lines = from;
         return obj_fail(w, LRCS_E_SYNTAX, "face corner", "v, v/t, v//n or v/t/n");
     }
-    if (!resolve_index(index[0], w->counts.vertices, w->vertex_limit, &w->vertex_most, corner)) {
+    if (!resolve_index(index[0], w->counts.vertices, w->vertex_limit, &w->vertex_max, corner)) {
         return refuse_index(w, &from, index[0], "face corner");
     }
     *normal = LRCS_NONE;
     if (index[2] != NO_INDEX &&
-        !resolve_index(index[2], w->counts.normals, w->normal_limit, &w->normal_most, normal)) {
+        !resolve_index(index[2], w->counts.normals, w->normal_limit, &w->normal_max, normal)) {
         return refuse_index(w, &from, index[2], "normal of a face corner");
     }
     return LRCS_OK;
@@ -325,8 +325,8 @@ static obj_walk obj_walk_make(const void *bytes, size_t size, lrcs_where *where)
     memset(&w, 0, sizeof w);
     w.lines = lrcsi_lines_make(bytes, size);
     w.where = where;
-    w.vertex_limit = COUNT_MOST;
-    w.normal_limit = COUNT_MOST;
+    w.vertex_limit = OBJ_COUNT_MAX;
+    w.normal_limit = OBJ_COUNT_MAX;
     w.part.bytes = "";
     w.part.pending = 1;
     w.material.index = LRCS_NONE;
@@ -342,7 +342,7 @@ int lrcs_obj_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrc
     obj_walk w = obj_walk_make(bytes, size, where);
     int status = walk_statements(&w);
     if (status == LRCS_OK &&
-        (w.vertex_most > w.counts.vertices || w.normal_most > w.counts.normals)) {
+        (w.vertex_max > w.counts.vertices || w.normal_max > w.counts.normals)) {
         lrcs_mesh_counts limit = w.counts;
         w = obj_walk_make(bytes, size, where); /* once more, to stop at the first such index */
         w.vertex_limit = limit.vertices;

@@ -63,14 +63,14 @@
 /* A paraboloid's slope is clamped to these limits. It exceeds them only if the radius or the length
    is below 1e-300 of the other: a flatter one is flat, and a narrower one is indistinguishable from
    a line. */
-#define SLOPE_LEAST 1e-300
-#define SLOPE_MOST  1e300
+#define PROFILE_SLOPE_MIN 1e-300
+#define PROFILE_SLOPE_MAX 1e300
 /* An upper bound of the absolute error of a subnormal coordinate. */
-#define COARSE 1e-322
+#define SUBNORMAL_ERR 1e-322
 /* Facets that rounding changes by more than this fraction of themselves get UNBOUNDED numbers.
    These are finite, because they may be multiplied by a facet area of zero. */
-#define ROUNDING_MOST 0x1p-6
-#define UNBOUNDED     1e300
+#define ROUNDING_MAX 0x1p-6
+#define UNBOUNDED    1e300
 /* Covers the relative rounding error of a reach: its terms are positive and accurate to 1e-9, even
    if 2^24 rings make the differences between neighbours small. */
 #define REACH_MARGIN (1.0 + 1e-6)
@@ -214,12 +214,12 @@ static profile_strip strip_make(const lrcsi_profile *profile, uint32_t i)
     return strip;
 }
 
-/* A corner displaced by e tilts its facet by at most e divided by the altitude through that corner,
-   and changes its area by at most that fraction. Coordinates have a relative error of at most e
-   (straight walls have exact z); all corners of a row have the same z. Let l be the slant height.
-   Two corners of a facet lie on a row of radius r, with altitudes of at least w l / (w + l),
-   w >= 2 r sin h (r divided by that is at most 1/(2 sin h) + r/l); the altitude of the third is l.
-   Rows of equal radius have the same x and y, so that only the error along the row remains. */
+/* A corner displaced by e rotates its facet by at most e divided by the altitude through that
+   corner, and changes its area by at most that fraction. Coordinates have a relative error of at
+   most e (straight walls have exact z); all corners of a row have the same z. Let l be the slant
+   height. Two corners of a facet lie on a row of radius r, with altitudes of at least w l / (w +
+   l), w >= 2 r sin h (r divided by that is at most 1/(2 sin h) + r/l); the altitude of the third is
+   l. Rows of equal radius have the same x and y, so that only the error along the row remains. */
 double lrcsi_profile_rounding(const lrcsi_profile *profile, uint32_t i)
 {
     double below = lrcsi_profile_radius(profile, i);
@@ -231,13 +231,13 @@ double lrcsi_profile_rounding(const lrcsi_profile *profile, uint32_t i)
     double narrow = above > 0.0 ? fmin(below, above) : below;
     double rounding = e * along;
     if (below > 0.0 || above > 0.0) {
-        rounding += COARSE / (narrow > 0.0 ? narrow : above) * along;
+        rounding += SUBNORMAL_ERR / (narrow > 0.0 ? narrow : above) * along;
     }
     if (slant > 0.0 && below != above) {
-        rounding += 3.0 * (e * fmax(below, above) + COARSE) / slant;
+        rounding += 3.0 * (e * fmax(below, above) + SUBNORMAL_ERR) / slant;
     }
     if (slant > 0.0 && !profile_straight(profile)) {
-        rounding += 2.0 * (e * profile->height + COARSE) / slant;
+        rounding += 2.0 * (e * profile->height + SUBNORMAL_ERR) / slant;
     }
     return rounding;
 }
@@ -297,7 +297,7 @@ lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *
     } else if (shape->kind == LRCS_SHAPE_PARABOLOID) {
         profile.height = shape->length;
         double slope = shape->radius > 0.0 ? 2.0 * (shape->length / shape->radius) : 0.0;
-        profile.slope = slope < SLOPE_LEAST ? 0.0 : fmin(slope, SLOPE_MOST);
+        profile.slope = slope < PROFILE_SLOPE_MIN ? 0.0 : fmin(slope, PROFILE_SLOPE_MAX);
         profile.step = atan(profile.slope) / rings;
     } else {
         profile.height = shape->radius;
@@ -330,22 +330,22 @@ double lrcsi_profile_rise(const lrcsi_profile *profile, uint32_t i)
 
 lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
 {
-    lrcs_curvature most = {0.0, 0.0, 0.0, 0.0};
+    lrcs_curvature bound = {0.0, 0.0, 0.0, 0.0};
     for (uint32_t i = 0; i < profile->strips; i++) {
         lrcs_curvature c = strip_curvature(profile, i);
-        most.turn = fmax(most.turn, c.turn);
-        most.area_error = fmax(most.area_error, c.area_error);
-        most.bias = fmax(most.bias, c.bias);
-        most.spread = fmax(most.spread, c.spread);
+        bound.turn = fmax(bound.turn, c.turn);
+        bound.area_error = fmax(bound.area_error, c.area_error);
+        bound.bias = fmax(bound.bias, c.bias);
+        bound.spread = fmax(bound.spread, c.spread);
     }
-    return most;
+    return bound;
 }
 
-/* The turn vector changes by at most gamma / sin gamma < 2 times the tilt. A facet that rounding
-   moves by a large fraction of its own size has no meaningful numbers. */
+/* The turn vector changes by at most gamma / sin gamma < 2 times the rotation. A facet that
+   rounding moves by a large fraction of its own size has no meaningful numbers. */
 lrcs_curvature lrcsi_profile_rounded(const lrcs_curvature *c, double rounding)
 {
-    if (!(rounding <= ROUNDING_MOST)) {
+    if (!(rounding <= ROUNDING_MAX)) {
         return (lrcs_curvature){LRCS_PI, UNBOUNDED, UNBOUNDED, sqrt(UNBOUNDED)};
     }
     return (lrcs_curvature){fmin(c->turn + rounding, LRCS_PI), c->area_error + 2.0 * rounding,
@@ -464,7 +464,7 @@ static lrcsi_reach strip_reach(const lrcsi_profile *profile, uint32_t i, double 
 lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile)
 {
     double wide = fmax(profile->base, profile->top);
-    lrcsi_reach most = {wide * sector_reach(profile).all, 0.0, 0.0, 0.0};
+    lrcsi_reach bound = {wide * sector_reach(profile).all, 0.0, 0.0, 0.0};
     double z = 0.0;
     double height_err = 0.0;
     for (uint32_t i = 0; i < profile->strips; i++) {
@@ -472,13 +472,13 @@ lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile)
         z += lrcsi_profile_rise(profile, i);
         height_err = fabs(z - profile_height(profile, i + 1));
         lrcsi_reach strip = strip_reach(profile, i, fmax(before, height_err));
-        most.all = fmax(most.all, strip.all);
-        most.radial = fmax(most.radial, strip.radial);
-        most.axial = fmax(most.axial, strip.axial);
-        most.aside = fmax(most.aside, strip.aside);
+        bound.all = fmax(bound.all, strip.all);
+        bound.radial = fmax(bound.radial, strip.radial);
+        bound.axial = fmax(bound.axial, strip.axial);
+        bound.aside = fmax(bound.aside, strip.aside);
     }
     double rounding = (32.0 + 2.0 * (double)profile->strips) * LRCSI_U * (wide + profile->height);
-    return (lrcsi_reach){most.all * REACH_MARGIN + rounding, most.radial * REACH_MARGIN + rounding,
-                         most.axial * REACH_MARGIN + rounding,
-                         most.aside * REACH_MARGIN + rounding};
+    return (lrcsi_reach){
+        bound.all * REACH_MARGIN + rounding, bound.radial * REACH_MARGIN + rounding,
+        bound.axial * REACH_MARGIN + rounding, bound.aside * REACH_MARGIN + rounding};
 }

@@ -32,12 +32,12 @@ double lrcsi_profile_rise(const lrcsi_profile *profile, uint32_t i);
 /* The numbers of lrcs_curvature, proved, over all facets of the wall. */
 lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile);
 
-/* An upper bound of the angle (rad) by which rounding of the vertices tilts the facets between rows
-   i and i + 1, and of the relative change of their areas. */
+/* An upper bound of the angle (rad) by which rounding of the vertices rotates the facets between
+   rows i and i + 1, and of the relative change of their areas. */
 double lrcsi_profile_rounding(const lrcsi_profile *profile, uint32_t i);
 
-/* The numbers for facets that rounding tilts by at most `rounding` rad, and whose areas it changes
-   by at most that fraction. */
+/* The numbers for facets that rounding rotates by at most `rounding` rad, and whose areas it
+   changes by at most that fraction. */
 lrcs_curvature lrcsi_profile_rounded(const lrcs_curvature *curvature, double rounding);
 
 /* The numbers after a linear map whose largest singular value is `ratio` times its least, applied

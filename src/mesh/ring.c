@@ -15,7 +15,7 @@
    Proof. Going round counter-clockwise, the number of sectors above a direction rises by one at a
    start and falls by one at an end (2). If every spoke is both, the number is the same everywhere:
    one (4). If not, it is k + 1 from the spoke that is a start only to the one that is an end only
-   and k beyond, and k = 0 (4). So the insides of sectors do not overlap. Nor do two spokes
+   and k beyond, and k = 0 (4). So the interiors of sectors do not overlap. Nor do two spokes
    coincide, seen against m: just before that ray there would be two sectors if both are ends, just
    after it if both are starts; and the only start and the only end in one ray would leave no
    direction free. So if points of two facets coincide, seen against m, they are v or lie on one
@@ -24,10 +24,10 @@
 
    4 is decided with a line through v: g = m x w for some w. A sector crosses the ray along w, seen
    against m, if it starts with g . (b - v) < 0 and ends with g . (c - v) > 0, and the opposite ray
-   if the signs are the other way round. If all signs are sure, no spoke lies on the line, and the
-   crossings counted are the numbers of sectors above these two directions: `up` and `down`. With a
-   spoke that is a start only, up = 0 or down = 0 shows a direction in no sector. If both are 1,
-   then k is 0 or 1, and both directions are between the lone start and the lone end, or both
+   if the signs are the other way round. If all signs are certain, no spoke lies on the line, and
+   the crossings counted are the numbers of sectors above these two directions: `up` and `down`.
+   With a spoke that is a start only, up = 0 or down = 0 shows a direction in no sector. If both are
+   1, then k is 0 or 1, and both directions are between the lone start and the lone end, or both
    beyond; so these two lie on one side of the line, and k = 0 if the turn from the end to the start
    is counter-clockwise (less than 180 degrees, in no sector), k = 1 if it is clockwise.
 
@@ -43,20 +43,21 @@
 
 #include "base/constant.h"
 #include "base/exact.h"
+#include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
 
 /* 10 u */
 #define RING_FILTER (10.0 * LRCSI_U)
 
-/* The point of a smaller ring is not an apex. */
+/* The smallest number of facets around an apex. */
 enum { FAN_FACETS = 32 };
 
 /* m's largest component, M; the largest of g. */
 #define RING_SCALE 0x1p20
 #define LINE_SCALE (12.0 * RING_SCALE)
 
-/* What is known of a point's ring. */
+/* A point's ring, as far as it has been examined. */
 typedef struct vertex_ring {
     float m[3];             /* sum of the facets' normals, then m */
     uint32_t count;         /* facets */
@@ -66,13 +67,13 @@ typedef struct vertex_ring {
     unsigned char refused;  /* a condition is not met, or not proved */
 } vertex_ring;
 
-/* A count that stops at 2, and one more if `more` is 1; without a branch. */
-static unsigned char one_more(unsigned char count, int more)
+/* count + increment, 0 or 1, saturating at 2; without a branch. */
+static unsigned char count_to_2(unsigned char count, int increment)
 {
-    return (unsigned char)(count + (more & (count < 2)));
+    return (unsigned char)(count + (increment & (count < 2)));
 }
 
-/* Each facet's normal, its largest component brought to 1, is added to m at its corners. */
+/* Adds each facet's normal, scaled so that its largest component is 1, to m at its corners. */
 static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
                         const uint32_t *weld, const unsigned char *skip, vertex_ring *rings)
 {
@@ -85,13 +86,12 @@ static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint3
         double q[3];
         lrcsi_vec3_between(vertex[c[0]].x, vertex[c[1]].x, p);
         lrcsi_vec3_between(vertex[c[0]].x, vertex[c[2]].x, q);
-        double x = p[1] * q[2] - p[2] * q[1];
-        double y = p[2] * q[0] - p[0] * q[2];
-        double z = p[0] * q[1] - p[1] * q[0];
-        double most = fabs(x) > fabs(y) ? fabs(x) : fabs(y);
-        most = fabs(z) > most ? fabs(z) : most;
-        double scale = most > 0.0 ? 1.0 / most : 0.0;
-        const float n[3] = {(float)(x * scale), (float)(y * scale), (float)(z * scale)};
+        double cross[3];
+        lrcsi_vec3_cross(p, q, cross);
+        double largest = lrcsi_max(fabs(cross[0]), lrcsi_max(fabs(cross[1]), fabs(cross[2])));
+        double scale = largest > 0.0 ? 1.0 / largest : 0.0;
+        const float n[3] = {(float)(cross[0] * scale), (float)(cross[1] * scale),
+                            (float)(cross[2] * scale)};
         for (int corner = 0; corner < 3; corner++) {
             vertex_ring *r = &rings[weld[c[corner]]];
             r->count++;
@@ -105,18 +105,17 @@ static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint3
 /* Rounds m to integers: the number that is added and subtracted has an ulp of 1. */
 static void round_means(vertex_ring *rings, uint32_t vertex_count)
 {
-    const double whole = 0x1.8p52;
+    const double to_integer = 0x1.8p52;
     for (uint32_t v = 0; v < vertex_count; v++) {
         vertex_ring *r = &rings[v];
         double x = fabs((double)r->m[0]);
         double y = fabs((double)r->m[1]);
         double z = fabs((double)r->m[2]);
-        double most = x > y ? x : y;
-        most = z > most ? z : most;
-        r->refused = !(most > 0.0);
-        double scale = most > 0.0 ? RING_SCALE / most : 0.0;
+        double largest = lrcsi_max(x, lrcsi_max(y, z));
+        r->refused = !(largest > 0.0);
+        double scale = largest > 0.0 ? RING_SCALE / largest : 0.0;
         for (int k = 0; k < 3; k++) {
-            r->m[k] = (float)(((double)r->m[k] * scale + whole) - whole);
+            r->m[k] = (float)(((double)r->m[k] * scale + to_integer) - to_integer);
         }
     }
 }
@@ -144,7 +143,7 @@ static void match_spokes(const lrcsi_topology *topology, const unsigned char *sk
             uint32_t to = uses[1] ? edge->high : edge->low;
             rings[from].start = to;
             rings[to].end = from;
-            rings[from].open = one_more(rings[from].open, 1);
+            rings[from].open = count_to_2(rings[from].open, 1);
         }
     }
 }
@@ -170,7 +169,7 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
         lrcsi_vec3_between(vertex[c[1]].x, vertex[c[2]].x, side[1]);
         lrcsi_vec3_between(vertex[c[2]].x, vertex[c[0]].x, side[2]);
         const double *p = side[0];
-        const double *q = side[2]; /* turned round: the normal is q x p */
+        const double *q = side[2]; /* points back to c[0]: the normal is q x p */
         const double plus[3] = {q[1] * p[2], q[2] * p[0], q[0] * p[1]};
         const double minus[3] = {q[2] * p[1], q[0] * p[2], q[1] * p[0]};
         const double normal[3] = {plus[0] - minus[0], plus[1] - minus[1], plus[2] - minus[2]};
@@ -193,11 +192,11 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
             double start =
                 (g[0] * side[corner][0] + g[1] * side[corner][1]) + g[2] * side[corner][2];
             double end = -((g[0] * side[last][0] + g[1] * side[last][1]) + g[2] * side[last][2]);
-            int sure = (turn > turn_error) & (fabs(start) > line_error[corner]) &
-                       (fabs(end) > line_error[last]);
-            r->refused |= (unsigned char)!sure;
-            r->up = one_more(r->up, (start < 0.0) & (end > 0.0));
-            r->down = one_more(r->down, (start > 0.0) & (end < 0.0));
+            int decided = (turn > turn_error) & (fabs(start) > line_error[corner]) &
+                          (fabs(end) > line_error[last]);
+            r->refused |= (unsigned char)!decided;
+            r->up = count_to_2(r->up, (start < 0.0) & (end > 0.0));
+            r->down = count_to_2(r->down, (start > 0.0) & (end < 0.0));
         }
     }
 }

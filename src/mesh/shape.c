@@ -9,9 +9,6 @@
 #include "base/constant.h"
 #include "base/where.h"
 
-/* The largest length a mesh may hold, m. */
-#define LENGTH_MOST 1e100
-
 enum dimension {
     USES_SIZE_X = 1 << 0,
     USES_SIZE_Y = 1 << 1,
@@ -45,8 +42,8 @@ static int shape_fault(lrcs_where *where, int status, const char *item, const ch
     return lrcsi_where_text(where, status, 0, 0, item, expected, found, strlen(found));
 }
 
-/* One dimension: used or 0, finite, 0 .. most. */
-static int shape_check_one(double value, int used, const char *item, double most,
+/* One dimension: finite, 0 .. limit, and 0 if it is not used. */
+static int shape_check_one(double value, int used, const char *item, double limit,
                            const char *expected, lrcs_where *where)
 {
     if (!isfinite(value)) {
@@ -59,7 +56,7 @@ static int shape_check_one(double value, int used, const char *item, double most
     if (value < 0.0) {
         return shape_fault(where, LRCS_E_NUMBER, item, expected, "a negative number");
     }
-    if (value > most) {
+    if (value > limit) {
         return shape_fault(where, LRCS_E_NUMBER, item, expected, "a larger number");
     }
     return LRCS_OK;
@@ -82,7 +79,7 @@ static int shape_check_cone(const lrcs_shape *shape, lrcs_where *where)
                            "90 or more");
     }
     if (shape->half_angle_deg > 0.0 &&
-        !(shape->radius / tan(shape->half_angle_deg * radian) <= LENGTH_MOST)) {
+        !(shape->radius / tan(shape->half_angle_deg * radian) <= LRCSI_COORDINATE_MAX)) {
         return shape_fault(where, LRCS_E_NUMBER, "half_angle_deg", "a cone no longer than 1e100 m",
                            "a longer one");
     }
@@ -125,8 +122,8 @@ int lrcs_shape_check(const lrcs_shape *shape, lrcs_where *where)
     int uses = shape_table[shape->kind].uses;
     int status = LRCS_OK;
     for (size_t i = 0; status == LRCS_OK && i < sizeof length / sizeof length[0]; i++) {
-        status = shape_check_one(length[i].value, uses & length[i].bit, length[i].item, LENGTH_MOST,
-                                 metres, where);
+        status = shape_check_one(length[i].value, uses & length[i].bit, length[i].item,
+                                 LRCSI_COORDINATE_MAX, metres, where);
     }
     if (status == LRCS_OK) {
         status = shape_check_one(shape->half_angle_deg, uses & USES_HALF_ANGLE, "half_angle_deg",

@@ -8,10 +8,11 @@
 #include "base/vec3.h"
 
 /* Corners, with coordinates below 1, have errors of about 2^-48, which change areas by at most that
-   times the perimeter. The share of a triangle of less altitude than SLICE_LOW is unknown; that of
-   others has at most the error of the margin, 3 2^-48 / (SLICE_LOW / 2). */
-#define SLICE_LOW    1e-7
-#define SLICE_MARGIN (1.0 + 1e-6)
+   times the perimeter. The fraction of a triangle whose altitude is below SLICE_ALTITUDE_MIN is
+   unknown; for others its error is at most that of the margin, 3 2^-48 / (SLICE_ALTITUDE_MIN / 2).
+ */
+#define SLICE_ALTITUDE_MIN 1e-7
+#define SLICE_MARGIN       (1.0 + 1e-6)
 /* Rounding of the two ends of an extent. */
 #define EXTENT_MARGIN 0x1p-40
 
@@ -39,12 +40,12 @@ lrcsi_slice lrcsi_slice_start(const double a[3], const double b[3], const double
     return slice;
 }
 
-void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[3], double most)
+void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[3], double limit)
 {
     double height[3 + LRCSI_SLICE_CUTS];
     int beyond = 0;
     for (int i = 0; i < slice->count; i++) {
-        height[i] = slice_height(slice->x[i], n, origin) - most;
+        height[i] = slice_height(slice->x[i], n, origin) - limit;
         beyond += height[i] > 0;
     }
     if (beyond == 0 || beyond == slice->count) {
@@ -82,14 +83,14 @@ static double slice_area(const lrcsi_slice *slice)
     return 0.5 * sqrt(lrcsi_vec3_dot(sum, sum));
 }
 
-double lrcsi_slice_share(const lrcsi_slice *slice, double whole, double longest)
+double lrcsi_slice_fraction(const lrcsi_slice *slice, double whole, double longest)
 {
     if (slice->count < 3) {
         return 0;
     }
-    double share = slice_area(slice) / whole * SLICE_MARGIN;
-    int sure = 2.0 * whole > SLICE_LOW * longest;
-    return sure && share < 1 ? share : 1;
+    double fraction = slice_area(slice) / whole * SLICE_MARGIN;
+    int known = 2.0 * whole > SLICE_ALTITUDE_MIN * longest;
+    return known && fraction < 1 ? fraction : 1;
 }
 
 /* With e = q - p and h the altitude of o, the height of x is (x - p) . h / (h . h). Coordinates are

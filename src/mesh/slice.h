@@ -3,7 +3,7 @@
 #ifndef LRCSI_SLICE_H
 #define LRCSI_SLICE_H
 
-/* The most cuts a triangle may take. */
+/* The largest number of cuts of a triangle. */
 #define LRCSI_SLICE_CUTS 8
 
 /* A convex polygon; each cut adds at most one corner. */
@@ -15,13 +15,13 @@ typedef struct lrcsi_slice {
 /* The triangle a b c. */
 lrcsi_slice lrcsi_slice_start(const double a[3], const double b[3], const double c[3]);
 
-/* Keeps the part with n . (x - origin) <= most, up to rounding: the caller increases `most` by the
-   error that it must exclude. */
-void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[3], double most);
+/* Keeps the part with n . (x - origin) <= limit, up to rounding: the caller increases `limit` by
+   the error that must not remove anything. */
+void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[3], double limit);
 
-/* The fraction, 0 .. 1, that the polygon is of the triangle whose longest side is `longest` and
-   whose area is `whole`: rounded up, and 1 if the triangle is too thin to decide. */
-double lrcsi_slice_share(const lrcsi_slice *slice, double whole, double longest);
+/* The area of the polygon as a fraction, 0 .. 1, of that of the triangle, whose longest side is
+   `longest` and whose area is `whole`: rounded up, and 1 if the triangle is too thin to decide. */
+double lrcsi_slice_fraction(const lrcsi_slice *slice, double whole, double longest);
 
 /* The interval of heights over the side p q that the polygon, part of the triangle o p q, covers:
    as a fraction of the height of o, 0 .. 1, rounded up. */

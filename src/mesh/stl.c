@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/bytes.h"
 #include "base/constant.h"
 #include "base/text.h"
@@ -27,8 +28,8 @@ int lrcsi_stl_is_binary(const unsigned char *bytes, size_t size)
 }
 
 /* 1 if the stored normal is proved to oppose the corners' winding: n . (e x f) < 0. Each product
-   n_i e_j f_k carries at most 7 roundings (two differences, two products, three sums), so the sum
-   is in error by at most 8 u times the sum of their magnitudes, u = 2^-53. Zero and non-finite
+   n_i e_j f_k carries at most 7 roundings (two differences, two products, three sums), so the error
+   of the sum is at most 8 u times the sum of their magnitudes, u = 2^-53. Zero and non-finite
    normals are ignored. */
 static int stl_opposed(double corner[3][3], const double normal[3])
 {
@@ -56,9 +57,7 @@ static uint32_t stl_weld(lrcsi_stl_walk *walk, const double x[3])
     uint64_t key = 0;
     for (int k = 0; k < 3; k++) {
         point.x[k] = x[k] + 0.0;
-        uint64_t bits;
-        memcpy(&bits, &point.x[k], sizeof bits);
-        key = lrcsi_store_mix(key + bits);
+        key = lrcsi_store_mix(key + lrcsi_bits_of(point.x[k]));
     }
     size_t slot = (size_t)key & (walk->slots - 1);
     while (walk->slot[slot] != LRCS_NONE) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the two files of the STL reader share: how the binary and the text kind are distinguished,
-   the reader of text, and the function by which both add facets. */
+/* Shared by the two files of the STL reader: the distinction of the binary and the text kind, the
+   reader of text, and the function by which both add facets. */
 #ifndef LRCSI_STL_H
 #define LRCSI_STL_H
 

@@ -7,11 +7,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/decimal.h"
+#include "base/text.h"
 #include "base/where.h"
-
-/* Limit of a coordinate's magnitude in a mesh. */
-#define STL_LARGEST 1e100
 
 /* The next byte to read, and its line counted from 1. */
 typedef struct stl_place {
@@ -123,8 +122,7 @@ static lrcsi_span stl_take_name(stl_place *place)
 /* The start of the text, after a byte order mark. */
 static stl_place stl_begin(const unsigned char *bytes, size_t size)
 {
-    int bom = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0;
-    return (stl_place){bytes, size, bom ? 3 : 0, 1};
+    return (stl_place){bytes, size, lrcsi_text_mark((const char *)bytes, size), 1};
 }
 
 /* A binary file of fewer than 2^24 facets has a zero among its first 84 bytes, the highest byte of
@@ -173,7 +171,7 @@ static int stl_read_coordinate(const lrcsi_stl_walk *walk, stl_place *place, dou
         int status = stl_is_not_finite(start) ? LRCS_E_NUMBER : LRCS_E_SYNTAX;
         return stl_fail(walk, &start, status, "vertex coordinate", "a finite number");
     }
-    if (!(fabs(*value) <= STL_LARGEST)) {
+    if (!(fabs(*value) <= LRCSI_COORDINATE_MAX)) {
         return stl_fail(walk, &start, LRCS_E_NUMBER, "vertex coordinate",
                         "a finite number, at most 1e100");
     }

@@ -13,22 +13,20 @@
 #include "mesh/profile.h"
 
 #define SQRT_HALF   0.70710678118654752440
-#define AROUND_MOST (1u << 24)
-#define ALONG_MOST  (1u << 24)
 #define WALL_SMOOTH 1u /* smoothing group of a curved wall; flat parts are hard */
 
 /* A disc of many sides is not a fan of slivers that all meet at its centre. Instead it is divided
    into rings, each with about an eighth of the sides of the ring outside it. */
-#define RING_LEAST 64u /* a polygon with this many sides or more gets a ring inside */
-#define RINGS_MOST 10
+#define RING_SIDES_MIN 64u /* a polygon with this many sides or more gets a ring inside */
+#define RINGS_MAX      10
 
 /* A mesh under construction: the last row placed, and the direction of z. */
 typedef struct row_builder {
     lrcs_mesh *mesh;
     uint32_t first;  /* first vertex of the last row */
     uint32_t count;  /* its vertices: 0 none yet, 1 a point, else a polygon's */
-    double mirror;   /* 1, or -1: z negated and facets turned */
-    uint32_t smooth; /* group of the facets to come */
+    double mirror;   /* 1, or -1: z negated and winding reversed */
+    uint32_t smooth; /* smoothing group of the next facets */
 } row_builder;
 
 static int shape_is_plane_faced(const lrcs_shape *shape)
@@ -57,18 +55,18 @@ static uint32_t shape_caps(const lrcs_shape *shape)
     return shape_has_apex(shape) ? 1 : 2;
 }
 
-/* cos and sin of k/n of a turn, n a multiple of 4: at k = 0 exactly (1, 0), and with every
-   symmetry of the square exact. Error at most 2 units in the last place. */
+/* cos and sin of k/n of a full turn, n a multiple of 4: at k = 0 exactly (1, 0), and exactly
+   symmetric under the symmetries of the square. Error at most 2 units in the last place. */
 static void turn_fraction(uint32_t k, uint32_t n, double *c, double *s)
 {
     uint32_t quarter = n / 4;
-    uint32_t rest = k % quarter;
-    uint32_t fold = 2 * rest > quarter ? quarter - rest : rest;
+    uint32_t remainder = k % quarter;
+    uint32_t fold = 2 * remainder > quarter ? quarter - remainder : remainder;
     double angle = (2.0 * LRCS_PI) * (double)fold / (double)n;
     double x = 2 * fold == quarter ? SQRT_HALF : cos(angle);
     double y = 2 * fold == quarter ? SQRT_HALF : sin(angle);
-    double ahead = 2 * rest > quarter ? y : x;
-    double aside = 2 * rest > quarter ? x : y;
+    double ahead = 2 * remainder > quarter ? y : x;
+    double aside = 2 * remainder > quarter ? x : y;
     switch (k / quarter) {
     case 0:
         *c = ahead;
@@ -187,11 +185,11 @@ static void row_add(row_builder *row, double r, double z, uint32_t count)
 /* The rings inside a polygon of `around` sides, the widest first: their numbers of corners, and
    their radii as fractions of the polygon's. A ring is half as wide as its own sides are long.
    Returns the number of rings. */
-static int list_rings(uint32_t around, uint32_t corners[RINGS_MOST], double radius[RINGS_MOST])
+static int list_rings(uint32_t around, uint32_t corners[RINGS_MAX], double radius[RINGS_MAX])
 {
     int rings = 0;
     double r = 1.0;
-    while (around >= RING_LEAST && rings < RINGS_MOST) {
+    while (around >= RING_SIDES_MIN && rings < RINGS_MAX) {
         around = 4 * ((around + 16) / 32);
         r *= 1.0 - LRCS_PI / around;
         corners[rings] = around;
@@ -203,8 +201,8 @@ static int list_rings(uint32_t around, uint32_t corners[RINGS_MOST], double radi
 /* Fills the disc from the last row, a polygon of radius r, to its centre. */
 static void disc_close(row_builder *row, double r, double z)
 {
-    uint32_t corners[RINGS_MOST];
-    double radius[RINGS_MOST];
+    uint32_t corners[RINGS_MAX];
+    double radius[RINGS_MAX];
     int rings = list_rings(row->count, corners, radius);
     for (int i = 0; i < rings; i++) {
         row_add(row, r * radius[i], z, corners[i]);
@@ -215,8 +213,8 @@ static void disc_close(row_builder *row, double r, double z)
 /* The same from the centre out to a polygon of `around` corners, which is then the last row. */
 static void disc_open(row_builder *row, double r, double z, uint32_t around)
 {
-    uint32_t corners[RINGS_MOST];
-    double radius[RINGS_MOST];
+    uint32_t corners[RINGS_MAX];
+    double radius[RINGS_MAX];
     row_add(row, 0.0, z, 1);
     for (int i = list_rings(around, corners, radius); i > 0; i--) {
         row_add(row, r * radius[i - 1], z, corners[i - 1]);
@@ -297,8 +295,8 @@ static void make_box(const double size[3], lrcs_mesh *mesh)
    corners, the centre as many as the last row. */
 static void disc_counts(uint32_t around, uint64_t *vertices, uint64_t *facets)
 {
-    uint32_t corners[RINGS_MOST];
-    double radius[RINGS_MOST];
+    uint32_t corners[RINGS_MAX];
+    double radius[RINGS_MAX];
     int rings = list_rings(around, corners, radius);
     *vertices = 1;
     *facets = around;
@@ -362,8 +360,8 @@ int lrcsi_tessellate_fits(const lrcs_shape *shape, const lrcs_divisions *divisio
     if (shape_is_plane_faced(shape)) {
         return around == 4 && along == 1;
     }
-    if (around < 8 || around > AROUND_MOST || around % 4 != 0 || along < 1 || along > ALONG_MOST ||
-        (along > 1 && !shape_has_rings(shape))) {
+    if (around < 8 || around > LRCSI_AROUND_MAX || around % 4 != 0 || along < 1 ||
+        along > LRCSI_ALONG_MAX || (along > 1 && !shape_has_rings(shape))) {
         return 0;
     }
     uint64_t vertices = 0;

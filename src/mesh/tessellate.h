@@ -5,6 +5,10 @@
 
 #include "mesh/profile.h"
 
+/* The largest numbers of sectors and of rings (lrcs_divisions). */
+#define LRCSI_AROUND_MAX (1u << 24)
+#define LRCSI_ALONG_MAX  (1u << 24)
+
 /* 1 if the divisions are valid for the shape and its mesh has at most 2^32 - 2 vertices and
    facets. */
 int lrcsi_tessellate_fits(const lrcs_shape *shape, const lrcs_divisions *divisions);

@@ -10,6 +10,7 @@
 
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/exact.h"
 #include "base/sort.h"
 #include "base/work.h"
@@ -18,24 +19,21 @@
 /* A side is 3 * facet + k, from corner k to the next. */
 enum { SIDES = 3 };
 
-/* The largest facet that lrcsi_edge_use can hold; there are fewer sides than 2^32. */
-#define FACET_MOST 0x7fffffffu
+/* The largest facet index that lrcsi_edge_use can hold; there are fewer sides than 2^32. */
+#define FACET_INDEX_MAX 0x7fffffffu
 
 /* The average number of probes per point at which hashing is abandoned; ordinary meshes take
    1.5. */
 #define WELD_PROBES 8u
 
 /* Points whose slots are read at once. */
-enum { WELD_AHEAD = 16 };
+enum { WELD_BATCH = 16 };
 
 /* --- points ----------------------------------------------------------------------------------- */
 
 static uint64_t coordinate_key(double x)
 {
-    double plain = x + 0.0; /* -0 becomes 0 */
-    uint64_t key;
-    memcpy(&key, &plain, sizeof key);
-    return key;
+    return lrcsi_bits_of(x + 0.0); /* -0 becomes 0 */
 }
 
 static int same_position(const lrcs_point *a, const lrcs_point *b)
@@ -59,9 +57,9 @@ static int weld_hashed(const lrcs_point *vertex, uint32_t count, uint32_t *slot,
 {
     uint64_t probes = (uint64_t)WELD_PROBES * count + 64;
     memset(slot, 0xff, slots * sizeof *slot); /* LRCS_NONE */
-    for (uint32_t first = 0; first < count; first += WELD_AHEAD) {
-        uint32_t batch = count - first < WELD_AHEAD ? count - first : WELD_AHEAD;
-        size_t home[WELD_AHEAD];
+    for (uint32_t first = 0; first < count; first += WELD_BATCH) {
+        uint32_t batch = count - first < WELD_BATCH ? count - first : WELD_BATCH;
+        size_t home[WELD_BATCH];
         for (uint32_t j = 0; j < batch; j++) {
             uint64_t key = 0;
             for (int k = 0; k < 3; k++) {
@@ -194,8 +192,8 @@ static void sort_sides(sorted_side *s, size_t n)
     }
 }
 
-/* Fills use[], edge[] and facet_edge[]. `side` has as many items as use[], `place` vertex_count
- * + 1.
+/* Fills use[], edge[] and facet_edge[]. Scratch: side[], as many items as use[]; place[vertex_count
+ * + 1].
  */
 static void build_edges(lrcsi_topology *t, uint32_t vertex_count, const lrcs_facet *facet,
                         uint32_t facet_count, sorted_side *side, uint32_t *place)
@@ -240,14 +238,14 @@ static void build_edges(lrcsi_topology *t, uint32_t vertex_count, const lrcs_fac
             }
             edge->uses++;
             t->facet_edge[f].corner[k] = t->edge_count - 1;
-            t->use[i].facet = f & FACET_MOST;
+            t->use[i].facet = f & FACET_INDEX_MAX;
             t->use[i].forward = t->weld[facet[f].corner[k]] == v;
         }
         begin = place[v];
     }
 }
 
-/* What stays, apart from the edges. */
+/* The size of the result without the edges. */
 static size_t kept_before_edges(uint32_t vertex_count, uint32_t facet_count)
 {
     size_t sides = (size_t)SIDES * facet_count;

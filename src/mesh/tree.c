@@ -6,7 +6,7 @@
    nevertheless share a cell, because a few others are far away, these facets are sorted again along
    a curve through their own box, and so on: every cluster gets its own scale. A facet with an apex
    is sorted by the apex first, and among the facets of the apex by its centre. Each time the box
-   shrinks by at least a factor of 2^MORTON_LEAST - 1, and differences of coordinates lie between
+   shrinks by at least a factor of 2^MORTON_MIN - 1, and differences of coordinates lie between
    2^1 and 2^-352 (base/exact.c): at most 45 times by apexes and 45 by centres. Facets with the same
    centre stay together.
 
@@ -45,7 +45,7 @@
 enum { TREE_LANES = LRCSI_TREE_LANES };
 
 /* Bits of a cell's number along each axis. */
-enum { MORTON_LEAST = 8, MORTON_MOST = 21 };
+enum { MORTON_MIN = 8, MORTON_MAX = 21 };
 
 /* More facets than this in one cell are sorted again; the largest number of nested curves. */
 enum { CELL_FACETS = 64, SCALES = 96 };
@@ -123,8 +123,8 @@ static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t f
     if (!(side > 0.0)) {
         return 0;
     }
-    int bits = MORTON_LEAST;
-    while (bits < MORTON_MOST && (UINT64_C(1) << 2 * bits) < end - first) {
+    int bits = MORTON_MIN;
+    while (bits < MORTON_MAX && (UINT64_C(1) << 2 * bits) < end - first) {
         bits++;
     }
     const double scale = (double)((UINT64_C(1) << bits) - 1) / side;
@@ -276,14 +276,14 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
 {
     size_t mark = work->used;
     lrcsi_tree made = {.order = lrcsi_work_take(work, facet_count, sizeof *made.order)};
-    size_t stays = work->used;
+    size_t kept = work->used;
     tree_sort s = {
         .vertex = vertex, .facet = facet, .apex = apexes ? label : NULL, .order = made.order};
     s.key = lrcsi_work_take(work, facet_count, sizeof *s.key);
     s.key_spare = lrcsi_work_take(work, facet_count, sizeof *s.key_spare);
     s.order_spare = lrcsi_work_take(work, facet_count, sizeof *s.order_spare);
     s.centre = lrcsi_work_take(work, facet_count, sizeof *s.centre);
-    work->used = stays;
+    work->used = kept;
     int status = LRCS_E_MEMORY;
     if (s.order && s.key && s.key_spare && s.order_spare && s.centre) {
         for (uint32_t f = 0; f < facet_count; f++) {
@@ -320,16 +320,15 @@ static void add_normal(const lrcs_point *vertex, const lrcs_facet *facet, double
     const double *a = vertex[facet->corner[0]].x;
     const double *b = vertex[facet->corner[1]].x;
     const double *c = vertex[facet->corner[2]].x;
+    double p[3];
+    double q[3];
     double n[3];
-    double along = 0.0;
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3;
-        int j = (k + 2) % 3;
-        n[k] = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
-        along += n[k] * direction[k];
-    }
-    double most = lrcsi_max(fabs(n[0]), lrcsi_max(fabs(n[1]), fabs(n[2])));
-    double scale = most > 0x1p-1000 ? (along < 0.0 ? -1.0 : 1.0) / most : 0.0;
+    lrcsi_vec3_between(a, b, p);
+    lrcsi_vec3_between(a, c, q);
+    lrcsi_vec3_cross(p, q, n);
+    double along = lrcsi_vec3_dot(n, direction);
+    double largest = lrcsi_max(fabs(n[0]), lrcsi_max(fabs(n[1]), fabs(n[2])));
+    double scale = largest > 0x1p-1000 ? (along < 0.0 ? -1.0 : 1.0) / largest : 0.0;
     for (int k = 0; k < 3; k++) {
         direction[k] += n[k] * scale;
     }
@@ -435,18 +434,18 @@ static int slab_is_apart(const lrcsi_tree *tree, uint32_t leaf, int level, uint3
     lrcsi_box own_box = lrcsi_tree_box(&tree->block[1][leaf / TREE_LANES], at);
     double along[3];
     double own_along[3];
-    double turned[3];
+    double difference[3];
     double size = 0.0;
     for (int k = 0; k < 3; k++) {
         along[k] = slabs->direction[k][lane];
         own_along[k] = own->direction[k][at];
-        turned[k] = own_along[k] - along[k];
+        difference[k] = own_along[k] - along[k];
         size += fmax(fabs(box.low[k]), fabs(box.high[k])) +
                 fmax(fabs(own_box.low[k]), fabs(own_box.high[k]));
     }
     double low[3] = {slabs->low[lane], 0.0, 0.0};
     double high[3] = {slabs->high[lane], 0.0, 0.0};
-    slab_range(&box, turned, &low[0], &high[0]);
+    slab_range(&box, difference, &low[0], &high[0]);
     slab_range(&box, own_along, &low[1], &high[1]);
     slab_range(&own_box, along, &low[2], &high[2]);
     double error = SLAB_FILTER * size;

@@ -36,19 +36,18 @@
         }                                                                                          \
     }
 
-/* Searched: published A, B, s, m, and measured mono-static BRDFs at 1.06 and 0.532 um, of solar
-   cells, multilayer insulation, paints and aluminium. Measurements that are known and not here,
-   because what could be read of them has no values at a mono-static geometry with an uncertainty:
-   Neu and Dummer, AIAA Journal
-   7(3), 1969; Hubbs et al., Applied Optics 21, 3323, 1982 (10.6 and 118 um); Fletcher et al., NASA
-   TP-3649, 1997 (visible light); Bowers et al., AMOS 2011 (350 to 2500 nm); Fankhauser, Tyson and
-   Askari, Astronomical Journal 166, 59, 2023 (fits to measured chassis and solar array, bistatic,
-   without an uncertainty). A table of A, B, s, m of materials of satellites is quoted from a paper
-   of 2022 that cites Acta Optica Sinica 39, 1024001, 2019; neither could be read.
+/* The literature was searched for published A, B, s, m and for monostatic BRDFs measured at 1.06
+   and 0.532 um, of solar cells, multilayer insulation, paints and aluminium. Known measurements
+   that are not used, because the accessible text gives no monostatic values with an uncertainty:
+   Neu and Dummer, AIAA Journal 7(3), 1969; Hubbs et al., Applied Optics 21, 3323, 1982 (10.6 and
+   118 um); Fletcher et al., NASA TP-3649, 1997 (visible light); Bowers et al., AMOS 2011 (350 to
+   2500 nm); Fankhauser, Tyson and Askari, Astronomical Journal 166, 59, 2023 (fits to measured
+   chassis and solar array, bistatic, without an uncertainty). A paper of 2022 tabulates A, B, s, m
+   of satellite materials after Acta Optica Sinica 39, 1024001, 2019; neither text was accessible.
 
-   Without a source: chosen, not measured. A smooth-walled microfacet surface (Beckmann) of mirror
-   reflectance R has A = R / (4 pi s^2) at the mono-station geometry, and a Lambert surface of
-   reflectance rho has B = rho / pi: R + rho <= 1 in every entry, R and rho as in its line. */
+   Entries without a source are chosen, not measured. A Beckmann microfacet surface of mirror
+   reflectance R has A = R / (4 pi s^2) in the monostatic geometry, and a Lambert surface of
+   reflectance rho has B = rho / pi. Each entry states its R and rho; R + rho <= 1. */
 static const lrcs_brdf_entry brdf_library[] = {
     {"solar-cell",
      "cover glass over dark cells (R 0.08, rho 0.05)",

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* sigma of a shape alone. It decides which faces each shape has (plane faces, caps, one curved
    wall) and checks the arguments; the curved walls are in closed_ring.c and closed_cap.c. The
-   bodies are convex, so all that faces the light is lit. */
+   bodies are convex: every point that faces the laser is lit. */
 #include <math.h>
 
 #include "base/constant.h"
 #include "base/degrees.h"
 #include "optics/closed.h"
 
-/* Slopes for which s^2 and s^4, and lengths of which the products, stay normal doubles. */
-#define CLOSED_SLOPE_LEAST  0x1p-333
-#define CLOSED_SLOPE_MOST   0x1p333
-#define CLOSED_LENGTH_LEAST 1e-150
+/* For slopes in this range s^2 and s^4 are normal doubles, and so are products of lengths of at
+   least CLOSED_LENGTH_MIN. */
+#define CLOSED_SLOPE_MIN  0x1p-333
+#define CLOSED_SLOPE_MAX  0x1p333
+#define CLOSED_LENGTH_MIN 1e-150
 
 static int light_by_degrees(double deg, lrcsi_light *light)
 {
@@ -83,16 +84,6 @@ static void closed_add_disc(const lrcs_brdf *brdf, const lrcsi_light *light, int
     closed_add_face(brdf, light, 2, sign, LRCS_PI * radius * radius, sum);
 }
 
-static void closed_add_box(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcsi_light *light,
-                           lrcsi_amount *sum)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        int sign = light->s_hat[axis].hi < 0.0 ? -1 : 1;
-        double area = shape->size[(axis + 1) % 3] * shape->size[(axis + 2) % 3];
-        closed_add_face(brdf, light, axis, sign, area, sum);
-    }
-}
-
 /* Bodies with plane faces only, and the end discs of the others. */
 static void closed_add_planes(const lrcs_shape *shape, const lrcs_brdf *brdf,
                               const lrcsi_light *light, lrcsi_amount *sum)
@@ -106,7 +97,11 @@ static void closed_add_planes(const lrcs_shape *shape, const lrcs_brdf *brdf,
         closed_add_disc(brdf, light, 1, shape->radius, sum);
         break;
     case LRCS_SHAPE_BOX:
-        closed_add_box(shape, brdf, light, sum);
+        for (int axis = 0; axis < 3; axis++) {
+            int sign = light->s_hat[axis].hi < 0.0 ? -1 : 1;
+            double area = shape->size[(axis + 1) % 3] * shape->size[(axis + 2) % 3];
+            closed_add_face(brdf, light, axis, sign, area, sum);
+        }
         break;
     case LRCS_SHAPE_CYLINDER:
         closed_add_disc(brdf, light, 1, ends ? shape->radius : 0.0, sum);
@@ -162,7 +157,7 @@ int lrcsi_closed_check(const lrcs_shape *shape, const lrcs_brdf *brdf)
         return status;
     }
     for (int i = 0; i < 6; i++) {
-        if (length[i] > 0.0 && length[i] < CLOSED_LENGTH_LEAST) {
+        if (length[i] > 0.0 && length[i] < CLOSED_LENGTH_MIN) {
             return LRCS_E_NUMBER;
         }
     }
@@ -170,7 +165,7 @@ int lrcsi_closed_check(const lrcs_shape *shape, const lrcs_brdf *brdf)
     if (status < 0) {
         return status;
     }
-    int slope_fits = brdf->s >= CLOSED_SLOPE_LEAST && brdf->s <= CLOSED_SLOPE_MOST;
+    int slope_fits = brdf->s >= CLOSED_SLOPE_MIN && brdf->s <= CLOSED_SLOPE_MAX;
     return brdf->A > 0.0 && !slope_fits ? LRCS_E_NUMBER : LRCS_OK;
 }
 

@@ -35,8 +35,8 @@ typedef struct lrcsi_amount {
 static inline lrcsi_dd lrcsi_closed_divide(lrcsi_dd a, lrcsi_dd b)
 {
     double q = a.hi / b.hi;
-    lrcsi_dd rest = lrcsi_dd_sub(a, lrcsi_dd_scale(b, q));
-    return lrcsi_dd_quick_sum(q, rest.hi / b.hi);
+    lrcsi_dd remainder = lrcsi_dd_sub(a, lrcsi_dd_scale(b, q));
+    return lrcsi_dd_quick_sum(q, remainder.hi / b.hi);
 }
 
 /* Length of (a, b): the same; a component below 2^-480 of the other counts as 0. */
@@ -72,15 +72,16 @@ int lrcsi_closed_check(const lrcs_shape *shape, const lrcs_brdf *brdf);
 int lrcsi_closed_shape(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcsi_dd direction[3],
                        lrcsi_amount *sum, double *silhouette);
 
-/* The projected area of a closed body of revolution, or of an open one's outside that faces the
-   laser, from the aspect's sine and cosine: to some 20 u of the largest. */
+/* The projected area of a closed body of revolution, or of the part of an open one's outside that
+   faces the laser, from the sine and cosine of the aspect. Accurate to about 20 u of its largest
+   value. */
 double lrcsi_closed_silhouette(const lrcs_shape *shape, double sine, double cosine);
 
 /* The length of a cone, or of another shape of revolution. */
 double lrcsi_closed_length(const lrcs_shape *shape);
 
-/* The families: integral of F over the lit wall, without the 4 pi, caps or base. Lengths are at
-   most 1 or so in magnitude. */
+/* The families: integral of F over the lit wall, without the 4 pi, caps or base. Lengths are about
+   1 or smaller. */
 lrcsi_amount lrcsi_closed_cylinder(const lrcs_shape *shape, const lrcs_brdf *brdf,
                                    const lrcsi_light *light);
 lrcsi_amount lrcsi_closed_cone(const lrcs_shape *shape, const lrcs_brdf *brdf,

@@ -3,21 +3,23 @@
    towards both ends. It decides how finely the panels at an end are graded; the samples define the
    integrand.
 
-   Truncation. All singularities of the integrands lie at an end, behind it, or on the imaginary
-   axis through it, and every peak is at an end or is as wide as its distance from one. On a
+   Truncation. All singularities of the integrands lie at an end, beyond it, or on the line
+   through it parallel to the imaginary axis, and every peak is at an end or is as wide as its
+   distance from one. On a
    panel [h/2, h] such a function is analytic inside the ellipse with foci at the panel's ends that
    reaches to rho = 2.2 (the one through the end itself has rho = 5.8), and there |F| is bounded by
    its own size on the axis: arguments stay within 18 degrees, where exp(-z^2), z^nu and
    exp(-1/z^4) all decay. Gauss's rule of n = 24 points then errs by at most
-   (64/15) M rho^(-2n) / (1 - rho^-2) (Trefethen 2008, Theorem 4.5), 2e-16 M per unit of length; M
-   is the size that the panels on the axis carry. The last panel at an end is one over which F
-   changes by less than a factor e and the rest is smooth, or one that holds less than 2^-40 of the
+   (64/15) M rho^(-2n) / (1 - rho^-2) (Trefethen 2008, Theorem 4.5), 2e-16 M per unit of length,
+   where M is the magnitude of F on the panel. The last panel at an end is one over which F changes
+   by less than a factor e and the rest is smooth, or one that holds less than 2^-40 of the
    integral, in which an algebraic end is still summed to 1e-4.
    A left end with a square root (`left_root`): the last panel [0, h] is summed in x, x^2 = d. There
    the integrand is analytic in x inside the ellipse that reaches to rho = 5.8, |d| < 4 h, since no
-   other singularity stands nearer than h / 0.15 (`left_clear`); from 0 to h F falls by a factor e
-   at most, so inside the ellipse, as tan^2 and -log(cos) have positive Taylor coefficients and grow
-   by less than 40 times from h to 4 h, by exp(40), which rho^(-48) makes 1e-19.
+   other singularity is nearer than h / 0.15 (`left_smooth`). From 0 to h F falls by at most a
+   factor e. tan^2 and -log(cos) have positive Taylor coefficients and grow by a factor below 40
+   from h to 4 h; so inside the ellipse F changes by at most a factor exp(40), and the error is
+   exp(40) rho^(-48), about 1e-19.
 
    Rounding. Values are positive, their sums compensated: q to 4 units, which the exponent E of
    exp(-E) multiplies by at most 4 E, and E averages below 3 where F is not negligible; with the
@@ -125,20 +127,20 @@ static void arc_add_root(const lrcsi_arc *arc, double h, lrcsi_dd *sum)
    must decrease monotonically or hardly change. */
 static int part_ends(const lrcsi_arc *arc, int part, int right, double h, double sum)
 {
-    double clear = right ? arc->right_clear : arc->left_clear;
+    double smooth = right ? arc->right_smooth : arc->left_smooth;
     lrcsi_arc_point point = arc_point(arc, right, h);
     arc_sample at = law_sample(&arc->law[part], &point);
     if (!right) {
         return at.decay <= 1.0 &&
-               (h <= clear || (h <= arc->grain && h * at.value <= ARC_SMALL * sum));
+               (h <= smooth || (h <= arc->weight_scale && h * at.value <= ARC_SMALL * sum));
     }
     lrcsi_arc_point last = arc_point(arc, right, 0.0);
     arc_sample end = law_sample(&arc->law[part], &last);
     int level = end.decay - at.decay <= 1.0 && last.q >= 0.5 * point.q;
-    if (h <= clear) {
+    if (h <= smooth) {
         return level || (at.falling && h * at.value <= 0x1p-60 * sum);
     }
-    return h <= arc->grain && (level || at.falling) && h * at.value <= ARC_SMALL * sum;
+    return h <= arc->weight_scale && (level || at.falling) && h * at.value <= ARC_SMALL * sum;
 }
 
 static int arc_ends(const lrcsi_arc *arc, int right, double h, const lrcsi_dd *sum)

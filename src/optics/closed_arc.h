@@ -26,18 +26,19 @@ typedef struct lrcsi_arc_point {
 
 lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int part, double cos_reference);
 
-/* A ring of normals, azimuth phi = 0 .. phi_1: q = 1 - k sin^2(phi/2). If rest = 1 - k >= 0 it
-   is entirely lit and phi_1 = pi; else q(phi_1) = 0, and psi_1 = pi - phi_1. */
+/* A ring of normals, azimuth phi = 0 .. phi_1: q = 1 - k sin^2(phi/2). If q_pi = q(pi) = 1 - k is
+   not negative, the ring is entirely lit and phi_1 = pi; else q(phi_1) = 0, and psi_1 = pi - phi_1.
+ */
 typedef struct lrcsi_ring {
-    double k, rest, psi_1;
+    double k, q_pi, psi_1;
 } lrcsi_ring;
 
 /* Angles theta from the light, the integral over the azimuth about it done: see closed_cap.c. */
 typedef struct lrcsi_cap {
-    int inner;      /* 1: the whole circle lies in the cap of normals; 0: an arc of it */
-    int nearer;     /* the light is inside the cap of normals (alpha < tau) */
-    int horizon;    /* 1: theta ends at pi/2; 0: where the circle leaves the cap */
-    int paraboloid; /* weighted with (n_0 / n_z)^4; else with 1 */
+    int full_circle;  /* 1: the whole circle lies in the cap of normals; 0: an arc of it */
+    int light_inside; /* the light is inside the cap of normals (alpha < tau) */
+    int horizon;      /* 1: theta ends at pi/2; 0: where the circle leaves the cap */
+    int paraboloid;   /* weighted with (n_0 / n_z)^4; else with 1 */
     double sin_start, cos_start, start; /* theta_d = |tau - alpha| */
     double sin_end, cos_end, end;       /* of the end of theta */
     double gap, slack;                  /* if horizon: tau + alpha - pi/2, and pi - gap */
@@ -51,14 +52,15 @@ typedef struct lrcsi_arc {
     int is_cap;
     lrcsi_ring ring;
     lrcsi_cap cap;
-    /* Within this distance of an end the integrand without F is smooth; 0: there is an algebraic
-       zero or root at the end itself. */
-    double left_clear, right_clear;
-    int left_root; /* except for a square root at the left end itself */
-    double grain;  /* beyond this distance of an end the rest may still vary by a power */
+    /* Within this distance of an end the integrand without F is smooth; 0: it has an algebraic zero
+       or a root at the end itself. */
+    double left_smooth, right_smooth;
+    int left_root;       /* 1: smooth except for a square root at the left end itself */
+    double weight_scale; /* beyond this distance of an end the integrand without F may vary by a
+                            power */
 } lrcsi_arc;
 
-/* At distance d from the left or the right end, 0 < d <= length/2 or so. */
+/* The point at distance d from the left or the right end, 0 <= d <= length/2 up to rounding. */
 lrcsi_arc_point lrcsi_ring_point(const lrcsi_arc *arc, int right, double d);
 lrcsi_arc_point lrcsi_cap_point(const lrcsi_arc *arc, int right, double d);
 

@@ -12,10 +12,10 @@
    theta, alpha, tau:
      tan^2(phi_1/2) = sin((tau+theta-alpha)/2) sin((tau+alpha-theta)/2) /
                       (sin((alpha+theta+tau)/2) sin((alpha+theta-tau)/2)).
-   Each of these four angles is a sum of positive ones once theta counts from the end that is near.
-   From theta_d = |tau - alpha| on, phi_1/2 is an arctangent, or a right angle less one, of the root
-   of theta - theta_d times an analytic function: the numerator and denominator add up to sin(theta)
-   sin(alpha), so that nothing else is singular nearer than theta = 0.
+   Each of these four angles is a sum of positive ones if theta is measured from the nearer end.
+   From theta_d = |tau - alpha| on, phi_1/2 is the arctangent, or a right angle less the arctangent,
+   of the root of theta - theta_d times an analytic function: the numerator and denominator add up
+   to sin(theta) sin(alpha), so that nothing else is singular nearer than theta = 0.
 
    Paraboloid: n_z = P + Q cos(phi), P = cos(alpha) cos(theta), Q = sin(alpha) sin(theta). With
    kappa = (P - Q)/(P + Q), tan(phi/2) = tan(sqrt(kappa) y / 2)/sqrt(kappa) and
@@ -28,8 +28,8 @@
 #include "optics/closed_arc.h"
 #include "optics/special.h"
 
-/* Longest stretch of y sqrt(-kappa) for one Gauss rule. */
-#define CAP_STRETCH 3.0
+/* The longest panel, in y sqrt(-kappa), for one Gauss rule. */
+#define CAP_PANEL_LENGTH 3.0
 
 /* sigma = 4 pi^2 R^2 A E + 8 pi^2 R^2 B / (m + 3), E = s^2 + (sqrt(pi)/2) s^3 erfcx(1/s): the
    integrals of F over a hemisphere of normals. */
@@ -56,9 +56,9 @@ static const double cap_rule[CAP_PAIRS][2] = {
 
 /* The integral over y sqrt(|kappa|) = low .. high of (g + 2 g r S)^3; r = Q/(P+Q), g = n_0/(P+Q).
    That is a polynomial of degree 3 in the cosine or the hyperbolic cosine, over no more than pi: 14
-   points err by (3 pi/2)^28 2^29 (14!)^4 / (29 (28!)^3), 3e-19 of its largest term, and that is at
-   most 20 times what it integrates to. */
-static double cap_stretch_panel(double kappa, double low, double high, double g, double r)
+   points err by (3 pi/2)^28 2^29 (14!)^4 / (29 (28!)^3), 3e-19 of its largest term, which is at
+   most 20 times the integral. */
+static double cap_weight_panel(double kappa, double low, double high, double g, double r)
 {
     double root = sqrt(fabs(kappa));
     double half = 0.5 * (high - low);
@@ -73,16 +73,16 @@ static double cap_stretch_panel(double kappa, double low, double high, double g,
     return half * sum;
 }
 
-/* The integral over all of y, times g. If the integrand grows exponentially, from its far end until
-   the rest is less than 2^-60. */
-static double cap_stretch_integral(double kappa, double stretch, double g, double r)
+/* The integral over y sqrt(|kappa|) = 0 .. end, times g. If the integrand grows exponentially,
+   panels are added from the far end until the next is below 2^-60 of the sum. */
+static double cap_weight_integral(double kappa, double end, double g, double r)
 {
     double sum = 0.0;
-    int count = kappa < 0.0 ? 1 + (int)(stretch / CAP_STRETCH) : 1;
+    int count = kappa < 0.0 ? 1 + (int)(end / CAP_PANEL_LENGTH) : 1;
     for (int i = 0; i < count; i++) {
-        double high = stretch - i * CAP_STRETCH;
-        double low = i + 1 < count ? high - CAP_STRETCH : 0.0;
-        double panel = cap_stretch_panel(kappa, low, high, g, r);
+        double high = end - i * CAP_PANEL_LENGTH;
+        double low = i + 1 < count ? high - CAP_PANEL_LENGTH : 0.0;
+        double panel = cap_weight_panel(kappa, low, high, g, r);
         sum += panel;
         if (panel <= 0x1p-60 * sum) {
             break;
@@ -98,12 +98,12 @@ static double cap_weight_arc(double near, double far, double q, double n_0, doub
     double kappa = far != 0.0 ? far / near : 0x1p-1000;
     double g = n_0 / near;
     double z = sqrt(fabs(kappa) * w2);
-    double stretch = 2.0 * atan(z);
+    double end = 2.0 * atan(z);
     if (kappa < 0.0) {
-        double rest = g * (1.0 + w2);
-        stretch = rest > 0.5 ? 2.0 * atanh(z) : 2.0 * log1p(z) - log(rest);
+        double complement = g * (1.0 + w2); /* 1 - z^2 */
+        end = complement > 0.5 ? 2.0 * atanh(z) : 2.0 * log1p(z) - log(complement);
     }
-    return 2.0 * cap_stretch_integral(kappa, stretch, g, q / near);
+    return 2.0 * cap_weight_integral(kappa, end, g, q / near);
 }
 
 /* The same over the whole circle, where kappa > 0: (a - b cos E)^3 integrated over a half turn. */
@@ -119,8 +119,8 @@ static double cap_weight_circle(double near, double far, double q, double n_0)
 static double cap_outer_weight(const lrcsi_cap *cap, double delta, double h, double sine,
                                double cosine)
 {
-    double inward = cap->nearer ? 2.0 * cap->start + delta : delta;  /* tau + theta - alpha */
-    double outward = cap->nearer ? delta : 2.0 * cap->start + delta; /* alpha + theta - tau */
+    double inward = cap->light_inside ? 2.0 * cap->start + delta : delta;  /* tau + theta - alpha */
+    double outward = cap->light_inside ? delta : 2.0 * cap->start + delta; /* alpha + theta - tau */
     double first = sin(0.5 * inward) * sin(0.5 * (cap->horizon ? cap->gap + h : h));
     double second =
         sin(0.5 * outward) * (cap->horizon ? sin(0.5 * (cap->slack + h)) : sin(cap->end - 0.5 * h));
@@ -149,10 +149,10 @@ lrcsi_arc_point lrcsi_cap_point(const lrcsi_arc *arc, int right, double d)
     double delta = right ? arc->length - d : d;
     double h = right ? d : arc->length - d;
     double half = sin(0.5 * delta);
-    double ahead = cap->horizon && !cap->inner
+    double ahead = cap->horizon && !cap->full_circle
                        ? sin(h)
                        : cap->cos_end * cos(h) + cap->sin_end * sin(h); /* cos(end - h) */
-    if (cap->inner) {
+    if (cap->full_circle) {
         double cosine = right ? ahead : cos(delta);
         lrcsi_arc_point at = {2.0 * half * half, cosine, 0.0};
         if (cosine > 0.0) {
@@ -209,14 +209,14 @@ static lrcsi_cap cap_make(const cap_body *body, const lrcsi_light *light, lrcsi_
 {
     *start = lrcsi_closed_angle_difference(body->tau, light->aspect);
     *end = lrcsi_closed_angle_sum(body->tau, light->aspect);
-    lrcsi_cap cap = {.nearer = start->sine.hi > 0.0,
+    lrcsi_cap cap = {.light_inside = start->sine.hi > 0.0,
                      .horizon = !(end->cosine.hi > 0.0),
                      .paraboloid = body->paraboloid,
                      .sin_alpha = light->aspect.sine.hi,
                      .cos_alpha = light->aspect.cosine.hi,
                      .sin_tau = body->tau.sine.hi,
                      .n_0 = body->tau.cosine.hi};
-    if (!cap.nearer) {
+    if (!cap.light_inside) {
         start->sine = lrcsi_dd_negate(start->sine);
     }
     cap.sin_start = start->sine.hi;
@@ -230,7 +230,7 @@ static lrcsi_cap cap_make(const cap_body *body, const lrcsi_light *light, lrcsi_
 }
 
 /* Whole circles up to |tau - alpha|, where the light is inside the cap of normals; then arcs up to
-   tau + alpha or the horizon. n_z is regular within pi/2 - tau (`grain`) of what is lit. */
+   tau + alpha or the horizon. n_z is regular within pi/2 - tau (`weight_scale`) of what is lit. */
 static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light,
                                  const cap_body *body)
 {
@@ -239,25 +239,25 @@ static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light
     lrcsi_angle start, end;
     lrcsi_arc arc = {.is_cap = 1, .cap = cap_make(body, light, &start, &end)};
     lrcsi_cap *cap = &arc.cap;
-    arc.grain = body->paraboloid ? atan2(cap->n_0, cap->sin_tau) : LRCS_PI;
-    if (cap->nearer) {
-        cap->inner = 1;
+    arc.weight_scale = body->paraboloid ? atan2(cap->n_0, cap->sin_tau) : LRCS_PI;
+    if (cap->light_inside) {
+        cap->full_circle = 1;
         cap->sin_end = cap->sin_start;
         cap->cos_end = cap->cos_start;
-        arc.length = arc.left_clear = cap->start;
-        arc.right_clear = 0.25 * fmin(cap->cos_start, arc.grain);
+        arc.length = arc.left_smooth = cap->start;
+        arc.right_smooth = 0.25 * fmin(cap->cos_start, arc.weight_scale);
         cap_add_piece(brdf, body, &arc, nose, &sum);
     }
-    cap->inner = 0;
+    cap->full_circle = 0;
     cap->sin_end = end.sine.hi;
     cap->cos_end = end.cosine.hi;
-    arc.right_clear = 0.0;
+    arc.right_smooth = 0.0;
     arc.length = 2.0 * fmin(lrcsi_closed_radians(light->aspect), lrcsi_closed_radians(body->tau));
     if (cap->horizon) {
         arc.length = atan2(cap->cos_start, cap->sin_start); /* pi/2 - start */
     }
     arc.left_root = 1;
-    arc.left_clear = 0.15 * fmin(fmin(cap->start, arc.length), arc.grain);
+    arc.left_smooth = 0.15 * fmin(fmin(cap->start, arc.length), arc.weight_scale);
     cap_add_piece(brdf, body, &arc, start, &sum);
     return sum;
 }

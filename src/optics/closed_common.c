@@ -12,8 +12,8 @@ static lrcsi_dd closed_root(lrcsi_dd a)
         return (lrcsi_dd){0.0, 0.0};
     }
     double r = sqrt(a.hi);
-    lrcsi_dd rest = lrcsi_dd_sub(a, lrcsi_dd_two_product(r, r));
-    return lrcsi_dd_quick_sum(r, rest.hi / (2.0 * r));
+    lrcsi_dd residual = lrcsi_dd_sub(a, lrcsi_dd_two_product(r, r));
+    return lrcsi_dd_quick_sum(r, residual.hi / (2.0 * r));
 }
 
 static lrcsi_dd closed_shift(lrcsi_dd a, int shift)
@@ -73,13 +73,13 @@ lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta)
     double sine2 = u.hi / (1.0 + u.hi); /* sin^2(theta) */
     lrcs_brdf glint = {brdf->A, 0.0, brdf->s, 0.0};
     lrcsi_reflection r = lrcsi_reflect(&glint, u.hi, 0.0);
-    double flank = r.glint > 0.0 ? 2.0 * sine2 - u.hi / brdf->s / brdf->s : 0.0;
-    out.value[LRCSI_GLINT] = r.glint * (1.0 + flank * change);
+    double log_slope = r.glint > 0.0 ? 2.0 * sine2 - u.hi / brdf->s / brdf->s : 0.0;
+    out.value[LRCSI_GLINT] = r.glint * (1.0 + log_slope * change);
     out.error[LRCSI_GLINT] = r.error + 2.0 * LRCSI_U * out.value[LRCSI_GLINT];
     lrcs_brdf diffuse = {0.0, brdf->B, 0.0, brdf->m};
     r = lrcsi_reflect(&diffuse, u.hi, 0.0);
-    flank = r.diffuse > 0.0 ? -(0.5 * brdf->m + 1.0) * sine2 : 0.0;
-    out.value[LRCSI_DIFFUSE] = r.diffuse * (1.0 + flank * change);
+    log_slope = r.diffuse > 0.0 ? -(0.5 * brdf->m + 1.0) * sine2 : 0.0;
+    out.value[LRCSI_DIFFUSE] = r.diffuse * (1.0 + log_slope * change);
     out.error[LRCSI_DIFFUSE] = r.error + 2.0 * LRCSI_U * out.value[LRCSI_DIFFUSE];
     return out;
 }

@@ -21,7 +21,7 @@ typedef struct ring_wall {
     double beta_deg, area;
 } ring_wall;
 
-/* beta from the lengths, radius2 - radius over length, sign and all. */
+/* tan(beta) = (base - top) / length, of either sign. */
 static ring_wall ring_wall_make(double top, double base, double length)
 {
     lrcsi_dd rise = lrcsi_dd_two_sum(base, -top);
@@ -59,7 +59,7 @@ static void ring_extremes(const ring_wall *wall, const lrcsi_light *light, lrcsi
     }
 }
 
-/* sin^2(phi/2) counts from the left end, and its complement from phi = pi or from phi_1:
+/* At the left end sin^2(phi/2) is computed, at the right end its complement at phi = pi or phi_1:
    1 - k sin^2(phi/2) = k sin(d/2) sin(phi_1 - d/2) at phi = phi_1 - d, phi_1 = pi - psi_1. */
 lrcsi_arc_point lrcsi_ring_point(const lrcsi_arc *arc, int right, double d)
 {
@@ -67,9 +67,9 @@ lrcsi_arc_point lrcsi_ring_point(const lrcsi_arc *arc, int right, double d)
     double sine = sin(0.5 * d);
     double y = ring->k * sine * sine;
     double q = 1.0 - y;
-    if (right && ring->rest >= 0.0) {
+    if (right && ring->q_pi >= 0.0) {
         double cosine = cos(0.5 * d);
-        q = ring->rest + y;
+        q = ring->q_pi + y;
         y = ring->k * cosine * cosine;
     } else if (right) {
         double phi_1 = arc->length;
@@ -87,16 +87,16 @@ static lrcsi_arc ring_arc(const lrcs_brdf *brdf, double c_max, double c_min, dou
         arc.law[part] = lrcsi_arc_law_make(brdf, part, c_max);
     }
     arc.ring.k = 2.0 * b / c_max;
-    arc.ring.rest = c_min / c_max;
+    arc.ring.q_pi = c_min / c_max;
     arc.length = LRCS_PI;
-    arc.left_clear = LRCS_PI;
-    arc.grain = LRCS_PI;
+    arc.left_smooth = LRCS_PI;
+    arc.weight_scale = LRCS_PI;
     if (c_min < 0.0) {
         arc.length = 2.0 * atan2(sqrt(c_max), sqrt(-c_min));
         arc.ring.psi_1 = 2.0 * atan2(sqrt(-c_min), sqrt(c_max));
     } else {
-        /* q varies by at most an eighth of itself, and its zeros are at +-2 sqrt(rest/k) i */
-        arc.right_clear = fmin(LRCS_PI, sqrt(0.5 * arc.ring.rest / arc.ring.k));
+        /* q varies by at most an eighth of itself, and its zeros are at pi +- 2 sqrt(q_pi/k) i */
+        arc.right_smooth = fmin(LRCS_PI, sqrt(0.5 * arc.ring.q_pi / arc.ring.k));
     }
     return arc;
 }
@@ -136,7 +136,7 @@ lrcsi_amount lrcsi_closed_cone(const lrcs_shape *shape, const lrcs_brdf *brdf,
                          ? ring_wall_from_degrees(base, shape->half_angle_deg)
                          : ring_wall_make(top, base, shape->length);
     lrcsi_light seen = *light;
-    if (wall.beta.sine.hi < 0.0) { /* widest above: the same cone upside down */
+    if (wall.beta.sine.hi < 0.0) { /* wider at the top: the same cone upside down */
         wall.beta.sine = lrcsi_dd_negate(wall.beta.sine);
         seen.aspect.cosine = lrcsi_dd_negate(seen.aspect.cosine);
         seen.deg = -1.0;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The projected area of the surface of bodies of revolution that faces the laser, wall and ends.
-   A point of surface with unit normal n counts |n . s_hat|; the bodies are convex, so nothing hides
-   it. Reported beside sigma, not part of it: no error bound is derived. */
+   An element of surface with unit normal n counts with the factor |n . s_hat|; the bodies are
+   convex, so that nothing hides it. Reported beside sigma, not part of it: no error bound is
+   derived. */
 #include <math.h>
 
 #include "base/degrees.h"
@@ -52,7 +53,7 @@ double lrcsi_closed_silhouette(const lrcs_shape *shape, double sine, double cosi
     switch (shape->kind) {
     case LRCS_SHAPE_SPHERE:
         return LRCS_PI * r * r;
-    case LRCS_SHAPE_DOME: /* half a disc, and half an ellipse more or less */
+    case LRCS_SHAPE_DOME: /* half a disc, plus or minus half an ellipse */
         return 0.5 * LRCS_PI * r * r * (1.0 + cosine) + ends * r * r * down;
     case LRCS_SHAPE_CYLINDER:
         return 2.0 * r * shape->length * sine + ends * r * r * (up + down);

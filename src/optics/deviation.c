@@ -44,7 +44,7 @@
 #define DEVIATION_MARGIN (1.0 + 1e-10)
 #define EXPONENT_LOW     (-700.0)
 #define DEVIATION_TINY   0x1p-1009 /* above e^-700: replaces all smaller values */
-#define SLOPE_HUGE       1e75 /* for larger s the peaks lie beyond every finite u that occurs here */
+#define SLOPE_HUGE       1e75 /* for larger s the peaks lie beyond every finite u that occurs */
 
 /* u = tan^2(theta), and the logarithms that the terms there consist of: computed at first use,
    because they are most of the work. */
@@ -59,10 +59,10 @@ typedef struct tan2_range {
 } tan2_range;
 
 /* Upper bounds of G, |G'| and max(|G''|, |cot G'|). */
-typedef struct deviation_size {
-    double value, slope;                   /* at the facet's normal */
-    double value_most, slope_most, second; /* over the patch */
-} deviation_size;
+typedef struct deviation_suprema {
+    double value, slope;                 /* at the facet's normal */
+    double value_max, slope_max, second; /* over the patch */
+} deviation_suprema;
 
 /* An upper bound of e^x, up to DEVIATION_MARGIN. */
 static double exp_above(double x)
@@ -135,28 +135,28 @@ static double glint_sup(double a, double b, double c, const glint_slope *slope, 
     return isfinite(at->u) ? glint_term(a, b, c, slope, at) : HUGE_VAL;
 }
 
-static deviation_size glint_size(double s, int front, tan2_point *here, tan2_range *range)
+static deviation_suprema glint_suprema(double s, int front, tan2_point *at_facet, tan2_range *range)
 {
     const glint_slope slope = {s, lrcsi_log(s).hi};
-    deviation_size size = {0.0, 0.0, 0.0, 0.0, 0.0};
-    if (front && isfinite(here->u)) {
-        double up = 4.0 * glint_term(0.5, 2.0, 0.0, &slope, here);
-        double down = 2.0 * glint_term(0.5, 3.0, 1.0, &slope, here);
+    deviation_suprema sup = {0.0, 0.0, 0.0, 0.0, 0.0};
+    if (front && isfinite(at_facet->u)) {
+        double up = 4.0 * glint_term(0.5, 2.0, 0.0, &slope, at_facet);
+        double down = 2.0 * glint_term(0.5, 3.0, 1.0, &slope, at_facet);
         double more = fmax(up, down);
-        size.value = glint_term(0.0, 2.0, 0.0, &slope, here);
-        size.slope = isfinite(more) ? fabs(up - down) + 1e-10 * more : more;
+        sup.value = glint_term(0.0, 2.0, 0.0, &slope, at_facet);
+        sup.slope = isfinite(more) ? fabs(up - down) + 1e-10 * more : more;
     }
-    size.value_most = glint_sup(0.0, 2.0, 0.0, &slope, range);
-    size.slope_most = fmax(4.0 * glint_sup(0.5, 2.0, 0.0, &slope, range),
-                           2.0 * glint_sup(0.5, 3.0, 1.0, &slope, range));
-    double level = fmax(4.0 * size.value_most, 2.0 * glint_sup(0.0, 3.0, 1.0, &slope, range));
+    sup.value_max = glint_sup(0.0, 2.0, 0.0, &slope, range);
+    sup.slope_max = fmax(4.0 * glint_sup(0.5, 2.0, 0.0, &slope, range),
+                         2.0 * glint_sup(0.5, 3.0, 1.0, &slope, range));
+    double level = fmax(4.0 * sup.value_max, 2.0 * glint_sup(0.0, 3.0, 1.0, &slope, range));
     double up = 4.0 * glint_sup(0.0, 3.0, 0.0, &slope, range) +
                 16.0 * glint_sup(1.0, 2.0, 0.0, &slope, range) +
                 4.0 * glint_sup(1.0, 4.0, 2.0, &slope, range);
     double down = 2.0 * glint_sup(0.0, 4.0, 1.0, &slope, range) +
                   20.0 * glint_sup(1.0, 3.0, 1.0, &slope, range);
-    size.second = fmax(level, fmax(up, down));
-    return size;
+    sup.second = fmax(level, fmax(up, down));
+    return sup;
 }
 
 /* u^a w^(-nu/2). */
@@ -180,26 +180,27 @@ static double diffuse_sup(double a, double nu, tan2_range *range)
     return diffuse_term(a, nu, range_nearest(range, peak, &inside));
 }
 
-static deviation_size diffuse_size(double m, int front, tan2_point *here, tan2_range *range)
+static deviation_suprema diffuse_suprema(double m, int front, tan2_point *at_facet,
+                                         tan2_range *range)
 {
     double nu = m + 2.0;
-    deviation_size size = {0.0, 0.0, 0.0, 0.0, 0.0};
-    if (front && isfinite(here->u)) {
-        size.value = diffuse_term(0.0, nu, here);
-        size.slope = nu * diffuse_term(0.5, nu, here);
+    deviation_suprema sup = {0.0, 0.0, 0.0, 0.0, 0.0};
+    if (front && isfinite(at_facet->u)) {
+        sup.value = diffuse_term(0.0, nu, at_facet);
+        sup.slope = nu * diffuse_term(0.5, nu, at_facet);
     }
-    size.value_most = diffuse_sup(0.0, nu, range);
-    size.slope_most = nu * diffuse_sup(0.5, nu, range);
-    size.second = fmax(nu * size.value_most, nu * (nu - 1.0) * diffuse_sup(1.0, nu, range));
-    return size;
+    sup.value_max = diffuse_sup(0.0, nu, range);
+    sup.slope_max = nu * diffuse_sup(0.5, nu, range);
+    sup.second = fmax(nu * sup.value_max, nu * (nu - 1.0) * diffuse_sup(1.0, nu, range));
+    return sup;
 }
 
-static void size_add(deviation_size *sum, double amplitude, const deviation_size *part)
+static void suprema_add(deviation_suprema *sum, double amplitude, const deviation_suprema *part)
 {
     sum->value += times(amplitude, part->value);
     sum->slope += times(amplitude, part->slope);
-    sum->value_most += times(amplitude, part->value_most);
-    sum->slope_most += times(amplitude, part->slope_most);
+    sum->value_max += times(amplitude, part->value_max);
+    sum->slope_max += times(amplitude, part->slope_max);
     sum->second += times(amplitude, part->second);
 }
 
@@ -220,24 +221,24 @@ static int range_around(double theta, double turn, tan2_range *range)
 }
 
 /* The least of the three bounds, and the bound for every single point of the patch. */
-static lrcsi_deviation deviation_of(const deviation_size *all, const lrcs_curvature *c)
+static lrcsi_deviation deviation_of(const deviation_suprema *all, const lrcs_curvature *c)
 {
     double second = times(c->bias, all->slope) + times(0.5 * c->spread * c->spread, all->second);
-    double first = times(c->spread * sqrt(1.0 + c->area_error), all->slope_most);
-    double range = fmax(all->value_most - all->value, all->value);
-    double slope = times(c->turn, all->slope_most);
+    double first = times(c->spread * sqrt(1.0 + c->area_error), all->slope_max);
+    double range = fmax(all->value_max - all->value, all->value);
+    double slope = times(c->turn, all->slope_max);
     double region = 0.5 * times(c->spread * sqrt(1.0 + c->area_error) + c->bias, all->slope) +
                     times(0.5 * c->spread * c->spread, all->second);
     double least = fmin(second, first);
     double point = slope;
-    if (isfinite(all->value_most)) {
+    if (isfinite(all->value_max)) {
         least = fmin(least, times(1.0 + c->area_error, range));
         point = fmin(slope, range);
     }
     return (lrcsi_deviation){(times(c->area_error, all->value) + least) * DEVIATION_MARGIN,
                              point * DEVIATION_MARGIN,
                              fmin(region, times(1.0 + c->area_error, point)) * DEVIATION_MARGIN,
-                             all->value * DEVIATION_MARGIN, all->value_most * DEVIATION_MARGIN};
+                             all->value * DEVIATION_MARGIN, all->value_max * DEVIATION_MARGIN};
 }
 
 lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
@@ -252,15 +253,15 @@ lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, do
     if (!range_around(front ? angle : 2.0 * HALF_PI_BELOW - angle, curvature->turn, &range)) {
         return (lrcsi_deviation){0.0, 0.0, 0.0, 0.0, 0.0};
     }
-    tan2_point here = tan2_at(tan2);
-    deviation_size all = {0.0, 0.0, 0.0, 0.0, 0.0};
+    tan2_point at_facet = tan2_at(tan2);
+    deviation_suprema all = {0.0, 0.0, 0.0, 0.0, 0.0};
     if (brdf->A > 0.0) {
-        deviation_size part = glint_size(brdf->s, front, &here, &range);
-        size_add(&all, brdf->A, &part);
+        deviation_suprema part = glint_suprema(brdf->s, front, &at_facet, &range);
+        suprema_add(&all, brdf->A, &part);
     }
     if (brdf->B > 0.0) {
-        deviation_size part = diffuse_size(brdf->m, front, &here, &range);
-        size_add(&all, brdf->B, &part);
+        deviation_suprema part = diffuse_suprema(brdf->m, front, &at_facet, &range);
+        suprema_add(&all, brdf->B, &part);
     }
     return deviation_of(&all, curvature);
 }

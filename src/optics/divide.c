@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* How many facets a curved body needs for its material: lrcs_shape_count. The choice is a plan made
-   before any mesh exists; the proved error is that of lrcs_curvature and lrcsi_reflect_deviation,
-   evaluated for each pose on the mesh, independent of the plan.
+/* How many facets a curved body needs for its material: lrcs_shape_count. The count is estimated
+   before any mesh exists. The proved error, from lrcs_curvature and lrcsi_reflect_deviation, is
+   evaluated for each pose on the mesh and does not depend on this estimate.
 
    The proved error of a body is 4 pi sum a_i deviation_i. Over fine facets the sum is an integral
    over the normals, which a fixed midpoint rule estimates:
@@ -12,7 +12,7 @@
      set of aspects, relative to the wall's own sigma there or its mean over attitudes, whichever is
      larger.
    That ratio falls as 1 / around^2, and the smallest `around` that brings it to the tolerance is
-   found by guesses and bisection. */
+   found by guesses for that law and by bisection. */
 #include <lrcs/shape.h>
 
 #include <math.h>
@@ -21,14 +21,14 @@
 #include "mesh/tessellate.h"
 #include "optics/reflect.h"
 
-#define AROUND_LEAST 8u
-#define AROUND_LIMIT (1u << 24)
-#define PLAN_NODES   48
-#define PLAN_AIM     0.8  /* of the tolerance: the error may be larger between sampled aspects */
-#define PLAN_SAMPLE  1e-2 /* the tolerance at which dome and paraboloid are sampled */
-#define PLAN_GUESS   16.0 /* quarters of a turn's facets tried first */
-#define PLAN_TRIES   8    /* largest number of guesses */
-#define FACETS_LEAST 64u
+#define AROUND_MIN 8u
+#define PLAN_NODES 48
+/* The fraction of the tolerance that is used: errors between the sampled aspects may be larger. */
+#define PLAN_AIM    0.8
+#define PLAN_SAMPLE 1e-2 /* the tolerance at which dome and paraboloid are sampled */
+#define PLAN_GUESS  16.0 /* first guess of around / 4 */
+#define PLAN_TRIES  8    /* largest number of guesses */
+#define FACETS_MIN  64u
 
 /* A material on a curved wall, and how coarse the wall is. */
 typedef struct facet_plan {
@@ -51,7 +51,7 @@ static plan_value plan_at(const facet_plan *plan, double cosine, double tan2)
     return value;
 }
 
-/* Node k of a rule on [0, end], half its nodes on the first `near`; *weight its width. */
+/* Node k of a midpoint rule on [0, end] with half its nodes on [0, near]; its weight in *weight. */
 static double plan_node(int k, double near, double end, double *weight)
 {
     int half = PLAN_NODES / 2;
@@ -139,13 +139,6 @@ static double plan_elevation(const lrcs_shape *shape)
                                        : atan2(shape->radius, shape->length);
 }
 
-/* Area per solid angle of normals on a dome or paraboloid at polar angle theta, up to a factor. */
-static double plan_density(const lrcs_shape *shape, double theta)
-{
-    double c = cos(theta);
-    return shape->kind == LRCS_SHAPE_PARABOLOID ? 1.0 / (c * c * c * c) : 1.0;
-}
-
 /* Polar angle of the normal at the rim. */
 static double plan_rim(const lrcs_shape *shape)
 {
@@ -153,7 +146,7 @@ static double plan_rim(const lrcs_shape *shape)
                                                 : 0.5 * LRCS_PI;
 }
 
-/* Error and sigma of a cap of normals from aspect alpha, and in *size the cap's area. Nodes are
+/* Error and sigma of a cap of normals at aspect alpha; *size: its area. Nodes are
    denser near alpha, on both sides of it. */
 static plan_value plan_cap(const facet_plan *plan, const lrcs_shape *shape, double alpha,
                            double *size)
@@ -165,9 +158,10 @@ static plan_value plan_cap(const facet_plan *plan, const lrcs_shape *shape, doub
     for (int k = 0; k < 2 * PLAN_NODES; k++) {
         double end = k < PLAN_NODES ? middle : rim - middle;
         double weight = 0.0;
-        double off = plan_node(k % PLAN_NODES, plan_near(plan, end), end, &weight);
-        double theta = k < PLAN_NODES ? middle - off : middle + off;
-        weight *= sin(theta) * plan_density(shape, theta);
+        double offset = plan_node(k % PLAN_NODES, plan_near(plan, end), end, &weight);
+        double theta = k < PLAN_NODES ? middle - offset : middle + offset;
+        double c = cos(theta); /* c^-4: a paraboloid's area per solid angle of normals */
+        weight *= sin(theta) * (shape->kind == LRCS_SHAPE_PARABOLOID ? 1.0 / (c * c * c * c) : 1.0);
         plan_value value = plan_circle(plan, 0.5 * LRCS_PI - theta, alpha);
         sum.sigma += weight * value.sigma;
         sum.deviation += weight * value.deviation;
@@ -224,10 +218,10 @@ static double plan_error(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_
 }
 
 /* The largest `around` that max_facets allow, by bisection. */
-static uint32_t plan_most(const lrcs_shape *shape, uint32_t max_facets)
+static uint32_t plan_around_max(const lrcs_shape *shape, uint32_t max_facets)
 {
-    uint32_t good = AROUND_LEAST / 4;
-    uint32_t bad = AROUND_LIMIT / 4 + 1;
+    uint32_t good = AROUND_MIN / 4;
+    uint32_t bad = LRCSI_AROUND_MAX / 4 + 1;
     while (bad - good > 1) {
         uint32_t middle = good + (bad - good) / 2;
         lrcs_divisions divisions = plan_divisions(shape, 4 * middle);
@@ -241,13 +235,13 @@ static uint32_t plan_most(const lrcs_shape *shape, uint32_t max_facets)
     return 4 * good;
 }
 
-/* The least `around` up to `most` that meets the tolerance, or `most`: guessed for an error
-   that falls as 1 / around^2, or by bisection if the guesses do not converge. */
-static uint32_t plan_least(const lrcs_shape *shape, const lrcs_brdf *brdf, double tolerance,
-                           uint32_t most)
+/* The least `around` up to `around_max` that meets the tolerance, or `around_max`: guessed for an
+   error that falls as 1 / around^2, or by bisection if the guesses do not converge. */
+static uint32_t plan_around(const lrcs_shape *shape, const lrcs_brdf *brdf, double tolerance,
+                            uint32_t around_max)
 {
-    uint32_t bad = AROUND_LEAST / 4 - 1;
-    uint32_t good = most / 4;
+    uint32_t bad = AROUND_MIN / 4 - 1;
+    uint32_t good = around_max / 4;
     double guess = PLAN_GUESS;
     for (int tries = 0; good - bad > 1; tries++) {
         uint32_t halfway = bad + (good - bad) / 2;
@@ -267,24 +261,24 @@ static uint32_t plan_least(const lrcs_shape *shape, const lrcs_brdf *brdf, doubl
 /* A disc's polygon has the disc's area for any number of corners. Between the two outlines lies the
    fraction 4 h^2 / (9 sqrt 3) = 0.2566 h^2 of it, h = pi/N, the mean of |2 (r/R - 1)| with
    r = R (1 - h^2/6 + phi^2/2), |phi| <= h: the tolerance bounds that. */
-static uint32_t plan_disc(double tolerance, uint32_t most)
+static uint32_t plan_disc(double tolerance, uint32_t around_max)
 {
     double corners = LRCS_PI * sqrt(0.2566 / tolerance);
-    if (!(corners < most)) {
-        return most;
+    if (!(corners < around_max)) {
+        return around_max;
     }
     uint32_t around = 4 * (uint32_t)ceil(corners / 4.0);
-    return around < AROUND_LEAST ? AROUND_LEAST : around > most ? most : around;
+    return around < AROUND_MIN ? AROUND_MIN : around > around_max ? around_max : around;
 }
 
 /* The factor by which the error of a dome or paraboloid exceeds that of a sphere of the same
    fineness, at least 1. */
-static double plan_factor(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_t most)
+static double plan_factor(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_t around_max)
 {
     if (shape->kind != LRCS_SHAPE_DOME && shape->kind != LRCS_SHAPE_PARABOLOID) {
         return 1.0;
     }
-    uint32_t around = plan_least(shape, brdf, PLAN_SAMPLE, most);
+    uint32_t around = plan_around(shape, brdf, PLAN_SAMPLE, around_max);
     lrcs_divisions divisions = plan_divisions(shape, around);
     facet_plan plan = {brdf, lrcsi_tessellate_curvature(shape, &divisions)};
     double sphere = plan_error(shape, brdf, around);
@@ -292,22 +286,23 @@ static double plan_factor(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32
     return isfinite(factor) ? fmax(1.0, factor) : 1.0;
 }
 
-/* If even `most` leaves an error as large as sigma itself, more facets do not help: the glint is
-   ignored, and the diffuse part (or a matt surface, if there is none) determines the count. */
-static uint32_t plan_curved(const lrcs_shape *shape, const lrcs_fineness *fineness, uint32_t most)
+/* If even `around_max` leaves an error as large as sigma itself, more facets do not help: the glint
+   is ignored, and the diffuse part (or a matt surface, if there is none) determines the count. */
+static uint32_t plan_curved(const lrcs_shape *shape, const lrcs_fineness *fineness,
+                            uint32_t around_max)
 {
     lrcs_brdf brdf = fineness->brdf;
-    if (most == AROUND_LEAST) { /* no choice is left */
-        return most;
+    if (around_max == AROUND_MIN) { /* no choice is left */
+        return around_max;
     }
-    if (brdf.A > 0.0 && !(plan_error(shape, &brdf, most) < 1.0)) {
+    if (brdf.A > 0.0 && !(plan_error(shape, &brdf, around_max) < 1.0)) {
         brdf.A = 0.0;
     }
     if (!(brdf.A > 0.0) && !(brdf.B > 0.0)) {
         brdf = (lrcs_brdf){0.0, 1.0, 1.0, 0.0};
     }
-    double factor = plan_factor(shape, &brdf, most);
-    return plan_least(shape, &brdf, PLAN_AIM * fineness->tolerance / factor, most);
+    double factor = plan_factor(shape, &brdf, around_max);
+    return plan_around(shape, &brdf, PLAN_AIM * fineness->tolerance / factor, around_max);
 }
 
 lrcs_fineness lrcs_fineness_default(void)
@@ -326,14 +321,15 @@ int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
     if (!isfinite(fineness->tolerance)) {
         return LRCS_E_NUMBER;
     }
-    if (!(fineness->tolerance > 0.0) || fineness->max_facets < FACETS_LEAST) {
+    if (!(fineness->tolerance > 0.0) || fineness->max_facets < FACETS_MIN) {
         return LRCS_E_ARGUMENT;
     }
     lrcs_divisions chosen = {4, 1, 0};
     if (shape->kind != LRCS_SHAPE_PLATE && shape->kind != LRCS_SHAPE_BOX) {
-        uint32_t most = plan_most(shape, fineness->max_facets);
-        uint32_t around = shape->kind == LRCS_SHAPE_DISC ? plan_disc(fineness->tolerance, most)
-                                                         : plan_curved(shape, fineness, most);
+        uint32_t around_max = plan_around_max(shape, fineness->max_facets);
+        uint32_t around = shape->kind == LRCS_SHAPE_DISC
+                              ? plan_disc(fineness->tolerance, around_max)
+                              : plan_curved(shape, fineness, around_max);
         chosen = plan_divisions(shape, around);
     }
     *divisions = chosen;

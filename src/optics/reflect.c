@@ -4,14 +4,14 @@
 
    Glint: A q^2 with q = (1 + u) exp(-x/2), x = u / s^2: no cancellation between a growing and a
    decaying exponent (for s > 0.7 they cancel), no intermediate overflow, and x carries a correction
-   term, so that a far flank (x up to 745) is as accurate as the peak.
+   term, so that the far tail (x up to 745) is as accurate as the peak.
    Diffuse: B r^2 / (1 + u) with r = (1 + u)^(-m/4), with its exponent in double-double.
    For m = 0, 1/2, 1 and 2, the usual values, roots replace the power: correctly rounded, and in a
    quarter of the time.
 
    Rounding, in units of 2^-53, with the errors of base/elementary.h:
    glint    1 + u: 1, exp: 2, its correction 1 - x'/2 and two products: 4; squared: 14; times A: 2
-            far out: log1p, below x/1.9: 1, x/2: 2, their difference: 1; exp: 2; squared: 8 x
+            far tail: log1p, below x/1.9: 1, x/2: 2, their difference: 1; exp: 2; squared: 8 x
    diffuse  the exponent y = (m/4) log(1 + u), by LRCSI_LOG_ERROR y and at most y or (m/4) 2^-53;
             exp: 3; squared: twice all that; 1 + u, quotient and two products: 4
             by roots: w' left out, m/2 + 1: 2; a root of a root: 1.5; two quotients: 2
@@ -36,9 +36,9 @@
 #define REFLECT_X_FAR  1400.0
 #define REFLECT_X_NONE 3000.0
 
-/* One part; a bound on its relative error; and `flank`, a bound on |d log(part) / d log(u)|. */
+/* One part; a bound on its relative error; and a bound on |d log(part) / d log(u)|. */
 typedef struct reflect_part {
-    double value, relative, flank;
+    double value, relative, log_slope;
 } reflect_part;
 
 /* u / s^2 = hi + lo. With s^2 = S + S' exactly, the remainder u - hi S is exact, and lo has a
@@ -77,7 +77,7 @@ static reflect_part reflect_glint(const lrcs_brdf *brdf, double u)
     return part;
 }
 
-/* w^(m/2) by roots; 0 if m is none of those. */
+/* w^(m/2) by roots for m = 0, 1/2, 1, 2; else 0. */
 static double diffuse_root(double w, double m)
 {
     return m == 0.5 ? sqrt(sqrt(w)) : m == 1.0 ? sqrt(w) : m == 2.0 ? w : m == 0.0 ? 1.0 : 0.0;
@@ -86,7 +86,7 @@ static double diffuse_root(double w, double m)
 static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
 {
     reflect_part part;
-    part.flank = (0.5 * brdf->m + 1.0) * lrcsi_min(u, 1.0);
+    part.log_slope = (0.5 * brdf->m + 1.0) * lrcsi_min(u, 1.0);
     double root = diffuse_root(1.0 + u, brdf->m);
     if (root > 0.0) {
         part.value = brdf->B / root / (1.0 + u);
@@ -118,23 +118,24 @@ static double glint_bound(const lrcs_brdf *brdf, double low, double high)
    of its factors may have underflowed), a bound on the part itself replaces it. */
 static int first_order_holds(const reflect_part *part, double e)
 {
-    return e <= 0.25 && part->relative + 2.0 * e * part->flank <= 0.25 && part->value > 0x1p-900;
+    return e <= 0.25 && part->relative + 2.0 * e * part->log_slope <= 0.25 &&
+           part->value > 0x1p-900;
 }
 
 /* The true u lies in [u / (1 + e), u / (1 - e)]: for e <= 1/4, log(u) errs by at most 1.16 e and
-   the flank grows by at most 4/3 there, so log(part) errs by delta. */
+   log_slope grows by at most a factor of 4/3, so log(part) errs by delta. */
 static double part_error(const reflect_part *part, double e)
 {
-    double delta = part->relative + 2.0 * e * part->flank;
+    double delta = part->relative + 2.0 * e * part->log_slope;
     return part->value * delta * (1.0 + delta);
 }
 
-/* Is a glint whose first-order error is not valid a bound on itself? If tan^2 is exact, only
+/* Does a glint whose first-order error is not valid bound its own error? If tan^2 is exact, only
    underflow affects it. A value of at most 2^-900 has q < 2^-200 for these A, so that (A q) q loses
    2^-1074 q and 2^-1074; a q below 2^-1022, accurate to 2^-1074, makes it lose 2^-1071. `relative`
    is above 1 only if both the true and the computed value are negligible. All of this is below
    2^-1000. */
-static int glint_bounds_itself(const lrcs_brdf *brdf, const reflect_part *glint, double e)
+static int glint_bounds_own_error(const lrcs_brdf *brdf, const reflect_part *glint, double e)
 {
     return e == 0.0 && glint->value <= 0x1p-900 && brdf->A >= 0x1p-500;
 }
@@ -146,13 +147,13 @@ static double part_error_bound(const reflect_part *part, double most)
     return 2.0 * fmax(part->value, most) + 0x1p-1000;
 }
 
-/* tan^2 is in [tan2 / (1 + e), tan2 / (1 - e)], or anywhere. */
+/* tan^2 is in [tan2 / (1 + e), tan2 / (1 - e)] if e <= 1/4; else it may have any value. */
 static double glint_error(const lrcs_brdf *brdf, const reflect_part *glint, double tan2, double e)
 {
     if (first_order_holds(glint, e)) {
         return part_error(glint, e);
     }
-    if (glint_bounds_itself(brdf, glint, e)) {
+    if (glint_bounds_own_error(brdf, glint, e)) {
         return part_error_bound(glint, glint->value);
     }
     double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;

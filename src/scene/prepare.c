@@ -283,7 +283,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
 int lrcsi_prepare_start(const lrcs_scene *scene, lrcs_work *work, lrcs_prepared **prepared)
 {
     int exponent = 0;
-    int status = lrcsi_ieee_kept() ? scene_check(scene, &exponent) : LRCS_E_UNSUPPORTED;
+    int status = lrcsi_ieee_conforms() ? scene_check(scene, &exponent) : LRCS_E_UNSUPPORTED;
     lrcs_prepared *p = status == LRCS_OK ? lrcsi_work_take_zero(work, 1, sizeof *p) : NULL;
     if (!p) {
         return status == LRCS_OK ? LRCS_E_MEMORY : status;

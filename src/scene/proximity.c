@@ -204,8 +204,8 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_
     const double *const corner[3] = {lrcsi_prepared_corner(p, facet, 0),
                                      lrcsi_prepared_corner(p, facet, 1),
                                      lrcsi_prepared_corner(p, facet, 2)};
-    double fraction =
-        lrcsi_slice_share(&slice, 0.5 * p->normal[facet].length, lrcsi_proximity_longest(p, facet));
+    double fraction = lrcsi_slice_fraction(&slice, 0.5 * p->normal[facet].length,
+                                           lrcsi_proximity_longest(p, facet));
     double rows = lrcsi_proximity_rows(p, facet, corner, &slice);
     if (!(fraction > 0)) {
         return LRCS_OK;

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "base/join.h"
+#include "base/disjoint.h"
 #include "base/range.h"
 #include "base/work.h"
 
@@ -41,14 +41,14 @@ static void run_join(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, u
         for (int k = 0; k < 3; k++) {
             uint32_t other = p->across.facet[f].corner[k];
             if (other >= start && other < f) {
-                lrcsi_join(group, other - start, f - start);
+                lrcsi_disjoint_union(group, other - start, f - start);
             } else if (other < start || other == count) {
                 runs->side[(*sides)++] =
                     (lrcsi_run_side){f, other, p->topology.facet_edge[f].corner[k]};
             }
         }
     }
-    lrcsi_join_settle(group, end - start);
+    lrcsi_disjoint_flatten(group, end - start);
     for (uint32_t f = start; f < end; f++) {
         runs->first[f] = (unsigned char)group[f - start];
         whole &= group[f - start] == 0;

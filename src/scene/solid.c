@@ -6,8 +6,8 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/disjoint.h"
 #include "base/exact.h"
-#include "base/join.h"
 #include "base/work.h"
 #include "mesh/convex.h"
 
@@ -26,11 +26,11 @@ int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
                 return 0;
             }
             if (other < f) {
-                lrcsi_join(piece, other, f);
+                lrcsi_disjoint_union(piece, other, f);
             }
         }
     }
-    lrcsi_join_settle(piece, count);
+    lrcsi_disjoint_flatten(piece, count);
     return 1;
 }
 

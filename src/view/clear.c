@@ -8,10 +8,10 @@
    Proof. A point q of Q that hides p in P is q = p + t d with t > 0. Then
        c >= n . q = n . p + t n . d >= c + t n . d,
    so that n . d = 0, and p lies in the plane n . x = c. That plane contains d, so the part of P in
-   it is seen edge-on. QED. P hides none of its own front, because it lies on a convex body. So P is
-   clear if there is such a plane for each other part. A plane that contains d separates the
-   silhouettes; n = d means that Q is behind P; planes in between separate parts that stand on one
-   another.
+   it is edge-on, without projected area. QED. P hides none of its own front, because it lies on a
+   convex body. So P is clear if there is such a plane for each other part. A plane that contains d
+   separates the silhouettes; n = d means that Q is behind P; planes in between separate parts that
+   stand on one another.
 
    Rounding. Let the errors of the supports (the largest n . x over a body) be e_P and e_Q, that of
    n . d 8 u, and all distances below LENGTH. Then the gap between P and Q along n must exceed e_P +
@@ -30,14 +30,14 @@
 #include "optics/closed.h"
 
 /* With a larger slope s the slab is not known: slab_surface. */
-#define GLINT_SLOPE_MOST 0x1p20
+#define GLINT_SLOPE_MAX 0x1p20
 /* An upper bound of distances: coordinates are below 1, and true shapes not much larger than
  * facets. */
 #define LENGTH 5.0
 
 /* The support of parts with fewer facets is computed from their corners, that of others from the
    box around them. */
-#define CORNERS_MOST 32u
+#define CORNERS_MAX 32u
 
 /* A part as a convex body, of which supports are computed. */
 typedef struct clear_body {
@@ -111,7 +111,7 @@ static double support_facets(const clear_body *body, const double n[3])
     const lrcs_prepared *p = body->prepared;
     const lrcs_part *part = body->part;
     double most = -HUGE_VAL;
-    if (part->reach > 0 || part->facet_count > CORNERS_MOST) {
+    if (part->reach > 0 || part->facet_count > CORNERS_MAX) {
         most = 0;
         for (int k = 0; k < 3; k++) {
             most += n[k] * (n[k] > 0 ? body->extent->high[k] : body->extent->low[k]);
@@ -133,7 +133,7 @@ static double support(const clear_body *body, const double n[3])
 
 /* An upper bound of the lit surface within `height` of an end of a shape along its axis, or of a
    sphere in any direction: rings of the wall, each at most as long as the longest; and an area that
-   covers the end itself, where F is below B (20 u)^2 if s is at most GLINT_SLOPE_MOST. */
+   covers the end itself, where F is below B (20 u)^2 if s is at most GLINT_SLOPE_MAX. */
 static double slab_surface(const clear_body *body, double height)
 {
     const double two_pi = 6.2832; /* rounded up */
@@ -186,7 +186,7 @@ static int is_separated(const clear_body *P, const clear_body *Q, const double d
 {
     static const double body_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const lrcs_brdf *brdf = &lrcsi_prepared_material(P->prepared, P->part->first_facet)->brdf;
-    int has_slab = brdf->A == 0 || brdf->s <= GLINT_SLOPE_MOST;
+    int has_slab = brdf->A == 0 || brdf->s <= GLINT_SLOPE_MAX;
     int sphere_slab = has_slab && P->part->kind == LRCS_SHAPE_SPHERE;
     double between[3];
     double flat[3];

@@ -11,15 +11,15 @@
 #include "view/product.h"
 
 /* How far R may be from a rotation: single precision suffices. */
-#define NEAR 0x1p-20
+#define ROTATION_TOLERANCE 0x1p-20
 
-static const double nothing[3];
+static const double zero_low[3]; /* the low parts of plain doubles */
 
-/* A dot product with one rounding, the square root and quotients with one more each: the length is
-   off by 1.5 u, and the rounded quotients add a vector of at most u. */
+/* A dot product with one rounding, the square root and quotients with one more each: the length
+   has an error of 1.5 u, and the rounded quotients add a vector of at most u. */
 static void unit(const double v[3], double out[3])
 {
-    double length = sqrt(lrcsi_product_dot(v, nothing, v));
+    double length = sqrt(lrcsi_product_dot(v, zero_low, v));
     for (int k = 0; k < 3; k++) {
         out[k] = v[k] / length;
     }
@@ -39,7 +39,7 @@ static int pose_check(const lrcs_pose *pose)
             if (!isfinite(pose->direction[j]) || !isfinite(pose->R[k][j])) {
                 return LRCS_E_NUMBER;
             }
-            if (fabs(pose->R[k][j]) > 1 + NEAR) {
+            if (fabs(pose->R[k][j]) > 1 + ROTATION_TOLERANCE) {
                 return LRCS_E_ARGUMENT;
             }
         }
@@ -65,21 +65,22 @@ int lrcsi_frame_make(const lrcs_pose *pose, double direction[3], double R[3][3])
     for (int k = 0; k < 3; k++) {
         d[k] = fabs(pose->direction[k]) < LRCSI_COORDINATE_LEAST ? 0 : pose->direction[k];
     }
-    double t = lrcsi_product_dot(pose->R[0], nothing, d) / lrcsi_product_dot(d, nothing, d);
+    double t = lrcsi_product_dot(pose->R[0], zero_low, d) / lrcsi_product_dot(d, zero_low, d);
     for (int k = 0; k < 3; k++) {
         row[k] = pose->R[0][k] - t * d[k];
     }
-    if (!is_near(t, 0, 2 * NEAR) || !is_near(lrcsi_product_dot(row, nothing, row), 1, 4 * NEAR)) {
+    if (!is_near(t, 0, 2 * ROTATION_TOLERANCE) ||
+        !is_near(lrcsi_product_dot(row, zero_low, row), 1, 4 * ROTATION_TOLERANCE)) {
         return LRCS_E_ARGUMENT;
     }
     unit(row, made[0]);
     for (int k = 0; k < 3; k++) {
-        row[k] = lrcsi_product_turn(d, nothing, made[0], (k + 1) % 3, (k + 2) % 3);
+        row[k] = lrcsi_product_turn(d, zero_low, made[0], (k + 1) % 3, (k + 2) % 3);
     }
     unit(row, made[1]);
     unit(d, made[2]);
     for (int k = 0; k < 9; k++) {
-        if (!is_near(made[k / 3][k % 3], pose->R[k / 3][k % 3], NEAR)) {
+        if (!is_near(made[k / 3][k % 3], pose->R[k / 3][k % 3], ROTATION_TOLERANCE)) {
             return LRCS_E_ARGUMENT;
         }
     }

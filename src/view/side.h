@@ -9,7 +9,7 @@
 #include "view/view.h"
 
 /* A sign that plain doubles do not decide. */
-enum { LRCSI_VIEW_UNSURE = 2 };
+enum { LRCSI_VIEW_UNDECIDED = 2 };
 
 /* A segment of the view: start, direction, and their errors. */
 typedef struct lrcsi_view_side {
@@ -31,7 +31,7 @@ static inline lrcsi_view_side lrcsi_view_side_of(const lrcsi_view *view, uint32_
 }
 
 /* Given: a point x with an error of err in each coordinate. Returned: 1 if it lies to the left of
-   the segment's line, -1 if to the right, or LRCSI_VIEW_UNSURE. Let p be the direction and q the
+   the segment's line, -1 if to the right, or LRCSI_VIEW_UNDECIDED. Let p be the direction and q the
    difference, with errors e and f including rounding (lrcsi_view_point_err): p x q has an error of
    e |q| + f |p| + 2 e f in the 1-norm, and of 2 u |p| |q| more, below a fifth of that. */
 static inline int lrcsi_view_side_turn(const lrcsi_view_side *side, const double *x, double err)
@@ -40,7 +40,7 @@ static inline int lrcsi_view_side_turn(const lrcsi_view_side *side, const double
     double turn = side->to[0] * q[1] - side->to[1] * q[0];
     double f = side->at_err + err;
     double turn_err = 1.5 * (side->to_err * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * side->length);
-    return turn > turn_err ? 1 : turn < -turn_err ? -1 : LRCSI_VIEW_UNSURE;
+    return turn > turn_err ? 1 : turn < -turn_err ? -1 : LRCSI_VIEW_UNDECIDED;
 }
 
 #endif

@@ -54,10 +54,10 @@ static signed char facing_of(const lrcsi_view *view, uint32_t facet)
 #define GRAZING_DOT 0x1p50
 /* Closer to edge-on than this, only a lower bound of tan^2 is known: about 2^1000, still a double.
  */
-#define GRAZING_LEAST 0x1p-500
+#define GRAZING_MIN 0x1p-500
 
 /* |N . d| and a bound on its error: the computed value or, near grazing incidence, the exact one to
-   2 u. Closer to edge-on than GRAZING_LEAST it is replaced by that bound. */
+   2 u. Closer to edge-on than GRAZING_MIN it is replaced by that bound. */
 typedef struct incidence_dot {
     double value, err;
     int replaced;
@@ -74,7 +74,7 @@ static incidence_dot incidence_dot_of(const lrcsi_view *view, uint32_t facet, do
                                  lrcsi_prepared_corner(view->prepared, facet, 2), view->direction));
         dot.err = 2 * LRCSI_U * dot.value;
     }
-    double least = GRAZING_LEAST * view->prepared->normal[facet].length * view->length;
+    double least = GRAZING_MIN * view->prepared->normal[facet].length * view->length;
     if (dot.value < least) {
         dot.value = least;
         dot.replaced = 1;
@@ -225,11 +225,11 @@ static void view_facings(lrcsi_view *view)
         const double *z = b->normal[2] + place;
         uint32_t count = b->count - place < LRCSI_LANES ? b->count - place : LRCSI_LANES;
         uint32_t back = 0;
-        uint64_t unsure = 0; /* sign bit: some |dot| is at most the error */
+        uint64_t undecided = 0; /* sign bit: some |dot| is at most the error */
         double dot[LRCSI_LANES];
         for (int i = 0; i < LRCSI_LANES; i++) {
             dot[i] = lrcsi_view_dot(x[i], y[i], z[i], d);
-            unsure |= (lrcsi_bits_of(dot[i]) & magnitude) - error - 1;
+            undecided |= (lrcsi_bits_of(dot[i]) & magnitude) - error - 1;
         }
         for (uint32_t i = 0; i < count; i++) {
             uint32_t behind = (uint32_t)(lrcsi_bits_of(dot[i]) >> 63);
@@ -238,7 +238,7 @@ static void view_facings(lrcsi_view *view)
         }
         view->back += back;
         view->front += count - back;
-        for (uint32_t i = 0; unsure >> 63 && i < count; i++) {
+        for (uint32_t i = 0; undecided >> 63 && i < count; i++) {
             if (fabs(dot[i]) <= LRCSI_DOT_ERROR) {
                 signed char facing = facing_of(view, facet[i]);
                 view->front -= view->facing[facet[i]] > 0;
@@ -260,7 +260,8 @@ int lrcsi_view_face(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcsi_
                     lrcs_work *work, lrcsi_view *view)
 {
     lrcsi_view v = {.prepared = prepared, .backs = backs};
-    int status = lrcsi_ieee_kept() ? lrcsi_frame_make(pose, v.direction, v.R) : LRCS_E_UNSUPPORTED;
+    int status =
+        lrcsi_ieee_conforms() ? lrcsi_frame_make(pose, v.direction, v.R) : LRCS_E_UNSUPPORTED;
     if (status != LRCS_OK) {
         return status;
     }

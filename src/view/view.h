@@ -47,7 +47,7 @@ typedef struct lrcsi_view {
     double low[2], side; /* the square window around the projection of the live facets */
     uint32_t front, back; /* live facets facing either way */
     lrcsi_view_backs backs;
-    lrcs_progress *progress; /* where a run reports its progress; NULL: nowhere */
+    lrcs_progress *progress; /* where a run reports its progress; may be NULL */
 } lrcsi_view;
 
 /* Reports how many parts of a stage are done, and how many there are (lrcs_progress_stage). */
@@ -77,8 +77,9 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
 
 /* Bound on the error of each of the view coordinates x of a vertex, or of another point of doubles
    in scene coordinates. It grows with the distance from the origin, so that distant parts do not
-   affect the accuracy of others. Derivation: lrcsi_view_coordinates in view.c. Its margin, 1.9 u of
-   the same sum, covers the rounding of adding it to a coordinate or to a difference of two. */
+   affect the accuracy of others. Derivation: lrcsi_view_coordinates in view.c. It exceeds the
+   derived bound by 1.9 u of the same sum, which covers the rounding of adding it to a coordinate or
+   to a difference of two. */
 static inline double lrcsi_view_point_err(const double x[3])
 {
     return 10 * LRCSI_U * (fabs(x[0]) + fabs(x[1]) + fabs(x[2]));
@@ -103,7 +104,8 @@ static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *ver
     }
 }
 
-/* Can a facet hide anything, and be visible? Not if it is redundant in this view. */
+/* 1 if a facet can be visible and hide others: it faces the laser, or back sides cast, and it is
+   not redundant in this view. Else 0. */
 static inline int lrcsi_view_casts(const lrcsi_view *view, uint32_t facet)
 {
     int facing = view->facing[facet];

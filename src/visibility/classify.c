@@ -102,7 +102,7 @@ static int segment_crosses(const lrcsi_view *view, const tested_facet *tested, u
     for (int k = 0; k < 3; k++) {
         const double *corner = view->point[tested->corner[k]].x;
         int side = lrcsi_view_side_turn(&line, corner, tested->side[k].at_err);
-        side = side != LRCSI_VIEW_UNSURE ? side : vertex_turn(view, p, q, tested->corner[k]);
+        side = side != LRCSI_VIEW_UNDECIDED ? side : vertex_turn(view, p, q, tested->corner[k]);
         left |= side > 0;
         right |= side < 0;
     }

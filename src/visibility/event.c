@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "base/join.h"
+#include "base/disjoint.h"
 #include "base/work.h"
 
 /* --- one edge --------------------------------------------------------------------------------- */
@@ -163,7 +163,7 @@ static void join_within(const lrcs_prepared *p, const signed char *joinable, uin
         for (int k = 0; k < 3 && !alike && joinable[f] != 0; k++) {
             uint32_t other = p->across.facet[f].corner[k];
             if (other >= start && other < f && joinable[other] == joinable[f]) {
-                lrcsi_join(group, other, f);
+                lrcsi_disjoint_union(group, other, f);
             }
         }
     }
@@ -182,7 +182,7 @@ static int join_linked(const lrcs_prepared *p, const signed char *joinable, uint
             return 0;
         }
         if (joined == LRCSI_JOINED_ALL && joinable[(size_t)other * LRCSI_RUN] == joinable[start]) {
-            lrcsi_join(group, other * LRCSI_RUN, start);
+            lrcsi_disjoint_union(group, other * LRCSI_RUN, start);
         }
     }
     return 1;
@@ -196,8 +196,8 @@ static void join_sides(const lrcs_prepared *p, const signed char *joinable, uint
         const lrcsi_run_side *side = &p->runs.side[i];
         if (side->other < side->facet && joinable[side->facet] != 0 &&
             joinable[side->other] == joinable[side->facet]) {
-            lrcsi_join(group, group_entry(p, joinable, side->other),
-                       group_entry(p, joinable, side->facet));
+            lrcsi_disjoint_union(group, group_entry(p, joinable, side->other),
+                                 group_entry(p, joinable, side->facet));
         }
     }
 }
@@ -245,7 +245,8 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
         uint32_t pair[2];
         if (lrcsi_edge_kind_of(view, p->across.irregular[i], LRCS_NONE, pair) == LRCSI_EDGE_JOINS &&
             joinable[pair[0]] != 0 && joinable[pair[1]] != 0) {
-            lrcsi_join(group, group_entry(p, joinable, pair[0]), group_entry(p, joinable, pair[1]));
+            lrcsi_disjoint_union(group, group_entry(p, joinable, pair[0]),
+                                 group_entry(p, joinable, pair[1]));
         }
     }
     join_finish(p, joinable, group);

@@ -59,7 +59,7 @@ static inline int lrcsi_events_joined(const lrcs_prepared *p, const signed char 
                                                     : LRCSI_JOINED_SOME;
 }
 
-/* Joins facets into groups (base/join.h) across all edges that are not event edges.
+/* Joins facets into groups (base/disjoint.h) across all edges that are not event edges.
    Given: joinable[facet], as cast, but also 0 for facets that are not to be joined. Returned: the
    first facet of each facet's group; group[] has lrcsi_runs_room entries. */
 void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group);

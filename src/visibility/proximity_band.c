@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "base/join.h"
+#include "base/disjoint.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/slice.h"
@@ -427,17 +427,17 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *
     double longest = lrcsi_proximity_longest(p, facet);
     job->rows[facet] += lrcsi_proximity_rows(p, facet, corner, &slice);
     if (side == 0) {
-        add_both(job, facet, lrcsi_slice_share(&slice, whole, longest), part);
+        add_both(job, facet, lrcsi_slice_fraction(&slice, whole, longest), part);
         return;
     }
     lrcsi_slice outer = edge_half(slice, &box, -side);
     lrcsi_slice inner = edge_half(slice, &box, side);
-    double share = lrcsi_slice_share(&slice, whole, longest);
+    double share = lrcsi_slice_fraction(&slice, whole, longest);
     job->parts[facet] |= part;
     job->share[facet] += share;
-    job->loss[facet] += lrcsi_slice_share(&outer, whole, longest);
+    job->loss[facet] += lrcsi_slice_fraction(&outer, whole, longest);
     job->gain[facet] += gain_is_inside(job, walk, job->part[event])
-                            ? lrcsi_slice_share(&inner, whole, longest)
+                            ? lrcsi_slice_fraction(&inner, whole, longest)
                             : share;
 }
 
@@ -565,11 +565,11 @@ static void join_facets(const lrcsi_proximity_band *band, const unsigned char *a
                 ask ? ask[a] && ask[b] && band->parts[a] == band->parts[b]
                     : p->proximity.reach[part[a]] > 0 && band->share[a] == 0 && band->share[b] == 0;
             if (part[a] == part[b] && alike) {
-                lrcsi_join(group, a, b);
+                lrcsi_disjoint_union(group, a, b);
             }
         }
     }
-    lrcsi_join_settle(group, p->scene->facet_count);
+    lrcsi_disjoint_flatten(group, p->scene->facet_count);
 }
 
 /* --- what is hidden --------------------------------------------------------------------------- */

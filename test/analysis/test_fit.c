@@ -200,16 +200,16 @@ static void verdicts_name_what_is_not_determined(void **state)
          {LRCS_FIT_DETERMINED, LRCS_FIT_DETERMINED, LRCS_FIT_DETERMINED, LRCS_FIT_DETERMINED}},
         /* no glint */
         {{{0, 0.3, 0.1, 0.3}, 0, 75, 0.003, 0, 31, 0},
-         {LRCS_FIT_ABSENT, LRCS_FIT_DETERMINED, LRCS_FIT_MOOT, LRCS_FIT_DETERMINED}},
+         {LRCS_FIT_ABSENT, LRCS_FIT_DETERMINED, LRCS_FIT_UNDEFINED, LRCS_FIT_DETERMINED}},
         /* a glint that the readings do not reach */
         {{{1, 0.25, 0.1, 0.5}, 30, 75, 0.003, 0, 31, 0},
-         {LRCS_FIT_FREE, LRCS_FIT_DETERMINED, LRCS_FIT_MOOT, LRCS_FIT_DETERMINED}},
+         {LRCS_FIT_FREE, LRCS_FIT_DETERMINED, LRCS_FIT_UNDEFINED, LRCS_FIT_DETERMINED}},
         /* a glint that one reading shows */
         {{{1, 0.25, 0.005, 0.5}, 0, 75, 0.003, 0, 31, 0},
          {LRCS_FIT_DETERMINED, LRCS_FIT_DETERMINED, LRCS_FIT_AT_MOST, LRCS_FIT_DETERMINED}},
         /* no diffuse part */
         {{{1, 0, 0.2, 0}, 0, 60, 0.003, 0, 31, 0},
-         {LRCS_FIT_DETERMINED, LRCS_FIT_ABSENT, LRCS_FIT_DETERMINED, LRCS_FIT_MOOT}},
+         {LRCS_FIT_DETERMINED, LRCS_FIT_ABSENT, LRCS_FIT_DETERMINED, LRCS_FIT_UNDEFINED}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         lrcs_fit fit = series_fit(&cases[i].one, 7);
@@ -474,7 +474,7 @@ static void every_verdict_has_its_sentence(void **state)
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         int shape = p >= LRCS_FIT_S;
         for (int v = LRCS_FIT_DETERMINED; v <= LRCS_FIT_FREE; v++) {
-            int never = (v == LRCS_FIT_ABSENT && shape) || (v == LRCS_FIT_MOOT && !shape) ||
+            int never = (v == LRCS_FIT_ABSENT && shape) || (v == LRCS_FIT_UNDEFINED && !shape) ||
                         (v == LRCS_FIT_AT_MOST && p != LRCS_FIT_S);
             assert_int_equal(strcmp(lrcs_fit_verdict_text(p, v), unknown) == 0, never);
         }

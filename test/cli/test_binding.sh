@@ -55,7 +55,7 @@ usage_error but_not_for_none "no material named 'SOLAR_1?'; the nearest is 'SOLA
 areas a_star_alone_is_every_name 15 --material "*=$lit"
 areas a_name_with_a_star_is_itself_first 4 --material "Gold*Foil=$lit"
 areas letters_of_the_other_case_serve 8 --material GREY=$lit
-same and_it_is_told "$(printf '%s\n' "$out" | grep -c "\"--material 'GREY': no material has that name in these letters; taken for 'grey', upper and lower case alike\"")" 1
+same and_it_is_told "$(printf '%s\n' "$out" | grep -c "\"--material 'GREY': no material has exactly that name; taken for 'grey', ignoring case\"")" 1
 areas in_patterns_too 3 --material "solar*=$lit"
 same which_is_told "$(printf '%s\n' "$out" | grep -c "\"--material 'solar\*': .* taken for 'SOLAR_1' and others")" 1
 areas a_full_name_goes_before_a_pattern 2 --material SOLAR_1=0,0,0.2,0 --material "SOLAR*=$lit"

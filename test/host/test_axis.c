@@ -35,8 +35,8 @@ static void check_axis(int log, double least, double most, double texts)
     lrcsi_axis axis = lrcsi_axis_make(log, least, most, texts);
     unsigned named = 0;
     double hair = 1e-8 * (log ? least : most - least); /* what no eye sees */
-    check_most(axis.least, least + hair);
-    check_most(most - (log ? 1e-8 * most : hair), axis.most);
+    check_most(axis.low, least + hair);
+    check_most(most - (log ? 1e-8 * most : hair), axis.high);
     assert_true(axis.count > 1 && axis.count < LRCSI_AXIS_TICKS);
     for (uint32_t i = 0; i < axis.count; i++) {
         const lrcsi_tick *tick = &axis.tick[i];
@@ -46,7 +46,7 @@ static void check_axis(int log, double least, double most, double texts)
         named += (unsigned)tick->major;
         if (tick->major) {
             check_abs(tick->value, named_value(tick),
-                      1e-9 * (fabs(tick->value) + axis.most - axis.least));
+                      1e-9 * (fabs(tick->value) + axis.high - axis.low));
         }
     }
     assert_true(named >= 1);
@@ -59,8 +59,8 @@ static void many_decades_are_named_as_powers_of_ten(void **state)
     lrcsi_axis axis = lrcsi_axis_make(1, 3e-13, 2.0, 20.0);
     assert_string_equal(names(&axis), "10^-12 10^-11 10^-10 10^-9 10^-8 10^-7 10^-6 10^-5 10^-4 "
                                       "10^-3 10^-2 10^-1 10^0");
-    check_rel(axis.least, 2e-13, 1e-12);
-    check_rel(axis.most, 2.0, 1e-12);
+    check_rel(axis.low, 2e-13, 1e-12);
+    check_rel(axis.high, 2.0, 1e-12);
 }
 
 static void more_decades_than_room_are_named_in_steps(void **state)
@@ -105,11 +105,11 @@ static void angles_are_parts_of_a_turn(void **state)
     assert_string_equal(names(&axis), "-90 -60 -30 0 30 60 90");
     axis = lrcsi_axis_make(LRCSI_AXIS_DEG, 0.0, 350.0, 5.0);
     assert_string_equal(names(&axis), "0 90 180 270 360");
-    check_same(axis.most, 360.0);
+    check_same(axis.high, 360.0);
     axis = lrcsi_axis_make(LRCSI_AXIS_DEG, 1.0, 2.0, 5.0); /* few: as any number */
     assert_string_equal(names(&axis), "1.0 1.2 1.4 1.6 1.8 2.0");
     axis = lrcsi_axis_make(LRCSI_AXIS_DEG, -1e15, 1e15, 4.0);
-    check_most(axis.least, -1e15);
+    check_most(axis.low, -1e15);
     axis = lrcsi_axis_make(LRCSI_AXIS_DEG, HUGE_VAL, -HUGE_VAL, 5.0);
     assert_true(axis.count > 1);
 }
@@ -132,13 +132,13 @@ static void nothing_to_show_still_makes_an_axis(void **state)
 {
     (void)state;
     lrcsi_axis axis = lrcsi_axis_make(1, HUGE_VAL, -HUGE_VAL, 10.0);
-    check_same(axis.least, 0.1);
-    check_same(axis.most, 1.0);
+    check_same(axis.low, 0.1);
+    check_same(axis.high, 1.0);
     axis = lrcsi_axis_make(0, HUGE_VAL, -HUGE_VAL, 10.0);
-    check_same(axis.least, 0.0);
-    check_same(axis.most, 1.0);
+    check_same(axis.low, 0.0);
+    check_same(axis.high, 1.0);
     axis = lrcsi_axis_make(0, 0.0, 0.0, 10.0);
-    assert_true(axis.least < 0.0 && axis.most > 0.0);
+    assert_true(axis.low < 0.0 && axis.high > 0.0);
     axis = lrcsi_axis_make(0, -1e300, 1e300, 10.0);
     assert_true(axis.count > 1 && axis.count < LRCSI_AXIS_TICKS);
 }

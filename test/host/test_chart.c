@@ -51,29 +51,29 @@ static lrcs_host_chart chart_of(const lrcs_host_series *series, uint32_t count)
 static void labels_cover_nothing(void **state)
 {
     (void)state;
-    static lrcsi_board board;
-    board = (lrcsi_board){.frame = {0.0F, 0.0F, 300.0F, 200.0F}};
+    static lrcsi_label_area labels;
+    labels = (lrcsi_label_area){.frame = {0.0F, 0.0F, 300.0F, 200.0F}};
     uint32_t seed = 1;
     unsigned placed = 0;
     for (int i = 0; i < 200; i++) {
         seed = seed * 1664525u + 1013904223u;
         lrcsi_plot_point at = {(seed >> 8) % 300, (seed >> 18) % 200};
-        lrcsi_board_point(&board, at, 4.0);
+        lrcsi_label_block_point(&labels, at, 4.0);
         if (i % 3 == 0) {
-            lrcsi_board_line(&board, at, (lrcsi_plot_point){at.x + 20.0, at.y + 9.0});
+            lrcsi_label_block_line(&labels, at, (lrcsi_plot_point){at.x + 20.0, at.y + 9.0});
         }
-        uint32_t before = board.count;
+        uint32_t before = labels.count;
         lrcsi_plot_point left;
-        if (!lrcsi_board_text(&board, at, 6.0, "4096", 10.0, &left)) {
-            assert_int_equal(board.count, before);
+        if (!lrcsi_label_place(&labels, at, 6.0, "4096", 10.0, &left)) {
+            assert_int_equal(labels.count, before);
             continue;
         }
         placed++;
-        const lrcsi_room *own = &board.room[board.count - 1];
+        const lrcsi_label_box *own = &labels.box[labels.count - 1];
         assert_true(own->x0 >= 0.0F && own->y0 >= 0.0F && own->x1 <= 300.0F && own->y1 <= 200.0F);
         assert_true(left.x > own->x0 && left.y < own->y1);
-        for (uint32_t k = 0; k + 1 < board.count; k++) {
-            const lrcsi_room *other = &board.room[k];
+        for (uint32_t k = 0; k + 1 < labels.count; k++) {
+            const lrcsi_label_box *other = &labels.box[k];
             assert_true(own->x0 >= other->x1 || own->x1 <= other->x0 || own->y0 >= other->y1 ||
                         own->y1 <= other->y0);
         }
@@ -84,12 +84,12 @@ static void labels_cover_nothing(void **state)
 static void a_full_board_forgets_and_goes_on(void **state)
 {
     (void)state;
-    static lrcsi_board board;
-    board = (lrcsi_board){.frame = {0.0F, 0.0F, 9.0F, 9.0F}};
-    for (uint32_t i = 0; i < LRCSI_LABEL_ROOMS + 10; i++) {
-        lrcsi_board_point(&board, (lrcsi_plot_point){5.0, 5.0}, 1.0);
+    static lrcsi_label_area labels;
+    labels = (lrcsi_label_area){.frame = {0.0F, 0.0F, 9.0F, 9.0F}};
+    for (uint32_t i = 0; i < LRCSI_LABEL_BOXES + 10; i++) {
+        lrcsi_label_block_point(&labels, (lrcsi_plot_point){5.0, 5.0}, 1.0);
     }
-    assert_int_equal(board.count, LRCSI_LABEL_ROOMS);
+    assert_int_equal(labels.count, LRCSI_LABEL_BOXES);
 }
 
 static void every_letter_has_a_width_and_ends(void **state)
@@ -274,7 +274,7 @@ static void a_stroke_colours_its_pixels_and_no_others(void **state)
     (void)state;
     lrcsi_canvas canvas;
     const lrcsi_plot_point line[2] = {{4.0, 10.0}, {16.0, 10.0}};
-    const lrcsi_ink ink = {0x0072b2u, 2.0, {0.0, 0.0}};
+    const lrcsi_line_style ink = {0x0072b2u, 2.0, {0.0, 0.0}};
     assert_int_equal(lrcsi_canvas_make(20.0, 20.0, 1.0, &canvas, NULL), LRCS_OK);
     canvas.plotter.line(&canvas.plotter, line, 2, &ink);
     for (int y = 0; y < 20; y++) {
@@ -309,8 +309,8 @@ static void nothing_outside_the_canvas_is_touched(void **state)
     (void)state;
     lrcsi_canvas canvas;
     const lrcsi_plot_point line[3] = {{-50.0, -50.0}, {60.0, 70.0}, {-1e9, 5.0}};
-    const lrcsi_ink ink = {0u, 3.0, {40.0, 30.0}};
-    const lrcsi_words words = {.text = "out of it", .at = {5.0, -2.0}, .size = 30.0};
+    const lrcsi_line_style ink = {0u, 3.0, {40.0, 30.0}};
+    const lrcsi_plot_text words = {.text = "out of it", .at = {5.0, -2.0}, .size = 30.0};
     assert_int_equal(lrcsi_canvas_make(10.0, 10.0, 1.0, &canvas, NULL), LRCS_OK);
     canvas.plotter.line(&canvas.plotter, line, 2, &ink);
     canvas.plotter.area(&canvas.plotter, line, 3, 0x123456u);

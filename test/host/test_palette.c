@@ -37,7 +37,7 @@ static double least_difference(uint32_t count)
 {
     uint32_t colour[3 + LRCSI_COLOURING_MATERIALS] = {0xffffffu, 0x0d111cu, 0x787878u};
     double least = HUGE_VAL;
-    lrcsi_palette_apart(count, colour + 3);
+    lrcsi_palette_categorical(count, colour + 3);
     for (uint32_t i = 3; i < count + 3; i++) {
         for (uint32_t k = 0; k < i; k++) {
             least = fmin(least, difference(colour[i], colour[k]));
@@ -59,8 +59,8 @@ static void more_materials_do_not_change_the_colours_of_the_first(void **state)
     uint32_t few[5];
     uint32_t many[40];
     (void)state;
-    lrcsi_palette_apart(5, few);
-    lrcsi_palette_apart(40, many);
+    lrcsi_palette_categorical(5, few);
+    lrcsi_palette_categorical(40, many);
     assert_memory_equal(few, many, sizeof few);
     assert_int_equal(few[0], lrcsi_palette_named(1));
 }

@@ -46,7 +46,7 @@ static void a_touch_is_no_share(void **state)
         lrcsi_slice slice = lrcsi_slice_start(x[0], x[1], side ? x[3] : x[2]);
         lrcsi_slice_cut(&slice, n, x[0], 0);
         assert_int_equal(slice.count, 1 + side);
-        assert_true(lrcsi_slice_share(&slice, 0.5, 1.5) == 0);
+        assert_true(lrcsi_slice_fraction(&slice, 0.5, 1.5) == 0);
         lrcsi_slice_cut(&slice, n, x[0], 0x1p-20);
         assert_int_equal(slice.count, 1 + side);
     }

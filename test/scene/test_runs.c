@@ -2,7 +2,7 @@
 /* Runs of facets: their boxes, what is connected within one, and the sides that leave it. */
 #include "scene/prepare.h"
 
-#include "base/join.h"
+#include "base/disjoint.h"
 #include "scenes.h"
 
 static test_scene scene;
@@ -53,7 +53,7 @@ static void check_runs(void)
         for (int k = 0; k < 3; k++) {
             uint32_t other = p->across.facet[f].corner[k];
             if (other < count) {
-                lrcsi_join(all, f, other);
+                lrcsi_disjoint_union(all, f, other);
             }
             for (int i = 0; i < 3; i++) {
                 double x = lrcsi_prepared_corner(p, f, k)[i];
@@ -72,11 +72,11 @@ static void check_runs(void)
         assert_true(found);
         assert_true(side->other == count || side->other / LRCSI_RUN != side->facet / LRCSI_RUN);
         if (side->other < count) {
-            lrcsi_join(by_runs, side->facet, side->other);
+            lrcsi_disjoint_union(by_runs, side->facet, side->other);
         }
     }
     for (uint32_t f = 0; f < count; f++) {
-        assert_int_equal(lrcsi_join_root(all, f), lrcsi_join_root(by_runs, f));
+        assert_int_equal(lrcsi_disjoint_root(all, f), lrcsi_disjoint_root(by_runs, f));
     }
     for (uint32_t r = 0; r < runs->count; r++) {
         check_links(p, r);

@@ -3,7 +3,7 @@
    grids that find them. Scenes are small enough to count by hand. */
 #include "visibility/classify.h"
 
-#include "base/join.h"
+#include "base/disjoint.h"
 #include "scenes.h"
 #include "visibility/query.h"
 
@@ -195,16 +195,16 @@ static void check_joins(void)
         assert_int_equal(listed, kind == LRCSI_EDGE_EVENT);
         events += (uint32_t)listed;
         if (kind == LRCSI_EDGE_JOINS) {
-            lrcsi_join(component, pair[0], pair[1]);
+            lrcsi_disjoint_union(component, pair[0], pair[1]);
             if (classification.joinable[pair[0]] != 0 && classification.joinable[pair[1]] != 0) {
-                lrcsi_join(region, pair[0], pair[1]);
+                lrcsi_disjoint_union(region, pair[0], pair[1]);
             }
         }
     }
     assert_true(events > 0);
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        assert_int_equal(classification.component[f], lrcsi_join_root(component, f));
-        assert_int_equal(classification.region[f], lrcsi_join_root(region, f));
+        assert_int_equal(classification.component[f], lrcsi_disjoint_root(component, f));
+        assert_int_equal(classification.region[f], lrcsi_disjoint_root(region, f));
     }
 }
 

@@ -12,7 +12,7 @@ static const char fit_help[] =
     "\n"
     "A, B, s, m of the four-parameter BRDF\n"
     "  f_r(theta) = A / cos^6(theta) exp(-tan^2(theta) / s^2) + B cos^m(theta)      1/sr\n"
-    "(Steinvall 2000; Han et al. 2014, Eq. 1) from readings in mono-station (retro) geometry, "
+    "(Steinvall 2000; Han et al. 2014, Eq. 1) from readings in monostatic geometry, "
     "laser\n"
     "and detector both at angle theta from the normal. Robust: outliers are set aside and named.\n"
     "\n"
