@@ -18,12 +18,12 @@
    smaller than the tolerance divided by this factor. */
 #define DIVISION_FACTOR_MAX 64.0
 /* The number of levels kept, and of their facets, besides those in use. */
-#define LEVELS_MAX 32u
-#define FACETS_MAX (UINT32_C(1) << 19)
+#define KEPT_LEVELS_MAX 32u
+#define KEPT_FACETS_MAX (UINT32_C(1) << 19)
 /* All parts are divided alike if that takes at most this many times the facets. */
 #define SHARED_MAX 1.1
 /* The cost of a halving is at least that of so many facets. */
-#define FACETS_MIN 16.0
+#define COST_MIN 16.0
 
 struct lrcsi_host_levels {
     pthread_mutex_t lock;
@@ -145,7 +145,7 @@ static uint32_t choice_best(const part_choice *choice, uint32_t parts)
     uint32_t best = parts;
     double most = 0.0;
     for (uint32_t i = 0; i < parts; i++) {
-        double price = (choice[i].growth - 1.0) * choice[i].facets + FACETS_MIN;
+        double price = (choice[i].growth - 1.0) * choice[i].facets + COST_MIN;
         if (!choice[i].fixed && choice[i].error / price > most) {
             most = choice[i].error / price;
             best = i;
@@ -263,7 +263,7 @@ static void levels_limit(struct lrcsi_host_levels *levels)
                 idle++;
             }
         }
-        if (idle == 0 || (idle <= LEVELS_MAX && facets <= FACETS_MAX)) {
+        if (idle == 0 || (idle <= KEPT_LEVELS_MAX && facets <= KEPT_FACETS_MAX)) {
             return;
         }
         level_remove(levels, oldest);
