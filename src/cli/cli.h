@@ -295,6 +295,17 @@ typedef struct cli_sum {
 void cli_sum_add(cli_sum *sum, double value);
 double cli_sum_value(const cli_sum *sum);
 
+/* Sorts numbers in ascending order. Their median: of an even number the mean of the middle two; 0
+   of none. */
+void cli_sort(double *value, size_t count);
+double cli_median(double *value, size_t count); /* sorts them */
+
+/* A value >= 0 as it is, or NAN, which no output shows as a number, for one that is not known. */
+double cli_known(double value);
+
+/* A part of a whole in per cent; 0 if the whole is 0. */
+double cli_percent(double part, double whole);
+
 /* The value in dBsm of a sigma > 0. */
 double cli_dbsm(double sigma_m2);
 
@@ -311,6 +322,9 @@ void cli_csv_text(FILE *out, const char *before, const char *text, const char *s
 /* Appends to a text, truncated to its size. */
 __attribute__((format(printf, 3, 4))) void cli_append(char *text, size_t size, const char *format,
                                                       ...);
+
+/* A character of a text that stays on its line: "?" for a control character. */
+#define CLI_PLAIN(c) ((unsigned char)(c) < 0x20 || (c) == 0x7f ? '?' : (c))
 
 /* Prints text on stdout, padded with blanks to `width`; control characters are printed as '?'. */
 void cli_column(const char *text, int width);
@@ -353,6 +367,10 @@ void cli_notices_json(const lrcs_host_notices *notices, lrcs_host_json *json);
    objects and arrays, also across calls. "{\n" and "[\n" open those with an item on each line.
    The compiler checks the arguments as those of printf. */
 __attribute__((format(printf, 2, 3))) void cli_json(lrcs_host_json *json, const char *format, ...);
+
+/* The lowest of some flags, as lrcs_flag_text and lrcs_notice_text take it; bits &= bits - 1 leaves
+   the others. */
+#define CLI_LOWEST(bits) ((int)((bits) & ~((bits)-1u)))
 
 /* The flags of a result as the array "flags". */
 void cli_flags_json(lrcs_host_json *json, uint32_t flags);

@@ -133,18 +133,17 @@ static int image_run(image_job *job)
         return cli_out_of_memory();
     }
     cli_watch_stage("preparing", &job->scene);
-    int status = lrcs_host_scene_prepare(&job->scene, &error);
+    int code = cli_scene_prepare(&job->scene);
     cli_watch_stage("pose", NULL);
     job->options.progress = cli_watch_run();
-    if (status == LRCS_OK) {
-        status =
-            lrcs_host_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
-                                job->image.facet ? &job->image : NULL, NULL, &error);
+    code = code ? code
+                : cli_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
+                                job->image.facet ? &job->image : NULL, NULL);
+    if (code == 0 && job->path[IMAGE_SVG] &&
+        lrcs_host_polygons_make(&job->scene, &job->pose, &job->polygons, &error) != LRCS_OK) {
+        code = cli_failed(&error);
     }
-    if (status == LRCS_OK && job->path[IMAGE_SVG]) {
-        status = lrcs_host_polygons_make(&job->scene, &job->pose, &job->polygons, &error);
-    }
-    return status == LRCS_OK ? 0 : cli_failed(&error);
+    return code;
 }
 
 /* ---- the files ---- */

@@ -22,6 +22,34 @@ double cli_sum_value(const cli_sum *sum)
     return sum->value + sum->low;
 }
 
+static int ascending(const void *a, const void *b)
+{
+    const double *x = a;
+    const double *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+void cli_sort(double *value, size_t count)
+{
+    qsort(value, count, sizeof *value, ascending);
+}
+
+double cli_median(double *value, size_t count)
+{
+    cli_sort(value, count);
+    return count > 0 ? 0.5 * (value[(count - 1) / 2] + value[count / 2]) : 0.0;
+}
+
+double cli_known(double value)
+{
+    return value >= 0.0 ? value : (double)NAN;
+}
+
+double cli_percent(double part, double whole)
+{
+    return whole > 0.0 ? 100.0 * part / whole : 0.0;
+}
+
 double cli_dbsm(double sigma_m2)
 {
     return 10.0 * log10(sigma_m2);
@@ -68,9 +96,8 @@ void cli_append(char *text, size_t size, const char *format, ...)
 void cli_column_to(FILE *out, const char *text, int width)
 {
     for (; *text; text++) {
-        unsigned char byte = (unsigned char)*text;
-        putc(byte < 0x20 || byte == 0x7f ? '?' : *text, out);
-        width -= (byte & 0xc0) != 0x80;
+        putc(CLI_PLAIN(*text), out);
+        width -= ((unsigned char)*text & 0xc0) != 0x80;
     }
     fprintf(out, "%*s", width > 0 ? width : 0, "");
 }
@@ -162,10 +189,8 @@ void cli_json(lrcs_host_json *json, const char *format, ...)
 void cli_flags_json(lrcs_host_json *json, uint32_t flags)
 {
     lrcs_host_json_begin(json, "flags", LRCS_HOST_ROW_ARRAY);
-    for (uint32_t bits = flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
-        if (bits & 1u) {
-            lrcs_host_json_text(json, NULL, lrcs_flag_text((int)bit));
-        }
+    for (uint32_t bits = flags; bits != 0; bits &= bits - 1) {
+        lrcs_host_json_text(json, NULL, lrcs_flag_text(CLI_LOWEST(bits)));
     }
     lrcs_host_json_end(json);
 }

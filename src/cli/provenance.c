@@ -91,9 +91,7 @@ static uint64_t file_hash(const char *path)
 void cli_line_put(FILE *out, const char *before, const char *text)
 {
     fputs(before, out);
-    for (; *text; text++) {
-        putc((unsigned char)*text < 0x20 || *text == 0x7f ? '?' : *text, out);
-    }
+    cli_column_to(out, text, 0);
 }
 
 void cli_file_text(const lrcs_host_input *input, char text[CLI_FILE_TEXT])

@@ -117,16 +117,9 @@ static void search_part(compare_search *search)
     search->passings = witnesses;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double *x = a;
-    const double *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 double cli_search_median(double *value, uint32_t count)
 {
-    qsort(value, count, sizeof *value, ascending);
+    cli_sort(value, count);
     return count > 0 ? value[count / 2] : 0.0;
 }
 

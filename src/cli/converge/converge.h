@@ -88,11 +88,6 @@ const converge_mesh *cli_converge_finest(const converge_job *job);
 /* A value relative to the true sigma; in m2 if that is 0. */
 double cli_converge_relative(const converge_job *job, double value_m2);
 
-/* A value if it is not negative; NAN if it is negative, which means not known. The scene that a
-   setting ran on. */
-double cli_converge_known(double value);
-const lrcs_host_scene *cli_converge_scene(const converge_job *job, const converge_setting *one);
-
 /* The sentence that summarizes the comparison. */
 typedef struct converge_sentence {
     char text[960];

@@ -5,7 +5,6 @@
 #include "cli/converge/converge.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -221,13 +220,6 @@ static int settings_repeat(converge_job *job)
     return 0;
 }
 
-static int seconds_compare(const void *a, const void *b)
-{
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* ---- the truth ---- */
 
 /* 1 if a shape is not rotated or scaled; it may be translated. */
@@ -286,9 +278,7 @@ static void settings_judge(converge_job *job, int closed)
         int facets = finest && !closed;
         setting.bound_m2 = shapes || facets ? setting.bound_m2 : -1.0;
         if (closed || setting.dial != CONVERGE_MESH || !finest) {
-            double *seconds = setting.seconds; /* of the kept copy */
-            qsort(seconds, setting.runs, sizeof *seconds, seconds_compare);
-            setting.pose_s = 0.5 * (seconds[(setting.runs - 1) / 2] + seconds[setting.runs / 2]);
+            setting.pose_s = cli_median(setting.seconds, setting.runs);
             job->setting[kept++] = setting;
         }
     }

@@ -14,22 +14,10 @@ static const struct {
 
 #define REPORT_TOLERANCES (sizeof report_tolerance / sizeof report_tolerance[0])
 
-const lrcs_host_scene *cli_converge_scene(const converge_job *job, const converge_setting *one)
-{
-    return &job->mesh[one->mesh].scene;
-}
-
 double cli_converge_relative(const converge_job *job, double value_m2)
 {
     double truth = job->truth.sigma_m2;
     return truth > 0.0 ? value_m2 / truth : value_m2;
-}
-
-/* A known value is not negative and is unchanged; NaN, which no writer shows as a number, if not
-   known. */
-double cli_converge_known(double value)
-{
-    return value >= 0.0 ? value : (double)NAN;
 }
 
 /* ---- the sentence ---- */
@@ -139,8 +127,8 @@ static void numbers_make(const converge_job *job, const converge_setting *one,
                          double number[NUMBERS])
 {
     const converge_mesh *mesh = &job->mesh[one->mesh];
-    double bound = cli_converge_known(one->bound_m2);
-    double estimate = cli_converge_known(one->estimate_m2);
+    double bound = cli_known(one->bound_m2);
+    double estimate = cli_known(one->estimate_m2);
     const double all[NUMBERS] = {one->resolution ? one->resolution : (double)NAN,
                                  mesh->digits > 0 ? pow(10.0, -mesh->digits) : (double)NAN,
                                  mesh->scene.scene.facet_count,

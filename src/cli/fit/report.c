@@ -98,9 +98,7 @@ static void statements_print(const lrcs_fit *fit)
 static void name_print(const char *name, char quote)
 {
     for (; *name; name++) {
-        unsigned char byte = (unsigned char)*name;
-        int bad = byte < 0x20 || byte == 0x7f || *name == quote || *name == '\\';
-        putchar(bad ? '?' : *name);
+        putchar(*name == quote || *name == '\\' ? '?' : CLI_PLAIN(*name));
     }
 }
 

@@ -179,10 +179,10 @@ void cli_report_accuracy(FILE *out, const report_job *job)
     for (uint32_t i = 0; i < compare->settings; i++) {
         const converge_setting *one = &compare->setting[i];
         cli_page_row(out, "%s%u%.3g%.8g%.2g%.2e%.2g", one->name,
-                     cli_converge_scene(compare, one)->scene.facet_count, 1e3 * one->pose_s,
+                     compare->mesh[one->mesh].scene.scene.facet_count, 1e3 * one->pose_s,
                      one->sigma_m2, cli_converge_relative(compare, one->error_m2),
                      cli_converge_relative(compare, one->bound_m2),
-                     cli_converge_known(cli_converge_relative(compare, one->estimate_m2)));
+                     cli_known(cli_converge_relative(compare, one->estimate_m2)));
     }
     cli_page_table_end(out);
     fputs("</details>\n</section>\n", out);

@@ -125,13 +125,10 @@ void cli_report_notices(FILE *out, const report_job *job)
     uint32_t count = notices->count;
     cli_page_section(out, "notices", "Warnings and notices");
     fputs("<ul class=\"notices\">\n", out);
-    for (uint32_t bits = job->result.flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
-        if (bits & 1u) {
-            cli_page(out,
-                     "<li><b>%s</b>: the answer is degraded, and its bound wider for it</li>\n",
-                     lrcs_flag_text((int)bit));
-            count++;
-        }
+    for (uint32_t bits = job->result.flags; bits != 0; bits &= bits - 1) {
+        cli_page(out, "<li><b>%s</b>: the answer is degraded, and its bound wider for it</li>\n",
+                 lrcs_flag_text(CLI_LOWEST(bits)));
+        count++;
     }
     for (uint32_t i = 0; i < notices->count; i++) {
         cli_page(out, "<li>%s</li>\n", notices->text[i]);
@@ -143,11 +140,9 @@ void cli_report_notices(FILE *out, const report_job *job)
             count++;
         }
     }
-    for (uint32_t bits = job->result.notices, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
-        if (bits & 1u) {
-            cli_page(out, "<li>%s</li>\n", lrcs_notice_text((int)bit));
-            count++;
-        }
+    for (uint32_t bits = job->result.notices; bits != 0; bits &= bits - 1) {
+        cli_page(out, "<li>%s</li>\n", lrcs_notice_text(CLI_LOWEST(bits)));
+        count++;
     }
     fputs(count > 0 ? "</ul>\n" : "<li>none</li>\n</ul>\n", out);
     fputs("</section>\n", out);

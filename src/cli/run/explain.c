@@ -35,19 +35,6 @@ static int is_switched(int effect)
     return (1u << effect & LRCS_EFFECTS_SWITCHED) != 0;
 }
 
-static double median(double *value, uint32_t count)
-{
-    for (uint32_t i = 1; i < count; i++) {
-        double at = value[i];
-        uint32_t k = i;
-        for (; k > 0 && value[k - 1] > at; k--) {
-            value[k] = value[k - 1];
-        }
-        value[k] = at;
-    }
-    return count > 0 ? 0.5 * (value[(count - 1) / 2] + value[count / 2]) : 0;
-}
-
 static double processor_seconds(void)
 {
     struct timespec now = {0, 0};
@@ -124,11 +111,12 @@ static void explain_effect(const run_job *job, const explain_times *times, uint3
         difference[r] = away[r] = sign * (planned - times->flipped[effect][r]);
         equal[r] = fabs(times->first[r] - times->last[r]);
     }
-    out->seconds = median(difference, rounds);
+    out->seconds = cli_median(difference, rounds);
     for (uint32_t r = 0; r < rounds; r++) {
         away[r] = fabs(away[r] - out->seconds);
     }
-    out->scatter = fmax(1.86 * median(away, rounds), 1.09 * median(equal, rounds)) / sqrt(rounds);
+    out->scatter =
+        fmax(1.86 * cli_median(away, rounds), 1.09 * cli_median(equal, rounds)) / sqrt(rounds);
 }
 
 /* The time of each stage: the median over rounds of the difference between runs up to it and up to
@@ -145,12 +133,12 @@ static void explain_stages(const explain_times *times, uint32_t rounds, run_expl
             run[r] = times->until[i][r];
             equal[r] = fabs(times->first[r] - times->last[r]) / times->first[r];
         }
-        out->stage[i] = fmax(0.0, median(difference, rounds));
+        out->stage[i] = fmax(0.0, cli_median(difference, rounds));
         for (uint32_t r = 0; r < rounds; r++) {
             difference[r] = fabs(difference[r] - out->stage[i]);
         }
-        double single = 1.09 * median(equal, rounds) * median(run, rounds);
-        out->stage_scatter[i] = fmax(1.86 * median(difference, rounds), single) / sqrt(rounds);
+        double single = 1.09 * cli_median(equal, rounds) * cli_median(run, rounds);
+        out->stage_scatter[i] = fmax(1.86 * cli_median(difference, rounds), single) / sqrt(rounds);
     }
 }
 
@@ -176,7 +164,7 @@ int cli_run_explain(run_job *job)
         explain_stages(&times, rounds, &job->explained);
     }
     job->explained.rounds = rounds;
-    job->explained.pose = code == 0 ? median(times.first, rounds) : 0.0;
+    job->explained.pose = code == 0 ? cli_median(times.first, rounds) : 0.0;
     return code;
 }
 

@@ -101,11 +101,6 @@ void cli_run_materials_json(const run_job *job, lrcs_host_json *json)
 
 /* ---- in words ---- */
 
-static double share(double part, double whole)
-{
-    return whole > 0.0 ? 100.0 * part / whole : 0.0;
-}
-
 void cli_run_materials_table(const run_job *job)
 {
     static const char axis[2] = {'x', 'y'};
@@ -114,7 +109,7 @@ void cli_run_materials_table(const run_job *job)
     if (u->stated) {
         printf("materials    +- %.4g m2   %.3g %% of sigma: one standard deviation, %s; not in the "
                "bound\n  68 %%       %.6g .. %.6g m2\n",
-               u->deviation_m2, share(u->deviation_m2, job->result.sigma_m2),
+               u->deviation_m2, cli_percent(u->deviation_m2, job->result.sigma_m2),
                u->sampled ? "from a sample" : "by first order", u->low_m2, u->high_m2);
         if (u->draws > 0) {
             printf("  sample     %lu draws, seed %lu: +- %.4g m2 about %.6g; first order +- %.4g\n",
@@ -148,6 +143,6 @@ void cli_run_materials_verdict(const run_job *job, FILE *out)
         fprintf(out,
                 "  materials  their stated errors leave sigma uncertain by %.3g %% (one standard "
                 "deviation)\n",
-                share(u->deviation_m2, job->result.sigma_m2));
+                cli_percent(u->deviation_m2, job->result.sigma_m2));
     }
 }

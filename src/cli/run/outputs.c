@@ -84,11 +84,6 @@ int cli_run_outputs_read(run_job *job)
                             &job->image_size);
 }
 
-int cli_run_outputs_check(const run_job *job)
-{
-    return cli_outputs_spare(job->args, &job->scene);
-}
-
 int cli_run_outputs_stdout(const run_job *job)
 {
     return to_stdout(job->facets) || to_stdout(job->polygons_path);

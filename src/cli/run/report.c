@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-/* Writes every notice of a run: those of the scene, of the result, and of options that had no
-   effect. They go to the open JSON array, or to stderr. */
 static void notice_say(lrcs_host_json *json, const char *text)
 {
     if (json) {
@@ -15,26 +13,18 @@ static void notice_say(lrcs_host_json *json, const char *text)
     }
 }
 
-static void notices_say(const run_job *job, lrcs_host_json *json)
+void cli_run_notices(const run_job *job, lrcs_host_json *json)
 {
     const lrcs_host_notices *notices = &job->scene.notices;
     for (uint32_t i = 0; i < notices->count; i++) {
         notice_say(json, notices->text[i]);
     }
-    for (uint32_t bits = job->result.notices, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
-        if (bits & 1u) {
-            notice_say(json, lrcs_notice_text((int)bit));
-        }
+    for (uint32_t bits = job->result.notices; bits != 0; bits &= bits - 1) {
+        notice_say(json, lrcs_notice_text(CLI_LOWEST(bits)));
     }
     if (job->options.resolution != 0 && job->result.resolution == 0) {
         notice_say(json, "--resolution has no effect: no raster was needed");
     }
-}
-
-/* A negative number means not known. */
-static double known(double value)
-{
-    return value >= 0.0 ? value : (double)NAN;
 }
 
 static void json_head(const run_job *job, lrcs_host_json *json)
@@ -69,9 +59,9 @@ static void json_head(const run_job *job, lrcs_host_json *json)
     cli_json(json, result->resolution != 0 ? "resolution=%u" : "resolution=null",
              result->resolution);
     cli_json(json, "normals=%s estimate_m2=%g curvature_estimate_m2=%g notices=[\n",
-             lrcs_normals_text(job->scene.scene.normals), known(result->estimate_m2),
-             known(result->curvature_estimate_m2));
-    notices_say(job, json);
+             lrcs_normals_text(job->scene.scene.normals), cli_known(result->estimate_m2),
+             cli_known(result->curvature_estimate_m2));
+    cli_run_notices(job, json);
     cli_json(json, "]");
 }
 
@@ -180,7 +170,7 @@ void cli_run_json(const run_job *job)
     cli_json(&json, "sigma_glint_m2=%g sigma_diffuse_m2=%g bound_m2=%g", result->sigma_glint_m2,
              result->sigma_diffuse_m2, result->bound_m2);
     cli_json(&json, "budget_m2={visibility=%g tessellation=%g rounding=%g}",
-             result->budget.visibility_m2, known(result->budget.tessellation_m2),
+             result->budget.visibility_m2, cli_known(result->budget.tessellation_m2),
              result->budget.rounding_m2);
     cli_run_materials_json(job, &json);
     cli_json(&json, "projected_area_m2=%g method=%s method_reason=%s", result->projected_area_m2,
@@ -225,10 +215,8 @@ void cli_run_table(const run_job *job)
     printf("facets       %lu: %lu face the laser, %lu hidden, %lu partly hidden\n",
            (unsigned long)r->facets_total, (unsigned long)r->facets_front,
            (unsigned long)r->facets_hidden, (unsigned long)r->facets_partial);
-    for (uint32_t bits = r->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
-        if (bits & 1u) {
-            printf("flag         %s\n", lrcs_flag_text((int)bit));
-        }
+    for (uint32_t bits = r->flags; bits != 0; bits &= bits - 1) {
+        printf("flag         %s\n", lrcs_flag_text(CLI_LOWEST(bits)));
     }
     if (job->budget.asked_ms > 0.0) {
         printf("time budget  %g ms, of which %.3g were spent; the same again: %s\n",
@@ -250,9 +238,4 @@ void cli_run_table(const run_job *job)
         cli_run_explain_table(job);
     }
     cli_run_verdict(job, stdout);
-}
-
-void cli_run_notices(const run_job *job)
-{
-    notices_say(job, NULL);
 }

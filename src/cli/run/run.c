@@ -235,7 +235,7 @@ static int run_scene(run_job *job)
     int files = job->facets || job->polygons_path || job->image_path || job->shares_asked;
     cli_watch_stage("loading", NULL);
     int code = cli_scene_read(job->args, &job->load, &job->scene);
-    code = code ? code : cli_run_outputs_check(job);
+    code = code ? code : cli_outputs_spare(job->args, &job->scene);
     code = code ? code : searched ? cli_run_budget(job) : cli_run_divide(job);
     if (code == 0 && (files || !searched)) {
         code = run_pose(job);
@@ -276,7 +276,7 @@ static int run_outputs(run_job *job)
     if (cli_value(job->args, "json")) {
         cli_run_json(job);
     } else {
-        cli_run_notices(job);
+        cli_run_notices(job, NULL);
         if (!cli_run_outputs_stdout(job)) {
             cli_run_table(job);
         }

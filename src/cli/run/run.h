@@ -88,10 +88,8 @@ typedef struct run_job {
     lrcs_attitude_slope attitude;  /* if asked for */
 } run_job;
 
-/* Reads the options of output files, 0 or CLI_USAGE; checks, once the scene is read, that none of
-   them would replace a file that it was read from, likewise; writes them, 0 or CLI_FAILED. */
+/* Reads the options of output files, 0 or CLI_USAGE; writes them, 0 or CLI_FAILED. */
 int cli_run_outputs_read(run_job *job);
-int cli_run_outputs_check(const run_job *job);
 int cli_run_outputs_write(const run_job *job);
 
 /* The picture that --image draws. */
@@ -150,7 +148,8 @@ void cli_run_materials_verdict(const run_job *job, FILE *out);
 void cli_run_json(const run_job *job);
 void cli_run_table(const run_job *job);
 
-/* Prints the notices on stderr, which accompany the table. */
-void cli_run_notices(const run_job *job);
+/* Writes every notice of a run: those of the scene, of the result, and of options that had no
+   effect. They go to the open JSON array, or, if json is NULL, to stderr. */
+void cli_run_notices(const run_job *job, lrcs_host_json *json);
 
 #endif

@@ -69,11 +69,6 @@ void cli_run_open_json(const run_job *job, lrcs_host_json *json)
 
 /* ---- in words ---- */
 
-static double percent(double part, double whole)
-{
-    return whole > 0.0 ? 100.0 * part / whole : 0.0;
-}
-
 static void unit_say(const run_job *job, FILE *out)
 {
     for (uint32_t i = 0; i < job->scene.recipe.part_count; i++) {
@@ -100,7 +95,7 @@ static void backs_say(const run_job *job, FILE *out)
                 open->back_sigma_m2);
         if (job->result.sigma_m2 > 0.0) {
             fprintf(out, " (%+.3g %%)",
-                    percent(open->back_sigma_m2 - job->result.sigma_m2, job->result.sigma_m2));
+                    cli_percent(open->back_sigma_m2 - job->result.sigma_m2, job->result.sigma_m2));
         }
         fprintf(out, ": --two-sided open, or all");
     }
@@ -124,15 +119,15 @@ static void glint_say(const run_job *job, FILE *out)
             "  glint      %.3g %% of sigma from facets too coarse for it: flat or curved differ by "
             "some "
             "%.2g %%\n             (an estimate): --normals auto\n",
-            percent(open->glint.glint_m2, job->result.sigma_m2),
-            percent(open->glint.error_m2, job->result.sigma_m2));
+            cli_percent(open->glint.glint_m2, job->result.sigma_m2),
+            cli_percent(open->glint.error_m2, job->result.sigma_m2));
     if (cli_glint_dominates(&open->glint, job->result.sigma_m2)) {
         fprintf(out,
                 "             facet %lu and what lies in its plane make %.3g %% of sigma: its "
                 "normal is "
                 "the mesh's,\n             not the surface's\n",
                 (unsigned long)open->glint.facet,
-                percent(open->glint.most_m2, job->result.sigma_m2));
+                cli_percent(open->glint.most_m2, job->result.sigma_m2));
     }
 }
 

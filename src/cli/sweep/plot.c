@@ -208,13 +208,6 @@ int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot
 
 /* ---- notes ---- */
 
-static int by_size(const void *a, const void *b)
-{
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 int cli_plot_uncertainty(const sweep_plot *plot, double part[2])
 {
     uint64_t count = 0;
@@ -227,8 +220,7 @@ int cli_plot_uncertainty(const sweep_plot *plot, double part[2])
             half[count++] = 0.5 * (plot->band[i][1] - plot->band[i][0]) / plot->row[i][0];
         }
     }
-    qsort(half, count, sizeof *half, by_size);
-    part[0] = count > 0 ? 0.5 * (half[(count - 1) / 2] + half[count / 2]) : 0.0;
+    part[0] = cli_median(half, count);
     part[1] = count > 0 ? half[count - 1] : 0.0;
     free(half);
     return 0;

@@ -65,7 +65,7 @@ static int head_add(sweep_head *head, const char *key, const char *text)
     head->option[at].key = key;
     head->options += at == head->options;
     for (; *end; end++) {
-        *end = (unsigned char)*end < 0x20 || *end == 0x7f ? '?' : *end;
+        *end = CLI_PLAIN(*end);
     }
     return size >= 0 && (size_t)size < left;
 }
@@ -218,11 +218,9 @@ static void csv_row(FILE *out, const sweep_plan *plan, const sweep_row *row)
     for (uint32_t i = 0; i < plan->fields.count; i++) {
         number_put(out, ",", row->field[plan->fields.kind[i]]);
     }
-    for (uint32_t bits = row->flags, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
-        if (bits & 1u) {
-            fprintf(out, "%s%s", before, lrcs_flag_text((int)bit));
-            before = " ";
-        }
+    for (uint32_t bits = row->flags; bits != 0; bits &= bits - 1) {
+        fprintf(out, "%s%s", before, lrcs_flag_text(CLI_LOWEST(bits)));
+        before = " ";
     }
     fputs(row->flags ? "\n" : ",\n", out);
 }

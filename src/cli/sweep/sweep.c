@@ -297,10 +297,8 @@ static int job_run(sweep_job *job)
 static void job_say(const sweep_job *job)
 {
     const sweep_tally *tally = &job->file.tally;
-    for (uint32_t bits = job->notices, bit = 1; bits != 0; bits >>= 1, bit *= 2) {
-        if (bits & 1u) {
-            fprintf(stderr, "notice: %s\n", lrcs_notice_text((int)bit));
-        }
+    for (uint32_t bits = job->notices; bits != 0; bits &= bits - 1) {
+        fprintf(stderr, "notice: %s\n", lrcs_notice_text(CLI_LOWEST(bits)));
     }
     if (cli_plan_has_mean(&job->plan) && tally->rows == job->plan.rows) {
         char spread[40] = "not known from one direction";

@@ -47,8 +47,7 @@ static void notice_print(const lrcs_host_table *table, const lrcs_host_field *fi
     char name[65];
     size_t size = field->size < sizeof name - 1 ? field->size : sizeof name - 1;
     for (size_t i = 0; i < size; i++) {
-        unsigned char byte = (unsigned char)field->text[i];
-        name[i] = byte < 0x20 || byte == 0x7f ? '?' : field->text[i];
+        name[i] = CLI_PLAIN(field->text[i]);
     }
     name[size] = '\0';
     fprintf(stderr, "notice: %s: column '%s' is not used\n", table->path, name);
