@@ -259,10 +259,9 @@ typedef struct beside {
     const char *about;            /* or NULL */
 } beside;
 
-static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
+static void beside_write(FILE *out, const void *context)
 {
     const beside *from = context;
-    (void)error;
     lrcs_host_json json = lrcs_host_json_make(out);
     cli_json(&json, "{\nlrcs=%s", from->args->command->name);
     cli_version_json(&json);
@@ -288,7 +287,6 @@ static int beside_write(FILE *out, const void *context, lrcs_host_error *error)
         cli_options_json(from->args, &json);
     }
     cli_json(&json, "}");
-    return LRCS_OK;
 }
 
 char *cli_beside_name(const char *path)
@@ -316,7 +314,7 @@ int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_hos
     lrcs_host_error error;
     int code = scene && lrcs_host_output_check(name, scene, &error) != LRCS_OK
                    ? cli_failed(&error)
-                   : cli_output_write(name, beside_write, &from);
+                   : cli_text_write(name, beside_write, &from);
     free(name);
     return code;
 }

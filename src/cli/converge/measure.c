@@ -109,17 +109,15 @@ static int setting_run(converge_job *job, converge_setting *setting)
 static int setting_add(converge_job *job, int dial, int method, uint32_t resolution, uint32_t mesh)
 {
     converge_setting *setting = &job->setting[job->settings++];
-    int used = snprintf(setting->name, sizeof setting->name, "%s", lrcs_method_text(method));
+    snprintf(setting->name, sizeof setting->name, "%s", lrcs_method_text(method));
     setting->dial = dial;
     setting->method = method;
     setting->resolution = resolution;
     setting->mesh = mesh;
     if (dial == CONVERGE_ZBUFFER) {
-        snprintf(setting->name + used, sizeof setting->name - (size_t)used, " %lu",
-                 (unsigned long)resolution);
+        cli_append(setting->name, sizeof setting->name, " %lu", (unsigned long)resolution);
     } else if (dial == CONVERGE_MESH) {
-        snprintf(setting->name + used, sizeof setting->name - (size_t)used, " on mesh 1e-%d",
-                 job->mesh[mesh].digits);
+        cli_append(setting->name, sizeof setting->name, " on mesh 1e-%d", job->mesh[mesh].digits);
     }
     return setting_run(job, setting);
 }

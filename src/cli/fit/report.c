@@ -30,15 +30,15 @@ int cli_fit_open(const lrcs_fit *fit)
    reach. */
 static report_statement statement_make(const lrcs_fit *fit, int parameter)
 {
-    report_statement statement;
+    report_statement statement = {""};
     int verdict = fit->parameter[parameter].verdict;
     int reach =
         verdict == LRCS_FIT_AT_MOST || verdict == LRCS_FIT_AT_LEAST || verdict == LRCS_FIT_FREE;
-    int used = snprintf(statement.text, sizeof statement.text, "%s",
-                        lrcs_fit_verdict_text(parameter, verdict));
-    if (reach && used > 0 && (size_t)used < sizeof statement.text) {
-        snprintf(statement.text + used, sizeof statement.text - (size_t)used,
-                 " (readings from %.4g to %.4g deg)", fit->least_deg, fit->most_deg);
+    cli_append(statement.text, sizeof statement.text, "%s",
+               lrcs_fit_verdict_text(parameter, verdict));
+    if (reach) {
+        cli_append(statement.text, sizeof statement.text, " (readings from %.4g to %.4g deg)",
+                   fit->least_deg, fit->most_deg);
     }
     return statement;
 }

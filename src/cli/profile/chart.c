@@ -59,14 +59,13 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
         series[1].marker = LRCS_HOST_DISC;
     }
     snprintf(title, sizeof title, "Range profile of %.180s", cli_base_name(job->title));
-    int used = snprintf(note, sizeof note, "sigma %.6g m2 in all; bins of %g m",
-                        p->sigma_glint_m2 + p->sigma_diffuse_m2, job->bin_m);
+    snprintf(note, sizeof note, "sigma %.6g m2 in all; bins of %g m",
+             p->sigma_glint_m2 + p->sigma_diffuse_m2, job->bin_m);
     if (job->fwhm_m > 0.0) {
-        used += snprintf(note + used, sizeof note - (size_t)used, "; pulse of %g m (FWHM)",
-                         job->fwhm_m);
+        cli_append(note, sizeof note, "; pulse of %g m (FWHM)", job->fwhm_m);
     }
     if (job->open) {
-        snprintf(note + used, sizeof note - (size_t)used, "; materials illustrative or default");
+        cli_append(note, sizeof note, "; materials illustrative or default");
     }
     const lrcs_host_chart chart = {.title = title,
                                    .about = job->about,

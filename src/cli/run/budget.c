@@ -279,18 +279,15 @@ static int budget_settle(run_job *job, const budget_answer *best)
     const lrcs_result *result = &best->result;
     const int named = best->options.method != LRCS_METHOD_AUTO;
     char text[sizeof job->budget.same] = "";
-    size_t used = 0;
     if (tolerance_matters(job)) {
-        used += (size_t)snprintf(text, sizeof text, " --tolerance %g", best->options.tolerance);
+        cli_append(text, sizeof text, " --tolerance %g", best->options.tolerance);
     }
     if (named) {
-        used += (size_t)snprintf(
-            text + used, sizeof text - used, " --method %s%s", lrcs_method_text(result->method),
-            best->options.accept == LRCS_ACCEPT_ESTIMATE ? " --accept estimate" : "");
+        cli_append(text, sizeof text, " --method %s%s", lrcs_method_text(result->method),
+                   best->options.accept == LRCS_ACCEPT_ESTIMATE ? " --accept estimate" : "");
     }
     if (result->resolution != 0) {
-        snprintf(text + used, sizeof text - used, " --resolution %lu",
-                 (unsigned long)result->resolution);
+        cli_append(text, sizeof text, " --resolution %lu", (unsigned long)result->resolution);
     }
     snprintf(job->budget.same, sizeof job->budget.same, "%s", text + 1);
     job->options = best->options;

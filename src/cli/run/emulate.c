@@ -65,19 +65,14 @@ int cli_run_emulation_read(run_job *job)
     return code ? code : emulation_alone(job);
 }
 
-/* |emulated - truth| <= |emulated - reference| + |reference - truth|, rounded outward: the
-   difference and the sum have relative errors of u each, 2^-53. */
-static double proved_bound(double emulated, const lrcs_result *reference)
-{
-    return (fabs(emulated - reference->sigma_m2) + reference->bound_m2) * (1.0 + 0x1p-50);
-}
-
 /* Replaces those members of a reference's result in which the emulation differs. */
 static void result_replace(run_job *job)
 {
     const run_emulation *e = &job->emulation;
     lrcs_result *r = &job->result;
-    double bound = proved_bound(e->answer.sigma_m2, r);
+    /* |emulated - truth| <= |emulated - reference| + |reference - truth|, rounded outward: the
+       difference and the sum have relative errors of u each, 2^-53 */
+    double bound = (fabs(e->answer.sigma_m2 - r->sigma_m2) + r->bound_m2) * (1.0 + 0x1p-50);
     r->budget.visibility_m2 += bound - r->bound_m2;
     r->bound_m2 = bound;
     r->sigma_m2 = e->answer.sigma_m2;

@@ -89,20 +89,16 @@ int cli_run_outputs_stdout(const run_job *job)
     return to_stdout(job->facets) || to_stdout(job->polygons_path);
 }
 
-static int facets_write(FILE *out, const void *context, lrcs_host_error *error)
+static void facets_write(FILE *out, const void *context)
 {
     const run_job *job = context;
-    (void)error;
     lrcs_host_facets_write(out, &job->scene.scene, job->records);
-    return LRCS_OK;
 }
 
-static int polygons_write(FILE *out, const void *context, lrcs_host_error *error)
+static void polygons_write(FILE *out, const void *context)
 {
     const run_job *job = context;
-    (void)error;
     lrcs_host_polygons_write(out, &job->polygons.list);
-    return LRCS_OK;
 }
 
 lrcs_host_picture cli_run_picture(const run_job *job)
@@ -120,9 +116,9 @@ static int image_write(FILE *out, const void *context, lrcs_host_error *error)
 }
 
 /* Writes a table, and beside it what it was made from. */
-static int table_write(const run_job *job, const char *path, cli_writer *write)
+static int table_write(const run_job *job, const char *path, cli_text_writer *write)
 {
-    int code = path ? cli_output_write(path, write, job) : 0;
+    int code = path ? cli_text_write(path, write, job) : 0;
     return code == 0 && path ? cli_provenance_beside(job->args, path, &job->scene, &job->pose, NULL)
                              : code;
 }

@@ -95,15 +95,6 @@ static void json_tail(const run_job *job, lrcs_host_json *json)
     cli_json(json, "}");
 }
 
-static void json_box(const run_job *job, lrcs_host_json *json)
-{
-    double box[2][3];
-    lrcs_host_scene_box(&job->scene.scene, box[0], box[1]);
-    for (int i = 0; i < 2; i++) {
-        cli_numbers_json(json, i == 0 ? "box_min_m" : "box_max_m", box[i], 3);
-    }
-}
-
 static void table_bound(const char *label, double bound)
 {
     char text[CLI_BOUND_SIZE];
@@ -165,6 +156,7 @@ void cli_run_json(const run_job *job)
 {
     const lrcs_result *result = &job->result;
     lrcs_host_json json = lrcs_host_json_make(stdout);
+    double box[2][3];
     cli_json(&json, "{\n");
     json_head(job, &json);
     cli_json(&json, "sigma_glint_m2=%g sigma_diffuse_m2=%g bound_m2=%g", result->sigma_glint_m2,
@@ -177,7 +169,9 @@ void cli_run_json(const run_job *job)
              lrcs_method_text(result->method), result->method_reason);
     json_effects(job, &json);
     json_tail(job, &json);
-    json_box(job, &json);
+    lrcs_host_scene_box(&job->scene.scene, box[0], box[1]);
+    cli_numbers_json(&json, "box_min_m", box[0], 3);
+    cli_numbers_json(&json, "box_max_m", box[1], 3);
     cli_run_open_json(job, &json);
     cli_provenance_json(job->args, &job->scene, &json);
     if (job->shares_asked) {

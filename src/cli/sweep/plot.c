@@ -237,13 +237,12 @@ static int plot_note(const sweep_plot *plots, uint32_t count, char note[512])
     int open = 0;
     char banded[120] = "";
     int code = 0;
-    int used = 0;
     note[0] = '\0';
-    for (uint32_t i = 0; i < plan->axes && used < 300 && count == 1; i++) {
+    for (uint32_t i = 0; i < plan->axes && strlen(note) < 300 && count == 1; i++) {
         if (plan->axis[i].range.count == 1) {
             char text[192];
             value_text(plan->column[i], cli_range_at(&plan->axis[i].range, 0), text);
-            used += snprintf(note + used, 512 - (size_t)used, "%s; ", text);
+            cli_append(note, 512, "%s; ", text);
         }
     }
     for (uint32_t k = 0; k < count; k++) {
@@ -265,14 +264,13 @@ static int plot_note(const sweep_plot *plots, uint32_t count, char note[512])
         accept = plot->accept && strcmp(plot->accept, "bound") != 0 ? plot->accept : accept;
     }
     cli_bound_text(worst, 2, bound);
-    snprintf(note + used, 512 - (size_t)used,
-             "each sigma is proved to within %s m2 or better%s%s%s%s%s%s", bound,
-             open ? " for its materials, which are illustrative" : "", banded,
-             accept ? "; accepted by " : "", accept ? accept : "",
-             !dark        ? ""
-             : plots->map ? "; grey: sigma is 0"
-                          : "; gaps: sigma is 0",
-             plan->kind == SWEEP_SPHERE ? "; each place shows the nearest direction" : "");
+    cli_append(note, 512, "each sigma is proved to within %s m2 or better%s%s%s%s%s%s", bound,
+               open ? " for its materials, which are illustrative" : "", banded,
+               accept ? "; accepted by " : "", accept ? accept : "",
+               !dark        ? ""
+               : plots->map ? "; grey: sigma is 0"
+                            : "; gaps: sigma is 0",
+               plan->kind == SWEEP_SPHERE ? "; each place shows the nearest direction" : "");
     return code;
 }
 
