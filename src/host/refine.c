@@ -17,6 +17,8 @@
 /* Some poses are so dark that their tolerance cannot be met, or only at a high cost: no division is
    smaller than the tolerance divided by this factor. */
 #define DIVISION_FACTOR_MAX 64.0
+/* No part is halved more often. */
+#define PART_HALVINGS_MAX 64
 /* The number of levels kept, and of their facets, besides those in use. */
 #define KEPT_LEVELS_MAX 32u
 #define KEPT_FACETS_MAX (UINT32_C(1) << 19)
@@ -159,7 +161,8 @@ static void choice_halve(const struct lrcsi_host_levels *levels, double toleranc
                          part_choice *choice, unsigned char *halvings)
 {
     double division = ldexp(levels->build.division, -(int)*halvings - 1);
-    if (choice->fixed || division < tolerance / DIVISION_FACTOR_MAX ||
+    if (choice->fixed || *halvings >= PART_HALVINGS_MAX ||
+        division < tolerance / DIVISION_FACTOR_MAX ||
         choice->facets * choice->growth > levels->build.max_facets) {
         choice->fixed = 1;
         return;
