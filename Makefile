@@ -91,8 +91,9 @@ SANITIZE = -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recove
 # The threads under ThreadSanitizer.
 tsan: cmocka
 	$(MAKE) BUILD=$(BUILD)/tsan OPT="-O1 -g" CFLAGS=-fsanitize=thread LDLIBS="-fsanitize=thread $(THREADS) -lm" \
-	    $(BUILD)/tsan/test/host/test_sweep
+	    $(BUILD)/tsan/test/host/test_sweep $(BUILD)/tsan/test/host/test_refine
 	$(BUILD)/tsan/test/host/test_sweep
+	$(BUILD)/tsan/test/host/test_refine
 
 lint: $(INCLUDED)
 	sh test/lint.sh $(BUILD)

@@ -71,7 +71,7 @@ static inline void curved_build(curved_case *c, int normals)
                               .material_index = -1};
     binding = (lrcs_binding){.kind = LRCS_BIND_DEFAULT, .brdf = c->brdf, .two_sided = c->two_sided};
     lrcs_recipe recipe = {.part = &part, .part_count = 1, .binding = &binding, .binding_count = 1};
-    lrcs_build_options options = {c->tolerance, 64, normals, 1, 0};
+    lrcs_build_options options = {c->tolerance, 64, normals, 1, 0, NULL};
     size_t need = lrcs_scene_need(&recipe, &c->mesh, &options);
     free(c->built);
     free(c->kept);

@@ -27,11 +27,12 @@ def struct(*fields: tuple) -> type:
 
 D, I, U, P = C.c_double, C.c_int, C.c_uint32, C.c_void_p
 BUILD = struct(("tolerance", D), ("max_facets", U), ("normals", I), ("facets_only", I),
-               ("division", D))
+               ("division", D), ("halvings", P))
 HOST_OPTIONS = struct(("unit_m", D), ("keep_transparent", I), ("two_sided", C.c_char_p),
                       ("binding", P), ("binding_count", U), ("build", BUILD))
 RUN_OPTIONS = struct(("tolerance", D), ("method", I), ("resolution", U), ("without", U), ("with_", U),
-                     ("steps", C.c_uint64), ("accept", I), ("progress", P))
+                     ("steps", C.c_uint64), ("accept", I), ("progress", P),
+                     ("part_error_m2", P))
 POSE = struct(("direction", D * 3), ("R", D * 9))
 RESULT = struct(("sigma_m2", D), ("sigma_glint_m2", D), ("sigma_diffuse_m2", D), ("bound_m2", D),
                 ("budget", D * 3), ("estimate_m2", D), ("curvature_estimate_m2", D),

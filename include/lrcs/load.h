@@ -125,11 +125,13 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         lrcs_host_error *error);
 
 /* If a pose of a prepared scene that was read with a division misses its tolerance because of the
-   curved shapes' facets, the scene becomes the one of a finer division, prepared, with which the
-   pose is likely to meet the tolerance. Given: what the run returned. Returned: 1 if so, and the
-   division; else 0, also if the shapes cannot be divided any finer. */
+   curved shapes' facets, those parts are divided more finely that are the cause, and the scene is
+   prepared again: with it the pose is likely to meet the tolerance.
+   Given: the options, with part_error_m2 as the run wrote it (NULL: all curved parts are divided
+   alike), and what the run returned. Returned: 1 if so, and build->halvings, which lasts as long as
+   the scene; else 0, also if the shapes cannot be divided any finer. */
 int lrcs_host_scene_refine(lrcs_host_scene *scene, const lrcs_run_options *options,
-                           const lrcs_result *result, double *division);
+                           const lrcs_result *result, lrcs_build_options *build);
 
 /* lrcs_uncertainty_run and lrcs_attitude_slope_run with memory from the heap.
    Returned: result; sensitivity[material_count]; uncertainty; and slope.

@@ -111,9 +111,11 @@ typedef struct lrcs_build_options {
     int facets_only;     /* lrcs_facets_only */
     double division;     /* relative; if not 0, shapes that have no closed form from every direction
                             are divided for this instead of `tolerance`, round bodies too */
+    const unsigned char *halvings; /* for each part of the recipe, how many times its division is
+                                      halved; NULL: no part's is */
 } lrcs_build_options;
 
-lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21, flat, 0, 0 */
+lrcs_build_options lrcs_build_options_default(void); /* 1e-4, 2^21, flat, 0, 0, NULL */
 
 /* Builds the scene: vertex = translate + rotate (scale (joint (vertex))). Identity steps are exact,
    and so is scaling by powers of two; mirroring reverses the winding.

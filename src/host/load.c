@@ -318,13 +318,13 @@ int lrcs_host_scene_vary(const lrcs_host_scene *base, const lrcs_recipe *recipe,
 }
 
 int lrcs_host_scene_refine(lrcs_host_scene *scene, const lrcs_run_options *options,
-                           const lrcs_result *result, double *division)
+                           const lrcs_result *result, lrcs_build_options *build)
 {
-    uint32_t level = 0;
-    if (!lrcsi_host_finer(scene, options, result, &level)) {
+    const lrcsi_host_level *level = lrcsi_host_finer(scene, options, result, NULL);
+    if (!level) {
         return 0;
     }
-    uint32_t kept = lrcsi_host_level_adopt(scene, level, division);
+    uint32_t kept = lrcsi_host_level_adopt(scene, level, &build->halvings);
     if (scene->notices.count > kept) {
         lrcsi_host_scene_notes(scene, kept);
     }

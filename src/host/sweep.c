@@ -36,7 +36,7 @@ typedef struct sweep_run {
 
 /* One pose of a scene, with the glint of coarse facets if requested. */
 static int pose_sigma(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
-                      int glint, sweep_slot *one)
+                      const lrcs_run_options *options, int glint, sweep_slot *one)
 {
     const lrcs_host_sweep *sweep = run->sweep;
     lrcs_facet_record *records = NULL;
@@ -47,7 +47,7 @@ static int pose_sigma(const sweep_run *run, uint32_t member, const lrcs_host_sce
             return lrcsi_host_fail_memory(&one->error, size);
         }
     }
-    int status = lrcsi_host_sigma(scene, &one->pose, run->options, &run->area[member], &one->result,
+    int status = lrcsi_host_sigma(scene, &one->pose, options, &run->area[member], &one->result,
                                   records, NULL, &one->error);
     if (status == LRCS_OK && records) {
         lrcs_host_glint_sum_make(&scene->scene, records, sweep->glint, sweep->glint_count,
@@ -59,14 +59,14 @@ static int pose_sigma(const sweep_run *run, uint32_t member, const lrcs_host_sce
 
 /* One pose of a scene with its material uncertainty. */
 static int pose_uncertainty(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
-                            sweep_slot *one)
+                            const lrcs_run_options *options, sweep_slot *one)
 {
     size_t size = ((size_t)scene->scene.material_count + 1) * sizeof(lrcs_sensitivity);
     lrcs_sensitivity *sensitivity = malloc(size);
     if (!sensitivity) {
         return lrcsi_host_fail_memory(&one->error, size);
     }
-    int status = lrcsi_host_uncertainty(scene, &one->pose, run->options, run->sweep->uncertainty,
+    int status = lrcsi_host_uncertainty(scene, &one->pose, options, run->sweep->uncertainty,
                                         &run->area[member], &one->result, sensitivity,
                                         &one->uncertainty, &one->error);
     free(sensitivity);
@@ -80,20 +80,32 @@ static int sweep_pose(const sweep_run *run, uint32_t member, const lrcs_host_sce
 {
     const lrcs_host_sweep *sweep = run->sweep;
     const lrcs_host_scene *at = scene;
-    uint32_t level = 0;
+    lrcsi_host_level *level = NULL;
+    lrcs_run_options options = *run->options;
     int status = LRCS_OK;
+    double *part_error = NULL;
+    if (sweep->refine && scene->levels) {
+        size_t size = scene->scene.part_count * sizeof *part_error;
+        options.part_error_m2 = part_error = malloc(size);
+        status = part_error ? LRCS_OK : lrcsi_host_fail_memory(&one->error, size);
+    }
     while (at && status == LRCS_OK) {
         int glint = sweep->glint && at == scene;
         if (glint || !sweep->uncertainty) {
-            status = pose_sigma(run, member, at, glint, one);
+            status = pose_sigma(run, member, at, &options, glint, one);
         }
         if (status == LRCS_OK && sweep->uncertainty) {
-            status = pose_uncertainty(run, member, at, one);
+            status = pose_uncertainty(run, member, at, &options, one);
         }
-        at = status == LRCS_OK && sweep->refine
-                 ? lrcsi_host_finer(scene, run->options, &one->result, &level)
-                 : NULL;
+        if (status == LRCS_OK && sweep->refine) {
+            level = lrcsi_host_finer(scene, &options, &one->result, level);
+            at = level ? level->scene : NULL;
+        } else {
+            lrcsi_host_level_release(scene, level);
+            at = NULL;
+        }
     }
+    free(part_error);
     return status;
 }
 

@@ -63,8 +63,8 @@
 /* With a smaller slope s the flank of the glint is too steep for the rounding error of u. */
 #define GLINT_SLOPE_LEAST 1e-3
 
-/* Rules for the mean over [-1, 1]: the points >= 0 of those with 2, 3, 4, 6 and 8 points, and their
-   weights, each for x and -x. Generated to 50 digits with Newton's method. */
+/* Rules for the mean over [-1, 1]: the points >= 0 of those with 2, 3, 4, 5, 6 and 8 points, and
+   their weights, each for x and -x. Generated to 50 digits with Newton's method. */
 typedef struct gauss_rule {
     int points, half;
     double x[POINTS_MOST / 2], weight[POINTS_MOST / 2];
@@ -77,6 +77,10 @@ static const gauss_rule rules[] = {
      2,
      {0.339981043584856264802, 0.861136311594052575223},
      {0.326072577431273071313, 0.173927422568726928686}},
+    {5,
+     3,
+     {0.0, 0.538469310105683091036, 0.906179845938663992798},
+     {0.284444444444444444444, 0.239314335249683234021, 0.118463442528094543757}},
     {6,
      3,
      {0.238619186083196908630, 0.661209386466264513661, 0.932469514203152027812},
@@ -340,25 +344,62 @@ static patch_frame frame_piece(const patch_frame *whole, int n, int i, int k)
     return f;
 }
 
-/* Adds one piece, which is `fraction` of the patch in these variables. Returns 0 if some of it may
-   be edge-on to the laser, or if its rounding error is too large. */
-static int patch_add(const patch_frame *f, const lrcs_brdf *brdf, double fraction,
-                     lrcsi_patch *patch)
+/* The rules for one piece; *remainder is theirs, and *middle the reflection in the middle. Returns
+   0 if some of the piece may be edge-on to the laser. */
+static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const gauss_rule *rule[2],
+                       double *remainder, double *middle)
 {
     if (!(normal_shift(f, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half)) < 0.25 * f->c)) {
         return 0;
     }
     double along_error = 0;
     double around_error;
-    lrcsi_reflection middle = lrcsi_reflect(brdf, f->u, 0);
+    lrcsi_reflection at = lrcsi_reflect(brdf, f->u, 0);
     double cosine4 = f->cosine * f->cosine * f->cosine * f->cosine;
     double weight = f->step > 0 ? f->sine / (f->fourth ? cosine4 : 1) : 1;
-    double enough = REMAINDER_TARGET * weight * (middle.glint + middle.diffuse);
-    const gauss_rule *around = rule_choose(f, brdf, 0, enough, &around_error);
-    const gauss_rule *along =
-        f->step > 0 ? rule_choose(f, brdf, 1, enough, &along_error) : &rules[0];
-    patch->remainder += fraction * (along_error + around_error);
-    return patch_add_points(f, brdf, along, around, fraction, patch);
+    *middle = weight * (at.glint + at.diffuse);
+    rule[1] = rule_choose(f, brdf, 0, REMAINDER_TARGET * *middle, &around_error);
+    rule[0] =
+        f->step > 0 ? rule_choose(f, brdf, 1, REMAINDER_TARGET * *middle, &along_error) : &rules[0];
+    *remainder = along_error + around_error;
+    return 1;
+}
+
+enum pieces_answer {
+    PIECES_UNKNOWN, /* some may be edge-on to the laser, or have too large a rounding error */
+    PIECES_COARSE,  /* more pieces are needed for a small remainder */
+    PIECES_DONE
+};
+
+/* The mean over n x n pieces of the patch, without the area; and a pieces_answer. No point is
+   evaluated unless the remainder is small enough, or there cannot be more pieces. */
+static int patch_pieces(const patch_frame *whole, const lrcs_brdf *brdf, int n, lrcsi_patch *patch)
+{
+    const gauss_rule *rule[PIECES_MOST * PIECES_MOST][2];
+    int rows = whole->step > 0 ? n : 1;
+    double fraction = 1.0 / (rows * n);
+    double middles = 0;
+    patch->glint = patch->diffuse = patch->glint_u = patch->diffuse_log = 0;
+    patch->remainder = patch->rounding = 0;
+    for (int i = 0; i < rows * n; i++) {
+        patch_frame piece = frame_piece(whole, n, i / n, i % n);
+        double remainder;
+        double middle;
+        if (!piece_rules(&piece, brdf, rule[i], &remainder, &middle)) {
+            return PIECES_UNKNOWN;
+        }
+        patch->remainder += fraction * remainder;
+        middles += fraction * middle;
+    }
+    if (n < PIECES_MOST && patch->remainder > 4 * REMAINDER_TARGET * middles) {
+        return PIECES_COARSE;
+    }
+    int known = 1;
+    for (int i = 0; i < rows * n && known; i++) {
+        patch_frame piece = frame_piece(whole, n, i / n, i % n);
+        known = patch_add_points(&piece, brdf, rule[i][0], rule[i][1], fraction, patch);
+    }
+    return known ? PIECES_DONE : PIECES_UNKNOWN;
 }
 
 /* The mean over the patch that patch->at identifies: in one piece or, if its remainder is too
@@ -370,21 +411,11 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
     if (!frame_make(view, facet, &f, patch)) {
         return 0;
     }
-    int known = 0;
-    int enough = 0;
-    for (int n = 1; n <= PIECES_MOST && !enough; n *= 2) {
-        int rows = f.step > 0 ? n : 1;
-        patch->glint = patch->diffuse = patch->glint_u = patch->diffuse_log = 0;
-        patch->remainder = patch->rounding = 0;
-        known = 1;
-        for (int i = 0; i < rows * n && known; i++) {
-            patch_frame piece = frame_piece(&f, n, i / n, i % n);
-            known = patch_add(&piece, brdf, 1.0 / (rows * n), patch);
-        }
-        enough =
-            known && patch->remainder <= 4 * REMAINDER_TARGET * (patch->glint + patch->diffuse);
+    int answer = PIECES_UNKNOWN;
+    for (int n = 1; n <= PIECES_MOST && answer != PIECES_DONE; n *= 2) {
+        answer = patch_pieces(&f, brdf, n, patch);
     }
-    if (!known) {
+    if (answer != PIECES_DONE) {
         return 0;
     }
     double area_err = f.fourth ? PATCH_AREA_ERR / (fabs(f.cosine) - f.step) : PATCH_AREA_ERR;

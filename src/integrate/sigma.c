@@ -27,7 +27,7 @@
 
 lrcs_run_options lrcs_run_options_default(void)
 {
-    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0, 0, LRCS_ACCEPT_BOUND, NULL};
+    return (lrcs_run_options){1e-4, LRCS_METHOD_AUTO, 0, 0, 0, 0, LRCS_ACCEPT_BOUND, NULL, NULL};
 }
 
 int lrcsi_sigma_check(const lrcs_run_options *options, const lrcs_image *image)
@@ -142,7 +142,7 @@ static lrcsi_total run_total(const lrcsi_sigma *run, lrcs_facet_record *records)
     const lrcsi_areas areas = {run->visible, run->answer};
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
     return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run->band, &run->clear,
-                            records);
+                            records, run->options->part_error_m2);
 }
 
 /* Method facet. Only facets with curved normals need areas in memory; lrcsi_total_make takes those

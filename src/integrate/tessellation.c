@@ -16,7 +16,9 @@
      (1 + a) S sup |F - F_i| in size and the second between -F_i S (a + (1 + a) l) and
      F_i S (a + (1 + a) g); and |T - M| <= (1 + a) S sup F. Where neither facet of the sector is
      hidden or unlit, the first term of both together is at most the integral of F - F_i over some
-     region of both patches.
+     region of both patches. And v is 1 on at most a fraction q of the patch, that of the facet
+   which may be visible and g: the first term is at most (1 + a) S q sup |F - F_i|, and the part of
+   the second that is due to a at most F_i S a q.
    - All but a fraction h of it is visible: T - M = Int_U (F - F_i) - Int_U F (1 - v) + F_i Int_f (1
      - w), where 0 <= Int_f (1 - w) <= S h, and 0 <= Int_U F (1 - v) <= (1 + a) S (h + l) sup F.
    - The facet faces away from the laser: M is 0. Its patch may be lit in part, and T is at most the
@@ -134,9 +136,9 @@ static int is_lit(int state)
 }
 
 /* Upper bounds of fractions of a facet: that its own polygons leave hidden or undecided; the gain
-   and the loss of the truth. */
+   and the loss of the truth; that in which the truth is visible. */
 typedef struct patch_fractions {
-    double hidden, gain, loss;
+    double hidden, gain, loss, lit;
 } patch_fractions;
 
 /* Only what is hidden may be gained, and only what is visible lost. */
@@ -145,7 +147,7 @@ static patch_fractions patch_fractions_of(const lrcsi_incidence *incidence, uint
                                           const lrcsi_proximity_band *band)
 {
     double error = incidence->error + 8 * LRCSI_U;
-    patch_fractions f = {0, 0, 0};
+    patch_fractions f = {0, 0, 0, 1};
     if (!band) {
         return f;
     }
@@ -153,8 +155,10 @@ static patch_fractions patch_fractions_of(const lrcsi_incidence *incidence, uint
         f.hidden = 1 + error - visible[facet].low / incidence->projected;
     }
     f.hidden = f.hidden >= 0 ? fmin(1, f.hidden) : 1;
+    double visible_most = visible[facet].high / incidence->projected * (1 + 2 * error);
     f.gain = fmin(band->gain[facet], f.hidden);
-    f.loss = fmin(band->loss[facet], visible[facet].high / incidence->projected * (1 + 2 * error));
+    f.loss = fmin(band->loss[facet], visible_most);
+    f.lit = visible_most + f.gain <= 1 ? visible_most + f.gain : 1;
     return f;
 }
 
@@ -198,13 +202,17 @@ static lrcsi_deviation patch_deviation(const lrcsi_view *view, const lrcsi_plan 
     return deviation;
 }
 
-/* Which bound is used for a sector of which no facet is hidden or unlit; with by_hidden 0 and rows
-   NOT_USED, the one by regions, facet by facet. */
+/* The bounds that hold for a sector of which no facet is hidden or unlit. */
+enum sector_way {
+    BY_REGION, /* the deviation over any region of both patches */
+    BY_POINT,  /* the deviation at any point, times what is visible of the facet */
+    BY_HIDDEN, /* what is hidden of the facet, subtracted from the whole patch */
+    BY_ROWS    /* the deviation of the whole patch, and of the rows that meet a proximity band */
+};
 typedef struct sector_bound {
-    int by_hidden; /* 1: what is hidden of the facet, subtracted from the whole patch */
-    double rows;   /* the fraction of the sector in rows that meet a proximity band */
+    int way;
+    double rows; /* BY_ROWS: the fraction of the sector in rows that meet a proximity band */
 } sector_bound;
-#define NOT_USED 2
 
 /* An upper bound of the fraction of a facet's sector in rows that meet a proximity band; 1 if it
    has no rows. Each facet of a cone has a sector of its own. */
@@ -219,7 +227,7 @@ static double sector_rows(const lrcsi_view *view, uint32_t facet, const lrcsi_pr
     return fmin(1, 2 * rows);
 }
 
-/* The smallest of the three bounds. The numbers of the sector's first facet decide for both. */
+/* The smallest of these bounds. The numbers of the sector's first facet decide for both. */
 static sector_bound sector_choose(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
                                   const lrcs_curvature *c, const lrcsi_visible *visible,
                                   const lrcsi_proximity_band *band, lrcsi_patch *patch)
@@ -240,13 +248,16 @@ static sector_bound sector_choose(const lrcsi_view *view, const lrcsi_plan *plan
     double by_hidden = deviation.whole + (1 + a) * hidden * deviation.most;
     double by_rows = deviation.whole + rows * (deviation.region + stretch * deviation.value) +
                      (1 + a) * b * deviation.value;
-    double by_regions = fmin(deviation.region + (stretch + (1 + a) * b) * deviation.value,
-                             (1 + a) * deviation.most);
-    sector_bound bound = {0, NOT_USED};
-    if (by_rows < fmin(by_hidden, by_regions)) {
-        bound.rows = rows;
-    } else if (by_hidden < deviation.region) {
-        bound.by_hidden = 1;
+    double lit = fmax(one.lit, two.lit);
+    double by_region = deviation.region + stretch * deviation.value;
+    double by_point = lit * ((1 + a) * deviation.point + stretch * deviation.value);
+    double either = fmin(by_region, by_point);
+    double by_either = fmin(either + (1 + a) * b * deviation.value, (1 + a) * deviation.most);
+    sector_bound bound = {by_point < by_region ? BY_POINT : BY_REGION, rows};
+    if (by_rows < fmin(by_hidden, by_either)) {
+        bound.way = BY_ROWS;
+    } else if (by_hidden < either) {
+        bound.way = BY_HIDDEN;
     }
     return bound;
 }
@@ -259,7 +270,7 @@ static lrcsi_tessellation wall_error(const lrcsi_deviation *deviation, double a,
                                      const sector_bound *bound)
 {
     double most = (1 + a) * deviation->most;
-    double lit = is_lit(partner) ? deviation->region : (1 + a) * deviation->point;
+    double lit = f->lit * ((1 + a) * deviation->point + stretch * deviation->value);
     if (state == PATCH_HIDDEN) {
         return (lrcsi_tessellation){f->gain * most, f->loss * most};
     }
@@ -269,16 +280,16 @@ static lrcsi_tessellation wall_error(const lrcsi_deviation *deviation, double a,
     if (state == PATCH_VISIBLE && partner == PATCH_VISIBLE) {
         return (lrcsi_tessellation){deviation->whole, deviation->whole};
     }
-    if (bound->by_hidden) {
+    if (bound->way == BY_HIDDEN) {
         return (lrcsi_tessellation){deviation->whole + f->hidden * most,
                                     deviation->whole + fmin(1, f->hidden + f->loss) * most};
     }
-    if (bound->rows <= 1) {
-        lit = deviation->whole + bound->rows * deviation->region;
-        stretch *= bound->rows;
+    if (bound->way == BY_ROWS) {
+        lit = deviation->whole + bound->rows * (deviation->region + stretch * deviation->value);
         most = HUGE_VAL;
+    } else if (bound->way == BY_REGION) {
+        lit = deviation->region + stretch * deviation->value;
     }
-    lit += deviation->value * stretch;
     return (lrcsi_tessellation){fmin(lit + deviation->value * (1 + a) * f->gain, most),
                                 fmin(lit + deviation->value * (1 + a) * f->loss, most)};
 }
@@ -358,13 +369,13 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
     lrcsi_deviation deviation =
         state == PATCH_UNLIT ? lrcsi_deviation_make(brdf, incidence->cos_theta, incidence->tan2, &c)
                              : patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
-    patch_fractions f = {0, 0, 0};
+    patch_fractions f = {0, 0, 0, 1};
     if (state != PATCH_UNLIT) {
         f = patch_fractions_of(incidence, facet, visible, band);
     }
     lrcsi_tessellation unit = {f.gain * deviation.most, f.loss * deviation.most};
     if (is_curved) {
-        sector_bound bound = {0, NOT_USED};
+        sector_bound bound = {BY_POINT, 1};
         if (is_lit(state) && is_lit(partner) &&
             (state == PATCH_PARTIAL || partner == PATCH_PARTIAL)) {
             bound = sector_choose(view, plan, facet, &c, visible, band, patch);

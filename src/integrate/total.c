@@ -55,6 +55,7 @@ typedef struct total_run {
     const lrcsi_proximity_band *band; /* NULL: none was made */
     const lrcsi_clear *clear;         /* NULL: no shape is evaluated by its closed form */
     lrcs_facet_record *records;       /* NULL: none are asked for */
+    double *part_error;               /* by part, scaled until the end; NULL: not asked for */
     int tessellation;  /* facets replace curved shapes, and the error of that is known */
     lrcsi_patch patch; /* of the last facet that has one */
     lrcsi_total total;
@@ -324,6 +325,24 @@ static void add_any_facet(total_run *run, uint32_t facet)
     }
 }
 
+/* Divides a facet's error among the parts that it is due to, in proportion to how far their facets
+   are from their true surfaces: its own part, and those whose shadows may end on it. */
+static void add_part_errors(const total_run *run, uint32_t facet, double error)
+{
+    const lrcs_scene *scene = run->view->prepared->scene;
+    const uint32_t own = scene->facet_part[facet];
+    const lrcsi_part_set others = run->band ? run->band->parts[facet] : 0;
+    const lrcsi_part_set set = others | lrcsi_part_set_of(own);
+    double reach = 0;
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        reach += set & lrcsi_part_set_of(i) ? scene->part[i].reach : 0;
+    }
+    for (uint32_t i = 0; reach > 0 && i < scene->part_count; i++) {
+        run->part_error[i] +=
+            set & lrcsi_part_set_of(i) ? error * (scene->part[i].reach / reach) : 0;
+    }
+}
+
 /* Adds the error of a facet that replaces a part of a curved shape. Facets with curved normals add
    what may be visible or hidden within the proximity band; clear shapes have no such error. */
 static void add_tessellation_error(total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
@@ -336,6 +355,9 @@ static void add_tessellation_error(total_run *run, uint32_t facet, const lrcsi_i
                                                             run->visible, run->band, &run->patch);
         run->sums.above += LRCS_FOUR_PI * error.above;
         run->sums.below += LRCS_FOUR_PI * error.below;
+        if (run->part_error && error.above + error.below > 0) {
+            add_part_errors(run, facet, LRCS_FOUR_PI * fmax(error.above, error.below));
+        }
     } else if (run->band) {
         run->sums.above += run->band->gain[facet] * run->curved[facet].upper_bound;
         run->sums.below += run->band->loss[facet] * run->curved[facet].upper_bound;
@@ -813,7 +835,7 @@ static void total_finish(total_run *run)
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
                              const lrcsi_proximity_band *band, const lrcsi_clear *clear,
-                             lrcs_facet_record *records)
+                             lrcs_facet_record *records, double *part_error)
 {
     const lrcs_prepared *p = view->prepared;
     total_run run = {.view = view,
@@ -823,7 +845,11 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                      .curved = curved,
                      .band = band,
                      .clear = clear->count > 0 ? clear : NULL,
-                     .records = records};
+                     .records = records,
+                     .part_error = part_error};
+    for (uint32_t i = 0; part_error && i < p->scene->part_count; i++) {
+        part_error[i] = 0;
+    }
     if (records) {
         records_start(&run);
     }
@@ -841,6 +867,9 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
         add_tessellation_errors(&run);
     }
     total_finish(&run);
+    for (uint32_t i = 0; part_error && i < p->scene->part_count; i++) {
+        part_error[i] = lrcsi_prepared_area(p, part_error[i]);
+    }
     if (replaced && !run.tessellation) {
         run.total.tessellation = -1;
     }

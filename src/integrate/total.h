@@ -56,10 +56,11 @@ typedef struct lrcsi_areas {
    order, and then over clear shapes in the scene's order. Unless NULL, records[facet_count]: the
    sigma of a clear shape is divided among its facets in proportion to what they would reflect or,
    if none of them would reflect, to their projected areas. If only a sliver of a shape is lit and
-   none of its facets faces the laser, its sigma is in no record. */
+   none of its facets faces the laser, its sigma is in no record. Unless NULL,
+   part_error[part_count] is that of lrcs_run_options. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
                              const lrcsi_proximity_band *band, const lrcsi_clear *clear,
-                             lrcs_facet_record *records);
+                             lrcs_facet_record *records, double *part_error);
 
 #endif

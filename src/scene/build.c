@@ -42,7 +42,7 @@ typedef struct scene_piece {
 
 lrcs_build_options lrcs_build_options_default(void)
 {
-    lrcs_build_options options = {1e-4, UINT32_C(1) << 21, LRCS_NORMALS_FLAT, 0, 0};
+    lrcs_build_options options = {1e-4, UINT32_C(1) << 21, LRCS_NORMALS_FLAT, 0, 0, NULL};
     return options;
 }
 
@@ -91,7 +91,11 @@ static int count_shape(const scene_builder *builder, const lrcs_recipe_part *par
         return status;
     }
     lrcs_material material = lrcsi_binder_unassigned(&builder->binder, assigned);
-    status = lrcsi_fineness_divide(&builder->fineness, part, &material, divisions, counts);
+    lrcsi_fineness fineness = builder->fineness;
+    if (builder->options->halvings) {
+        fineness.halvings = builder->options->halvings[part - builder->recipe->part];
+    }
+    status = lrcsi_fineness_divide(&fineness, part, &material, divisions, counts);
     return status == LRCS_OK ? LRCS_OK
                              : refuse_part(builder, status, part,
                                            "a shape, material and "

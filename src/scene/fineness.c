@@ -119,7 +119,8 @@ static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *p
                        lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     const lrcs_shape *shape = &part->shape;
-    double corners = 3.1416 * sqrt(5.0 / shape_tolerance(fineness, part));
+    double corners =
+        3.1416 * sqrt(ldexp(5.0 / shape_tolerance(fineness, part), fineness->halvings));
     if (fineness->parts == 1 || divisions->along > 1 || shape->kind == LRCS_SHAPE_PLATE ||
         shape->kind == LRCS_SHAPE_BOX || !(corners < 1e6)) {
         return;
@@ -170,21 +171,26 @@ static lrcs_divisions divide_round(const lrcsi_fineness *fineness, const lrcs_sh
 /* Divisions of a shape whose facets represent patches of its true surface (integrate/patch.h):
    these have no error of their own, so that only the uncertainty of shadows counts, in proportion
    to the distance of the true surface from the facets. Straight walls are divided as above, round
-   bodies for that distance. */
+   bodies for that distance. Each halving divides the distance by two. */
 static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                               lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     const lrcs_shape *shape = &part->shape;
     double tolerance = fmin(fineness->tolerance * part_coarsening(fineness, part), 1.0);
     double reach = REACH_ROUND * fmax(tolerance, fineness->round_least) * shape->radius;
-    double corners = 3.1416 * sqrt(5.0 / tolerance);
+    double corners = fmax(3.1416 * sqrt(5.0 / tolerance), BASE_AROUND);
+    corners *= sqrt(ldexp(1.0, fineness->halvings));
     if (!(corners < 1e6)) {
         return 0;
     }
-    *divisions =
-        shape_is_round(shape)
-            ? divide_round(fineness, shape, reach)
-            : (lrcs_divisions){4 * (uint32_t)(fmax(corners, BASE_AROUND) / 4.0 + 1.0), 1, 0};
+    *divisions = (lrcs_divisions){4 * (uint32_t)(corners / 4.0 + 1.0), 1, 0};
+    if (shape_is_round(shape)) {
+        *divisions = divide_round(fineness, shape, reach);
+    }
+    if (shape_is_round(shape) && fineness->halvings > 0) {
+        reach = ldexp(lrcsi_tessellate_reach(shape, divisions).all, -fineness->halvings);
+        *divisions = divide_round(fineness, shape, reach);
+    }
     *counts = lrcsi_tessellate_counts(shape, divisions);
     return counts->facets <= fineness->max_facets;
 }
@@ -196,7 +202,7 @@ static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *
                         const lrcs_brdf *brdf, lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     int is_round = shape_is_round(&part->shape);
-    double tolerance = fmin(fineness->tolerance, 1.0);
+    double tolerance = fmin(ldexp(fineness->tolerance, -fineness->halvings), 1.0);
     double corners = fmax(ALONE_LEAST, brdf->A > 0.0 ? ALONE_PER_SLOPE / brdf->s : 0.0);
     corners = is_round ? corners : fmax(corners, sqrt(ALONE_STRAIGHT / tolerance));
     while (is_round && corners < ALONE_MOST &&
@@ -252,8 +258,8 @@ int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part
     double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
     double ratio = large / small < RATIO_MOST ? large / small : 1.0; /* not if small is 0 */
     double spread = ratio > 1.0 ? 1.5 * ratio * ratio : 1.0;
-    const lrcs_fineness wanted = {shape_tolerance(fineness, part) / spread, material->brdf,
-                                  fineness->max_facets};
+    const double tolerance = ldexp(shape_tolerance(fineness, part) / spread, -fineness->halvings);
+    const lrcs_fineness wanted = {tolerance, material->brdf, fineness->max_facets};
     if (is_closed_form(fineness, part, material)) {
         *divisions =
             (lrcs_divisions){BASE_AROUND, shape_is_round(&part->shape) ? BASE_ALONG : 1, 0};

@@ -14,6 +14,7 @@ typedef struct lrcsi_fineness {
     uint32_t max_facets, parts;
     double area;     /* of all parts, by lrcsi_fineness_area */
     int facets_only; /* lrcs_build_options.facets_only */
+    int halvings;    /* of the part, lrcs_build_options.halvings */
 } lrcsi_fineness;
 
 /* The approximate surface area of a part, used as a weight; for a model, the area of its facets. */

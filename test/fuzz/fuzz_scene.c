@@ -73,7 +73,8 @@ static fuzz_run run_of(unsigned hash)
 
 static void build_and_run(const lrcs_recipe *recipe, unsigned hash)
 {
-    const lrcs_build_options options = {0.5, 64, (int)(hash >> 6 & 3) % 3, (int)(hash >> 8 & 1), 0};
+    const lrcs_build_options options = {0.5, 64,  (int)(hash >> 6 & 3) % 3, (int)(hash >> 8 & 1),
+                                        0,   NULL};
     lrcs_mesh models[MOST_PARTS];
     lrcs_scene scene;
     lrcs_where where;

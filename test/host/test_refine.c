@@ -10,10 +10,12 @@
 
 static lrcs_host_error error;
 
-static void scene_make(lrcs_host_scene *scene, const char *path, double division)
+static void scene_make(lrcs_host_scene *scene, const char *path, double division,
+                       const unsigned char *halvings)
 {
     lrcs_host_options options = lrcs_host_options_default();
     options.build.division = division;
+    options.build.halvings = halvings;
     assert_int_equal(lrcs_host_scene_read(path, &options, scene, &error), LRCS_OK);
     assert_int_equal(lrcs_host_scene_prepare(scene, &error), LRCS_OK);
 }
@@ -58,7 +60,7 @@ static void every_pose_meets_its_tolerance_and_all_of_them_agree(void **state)
     static const double tolerance[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
     lrcs_result results[5][POSES];
     lrcs_host_scene scene;
-    scene_make(&scene, "demo", LRCS_HOST_DIVISION);
+    scene_make(&scene, "demo", LRCS_HOST_DIVISION, NULL);
     for (int t = 0; t < 5; t++) {
         sweep_run(&scene, tolerance[t], 0, POSES, 1, results[t]);
         for (int i = 0; i < (int)POSES; i++) {
@@ -85,7 +87,7 @@ static void order_and_threads_change_nothing(void **state)
     lrcs_result other[POSES];
     for (int way = 0; way < 3; way++) {
         lrcs_host_scene scene;
-        scene_make(&scene, "demo", LRCS_HOST_DIVISION);
+        scene_make(&scene, "demo", LRCS_HOST_DIVISION, NULL);
         if (way == 1) { /* the last ones first */
             sweep_run(&scene, 1e-5, POSES / 2, POSES / 2, 1, other);
             sweep_run(&scene, 1e-5, 0, POSES / 2, 1, other);
@@ -108,57 +110,98 @@ static void run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                      LRCS_OK);
 }
 
-/* Runs a pose and refines the scene as long as that helps; returns how often it did. */
-static int refine(lrcs_host_scene *scene, const lrcs_pose *pose, const lrcs_run_options *options,
-                  lrcs_result *result, double *division)
+/* Runs a pose and refines the scene as long as that helps; returns how often it did. With
+   `by_part`, only the parts to which the error is due. */
+static int refine(lrcs_host_scene *scene, const lrcs_pose *pose, const lrcs_run_options *given,
+                  int by_part, lrcs_result *result, lrcs_build_options *build)
 {
+    double part_error[64];
+    lrcs_run_options options = *given;
     int times = 0;
-    run(scene, pose, options, result);
-    while (lrcs_host_scene_refine(scene, options, result, division)) {
-        run(scene, pose, options, result);
+    assert_true(scene->scene.part_count <= 64);
+    options.part_error_m2 = by_part ? part_error : NULL;
+    run(scene, pose, &options, result);
+    while (lrcs_host_scene_refine(scene, &options, result, build)) {
+        run(scene, pose, &options, result);
         times++;
     }
     return times;
 }
 
-/* The scene becomes the one of the division that it needs, in all that is made of it, notices too,
+/* The sum of the parts' halvings. */
+static int halvings_sum(const lrcs_host_scene *scene, const lrcs_build_options *build)
+{
+    int sum = 0;
+    for (uint32_t i = 0; build->halvings && i < scene->scene.part_count; i++) {
+        sum += build->halvings[i];
+    }
+    return sum;
+}
+
+/* The scene becomes the one of the halvings that it needs, in all that is made of it, notices too,
    which count the facets without a material. */
+static void check_becomes(const char *path, int by_part)
+{
+    lrcs_host_scene scene;
+    lrcs_host_scene fine;
+    lrcs_pose pose;
+    lrcs_result result;
+    lrcs_result again;
+    lrcs_build_options build = lrcs_build_options_default();
+    lrcs_run_options options = lrcs_run_options_default();
+    options.tolerance = 1e-5;
+    assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
+    scene_make(&scene, path, LRCS_HOST_DIVISION, NULL);
+    uint32_t coarse = scene.scene.facet_count;
+    assert_true(refine(&scene, &pose, &options, by_part, &result, &build) > 0);
+    int halvings = halvings_sum(&scene, &build);
+    assert_true(halvings > 0);
+    assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+    assert_true(scene.scene.facet_count > coarse && result.facets_total > coarse);
+    scene_make(&fine, path, LRCS_HOST_DIVISION, build.halvings);
+    run(&fine, &pose, &options, &again);
+    assert_true(result.sigma_m2 == again.sigma_m2 && result.bound_m2 == again.bound_m2);
+    assert_true(lrcs_scene_hash(&scene.scene) == lrcs_scene_hash(&fine.scene));
+    assert_int_equal(scene.notices.count, fine.notices.count);
+    for (uint32_t i = 0; i < fine.notices.count; i++) {
+        assert_string_equal(scene.notices.text[i], fine.notices.text[i]);
+    }
+    options.tolerance = 1e-6; /* from there on */
+    assert_true(refine(&scene, &pose, &options, by_part, &result, &build) > 0);
+    assert_true(halvings_sum(&scene, &build) > halvings);
+    assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+    assert_true(scene.scene.facet_count > fine.scene.facet_count);
+    lrcs_host_scene_free(&fine);
+    lrcs_host_scene_free(&scene);
+}
+
 static void a_scene_becomes_the_one_that_meets_the_tolerance(void **state)
 {
     (void)state;
-    static const char *const path[] = {"demo", "test/host/refine_unbound.toml"};
-    for (int n = 0; n < 2; n++) {
-        lrcs_host_scene scene;
-        lrcs_host_scene fine;
-        lrcs_pose pose;
-        lrcs_result result;
-        lrcs_result again;
-        double division = 0;
-        lrcs_run_options options = lrcs_run_options_default();
-        options.tolerance = 1e-5;
-        assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
-        scene_make(&scene, path[n], LRCS_HOST_DIVISION);
-        uint32_t coarse = scene.scene.facet_count;
-        assert_true(refine(&scene, &pose, &options, &result, &division) > 0);
-        assert_true(division > 0 && division < LRCS_HOST_DIVISION);
-        assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
-        assert_true(scene.scene.facet_count > coarse && result.facets_total > coarse);
-        scene_make(&fine, path[n], division);
-        run(&fine, &pose, &options, &again);
-        assert_true(result.sigma_m2 == again.sigma_m2 && result.bound_m2 == again.bound_m2);
-        assert_true(lrcs_scene_hash(&scene.scene) == lrcs_scene_hash(&fine.scene));
-        assert_int_equal(scene.notices.count, fine.notices.count);
-        for (uint32_t i = 0; i < fine.notices.count; i++) {
-            assert_string_equal(scene.notices.text[i], fine.notices.text[i]);
-        }
-        double finer = division; /* from there on */
-        options.tolerance = 1e-6;
-        assert_true(refine(&scene, &pose, &options, &result, &finer) > 0);
-        assert_true(finer < division && !(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET));
-        assert_true(scene.scene.facet_count > fine.scene.facet_count);
-        lrcs_host_scene_free(&fine);
-        lrcs_host_scene_free(&scene);
-    }
+    check_becomes("demo", 1);
+    check_becomes("demo", 0);
+    check_becomes("test/host/refine_unbound.toml", 1);
+}
+
+/* Parts whose facets add nothing to the bound keep their facets. A mast hides some of a cylinder; a
+   dome far away from both is seen as a whole. */
+static void only_the_parts_that_the_error_is_due_to_are_divided(void **state)
+{
+    (void)state;
+    lrcs_host_scene scene;
+    lrcs_pose pose;
+    lrcs_result result;
+    lrcs_build_options build = lrcs_build_options_default();
+    lrcs_run_options options = lrcs_run_options_default();
+    options.tolerance = 1e-6;
+    assert_int_equal(lrcs_pose_from_azel(0, 20, &pose), LRCS_OK);
+    scene_make(&scene, "test/host/refine_parts.toml", LRCS_HOST_DIVISION, NULL);
+    assert_true(refine(&scene, &pose, &options, 1, &result, &build) > 0);
+    assert_false(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+    assert_true(build.halvings[0] > 0); /* the cylinder */
+    assert_int_equal(build.halvings[1], 0);
+    assert_int_equal(build.halvings[2], 0);
+    lrcs_host_scene_free(&scene);
 }
 
 /* Where facets are not what a bound comes from, dividing them further is no use. */
@@ -168,17 +211,17 @@ static void a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is(void **sta
     lrcs_host_scene scene;
     lrcs_pose pose;
     lrcs_result result;
-    double division = -1;
+    lrcs_build_options build = lrcs_build_options_default();
     lrcs_run_options options = lrcs_run_options_default();
     options.tolerance = 1e-9;
     options.steps = 10;
     assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
     for (int divided = 0; divided < 2; divided++) {
-        scene_make(&scene, "demo", divided ? LRCS_HOST_DIVISION : 0);
+        scene_make(&scene, "demo", divided ? LRCS_HOST_DIVISION : 0, NULL);
         uint32_t facets = scene.scene.facet_count;
         assert_true((scene.levels != NULL) == divided);
-        assert_int_equal(refine(&scene, &pose, &options, &result, &division), 0);
-        assert_true(division == -1 && scene.scene.facet_count == facets);
+        assert_int_equal(refine(&scene, &pose, &options, divided, &result, &build), 0);
+        assert_true(!build.halvings && scene.scene.facet_count == facets);
         lrcs_host_scene_free(&scene);
     }
 }
@@ -189,6 +232,7 @@ int main(void)
         cmocka_unit_test(every_pose_meets_its_tolerance_and_all_of_them_agree),
         cmocka_unit_test(order_and_threads_change_nothing),
         cmocka_unit_test(a_scene_becomes_the_one_that_meets_the_tolerance),
+        cmocka_unit_test(only_the_parts_that_the_error_is_due_to_are_divided),
         cmocka_unit_test(a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -114,7 +114,7 @@ static lrcs_result shadow_run(const shadow_case *s, const lrcs_mesh *cylinder,
                           .material_count = 1,
                           .binding_count = 1};
     const lrcs_mesh models[2] = {*cylinder};
-    lrcs_build_options build = {1e-9, facets, LRCS_NORMALS_SMOOTH, 1, 0};
+    lrcs_build_options build = {1e-9, facets, LRCS_NORMALS_SMOOTH, 1, 0, NULL};
     lrcs_run_options run = lrcs_run_options_default();
     run.method = method;
     run.resolution = method == LRCS_METHOD_ZBUFFER ? 300 : 0;

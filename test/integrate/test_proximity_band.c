@@ -24,7 +24,7 @@ static unsigned char run_memory[1u << 29];
 static void build_recipe(const lrcs_recipe *recipe, const lrcs_mesh *models, double tolerance,
                          uint32_t facets, built *b)
 {
-    lrcs_build_options options = {tolerance, facets, LRCS_NORMALS_FLAT, 1, 0};
+    lrcs_build_options options = {tolerance, facets, LRCS_NORMALS_FLAT, 1, 0, NULL};
     size_t need = lrcs_scene_need(recipe, models, &options);
     b->area = malloc(need);
     lrcs_work work = lrcs_work_make(b->area, need);

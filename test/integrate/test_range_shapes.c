@@ -30,7 +30,7 @@ static void *memory_of(size_t size)
 static void build_models(const lrcs_recipe *recipe, const lrcs_mesh *models, double tolerance,
                          uint32_t most, int only, built *b)
 {
-    const lrcs_build_options options = {tolerance, most, LRCS_NORMALS_FLAT, only, 0};
+    const lrcs_build_options options = {tolerance, most, LRCS_NORMALS_FLAT, only, 0, NULL};
     size_t need = lrcs_scene_need(recipe, models, &options);
     b->memory[0] = memory_of(need);
     lrcs_work work = lrcs_work_make(b->memory[0], need);

@@ -52,7 +52,7 @@ static lrcs_result shadow_run(shadow_scene *s, uint32_t facets, const double d[3
 {
     lrcs_recipe recipe = {
         .part = s->part, .part_count = s->parts, .material = &s->material, .material_count = 1};
-    lrcs_build_options build = {1e-9, facets, LRCS_NORMALS_FLAT, 1, 0};
+    lrcs_build_options build = {1e-9, facets, LRCS_NORMALS_FLAT, 1, 0, NULL};
     lrcs_run_options run = lrcs_run_options_default();
     run.method = method;
     run.resolution = method == LRCS_METHOD_ZBUFFER ? 300 : 0;

@@ -106,7 +106,7 @@ static lrcs_result shapes_run(shapes_scene *s, const lrcs_build_options *build, 
 
 static lrcs_result run_auto(shapes_scene *s, const double d[3])
 {
-    const lrcs_build_options build = {1e-4, 1u << 12, LRCS_NORMALS_FLAT, 0, 0};
+    const lrcs_build_options build = {1e-4, 1u << 12, LRCS_NORMALS_FLAT, 0, 0, NULL};
     return shapes_run(s, &build, d, LRCS_METHOD_AUTO);
 }
 
@@ -159,7 +159,7 @@ static void a_shape_alone_is_bounded_by_rounding_at_hard_aspects(void **state)
         shapes_scene s = scene_of((lrcs_brdf){1, 0.25, scale ? 1e-3 : 1, 0.5}, 0);
         lrcs_recipe_part *part =
             add(&s, which < ROWS(bodies) ? bodies[which] : flat[which - ROWS(bodies)]);
-        const lrcs_build_options build = {1e-4, 1u << 12, LRCS_NORMALS_FLAT, 0, 0};
+        const lrcs_build_options build = {1e-4, 1u << 12, LRCS_NORMALS_FLAT, 0, 0, NULL};
         for (int k = 0; k < 3; k++) {
             part->place.scale[k] = size[scale];
         }
@@ -226,7 +226,7 @@ static void a_shape_placed_is_its_closed_form_seen_from_its_frame(void **state)
 static void closed_forms_lie_within_the_bounds_of_fine_meshes(void **state)
 {
     (void)state;
-    const lrcs_build_options fine = {1e-3, 1u << 15, LRCS_NORMALS_FLAT, 1, 0};
+    const lrcs_build_options fine = {1e-3, 1u << 15, LRCS_NORMALS_FLAT, 1, 0, NULL};
     for (uint32_t i = 0; i < scenes / 7; i++) {
         shapes_scene s = scene_of(glossy, i % 2 != 0);
         lrcs_recipe_part *part = add(&s, bodies[i % ROWS(bodies)]);
@@ -307,7 +307,7 @@ static void a_two_sided_shell_needs_facets_where_its_inside_shows(void **state)
 static void patches_on_the_limb_of_a_two_sided_shell_count_from_both_sides(void **state)
 {
     (void)state;
-    const lrcs_build_options mesh = {1e-9, 512, LRCS_NORMALS_FLAT, 1, 0};
+    const lrcs_build_options mesh = {1e-9, 512, LRCS_NORMALS_FLAT, 1, 0, NULL};
     const lrcs_brdf diffuse = {0, 0.2, 0.1, 0};
     const lrcs_shape shells[] = {
         {.kind = LRCS_SHAPE_CONE, .parts = LRCS_SHAPE_WALL, .radius = 0.25, .length = 0.75},
@@ -402,7 +402,7 @@ static void random_scenes_agree_with_clipped_meshes(void **state)
     uint32_t all = 0;
     uint32_t some = 0;
     uint32_t none = 0;
-    lrcs_build_options coarse = {1e-9, 300, LRCS_NORMALS_FLAT, 1, 0};
+    lrcs_build_options coarse = {1e-9, 300, LRCS_NORMALS_FLAT, 1, 0, NULL};
     for (uint32_t i = 0; i < scenes; i++) {
         shapes_scene s = scene_of((lrcs_brdf){1, 0.25, i % 4 ? 0.4 : 0.1, 0.5}, i % 3 == 0);
         uint32_t parts = 2 + (uint32_t)(4 * random_unit(&seed));

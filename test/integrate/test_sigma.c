@@ -302,7 +302,7 @@ static const lrcs_prepared *ball(const lrcs_brdf *brdf, double stretch, int only
     lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = 0};
     const lrcs_recipe recipe = {
         .part = &part, .part_count = 1, .binding = &binding, .binding_count = 1};
-    const lrcs_build_options options = {1e-2, 8000, LRCS_NORMALS_FLAT, only, 0};
+    const lrcs_build_options options = {1e-2, 8000, LRCS_NORMALS_FLAT, only, 0, NULL};
     const lrcs_prepared *prepared;
     lrcs_work work = lrcs_work_make(built_area, sizeof built_area);
     assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, built, NULL), LRCS_OK);

@@ -210,7 +210,7 @@ static void building_with_normals_grows_until_it_fits(void **state)
         .name = "model", .file = "model", .place = lrcs_place_default(), .material_index = -1};
     round_recipe = (lrcs_recipe){.part = &part, .part_count = 1};
     round_mesh = c.mesh;
-    round_options = (lrcs_build_options){1e-2, 64, LRCS_NORMALS_SMOOTH, 1, 0};
+    round_options = (lrcs_build_options){1e-2, 64, LRCS_NORMALS_SMOOTH, 1, 0, NULL};
     starve(STARVED("normals", lrcs_scene_need(&round_recipe, &round_mesh, &round_options),
                    call_round, out.scene, 1));
     assert_non_null(out.scene.corner_normal);

@@ -242,7 +242,7 @@ static void curved_shapes(void **state)
                                "translate=[0.5,0,1.2]\n";
     lrcs_recipe recipe;
     lrcs_scene shapes;
-    lrcs_build_options build = {1e-2, 200, LRCS_NORMALS_FLAT, 1, 0};
+    lrcs_build_options build = {1e-2, 200, LRCS_NORMALS_FLAT, 1, 0, NULL};
     lrcs_work room = lrcs_work_make(scene_area, sizeof scene_area);
     assert_int_equal(lrcs_recipe_read(text, sizeof text - 1, &room, &recipe, NULL), LRCS_OK);
     assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &room, &shapes, NULL), LRCS_OK);

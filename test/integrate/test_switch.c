@@ -272,7 +272,7 @@ static void check_shape(const lrcs_shape *shape, int two_sided)
     static unsigned char memory[16u << 20];
     static const double aspect[] = {0, 20, 60, 89.9, 90, 120, 180};
     const lrcs_brdf brdf = {1, 0.25, 0.3, 0.5};
-    const lrcs_build_options build = {1e-2, 1u << 13, LRCS_NORMALS_FLAT, 1, 0};
+    const lrcs_build_options build = {1e-2, 1u << 13, LRCS_NORMALS_FLAT, 1, 0, NULL};
     lrcs_recipe_part part = {
         .name = "part", .shape = *shape, .place = lrcs_place_default(), .material_index = -1};
     lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = brdf, .two_sided = two_sided};

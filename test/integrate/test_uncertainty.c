@@ -316,7 +316,7 @@ static void derivatives_over_walls_are_differences_of_runs(void **state)
     static const double directions[][3] = {{0.9, 0.2, 0.3}, {0.1, -0.3, 1}};
     static const int method[] = {LRCS_METHOD_EXACT, LRCS_METHOD_FACET};
     const lrcs_uncertainty_options how = {0, 1};
-    const lrcs_build_options build = {1e-3, 250, LRCS_NORMALS_FLAT, 1, 0};
+    const lrcs_build_options build = {1e-3, 250, LRCS_NORMALS_FLAT, 1, 0, NULL};
     lrcs_recipe_part part[3];
     for (int i = 0; i < 3; i++) {
         part[i] = (lrcs_recipe_part){
@@ -388,7 +388,7 @@ static void absent_terms_of_walls_have_the_derivatives_of_small_ones(void **stat
     static const int method[] = {LRCS_METHOD_EXACT, LRCS_METHOD_AUTO};
     const double direction[3] = {0.9, 0.2, 0.3};
     const lrcs_uncertainty_options how = {0, 1};
-    const lrcs_build_options build = {1e-3, 500, LRCS_NORMALS_FLAT, 1, 0};
+    const lrcs_build_options build = {1e-3, 500, LRCS_NORMALS_FLAT, 1, 0, NULL};
     for (size_t i = 0; i < 2 * ROWS(lacking); i++) {
         outcome got[2];
         double small = 1e-3;

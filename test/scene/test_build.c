@@ -65,7 +65,7 @@ static lrcs_recipe_part shape_part(int kind, double a, double b, double c)
 static int build_scene(const lrcs_recipe *recipe, const lrcs_mesh *models, void **area,
                        lrcs_scene *scene, lrcs_where *where)
 {
-    const lrcs_build_options options = {1e-2, 4096, LRCS_NORMALS_FLAT, 1, 0};
+    const lrcs_build_options options = {1e-2, 4096, LRCS_NORMALS_FLAT, 1, 0, NULL};
     size_t need = lrcs_scene_need(recipe, models, &options);
     *area = malloc(need);
     assert_non_null(*area);
@@ -288,7 +288,7 @@ static void a_lone_ball_keeps_to_the_most_facets(void **state)
     (void)state;
     lrcs_recipe_part part = shape_part(LRCS_SHAPE_SPHERE, 1, 0, 0);
     lrcs_recipe recipe = {.part = &part, .part_count = 1};
-    const lrcs_build_options options = {1e-4, 64, LRCS_NORMALS_FLAT, 0, 0};
+    const lrcs_build_options options = {1e-4, 64, LRCS_NORMALS_FLAT, 0, 0, NULL};
     static unsigned char bytes[1u << 16];
     lrcs_work work = lrcs_work_make(bytes, sizeof bytes);
     lrcs_scene scene;
@@ -438,7 +438,7 @@ static void unfit_shapes_materials_and_options_are_refused(void **state)
     part.place.scale[1] = 0;
     for (int only = LRCS_FACETS_BASE; only <= LRCS_FACETS_LOCAL; only++) {
         static unsigned char area[1u << 20];
-        const lrcs_build_options coarse = {0.1, 4096, LRCS_NORMALS_FLAT, only, 0};
+        const lrcs_build_options coarse = {0.1, 4096, LRCS_NORMALS_FLAT, only, 0, NULL};
         lrcs_work work = lrcs_work_make(area, sizeof area);
         lrcs_scene scene;
         assert_int_equal(lrcs_scene_build(&recipe, NULL, &coarse, &work, &scene, &where),
@@ -446,13 +446,13 @@ static void unfit_shapes_materials_and_options_are_refused(void **state)
         assert_int_equal(work.used, 0);
     }
     part = model_part("m");
-    static const lrcs_build_options options[] = {{0.0, 64, 0, 0, 0},
-                                                 {(double)NAN, 64, 0, 0, 0},
-                                                 {HUGE_VAL, 64, 0, 0, 0},
-                                                 {1e-3, 63, 0, 0, 0},
-                                                 {1e-3, 64, LRCS_NORMALS_SMOOTH + 1, 0, 0},
-                                                 {1e-3, 64, 0, 0, -1},
-                                                 {1e-3, 64, 0, 0, HUGE_VAL}};
+    static const lrcs_build_options options[] = {{0.0, 64, 0, 0, 0, NULL},
+                                                 {(double)NAN, 64, 0, 0, 0, NULL},
+                                                 {HUGE_VAL, 64, 0, 0, 0, NULL},
+                                                 {1e-3, 63, 0, 0, 0, NULL},
+                                                 {1e-3, 64, LRCS_NORMALS_SMOOTH + 1, 0, 0, NULL},
+                                                 {1e-3, 64, 0, 0, -1, NULL},
+                                                 {1e-3, 64, 0, 0, HUGE_VAL, NULL}};
     recipe.binding_count = 0;
     for (size_t i = 0; i < ROWS(options); i++) {
         lrcs_work work = lrcs_work_make(NULL, 0);
@@ -468,7 +468,7 @@ static void too_small_an_area_is_refused_until_it_suffices(void **state)
     lrcs_mesh meshes[2] = {tetra(), {0}};
     lrcs_recipe_part parts[2] = {model_part("a"), shape_part(LRCS_SHAPE_CYLINDER, 1.0, 2.0, 0.0)};
     lrcs_recipe recipe = {.part = parts, .part_count = 2};
-    const lrcs_build_options options = {1e-1, 64, LRCS_NORMALS_FLAT, 1, 0};
+    const lrcs_build_options options = {1e-1, 64, LRCS_NORMALS_FLAT, 1, 0, NULL};
     size_t need = lrcs_scene_need(&recipe, meshes, &options);
     int status = LRCS_E_MEMORY;
     for (size_t size = 0; status == LRCS_E_MEMORY && size <= need; size += 13) {
@@ -562,7 +562,7 @@ static void more_than_indices_reach_is_refused(void **state)
     enum { N = 70 };
     static lrcs_recipe_part parts[N];
     static const char *const found[] = {"b", "a", "shape"};
-    const lrcs_build_options options = {1e-300, UINT32_MAX, LRCS_NORMALS_FLAT, 1, 0};
+    const lrcs_build_options options = {1e-300, UINT32_MAX, LRCS_NORMALS_FLAT, 1, 0, NULL};
     for (int i = 0; i < 3; i++) {
         lrcs_mesh meshes[2] = {tetra(), tetra()};
         lrcs_recipe recipe = {.part = parts, .part_count = i < 2 ? 2 : N};
@@ -589,7 +589,7 @@ static void a_rim_no_count_can_refine_stays_as_its_disc_has_it(void **state)
     lrcs_recipe_part parts[2] = {shape_part(LRCS_SHAPE_DISC, 1, 0, 0),
                                  shape_part(LRCS_SHAPE_DISC, 1, 0, 0)};
     lrcs_recipe recipe = {.part = parts, .part_count = 2};
-    const lrcs_build_options options = {1e-12, 256, LRCS_NORMALS_FLAT, 1, 0};
+    const lrcs_build_options options = {1e-12, 256, LRCS_NORMALS_FLAT, 1, 0, NULL};
     static unsigned char area[1 << 17];
     lrcs_work work = lrcs_work_make(area, sizeof area);
     lrcs_scene scene;
@@ -620,7 +620,7 @@ static void a_lone_ball_is_divided_for_what_its_facets_are_for(void **state)
     lrcs_recipe_part part = shape_part(LRCS_SHAPE_SPHERE, 1, 0, 0);
     lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = odd[2], .two_sided = -1};
     lrcs_recipe recipe = {.part = &part, .part_count = 1, .binding = &binding, .binding_count = 1};
-    lrcs_build_options options = {1e-4, 60000, LRCS_NORMALS_FLAT, LRCS_FACETS_TOTAL, 0};
+    lrcs_build_options options = {1e-4, 60000, LRCS_NORMALS_FLAT, LRCS_FACETS_TOTAL, 0, NULL};
     uint32_t total = facets_of(&recipe, &options);
     options.facets_only = LRCS_FACETS_BASE;
     uint32_t base = facets_of(&recipe, &options);
@@ -658,7 +658,7 @@ static void a_division_is_what_shapes_are_divided_for(void **state)
     lrcs_recipe_part part[2] = {shape_part(LRCS_SHAPE_SPHERE, 1, 0, 0),
                                 shape_part(LRCS_SHAPE_CYLINDER, 1, 1, 0)};
     lrcs_recipe recipe = {.part = part, .part_count = 2};
-    lrcs_build_options options = {0.5, 60000, LRCS_NORMALS_FLAT, LRCS_FACETS_TOTAL, 0};
+    lrcs_build_options options = {0.5, 60000, LRCS_NORMALS_FLAT, LRCS_FACETS_TOTAL, 0, NULL};
     uint32_t least = facets_of(&recipe, &options);
     options.division = 1e-2;
     uint32_t some = facets_of(&recipe, &options);

@@ -16,7 +16,7 @@ static const lrcs_prepared *prepare_shape(const lrcs_shape *shape, double mirror
     part.place.scale[0] = mirror;
     part.material_index = -1;
     lrcs_recipe recipe = {.part = &part, .part_count = 1};
-    lrcs_build_options options = {1e-3, 1000, LRCS_NORMALS_FLAT, 1, 0};
+    lrcs_build_options options = {1e-3, 1000, LRCS_NORMALS_FLAT, 1, 0, NULL};
     lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
     const lrcs_prepared *prepared = NULL;
     assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &scene, NULL), LRCS_OK);

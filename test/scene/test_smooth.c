@@ -255,7 +255,7 @@ static void too_small_an_area_is_refused_until_it_suffices(void **state)
     curved_case c = curved_obj(text);
     lrcs_recipe_part part = {.name = "m", .file = "m", .place = c.place, .material_index = -1};
     lrcs_recipe recipe = {.part = &part, .part_count = 1};
-    lrcs_build_options options = {1e-4, 64, LRCS_NORMALS_SMOOTH, 1, 0};
+    lrcs_build_options options = {1e-4, 64, LRCS_NORMALS_SMOOTH, 1, 0, NULL};
     size_t need = lrcs_scene_need(&recipe, &c.mesh, &options);
     int status = LRCS_E_MEMORY;
     size_t size = 0;
@@ -279,7 +279,7 @@ static void a_normal_that_the_mesh_does_not_have_is_refused(void **state)
     c.mesh.facet_normal[0].corner[1] = 1;
     lrcs_recipe_part part = {.name = "m", .file = "m", .place = c.place, .material_index = -1};
     lrcs_recipe recipe = {.part = &part, .part_count = 1};
-    lrcs_build_options options = {1e-4, 64, LRCS_NORMALS_SMOOTH, 1, 0};
+    lrcs_build_options options = {1e-4, 64, LRCS_NORMALS_SMOOTH, 1, 0, NULL};
     unsigned char area[4096];
     lrcs_work work = lrcs_work_make(area, sizeof area);
     lrcs_scene scene;

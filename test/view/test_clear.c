@@ -74,7 +74,7 @@ static int clear_run(const clear_case *c, const double R[3][3], double shift)
         {.name = "a", .shape = *c->first, .place = lrcs_place_default(), .material_index = -1},
         {.name = "b", .shape = *c->other, .place = lrcs_place_default(), .material_index = -1}};
     lrcs_recipe recipe = {.part = part, .part_count = 2};
-    const lrcs_build_options build = {1e-1, 1u << 11, LRCS_NORMALS_FLAT, 0, 0};
+    const lrcs_build_options build = {1e-1, 1u << 11, LRCS_NORMALS_FLAT, 0, 0, NULL};
     lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
     const lrcs_prepared *prepared;
     lrcs_scene scene;
@@ -144,7 +144,7 @@ static void turning_a_pair_with_the_laser_changes_nothing(void **state)
 static void clear_of(const lrcs_recipe *recipe, const lrcs_mesh *models, const double d[3],
                      int *clear)
 {
-    const lrcs_build_options build = {1e-1, 1u << 11, LRCS_NORMALS_FLAT, 0, 0};
+    const lrcs_build_options build = {1e-1, 1u << 11, LRCS_NORMALS_FLAT, 0, 0, NULL};
     lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
     const lrcs_prepared *prepared;
     lrcs_scene scene;

@@ -50,6 +50,7 @@ typedef struct budget_answer {
     lrcs_result result;
     lrcs_run_options options;
     lrcs_build_options build;
+    unsigned char halvings[RUN_BUDGET_PARTS]; /* those of build */
     double seconds_load, seconds_prepare, seconds_pose;
 } budget_answer;
 
@@ -77,6 +78,7 @@ static int setting_run(run_job *job, budget_answer *answer)
         job->load.build.tolerance = job->options.tolerance;
         job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
         job->load.build.division = LRCS_HOST_DIVISION;
+        job->load.build.halvings = NULL;
         code = cli_scene_read(job->args, &job->load, &job->scene);
         code = code ? code : cli_run_divide(job);
     }
@@ -89,6 +91,9 @@ static int setting_run(run_job *job, budget_answer *answer)
     answer->seconds_pose = job->seconds;
     answer->options = job->options;
     answer->build = job->load.build;
+    if (answer->build.halvings && job->scene.scene.part_count <= RUN_BUDGET_PARTS) {
+        memcpy(answer->halvings, answer->build.halvings, job->scene.scene.part_count);
+    }
     answer->seconds_load = job->scene.seconds_load;
     answer->seconds_prepare = job->scene.seconds_prepare;
     return code;
@@ -295,10 +300,18 @@ static int budget_settle(run_job *job, const budget_answer *best)
     }
     int code = 0;
     if (cli_has_curved_shapes(&job->scene.scene)) {
+        uint32_t parts = job->scene.scene.part_count;
+        int divided = best->build.halvings != NULL;
         lrcs_host_scene_free(&job->scene);
         job->divided = 0;
         job->load.build = best->build;
+        job->load.build.halvings = NULL;
+        if (divided && parts <= RUN_BUDGET_PARTS) {
+            memcpy(job->halvings, best->halvings, parts);
+            job->load.build.halvings = job->halvings;
+        }
         code = cli_scene_read(job->args, &job->load, &job->scene);
+        code = code == 0 && divided && parts > RUN_BUDGET_PARTS ? cli_run_divide(job) : code;
     }
     job->scene.seconds_load = best->seconds_load;
     job->scene.seconds_prepare = best->seconds_prepare;

@@ -207,20 +207,24 @@ int cli_run_divide(run_job *job)
     lrcs_host_scene *scene = &job->scene;
     job->divided = scene->levels != NULL;
     int code = job->divided ? run_prepare(job) : 0;
+    double *part_error = calloc(scene->scene.part_count + (size_t)1, sizeof *part_error);
     for (int finer = job->divided; finer && code == 0;) {
         cli_watch_stage("pose", NULL);
         job->options.progress = cli_watch_run();
+        lrcs_run_options options = job->options;
+        options.part_error_m2 = part_error;
         code = run_records(job);
         code = code ? code
-                    : cli_scene_run(scene, &job->pose, &job->options, &job->result, job->records,
-                                    NULL, &job->seconds);
+                    : cli_scene_run(scene, &job->pose, &options, &job->result, job->records, NULL,
+                                    &job->seconds);
         cli_watch_stage("dividing curved shapes", NULL);
-        finer = code == 0 && lrcs_host_scene_refine(scene, &job->options, &job->result,
-                                                    &job->load.build.division);
+        finer =
+            code == 0 && lrcs_host_scene_refine(scene, &options, &job->result, &job->load.build);
         if (finer) {
             run_patience(job);
         }
     }
+    free(part_error);
     return code;
 }
 

@@ -52,6 +52,9 @@ typedef struct run_open {
 } run_open;
 
 /* The inputs and results of a run. */
+/* A search for the best settings divides scenes of more parts anew for the answer that it keeps. */
+#define RUN_BUDGET_PARTS 1024u
+
 typedef struct run_job {
     const cli_args *args;
     lrcs_pose pose;
@@ -61,6 +64,8 @@ typedef struct run_job {
     uint32_t image_size;
     lrcs_host_scene scene;
     lrcs_result result;
+    unsigned char
+        halvings[RUN_BUDGET_PARTS]; /* of load.build, after a search for the best settings */
     lrcs_facet_record *records;
     int announced; /* that it takes long */
     int divided;   /* 1: cli_run_divide has run the pose */
