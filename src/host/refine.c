@@ -33,8 +33,7 @@ struct lrcsi_host_levels {
     lrcs_build_options build;
     unsigned char *own; /* the halvings of the scene itself */
     uint32_t parts;
-    uint32_t count, room;
-    lrcsi_host_level **level; /* [count] */
+    lrcsi_host_level *first; /* a list */
     uint64_t clock;
     uint32_t notices; /* those of the scene that no division changes */
 };
@@ -83,12 +82,13 @@ void lrcsi_host_levels_free(struct lrcsi_host_levels *levels)
     if (!levels) {
         return;
     }
-    for (uint32_t i = 0; i < levels->count; i++) {
-        level_free(levels->level[i]);
+    while (levels->first) {
+        lrcsi_host_level *level = levels->first;
+        levels->first = level->next;
+        level_free(level);
     }
     pthread_cond_destroy(&levels->built);
     pthread_mutex_destroy(&levels->lock);
-    free(levels->level);
     free(levels->own);
     free(levels);
 }
@@ -202,7 +202,7 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
                            const unsigned char *from, unsigned char *halvings)
 {
     double allowed = error_allowed(options, result);
-    part_choice *choice = malloc(levels->parts * sizeof *choice);
+    part_choice *choice = calloc(levels->parts, sizeof *choice);
     unsigned char *alike = halvings + levels->parts;
     memcpy(halvings, from, levels->parts);
     memcpy(alike, from, levels->parts);
@@ -245,46 +245,32 @@ static lrcs_host_scene *level_build(const lrcs_host_scene *base,
     return scene;
 }
 
-static void level_remove(struct lrcsi_host_levels *levels, uint32_t i)
-{
-    level_free(levels->level[i]);
-    levels->level[i] = levels->level[--levels->count];
-}
-
 /* Frees the levels that were not asked for the longest time, until few enough are left. */
 static void levels_limit(struct lrcsi_host_levels *levels)
 {
     for (;;) {
         uint64_t facets = 0;
         uint32_t idle = 0;
-        uint32_t oldest = 0;
-        for (uint32_t i = 0; i < levels->count; i++) {
-            const lrcsi_host_level *level = levels->level[i];
-            if (level->users == 0 && level->scene) {
-                oldest = idle == 0 || level->used < levels->level[oldest]->used ? i : oldest;
-                facets += level->scene->scene.facet_count;
+        lrcsi_host_level **oldest = NULL; /* the pointer to it */
+        for (lrcsi_host_level **at = &levels->first; *at; at = &(*at)->next) {
+            if ((*at)->users == 0 && (*at)->scene) {
+                oldest = !oldest || (*at)->used < (*oldest)->used ? at : oldest;
+                facets += (*at)->scene->scene.facet_count;
                 idle++;
             }
         }
-        if (idle == 0 || (idle <= KEPT_LEVELS_MAX && facets <= KEPT_FACETS_MAX)) {
+        if (!oldest || (idle <= KEPT_LEVELS_MAX && facets <= KEPT_FACETS_MAX)) {
             return;
         }
-        level_remove(levels, oldest);
+        lrcsi_host_level *level = *oldest;
+        *oldest = level->next;
+        level_free(level);
     }
 }
 
 /* A new level, which is being built; NULL if there is no memory. */
 static lrcsi_host_level *level_add(struct lrcsi_host_levels *levels, const unsigned char *halvings)
 {
-    if (levels->count == levels->room) {
-        uint32_t room = 2 * levels->room + 8;
-        lrcsi_host_level **more = realloc(levels->level, room * sizeof *more);
-        if (!more) {
-            return NULL;
-        }
-        levels->level = more;
-        levels->room = room;
-    }
     lrcsi_host_level *level = calloc(1, sizeof *level);
     unsigned char *own = malloc(levels->parts);
     if (!level || !own) {
@@ -295,7 +281,8 @@ static lrcsi_host_level *level_add(struct lrcsi_host_levels *levels, const unsig
     memcpy(own, halvings, levels->parts);
     level->halvings = own;
     level->users = 1;
-    levels->level[levels->count++] = level;
+    level->next = levels->first;
+    levels->first = level;
     return level;
 }
 
@@ -304,10 +291,9 @@ static lrcsi_host_level *level_add(struct lrcsi_host_levels *levels, const unsig
 static lrcsi_host_level *level_get(const lrcs_host_scene *base, struct lrcsi_host_levels *levels,
                                    const unsigned char *halvings)
 {
-    lrcsi_host_level *level = NULL;
-    for (uint32_t i = 0; i < levels->count && !level; i++) {
-        level = memcmp(levels->level[i]->halvings, halvings, levels->parts) == 0 ? levels->level[i]
-                                                                                 : NULL;
+    lrcsi_host_level *level = levels->first;
+    while (level && memcmp(level->halvings, halvings, levels->parts) != 0) {
+        level = level->next;
     }
     if (level) {
         level->users++;
@@ -339,7 +325,10 @@ lrcsi_host_level *lrcsi_host_finer(const lrcs_host_scene *scene, const lrcs_run_
 {
     struct lrcsi_host_levels *levels = scene->levels;
     lrcsi_host_level *level = NULL;
-    unsigned char *halvings = levels ? malloc(2 * (size_t)levels->parts) : NULL;
+    if (!levels) {
+        return NULL;
+    }
+    unsigned char *halvings = malloc(2 * (size_t)levels->parts);
     if (halvings) {
         const unsigned char *now = from ? from->halvings : levels->own;
         int finer = halvings_choose(levels, from ? &from->scene->scene : &scene->scene, options,

@@ -12,6 +12,7 @@ typedef struct lrcsi_host_level {
     int failed;              /* it could not be built */
     uint32_t users;          /* poses that use it or wait for it */
     uint64_t used;           /* when it was last asked for */
+    struct lrcsi_host_level *next;
 } lrcsi_host_level;
 
 /* For a scene built with a division, whose recipe and models last as long as it: the list of
