@@ -126,7 +126,7 @@ static void compute_facet_normals(smooth_job *job)
 /* --- smoothing groups ------------------------------------------------------------------------- */
 
 /* Sorts the corners by vertex, by a counting sort. */
-static void sort_corners(smooth_job *job)
+static void corners_by_vertex(smooth_job *job)
 {
     uint32_t vertices = job->mesh->vertex_count;
     uint32_t corners = 3 * job->mesh->facet_count; /* lrcsi_smooth_run ensures it */
@@ -334,7 +334,7 @@ int lrcsi_smooth_run(const lrcs_mesh *mesh, const lrcsi_placer *placer,
         job.unit && job.mean && job.corner && job.start ? check_normals(mesh) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
         compute_facet_normals(&job);
-        sort_corners(&job);
+        corners_by_vertex(&job);
         for (uint32_t v = 0; v < mesh->vertex_count; v++) {
             vertex_means(&job, v);
         }
