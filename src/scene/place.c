@@ -130,8 +130,7 @@ void lrcsi_placer_normal(const lrcsi_placer *placer, double normal[3])
 
 /* --- the nearest rotation --------------------------------------------------------------------- */
 
-/* A matrix R with |R^T R - I| above this is not taken for a rounded rotation, and is used as it is.
- */
+/* A matrix R with |R^T R - I| above this is not taken for a rounded rotation, but used as it is. */
 #define ROTATION_DEFECT_MAX 0x1p-40
 
 /* D = R^T R - I in double-double: the error of every entry is at most 2^-101. Returns its Frobenius
@@ -289,7 +288,6 @@ double lrcsi_placer_error(const lrcsi_placer *placer, double size, double error)
     if (placer->has_translation) {
         x = bound_translation(x, placer->place.translate);
     }
-    /* At most sqrt(3) times the error of a coordinate; rounded up for the rounding of this bound.
-     */
+    /* At most sqrt(3) times the error of a coordinate, rounded up. */
     return 1.7321 * x.error;
 }
