@@ -30,6 +30,14 @@ typedef struct lrcsi_axes {
 } lrcsi_axes;
 int lrcsi_placer_axes(const lrcsi_placer *placer, lrcsi_axes *axes);
 
+/* How normals are transformed: by the inverse transpose of the linear map, times the least absolute
+   scale, so that its largest singular value is 1. image[j]: the image of a unit normal along axis j
+   of the shape, accurate to 4 u; without distortion it is the axis itself. *area: an element of
+   area with unit normal N is multiplied by *area times the length of N's image, relative to the
+   square of the largest absolute scale. Returns 0 if a matrix is not a rotation or reflection to
+   2^-40, or if scales differ by more than a factor of 2^20; then nothing is filled in. */
+int lrcsi_placer_normals(const lrcsi_placer *placer, double image[3][3], double *area);
+
 /* The largest singular value of the linear map, and its ratio to the least one: bounds on both;
    infinite if a matrix is far from a rotation. */
 void lrcsi_placer_stretch(const lrcsi_placer *placer, double *most, double *ratio);
