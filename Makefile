@@ -411,6 +411,10 @@ $(BUILD)/test/%: $(BUILD)/test/%.o $(LIB)
 	$(call say,link)
 	$(Q)$(CC) -o $@ $< $(LIB) -lcmocka $(LDLIBS)
 
+# Every allocation of the library goes through the test that refuses them.
+$(BUILD)/test/host/test_memory: override LDLIBS += \
+    -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free,--wrap=strdup,--wrap=realpath,--wrap=fdopen
+
 # Tests are compiled once cmocka is there.
 $(TEST_SRC:%.c=$(BUILD)/%.o): | cmocka
 

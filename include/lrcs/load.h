@@ -66,8 +66,8 @@ typedef struct lrcs_host_scene {
     double seconds_stage[LRCS_HOST_PREPARE_STAGES]; /* of seconds_prepare, in the last attempt,
                                                        whose work area sufficed */
     void *blocks;                                   /* memory owned */
-    struct lrcsi_host_levels *levels; /* finer divisions; NULL: it was read without a division, or
-                                         no part is curved among others */
+    struct lrcsi_host_levels *levels; /* finer divisions; NULL: it was read without a division,
+                                         or no part is curved, or there was no memory */
 } lrcs_host_scene;
 
 /* Loads a scene: a model file (3DS, OBJ with its MTL, STL), a scene file, or "demo", which is

@@ -136,6 +136,14 @@ int lrcs_host_output_open(const char *path, lrcs_host_output *output, lrcs_host_
         there && !S_ISREG(about.st_mode) ? open(output->path, O_WRONLY) : temporary_open(output);
     output->stream = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
     if (!output->stream) {
+        int cause = errno;
+        if (descriptor >= 0) { /* nothing was written */
+            close(descriptor);
+            if (output->temporary) {
+                remove(output->temporary);
+            }
+        }
+        errno = cause;
         return output_refuse(output, path, error);
     }
     return LRCS_OK;

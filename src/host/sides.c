@@ -143,6 +143,9 @@ int lrcsi_host_sides(lrcs_host_scene *host, const char *what, lrcs_host_error *e
     }
     status = status == LRCS_OK ? materials_split(&job) : status;
     free(job.selected);
+    if (status == LRCS_E_MEMORY) {
+        return lrcsi_host_fail_memory(error, scene->facet_count * sizeof(lrcs_facet));
+    }
     if (status != LRCS_OK) {
         return lrcsi_host_fail(error, status, "two-sided: %s", lrcs_status_text(status));
     }

@@ -50,7 +50,7 @@
 static void count_events(const lrcsi_view *view, uint32_t facet, double times, lrcsi_cost *cost)
 {
     const lrcs_prepared *p = view->prepared;
-    const uint32_t *across = p->across.facet[facet].corner;
+    const uint32_t *across = p->neighbours.facet[facet].corner;
     const uint32_t *corner = p->scene->facet[facet].corner;
     for (int k = 0; k < 3; k++) {
         double events = 0;

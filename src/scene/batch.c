@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* Facets sorted by material, with normals and unit normals. It decides the order in which facets
-   are summed. */
+/* Sorts facets by material, and computes their normals, unit normals and areas. This decides the
+   order in which facets are summed. */
 #include "scene/batch.h"
 
 #include "base/length.h"
 #include "base/work.h"
 #include "scene/normal.h"
 
-/* Some facets' normals, to be scaled to unit length. */
+/* The normals of a block of facets, before they are scaled to unit length. */
 typedef struct batch_normals {
     double high[3][LRCSI_LANES], low[3][LRCSI_LANES];
     double length[LRCSI_LANES];
-    double half[LRCSI_LANES]; /* the factor from the length to the facet's area */
+    double half[LRCSI_LANES]; /* area of the facet = length * half */
 } batch_normals;
 
-/* Normals of up to LRCSI_LANES facets; if squares of small components would lose bits, all are
-   multiplied by 2^500, exactly. Unused lanes repeat the first. */
+/* Gathers the normals of up to LRCSI_LANES facets. Where the squares of small components would lose
+   bits to underflow, the normal is multiplied by 2^500, exactly. Unused lanes repeat the first. */
 static void normals_gather(const lrcs_prepared *p, const uint32_t *facet, uint32_t count,
                            batch_normals *n)
 {
@@ -31,7 +31,8 @@ static void normals_gather(const lrcs_prepared *p, const uint32_t *facet, uint32
     }
 }
 
-/* N / |N| and |N| / 2, where the relative error of N is 2^-90. Writes all LRCSI_LANES places. */
+/* Unit normals N / |N| and areas |N| / 2, where the relative error of N is 2^-90. Writes all
+   LRCSI_LANES elements. */
 static void normals_finish(const batch_normals *restrict n, double *restrict x, double *restrict y,
                            double *restrict z, double *restrict area)
 {
@@ -46,18 +47,18 @@ static void normals_finish(const batch_normals *restrict n, double *restrict x, 
     }
 }
 
-/* Normals of the facets of a block, then their unit normals, which need them; last, normals of the
-   facets that are skipped. */
+/* For each block: the normals of its facets, then their unit normals and areas. Last, the normals
+   of skipped facets, which are in no batch. */
 static void batch_normals_make(lrcs_prepared *p, lrcsi_batches *b)
 {
     batch_normals n;
-    for (uint32_t place = 0; place < b->count; place += LRCSI_LANES) {
-        uint32_t left = b->count - place;
+    for (uint32_t start = 0; start < b->count; start += LRCSI_LANES) {
+        uint32_t left = b->count - start;
         uint32_t count = left < LRCSI_LANES ? left : LRCSI_LANES;
-        lrcsi_normals_make(p, b->facet + place, count);
-        normals_gather(p, b->facet + place, count, &n);
-        normals_finish(&n, b->normal[0] + place, b->normal[1] + place, b->normal[2] + place,
-                       b->area + place);
+        lrcsi_normals_make(p, b->facet + start, count);
+        normals_gather(p, b->facet + start, count, &n);
+        normals_finish(&n, b->normal[0] + start, b->normal[1] + start, b->normal[2] + start,
+                       b->area + start);
     }
     for (uint32_t i = 0; i < LRCSI_LANES; i++) {
         b->normal[0][b->count + i] = 0;
@@ -89,19 +90,19 @@ size_t lrcsi_batches_need(const lrcs_scene *scene)
     return need;
 }
 
-/* A counting sort by material. first[i + 2] counts the facets of material i; the sums make
-   first[i + 1] its first place; each facet that takes a place advances it, so that in the end
-   first[i] is the first place of material i. */
+/* A counting sort by material. At first, first[i + 2] is the number of facets of material i. The
+   prefix sums make first[i + 1] the index of its first facet. Storing a facet increments that
+   index, so that in the end first[i] is the index of the first facet of material i. */
 int lrcsi_batches_make(lrcs_prepared *p, lrcs_work *work)
 {
     lrcsi_batches *b = &p->batches;
     const lrcs_scene *scene = p->scene;
-    size_t room = (size_t)scene->facet_count + LRCSI_LANES;
+    size_t capacity = (size_t)scene->facet_count + LRCSI_LANES;
     b->first = lrcsi_work_take_zero(work, (size_t)scene->material_count + 2, sizeof *b->first);
     b->facet = lrcsi_work_take(work, scene->facet_count, sizeof *b->facet);
-    b->area = lrcsi_work_take(work, room, sizeof *b->area);
+    b->area = lrcsi_work_take(work, capacity, sizeof *b->area);
     for (int k = 0; k < 3; k++) {
-        b->normal[k] = lrcsi_work_take(work, room, sizeof *b->normal[k]);
+        b->normal[k] = lrcsi_work_take(work, capacity, sizeof *b->normal[k]);
     }
     if (!b->first || !b->facet || !b->area || !b->normal[2]) {
         return LRCS_E_MEMORY;
@@ -116,8 +117,8 @@ int lrcsi_batches_make(lrcs_prepared *p, lrcs_work *work)
     }
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         if (!p->skip[f]) {
-            uint32_t place = b->first[scene->facet_material[f] + 1]++;
-            b->facet[place] = f;
+            uint32_t index = b->first[scene->facet_material[f] + 1]++;
+            b->facet[index] = f;
         }
     }
     batch_normals_make(p, b);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Binds surfaces to BRDFs: precedence, and which bindings matched. It does not decide where names
-   come from, nor which surface a facet has. */
+/* Assigns materials to surfaces: decides which binding has precedence, and which bindings matched.
+   It does not decide where names come from, nor which surface a facet has. */
 #include "scene/bind.h"
 
 #include <string.h>
 
 #include "base/work.h"
 
-/* The transparency from which on a surface is omitted from the scene. */
+/* Surfaces of at least this transparency are omitted from the scene. */
 #define TRANSPARENCY_OMITTED 0.995
-/* The tag of the recipe's materials among the kinds of bindings. */
+/* The index holds the recipe's materials under this tag; the other tags are kinds of bindings. */
 #define TAG_RECIPE (LRCS_BIND_DEFAULT + 1)
 
 /* The key of a binding: its name, its colour, or nothing. */
@@ -44,7 +44,8 @@ lrcsi_binder lrcsi_binder_plain(const lrcs_recipe *recipe)
     return binder;
 }
 
-/* The index of the last binding of a kind and key, or of the recipe's material of a name. */
+/* The index of the last binding of a kind with a key or, for TAG_RECIPE, of the recipe's material
+   of that name; LRCS_NONE if there is none. */
 static uint32_t find_index(const lrcsi_binder *binder, int tag, const void *bytes, size_t size)
 {
     if (binder->indexed) {
@@ -58,10 +59,10 @@ static uint32_t find_index(const lrcsi_binder *binder, int tag, const void *byte
         }
     }
     for (uint32_t i = recipe->binding_count; i-- > 0;) {
-        size_t own_size;
+        size_t key_size;
         if (recipe->binding[i].kind == tag) {
-            const void *own = key_of(&recipe->binding[i], &own_size);
-            if (own_size == size && memcmp(own, bytes, size) == 0) {
+            const void *key = key_of(&recipe->binding[i], &key_size);
+            if (key_size == size && memcmp(key, bytes, size) == 0) {
                 return i;
             }
         }
@@ -69,7 +70,7 @@ static uint32_t find_index(const lrcsi_binder *binder, int tag, const void *byte
     return LRCS_NONE;
 }
 
-/* The binding of a kind and key, or NULL; marked as matched. */
+/* Finds the binding of a kind and key, and marks it as matched; NULL if there is none. */
 static const lrcs_binding *find_binding(const lrcsi_binder *binder, int kind, const void *bytes,
                                         size_t size)
 {
@@ -151,8 +152,8 @@ uint32_t lrcsi_binder_library_source(const lrcs_brdf_entry *entry)
     return LRCS_SOURCE_LIBRARY + i;
 }
 
-/* Assigns a BRDF with its errors; a two_sided below 0 keeps the present value. Assumed numbers do
-   not count as bound. `source` is that of <lrcs/scene.h>. */
+/* Assigns a BRDF with its errors. A negative two_sided leaves the material's own. A material with
+   assumed parameters does not count as bound. `source` is as in <lrcs/scene.h>. */
 static void assign_brdf(lrcs_material *material, const lrcs_brdf *brdf,
                         const lrcs_brdf_error *error, uint32_t source, int two_sided, int assumed)
 {
@@ -182,8 +183,8 @@ static void assign_by_binding(const lrcsi_binder *binder, const lrcs_binding *bi
                 binding->source != 0 ? binding->source : own, binding->two_sided, binding->assumed);
 }
 
-/* Applies a binding of the command line to a material of this name that a scene file has
-   assigned. */
+/* If the command line binds a material of this name, which the scene file assigned, its BRDF
+   replaces that of the scene file. */
 static void override_named(const lrcsi_binder *binder, const char *name, lrcs_material *material)
 {
     const lrcs_binding *binding = name ? find_named(binder, LRCS_BIND_NAME, name) : NULL;
@@ -192,7 +193,7 @@ static void override_named(const lrcsi_binder *binder, const char *name, lrcs_ma
     }
 }
 
-/* Assigns the material that a scene file assigns to a whole part: one of the recipe or of the
+/* Assigns the material that a scene file gives to a whole part: one of the recipe or of the
    library. */
 static void assign_material(const lrcsi_binder *binder, uint32_t assigned, lrcs_material *material)
 {
@@ -212,7 +213,7 @@ static void assign_material(const lrcsi_binder *binder, uint32_t assigned, lrcs_
     material->name = material->name ? material->name : name;
 }
 
-/* Applies a map of a scene file, or a default. */
+/* Applies a map or the default of a scene file. */
 static void apply_binding(const lrcsi_binder *binder, const lrcs_binding *binding,
                           lrcs_material *material)
 {

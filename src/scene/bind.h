@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which BRDF a surface gets: the order of precedence that <lrcs/scene.h> states, and which
-   bindings matched anything. */
+/* Which material a surface gets, by the order of precedence in <lrcs/scene.h>, and which bindings
+   matched at least one surface. */
 #ifndef LRCSI_BIND_H
 #define LRCSI_BIND_H
 
@@ -10,15 +10,17 @@
 
 typedef struct lrcsi_binder {
     const lrcs_recipe *recipe;
-    lrcsi_index names;      /* bindings by kind and name or colour; materials of the recipe */
-    unsigned char *matched; /* by binding, the last of equal ones representing all */
-    int indexed;            /* 0: search the recipe instead (slow, no work area) */
+    lrcsi_index names; /* bindings by kind and name or colour; materials of the recipe */
+    unsigned char
+        *matched; /* binding: 1 if it matched; of equal bindings only the last is marked */
+    int indexed;  /* 0: there is no index, and the recipe is searched */
 } lrcsi_binder;
 
 /* Bytes that lrcsi_binder_make takes (upper bound). */
 size_t lrcsi_binder_need(const lrcs_recipe *recipe);
 
-/* A binder that searches the recipe itself, for a few queries. It marks nothing as matched. */
+/* A binder without an index, for a few queries: it needs no work area, and its searches are linear
+   in the size of the recipe. It marks nothing as matched. */
 lrcsi_binder lrcsi_binder_plain(const lrcs_recipe *recipe);
 
 /* A binder with an index. Status: LRCS_OK; LRCS_E_MEMORY. */
@@ -46,7 +48,7 @@ lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t assigned
 uint32_t lrcsi_binder_library_source(const lrcs_brdf_entry *entry);
 
 /* The first NAME or COLOUR binding that matched no surface, recipe material or assigned material,
-   or LRCS_NONE. To be called after all surfaces are bound. */
+   or LRCS_NONE. Call it after all surfaces are bound. */
 uint32_t lrcsi_binder_unmatched(const lrcsi_binder *binder);
 
 #endif

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* From a recipe to a scene: first counts, then one pass over the parts that assigns their
-   materials, copies and places them. Decides the order of everything in the scene; bind.c decides
+/* Builds a scene from a recipe: counts everything, then adds part after part: its materials, placed
+   vertices, facets and normals. Decides the order of everything in the scene; bind.c decides
    materials, place.c positions, and the mesh layer the mesh of a shape. */
 #include <math.h>
 #include <string.h>
 
 #include <lrcs/read.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 #include "base/where.h"
 #include "base/work.h"
@@ -16,29 +17,26 @@
 #include "scene/placed_shape.h"
 #include "scene/smooth.h"
 
-/* Coordinates beyond this are refused, because their squares and cubes must not overflow. */
-#define COORDINATE_MOST 1e100
-
 typedef struct scene_builder {
     const lrcs_recipe *recipe;
     const lrcs_mesh *models;
     const lrcs_build_options *options;
     lrcs_where *where;
     lrcsi_binder binder;
-    uint32_t *entry;     /* by assigned material: its index among the scene's materials, or
-                            LRCS_NONE */
-    uint32_t unassigned; /* the index of "", or LRCS_NONE */
+    /* Indices among the scene's materials, LRCS_NONE until such a material is added: */
+    uint32_t *entry;     /* assigned material: the material of surfaces without a name */
+    uint32_t unassigned; /* the same, on parts without an assigned material */
     lrcsi_fineness fineness;
-    lrcs_divisions *divisions; /* of each part that is a shape; NULL: only counted */
+    lrcs_divisions *divisions; /* part: those of its shape; NULL if they are not to be kept */
 } scene_builder;
 
-/* A part's mesh while it is added to the scene. */
-typedef struct scene_piece {
+/* The part that is being added to the scene. */
+typedef struct scene_source {
     const lrcs_recipe_part *part;
-    uint32_t assigned;
+    uint32_t assigned; /* its assigned material, or LRCS_NONE */
     uint32_t surfaces; /* index of the mesh's first material among the scene's */
     lrcsi_placer placer;
-} scene_piece;
+} scene_source;
 
 lrcs_build_options lrcs_build_options_default(void)
 {
@@ -75,7 +73,7 @@ static int find_assigned(const scene_builder *builder, const lrcs_recipe_part *p
                                   part->material, strlen(part->material));
 }
 
-/* The divisions of a shape, for its assigned material. */
+/* Chooses the divisions of a shape, which depend on its assigned material, and counts its mesh. */
 static int count_shape(const scene_builder *builder, const lrcs_recipe_part *part,
                        lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
@@ -121,7 +119,7 @@ static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts
 
 typedef struct scene_totals {
     uint64_t vertices, facets, materials;
-    size_t scratch; /* the most temporary memory taken, by a shape's mesh or for normals */
+    size_t scratch; /* the most temporary memory of any part: for a shape's mesh or for normals */
     int curved;     /* normals are requested, and some model has them */
 } scene_totals;
 
@@ -138,7 +136,7 @@ static int count_scene(scene_builder *builder, scene_totals *totals)
     const lrcs_build_options *options = builder->options;
     builder->fineness = (lrcsi_fineness){
         .tolerance = options->division > 0.0 ? options->division : options->tolerance,
-        .round_least = options->division > 0.0 ? 0.0 : LRCSI_FINENESS_ROUND,
+        .round_min = options->division > 0.0 ? 0.0 : LRCSI_FINENESS_ROUND,
         .max_facets = options->max_facets,
         .parts = recipe->part_count,
         .facets_only = options->facets_only};
@@ -175,7 +173,8 @@ static int count_scene(scene_builder *builder, scene_totals *totals)
     return LRCS_OK;
 }
 
-static size_t array_need(const scene_totals *totals, uint32_t parts)
+/* Bytes of the scene's arrays, as scene_take takes them. */
+static size_t arrays_need(const scene_totals *totals, uint32_t parts)
 {
     const size_t block[] = {
         lrcsi_work_bytes((size_t)totals->vertices, sizeof(lrcs_point)),
@@ -203,7 +202,7 @@ size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
                              .binder = lrcsi_binder_plain(recipe)};
     scene_totals totals;
     count_scene(&builder, &totals); /* if it fails, building fails too, before it needs more */
-    size_t need = array_need(&totals, recipe->part_count);
+    size_t need = arrays_need(&totals, recipe->part_count);
     need = lrcsi_work_add(need, lrcsi_work_bytes(recipe->part_count, sizeof(lrcs_divisions)));
     need = lrcsi_work_add(need, lrcsi_binder_need(recipe));
     need = lrcsi_work_add(need,
@@ -226,7 +225,7 @@ static int add_material(const scene_builder *builder, const lrcs_material *mater
     return LRCS_OK;
 }
 
-/* The index of the material of facets without a surface; the material is added if it is new. */
+/* The index of the material of facets without a surface, which is added at the first use. */
 static int unassigned_entry(scene_builder *builder, uint32_t assigned, lrcs_scene *scene,
                             uint32_t *entry)
 {
@@ -241,13 +240,13 @@ static int unassigned_entry(scene_builder *builder, uint32_t assigned, lrcs_scen
     return status;
 }
 
-static int add_surfaces(scene_builder *builder, const lrcs_mesh *mesh, scene_piece *piece,
+static int add_surfaces(scene_builder *builder, const lrcs_mesh *mesh, scene_source *source,
                         lrcs_scene *scene)
 {
-    piece->surfaces = scene->material_count;
+    source->surfaces = scene->material_count;
     for (uint32_t i = 0; i < mesh->material_count; i++) {
         lrcs_material material =
-            lrcsi_binder_surface(&builder->binder, piece->assigned, &mesh->material[i]);
+            lrcsi_binder_surface(&builder->binder, source->assigned, &mesh->material[i]);
         int status = add_material(builder, &material, scene);
         if (status != LRCS_OK) {
             return status;
@@ -259,14 +258,14 @@ static int add_surfaces(scene_builder *builder, const lrcs_mesh *mesh, scene_pie
 /* --- geometry ------------------------------------------------------------------------------ */
 
 static int add_vertices(const scene_builder *builder, const lrcs_mesh *mesh,
-                        const scene_piece *piece, lrcs_scene *scene)
+                        const scene_source *source, lrcs_scene *scene)
 {
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
         double *placed = scene->vertex[scene->vertex_count + i].x;
-        lrcsi_placer_run(&piece->placer, mesh->vertex[i].x, placed);
+        lrcsi_placer_run(&source->placer, mesh->vertex[i].x, placed);
         for (int k = 0; k < 3; k++) {
-            if (!(fabs(placed[k]) <= COORDINATE_MOST)) {
-                return refuse_part(builder, LRCS_E_NUMBER, piece->part,
+            if (!(fabs(placed[k]) <= LRCSI_COORDINATE_MAX)) {
+                return refuse_part(builder, LRCS_E_NUMBER, source->part,
                                    "coordinates of at most 1e100 m after placing");
             }
         }
@@ -274,7 +273,7 @@ static int add_vertices(const scene_builder *builder, const lrcs_mesh *mesh,
     return LRCS_OK;
 }
 
-static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene_piece *piece,
+static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene_source *source,
                       lrcs_scene *scene)
 {
     uint32_t base = scene->vertex_count;
@@ -285,18 +284,18 @@ static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene
         if (corner[0] >= mesh->vertex_count || corner[1] >= mesh->vertex_count ||
             corner[2] >= mesh->vertex_count ||
             (surface != LRCS_NONE && surface >= mesh->material_count)) {
-            return refuse_part(builder, LRCS_E_INDEX, piece->part,
+            return refuse_part(builder, LRCS_E_INDEX, source->part,
                                "corners and materials that its mesh has");
         }
-        int flip = piece->placer.flips;
+        int flip = source->placer.flips;
         scene->facet[to] = (lrcs_facet){
             {base + corner[0], base + corner[flip ? 2 : 1], base + corner[flip ? 1 : 2]}};
         scene->facet_part[to] = scene->part_count;
         scene->facet_smooth[to] = mesh->facet_smooth[i];
-        scene->facet_material[to] = piece->surfaces + surface;
+        scene->facet_material[to] = source->surfaces + surface;
         if (surface == LRCS_NONE) {
             int status =
-                unassigned_entry(builder, piece->assigned, scene, &scene->facet_material[to]);
+                unassigned_entry(builder, source->assigned, scene, &scene->facet_material[to]);
             if (status != LRCS_OK) {
                 return status;
             }
@@ -307,20 +306,20 @@ static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene
 
 /* --- parts --------------------------------------------------------------------------------- */
 
-static int add_piece(scene_builder *builder, const lrcs_mesh *mesh, scene_piece *piece,
-                     lrcs_scene *scene)
+static int add_mesh(scene_builder *builder, const lrcs_mesh *mesh, scene_source *source,
+                    lrcs_scene *scene)
 {
     lrcs_part *part = &scene->part[scene->part_count];
-    part->name = piece->part->name;
+    part->name = source->part->name;
     part->first_facet = scene->facet_count;
     part->facet_count = mesh->facet_count;
-    part->articulated = piece->part->joint.used;
-    int status = add_surfaces(builder, mesh, piece, scene);
+    part->articulated = source->part->joint.used;
+    int status = add_surfaces(builder, mesh, source, scene);
     if (status == LRCS_OK) {
-        status = add_vertices(builder, mesh, piece, scene);
+        status = add_vertices(builder, mesh, source, scene);
     }
     if (status == LRCS_OK) {
-        status = add_facets(builder, mesh, piece, scene);
+        status = add_facets(builder, mesh, source, scene);
     }
     scene->vertex_count += mesh->vertex_count;
     scene->facet_count += mesh->facet_count;
@@ -328,68 +327,69 @@ static int add_piece(scene_builder *builder, const lrcs_mesh *mesh, scene_piece 
     return status;
 }
 
-static int add_shape(scene_builder *builder, scene_piece *piece, const lrcs_divisions *divisions,
+static int add_shape(scene_builder *builder, scene_source *source, const lrcs_divisions *divisions,
                      lrcs_work *work, lrcs_scene *scene)
 {
     size_t mark = work->used;
     lrcs_mesh mesh;
     lrcs_curvature curvature;
-    int status = lrcs_shape_mesh(&piece->part->shape, divisions, work, &mesh, &curvature);
+    int status = lrcs_shape_mesh(&source->part->shape, divisions, work, &mesh, &curvature);
     if (status != LRCS_OK) {
         return status == LRCS_E_MEMORY
                    ? refuse_memory(builder)
-                   : refuse_part(builder, status, piece->part, "a shape that can be meshed");
+                   : refuse_part(builder, status, source->part, "a shape that can be meshed");
     }
     lrcs_part *part = &scene->part[scene->part_count];
     double extent = lrcsi_placed_shape_extent(&mesh);
-    lrcsi_placed_shape_describe(&piece->part->shape, divisions, &curvature, &piece->placer, extent,
-                                part);
-    status = add_piece(builder, &mesh, piece, scene);
+    lrcsi_placed_shape_describe(&source->part->shape, divisions, &curvature, &source->placer,
+                                extent, part);
+    status = add_mesh(builder, &mesh, source, scene);
     if (status == LRCS_OK) {
-        lrcsi_placed_shape_tilt(&piece->placer, scene, extent, part);
+        lrcsi_placed_shape_tilt(&source->placer, scene, extent, part);
     }
     work->used = mark;
     return status;
 }
 
-static int add_normals(const scene_builder *builder, uint32_t i, const scene_piece *piece,
+static int add_normals(const scene_builder *builder, uint32_t i, const scene_source *source,
                        lrcs_work *work, lrcs_scene *scene)
 {
     int status =
-        lrcsi_smooth_run(&builder->models[i], &piece->placer, builder->options, work, scene);
+        lrcsi_smooth_run(&builder->models[i], &source->placer, builder->options, work, scene);
     return status == LRCS_OK ? LRCS_OK
            : status == LRCS_E_MEMORY
                ? refuse_memory(builder)
-               : refuse_part(builder, status, piece->part, "normals that its mesh has");
+               : refuse_part(builder, status, source->part, "normals that its mesh has");
 }
 
 static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_scene *scene)
 {
-    scene_piece piece;
-    memset(&piece, 0, sizeof piece);
-    piece.part = &builder->recipe->part[i];
-    int status = find_assigned(builder, piece.part, &piece.assigned);
+    scene_source source;
+    memset(&source, 0, sizeof source);
+    source.part = &builder->recipe->part[i];
+    int status = find_assigned(builder, source.part, &source.assigned);
     if (status != LRCS_OK) {
         return status;
     }
-    status = lrcsi_placer_make(&piece.part->place, &piece.part->joint, &piece.placer);
+    status = lrcsi_placer_make(&source.part->place, &source.part->joint, &source.placer);
     if (status != LRCS_OK) {
-        return refuse_part(builder, status, piece.part,
+        return refuse_part(builder, status, source.part,
                            "a finite place, no scale of 0, a joint's axis of some length");
     }
-    if (!piece.part->file) {
-        return add_shape(builder, &piece, &builder->divisions[i], work, scene);
+    if (!source.part->file) {
+        return add_shape(builder, &source, &builder->divisions[i], work, scene);
     }
     lrcs_part *part = &scene->part[scene->part_count];
     part->kind = -1;
     part->curvature_known = 1;
     part->smoothed = lrcsi_smooth_given(&builder->models[i]);
-    status = add_piece(builder, &builder->models[i], &piece, scene);
-    return status == LRCS_OK && is_curved(builder, i) ? add_normals(builder, i, &piece, work, scene)
-                                                      : status;
+    status = add_mesh(builder, &builder->models[i], &source, scene);
+    return status == LRCS_OK && is_curved(builder, i)
+               ? add_normals(builder, i, &source, work, scene)
+               : status;
 }
 
-static int take_scene(const scene_totals *totals, uint32_t parts, lrcs_work *work,
+static int scene_take(const scene_totals *totals, uint32_t parts, lrcs_work *work,
                       lrcs_scene *scene)
 {
     memset(scene, 0, sizeof *scene);
@@ -400,7 +400,7 @@ static int take_scene(const scene_totals *totals, uint32_t parts, lrcs_work *wor
     scene->facet_part = lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_part);
     scene->facet_smooth =
         lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_smooth);
-    if (totals->curved) { /* facets that no part fills stay flat */
+    if (totals->curved) { /* zeros: facets to which no part gives normals are flat */
         scene->corner_normal =
             lrcsi_work_take_zero(work, (size_t)totals->facets, 3 * sizeof *scene->corner_normal);
     }
@@ -413,8 +413,8 @@ static int take_scene(const scene_totals *totals, uint32_t parts, lrcs_work *wor
                : LRCS_E_MEMORY;
 }
 
-/* Releases the normals if every facet is flat. */
-static void settle_normals(lrcs_scene *scene)
+/* Drops the array of normals if every facet is flat. */
+static void drop_flat_normals(lrcs_scene *scene)
 {
     int curved = 0;
     for (uint32_t f = 0; scene->corner_normal && f < scene->facet_count && !curved; f++) {
@@ -424,11 +424,11 @@ static void settle_normals(lrcs_scene *scene)
     scene->corner_normal = curved ? scene->corner_normal : NULL;
 }
 
-/* The steps, in a work area whose `used` the caller resets on failure:
-   1. counts (count_scene), the divisions of shapes included, and the scene's arrays (take_scene);
-   2. an index of names (lrcsi_binder_make);
-   3. each part: materials, vertices, facets, normals (add_part);
-   4. the first binding that matched nothing. */
+/* Builds the scene; on failure the caller resets work->used. Called:
+   1. count_scene: counts, and the divisions of shapes; scene_take: the scene's arrays;
+   2. lrcsi_binder_make: an index of names;
+   3. add_part, for each part: materials, vertices, facets, normals;
+   4. lrcsi_binder_unmatched: the first binding that matched nothing. */
 static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
 {
     const lrcs_recipe *recipe = builder->recipe;
@@ -443,7 +443,7 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
     if (status != LRCS_OK) {
         return status;
     }
-    if (take_scene(&totals, recipe->part_count, work, scene) != LRCS_OK) {
+    if (scene_take(&totals, recipe->part_count, work, scene) != LRCS_OK) {
         return refuse_memory(builder);
     }
     size_t mark = work->used;
@@ -460,7 +460,7 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
     }
     scene->unmatched = lrcsi_binder_unmatched(&builder->binder);
     scene->normals = builder->options->normals;
-    settle_normals(scene);
+    drop_flat_normals(scene);
     work->used = mark;
     return LRCS_OK;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The box around the bulk of the vertices, from a sample of them. It affects the speed and the
-   accuracy of a view, never its correctness. */
+/* Estimates the bulk of the vertices from a sample of them. It affects the speed and the accuracy
+   of a view, never its correctness. */
 #include "scene/bulk.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #include "base/range.h"
 
-/* The largest number of vertices sampled, evenly spaced in the list. */
+/* The largest number of vertices in the sample. */
 #define SAMPLE 256u
 /* Vertices are left out of the bulk only if that reduces the work of a grid by at least this
    factor. */
@@ -17,7 +17,7 @@
 /* A sample of the vertices of live facets. */
 typedef struct bulk_sample {
     double x[3][SAMPLE];
-    double far[SAMPLE]; /* distance from the median: the largest over the coordinates */
+    double distance[SAMPLE]; /* from the median, in the maximum norm */
     uint32_t count;
 } bulk_sample;
 
@@ -36,7 +36,8 @@ static void bulk_sort(double *x, uint32_t count)
     }
 }
 
-/* An odd stride, so that models made of equal pieces are not sampled at the same corner of each. */
+/* Takes every stride-th vertex. The stride is odd, so that a model made of many equal pieces is not
+   sampled at the same corner of each piece. */
 static void sample_take(const lrcs_prepared *p, bulk_sample *s)
 {
     uint32_t vertices = p->scene->vertex_count;
@@ -52,41 +53,42 @@ static void sample_take(const lrcs_prepared *p, bulk_sample *s)
     }
 }
 
-/* The median in each coordinate, and how far each vertex is from it. */
+/* The median of each coordinate, and the distance of each vertex from it. */
 static void sample_centre(bulk_sample *s, double median[3])
 {
     double sorted[SAMPLE];
-    memset(s->far, 0, sizeof s->far);
+    memset(s->distance, 0, sizeof s->distance);
     for (int k = 0; k < 3; k++) {
         memcpy(sorted, s->x[k], s->count * sizeof *sorted);
         bulk_sort(sorted, s->count);
         median[k] = sorted[s->count / 2];
         for (uint32_t i = 0; i < s->count; i++) {
-            s->far[i] = lrcsi_max(s->far[i], fabs(s->x[k][i] - median[k]));
+            s->distance[i] = lrcsi_max(s->distance[i], fabs(s->x[k][i] - median[k]));
         }
     }
 }
 
-/* The radius of the bulk about the median; 0 if the bulk is all. The cost of a uniform grid with as
-   many cells as vertices, n, is about n (r / r')^2 if it extends to r and half of the vertices are
-   within r'. If c vertices are left out, they fall into border cells, all into a single one if they
-   are close together, and cost up to c^2 more. Chooses the c of least cost. */
+/* The radius of the bulk about the median; 0 if no vertices should be left out. Chooses the radius
+   of least cost. A uniform grid of n cells for n vertices that extends to the radius r, where half
+   of the vertices are within r', costs about n (r / r')^2. Vertices that are left out fall into
+   border cells: if they are close together, c of them fall into a single cell and cost up to c^2
+   more. The code divides both costs by n. `whole` is the radius that contains all vertices. */
 static double bulk_radius(const bulk_sample *s, double whole, uint32_t vertices)
 {
     double sorted[SAMPLE];
-    memcpy(sorted, s->far, s->count * sizeof *sorted);
+    memcpy(sorted, s->distance, s->count * sizeof *sorted);
     bulk_sort(sorted, s->count);
     double half = sorted[s->count / 2];
-    double all = (whole / half) * (whole / half);
-    double least = all / WORK_RATIO;
+    double cost_of_all = (whole / half) * (whole / half);
+    double least = cost_of_all / WORK_RATIO;
     double radius = 0;
-    for (uint32_t out = 0; out < s->count / 2 && half > 0; out++) {
-        double reach = sorted[s->count - 1 - out] / half;
-        double left_out = (double)out / s->count;
-        double cost = reach * reach + left_out * left_out * vertices;
+    for (uint32_t left_out = 0; left_out < s->count / 2 && half > 0; left_out++) {
+        double ratio = sorted[s->count - 1 - left_out] / half;
+        double fraction = (double)left_out / s->count;
+        double cost = ratio * ratio + fraction * fraction * vertices;
         if (cost < least) {
             least = cost;
-            radius = sorted[s->count - 1 - out];
+            radius = sorted[s->count - 1 - left_out];
         }
     }
     return radius;
@@ -108,11 +110,11 @@ void lrcsi_bulk_find(lrcs_prepared *p, const double half[3])
         whole = lrcsi_max(whole, half[k] + fabs(median[k] - p->centre[k]));
     }
     double radius = 2 * bulk_radius(&s, whole, p->scene->vertex_count);
-    for (int k = 0; k < 3 && radius > 0; k++) { /* tight if the bulk ends before that */
+    for (int k = 0; k < 3 && radius > 0; k++) { /* the box around the vertices within the radius */
         double low = median[k];
         double high = median[k];
         for (uint32_t i = 0; i < s.count; i++) {
-            if (s.far[i] <= radius) {
+            if (s.distance[i] <= radius) {
                 low = lrcsi_min(low, s.x[k][i]);
                 high = lrcsi_max(high, s.x[k][i]);
             }

@@ -1,29 +1,31 @@
 /* SPDX-License-Identifier: MIT */
-/* Of facets on the same three points, those of the same winding face the same way from every
-   direction, and those of the opposite winding then face away. In a tie the first front in order
-   wins; if there is none, the first back that reflects, else the first back (visibility/sample.h).
+/* Decides which coincident facets are redundant, and which two are the sides of one panel. Call the
+   facets on the same three points a group. When the laser sees the fronts of the facets of one
+   winding, it sees the backs of those of the other. They are at equal distance; of equally distant
+   facets the first front in order is seen, else the first back that reflects, else the first back
+   (visibility/sample.h).
 
-   In a place with both windings, one winding shows its front from every direction (except edge-on,
-   where nothing is seen). So only the first facet of each winding is ever seen: the two are the
-   sides of one panel, each the `opposite` of the other. The one that faces away is hidden entirely
-   by the other, and hides nothing that the other does not hide.
+   A group with both windings shows a front to every direction (except edge-on, where nothing is
+   seen). So only the first facet of each winding is ever seen: the two are the sides of one panel,
+   each the `opposite` of the other. The one that faces away is entirely hidden by the other, and
+   hides nothing that the other does not hide.
 
-   In a place with one winding a facet is never seen if one before it reflects from its back, or if
-   there is one before it and the facet itself does not; in both cases the one before hides all that
-   it hides.
+   In a group with one winding, a facet is never seen if an earlier one reflects from its back, or
+   if there is an earlier one and the facet itself does not reflect from its back. In both cases the
+   earlier one hides everything that the facet hides.
 
-   If facets represent a curved shape, visibility of the true shape may differ: none of them is
-   redundant here. */
+   Facets of a curved shape are not redundant, because the visibility of the true shape may differ
+   from theirs. */
 #include "scene/coincident.h"
 
 #include "base/work.h"
 
-/* The facets of one place that may be seen, by winding. */
-typedef struct facet_place {
-    uint32_t edge;      /* the lowest of its edges; the third corner is the key */
-    uint32_t first[2];  /* or LRCS_NONE */
-    uint32_t second[2]; /* the first that reflects from its back, if the first of all does not */
-} facet_place;
+/* The facets of a group that may be seen, by winding, each or LRCS_NONE. */
+typedef struct coincident_group {
+    uint32_t edge;      /* the lowest of the group's edges */
+    uint32_t first[2];  /* the first facet */
+    uint32_t second[2]; /* the first that reflects from its back, if first[] does not */
+} coincident_group;
 
 static int may_coincide(const lrcs_prepared *p, uint32_t facet)
 {
@@ -42,15 +44,15 @@ static uint32_t lowest_edge(const lrcs_prepared *p, uint32_t facet)
     return low < side[2] ? low : side[2];
 }
 
-/* The corner across from a facet's edge, welded. */
-static uint32_t corner_across(const lrcs_prepared *p, uint32_t facet, uint32_t edge)
+/* The welded vertex of a facet that is not on one of its edges. */
+static uint32_t vertex_opposite_edge(const lrcs_prepared *p, uint32_t facet, uint32_t edge)
 {
     const uint32_t *side = p->topology.facet_edge[facet].corner;
     const uint32_t *corner = p->scene->facet[facet].corner;
     return p->topology.weld[corner[side[0] == edge ? 2 : side[1] == edge ? 0 : 1]];
 }
 
-/* Does any facet share its lowest edge with another one that may be in the same place? */
+/* Does any facet share its lowest edge with another one that may be in the same group? */
 static int any_may_coincide(const lrcs_prepared *p)
 {
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -62,19 +64,19 @@ static int any_may_coincide(const lrcs_prepared *p)
         uint32_t other = use[0].facet == f ? use[1].facet : use[0].facet;
         if (p->topology.edge[lowest].uses > 2 ||
             (lowest_edge(p, other) == lowest &&
-             corner_across(p, f, lowest) == corner_across(p, other, lowest))) {
+             vertex_opposite_edge(p, f, lowest) == vertex_opposite_edge(p, other, lowest))) {
             return 1;
         }
     }
     return 0;
 }
 
-/* Adds a facet to its place; facets are added in order. */
-static void place_add(lrcs_prepared *p, facet_place *place, uint32_t facet, uint32_t winding)
+/* Adds a facet to its group; facets are added in order. */
+static void group_add(lrcs_prepared *p, coincident_group *group, uint32_t facet, uint32_t winding)
 {
-    uint32_t *first = &place->first[winding];
-    uint32_t *second = &place->second[winding];
-    uint32_t opposite = place->first[!winding];
+    uint32_t *first = &group->first[winding];
+    uint32_t *second = &group->second[winding];
+    uint32_t opposite = group->first[!winding];
     if (*first == LRCS_NONE) {
         *first = facet;
     } else if (opposite == LRCS_NONE && *second == LRCS_NONE && reflects_back(p, facet) &&
@@ -94,20 +96,20 @@ static void place_add(lrcs_prepared *p, facet_place *place, uint32_t facet, uint
             p->opposite[pair[k]] = pair[!k];
         }
     }
-    if (place->second[!winding] != LRCS_NONE) {
-        p->redundant[place->second[!winding]] = LRCSI_REDUNDANT;
+    if (group->second[!winding] != LRCS_NONE) {
+        p->redundant[group->second[!winding]] = LRCSI_REDUNDANT;
     }
 }
 
-/* Facets in one place share the same three edges. They are found at the lowest edge by the corner
-   opposite it: place[corner] is the last one found there. Returns whether any facet has an
-   opposite. */
-static int mark_places(lrcs_prepared *p, facet_place *place)
+/* Forms the groups. The facets of a group share three edges, so they are all found at the lowest of
+   these, where they have the same opposite vertex: group[vertex] is the latest group with that
+   vertex. Returns whether any facet has an opposite. */
+static int groups_make(lrcs_prepared *p, coincident_group *group)
 {
     const lrcsi_topology *t = &p->topology;
     int pairs = 0;
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
-        place[v].edge = LRCS_NONE;
+        group[v].edge = LRCS_NONE;
     }
     for (uint32_t e = 0; e < t->edge_count; e++) {
         const lrcsi_edge_use *use = t->use + t->edge[e].first_use;
@@ -115,11 +117,11 @@ static int mark_places(lrcs_prepared *p, facet_place *place)
             if (lowest_edge(p, use[i].facet) != e || !may_coincide(p, use[i].facet)) {
                 continue;
             }
-            facet_place *at = &place[corner_across(p, use[i].facet, e)];
+            coincident_group *at = &group[vertex_opposite_edge(p, use[i].facet, e)];
             if (at->edge != e) {
-                *at = (facet_place){e, {LRCS_NONE, LRCS_NONE}, {LRCS_NONE, LRCS_NONE}};
+                *at = (coincident_group){e, {LRCS_NONE, LRCS_NONE}, {LRCS_NONE, LRCS_NONE}};
             }
-            place_add(p, at, use[i].facet, use[i].forward);
+            group_add(p, at, use[i].facet, use[i].forward);
             pairs |= at->first[0] != LRCS_NONE && at->first[1] != LRCS_NONE;
         }
     }
@@ -129,11 +131,11 @@ static int mark_places(lrcs_prepared *p, facet_place *place)
 size_t lrcsi_coincident_need(uint32_t vertex_count, uint32_t facet_count)
 {
     return lrcsi_work_add(lrcsi_work_bytes(facet_count, sizeof(uint32_t)),
-                          lrcsi_work_bytes(vertex_count, sizeof(facet_place)));
+                          lrcsi_work_bytes(vertex_count, sizeof(coincident_group)));
 }
 
-/* Most scenes have no coincident facets, which is quickly established. Places are visited again
-   only if there are opposites to store. */
+/* Most scenes have no coincident facets; a quick test finds that out. If some facets have
+   opposites, the groups are formed a second time, to store them. */
 int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
 {
     uint32_t facets = p->scene->facet_count;
@@ -142,20 +144,20 @@ int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
     if (!any_may_coincide(p)) {
         return LRCS_OK;
     }
-    facet_place *place = lrcsi_work_take(work, p->scene->vertex_count, sizeof *place);
-    if (!place) {
+    coincident_group *group = lrcsi_work_take(work, p->scene->vertex_count, sizeof *group);
+    if (!group) {
         return LRCS_E_MEMORY;
     }
-    int pairs = mark_places(p, place);
+    int pairs = groups_make(p, group);
     work->used = mark;
     if (!pairs) {
         return LRCS_OK;
     }
     uint32_t *opposite = lrcsi_work_take(work, facets, sizeof *opposite);
     size_t end = work->used;
-    place = lrcsi_work_take(work, p->scene->vertex_count, sizeof *place);
+    group = lrcsi_work_take(work, p->scene->vertex_count, sizeof *group);
     work->used = end;
-    if (!opposite || !place) {
+    if (!opposite || !group) {
         work->used = mark;
         return LRCS_E_MEMORY;
     }
@@ -163,19 +165,20 @@ int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
         opposite[f] = LRCS_NONE;
     }
     p->opposite = opposite;
-    mark_places(p, place);
+    groups_make(p, group);
     return LRCS_OK;
 }
 
 /* --- contacts --------------------------------------------------------------------------------- */
 
-/* The facet for which the contacts were computed instead of this one. */
+/* The facet of an opposite pair for which contacts were computed; the facet itself if it has no
+   opposite. */
 static uint32_t first_of_pair(const lrcs_prepared *p, uint32_t facet)
 {
     return p->opposite[facet] < facet ? p->opposite[facet] : facet;
 }
 
-/* The number of entries of the lists. */
+/* The number of entries of the completed lists. */
 static uint64_t count_entries(const lrcs_prepared *p)
 {
     const lrcsi_intersections *t = &p->intersections;
@@ -189,16 +192,16 @@ static uint64_t count_entries(const lrcs_prepared *p)
     return count;
 }
 
-/* intersections.met of a facet, from that of the facet for which it was computed. The two list
-   their corners in different orders; their sides correspond if they are the same edge. */
-static unsigned char met_of(const lrcs_prepared *p, uint32_t facet, uint32_t of)
+/* intersections.met of a facet, from that of the first facet of its pair. The two list their
+   corners in different orders; their sides correspond if they are the same edge. */
+static unsigned char met_of(const lrcs_prepared *p, uint32_t facet, uint32_t first)
 {
     const uint32_t *edge = p->topology.facet_edge[facet].corner;
-    const uint32_t *edge_of = p->topology.facet_edge[of].corner;
-    unsigned met = p->intersections.met[of] & 1u;
+    const uint32_t *first_edge = p->topology.facet_edge[first].corner;
+    unsigned met = p->intersections.met[first] & 1u;
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < 3; i++) {
-            if (edge[k] == edge_of[i] && lrcsi_intersection_along(&p->intersections, of, i)) {
+            if (edge[k] == first_edge[i] && lrcsi_intersection_along(&p->intersections, first, i)) {
                 met |= 2u << k;
             }
         }
@@ -206,15 +209,16 @@ static unsigned char met_of(const lrcs_prepared *p, uint32_t facet, uint32_t of)
     return (unsigned char)met;
 }
 
-/* Copies the lists in place, from the end: no entry moves to a smaller index, and the list of the
-   first facet of a pair has not moved when the second, which comes after it, gets a copy. */
-static void spread_entries(lrcs_prepared *p, uint32_t count)
+/* Completes the lists in place. It starts at the end, so that nothing is overwritten too early: no
+   entry moves to a smaller index, and the second facet of a pair, which comes after the first, gets
+   its copy before the list of the first moves. */
+static void complete_lists(lrcs_prepared *p, uint32_t count)
 {
     lrcsi_intersections *t = &p->intersections;
     for (uint32_t f = p->scene->facet_count; f-- > 0;) {
-        uint32_t of = first_of_pair(p, f);
+        uint32_t first = first_of_pair(p, f);
         uint32_t to = count;
-        for (uint32_t i = t->first[of + 1]; i-- > t->first[of];) {
+        for (uint32_t i = t->first[first + 1]; i-- > t->first[first];) {
             lrcsi_intersection contact = t->entry[i];
             uint32_t opposite = p->opposite[contact.other];
             if (opposite != LRCS_NONE) {
@@ -222,7 +226,7 @@ static void spread_entries(lrcs_prepared *p, uint32_t count)
             }
             t->entry[--to] = contact;
         }
-        t->met[f] = met_of(p, f, of);
+        t->met[f] = met_of(p, f, first);
         t->first[f + 1] = count;
         count = to;
     }
@@ -239,10 +243,10 @@ int lrcsi_coincident_contacts(lrcs_prepared *p, lrcs_work *work)
         return LRCS_E_LIMIT;
     }
     work->used = (size_t)((unsigned char *)t->entry - work->bytes);
-    if (!lrcsi_work_take(work, (size_t)count, sizeof *t->entry)) { /* the same place, longer */
+    if (!lrcsi_work_take(work, (size_t)count, sizeof *t->entry)) { /* extends the block in place */
         return LRCS_E_MEMORY;
     }
-    spread_entries(p, (uint32_t)count);
+    complete_lists(p, (uint32_t)count);
     t->count = (uint32_t)count;
     return LRCS_OK;
 }

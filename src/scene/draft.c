@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* The schema of scene files, as a table of keys, and the drafts that it checks. Decides which keys
-   each table may have, and their types. */
+/* The schema of scene files, as a list of keys, and drafts, which are checked against it. Decides
+   which keys each table may have, and their types. */
 #include "scene/draft.h"
 
 #include <string.h>
 
 #include "base/where.h"
 
-/* A key in a table: the types it may have, and how many numbers an array then holds. */
+/* A key of a table: the types that its value may have, and for an array the smallest
+   and the largest number of elements. */
 typedef struct schema_row {
     int table, key, types;
-    uint32_t least, most;
+    uint32_t min_count, max_count;
     const char *name, *expected;
 } schema_row;
 
@@ -139,7 +140,7 @@ static int type_fits(const schema_row *row, const lrcsi_toml_event *event)
 {
     return (row->types & event->type) != 0 &&
            (event->type != LRCSI_TOML_ARRAY ||
-            (event->count >= row->least && event->count <= row->most));
+            (event->count >= row->min_count && event->count <= row->max_count));
 }
 
 int lrcsi_draft_add(lrcsi_draft *draft, const lrcsi_toml_event *event)
@@ -175,10 +176,10 @@ const char *lrcsi_draft_text(const lrcsi_draft *draft, int key)
     return draft->value[key].text;
 }
 
-double lrcsi_draft_number(const lrcsi_draft *draft, int key, double other)
+double lrcsi_draft_number(const lrcsi_draft *draft, int key, double fallback)
 {
     const lrcsi_toml_event *event = lrcsi_draft_find(draft, key);
-    return event ? event->number[0] : other;
+    return event ? event->number[0] : fallback;
 }
 
 int lrcsi_draft_refuse(const lrcsi_draft *draft, int status, const char *expected)

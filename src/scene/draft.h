@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A table of a scene file while it is read: the keys that it may hold, those that it holds, and
-   error reports about them. recipe.c and recipe_part.c interpret a finished table. */
+/* A draft is a table of a scene file while it is read: its keys and values so far, checked against
+   the schema, and error reports about them. recipe.c and recipe_part.c interpret a finished draft.
+ */
 #ifndef LRCSI_DRAFT_H
 #define LRCSI_DRAFT_H
 
@@ -15,7 +16,7 @@ enum lrcsi_table {
     LRCSI_TABLES
 };
 
-/* Keys of all tables; one that several tables know has one number. */
+/* The keys of all tables; a key that several tables have is listed once. */
 enum lrcsi_key {
     LRCSI_KEY_NAME,
     LRCSI_KEY_MATERIAL,
@@ -64,14 +65,14 @@ typedef struct lrcsi_draft {
     lrcsi_toml_event value[LRCSI_KEYS]; /* kind LRCSI_TOML_NONE if not given */
 } lrcsi_draft;
 
-/* Begins the top of the file. */
+/* Begins the table at the top of the file. */
 void lrcsi_draft_start(const lrcsi_toml *toml, lrcsi_draft *draft);
 
-/* The table that a header opens (lrcsi_table), or LRCS_E_NAME. Draft: the one that it ends or, for
-   a joint, continues. */
+/* The table that a header opens (lrcsi_table), or LRCS_E_NAME. Given: the draft of the table before
+   it, because a joint must follow its part. */
 int lrcsi_draft_table(const lrcsi_draft *draft, const lrcsi_toml_event *header);
 
-/* Begins a table, or continues that of a part with its joint. */
+/* Begins a table; a joint continues the draft of its part. */
 void lrcsi_draft_open(lrcsi_draft *draft, int table, const lrcsi_toml_event *header);
 
 /* Adds a key. Status: LRCS_OK; LRCS_E_NAME (unknown, given twice); LRCS_E_ARGUMENT (type). */
@@ -83,11 +84,11 @@ const lrcsi_toml_event *lrcsi_draft_find(const lrcsi_draft *draft, int key);
 /* A string's text, or NULL. */
 const char *lrcsi_draft_text(const lrcsi_draft *draft, int key);
 
-/* A number, or `other` if it is not given. */
-double lrcsi_draft_number(const lrcsi_draft *draft, int key, double other);
+/* A number, or `fallback` if it is not given. */
+double lrcsi_draft_number(const lrcsi_draft *draft, int key, double fallback);
 
-/* Error reports; they return `status`. About the table as a whole, naming it; about a key's value
-   (which must be there). */
+/* Reports an error in the table as a whole, or in the value of a key that is given. Both return
+   `status`. */
 int lrcsi_draft_refuse(const lrcsi_draft *draft, int status, const char *expected);
 int lrcsi_draft_refuse_value(const lrcsi_draft *draft, int key, int status, const char *expected);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Boxes around parts, and which shapes have closed forms here: it does not decide what hides what,
-   nor what a shape reflects. */
+/* Boxes around parts, and which placed shapes have closed forms. It does not decide what hides
+   what, nor what a shape reflects. */
 #include "scene/extent.h"
 
 #include <math.h>
@@ -10,20 +10,22 @@
 #include "optics/closed.h"
 #include "scene/placed_shape.h"
 
-/* Parts smaller than this, scaled, have coordinates near those that count as 0. */
-#define EXTENT_LEAST 0x1p-200
+/* A part thinner than this (scaled) has no closed form: its coordinates may be so small that they
+   count as 0 (LRCSI_COORDINATE_LEAST). */
+#define EXTENT_MIN 0x1p-200
 
-/* Can any part that has facets have a closed form? */
-static int some_closed_form(const lrcs_scene *scene)
+/* Does any part have a shape that may have a closed form? */
+static int any_closed_form(const lrcs_scene *scene)
 {
-    int some = 0;
+    int any = 0;
     for (uint32_t i = 0; i < scene->part_count; i++) {
-        some |= scene->part[i].rigid && lrcsi_placed_shape_closed_form(&scene->part[i].shape, 0);
+        any |= scene->part[i].rigid && lrcsi_placed_shape_closed_form(&scene->part[i].shape, 0);
     }
-    return some;
+    return any;
 }
 
-/* All its facets are live, and its dimensions are in the range where the closed forms are valid. */
+/* 1 if a part has a closed form: all its facets are live, and its dimensions and material are in
+   the range where the closed forms are valid. */
 static int has_closed_form(const lrcs_prepared *p, uint32_t index)
 {
     const lrcs_part *part = &p->scene->part[index];
@@ -37,20 +39,21 @@ static int has_closed_form(const lrcs_prepared *p, uint32_t index)
         }
     }
     const lrcs_material *material = lrcsi_prepared_material(p, part->first_facet);
-    return ldexp(part->thinnest, -p->exponent) >= EXTENT_LEAST &&
+    return ldexp(part->thinnest, -p->exponent) >= EXTENT_MIN &&
            lrcsi_closed_check(&part->shape, &material->brdf) == LRCS_OK;
 }
 
 size_t lrcsi_extents_need(const lrcs_scene *scene)
 {
-    return some_closed_form(scene) ? lrcsi_work_bytes(scene->part_count, sizeof(lrcsi_extent)) : 0;
+    return any_closed_form(scene) ? lrcsi_work_bytes(scene->part_count, sizeof(lrcsi_extent)) : 0;
 }
 
-/* The true surface is within `reach` of the facets. Rounding: 1e-15 covers that of the sums. */
+/* The boxes contain the true surface, which is within `reach` of the facets; 1e-15 covers the
+   rounding of the sums. */
 int lrcsi_extents_make(lrcs_prepared *p, lrcs_work *work)
 {
     const lrcs_scene *scene = p->scene;
-    if (!some_closed_form(scene)) {
+    if (!any_closed_form(scene)) {
         return LRCS_OK;
     }
     lrcsi_extent *extent = lrcsi_work_take(work, scene->part_count, sizeof *extent);

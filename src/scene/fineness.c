@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* How finely a shape among other parts is divided: coarser if it is small compared with them, and
-   as finely as the edges of shadows require. It chooses, and proves nothing: the error of the
-   facets is computed from the mesh for each pose. */
+/* How finely a shape is divided into facets: as finely as the edges of its shadows require, but
+   more coarsely if it is small compared with the other parts. This is a choice without a proof: the
+   error of the facets is computed from the mesh for each pose. */
 #include "scene/fineness.h"
 
 #include <math.h>
@@ -11,43 +11,44 @@
 #include "mesh/tessellate.h"
 #include "scene/placed_shape.h"
 
-/* The tolerance of a scene is divided among its parts, and among at least this many. The largest
-   factor by which a small part may be coarser than requested. */
-#define PARTS_LEAST     16.0
-#define COARSENING_MOST 100.0
+/* The tolerance of a scene is divided among its parts, or among this many if it has fewer. */
+#define PARTS_MIN 16.0
+/* The largest factor by which a small part may be coarser than requested. */
+#define COARSENING_MAX 100.0
 
-/* The largest distance of a round body's surface from its facets, in units of its radius times the
-   tolerance. Measured: with 0.3, 14 of 20 directions to examples/satellites/spinner.toml and 11 of
-   20 to lander.toml meet 1e-4; with 1.0, 25 and 17 of 60 in half the time. The number of its facets
-   grows as 1/tolerance. */
-#define REACH_ROUND 0.3
+/* A round body ("round": a sphere, a dome or a paraboloid) is divided so that its surface is within
+   this times its radius times the tolerance of its facets. Measured: with 0.3, the bounds of 14 of
+   20 directions to examples/satellites/spinner.toml and of 11 of 20 to lander.toml meet 1e-4;
+   with 1.0, those of 25 and 17 of 60, in half the time. The number of its facets grows as
+   1/tolerance. */
+#define ROUND_REACH 0.3
 
-/* The distance of a sector's chord from the unit circle is about this times (pi/N)^2
+/* The chord of one of N sectors is within about this times (pi/N)^2 of the unit circle
    (mesh/profile.c). */
 #define SECTOR_REACH 0.36
-/* How often a reach is enlarged by a quarter to keep within the limit of facets. */
-#define REACHES_MOST 100
+/* To keep within the limit of facets, a reach is enlarged by a quarter, at most so many times. */
+#define ENLARGEMENTS_MAX 100
 
-/* Divisions of a shape whose facets only pictures and records show: neighbours differ by 7.5 and 9
-   degrees, which looks smooth. */
+/* Divisions of a shape whose facets appear only in pictures and records: the normals of neighbours
+   differ by 7.5 and 9 degrees, which looks smooth. */
 #define BASE_AROUND 48
 #define BASE_ALONG  10
 
-/* Divisions of a shape alone whose facets represent patches of its true surface. Only patches that
-   are nearly edge-on to the laser, or partly face away from it, have a large error. Measured with
-   nine materials at 37 aspects, the bounds relative to the mean of sigma over the aspects are at
-   most 20/N^2 for straight walls and 300/N^3 for round shapes of N sectors, if the rules of
-   integrate/patch.h hold: for that a facet's turn in azimuth must not exceed 4 s or 0.1 rad, nor m
-   a limit. */
-#define ALONE_STRAIGHT      20.0
-#define ALONE_ROUND         300.0
-#define ALONE_LEAST         64.0
-#define ALONE_MOST          1e6
-#define ALONE_PER_SLOPE     1.6
-#define ALONE_EXPONENT_MOST 50.0
+/* Divisions of a shape that is alone in its scene and whose facets represent patches of its true
+   surface. Only patches that are nearly edge-on to the laser, or partly face away from it, have a
+   large error. Measured with nine materials at 37 aspects, the bounds relative to the mean of sigma
+   over the aspects are at most 20/N^2 for straight walls and 300/N^3 for round shapes of N sectors.
+   This holds if the rules of integrate/patch.h apply: a facet may turn by at most 4 s and 0.1 rad
+   in azimuth (hence at least 1.6/s and 64 sectors), and m must not exceed 50. */
+#define ALONE_STRAIGHT     20.0
+#define ALONE_ROUND        300.0
+#define ALONE_SECTORS_MIN  64.0
+#define ALONE_SECTORS_MAX  1e6
+#define ALONE_PER_SLOPE    1.6
+#define ALONE_EXPONENT_MAX 50.0
 
-/* Beyond this ratio of a scale's components no number of facets suffices. */
-#define RATIO_MOST 1e3
+/* If the components of a scale differ by more than this factor, no number of facets suffices. */
+#define RATIO_MAX 1e3
 
 /* The area of a facet, in units of the mesh; 0 if a corner is out of range. */
 static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
@@ -79,18 +80,18 @@ double lrcsi_fineness_area(const lrcs_recipe_part *part, const lrcs_mesh *mesh)
         }
     }
     const double *scale = part->place.scale;
-    double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
-    return area * most * most;
+    double largest = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    return area * largest * largest;
 }
 
-/* The factor by which a part that is small among the others may be coarser than requested. If the
-   brightness of each part were proportional to its surface, all parts together would add at most
-   the error that the scene is allowed. */
+/* The factor by which a part that is small compared with the others may be coarser than requested:
+   if sigma of each part were proportional to its surface area, the errors of all parts together
+   would not exceed the error that the scene is allowed. */
 static double part_coarsening(const lrcsi_fineness *fineness, const lrcs_recipe_part *part)
 {
-    double parts = fmax(PARTS_LEAST, fineness->parts);
+    double parts = fmax(PARTS_MIN, fineness->parts);
     double factor = fineness->area / (lrcsi_fineness_area(part, NULL) * parts);
-    return factor > 1.0 ? fmin(factor, COARSENING_MOST) : 1.0;
+    return factor > 1.0 ? fmin(factor, COARSENING_MAX) : 1.0;
 }
 
 static int shape_is_round(const lrcs_shape *shape)
@@ -99,9 +100,10 @@ static int shape_is_round(const lrcs_shape *shape)
            shape->kind == LRCS_SHAPE_PARABOLOID;
 }
 
-/* The tolerance for which a shape is divided: as requested if it is alone. Among other parts it is
-   multiplied by the factor above; for round bodies, whose number of facets grows as 1/tolerance
-   (for straight walls as its square root), it is ten times as large, at least 1e-4. */
+/* The tolerance for which a shape is divided: as requested if it is alone. Among other parts the
+   requested tolerance is multiplied by the factor above. For round bodies it is also ten times as
+   large, and at least round_min, because their number of facets grows as 1/tolerance (that of
+   straight walls as its square root). */
 static double shape_tolerance(const lrcsi_fineness *fineness, const lrcs_recipe_part *part)
 {
     double tolerance = fineness->tolerance;
@@ -109,12 +111,14 @@ static double shape_tolerance(const lrcsi_fineness *fineness, const lrcs_recipe_
         return tolerance;
     }
     tolerance = fmin(tolerance * part_coarsening(fineness, part), fmax(1.0, tolerance));
-    return shape_is_round(&part->shape) ? fmax(fmin(10.0 * tolerance, 1.0), fineness->round_least)
+    return shape_is_round(&part->shape) ? fmax(fmin(10.0 * tolerance, 1.0), fineness->round_min)
                                         : tolerance;
 }
 
-/* Among other parts a rim casts shadows that are uncertain over twice its reach, about 0.4 R
-   (pi/N)^2, along 2 pi R: less than half the tolerance of the disc that it bounds if N is this. */
+/* Divides the rim of a shape among other parts finely enough for its shadows. The shadow of a rim
+   of radius R is uncertain over a strip of length 2 pi R and width 2 * 0.4 R (pi/N)^2. With N =
+   `corners` its area is less than half the tolerance times the area of the disc that the rim
+   bounds. */
 static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                        lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
@@ -133,12 +137,13 @@ static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *p
     }
 }
 
-/* Divisions of a round body with level rings whose facets are within `reach` of its true surface:
-   sectors for a share of that, and as many rings as the rest requires, but for too many facets. */
-static lrcs_divisions divide_round_share(const lrcsi_fineness *fineness, const lrcs_shape *shape,
-                                         double reach, double share)
+/* Divisions of a round body with level rings whose facets are within `reach` of its true surface.
+   The sectors take up the given fraction of that distance; rings are added until the facets are
+   within it, or too many. */
+static lrcs_divisions divide_round_by(const lrcsi_fineness *fineness, const lrcs_shape *shape,
+                                      double reach, double fraction)
 {
-    double corners = LRCS_PI * sqrt(SECTOR_REACH * shape->radius / (share * reach));
+    double corners = LRCS_PI * sqrt(SECTOR_REACH * shape->radius / (fraction * reach));
     lrcs_divisions d = {4 * (uint32_t)(fmin(fmax(corners, BASE_AROUND), 1e6) / 4.0 + 1.0),
                         BASE_ALONG, 1};
     while (lrcsi_tessellate_counts(shape, &d).facets <= fineness->max_facets &&
@@ -148,15 +153,16 @@ static lrcs_divisions divide_round_share(const lrcsi_fineness *fineness, const l
     return d;
 }
 
-/* The share for which there are the fewest facets; where these are too many, for a larger reach. */
+/* The divisions above for the fraction that gives the fewest facets. If these are still too many,
+   the reach is enlarged. */
 static lrcs_divisions divide_round(const lrcsi_fineness *fineness, const lrcs_shape *shape,
                                    double reach)
 {
     lrcs_divisions best = {0, 0, 0};
     uint32_t fewest = UINT32_MAX;
-    for (int i = 0; i < REACHES_MOST && fewest > fineness->max_facets; i++) {
-        for (double share = 0.3; share < 0.85; share += 0.1) {
-            lrcs_divisions d = divide_round_share(fineness, shape, reach, share);
+    for (int i = 0; i < ENLARGEMENTS_MAX && fewest > fineness->max_facets; i++) {
+        for (double fraction = 0.3; fraction < 0.85; fraction += 0.1) {
+            lrcs_divisions d = divide_round_by(fineness, shape, reach, fraction);
             uint32_t facets = lrcsi_tessellate_counts(shape, &d).facets;
             if (facets < fewest) {
                 best = d;
@@ -168,16 +174,17 @@ static lrcs_divisions divide_round(const lrcsi_fineness *fineness, const lrcs_sh
     return best;
 }
 
-/* Divisions of a shape whose facets represent patches of its true surface (integrate/patch.h):
-   these have no error of their own, so that only the uncertainty of shadows counts, in proportion
-   to the distance of the true surface from the facets. Straight walls are divided as above, round
-   bodies for that distance. Each halving divides the distance by two. */
+/* Divisions of a shape among other parts whose facets represent patches of its true surface
+   (integrate/patch.h). Patches have no error of their own; only the shadows are uncertain, in
+   proportion to the distance between the true surface and the facets. Straight walls are divided as
+   in refine_rim, round bodies for that distance. Each halving halves the distance. Returns 0 if
+   there would be too many facets. */
 static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                               lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     const lrcs_shape *shape = &part->shape;
     double tolerance = fmin(fineness->tolerance * part_coarsening(fineness, part), 1.0);
-    double reach = REACH_ROUND * fmax(tolerance, fineness->round_least) * shape->radius;
+    double reach = ROUND_REACH * fmax(tolerance, fineness->round_min) * shape->radius;
     double corners = fmax(3.1416 * sqrt(5.0 / tolerance), BASE_AROUND);
     corners *= sqrt(ldexp(1.0, fineness->halvings));
     if (!(corners < 1e6)) {
@@ -195,23 +202,25 @@ static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_
     return counts->facets <= fineness->max_facets;
 }
 
-/* Divisions of a shape alone whose facets represent patches: as coarse as the tolerance allows.
-   Returns 0 if that does not suffice, or if these facets would need to be finer than those without
-   patches. ratio: of the scales along two axes. It multiplies the turns of normals; measured with
-   scales of 1, 2 and 4, it multiplies the bounds of round shapes by its cube. */
+/* Divisions of a shape alone in its scene whose facets represent patches: as coarse as the
+   tolerance allows. Returns 0 if that does not suffice, or if these facets would need to be finer
+   than facets without patches. ratio: of the scales along two axes. It multiplies the turns of
+   normals; measured with scales of 1 to 4, it multiplies the bounds of round shapes by its cube. */
 static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *part, double ratio,
                         const lrcs_brdf *brdf, lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     int is_round = shape_is_round(&part->shape);
     const double round = ALONE_ROUND * (ratio * ratio * ratio);
     double tolerance = fmin(ldexp(fineness->tolerance, -fineness->halvings), 1.0);
-    double corners = fmax(ALONE_LEAST, brdf->A > 0.0 ? ALONE_PER_SLOPE * ratio / brdf->s : 0.0);
+    double corners =
+        fmax(ALONE_SECTORS_MIN, brdf->A > 0.0 ? ALONE_PER_SLOPE * ratio / brdf->s : 0.0);
     corners = is_round ? corners : fmax(corners, sqrt(ALONE_STRAIGHT / tolerance));
-    while (is_round && corners < ALONE_MOST && corners * corners * corners * tolerance < round) {
+    while (is_round && corners < ALONE_SECTORS_MAX &&
+           corners * corners * corners * tolerance < round) {
         corners += 4.0;
     }
-    if (fineness->facets_only == LRCS_FACETS_LOCAL || !(corners < ALONE_MOST) ||
-        (brdf->B > 0.0 && brdf->m > ALONE_EXPONENT_MOST)) {
+    if (fineness->facets_only == LRCS_FACETS_LOCAL || !(corners < ALONE_SECTORS_MAX) ||
+        (brdf->B > 0.0 && brdf->m > ALONE_EXPONENT_MAX)) {
         return 0;
     }
     divisions->around = 4 * (uint32_t)(corners / 4.0 + 1.0);
@@ -233,8 +242,8 @@ static int has_patches(const lrcs_recipe_part *part)
            lrcsi_placer_normals(&placer, image, &area);
 }
 
-/* Does the closed form hold for a shape from every direction? It does if nothing hides it and its
-   placement does not change its shape. */
+/* Does the closed form hold for a shape in every direction? It does if the shape is alone, so that
+   nothing hides it, and if its placement does not deform it. */
 static int is_closed_form(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                           const lrcs_material *material)
 {
@@ -249,8 +258,9 @@ static int is_closed_form(const lrcsi_fineness *fineness, const lrcs_recipe_part
 /* The first of these that applies:
    1. facets for pictures only, if the closed form holds for the shape;
    2. facets that represent patches of the true surface;
-   3. flat facets. The ratio of the scales along two axes multiplies the turns of normals, and the
-      error of a facet by slightly more than its square (mesh/profile.c). */
+   3. flat facets. If the scale differs between axes, the ratio of its largest to its smallest
+      component multiplies the angles between neighbouring normals, and slightly more than the
+   square of the ratio multiplies the error of a facet (mesh/profile.c). */
 int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                           const lrcs_material *material, lrcs_divisions *divisions,
                           lrcs_mesh_counts *counts)
@@ -258,9 +268,10 @@ int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part
     const double *scale = part->place.scale;
     double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
     double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
-    double ratio = large / small < RATIO_MOST ? large / small : 1.0; /* not if small is 0 */
-    double spread = ratio > 1.0 ? 1.5 * ratio * ratio : 1.0;
-    const double tolerance = ldexp(shape_tolerance(fineness, part) / spread, -fineness->halvings);
+    double ratio = large / small < RATIO_MAX ? large / small : 1.0; /* 1 too if small is 0 */
+    double amplification = ratio > 1.0 ? 1.5 * ratio * ratio : 1.0;
+    const double tolerance =
+        ldexp(shape_tolerance(fineness, part) / amplification, -fineness->halvings);
     const lrcs_fineness wanted = {tolerance, material->brdf, fineness->max_facets};
     if (is_closed_form(fineness, part, material)) {
         *divisions =

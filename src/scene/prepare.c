@@ -10,11 +10,11 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/tree.h"
-#include "scene/across.h"
 #include "scene/batch.h"
 #include "scene/bulk.h"
 #include "scene/coincident.h"
 #include "scene/extent.h"
+#include "scene/neighbours.h"
 #include "scene/proximity.h"
 #include "scene/runs.h"
 #include "scene/solid.h"
@@ -143,8 +143,8 @@ static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
     find_live(p);
     find_box(p);
     int status = lrcsi_coincident_mark(p, work);
-    return status == LRCS_OK ? lrcsi_across_make(&p->topology, scene->facet_count, p->redundant,
-                                                 p->opposite, work, &p->across)
+    return status == LRCS_OK ? lrcsi_neighbours_make(&p->topology, scene->facet_count, p->redundant,
+                                                     p->opposite, work, &p->neighbours)
                              : status;
 }
 
@@ -259,7 +259,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_work_bytes(vertices, 1));
     size_t coincident = lrcsi_work_add(need, lrcsi_coincident_need(vertices, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t))); /* opposite */
-    need = lrcsi_work_add(need, lrcsi_across_need(scene->facet_count));
+    need = lrcsi_work_add(need, lrcsi_neighbours_need(scene->facet_count));
     /* 2. Contacts: what is not searched, pieces of surface, and the search with its result. */
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));

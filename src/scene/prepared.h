@@ -34,8 +34,8 @@ enum lrcsi_redundant {
     LRCSI_REDUNDANT = 2              /* always; so are facets that are skipped */
 };
 
-/* Across the sides of facets (scene/across.h). */
-typedef struct lrcsi_across {
+/* Across the sides of facets (scene/neighbours.h). */
+typedef struct lrcsi_neighbours {
     lrcs_facet *facet; /* facet: across its side from corner k to k + 1, the other facet there that
                           traverses the side in the opposite direction (if two coincident facets
                           are there, the one that does); the number of facets if there is no
@@ -43,7 +43,7 @@ typedef struct lrcsi_across {
                         */
     uint32_t *irregular; /* irregular edges: all other edges that have facets; ascending */
     uint32_t irregular_count;
-} lrcsi_across;
+} lrcsi_neighbours;
 
 /* Facets that are not skipped, by material and in facet order within one. A block may start at any
    place: LRCSI_LANES places beyond the last hold zeros. */
@@ -83,8 +83,8 @@ typedef struct lrcsi_run {
     int has_contacts; /* some facet has a contact or is marked in `met` (mesh/intersection.h) */
 } lrcsi_run;
 
-/* A side of a facet of a run across which (scene/across.h) there is a facet of an earlier run, or
-   no facet. */
+/* A side of a facet of a run across which (scene/neighbours.h) there is a facet of an earlier run,
+   or no facet. */
 typedef struct lrcsi_run_side {
     uint32_t facet, other;
     uint32_t edge; /* of the topology */
@@ -141,7 +141,7 @@ struct lrcs_prepared {
     lrcsi_normal *normal;
     lrcsi_batches batches;             /* facets that are not skipped, by material */
     lrcsi_topology topology;           /* of all facets; its edges may include skipped ones */
-    lrcsi_across across;               /* across the sides of facets that are not redundant */
+    lrcsi_neighbours neighbours;       /* across the sides of facets that are not redundant */
     lrcsi_intersections intersections; /* between facets that are not redundant, but not between a
                                           facet and its opposite */
     lrcsi_runs runs;                   /* facets that follow one another */

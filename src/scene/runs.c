@@ -28,7 +28,7 @@ static void run_link(lrcsi_runs *runs, uint32_t run, uint32_t facet_count)
 }
 
 /* Joins the facets of a run, and lists the sides that leave it. A facet has another across a side
-   if and only if that one has it across (scene/across.c), so that sides towards later runs are
+   if and only if that one has it across (scene/neighbours.c), so that sides towards later runs are
    listed there. */
 static void run_join(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, uint32_t end)
 {
@@ -39,7 +39,7 @@ static void run_join(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, u
     for (uint32_t f = start; f < end; f++) {
         group[f - start] = f - start;
         for (int k = 0; k < 3; k++) {
-            uint32_t other = p->across.facet[f].corner[k];
+            uint32_t other = p->neighbours.facet[f].corner[k];
             if (other >= start && other < f) {
                 lrcsi_disjoint_union(group, other - start, f - start);
             } else if (other < start || other == count) {

@@ -21,7 +21,7 @@ int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
     for (uint32_t f = 0; f < count; f++) {
         piece[f] = f;
         for (int k = 0; k < 3 && !p->skip[f]; k++) {
-            uint32_t other = p->across.facet[f].corner[k];
+            uint32_t other = p->neighbours.facet[f].corner[k];
             if (p->opposite || other == f || other == count) {
                 return 0;
             }

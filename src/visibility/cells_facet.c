@@ -284,7 +284,7 @@ int lrcsi_cells_has_coplanar(const lrcsi_view *view, uint32_t facet)
 uint32_t lrcsi_cells_neighbour(const lrcsi_view *view, uint32_t facet, int k)
 {
     const lrcs_prepared *p = view->prepared;
-    uint32_t other = p->across.facet[facet].corner[k];
+    uint32_t other = p->neighbours.facet[facet].corner[k];
     if (other == facet) {
         uint32_t pair[2];
         uint32_t edge = p->topology.facet_edge[facet].corner[k]; /* irregular */

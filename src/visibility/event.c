@@ -70,9 +70,9 @@ static int run_surrounded(const lrcs_prepared *p, const signed char *value, uint
     return 1;
 }
 
-/* Marks events among the plain edges (scene/across.h): two facets continue each other across such
-   an edge if both can hide others and face the same way. A run whose facets all have the same value
-   as those around it has none. */
+/* Marks events among the plain edges (scene/neighbours.h): two facets continue each other across
+   such an edge if both can hide others and face the same way. A run whose facets all have the same
+   value as those around it has none. */
 static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t *mark)
 {
     uint32_t count = p->scene->facet_count;
@@ -82,7 +82,7 @@ static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t
         int alike = lrcsi_run_alike(cast, r);
         for (uint32_t f = start; f < end && !alike; f++) {
             for (int k = 0; k < 3; k++) {
-                uint32_t other = p->across.facet[f].corner[k];
+                uint32_t other = p->neighbours.facet[f].corner[k];
                 if (other >= start && other < end && cast[f] != 0 && cast[other] != cast[f]) {
                     mark_edge_event(mark, p->topology.facet_edge[f].corner[k]);
                 }
@@ -112,7 +112,7 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
                       lrcsi_events *events)
 {
     const lrcs_prepared *p = view->prepared;
-    const lrcsi_across *across = &p->across;
+    const lrcsi_neighbours *neighbours = &p->neighbours;
     size_t start = work->used;
     uint32_t *mark = lrcsi_work_take_zero(work, mark_words(p), sizeof *mark);
     size_t end = work->used;
@@ -122,10 +122,11 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
         return LRCS_E_MEMORY;
     }
     mark_plain(p, cast, mark);
-    for (uint32_t i = 0; i < across->irregular_count; i++) {
+    for (uint32_t i = 0; i < neighbours->irregular_count; i++) {
         uint32_t pair[2];
-        if (lrcsi_edge_kind_of(view, across->irregular[i], LRCS_NONE, pair) == LRCSI_EDGE_EVENT) {
-            mark_edge_event(mark, across->irregular[i]);
+        if (lrcsi_edge_kind_of(view, neighbours->irregular[i], LRCS_NONE, pair) ==
+            LRCSI_EDGE_EVENT) {
+            mark_edge_event(mark, neighbours->irregular[i]);
         }
     }
     events->count = 0;
@@ -161,7 +162,7 @@ static void join_within(const lrcs_prepared *p, const signed char *joinable, uin
     for (uint32_t f = start; f < end; f++) {
         group[f] = alike ? start + p->runs.first[f] : f;
         for (int k = 0; k < 3 && !alike && joinable[f] != 0; k++) {
-            uint32_t other = p->across.facet[f].corner[k];
+            uint32_t other = p->neighbours.facet[f].corner[k];
             if (other >= start && other < f && joinable[other] == joinable[f]) {
                 lrcsi_disjoint_union(group, other, f);
             }
@@ -241,9 +242,10 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
             join_sides(p, joinable, r, group);
         }
     }
-    for (uint32_t i = 0; i < p->across.irregular_count; i++) {
+    for (uint32_t i = 0; i < p->neighbours.irregular_count; i++) {
         uint32_t pair[2];
-        if (lrcsi_edge_kind_of(view, p->across.irregular[i], LRCS_NONE, pair) == LRCSI_EDGE_JOINS &&
+        if (lrcsi_edge_kind_of(view, p->neighbours.irregular[i], LRCS_NONE, pair) ==
+                LRCSI_EDGE_JOINS &&
             joinable[pair[0]] != 0 && joinable[pair[1]] != 0) {
             lrcsi_disjoint_union(group, group_entry(p, joinable, pair[0]),
                                  group_entry(p, joinable, pair[1]));

@@ -259,7 +259,7 @@ static int is_border(const lrcs_prepared *p, uint32_t a, uint32_t b)
     if (a == LRCS_NONE || b == LRCS_NONE) {
         return 1;
     }
-    const uint32_t *across = p->across.facet[a].corner;
+    const uint32_t *across = p->neighbours.facet[a].corner;
     return across[0] != b && across[1] != b && across[2] != b;
 }
 
@@ -384,7 +384,7 @@ static int fraction_by_neighbours(const preview_job *job, uint32_t facet, uint32
                                   float *fraction)
 {
     const lrcs_prepared *p = job->view->prepared;
-    const uint32_t *across = p->across.facet[facet].corner;
+    const uint32_t *across = p->neighbours.facet[facet].corner;
     float sum = 0;
     float count = 0;
     for (int k = 0; k < 3; k++) {

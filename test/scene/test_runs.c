@@ -51,7 +51,7 @@ static void check_runs(void)
         by_runs[f] = f / LRCSI_RUN * LRCSI_RUN + runs->first[f];
         assert_true(by_runs[f] <= f);
         for (int k = 0; k < 3; k++) {
-            uint32_t other = p->across.facet[f].corner[k];
+            uint32_t other = p->neighbours.facet[f].corner[k];
             if (other < count) {
                 lrcsi_disjoint_union(all, f, other);
             }
@@ -64,7 +64,7 @@ static void check_runs(void)
     for (uint32_t i = 0; i < runs->run[runs->count].first_side; i++) {
         const lrcsi_run_side *side = &runs->side[i];
         const uint32_t *edge = p->topology.facet_edge[side->facet].corner;
-        const uint32_t *across = p->across.facet[side->facet].corner;
+        const uint32_t *across = p->neighbours.facet[side->facet].corner;
         int found = 0;
         for (int k = 0; k < 3; k++) {
             found |= edge[k] == side->edge && across[k] == side->other;

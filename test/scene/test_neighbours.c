@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Who stands across a side: counted by hand on small scenes, and against a search through all other
+/* The neighbours of facets: counted by hand on small scenes, and against a search through all other
    facets on random ones. */
 #include "scene/prepare.h"
 
@@ -14,11 +14,11 @@ static void box_faces_have_one_neighbour_on_every_side(void **state)
     (void)state;
     scene_start(&scene);
     scene_box(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
-    const lrcsi_across *across = &scene_prepare(&scene, &work)->across;
-    assert_int_equal(across->irregular_count, 0);
+    const lrcsi_neighbours *neighbours = &scene_prepare(&scene, &work)->neighbours;
+    assert_int_equal(neighbours->irregular_count, 0);
     for (uint32_t f = 0; f < 12; f++) {
         for (int k = 0; k < 3; k++) {
-            assert_true(across->facet[f].corner[k] < 12 && across->facet[f].corner[k] != f);
+            assert_true(neighbours->facet[f].corner[k] < 12 && neighbours->facet[f].corner[k] != f);
         }
     }
 }
@@ -29,11 +29,11 @@ static void rims_have_none_and_omitted_facets_are_none(void **state)
     scene_start(&scene);
     scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){1, 0, 0},
                 (const double[3]){0, 1, 0});
-    const lrcsi_across *across = &scene_prepare(&scene, &work)->across;
+    const lrcsi_neighbours *neighbours = &scene_prepare(&scene, &work)->neighbours;
     for (uint32_t f = 0; f < 2; f++) {
         int met = 0;
         for (int k = 0; k < 3; k++) {
-            uint32_t other = across->facet[f].corner[k];
+            uint32_t other = neighbours->facet[f].corner[k];
             assert_true(other == 1 - f || other == 2);
             met += other == 1 - f;
         }
@@ -41,10 +41,10 @@ static void rims_have_none_and_omitted_facets_are_none(void **state)
     }
     scene_material(&scene, 1, 1, 0.2, 0)->omitted = 1;
     scene.material_of[1] = scene.assigned;
-    across = &scene_prepare(&scene, &work)->across;
+    neighbours = &scene_prepare(&scene, &work)->neighbours;
     for (int k = 0; k < 3; k++) {
-        assert_int_equal(across->facet[0].corner[k], 2);
-        assert_int_equal(across->facet[1].corner[k], 1); /* itself */
+        assert_int_equal(neighbours->facet[0].corner[k], 2);
+        assert_int_equal(neighbours->facet[1].corner[k], 1); /* itself */
     }
 }
 
@@ -109,7 +109,7 @@ static void random_soups_agree_with_a_search(void **state)
             uint32_t f = i / 3;
             uint32_t k = i % 3;
             if (p->redundant[f] == LRCSI_REDUNDANT) {
-                assert_int_equal(p->across.facet[f].corner[k], f);
+                assert_int_equal(p->neighbours.facet[f].corner[k], f);
                 continue;
             }
             uint32_t other = LRCS_NONE;
@@ -119,10 +119,10 @@ static void random_soups_agree_with_a_search(void **state)
             int pairs = others == 3 && p->opposite && p->opposite[f] != LRCS_NONE &&
                         p->opposite[other] != LRCS_NONE && other != p->opposite[f];
             uint32_t want = others == 0 ? count : (others == 1 && along == 0) || pairs ? other : f;
-            assert_int_equal(p->across.facet[f].corner[k], want);
+            assert_int_equal(p->neighbours.facet[f].corner[k], want);
             int listed = 0;
-            for (uint32_t n = 0; n < p->across.irregular_count; n++) {
-                listed += p->across.irregular[n] == p->topology.facet_edge[f].corner[k];
+            for (uint32_t n = 0; n < p->neighbours.irregular_count; n++) {
+                listed += p->neighbours.irregular[n] == p->topology.facet_edge[f].corner[k];
             }
             assert_int_equal(listed, want == f);
             plain += others == 1 && along == 0;
