@@ -287,7 +287,7 @@ static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene
             return refuse_part(builder, LRCS_E_INDEX, source->part,
                                "corners and materials that its mesh has");
         }
-        int flip = source->placer.flips;
+        int flip = source->placer.reflects;
         scene->facet[to] = (lrcs_facet){
             {base + corner[0], base + corner[flip ? 2 : 1], base + corner[flip ? 1 : 2]}};
         scene->facet_part[to] = scene->part_count;

@@ -17,12 +17,12 @@ typedef struct schema_row {
 
 #define TEXT         LRCSI_TOML_STRING, 0, 0
 #define NUMBER       LRCSI_TOML_NUMBER, 0, 0
-#define TRUTH        LRCSI_TOML_BOOLEAN, 0, 0
-#define THREE        LRCSI_TOML_ARRAY, 3, 3
+#define BOOLEAN      LRCSI_TOML_BOOLEAN, 0, 0
+#define VECTOR       LRCSI_TOML_ARRAY, 3, 3
 #define IS_TEXT      "a string"
 #define IS_NUMBER    "a number"
-#define IS_TRUTH     "true or false"
-#define IS_THREE     "three numbers, [x, y, z]"
+#define IS_BOOLEAN   "true or false"
+#define IS_VECTOR    "three numbers, [x, y, z]"
 #define NUMBER_OR(t) (LRCSI_TOML_NUMBER | (t))
 
 static const schema_row schema[] = {
@@ -30,7 +30,7 @@ static const schema_row schema[] = {
     {LRCSI_TABLE_TOP, LRCSI_KEY_NAME, TEXT, "name", IS_TEXT},
     {LRCSI_TABLE_TOP, LRCSI_KEY_UNIT, NUMBER_OR(LRCSI_TOML_STRING), 0, 0, "unit",
      "\"mm\", \"cm\", \"m\", \"in\", \"ft\" or a number"},
-    {LRCSI_TABLE_TOP, LRCSI_KEY_KEEP_TRANSPARENT, TRUTH, "keep_transparent", IS_TRUTH},
+    {LRCSI_TABLE_TOP, LRCSI_KEY_KEEP_TRANSPARENT, BOOLEAN, "keep_transparent", IS_BOOLEAN},
     {LRCSI_TABLE_TOP, LRCSI_KEY_DEFAULT_MATERIAL, TEXT, "default_material", IS_TEXT},
     {LRCSI_TABLE_PART, LRCSI_KEY_NAME, TEXT, "name", IS_TEXT},
     {LRCSI_TABLE_PART, LRCSI_KEY_MATERIAL, TEXT, "material", IS_TEXT},
@@ -43,18 +43,18 @@ static const schema_row schema[] = {
     {LRCSI_TABLE_PART, LRCSI_KEY_RADIUS2, NUMBER, "radius2", IS_NUMBER},
     {LRCSI_TABLE_PART, LRCSI_KEY_LENGTH, NUMBER, "length", IS_NUMBER},
     {LRCSI_TABLE_PART, LRCSI_KEY_HALF_ANGLE_DEG, NUMBER, "half_angle_deg", IS_NUMBER},
-    {LRCSI_TABLE_PART, LRCSI_KEY_WALL_ONLY, TRUTH, "wall_only", IS_TRUTH},
-    {LRCSI_TABLE_PART, LRCSI_KEY_TRANSLATE, THREE, "translate", IS_THREE},
+    {LRCSI_TABLE_PART, LRCSI_KEY_WALL_ONLY, BOOLEAN, "wall_only", IS_BOOLEAN},
+    {LRCSI_TABLE_PART, LRCSI_KEY_TRANSLATE, VECTOR, "translate", IS_VECTOR},
     {LRCSI_TABLE_PART, LRCSI_KEY_ROTATE_EULER, TEXT, "rotate_euler", IS_TEXT},
-    {LRCSI_TABLE_PART, LRCSI_KEY_ROTATE_AXIS, THREE, "rotate_axis", IS_THREE},
+    {LRCSI_TABLE_PART, LRCSI_KEY_ROTATE_AXIS, VECTOR, "rotate_axis", IS_VECTOR},
     {LRCSI_TABLE_PART, LRCSI_KEY_ROTATE_QUATERNION, LRCSI_TOML_ARRAY, 4, 4, "rotate_quaternion",
      "four numbers, [w, x, y, z]"},
     {LRCSI_TABLE_PART, LRCSI_KEY_ROTATE_DEG, NUMBER_OR(LRCSI_TOML_ARRAY), 3, 3, "rotate_deg",
      "a number, or three with rotate_euler"},
     {LRCSI_TABLE_PART, LRCSI_KEY_SCALE, NUMBER_OR(LRCSI_TOML_ARRAY), 3, 3, "scale",
      "a number or three"},
-    {LRCSI_TABLE_JOINT, LRCSI_KEY_AXIS, THREE, "axis", IS_THREE},
-    {LRCSI_TABLE_JOINT, LRCSI_KEY_ORIGIN, THREE, "origin", IS_THREE},
+    {LRCSI_TABLE_JOINT, LRCSI_KEY_AXIS, VECTOR, "axis", IS_VECTOR},
+    {LRCSI_TABLE_JOINT, LRCSI_KEY_ORIGIN, VECTOR, "origin", IS_VECTOR},
     {LRCSI_TABLE_JOINT, LRCSI_KEY_ANGLE_DEG, NUMBER, "angle_deg", IS_NUMBER},
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_NAME, TEXT, "name", IS_TEXT},
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_LIKE, TEXT, "like", IS_TEXT},
@@ -68,8 +68,8 @@ static const schema_row schema[] = {
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_M_ERROR, NUMBER, "m_error", IS_NUMBER},
     {LRCSI_TABLE_MATERIAL, LRCSI_KEY_CORRELATION, LRCSI_TOML_ARRAY, 6, 6, "correlation",
      "six numbers, [AB, As, Am, Bs, Bm, sm]"},
-    {LRCSI_TABLE_MATERIAL, LRCSI_KEY_TWO_SIDED, TRUTH, "two_sided", IS_TRUTH},
-    {LRCSI_TABLE_MATERIAL, LRCSI_KEY_ASSUMED, TRUTH, "assumed", IS_TRUTH},
+    {LRCSI_TABLE_MATERIAL, LRCSI_KEY_TWO_SIDED, BOOLEAN, "two_sided", IS_BOOLEAN},
+    {LRCSI_TABLE_MATERIAL, LRCSI_KEY_ASSUMED, BOOLEAN, "assumed", IS_BOOLEAN},
     {LRCSI_TABLE_MAP, LRCSI_KEY_NAME, TEXT, "name", IS_TEXT},
     {LRCSI_TABLE_MAP, LRCSI_KEY_COLOUR, TEXT, "colour", IS_TEXT},
     {LRCSI_TABLE_MAP, LRCSI_KEY_MATERIAL, TEXT, "material", IS_TEXT},

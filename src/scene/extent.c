@@ -11,7 +11,7 @@
 #include "scene/placed_shape.h"
 
 /* A part thinner than this (scaled) has no closed form: its coordinates may be so small that they
-   count as 0 (LRCSI_COORDINATE_LEAST). */
+   count as 0 (LRCSI_COORDINATE_MIN). */
 #define EXTENT_MIN 0x1p-200
 
 /* Does any part have a shape that may have a closed form? */

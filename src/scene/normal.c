@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Normals of facets in double-double, and their errors. It decides which of them need exact
+/* Computes normals of facets in double-double, and their errors. Decides which of them need exact
    arithmetic. */
 #include "scene/normal.h"
 
@@ -10,14 +10,14 @@
 #include "base/exact.h"
 #include "base/length.h"
 
-/* Normals computed side by side. */
+/* The number of normals that are computed at once. */
 enum { CROSS_LANES = 8 };
 
 /* If |N| is below this fraction of |p| |q|, the products cancel and N is computed exactly. */
 #define NORMAL_SLIVER 0x1p-10
 
-/* Sides p = b - a and q = c - a of facets, and N = p x q: component by component, so that compilers
-   compute two facets or more at once. */
+/* Sides p = b - a and q = c - a of facets, and N = p x q. Equal components are contiguous, so that
+   compilers can vectorize over facets. */
 typedef struct cross_lanes {
     double a[3][CROSS_LANES], b[3][CROSS_LANES], c[3][CROSS_LANES];
     double p[3][CROSS_LANES], p_low[3][CROSS_LANES];
@@ -25,8 +25,9 @@ typedef struct cross_lanes {
     double high[3][CROSS_LANES], low[3][CROSS_LANES];
 } cross_lanes;
 
-/* The differences are exact. p_i q_j - p_j q_i: each product has relative error 7 u^2, the
-   difference 3 u^2: together at most 10 u^2 (|p_i q_j| + |p_j q_i|). */
+/* Computes the cross products. The differences p and q are exact. In p_i q_j - p_j q_i each product
+   has a relative error of 7 u^2 and the difference one of 3 u^2: together at most
+   10 u^2 (|p_i q_j| + |p_j q_i|). */
 static void lanes_cross(cross_lanes *n)
 {
     for (int k = 0; k < 3; k++) {
@@ -54,8 +55,9 @@ static void lanes_cross(cross_lanes *n)
     }
 }
 
-/* The error of the three components together is at most 10 u^2 2 |p| |q| in norm; |p| |q| is
-   computed within 10 u: 21 u^2 |p| |q| covers both. Of a sliver: 100 u^2 |N|. */
+/* Stores a normal with its error. The norm of the error of its three components is at most
+   10 u^2 2 |p| |q|, and |p| |q| is computed to within 10 u: 21 u^2 |p| |q| covers both. The exact
+   normal of a sliver is rounded to within 100 u^2 |N|. */
 static void store_normal(lrcs_prepared *prepared, uint32_t facet, const cross_lanes *lanes,
                          uint32_t at)
 {

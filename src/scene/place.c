@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Joint, scale, rotation, translation, in this order. Decides which of them are the identity and
-   are left out, and whether the whole map is a reflection. */
+/* Applies joint, scale, rotation and translation, in this order. Decides which of them are the
+   identity and are left out, and whether the whole map is a reflection. */
 #include "scene/place.h"
 
 #include <math.h>
@@ -52,7 +52,7 @@ static int make_joint(const lrcs_joint *joint, lrcsi_placer *placer)
         return LRCS_E_NUMBER;
     }
     int status = lrcsi_rotate_axis(joint->axis, joint->angle_deg, placer->joint);
-    placer->turns = status == LRCS_OK && !is_identity((const double(*)[3])placer->joint);
+    placer->has_joint = status == LRCS_OK && !is_identity((const double(*)[3])placer->joint);
     memcpy(placer->origin, joint->origin, sizeof placer->origin);
     return status;
 }
@@ -69,17 +69,17 @@ int lrcsi_placer_make(const lrcs_place *place, const lrcs_joint *joint, lrcsi_pl
     int hand = handedness(place->rotate);
     memset(placer, 0, sizeof *placer);
     placer->place = *place;
-    placer->rotates = !is_identity(place->rotate);
+    placer->has_rotation = !is_identity(place->rotate);
     for (int i = 0; i < 3; i++) {
         hand = place->scale[i] == 0.0 ? 0 : place->scale[i] < 0.0 ? -hand : hand;
-        placer->scales |= place->scale[i] != 1.0;
-        placer->moves |= place->translate[i] != 0.0;
+        placer->has_scale |= place->scale[i] != 1.0;
+        placer->has_translation |= place->translate[i] != 0.0;
     }
-    placer->flips = hand < 0;
+    placer->reflects = hand < 0;
     return hand == 0 ? LRCS_E_ARGUMENT : make_joint(joint, placer);
 }
 
-static void turn(const double R[3][3], double v[3])
+static void rotate_vector(const double R[3][3], double v[3])
 {
     const double x = v[0];
     const double y = v[1];
@@ -92,22 +92,22 @@ static void turn(const double R[3][3], double v[3])
 void lrcsi_placer_run(const lrcsi_placer *placer, const double given[3], double placed[3])
 {
     double v[3] = {given[0], given[1], given[2]};
-    if (placer->turns) {
+    if (placer->has_joint) {
         for (int i = 0; i < 3; i++) {
             v[i] -= placer->origin[i];
         }
-        turn((const double(*)[3])placer->joint, v);
+        rotate_vector((const double(*)[3])placer->joint, v);
         for (int i = 0; i < 3; i++) {
             v[i] += placer->origin[i];
         }
     }
-    for (int i = 0; placer->scales && i < 3; i++) {
+    for (int i = 0; placer->has_scale && i < 3; i++) {
         v[i] *= placer->place.scale[i];
     }
-    if (placer->rotates) {
-        turn((const double(*)[3])placer->place.rotate, v);
+    if (placer->has_rotation) {
+        rotate_vector((const double(*)[3])placer->place.rotate, v);
     }
-    for (int i = 0; placer->moves && i < 3; i++) {
+    for (int i = 0; placer->has_translation && i < 3; i++) {
         v[i] += placer->place.translate[i];
     }
     memcpy(placed, v, sizeof v);
@@ -116,24 +116,25 @@ void lrcsi_placer_run(const lrcsi_placer *placer, const double given[3], double 
 void lrcsi_placer_normal(const lrcsi_placer *placer, double normal[3])
 {
     const double *scale = placer->place.scale;
-    double least = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
-    if (placer->turns) {
-        turn((const double(*)[3])placer->joint, normal);
+    double smallest = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    if (placer->has_joint) {
+        rotate_vector((const double(*)[3])placer->joint, normal);
     }
-    for (int i = 0; placer->scales && i < 3; i++) {
-        normal[i] *= least / scale[i];
+    for (int i = 0; placer->has_scale && i < 3; i++) {
+        normal[i] *= smallest / scale[i];
     }
-    if (placer->rotates) {
-        turn((const double(*)[3])placer->place.rotate, normal);
+    if (placer->has_rotation) {
+        rotate_vector((const double(*)[3])placer->place.rotate, normal);
     }
 }
 
 /* --- the nearest rotation --------------------------------------------------------------------- */
 
-/* Matrices that are farther from a rotation than this are used unchanged. */
-#define ROTATION_NEAR 0x1p-40
+/* A matrix R with |R^T R - I| above this is not taken for a rounded rotation, and is used as it is.
+ */
+#define ROTATION_DEFECT_MAX 0x1p-40
 /* The largest ratio of two scales for which the images of normals are computed. */
-#define NORMALS_RATIO 0x1p20
+#define NORMALS_RATIO_MAX 0x1p20
 
 /* D = R^T R - I in double-double: the error of every entry is at most 2^-101. Returns its Frobenius
    norm, rounded up, or 0 if D is exactly 0. */
@@ -159,7 +160,7 @@ static int nearest_rotation(const double R[3][3], lrcsi_dd out[3][3])
 {
     lrcsi_dd D[3][3];
     lrcsi_dd root[3][3];
-    if (!(rotation_defect(R, D) <= ROTATION_NEAR)) {
+    if (!(rotation_defect(R, D) <= ROTATION_DEFECT_MAX)) {
         return 0;
     }
     for (int i = 0; i < 3; i++) {
@@ -190,8 +191,8 @@ static int images_of_axes(const lrcsi_placer *placer, const double factor[3], lr
     static const double identity[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     lrcsi_dd joint[3][3];
     lrcsi_dd place[3][3];
-    if (!nearest_rotation(placer->turns ? placer->joint : identity, joint) ||
-        !nearest_rotation(placer->rotates ? placer->place.rotate : identity, place)) {
+    if (!nearest_rotation(placer->has_joint ? placer->joint : identity, joint) ||
+        !nearest_rotation(placer->has_rotation ? placer->place.rotate : identity, place)) {
         return 0;
     }
     for (int j = 0; j < 3; j++) {
@@ -240,7 +241,7 @@ int lrcsi_placer_normals(const lrcsi_placer *placer, double image[3][3], double 
         factor[k] = least / scale[k];
         product *= fabs(scale[k]) / most;
     }
-    if (!(most / least <= NORMALS_RATIO) || !images_of_axes(placer, factor, sum)) {
+    if (!(most / least <= NORMALS_RATIO_MAX) || !images_of_axes(placer, factor, sum)) {
         return 0;
     }
     for (int n = 0; n < 9; n++) {
@@ -250,54 +251,57 @@ int lrcsi_placer_normals(const lrcsi_placer *placer, double image[3][3], double 
     return 1;
 }
 
-/* Singular values of a matrix with |R^T R - I| <= d lie between the roots of 1 - d and 1 + d. */
-void lrcsi_placer_stretch(const lrcsi_placer *placer, double *most, double *ratio)
+/* The singular values of a matrix R with |R^T R - I| <= d lie between the square roots of 1 - d and
+   1 + d. */
+void lrcsi_placer_stretch(const lrcsi_placer *placer, double *largest, double *condition)
 {
     const double *scale = placer->place.scale;
     double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
     double small = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
     lrcsi_dd D[3][3];
-    double joint = placer->turns ? rotation_defect(placer->joint, D) : 0.0;
-    double place = placer->rotates ? rotation_defect(placer->place.rotate, D) : 0.0;
-    *most = HUGE_VAL;
-    *ratio = HUGE_VAL;
+    double joint = placer->has_joint ? rotation_defect(placer->joint, D) : 0.0;
+    double place = placer->has_rotation ? rotation_defect(placer->place.rotate, D) : 0.0;
+    *largest = HUGE_VAL;
+    *condition = HUGE_VAL;
     if (joint < 0.5 && place < 0.5) {
-        *most = large * sqrt((1.0 + joint) * (1.0 + place));
-        *ratio = large / small;
-        *ratio *= sqrt((1.0 + joint) / (1.0 - joint) * (1.0 + place) / (1.0 - place));
+        *largest = large * sqrt((1.0 + joint) * (1.0 + place));
+        *condition = large / small;
+        *condition *= sqrt((1.0 + joint) / (1.0 - joint) * (1.0 + place) / (1.0 - place));
     }
     if (joint > 0.0 || place > 0.0 || large != small) {
-        *most *= 1.000001;
-        *ratio *= 1.000001;
+        *largest *= 1.000001;
+        *condition *= 1.000001;
     }
 }
 
-/* A bound on magnitudes and on their errors. */
+/* Bounds on the magnitudes of a point's coordinates, and on their errors. */
 typedef struct placed_bound {
-    double most, error;
+    double size, error;
 } placed_bound;
 
-/* x + t rounds once: u (|x| + error + |t|), of which 2 u covers the sums here. */
-static placed_bound bound_move(placed_bound x, const double t[3])
+/* x + t is rounded once: by at most u (|x| + error + |t|). The factor 2 covers the sums here. */
+static placed_bound bound_translation(placed_bound x, const double t[3])
 {
     double step = fmax(fabs(t[0]), fmax(fabs(t[1]), fabs(t[2])));
-    double most = x.most + step;
-    return (placed_bound){most, x.error + 2.0 * LRCSI_U * (most + x.error)};
+    double size = x.size + step;
+    return (placed_bound){size, x.error + 2.0 * LRCSI_U * (size + x.error)};
 }
 
-/* s x rounds once; a denormal result, by less than 2^-1074 more. */
+/* s x is rounded once; if the result is denormal, by less than 2^-1074 more. */
 static placed_bound bound_scale(placed_bound x, const double s[3])
 {
     double factor = fmax(fabs(s[0]), fmax(fabs(s[1]), fabs(s[2])));
-    double most = factor * x.most;
+    double size = factor * x.size;
     double error = factor * x.error;
-    return (placed_bound){most, error + 2.0 * LRCSI_U * (most + error) + 0x1p-1074};
+    return (placed_bound){size, error + 2.0 * LRCSI_U * (size + error) + 0x1p-1074};
 }
 
-/* Three products and two sums: at most 3 u (1 + 3 u) times the sum of their magnitudes, which is at
-   most the largest sum of |R_ij| over a row times |x|. The nearest rotation is within half of |R^T
-   R - I| (1 + 2^-40) of R, and moves x, whose length is at most sqrt(3) most, by that. */
-static placed_bound bound_turn(placed_bound x, const double R[3][3])
+/* R x has three products and two sums per row. Their rounding is at most 3 u (1 + 3 u) times the
+   sum of the magnitudes of the products, which is at most the largest sum of |R_ij| over a row
+   times the size of x. The nearest rotation differs from R by at most half of |R^T R - I| (1 +
+   2^-40), so that it takes x, whose length is at most sqrt(3) size, to a point at most 0.87 |R^T R
+   - I| size away. */
+static placed_bound bound_rotation(placed_bound x, const double R[3][3])
 {
     lrcsi_dd D[3][3];
     double defect = rotation_defect(R, D);
@@ -305,28 +309,29 @@ static placed_bound bound_turn(placed_bound x, const double R[3][3])
     for (int i = 0; i < 3; i++) {
         row = fmax(row, fabs(R[i][0]) + fabs(R[i][1]) + fabs(R[i][2]));
     }
-    double most = row * x.most;
-    double error = row * x.error + (defect <= ROTATION_NEAR ? 0.87 * defect * x.most : 0.0);
-    return (placed_bound){most, error + 4.0 * LRCSI_U * (most + error) + 0x1p-1072};
+    double size = row * x.size;
+    double error = row * x.error + (defect <= ROTATION_DEFECT_MAX ? 0.87 * defect * x.size : 0.0);
+    return (placed_bound){size, error + 4.0 * LRCSI_U * (size + error) + 0x1p-1072};
 }
 
-double lrcsi_placer_error(const lrcsi_placer *placer, double most, double error)
+double lrcsi_placer_error(const lrcsi_placer *placer, double size, double error)
 {
-    placed_bound x = {most, error};
-    if (placer->turns) {
-        x = bound_move(x, placer->origin);
-        x = bound_turn(x, (const double(*)[3])placer->joint);
-        x = bound_move(x, placer->origin);
+    placed_bound x = {size, error};
+    if (placer->has_joint) {
+        x = bound_translation(x, placer->origin);
+        x = bound_rotation(x, (const double(*)[3])placer->joint);
+        x = bound_translation(x, placer->origin);
     }
-    if (placer->scales) {
+    if (placer->has_scale) {
         x = bound_scale(x, placer->place.scale);
     }
-    if (placer->rotates) {
-        x = bound_turn(x, (const double(*)[3])placer->place.rotate);
+    if (placer->has_rotation) {
+        x = bound_rotation(x, (const double(*)[3])placer->place.rotate);
     }
-    if (placer->moves) {
-        x = bound_move(x, placer->place.translate);
+    if (placer->has_translation) {
+        x = bound_translation(x, placer->place.translate);
     }
-    /* sqrt(3) from a coordinate to a distance, and the few roundings of the bound itself. */
+    /* At most sqrt(3) times the error of a coordinate; rounded up for the rounding of this bound.
+     */
     return 1.7321 * x.error;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Properties of a placed shape by construction: the errors of its facets and corners, and whether
-   it is closed and convex. */
+/* Derives from a shape and its placement the errors of its facets and vertices, and whether it is
+   closed and convex. */
 #include "scene/placed_shape.h"
 
 #include <math.h>
@@ -11,8 +11,8 @@
 #include "mesh/profile.h"
 #include "mesh/tessellate.h"
 
-/* The least of a shape's extents, in its own units; 0 for a flat shape. */
-static double least_extent(const lrcs_shape *shape)
+/* The smallest extent of a shape, in its own units; 0 for a flat shape. */
+static double smallest_extent(const lrcs_shape *shape)
 {
     double sine;
     double cosine;
@@ -54,19 +54,19 @@ int lrcsi_placed_shape_closed_form(const lrcs_shape *shape, int two_sided)
 
 double lrcsi_placed_shape_extent(const lrcs_mesh *mesh)
 {
-    double most = 0.0;
+    double largest = 0.0;
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
         const double *x = mesh->vertex[i].x;
-        most = fmax(most, fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2]))));
+        largest = fmax(largest, fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2]))));
     }
-    return most;
+    return largest;
 }
 
-/* The least altitude of a facet of the part placed last, m: its area over its longest side; 0 if
-   one is a point. */
-static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
+/* The smallest altitude of the facets of a part, m: the length of a facet's normal over its longest
+   side; 0 if a facet is a single point. */
+static double smallest_altitude(const lrcs_scene *scene, const lrcs_part *part)
 {
-    double least = HUGE_VAL;
+    double smallest = HUGE_VAL;
     for (uint32_t i = 0; i < part->facet_count; i++) {
         const uint32_t *corner = scene->facet[part->first_facet + i].corner;
         double side[3][3];
@@ -83,23 +83,23 @@ static double least_altitude(const lrcs_scene *scene, const lrcs_part *part)
             square = fmax(square, s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
             area += n * n;
         }
-        least = square > 0.0 ? fmin(least, sqrt(area) / sqrt(square)) : 0.0;
+        smallest = square > 0.0 ? fmin(smallest, sqrt(area) / sqrt(square)) : 0.0;
     }
-    return least;
+    return smallest;
 }
 
-/* Rounding in placing moves corners by at most e: each tilts its facet by at most e over the
-   altitude on it, and changes its area by at most that fraction. The numbers of facets hold per
-   unit of their area, and patches may be larger. Nothing can be proved about a facet left without
-   area. */
-void lrcsi_placed_shape_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, double most,
+/* Rounding in placing moves each of a facet's three corners by at most e. That tilts the facet by
+   at most e divided by its altitude at that corner, and changes its area by at most that fraction.
+   The curvature numbers are relative to the area of the facet; that of its patch is larger by at
+   most area_error. Nothing can be proved about a facet without area. */
+void lrcsi_placed_shape_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, double extent,
                              lrcs_part *part)
 {
-    double e = lrcsi_placer_error(placer, most, 0.0);
+    double e = lrcsi_placer_error(placer, extent, 0.0);
     if (part->reach > 0.0 && e > 0.0) {
-        double wide = 3.0 * (1.0 + part->curvature.area_error);
-        double altitude = least_altitude(scene, part);
-        part->tilted = 1.000001 * wide * e / altitude;
+        double factor = 3.0 * (1.0 + part->curvature.area_error);
+        double altitude = smallest_altitude(scene, part);
+        part->tilted = 1.000001 * factor * e / altitude;
         part->curvature_known = part->curvature_known && altitude > 0.0;
         part->curvature = part->curvature.turn > 0.0
                               ? lrcsi_profile_rounded(&part->curvature, part->tilted)
@@ -107,25 +107,25 @@ void lrcsi_placed_shape_tilt(const lrcsi_placer *placer, const lrcs_scene *scene
     }
 }
 
-/* Properties of a placed shape by construction. A uniform scale does not change curvature, other
-   scales change it as in mesh/profile.h; any affine map preserves convexity, and as a reflection
-   reverses the winding, the outside stays outside. The mesh's own coordinates have a relative error
-   of (16 + rings) u (mesh/profile.c), except for underflow. */
+/* A uniform scale does not change the curvature numbers; other scales change them as in
+   mesh/profile.h. Every affine map preserves convexity, and the outside stays outside, because a
+   reflection reverses the windings. The coordinates of the mesh have a relative error of (16 +
+   rings) u before placing (mesh/profile.c), except for underflow. */
 void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
                                  const lrcs_curvature *curvature, const lrcsi_placer *placer,
                                  double extent, lrcs_part *part)
 {
     const double *scale = placer->place.scale;
     lrcsi_reach reach = lrcsi_tessellate_reach(shape, divisions);
-    double least = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
-    double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    double smallest = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    double largest = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
     int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->bias == 0.0 &&
                 curvature->spread == 0.0;
     const double zero[3] = {0.0, 0.0, 0.0};
     double stretch;
-    double ratio;
+    double condition;
     lrcsi_axes axes;
-    lrcsi_placer_stretch(placer, &stretch, &ratio);
+    lrcsi_placer_stretch(placer, &stretch, &condition);
     double error = (17.0 + (double)divisions->along) * LRCSI_U * extent + 0x1p-1022;
     part->misplaced = lrcsi_placer_error(placer, extent + error, error);
     part->kind = shape->kind;
@@ -138,12 +138,12 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     part->normals_known = lrcsi_placer_normals(placer, part->normal_axis, &part->normal_area);
     part->shape = *shape;
     part->divisions = *divisions;
-    part->unit = most;
+    part->unit = largest;
     lrcsi_placer_run(placer, zero, part->origin);
     part->curvature = *curvature;
-    part->curvature_known = plane || ratio < HUGE_VAL;
+    part->curvature_known = plane || condition < HUGE_VAL;
     if (!plane && !part->rigid && part->curvature_known) {
-        part->curvature = lrcsi_profile_stretched(curvature, ratio, &part->uneven);
+        part->curvature = lrcsi_profile_stretched(curvature, condition, &part->uneven);
     }
     if (reach.all > 0.0) {
         double scaled = 1.000001 * stretch;
@@ -154,6 +154,6 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
         part->displaced[2] = scaled * reach.aside + placed;
     }
     part->convex_patch = 1;
-    part->thinnest = least * least_extent(shape);
+    part->thinnest = smallest * smallest_extent(shape);
     part->solid = is_closed(shape) && part->thinnest > 0.0;
 }

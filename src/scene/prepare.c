@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Preparing a scene: scaling by a power of two, normals, edges, contacts, and what can be proved
-   for every direction at once. It decides nothing that depends on the direction to the laser. */
+/* Prepares a scene: scales it by a power of two, and computes its edges, contacts and normals, and
+   what can be proved for all directions at once. It decides nothing that depends on the direction
+   to the laser. */
 #include "scene/prepare.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "base/constant.h"
 #include "base/ieee.h"
 #include "base/range.h"
 #include "base/work.h"
@@ -19,22 +21,23 @@
 #include "scene/runs.h"
 #include "scene/solid.h"
 
-/* Checks what lrcs_scene_build guarantees, so that no later stage needs to. *exponent: that of the
-   largest magnitude of any coordinate of the facets' corners (frexp). */
+/* Checks what lrcs_scene_build guarantees, so that no later stage needs to. Returned: the exponent
+   (frexp) of the largest coordinate of the facets' corners. */
 static int scene_check(const lrcs_scene *scene, int *exponent)
 {
-    double all = 0; /* the largest magnitude, corners or not */
-    double largest = 0;
+    double all = 0;     /* the largest coordinate of all vertices */
+    double largest = 0; /* of those that are corners */
     for (uint32_t v = 0; v < scene->vertex_count; v++) {
         const double *x = scene->vertex[v].x;
-        if (!(fabs(x[0]) <= 1e100 && fabs(x[1]) <= 1e100 && fabs(x[2]) <= 1e100)) {
+        if (!(fabs(x[0]) <= LRCSI_COORDINATE_MAX && fabs(x[1]) <= LRCSI_COORDINATE_MAX &&
+              fabs(x[2]) <= LRCSI_COORDINATE_MAX)) {
             return LRCS_E_NUMBER;
         }
-        double of_vertex = lrcsi_max(fabs(x[0]), lrcsi_max(fabs(x[1]), fabs(x[2])));
-        all = lrcsi_max(all, of_vertex);
+        double size = lrcsi_max(fabs(x[0]), lrcsi_max(fabs(x[1]), fabs(x[2])));
+        all = lrcsi_max(all, size);
     }
     (void)frexp(all, exponent);
-    double enough = ldexp(0.5, *exponent); /* more does not change the exponent */
+    double enough = ldexp(0.5, *exponent); /* all larger coordinates have the same exponent */
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         const uint32_t *corner = scene->facet[f].corner;
         if (corner[0] >= scene->vertex_count || corner[1] >= scene->vertex_count ||
@@ -63,8 +66,9 @@ static int scene_check(const lrcs_scene *scene, int *exponent)
     return LRCS_OK;
 }
 
-/* Which facets are live, their corners, and what their materials and parts require. A facet that
-   rounding left without area still makes its part count as curved. */
+/* Marks live facets and their corners, and finds out what their materials and parts require. A
+   facet that is degenerate, for instance by rounding, still makes the scene curved if its part is.
+ */
 static void find_live(lrcs_prepared *p)
 {
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -87,7 +91,7 @@ static void find_live(lrcs_prepared *p)
     }
 }
 
-/* The box around the live facets, and that around most vertices. */
+/* The box around the live facets, and that around the bulk of the vertices. */
 static void find_box(lrcs_prepared *p)
 {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
@@ -109,8 +113,8 @@ static void find_box(lrcs_prepared *p)
 
 /* ---- stages ---- */
 
-/* Vertices are scaled in two steps, so that neither power overflows: exactly, unless they become 0.
- */
+/* Vertices are scaled by two powers of two, neither of which overflows. The result is exact, except
+   that very small coordinates become 0. */
 static int prepare_edges(lrcs_prepared *p, lrcs_work *work)
 {
     const lrcs_scene *scene = p->scene;
@@ -123,7 +127,7 @@ static int prepare_edges(lrcs_prepared *p, lrcs_work *work)
     for (uint32_t v = 0; v < scene->vertex_count; v++) {
         for (int k = 0; k < 3; k++) {
             double x = scene->vertex[v].x[k] * first * second;
-            p->vertex[v].x[k] = fabs(x) < LRCSI_COORDINATE_LEAST ? 0 : x;
+            p->vertex[v].x[k] = fabs(x) < LRCSI_COORDINATE_MIN ? 0 : x;
         }
     }
     return lrcsi_topology_make(p->vertex, scene->vertex_count, scene->facet, scene->facet_count,
@@ -148,9 +152,10 @@ static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
                              : status;
 }
 
-/* The facets of a body that is convex by construction meet each other only in their boundaries, up
-   to the rounding that grazing_cos allows for, so no search is needed. How they meet there is not
-   decided: all facets are marked in `met`. */
+/* The contacts of a body that is convex by construction: none. Its facets meet only in their
+   boundaries, up to the rounding that grazing_cos allows for, so no search is needed. Whether they
+   meet there otherwise than in shared vertices and edges is not decided: all facets are marked in
+   `met`. */
 static int contacts_of_convex(lrcs_prepared *p, lrcs_work *work)
 {
     lrcsi_intersections *t = &p->intersections;
@@ -164,10 +169,10 @@ static int contacts_of_convex(lrcs_prepared *p, lrcs_work *work)
     return LRCS_OK;
 }
 
-/* Pieces of surface are distinguished first, for contacts within one piece. Redundant facets are
-   not searched, nor the second facet of an opposite pair, which gets a copy of the first one's
-   list. Then the proof that the scene is solid. This stage comes before the normals, which use the
-   memory of its scratch. */
+/* Finds the pieces of surface, then the contacts (it matters whether two facets in contact belong
+   to the same piece), then proves that the scene is solid, if it is. Redundant facets are not
+   searched, nor is the second facet of an opposite pair, which gets a copy of the list of the
+   first. This stage comes before the normals, which reuse the memory of its scratch. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 {
     uint32_t facets = p->scene->facet_count;
@@ -175,14 +180,14 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
     if (p->convex) {
         return contacts_of_convex(p, work);
     }
-    unsigned char *without = lrcsi_work_take(work, facets, sizeof *without);
+    unsigned char *excluded = lrcsi_work_take(work, facets, sizeof *excluded);
     size_t mark = work->used;
     uint32_t *piece = lrcsi_work_take(work, facets, sizeof *piece);
-    if (!without || !piece) {
+    if (!excluded || !piece) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t f = 0; f < facets; f++) {
-        without[f] = p->redundant[f] == LRCSI_REDUNDANT || (p->opposite && p->opposite[f] < f);
+        excluded[f] = p->redundant[f] == LRCSI_REDUNDANT || (p->opposite && p->opposite[f] < f);
     }
     if (lrcsi_solid_pieces(p, piece)) {
         p->piece = piece;
@@ -190,7 +195,7 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
         work->used = mark;
     }
     int status = lrcsi_intersection_make(p->vertex, p->scene->vertex_count, p->scene->facet, facets,
-                                         &p->topology, without, p->piece, work, &p->intersections);
+                                         &p->topology, excluded, p->piece, work, &p->intersections);
     if (status == LRCS_OK) {
         status = lrcsi_coincident_contacts(p, work);
     }
@@ -209,7 +214,7 @@ static int prepare_normals(lrcs_prepared *p, lrcs_work *work)
     return lrcsi_batches_make(p, work);
 }
 
-/* Proves that a solid scene is convex, if it is one piece of surface; finds which facets are close
+/* Tries to prove that a solid scene of one piece of surface is convex; finds which facets are close
    to curved shapes, and the extents of parts; last, makes the runs of facets. */
 static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
 {
@@ -243,8 +248,8 @@ static size_t larger(size_t a, size_t b)
     return a > b ? a : b;
 }
 
-/* Each stage leaves its results and releases its scratch; of the scratch only the largest counts.
-   lrcsi_topology_need, _coincident_need and _intersection_need include it. */
+/* Each stage keeps its results and releases its scratch, so that only the largest scratch counts.
+   lrcsi_topology_need, _coincident_need and _intersection_need include the scratch. */
 size_t lrcs_prepare_need(const lrcs_scene *scene)
 {
     uint32_t vertices = scene->vertex_count;
@@ -260,18 +265,18 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     size_t coincident = lrcsi_work_add(need, lrcsi_coincident_need(vertices, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t))); /* opposite */
     need = lrcsi_work_add(need, lrcsi_neighbours_need(scene->facet_count));
-    /* 2. Contacts: what is not searched, pieces of surface, and the search with its result. */
+    /* 2. Contacts: excluded facets, pieces of surface, and the search with its result. */
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     size_t search = lrcsi_intersection_need(vertices, scene->facet_count, contacts);
-    /* 3. What the search leaves; normals. The volumes of pieces take less than the normals, which
-       come later. */
+    /* 3. The result of the search; normals. The volumes of pieces, released before, need less than
+       the normals. */
     size_t proof = lrcsi_work_bytes(facets + 1, sizeof(uint32_t));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 1));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(contacts, sizeof(lrcsi_intersection)));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, sizeof(lrcsi_normal)));
     proof = lrcsi_work_add(proof, lrcsi_batches_need(scene));
-    /* 4. The proof of convexity; what is near curved shapes, found with a tree; extents; runs. */
+    /* 4. The proof of convexity; proximity of curved shapes, found with a tree; extents; runs. */
     size_t pairs = lrcsi_proximity_need(scene);
     size_t scratch =
         larger(lrcsi_convex_exact_need(scene), pairs > 0 ? lrcsi_tree_need(scene->facet_count) : 0);
@@ -289,7 +294,7 @@ int lrcsi_prepare_start(const lrcs_scene *scene, lrcs_work *work, lrcs_prepared 
         return status == LRCS_OK ? LRCS_E_MEMORY : status;
     }
     p->scene = scene;
-    p->exponent = exponent; /* the largest coordinate is in [0.5, 1) once scaled */
+    p->exponent = exponent; /* the largest scaled coordinate is in [0.5, 1) */
     *prepared = p;
     return LRCS_OK;
 }

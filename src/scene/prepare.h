@@ -5,14 +5,14 @@
 
 #include "scene/prepared.h"
 
-/* The stages of lrcs_prepare_run, which are run in this order: one by one, so that a host can time
-   them (the core has no clock). */
+/* The stages of lrcs_prepare_run, in their order. A host may run them one by one to time them (the
+   core has no clock). */
 enum lrcsi_prepare_stage {
-    LRCSI_PREPARE_EDGES,      /* scaled points, welded; edges */
-    LRCSI_PREPARE_NEIGHBOURS, /* live and coincident facets; which facet lies across each side */
-    LRCSI_PREPARE_CONTACTS,   /* between facets; is the scene solid? */
-    LRCSI_PREPARE_NORMALS,    /* by facet, and sorted by material for the sum */
-    LRCSI_PREPARE_PROOFS,     /* convex, what is near curved shapes; runs of facets */
+    LRCSI_PREPARE_EDGES,      /* scaled and welded vertices; edges */
+    LRCSI_PREPARE_NEIGHBOURS, /* live facets, coincident facets, neighbours */
+    LRCSI_PREPARE_CONTACTS,   /* contacts between facets; whether the scene is solid */
+    LRCSI_PREPARE_NORMALS,    /* normals by facet, and batches by material for the sum */
+    LRCSI_PREPARE_PROOFS,     /* convexity, proximity of curved shapes, extents; runs of facets */
     LRCSI_PREPARE_STAGES
 };
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* A prepared scene: everything that does not depend on direction, as data. A comment names the
-   module that computes each part; scene/prepare.h runs them all. Coordinates here are the scene's
-   times a power of two, so that the largest magnitude lies in [0.5, 1): exact, and far from
-   overflow; those that come out below LRCSI_COORDINATE_LEAST count as 0. Areas computed from them
-   are scaled back by lrcsi_prepared_area. */
+/* A prepared scene: all data that do not depend on direction. Comments name the modules that
+   compute them; scene/prepare.h runs all of these. Coordinates are those of the scene times a power
+   of two, exactly, so that the largest magnitude lies in [0.5, 1) and nothing overflows; scaled
+   coordinates below LRCSI_COORDINATE_MIN become 0. lrcsi_prepared_area converts areas back to
+   square metres. */
 #ifndef LRCSI_PREPARED_H
 #define LRCSI_PREPARED_H
 
@@ -15,9 +15,9 @@
 #include "mesh/intersection.h"
 #include "mesh/topology.h"
 
-/* Scaled coordinates and components of a direction below this count as 0: the exact predicates
-   (base/exact.h) require that. */
-#define LRCSI_COORDINATE_LEAST 0x1p-300
+/* Scaled coordinates and components of a direction below this count as 0, because the exact
+   predicates (base/exact.h) do not allow smaller ones. */
+#define LRCSI_COORDINATE_MIN 0x1p-300
 
 /* (b - a) x (c - a) in double-double. Its true value differs by at most `error` in norm. */
 typedef struct lrcsi_normal {
@@ -26,55 +26,54 @@ typedef struct lrcsi_normal {
     double error;  /* at most 2^-90 of the length */
 } lrcsi_normal;
 
-/* When a facet is redundant: another facet in the same place is seen instead of it, and it hides
-   nothing that the other does not hide (scene/coincident.h). */
+/* When a facet is redundant: a coincident facet is seen instead of it, and it hides nothing that
+   the other does not hide (scene/coincident.h). */
 enum lrcsi_redundant {
     LRCSI_NOT_REDUNDANT = 0,
     LRCSI_REDUNDANT_FROM_BEHIND = 1, /* if it faces away: its opposite then faces the laser */
-    LRCSI_REDUNDANT = 2              /* always; so are facets that are skipped */
+    LRCSI_REDUNDANT = 2              /* always; also facets that are skipped */
 };
 
-/* Across the sides of facets (scene/neighbours.h). */
+/* The neighbours of facets (scene/neighbours.h). */
 typedef struct lrcsi_neighbours {
-    lrcs_facet *facet; /* facet: across its side from corner k to k + 1, the other facet there that
-                          traverses the side in the opposite direction (if two coincident facets
-                          are there, the one that does); the number of facets if there is no
-                          other; the facet itself if the edge is irregular or the facet redundant
-                        */
-    uint32_t *irregular; /* irregular edges: all other edges that have facets; ascending */
+    /* facet[f].corner[k]: the neighbour of facet f across its side from corner k to k + 1, which
+       traverses the side in the opposite sense; the number of facets if there is none (a boundary
+       edge); f itself if the edge is irregular or f is redundant. */
+    lrcs_facet *facet;
+    uint32_t *irregular; /* irregular edges that have facets, ascending */
     uint32_t irregular_count;
 } lrcsi_neighbours;
 
-/* Facets that are not skipped, by material and in facet order within one. A block may start at any
-   place: LRCSI_LANES places beyond the last hold zeros. */
+/* Facets that are not skipped, sorted by material, and by index within one. A block of LRCSI_LANES
+   may start at any element: as many elements beyond the last are zero. */
 typedef struct lrcsi_batches {
     uint32_t count;
-    uint32_t *first;   /* material i: places first[i] .. first[i + 1] */
-    uint32_t *facet;   /* at each place */
+    uint32_t *first;   /* material i: elements first[i] .. first[i + 1] - 1 */
+    uint32_t *facet;   /* index in the scene */
     double *normal[3]; /* unit; relative error of each component at most 1.01 u */
     double *area;      /* S, scaled; relative error at most 3 u */
-    int redundant;     /* some are, on one side at least */
+    int redundant;     /* 1 if some are redundant, at least from behind */
 } lrcsi_batches;
 
-/* At most the fraction `share` of the facet's area is within the slack of the two parts of `other`,
-   and at most the fraction `rows` of its rows (lrcsi_proximity_rows) has such points. Rounded up.
- */
+/* Two facets of different parts, the distance between which is within the slack of these parts
+   (lrcsi_proximity_slack). */
 typedef struct lrcsi_proximity_pair {
     uint32_t facet, other;
-    float share, rows;
+    float area_fraction; /* upper bound of the fraction of the facet's area within the slack */
+    float row_fraction;  /* of the fraction of its rows with such points (lrcsi_proximity_rows) */
 } lrcsi_proximity_pair;
 
 typedef struct lrcsi_proximity {
-    double *reach; /* part: lrcs_part.reach, scaled; NULL if this was not requested, or some part's
-                      curvature is not known */
+    double *reach; /* part: lrcs_part.reach, scaled; NULL if there is no curved shape among other
+                      parts, or if the curvature of some part is not known */
     double *grazing_cos; /* part: rounding cannot reverse a facet with |cos(theta)| above this */
-    double most;         /* of reach */
+    double max_reach;
     lrcsi_proximity_pair *pair; /* in no order */
     size_t count;
 } lrcsi_proximity;
 
-/* Runs of facets (scene/runs.h). Run r has the facets LRCSI_RUN r .. LRCSI_RUN (r + 1) - 1, the
- * last perhaps fewer. */
+/* Runs of facets (scene/runs.h). Run r has the facets LRCSI_RUN r .. LRCSI_RUN (r + 1) - 1; the
+   last run may have fewer. */
 #define LRCSI_RUN 16u
 
 typedef struct lrcsi_run {
@@ -83,8 +82,8 @@ typedef struct lrcsi_run {
     int has_contacts; /* some facet has a contact or is marked in `met` (mesh/intersection.h) */
 } lrcsi_run;
 
-/* A side of a facet of a run across which (scene/neighbours.h) there is a facet of an earlier run,
-   or no facet. */
+/* A side of a facet of a run whose neighbour belongs to an earlier run, or that has no neighbour.
+ */
 typedef struct lrcsi_run_side {
     uint32_t facet, other;
     uint32_t edge; /* of the topology */
@@ -93,13 +92,13 @@ typedef struct lrcsi_run_side {
 typedef struct lrcsi_runs {
     lrcsi_run *run; /* one more than the number of runs, for its first_side */
     uint32_t count;
-    unsigned char *first; /* facet: the first of the facets connected with it across sides within
-                             the run, counted from the run's first facet */
+    unsigned char *first; /* facet: the first facet connected with it within the run, counted from
+                             the run's first facet */
     lrcsi_run_side *side; /* those of run r: side[run[r].first_side .. run[r + 1].first_side) */
-    /* What suffices where all facets of runs are alike, in as few bytes as possible: */
-    unsigned char *whole; /* run: all facets are connected across sides within it */
-    uint32_t *link;       /* the runs that the sides of run r lead to, each once, LRCS_NONE if some
-                             side leads to no facet: link[first_link[r] .. first_link[r + 1]) */
+    /* A compact form, which suffices where all facets of a run have equal properties in a view: */
+    unsigned char *whole; /* run: 1 if all its facets are connected within it */
+    uint32_t *link;       /* the runs to which the sides of run r lead, each once, and LRCS_NONE if
+                             a side has no neighbour: link[first_link[r] .. first_link[r + 1]) */
     uint32_t *first_link;
 } lrcsi_runs;
 
@@ -108,8 +107,8 @@ static inline uint32_t lrcsi_runs_count(uint32_t facet_count)
     return facet_count / LRCSI_RUN + (facet_count % LRCSI_RUN != 0);
 }
 
-/* The facets that all runs had if the last one had as many as the others. Arrays of so many entries
-   can be processed a whole run at a time. */
+/* The number of facets rounded up to whole runs. Arrays of so many entries can be processed a whole
+   run at a time. */
 static inline size_t lrcsi_runs_room(uint32_t facet_count)
 {
     return (size_t)lrcsi_runs_count(facet_count) * LRCSI_RUN;
@@ -123,9 +122,9 @@ static inline uint32_t lrcsi_run_end(uint32_t start, uint32_t facet_count)
 
 /* The extent of a part (scene/extent.h). */
 typedef struct lrcsi_extent {
-    double low[3], high[3]; /* of its live facets and of the true surface; low > high: none live */
-    int closed_form; /* its sigma is known if nothing hides it, except that of its inside (open,
-                        two-sided) */
+    double low[3], high[3]; /* box around its live facets and true surface; low > high: none live */
+    int closed_form; /* 1 if its sigma has a closed form where nothing hides it; that of the inside
+                        of an open, two-sided shape is not included */
 } lrcsi_extent;
 
 struct lrcs_prepared {
@@ -135,30 +134,31 @@ struct lrcs_prepared {
     unsigned char *skip;      /* facet: 1 if degenerate or omitted; such a facet is ignored
                                  everywhere */
     unsigned char *redundant; /* facet: a lrcsi_redundant */
-    uint32_t *opposite; /* facet: the one in the same place with the opposite winding, or LRCS_NONE;
-                       NULL if no facet has any */
+    uint32_t *opposite; /* facet: the other side of its panel (scene/coincident.h), or LRCS_NONE;
+                           NULL if no facet has one */
     unsigned char *referenced; /* vertex: 1 if a live facet has it as a corner */
     lrcsi_normal *normal;
     lrcsi_batches batches;             /* facets that are not skipped, by material */
     lrcsi_topology topology;           /* of all facets; its edges may include skipped ones */
-    lrcsi_neighbours neighbours;       /* across the sides of facets that are not redundant */
+    lrcsi_neighbours neighbours;       /* of facets that are not redundant */
     lrcsi_intersections intersections; /* between facets that are not redundant, but not between a
                                           facet and its opposite */
     lrcsi_runs runs;                   /* facets that follow one another */
     uint32_t *piece;    /* facet: its piece of surface (scene/solid.h) if all are closed; else
                            NULL */
     double centre[3];   /* of the box around the live facets */
-    double radius;      /* an upper bound of the distance of live vertices from the centre in any
-                           coordinate */
-    double origin[3];   /* of views: the centre of the box around most vertices, */
-    double bulk[3];     /* and half its sides (scene/bulk.h) */
+    double radius;      /* half its longest side: no live vertex is farther from the
+                           centre in any coordinate */
+    double origin[3];   /* of views: the centre of the bulk (scene/bulk.h) */
+    double bulk[3];     /* half the sides of the bulk */
     uint32_t live;      /* facets not skipped */
-    int convex;         /* live facets lie on one convex surface, outward and one-sided: exactly, or
+    int convex;         /* live facets lie on one convex surface, outward and one-sided, exactly or
                            by construction; then only facets at grazing incidence can be hidden */
     double grazing_cos; /* if convex: a facet with cos(theta) above this is entirely visible */
-    int solid;          /* winding number >= 0 everywhere, proved: back sides are never seen */
-    int two_sided;      /* some live facet is */
-    int glint, diffuse; /* some live facet's A, B is not 0 */
+    int solid;          /* it is proved that the winding number is nowhere negative, so that back
+                           sides are never seen */
+    int two_sided;      /* some live facet is two-sided */
+    int glint, diffuse; /* some live facet has A > 0; B > 0 */
     int curved;         /* some live part was tessellated from a curved shape */
     lrcsi_proximity
         proximity; /* if there are curved shapes among other parts; else proximity.reach is NULL */
@@ -187,7 +187,7 @@ static inline const lrcs_point *lrcsi_prepared_normals(const lrcs_prepared *p, u
     return n && (n->x[0] != 0 || n->x[1] != 0 || n->x[2] != 0) ? n : NULL;
 }
 
-/* An area in scaled units, in square metres. Exact except for overflow and underflow. */
+/* Converts a scaled area to square metres, exactly except for overflow and underflow. */
 static inline double lrcsi_prepared_area(const lrcs_prepared *p, double scaled)
 {
     return ldexp(scaled, 2 * p->exponent);

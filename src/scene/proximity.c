@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The slack between parts and the facets within it. visibility/proximity_band.h proves that these
-   distances suffice. Fractions are rounded outward: coordinates here are below 1 and computed
-   values accurate to 2^-48, so every distance is increased by LRCSI_PROXIMITY_ERR. */
+/* Decides the slack between parts, and which facets are within it. visibility/proximity_band.h
+   proves that the slack suffices. All results are rounded outward: every distance is increased by
+   LRCSI_PROXIMITY_ERR. */
 #include "scene/proximity.h"
 
 #include <math.h>
@@ -15,8 +15,8 @@
 #include "mesh/tessellate.h"
 #include "mesh/tree.h"
 
-/* The rounding of vertices cannot reverse a facet whose |cos(theta)| exceeds this times their error
-   over its altitude (scene/solid.c). */
+/* The rounding of vertices cannot reverse a facet if |cos(theta)| exceeds this times the error of
+   the vertices over the facet's smallest altitude (scene/solid.c). */
 #define GRAZING_FACTOR 16.0
 
 int lrcsi_proximity_closed(const lrcs_prepared *p, uint32_t part)
@@ -33,7 +33,7 @@ int lrcsi_proximity_openings(const lrcs_prepared *p, uint32_t part)
     return kind == LRCS_SHAPE_CYLINDER || kind == LRCS_SHAPE_FRUSTUM ? 2 : 1;
 }
 
-/* An open piece of a convex surface: neither closed nor flat. */
+/* Is a part an open piece of a convex surface? */
 static int part_is_open(const lrcs_prepared *p, uint32_t part)
 {
     return lrcsi_proximity_openings(p, part) > 0;
@@ -50,50 +50,52 @@ double lrcsi_proximity_slack(const lrcs_prepared *p, uint32_t part, uint32_t oth
 }
 
 double lrcsi_proximity_slack_across(const lrcs_prepared *p, uint32_t part, uint32_t other,
-                                    double aside)
+                                    double lateral)
 {
     double theirs = p->proximity.reach[other];
     double slack = lrcsi_proximity_slack(p, part, other);
     return slack == 0 || (theirs > 0 && part_is_open(p, other))
                ? slack
-               : lrcsi_min(slack, theirs + aside + LRCSI_PROXIMITY_ERR);
+               : lrcsi_min(slack, theirs + lateral + LRCSI_PROXIMITY_ERR);
 }
 
-/* The sine of an angle, given its cosine to within 1e-14. */
+/* An upper bound of the sine of an angle, given its cosine to within 1e-14. */
 static double sine_of(double cosine)
 {
     return sqrt(lrcsi_max(0, (1 - cosine) * (1 + cosine))) + 1e-6;
 }
 
-double lrcsi_proximity_aside(const lrcs_prepared *p, uint32_t facet, const double unit[3])
+double lrcsi_proximity_lateral(const lrcs_prepared *p, uint32_t facet, const double unit[3])
 {
     uint32_t index = p->scene->facet_part[facet];
     const lrcs_part *part = &p->scene->part[index];
     double reach = p->proximity.reach[index];
-    lrcsi_wall_patch at;
+    lrcsi_wall_patch patch;
     if (!part->rigid || reach == 0 || p->scene->facet_smooth[facet] == 0 ||
-        !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet, &at)) {
+        !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet,
+                                &patch)) {
         return reach;
     }
     double sine;
     double cosine;
-    lrcsi_degrees_sincos((2.0 * at.sector + 1.0) * 180.0 / part->divisions.around, &sine, &cosine);
+    lrcsi_degrees_sincos((2.0 * patch.sector + 1.0) * 180.0 / part->divisions.around, &sine,
+                         &cosine);
     double along[3]; /* cosines of the angles between the line of sight and the shape's axes */
     for (int k = 0; k < 3; k++) {
         along[k] =
             part->axis[k][0] * unit[0] + part->axis[k][1] * unit[1] + part->axis[k][2] * unit[2];
     }
     double radial = along[0] * cosine + along[1] * sine;
-    double aside = part->displaced[0] * sine_of(radial) + part->displaced[1] * sine_of(along[2]) +
-                   part->displaced[2];
-    return lrcsi_min(reach, ldexp(aside, -p->exponent) * (1 + 1e-9));
+    double lateral = part->displaced[0] * sine_of(radial) + part->displaced[1] * sine_of(along[2]) +
+                     part->displaced[2];
+    return lrcsi_min(reach, ldexp(lateral, -p->exponent) * (1 + 1e-9));
 }
 
 /* --- one pair --------------------------------------------------------------------------------- */
 
 double lrcsi_proximity_longest(const lrcs_prepared *p, uint32_t facet)
 {
-    double most = 0;
+    double longest = 0;
     for (int k = 0; k < 3; k++) {
         const double *a = lrcsi_prepared_corner(p, facet, k);
         const double *b = lrcsi_prepared_corner(p, facet, (k + 1) % 3);
@@ -101,9 +103,9 @@ double lrcsi_proximity_longest(const lrcs_prepared *p, uint32_t facet)
         for (int i = 0; i < 3; i++) {
             square += (b[i] - a[i]) * (b[i] - a[i]);
         }
-        most = lrcsi_max(most, sqrt(square));
+        longest = lrcsi_max(longest, sqrt(square));
     }
-    return most;
+    return longest;
 }
 
 int lrcsi_proximity_has_rows(const lrcs_prepared *p, uint32_t facet)
@@ -114,9 +116,11 @@ int lrcsi_proximity_has_rows(const lrcs_prepared *p, uint32_t facet)
     return is_straight && part->curvature.turn > 0 && p->scene->facet_smooth[facet] != 0;
 }
 
-/* The corner opposite the side that lies on a circle. A wall's vertices are listed from the base
-   up, and its facets by sectors (mesh/tessellate.c): in each the one with its side on the base,
-   then, except on a cone, the one with its side on the upper circle. */
+/* Heights are measured towards `top`, the corner opposite the side on a circle. A wall's vertices
+   are listed from the base up, and its facets by sectors (mesh/tessellate.c): in each sector first
+   the facet with its side on the base, then, except on a cone, the one with its side on the upper
+   circle. So `top` is the vertex with the largest index in the former and with the smallest in the
+   latter. */
 double lrcsi_proximity_rows(const lrcs_prepared *p, uint32_t facet, const double *const corner[3],
                             const lrcsi_slice *slice)
 {
@@ -133,8 +137,9 @@ double lrcsi_proximity_rows(const lrcs_prepared *p, uint32_t facet, const double
     return lrcsi_slice_extent(slice, corner[top], corner[(top + 1) % 3], corner[(top + 2) % 3]);
 }
 
-/* The part of a facet within `slack` of the prism over `other`: between two planes at that distance
-   from the plane of `other`, and inside three at that distance outside its sides. */
+/* The part of a facet that may be within `slack` of the facet `other`: the part between the two
+   planes at that distance from the plane of `other`, and within the three planes at that distance
+   outside its sides. */
 static lrcsi_slice pair_slice(const lrcs_prepared *p, uint32_t facet, uint32_t other, double slack)
 {
     const lrcsi_normal *normal = &p->normal[other];
@@ -165,15 +170,15 @@ static int pair_is_apart(const lrcs_prepared *p, uint32_t facet, uint32_t other,
 {
     const lrcsi_normal *n = &p->normal[facet];
     const double *a = lrcsi_prepared_corner(p, facet, 0);
-    double most = slack * n->length;
+    double limit = slack * n->length;
     int above = 0;
     int below = 0;
     for (int k = 0; k < 3; k++) {
         double from_a[3];
         lrcsi_vec3_between(a, lrcsi_prepared_corner(p, other, k), from_a);
         double height = lrcsi_vec3_dot(n->high, from_a);
-        above += height > most;
-        below += height < -most;
+        above += height > limit;
+        below += height < -limit;
     }
     return above == 3 || below == 3;
 }
@@ -186,9 +191,10 @@ static float fraction_float(double fraction)
     return (float)lrcsi_min(1, fraction * (1 + 0x1p-22));
 }
 
-/* Entries are allocated one by one and are contiguous. */
-_Static_assert(sizeof(lrcsi_proximity_pair) % LRCS_WORK_ALIGN == 0, "no gaps between entries");
+/* Pairs are allocated one by one and must be contiguous. */
+_Static_assert(sizeof(lrcsi_proximity_pair) % LRCS_WORK_ALIGN == 0, "no gaps between pairs");
 
+/* Adds a pair if part of the facet is within the slack of the other. */
 static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work *work)
 {
     lrcsi_proximity *proximity = &p->proximity;
@@ -220,13 +226,14 @@ static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_
     return LRCS_OK;
 }
 
-/* The pairs of a facet of a curved part with all facets of other parts, in both orders; if both
-   parts are curved, each order is found from its own facet. */
+/* Adds the pairs of a facet of a curved part and the facets of other parts, in both orders. If both
+   parts are curved, only the order in which this facet comes first is added here: the other order
+   is added for the other facet. */
 static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tree, lrcs_work *work)
 {
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
-    double within = 2 * (p->proximity.reach[part] + p->proximity.most) + LRCSI_PROXIMITY_ERR;
+    double within = 2 * (p->proximity.reach[part] + p->proximity.max_reach) + LRCSI_PROXIMITY_ERR;
     lrcsi_box box = lrcsi_box_of(p->vertex, &scene->facet[facet]);
     for (int k = 0; k < 3; k++) {
         box.low[k] -= within;
@@ -234,9 +241,9 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tr
     }
     lrcsi_tree_walk walk = lrcsi_tree_within(tree, &box, part);
     int status = LRCS_OK;
-    uint32_t place;
-    while (status == LRCS_OK && (place = lrcsi_tree_next(&walk)) != LRCS_NONE) {
-        uint32_t other = tree->order[place];
+    uint32_t at;
+    while (status == LRCS_OK && (at = lrcsi_tree_next(&walk)) != LRCS_NONE) {
+        uint32_t other = tree->order[at];
         if (scene->facet_part[other] == part) {
             continue;
         }
@@ -248,7 +255,8 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tr
     return status;
 }
 
-/* The list grows above the tree in the work area and is moved down at the end. */
+/* Finds all pairs. Their list grows above the tree in the work area, and is moved to the place of
+   the tree at the end. */
 static int pairs_find(lrcs_prepared *p, lrcs_work *work)
 {
     lrcsi_proximity *proximity = &p->proximity;
@@ -276,8 +284,8 @@ static int pairs_find(lrcs_prepared *p, lrcs_work *work)
 
 /* --- parts ------------------------------------------------------------------------------------ */
 
-/* 0 if the curvature of some part is not known, or if rounding left a facet of a curved part
-   without area: its other facets then do not determine what the part hides. */
+/* 0 if the curvature of some part is not known, or if a facet of a curved part has no area, by
+   rounding: its other facets then do not determine what the part hides. */
 static int parts_known(const lrcs_prepared *p)
 {
     const lrcs_scene *scene = p->scene;
@@ -291,16 +299,17 @@ static int parts_known(const lrcs_prepared *p)
     return 1;
 }
 
-/* A facet of a convex part whose vertices have errors of at most `off` keeps its facing, and its
-   depth order among the part's other facets, if |cos(theta)| exceeds GRAZING_FACTOR off divided by
-   its smallest altitude (scene/solid.c). */
+/* Fills reach, max_reach and grazing_cos. A facet of a convex part whose vertices have errors of at
+   most vertex_err faces the same side as without these errors, and keeps its depth order among the
+   part's facets, if |cos(theta)| exceeds GRAZING_FACTOR vertex_err divided by its smallest altitude
+   (scene/solid.c). */
 static void parts_fill(lrcs_prepared *p)
 {
     lrcsi_proximity *proximity = &p->proximity;
     const lrcs_scene *scene = p->scene;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         proximity->reach[i] = ldexp(scene->part[i].reach, -p->exponent);
-        proximity->most = lrcsi_max(proximity->most, proximity->reach[i]);
+        proximity->max_reach = lrcsi_max(proximity->max_reach, proximity->reach[i]);
         proximity->grazing_cos[i] = 0;
     }
     for (uint32_t f = 0; f < scene->facet_count; f++) {
@@ -308,10 +317,10 @@ static void parts_fill(lrcs_prepared *p)
         if (p->skip[f] || proximity->reach[i] == 0) {
             continue;
         }
-        double off = ldexp(scene->part[i].misplaced, -p->exponent) + 4 * LRCSI_U;
+        double vertex_err = ldexp(scene->part[i].misplaced, -p->exponent) + 4 * LRCSI_U;
         double altitude = p->normal[f].length / lrcsi_proximity_longest(p, f);
         proximity->grazing_cos[i] =
-            lrcsi_max(proximity->grazing_cos[i], GRAZING_FACTOR * off / altitude);
+            lrcsi_max(proximity->grazing_cos[i], GRAZING_FACTOR * vertex_err / altitude);
     }
 }
 

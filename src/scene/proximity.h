@@ -1,44 +1,43 @@
 /* SPDX-License-Identifier: MIT */
-/* Curved shapes among other parts: how far each part's true surface may be from its facets, and
-   which facets are so close to one of another part that the order of the true surfaces may
-   differ. It does not depend on direction. */
+/* Curved shapes among other parts: how far the true surface of each part may be from its facets,
+   and which facets are so close to a facet of another part that the depth order of the true
+   surfaces may differ from theirs. It does not depend on direction. */
 #ifndef LRCSI_PROXIMITY_H
 #define LRCSI_PROXIMITY_H
 
 #include "mesh/slice.h"
 #include "scene/prepared.h"
 
-/* Every slack is increased by this, for rounding: coordinates are below 1, and computed values
-   accurate to 2^-48. */
+/* Every slack is increased by this for rounding: coordinates are below 1, and values computed from
+   them are accurate to 2^-48. */
 #define LRCSI_PROXIMITY_ERR 0x1p-44
 
-/* The distance from a facet of `part` to a facet of `other`, or in projection to its rims and
-   contours, below which the visibility of the true shapes may differ from that of the facets: 0 if
-   the facets of both parts are exact. */
+/* The slack of two parts: the visibility of the true shapes may differ from that of the facets only
+   where a point of a facet of `part` is within this distance of a facet of `other` or, in
+   projection, of a rim or contour of `other`. 0 if the facets of both parts are exact. */
 double lrcsi_proximity_slack(const lrcs_prepared *prepared, uint32_t part, uint32_t other);
 
-/* The same in projection, for a facet of `part` whose points move by at most `aside` across the
-   line of sight. */
+/* The slack in projection, for a facet of `part` whose points are displaced from the true surface
+   by at most `lateral` perpendicular to the line of sight. */
 double lrcsi_proximity_slack_across(const lrcs_prepared *prepared, uint32_t part, uint32_t other,
-                                    double aside);
+                                    double lateral);
 
-/* How far points of a facet of a curved wall, other than caps, move across the line of sight on
-   their way from the true surface. Given: the unit vector to the laser. At most the part's reach.
- */
-double lrcsi_proximity_aside(const lrcs_prepared *prepared, uint32_t facet, const double unit[3]);
+/* A bound on that displacement for a facet of a curved wall, which is less than the part's reach;
+   for any other facet, the reach. Given: the unit vector to the laser. */
+double lrcsi_proximity_lateral(const lrcs_prepared *prepared, uint32_t facet, const double unit[3]);
 
-/* 1 if a part is a closed outward solid by construction: its back sides never hide anything by
-   themselves. */
+/* 1 if a part is a closed outward solid by construction: its back sides hide nothing that its front
+   sides do not hide. */
 int lrcsi_proximity_closed(const lrcs_prepared *prepared, uint32_t part);
 
-/* The number of flat openings in a convex surface; 0: it is closed, or flat. Of a model, which is
-   its own truth: not 0 unless it is closed. */
+/* The number of flat openings in the convex surface of a part; 0 if it is closed or flat. A model
+   file counts as having one opening. */
 int lrcsi_proximity_openings(const lrcs_prepared *prepared, uint32_t part);
 
 /* The rows of a facet on the straight wall of a cylinder, cone or frustum are the lines parallel to
-   its side on one of the wall's two circles. Given: the facet's corners, in any coordinates.
-   Returned: an upper bound of the fraction of its rows, by height over that side, that a polygon
-   within the facet meets; 1 if the facet has no rows. */
+   its side on one of the wall's two circles. Given: the facet's corners, in any coordinates, and a
+   slice of the facet. Returned: an upper bound of the fraction of rows, measured by their heights
+   above that side, that the slice meets; 1 if the facet has no rows. */
 double lrcsi_proximity_rows(const lrcs_prepared *prepared, uint32_t facet,
                             const double *const corner[3], const lrcsi_slice *slice);
 
@@ -48,7 +47,7 @@ int lrcsi_proximity_has_rows(const lrcs_prepared *prepared, uint32_t facet);
 /* A facet's longest side, scaled. */
 double lrcsi_proximity_longest(const lrcs_prepared *prepared, uint32_t facet);
 
-/* Bytes for ordinary scenes; 0 if no shape is curved. */
+/* Bytes that suffice for ordinary scenes; 0 if no shape is curved. */
 size_t lrcsi_proximity_need(const lrcs_scene *scene);
 
 /* Fills prepared->proximity, in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */

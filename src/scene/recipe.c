@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A scene file as a recipe: two passes over the text, one that counts tables and one that fills
-   them; then names are resolved, so that a file may use a material before it defines it. */
+/* Reads a scene file into a recipe: one pass over the text counts tables, a second one reads them;
+   then names are resolved, so that a file may use a material before it defines it. */
 #include <string.h>
 
 #include "base/index.h"
@@ -9,13 +9,13 @@
 #include "scene/bind.h"
 #include "scene/recipe.h"
 
-/* Tags of the kinds of names that must be unique. */
+/* Kinds of names, each of which must be unique. */
 enum recipe_tag { TAG_PART, TAG_MATERIAL, TAG_MAP_NAME, TAG_MAP_COLOUR };
 
-/* The lengths of the shortest table, "[[map]]" with its line end (the last may lack it), and of the
-   shortest string, 'a=""' with its line end. */
-#define TABLE_LEAST  8u
-#define STRING_LEAST 5u
+/* The smallest numbers of bytes of a table, "[[map]]" with its line end (the last may lack it), and
+   of a string, 'a=""' with its line end. */
+#define TABLE_MIN  8u
+#define STRING_MIN 5u
 
 typedef struct recipe_reader {
     lrcsi_toml toml;
@@ -26,13 +26,13 @@ typedef struct recipe_reader {
 
 size_t lrcs_recipe_need(size_t size)
 {
-    size_t tables = size / TABLE_LEAST + 1;
-    size_t strings = size / STRING_LEAST + 1;
-    /* A table gives at most one part and one name; the default material is one more binding. */
+    size_t tables = size / TABLE_MIN + 1;
+    size_t strings = size / STRING_MIN + 1;
+    /* A table makes at most one part and one name; the default material is one more binding. */
     size_t need = lrcsi_work_bytes(tables, sizeof(lrcs_recipe_part));
     need = lrcsi_work_add(need, lrcsi_work_bytes(1, sizeof(lrcs_recipe_material)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(1, sizeof(lrcs_binding)));
-    /* Strings with terminator and padding; one number without its underscores. */
+    /* Strings with terminators and padding; the copy of one number without its underscores. */
     need = lrcsi_work_add(need, lrcsi_work_bytes(strings, 1 + LRCS_WORK_ALIGN));
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, 2));
     return lrcsi_work_add(need, lrcsi_index_need(tables));
@@ -44,8 +44,8 @@ static int out_of_memory(lrcs_where *where)
                             0);
 }
 
-/* Counts parts, materials and maps up to the end or the first error, which the second pass finds
-   again. */
+/* Counts parts, materials and maps up to the end or the first error, which the second pass reports.
+ */
 static int count_tables(const char *text, size_t size, lrcs_where *where, uint32_t count[3])
 {
     static const char *const table[3] = {"part", "material", "map"};
@@ -73,7 +73,7 @@ static int count_tables(const char *text, size_t size, lrcs_where *where, uint32
     return LRCS_OK;
 }
 
-/* The keys at the top of the file. */
+/* Interprets the keys at the top of the file. */
 static int finish_top(recipe_reader *reader)
 {
     const lrcsi_draft *draft = &reader->draft;
@@ -84,7 +84,7 @@ static int finish_top(recipe_reader *reader)
                                         "1, the only schema that this version reads");
     }
     reader->recipe.name = lrcsi_draft_text(draft, LRCSI_KEY_NAME);
-    reader->recipe.keep_transparent = keep ? keep->truth : 0;
+    reader->recipe.keep_transparent = keep ? keep->boolean : 0;
     if (material) {
         lrcs_binding *binding = &reader->recipe.binding[reader->recipe.binding_count++];
         memset(binding, 0, sizeof *binding);
@@ -95,7 +95,7 @@ static int finish_top(recipe_reader *reader)
     return lrcsi_recipe_unit(draft, 0.0, &reader->unit);
 }
 
-/* Four numbers, or a name of the library. */
+/* The BRDF of a material: four numbers, or the name of a material of the library. */
 static int read_brdf(const lrcsi_draft *draft, lrcs_brdf *brdf)
 {
     static const int key[4] = {LRCSI_KEY_A, LRCSI_KEY_B, LRCSI_KEY_S, LRCSI_KEY_M};
@@ -130,22 +130,23 @@ static int read_brdf(const lrcsi_draft *draft, lrcs_brdf *brdf)
                       : LRCS_OK;
 }
 
-/* Their standard deviations and correlations: if they are not given, those of the library, or 0. */
+/* The standard deviations and correlations of the four numbers. Where they are not given, those of
+   the library for `like`, else 0. */
 static int read_brdf_error(const lrcsi_draft *draft, const lrcs_brdf *brdf, lrcs_brdf_error *error)
 {
     static const int key[4] = {LRCSI_KEY_A_ERROR, LRCSI_KEY_B_ERROR, LRCSI_KEY_S_ERROR,
                                LRCSI_KEY_M_ERROR};
     double value[4];
     const char *like = lrcsi_draft_text(draft, LRCSI_KEY_LIKE);
-    lrcs_brdf_error known; /* of the library, if it states any */
-    memset(&known, 0, sizeof known);
+    lrcs_brdf_error library;
+    memset(&library, 0, sizeof library);
     if (like) {
-        known = lrcs_brdf_find(like)->error;
+        library = lrcs_brdf_find(like)->error;
     }
-    const double other[4] = {known.A, known.B, known.s, known.m};
+    const double fallback[4] = {library.A, library.B, library.s, library.m};
     memset(error, 0, sizeof *error);
     for (int i = 0; i < 4; i++) {
-        value[i] = lrcsi_draft_number(draft, key[i], other[i]) + 0.0;
+        value[i] = lrcsi_draft_number(draft, key[i], fallback[i]) + 0.0;
         if (!(value[i] >= 0.0)) {
             return lrcsi_draft_refuse_value(draft, key[i], LRCS_E_NUMBER, "a number, 0 or more");
         }
@@ -169,7 +170,7 @@ static int read_brdf_error(const lrcsi_draft *draft, const lrcs_brdf *brdf, lrcs
                : LRCS_OK;
 }
 
-/* A [[material]]. */
+/* Makes a material from its finished draft. */
 static int finish_material(recipe_reader *reader)
 {
     const lrcsi_draft *draft = &reader->draft;
@@ -178,9 +179,9 @@ static int finish_material(recipe_reader *reader)
     lrcs_recipe_material *material = &reader->recipe.material[reader->recipe.material_count];
     memset(material, 0, sizeof *material);
     material->name = lrcsi_draft_text(draft, LRCSI_KEY_NAME);
-    material->two_sided = two_sided ? two_sided->truth : -1;
+    material->two_sided = two_sided ? two_sided->boolean : -1;
     material->line = draft->header.line;
-    material->assumed = assumed ? assumed->truth : 0;
+    material->assumed = assumed ? assumed->boolean : 0;
     if (!material->name || material->name[0] == '\0') {
         return lrcsi_draft_refuse(draft, LRCS_E_NAME, "name = \"...\"");
     }
@@ -189,7 +190,7 @@ static int finish_material(recipe_reader *reader)
     return status == LRCS_OK ? read_brdf_error(draft, &material->brdf, &material->error) : status;
 }
 
-/* "#RRGGBB". */
+/* Reads a colour, "#RRGGBB". */
 static int read_colour(const char *text, unsigned char rgb[3])
 {
     static const char digits[] = "0123456789abcdefABCDEF";
@@ -204,7 +205,8 @@ static int read_colour(const char *text, unsigned char rgb[3])
     return LRCS_OK;
 }
 
-/* A [[map]]: from a surface of a model, by name or colour, to a material. */
+/* Makes a binding from a finished [[map]], which maps surfaces of models, by name or colour, to a
+   material. */
 static int finish_map(recipe_reader *reader)
 {
     const lrcsi_draft *draft = &reader->draft;
@@ -247,7 +249,7 @@ static int finish_table(recipe_reader *reader)
     }
 }
 
-/* The second pass: every table into the arrays that the first one sized. */
+/* The second pass: reads every table into the arrays, whose sizes the first pass has counted. */
 static int read_tables(recipe_reader *reader)
 {
     lrcsi_toml_event event;
@@ -287,7 +289,7 @@ static int refuse_name(const recipe_reader *reader, uint32_t line, const char *i
                             strlen(name));
 }
 
-/* Enters a name; LRCS_E_NAME if it is already known. */
+/* Adds a name to the index; LRCS_E_NAME if it is there already. */
 static int enter_name(lrcsi_index *names, uint32_t tag, const void *bytes, size_t size,
                       uint32_t value)
 {
@@ -298,7 +300,7 @@ static int enter_name(lrcsi_index *names, uint32_t tag, const void *bytes, size_
     return LRCS_OK;
 }
 
-/* Enters all names of parts, materials and maps, each of which must be unique. */
+/* Adds all names of parts, materials and maps to the index, and reports the first duplicate. */
 static int enter_names(const recipe_reader *reader, lrcsi_index *names)
 {
     const lrcs_recipe *recipe = &reader->recipe;
@@ -328,8 +330,9 @@ static int enter_names(const recipe_reader *reader, lrcsi_index *names)
     return LRCS_OK;
 }
 
-/* A material by its name, the recipe's own first, then the library's; its index among the recipe's
-   in *own, LRCS_NONE for the library's; its source as in <lrcs/scene.h>. */
+/* Finds a material by its name: one of the recipe, else one of the library. Returned: the material;
+   *own, its index in the recipe, or LRCS_NONE for one of the library; its source, as in
+   <lrcs/scene.h>. */
 static int resolve_name(const recipe_reader *reader, const lrcsi_index *names, const char *name,
                         uint32_t line, lrcs_recipe_material *material, uint32_t *own,
                         uint32_t *source)
@@ -381,7 +384,7 @@ static int resolve_materials(recipe_reader *reader, const lrcsi_index *names)
     return status;
 }
 
-/* Reports duplicate names and names that refer to nothing. */
+/* Replaces names of materials by the materials; reports duplicate and unknown names. */
 static int resolve_names(recipe_reader *reader, lrcs_work *work)
 {
     const lrcs_recipe *recipe = &reader->recipe;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What recipe.c and recipe_part.c share. */
+/* Functions that recipe.c and recipe_part.c share. */
 #ifndef LRCSI_RECIPE_H
 #define LRCSI_RECIPE_H
 
@@ -7,11 +7,12 @@
 
 #include "scene/draft.h"
 
-/* The draft's `unit` in metres, or `other` if it has none. Status: LRCS_OK; LRCS_E_NAME;
+/* The draft's `unit` in metres, or `fallback` if it has none. Status: LRCS_OK; LRCS_E_NAME;
    LRCS_E_NUMBER (not above 0). */
-int lrcsi_recipe_unit(const lrcsi_draft *draft, double other, double *metres);
+int lrcsi_recipe_unit(const lrcsi_draft *draft, double fallback, double *metres);
 
-/* A part from its finished draft. `unit` is the file's, for models. The material stays a name. */
+/* Makes a part from its finished draft. `unit` is the unit at the top of the file, for models. The
+   name of the material is not resolved here. */
 int lrcsi_recipe_part(const lrcsi_draft *draft, double unit, lrcs_recipe_part *part);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A [[part]] of a scene file: which keys a model or each shape needs, and how the keys of its
-   placement are combined. */
+/* Makes a part from a [[part]] of a scene file. Decides which keys a model and each kind of shape
+   need, and how the keys of the placement are combined. */
 #include <math.h>
 #include <string.h>
 
@@ -36,10 +36,10 @@ static const shape_rule shape_rules[LRCS_SHAPE_KINDS] = {
                                "paraboloid: radius, length, wall_only"},
 };
 
-int lrcsi_recipe_unit(const lrcsi_draft *draft, double other, double *metres)
+int lrcsi_recipe_unit(const lrcsi_draft *draft, double fallback, double *metres)
 {
     const lrcsi_toml_event *unit = lrcsi_draft_find(draft, LRCSI_KEY_UNIT);
-    *metres = other;
+    *metres = fallback;
     if (!unit) {
         return LRCS_OK;
     }
@@ -55,7 +55,7 @@ int lrcsi_recipe_unit(const lrcsi_draft *draft, double other, double *metres)
                                                     "metres in a unit, above 0");
 }
 
-/* The keys of a shape that the draft gives. */
+/* The bits of the shape keys that are given. */
 static uint64_t given_shape_keys(const lrcsi_draft *draft)
 {
     uint64_t given = 0;
@@ -100,7 +100,8 @@ static int check_shape_keys(const lrcsi_draft *draft, int kind)
     return LRCS_OK;
 }
 
-/* Reports a wrong dimension: the shape check finds which one, the draft where it is in the file. */
+/* Checks the dimensions of a shape. lrcs_shape_check names the one that is wrong; the draft knows
+   where it is in the file. */
 static int check_shape(const lrcsi_draft *draft, const lrcs_shape *shape)
 {
     lrcs_where *where = draft->toml->where;
@@ -137,7 +138,7 @@ static int read_shape(const lrcsi_draft *draft, lrcs_shape *shape)
     const lrcsi_toml_event *wall = lrcsi_draft_find(draft, LRCSI_KEY_WALL_ONLY);
     const lrcsi_toml_event *size = lrcsi_draft_find(draft, LRCSI_KEY_SIZE);
     shape->kind = kind;
-    shape->parts = wall && wall->truth ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
+    shape->parts = wall && wall->boolean ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
     for (uint32_t i = 0; size && i < size->count; i++) {
         shape->size[i] = size->number[i];
     }
@@ -148,7 +149,7 @@ static int read_shape(const lrcsi_draft *draft, lrcs_shape *shape)
     return check_shape(draft, shape);
 }
 
-/* Either a file or a shape, not both. */
+/* Reads what the part is: either a file or a shape. */
 static int read_body(const lrcsi_draft *draft, lrcs_recipe_part *part)
 {
     const char *file = lrcsi_draft_text(draft, LRCSI_KEY_FILE);
@@ -166,7 +167,7 @@ static int read_body(const lrcsi_draft *draft, lrcs_recipe_part *part)
     return refuse_others(draft, 0, "no such key beside file");
 }
 
-/* At most one of the three ways to specify a rotation. */
+/* Reads the rotation, which is given in at most one of three ways. */
 static int read_rotation(const lrcsi_draft *draft, double R[3][3])
 {
     const char *sequence = lrcsi_draft_text(draft, LRCSI_KEY_ROTATE_EULER);
@@ -201,7 +202,7 @@ static int read_rotation(const lrcsi_draft *draft, double R[3][3])
     return LRCS_OK;
 }
 
-/* Unit times scale, along each axis. */
+/* Reads the scale, and multiplies it by the unit. */
 static int read_scale(const lrcsi_draft *draft, double unit, double scale[3])
 {
     const lrcsi_toml_event *given = lrcsi_draft_find(draft, LRCSI_KEY_SCALE);

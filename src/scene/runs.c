@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs of facets: their boxes, and which of their facets are connected within the run. It does not
-   decide how a view uses them. */
+/* Computes the boxes of runs, which of their facets are connected within the run, and to which runs
+   their sides lead. It does not decide how a view uses them. */
 #include "scene/runs.h"
 
 #include <math.h>
@@ -27,10 +27,10 @@ static void run_link(lrcsi_runs *runs, uint32_t run, uint32_t facet_count)
     runs->first_link[run + 1] = end;
 }
 
-/* Joins the facets of a run, and lists the sides that leave it. A facet has another across a side
-   if and only if that one has it across (scene/neighbours.c), so that sides towards later runs are
-   listed there. */
-static void run_join(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, uint32_t end)
+/* Finds the connected facets of a run, and lists the sides that lead to earlier runs or have no
+   neighbour. Being neighbours is symmetric (scene/neighbours.c), so a side that leads to a later
+   run is listed with that run. */
+static void run_connect(const lrcs_prepared *p, lrcsi_runs *runs, uint32_t start, uint32_t end)
 {
     uint32_t group[LRCSI_RUN];
     uint32_t count = p->scene->facet_count;
@@ -67,7 +67,8 @@ size_t lrcsi_runs_need(uint32_t facet_count)
     return lrcsi_work_add(need, 3 * lrcsi_work_bytes(facet_count, sizeof(lrcsi_run_side)));
 }
 
-/* Memory for three sides per facet, and as many links as sides; what is not needed is released. */
+/* Takes memory for three sides per facet, then for as many links as there are sides; what turns out
+   not to be needed is released. */
 int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
 {
     uint32_t facet_count = p->scene->facet_count;
@@ -106,7 +107,7 @@ int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
         }
         run->has_contacts = has_contacts;
         made.run[r + 1].first_side = run->first_side;
-        run_join(p, &made, start, end);
+        run_connect(p, &made, start, end);
     }
     work->used = mark;
     made.side = lrcsi_work_take(work, made.run[made.count].first_side, sizeof *made.side);

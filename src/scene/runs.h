@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs of a few facets that are consecutive in the scene; most files list neighbours consecutively.
-   Facts about a run that hold for all directions let a view treat its facets together. */
+/* A run is a few facets with consecutive indices. Most files list neighbouring facets one after
+   another, so that the facets of a run are usually close together and connected. A view can then
+   process a whole run at once. */
 #ifndef LRCSI_RUNS_H
 #define LRCSI_RUNS_H
 

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* Normals at the corners of facets, from vertex normals and smoothing groups. It decides what a
-   file's data mean and which facets they make curved. It does not integrate over them.
+/* Computes normals at the corners of facets from vertex normals and smoothing groups. It decides
+   what the data of a file mean, and which facets are curved. It does not integrate over them.
 
-   At a corner the vertex normal of the file has precedence. It is placed by the inverse transpose
-   of the linear map, under which outward stays outward even if the map is a reflection. Without
-   one, a corner of a facet in a smoothing group gets the mean of the normals of the facets that
-   share its vertex (by index: welded positions share nothing) and one of its groups, weighted with
-   their angles there, so that the mean does not depend on the triangulation of flat polygons. All
-   other corners are hard: they get the facet's own normal.
+   If the file gives a vertex normal for a corner, it is used. It is placed by the inverse transpose
+   of the linear map, so that outward normals stay outward even if the map contains a reflection.
+   Otherwise, if the facet is in a smoothing group, the corner gets the mean of the normals of all
+   facets that share its vertex and one of its groups. Vertices are the same if their indices are;
+   equal positions do not suffice. The normals are weighted with the facets' angles at the vertex,
+   so that the mean does not depend on the triangulation of flat polygons. All other corners get the
+   facet's own normal.
 
    The winding decides which side is the front. If all the vertex normals of a facet point behind
    it, the file gives them for the other side, and they are reversed. Any other normal that does not
-   point in front (the two sides of one panel that share vertices, corners for which no normal is
-   suitable) is replaced by the facet's own.
+   point to the front is replaced by the facet's own; this happens where the two sides of a panel
+   share vertices, and at corners for which no normal is suitable.
 
    Only + - * / and sqrt are used on normals, so they are the same on every machine. */
 #include "scene/smooth.h"
@@ -26,36 +27,37 @@
 #include "base/work.h"
 #include "optics/ripple.h"
 
-/* Normals this close to the facet's own leave it flat; a mean this short, relative to its weights,
-   has cancelled. */
-#define SMOOTH_FLAT   0x1p-40
+/* A facet is flat if its normals differ from its own by no more than this. */
+#define SMOOTH_FLAT 0x1p-40
+/* If the sum of normals is shorter than this times the sum of weights, they cancel, and there is no
+   mean. */
 #define SMOOTH_CANCEL 0x1p-20
 
-/* The means kept by group while the corners of one vertex are processed: one per bit. */
-#define SMOOTH_GROUPS 32u
+/* The number of different sets of groups whose means are kept while a vertex is processed. */
+#define SMOOTH_SETS 32u
 
 typedef struct smooth_job {
     const lrcs_mesh *mesh;
     const lrcsi_placer *placer;
     lrcs_scene *scene;
-    uint32_t base;       /* the mesh's first vertex in the scene */
-    uint32_t first;      /* its first facet */
-    lrcs_point *unit;    /* facet: its own normal; zero if degenerate */
-    uint32_t *start;     /* vertex: the index of its first corner in `corner` */
-    uint32_t *corner;    /* 3 facet + k, by vertex */
-    lrcs_point *in_mean; /* corner 3 facet + k: the mean of its groups, or zero */
+    uint32_t base;    /* the mesh's first vertex in the scene */
+    uint32_t first;   /* its first facet */
+    lrcs_point *unit; /* facet: its own unit normal; zero if degenerate */
+    uint32_t *start;  /* vertex: the index of its first corner in `corner` */
+    uint32_t *corner; /* corners, each as 3 facet + k, sorted by vertex */
+    lrcs_point *mean; /* corner 3 facet + k: the mean normal of its groups, or zero */
 } smooth_job;
 
 /* Scales to length 1, first dividing by the largest component so that nothing overflows. Returns 0
    if the length is zero. */
 static int make_unit(double v[3])
 {
-    double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
-    if (!(most > 0.0)) {
+    double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+    if (!(largest > 0.0)) {
         return 0;
     }
     for (int k = 0; k < 3; k++) {
-        v[k] /= most;
+        v[k] /= largest;
     }
     double length = lrcsi_length(v);
     for (int k = 0; k < 3; k++) {
@@ -64,8 +66,9 @@ static int make_unit(double v[3])
     return 1;
 }
 
-/* The angle between two unit vectors, rad: tan of 1/64 of it by halving, then seven terms of the
-   arc tangent (tan(pi/64) < 0.05: the eighth is below 1e-19). */
+/* The angle between two unit vectors, rad. It is halved until its 64th part is left, by formulas
+   for the tangent; seven terms of the arc tangent then suffice (tan(pi/64) < 0.05, so that the
+   eighth term is below 1e-19). */
 static double angle_of(const double a[3], const double b[3])
 {
     double c[3];
@@ -73,7 +76,7 @@ static double angle_of(const double a[3], const double b[3])
     double size = lrcsi_length(c);
     double dot = lrcsi_vec3_dot(a, b);
     double whole = sqrt(size * size + dot * dot);
-    /* tan of the half; beyond a right angle by the other formula, without cancellation */
+    /* The tangent of half the angle, by that of two formulas which does not cancel. */
     double t = dot >= 0.0 ? size / (whole + dot) : (whole - dot) / size;
     if (!(t < 0x1p60)) {
         return LRCS_PI;
@@ -89,7 +92,7 @@ static double angle_of(const double a[3], const double b[3])
     return 64.0 * t * sum;
 }
 
-static const double *placed(const smooth_job *job, uint32_t facet, uint32_t k)
+static const double *placed_corner(const smooth_job *job, uint32_t facet, uint32_t k)
 {
     return job->scene->vertex[job->scene->facet[job->first + facet].corner[k % 3]].x;
 }
@@ -97,8 +100,8 @@ static const double *placed(const smooth_job *job, uint32_t facet, uint32_t k)
 /* The unit vector along the side of a facet from corner k to corner k + by. */
 static int side_of(const smooth_job *job, uint32_t facet, uint32_t k, uint32_t by, double v[3])
 {
-    const double *from = placed(job, facet, k);
-    const double *to = placed(job, facet, k + by);
+    const double *from = placed_corner(job, facet, k);
+    const double *to = placed_corner(job, facet, k + by);
     for (int i = 0; i < 3; i++) {
         v[i] = to[i] - from[i];
     }
@@ -122,8 +125,8 @@ static void compute_facet_normals(smooth_job *job)
 
 /* --- smoothing groups ------------------------------------------------------------------------- */
 
-/* Lists the corners of every vertex. */
-static void list_corners(smooth_job *job)
+/* Sorts the corners by vertex, by a counting sort. */
+static void corners_by_vertex(smooth_job *job)
 {
     uint32_t vertices = job->mesh->vertex_count;
     uint32_t corners = 3 * job->mesh->facet_count; /* lrcsi_smooth_run ensures it */
@@ -169,11 +172,12 @@ static lrcs_point group_mean(const smooth_job *job, uint32_t vertex, uint32_t gr
     return mean;
 }
 
-/* The means at one vertex; each set of groups is summed once if there are few. */
+/* The means of all corners at one vertex. Corners with the same set of groups have the same mean,
+   which is computed once unless there are more than SMOOTH_SETS sets. */
 static void vertex_means(smooth_job *job, uint32_t vertex)
 {
-    uint32_t known[SMOOTH_GROUPS];
-    lrcs_point mean[SMOOTH_GROUPS];
+    uint32_t known[SMOOTH_SETS];
+    lrcs_point mean[SMOOTH_SETS];
     uint32_t count = 0;
     for (uint32_t i = job->start[vertex]; i < job->start[vertex + 1]; i++) {
         uint32_t groups = job->mesh->facet_smooth[job->corner[i] / 3];
@@ -182,11 +186,11 @@ static void vertex_means(smooth_job *job, uint32_t vertex)
             at++;
         }
         lrcs_point found = at < count ? mean[at] : group_mean(job, vertex, groups);
-        if (at == count && count < SMOOTH_GROUPS) {
+        if (at == count && count < SMOOTH_SETS) {
             known[count] = groups;
             mean[count++] = found;
         }
-        job->in_mean[job->corner[i]] = found;
+        job->mean[job->corner[i]] = found;
     }
 }
 
@@ -198,7 +202,7 @@ static int given_normal(const smooth_job *job, uint32_t facet, uint32_t k, doubl
     if (!job->mesh->facet_normal) {
         return 0;
     }
-    uint32_t stored = job->placer->flips ? (3 - k) % 3 : k; /* as build.c turned the winding */
+    uint32_t stored = job->placer->reflects ? (3 - k) % 3 : k; /* build.c reversed the winding */
     uint32_t index = job->mesh->facet_normal[facet].corner[stored];
     if (index == LRCS_NONE) {
         return 0;
@@ -229,7 +233,7 @@ static int facet_normals(const smooth_job *job, uint32_t facet, lrcs_point n[3])
     for (uint32_t k = 0; k < 3; k++) {
         double *x = n[k].x;
         if (!given[k]) {
-            n[k] = job->in_mean[3 * facet + k];
+            n[k] = job->mean[3 * facet + k];
         }
         for (int i = 0; i < 3 && given[k] && back == count; i++) {
             x[i] = -x[i];
@@ -243,9 +247,10 @@ static int facet_normals(const smooth_job *job, uint32_t facet, lrcs_point n[3])
     return curved;
 }
 
-/* Does the glint require curved normals? The turn is the largest angle between two of them. */
-static int glint_needs_normals(const smooth_job *job, uint32_t facet, const lrcs_point n[3],
-                               const lrcs_build_options *options)
+/* Are the normals to be used? With AUTO, only if the glint of the facet requires it; then `turn` is
+   the largest angle between two of them. */
+static int normals_needed(const smooth_job *job, uint32_t facet, const lrcs_point n[3],
+                          const lrcs_build_options *options)
 {
     const lrcs_scene *scene = job->scene;
     const lrcs_brdf *brdf = &scene->material[scene->facet_material[job->first + facet]].brdf;
@@ -322,20 +327,20 @@ int lrcsi_smooth_run(const lrcs_mesh *mesh, const lrcsi_placer *placer,
     job.base = scene->vertex_count - mesh->vertex_count;
     job.first = scene->facet_count - mesh->facet_count;
     job.unit = lrcsi_work_take(work, facets, sizeof *job.unit);
-    job.in_mean = lrcsi_work_take_zero(work, facets, 3 * sizeof *job.in_mean);
+    job.mean = lrcsi_work_take_zero(work, facets, 3 * sizeof *job.mean);
     job.corner = lrcsi_work_take(work, facets, 3 * sizeof *job.corner);
     job.start = lrcsi_work_take(work, (size_t)mesh->vertex_count + 2, sizeof *job.start);
     int status =
-        job.unit && job.in_mean && job.corner && job.start ? check_normals(mesh) : LRCS_E_MEMORY;
+        job.unit && job.mean && job.corner && job.start ? check_normals(mesh) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
         compute_facet_normals(&job);
-        list_corners(&job);
+        corners_by_vertex(&job);
         for (uint32_t v = 0; v < mesh->vertex_count; v++) {
             vertex_means(&job, v);
         }
         for (uint32_t f = 0; f < mesh->facet_count; f++) {
             lrcs_point *n = &scene->corner_normal[3 * ((size_t)job.first + f)];
-            if (!facet_normals(&job, f, n) || !glint_needs_normals(&job, f, n, options)) {
+            if (!facet_normals(&job, f, n) || !normals_needed(&job, f, n, options)) {
                 memset(n, 0, 3 * sizeof *n);
             }
         }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Proofs about a scene's shape: closed and outward (back sides are never seen), convex (front sides
-   are never hidden). They refuse if they cannot prove it; nothing depends on direction. */
+/* Proofs about a scene's surface: closed and outward (back sides are never seen), convex (front
+   sides are never hidden). What cannot be proved counts as false. Nothing depends on direction. */
 #include "scene/solid.h"
 
 #include <math.h>
@@ -13,8 +13,8 @@
 
 /* --- pieces: facets joined by edges ----------------------------------------------------------- */
 
-/* Across each side of a live facet there is one other, unless the edge is irregular or a boundary
-   edge. */
+/* A live facet has a neighbour across each side, unless the edge is irregular or a boundary edge.
+ */
 int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
 {
     uint32_t count = p->scene->facet_count;
@@ -34,9 +34,10 @@ int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
     return 1;
 }
 
-/* Six times the signed volume of a facet's tetrahedron about `o`, and a bound on its rounding: each
-   difference, product and sum has a relative error of u, all below |a| |b| |c|, which the sums of
-   their components' magnitudes bound without square roots. */
+/* Six times the signed volume of the tetrahedron of a facet and the point o, and a bound on its
+   rounding error: each difference, product and sum has a relative error of u, and all are at most
+   |a| |b| |c|. The sums of the magnitudes of their components are upper bounds of these norms,
+   without square roots. */
 static double tetrahedron(const lrcs_prepared *p, uint32_t facet, const double *o, double *error)
 {
     double v[3][3];
@@ -55,17 +56,17 @@ static double tetrahedron(const lrcs_prepared *p, uint32_t facet, const double *
     return det;
 }
 
-/* Every piece has positive volume, beyond the rounding of its sum. */
+/* Is the volume of every piece positive, in spite of the rounding of its sum? */
 static int pieces_outward(const lrcs_prepared *p, const uint32_t *piece, double *volume,
                           double *error)
 {
     uint32_t count = p->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
         if (!p->skip[f]) {
-            double off = 0;
-            double six = tetrahedron(p, f, lrcsi_prepared_corner(p, piece[f], 0), &off);
+            double six_err = 0;
+            double six = tetrahedron(p, f, lrcsi_prepared_corner(p, piece[f], 0), &six_err);
             volume[piece[f]] += six;
-            error[piece[f]] += off + 2 * LRCSI_U * fabs(volume[piece[f]]);
+            error[piece[f]] += six_err + 2 * LRCSI_U * fabs(volume[piece[f]]);
         }
     }
     for (uint32_t f = 0; f < count; f++) {
@@ -108,25 +109,26 @@ static uint32_t only_part(const lrcs_prepared *p)
     return part;
 }
 
-/* The height (scaled) above the plane of `facet` of the corner of `other` that is not on their
-   common edge; negative below. */
-static double corner_above(const lrcs_prepared *p, uint32_t facet, uint32_t other)
+/* The height of the corner of `other` that is not on the common edge above the plane of `facet`,
+   scaled; negative below the plane. */
+static double corner_height(const lrcs_prepared *p, uint32_t facet, uint32_t other)
 {
     const lrcsi_normal *n = &p->normal[facet];
     const double *a = lrcsi_prepared_corner(p, facet, 0);
-    double most = -HUGE_VAL;
+    double highest = -HUGE_VAL;
     for (int corner = 0; corner < 3; corner++) {
         const double *x = lrcsi_prepared_corner(p, other, corner);
-        double above = 0;
+        double height = 0;
         for (int k = 0; k < 3; k++) {
-            above += n->high[k] * (x[k] - a[k]);
+            height += n->high[k] * (x[k] - a[k]);
         }
-        most = fmax(most, above / n->length);
+        highest = fmax(highest, height / n->length);
     }
-    return most;
+    return highest;
 }
 
-/* The largest such height over all edges, and the smallest altitude of a facet. */
+/* The largest such height over all edges (0 if none is positive), and the smallest altitude of all
+   facets. */
 static void measure_dents(const lrcs_prepared *p, double *dent, double *altitude)
 {
     const lrcsi_topology *t = &p->topology;
@@ -141,13 +143,13 @@ static void measure_dents(const lrcs_prepared *p, double *dent, double *altitude
         for (uint32_t i = 0; i < t->edge[e].uses; i++) {
             *altitude = fmin(*altitude, p->normal[use[i].facet].length / length);
             uint32_t other = use[t->edge[e].uses - 1 - i].facet;
-            *dent = fmax(*dent, corner_above(p, use[i].facet, other));
+            *dent = fmax(*dent, corner_height(p, use[i].facet, other));
         }
     }
 }
 
-/* How far a part's vertices are from its convex surface, scaled. */
-static double misplaced_by(const lrcs_prepared *p, const lrcs_part *part)
+/* A bound on the distance of a part's vertices from its convex surface, scaled. */
+static double vertex_error(const lrcs_prepared *p, const lrcs_part *part)
 {
     return ldexp(part->misplaced, -p->exponent) + 4 * LRCSI_U;
 }
@@ -160,10 +162,10 @@ int lrcsi_convex_by_construction(const lrcs_prepared *p, int *solid)
     }
     const lrcs_part *part = &p->scene->part[index];
     int flat = part->kind == LRCS_SHAPE_PLATE || part->kind == LRCS_SHAPE_DISC;
-    int thick = ldexp(part->thinnest, -p->exponent) > 1e6 * misplaced_by(p, part);
-    int made = part->convex_patch && (flat || thick) && (part->solid || !p->two_sided);
-    *solid = made && part->solid;
-    return made;
+    int thick = ldexp(part->thinnest, -p->exponent) > 1e6 * vertex_error(p, part);
+    int convex = part->convex_patch && (flat || thick) && (part->solid || !p->two_sided);
+    *solid = convex && part->solid;
+    return convex;
 }
 
 /* Do all live facets lie exactly in one plane? */
@@ -183,31 +185,32 @@ static int is_plane(const lrcs_prepared *p)
     return flat;
 }
 
-/* The part's exact vertices lie on a convex surface, and the placed ones are within `off` of them.
-   Facets in one plane hide none of each other, unless they are edge-on: then the threshold is 0.
-   Otherwise:
-   Suppose that a point x of a front facet is hidden by y = x + t d. The body lies below the tangent
-   plane of the true surface, so y is within sagitta / cos(theta) of x. Where cos(theta) exceeds
-   three turns, that distance is less than a facet, and every normal in that neighbourhood has a
-   positive component along d: the surface there is a graph over the view plane, which a line of
-   sight meets once, so x is not hidden. Without dents larger than rounding (bodies with plane
-   faces, singly curved bodies, Delaunay diagonals) the exact mesh is itself convex, and only the
-   tilt by rounding matters, at most 2 off / altitude for either facet; 16 covers both, with a
-   margin. */
+/* The exact vertices of the part lie on a convex surface; the placed ones are within vertex_err of
+   them. Facets in one plane hide none of each other, except edge-on, so their threshold is 0. In
+   all other cases suppose that a point x of a front facet is hidden by y = x + t d. The body lies
+   below the tangent plane of the true surface, so y is within sagitta / cos(theta) of x. If
+   cos(theta) exceeds three times the turn of a facet, that distance is less than the size of a
+   facet, and every normal in that neighbourhood has a positive component along d. There the surface
+   is a graph over the view plane, which a line of sight meets once, so x is not hidden: a
+   contradiction. If no dent is larger than rounding can make it (bodies with plane faces, singly
+   curved bodies, Delaunay diagonals), the exact mesh is itself convex, and only the tilt by
+   rounding matters: at most 2 vertex_err / altitude for each of the two facets, which a factor of
+   16 covers with a margin. */
 double lrcsi_convex_grazing(const lrcs_prepared *p)
 {
     const lrcs_part *part = &p->scene->part[only_part(p)];
-    double off = misplaced_by(p, part);
+    double vertex_err = vertex_error(p, part);
     double dent = 0;
     double altitude = 0;
     if (is_plane(p)) {
         return 0;
     }
     measure_dents(p, &dent, &altitude);
-    return 16 * off / altitude + (dent > 16 * off ? 3 * part->curvature.turn : 0);
+    return 16 * vertex_err / altitude + (dent > 16 * vertex_err ? 3 * part->curvature.turn : 0);
 }
 
-/* Considers the live facets alone if the topology's edges include others. */
+/* The proof for scenes with omitted facets: the edges of p->topology include these, so a topology
+   of the live facets alone is made. */
 static int convex_without_omitted(const lrcs_prepared *p, lrcs_work *work, int *proved)
 {
     lrcs_facet *facet = lrcsi_work_take(work, p->live, sizeof *facet);

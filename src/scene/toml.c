@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The TOML subset: bytes, values, keys and headers. Decides what is well formed and the value of a
-   literal; does not depend on scenes. The parts follow each other from the byte to the event:
-   moving through the text, strings, numbers and arrays, keys and headers, the whole file. */
+/* Reads the TOML subset. Decides what is well formed, and the values of literals; does not depend
+   on scenes. In this order: moving through the text, strings, numbers, arrays, keys and headers,
+   the bytes as a whole. */
 #include "scene/toml.h"
 
 #include <math.h>
@@ -15,8 +15,8 @@
 /* A message quotes at most this many bytes of the file. */
 #define TOML_EXCERPT 40
 
-/* Integers up to this one are exact as doubles, and no others round to them: 2^53 - 1. */
-#define INTEGER_MOST 9007199254740991.0
+/* 2^53 - 1: integers up to this magnitude are exact as doubles, and no others round to them. */
+#define INTEGER_MAX 9007199254740991.0
 
 /* --- moving through the text --------------------------------------------------------------- */
 
@@ -32,7 +32,7 @@ static int toml_is_literal(char c)
            c == '+' || c == '-' || c == '.' || c == ':';
 }
 
-/* Is this the next byte? */
+/* Is c the next byte? */
 static int toml_peek(const lrcsi_toml *toml, char c)
 {
     return toml->at < toml->end && *toml->at == c;
@@ -140,7 +140,7 @@ static size_t encode_utf8(uint32_t code, char out[4])
     return count;
 }
 
-/* \uXXXX or \UXXXXXXXX with toml->at after the letter. */
+/* Reads the digits of \uXXXX or \UXXXXXXXX; toml->at is after the letter. */
 static int read_code_point(lrcsi_toml *toml, int digits, char out[4], size_t *count)
 {
     static const char expected[] = "4 or 8 hexadecimal digits of a Unicode scalar value";
@@ -164,7 +164,7 @@ static int read_code_point(lrcsi_toml *toml, int digits, char out[4], size_t *co
     return LRCS_OK;
 }
 
-/* An escape, with toml->at after the backslash. */
+/* Reads an escape sequence; toml->at is after the backslash. */
 static int read_escape(lrcsi_toml *toml, char out[4], size_t *count)
 {
     static const char letter[] = "btnfr\"\\";
@@ -187,9 +187,9 @@ static int read_escape(lrcsi_toml *toml, char out[4], size_t *count)
     return LRCS_OK;
 }
 
-/* A string in quotes, at toml->at: its unescaped bytes, as many as there is room for in `out`, and
-   their number. */
-static int read_quoted(lrcsi_toml *toml, char *out, size_t room, size_t *size)
+/* Reads a string in quotes at toml->at. Returned: its number of unescaped bytes, and the first
+   `capacity` of these. */
+static int read_quoted(lrcsi_toml *toml, char *out, size_t capacity, size_t *size)
 {
     const char *begin = toml->at;
     char quote = *begin;
@@ -213,7 +213,7 @@ static int read_quoted(lrcsi_toml *toml, char *out, size_t room, size_t *size)
             }
         }
         for (size_t i = 0; i < count; i++, (*size)++) {
-            if (*size < room) {
+            if (*size < capacity) {
                 out[*size] = unit[i];
             }
         }
@@ -244,8 +244,8 @@ static int read_string(lrcsi_toml *toml, lrcsi_toml_event *event)
 
 /* --- numbers ------------------------------------------------------------------------------- */
 
-/* Reads a digit, then digits that single underscores may separate. Returns the end, or NULL if
-   there is no digit. */
+/* Skips digits, between which there may be single underscores. Returns their end, or NULL if there
+   is no digit. */
 static const char *skip_digits(const char *at, const char *end)
 {
     if (at == end || *at < '0' || *at > '9') {
@@ -260,7 +260,7 @@ static const char *skip_digits(const char *at, const char *end)
     return at[-1] == '_' ? at - 1 : at;
 }
 
-/* 1 if [at, end) is a decimal TOML number; *integer is its kind. */
+/* 1 if [at, end) is a decimal TOML number; *integer: 1 if it is an integer, 0 if it is a float. */
 static int is_number(const char *at, const char *end, int *integer)
 {
     if (at < end && (*at == '+' || *at == '-')) {
@@ -282,8 +282,8 @@ static int is_number(const char *at, const char *end, int *integer)
     return at == end;
 }
 
-/* The value of a number, its underscores left out in the work area. Without a work area numbers
-   with underscores become 0: only their form is checked. */
+/* The value of a number. Underscores are removed in a copy in the work area. Without a work area
+   the value of a number with underscores is not needed, and is set to 0. */
 static int number_value(lrcs_work *work, const char *at, const char *end, double *value)
 {
     if (!memchr(at, '_', (size_t)(end - at))) {
@@ -315,7 +315,7 @@ static int literal_is(const char *at, size_t size, const char *word)
     return size == strlen(word) && memcmp(at, word, size) == 0;
 }
 
-/* The probable intention of a literal that is not a number. */
+/* Reports a literal that is not a number, with a message for what was probably meant. */
 static int refuse_literal(const lrcsi_toml *toml, size_t size)
 {
     const char *at = toml->at;
@@ -336,7 +336,7 @@ static int refuse_literal(const lrcsi_toml *toml, size_t size)
 }
 
 /* A number or a boolean. */
-static int read_literal(lrcsi_toml *toml, int *type, int *truth, double *number)
+static int read_literal(lrcsi_toml *toml, int *type, int *boolean, double *number)
 {
     const char *begin = toml->at;
     const char *end = begin;
@@ -347,13 +347,13 @@ static int read_literal(lrcsi_toml *toml, int *type, int *truth, double *number)
     int integer;
     if (literal_is(begin, size, "true") || literal_is(begin, size, "false")) {
         *type = LRCSI_TOML_BOOLEAN;
-        *truth = *begin == 't';
+        *boolean = *begin == 't';
     } else if (is_number(begin, end, &integer)) {
         *type = LRCSI_TOML_NUMBER;
         if (number_value(toml->work, begin, end, number) != LRCS_OK) {
             return toml_stop(toml, LRCS_E_MEMORY, begin, "number", "more work area");
         }
-        if (integer && fabs(*number) > INTEGER_MOST) {
+        if (integer && fabs(*number) > INTEGER_MAX) {
             return toml_stop(toml, LRCS_E_NUMBER, begin, "integer",
                              "below 2^53 in magnitude, or a float (1e20)");
         }
@@ -378,7 +378,7 @@ static int read_array(lrcsi_toml *toml, lrcsi_toml_event *event)
         double number = 0.0;
         if (toml->at < toml->end && !strchr("\"'[{", *toml->at)) {
             const char *begin = toml->at;
-            int status = read_literal(toml, &type, &event->truth, &number);
+            int status = read_literal(toml, &type, &event->boolean, &number);
             if (status != LRCS_OK) {
                 return status;
             }
@@ -421,7 +421,7 @@ static int read_value(lrcsi_toml *toml, lrcsi_toml_event *event)
                          "a plain value (inline tables are not in the subset)");
     default:
         event->count = 1;
-        return read_literal(toml, &event->type, &event->truth, &event->number[0]);
+        return read_literal(toml, &event->type, &event->boolean, &event->number[0]);
     }
 }
 
@@ -525,7 +525,7 @@ int lrcsi_toml_next(lrcsi_toml *toml, lrcsi_toml_event *event)
 
 /* --- the bytes as a whole ------------------------------------------------------------------- */
 
-/* The number of bytes of the character at `at`, 0 if it is not allowed. */
+/* The number of bytes of the character at `at`; 0 if it is not allowed. */
 static size_t character_size(const char *at, const char *end)
 {
     unsigned char lead = (unsigned char)*at;
@@ -540,12 +540,9 @@ static size_t character_size(const char *at, const char *end)
 int lrcsi_toml_start(lrcsi_toml *toml, const char *text, size_t size, lrcs_work *work,
                      lrcs_where *where)
 {
-    static const char mark[] = "\xef\xbb\xbf";
     const char *end = size > 0 ? text + size : text;
     *toml = (lrcsi_toml){text, text, end, 1, work, where};
-    if (size >= 3 && memcmp(text, mark, 3) == 0) {
-        toml->at += 3;
-    }
+    toml->at += lrcsi_text_mark(text, size);
     const char *begin = toml->at;
     while (toml->at < end) {
         size_t step = character_size(toml->at, end);

@@ -28,11 +28,11 @@ enum lrcsi_toml_type {
     LRCSI_TOML_ARRAY = 8
 };
 
-#define LRCSI_TOML_NAME    32u /* names of this many bytes or more are counted, not kept whole */
-#define LRCSI_TOML_NUMBERS 6u  /* numbers of an array beyond this many are counted, not kept */
+#define LRCSI_TOML_NAME    32u /* of longer names only so many bytes are kept */
+#define LRCSI_TOML_NUMBERS 6u  /* of longer arrays only so many numbers are kept */
 
 typedef struct lrcsi_toml_name {
-    size_t size; /* bytes, once unescaped */
+    size_t size; /* of the whole unescaped name, bytes */
     char text[LRCSI_TOML_NAME];
 } lrcsi_toml_name;
 
@@ -42,26 +42,27 @@ typedef struct lrcsi_toml_event {
     uint32_t line;
     uint32_t name_count;
     lrcsi_toml_name name[2];
-    const char *raw; /* the key or header as it is in the file, and its value */
+    const char *raw; /* the key or header as written in the file */
     size_t raw_size;
-    const char *value_raw;
+    const char *value_raw; /* the value as written in the file */
     size_t value_size;
+    /* The value: */
     int type;         /* lrcsi_toml_type */
-    const char *text; /* a string's bytes, UTF-8, terminated; in the work area */
-    int truth;
-    uint32_t count; /* of an array's numbers; 1 for a number alone */
+    const char *text; /* of a string: its UTF-8 bytes, terminated; in the work area */
+    int boolean;
+    uint32_t count; /* of the numbers of an array; 1 for a single number */
     double number[LRCSI_TOML_NUMBERS];
 } lrcsi_toml_event;
 
 typedef struct lrcsi_toml {
     const char *start, *at, *end;
     uint32_t line;
-    lrcs_work *work; /* NULL: strings are checked and not kept */
+    lrcs_work *work; /* NULL: strings are checked but not kept */
     lrcs_where *where;
 } lrcsi_toml;
 
-/* Begins, and checks all bytes once: UTF-8, and no control characters but tab and line ends.
-   Status: LRCS_OK; LRCS_E_SYNTAX. */
+/* Starts reading, and checks all bytes: they must be UTF-8 without control characters except tabs
+   and line ends. Status: LRCS_OK; LRCS_E_SYNTAX. */
 int lrcsi_toml_start(lrcsi_toml *toml, const char *text, size_t size, lrcs_work *work,
                      lrcs_where *where);
 
@@ -72,7 +73,7 @@ int lrcsi_toml_next(lrcsi_toml *toml, lrcsi_toml_event *event);
 /* 1 if a name is `text`, which has fewer than LRCSI_TOML_NAME bytes. */
 int lrcsi_toml_name_is(const lrcsi_toml_name *name, const char *text);
 
-/* Reports what is wrong with something that was read: its bytes are quoted. Returns `status`. */
+/* Reports an error in something that was read, quoting its bytes. Returns `status`. */
 int lrcsi_toml_refuse(const lrcsi_toml *toml, int status, uint32_t line, const char *raw,
                       size_t size, const char *item, const char *expected);
 

@@ -63,7 +63,7 @@ int lrcsi_frame_make(const lrcs_pose *pose, double direction[3], double R[3][3])
     double row[3];
     double made[3][3];
     for (int k = 0; k < 3; k++) {
-        d[k] = fabs(pose->direction[k]) < LRCSI_COORDINATE_LEAST ? 0 : pose->direction[k];
+        d[k] = fabs(pose->direction[k]) < LRCSI_COORDINATE_MIN ? 0 : pose->direction[k];
     }
     double t = lrcsi_product_dot(pose->R[0], zero_low, d) / lrcsi_product_dot(d, zero_low, d);
     for (int k = 0; k < 3; k++) {

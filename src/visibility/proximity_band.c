@@ -303,7 +303,7 @@ typedef struct band_walk {
     double outward[3][2], limit[3];
     int tried;    /* the side to try first: the one that the last edge was beyond */
     int inside;   /* the laser may see the facet through an opening of its own part */
-    double aside; /* lrcsi_proximity_aside; negative: not computed yet */
+    double aside; /* lrcsi_proximity_lateral; negative: not computed yet */
 } band_walk;
 
 /* outward . x of a point, with `err` times its position's error added. */
@@ -353,8 +353,8 @@ static band_walk walk_make(const band_job *job, uint32_t facet)
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     const uint32_t *corner = p->scene->facet[facet].corner;
-    double near =
-        2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.most) + LRCSI_PROXIMITY_ERR;
+    double near = 2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.max_reach) +
+                  LRCSI_PROXIMITY_ERR;
     double wide = near + facet_err(job, facet);
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
                                     view->point[corner[2]].x};
@@ -406,7 +406,7 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *
         return;
     }
     if (walk->aside < 0) {
-        walk->aside = lrcsi_proximity_aside(p, facet, job->view->unit);
+        walk->aside = lrcsi_proximity_lateral(p, facet, job->view->unit);
     }
     double slack = event_slack(job, facet, event, walk->aside);
     if (!(slack > 0)) {
@@ -507,9 +507,9 @@ static void band_contacts(band_job *job)
         int facing = view->facing[pair->other];
         int shut = p->solid || lrcsi_proximity_closed(p, band_part(job, pair->other));
         if (facing > 0 || (facing < 0 && !shut)) {
-            add_both(job, pair->facet, (double)pair->share,
+            add_both(job, pair->facet, (double)pair->area_fraction,
                      lrcsi_part_set_of(band_part(job, pair->other)));
-            job->rows[pair->facet] += (double)pair->rows;
+            job->rows[pair->facet] += (double)pair->row_fraction;
         }
     }
 }

@@ -59,7 +59,7 @@ static void joint_then_scale_then_rotation_then_translation(void **state)
     check_same(placed[0], 12.0);
     check_same(placed[1], 20.0);
     check_same(placed[2], 33.0);
-    assert_int_equal(placer.flips, 0);
+    assert_int_equal(placer.reflects, 0);
 }
 
 static void an_odd_number_of_mirrors_flips(void **state)
@@ -78,7 +78,7 @@ static void an_odd_number_of_mirrors_flips(void **state)
         }
         lrcsi_placer placer;
         assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
-        assert_int_equal(placer.flips, odd);
+        assert_int_equal(placer.reflects, odd);
     }
 }
 
