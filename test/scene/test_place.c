@@ -279,7 +279,7 @@ static void normals_and_areas_are_those_of_placed_parallelograms(void **state)
                 n[k] += normal[i] * image[i][k];
             }
         }
-        double sign = placer.flips ? -1 : 1; /* a reflection reverses the product of the sides */
+        double sign = placer.reflects ? -1 : 1; /* a reflection reverses the product of the sides */
         for (int k = 0; k < 3; k++) {
             check_abs(sign * cross[k], most * most * area * n[k], 1e-13 * most * most);
         }
