@@ -130,8 +130,7 @@ void lrcsi_placer_normal(const lrcsi_placer *placer, double normal[3])
 
 /* --- the nearest rotation --------------------------------------------------------------------- */
 
-/* A matrix R with |R^T R - I| above this is not taken for a rounded rotation, and is used as it is.
- */
+/* A matrix R with |R^T R - I| above this is not taken for a rounded rotation, but used as it is. */
 #define ROTATION_DEFECT_MAX 0x1p-40
 /* The largest ratio of two scales for which the images of normals are computed. */
 #define NORMALS_RATIO_MAX 0x1p20
@@ -331,7 +330,6 @@ double lrcsi_placer_error(const lrcsi_placer *placer, double size, double error)
     if (placer->has_translation) {
         x = bound_translation(x, placer->place.translate);
     }
-    /* At most sqrt(3) times the error of a coordinate; rounded up for the rounding of this bound.
-     */
+    /* At most sqrt(3) times the error of a coordinate, rounded up. */
     return 1.7321 * x.error;
 }
