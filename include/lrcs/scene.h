@@ -58,6 +58,12 @@ typedef struct lrcs_part {
     double axis[3][3];
     double axis_low[3][3];
     int axis_exact; /* 1: the axes were not rounded */
+    /* Of an engine-made shape, also if its scale differs between axes. A normal n of the shape
+       points to n[0] normal_axis[0] + n[1] normal_axis[1] + n[2] normal_axis[2] in the body frame,
+       at most a unit vector; areas are multiplied by that vector's length, normal_area and unit^2.
+     */
+    int normals_known; /* 1: these two are valid */
+    double normal_axis[3][3], normal_area;
 } lrcs_part;
 
 /* The scene, the engine's input. Facets keep the order of the recipe's parts and of each file,

@@ -21,18 +21,26 @@
 static int facets_box(const lrcs_scene *scene, uint32_t first, uint32_t count, double box_min[3],
                       double box_max[3])
 {
-    int any = 0;
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (uint32_t i = first; i < first + count; i++) {
-        for (int k = 0; k < 3 && !scene->material[scene->facet_material[i]].omitted; k++) {
+        if (scene->material[scene->facet_material[i]].omitted) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
             const double *x = scene->vertex[scene->facet[i].corner[k]].x;
             for (int axis = 0; axis < 3; axis++) {
-                box_min[axis] = any ? fmin(box_min[axis], x[axis]) : x[axis];
-                box_max[axis] = any ? fmax(box_max[axis], x[axis]) : x[axis];
+                low[axis] = x[axis] < low[axis] ? x[axis] : low[axis];
+                high[axis] = x[axis] > high[axis] ? x[axis] : high[axis];
             }
-            any = 1;
         }
     }
-    return any;
+    if (!(low[0] <= high[0])) {
+        return 0;
+    }
+    memcpy(box_min, low, sizeof low);
+    memcpy(box_max, high, sizeof high);
+    return 1;
 }
 
 void lrcs_host_scene_box(const lrcs_scene *scene, double box_min[3], double box_max[3])

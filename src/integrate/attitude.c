@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The derivatives of sigma in attitude: central differences of poses with proved bounds. The bound
-   of a difference quotient with step h is the sum of the bounds of its two poses, divided by 2 h.
-   How far it is from the derivative is estimated by its difference from the quotient with step 2 h.
-   (sigma is continuous, and differentiable except at kinks, where a facet turns edge-on or an edge
-   passes a corner.) */
+/* The derivatives of sigma in attitude, as central difference quotients of poses with proved
+   bounds. The bound of a quotient with step h is the sum of the bounds of its two poses, divided by
+   2 h. Its deviation from the derivative is estimated by its difference from the quotient with step
+   2 h. (sigma is continuous, and differentiable except at kinks, where a facet becomes edge-on or
+   an edge passes a corner.) */
 #include <lrcs/uncertainty.h>
 
 #include <math.h>

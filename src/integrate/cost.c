@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A model of the time that methods take: a sum of counts, each times the time of one item. Times
-   were measured on one machine (make bench; 3 GHz); only their ratios matter. No bound depends on
-   it. */
+/* A model of the time that methods take: the sum of several counts, each multiplied by the time of
+   one item. These times were measured on one machine (make bench; 3 GHz); only their ratios matter.
+   No bound depends on the model. */
 #include "integrate/cost.h"
 
 #include <math.h>
@@ -15,9 +15,10 @@
    at random. */
 #define COST_SAMPLE 4096u
 
-/* Times in ns. Drawing: per facet, per pixel on the border of one, per pixel, per pixel and facet
-   that covers it. Clipping: per facet, per facet that casts shadows (it is classified and summed),
-   per undecided facet, per crossing of two borders. */
+/* Times of drawing, ns: for each facet, for each pixel on the border of a facet, for each pixel,
+   and for each pixel that a facet covers. Times of clipping: for each facet, for each facet that
+   casts shadows (to classify and sum it), for each undecided facet, and for each crossing of two
+   borders. */
 #define DRAW_FACET     250.0
 #define DRAW_BORDER    40.0
 #define DRAW_PIXEL     2.5
@@ -29,35 +30,35 @@
 /* The shortest time of a step of clipping, ns. */
 #define CLIP_STEP 25.0
 
-/* The mean number of facets that an event edge makes undecided, and that a facet with a contact
-   does: none if the other facet is behind it. */
+/* The mean number of facets that are undecided because of an event edge, and because of a facet
+   with a contact (none if the other facet is behind it). */
 #define UNDECIDED_PER_EVENT   1.3
 #define UNDECIDED_PER_CONTACT 0.7
 
-/* The coarsest raster; and the fraction by which a finer one may take longer, to be more likely to
-   be accepted. */
-#define RASTER_MIN   256u
+/* The size of the coarsest raster. */
+#define RASTER_MIN 256u
+/* A finer raster, which is more likely to be accepted, may take longer by this fraction. */
 #define RASTER_EXTRA 0.15
-/* The first raster takes at most this many times as long as the coarsest: its estimate shows how
-   fine the next one must be. */
-#define FIRST_TIMES 4.0
-/* The ratio of the estimate of sampling_error.h, which is on the safe side, to the random error. */
+/* The first raster takes at most this many times as long as the coarsest: its estimated error shows
+   how fine the next one must be. */
+#define FIRST_FACTOR 4.0
+/* The ratio of the error estimate of sampling_error.h (conservative) to the random error. */
 #define ESTIMATE_SAFETY 4.0
 
-/* Adds the sides of a facet that are event edges, `times` over. Where back sides cast shadows too,
-   a contour edge is a side of two facets, and counts by half for each; irregular edges count as
-   event edges. */
-static void count_events(const lrcsi_view *view, uint32_t facet, double times, lrcsi_cost *cost)
+/* Adds the sides of a facet that are event edges, each counted `weight` times. Where back sides
+   cast shadows too, a contour edge is a side of two casting facets, so it counts by half for each.
+   Irregular edges count as event edges. */
+static void count_events(const lrcsi_view *view, uint32_t facet, double weight, lrcsi_cost *cost)
 {
     const lrcs_prepared *p = view->prepared;
-    const uint32_t *across = p->neighbours.facet[facet].corner;
+    const uint32_t *neighbour = p->neighbours.facet[facet].corner;
     const uint32_t *corner = p->scene->facet[facet].corner;
     for (int k = 0; k < 3; k++) {
         double events = 0;
-        if (across[k] == p->scene->facet_count || !lrcsi_view_casts(view, across[k])) {
-            events = times;
-        } else if (across[k] == facet || view->facing[across[k]] != view->facing[facet]) {
-            events = 0.5 * times;
+        if (neighbour[k] == p->scene->facet_count || !lrcsi_view_casts(view, neighbour[k])) {
+            events = weight;
+        } else if (neighbour[k] == facet || view->facing[neighbour[k]] != view->facing[facet]) {
+            events = 0.5 * weight;
         }
         if (events > 0) {
             const double *a = view->point[corner[k]].x;
@@ -68,8 +69,8 @@ static void count_events(const lrcsi_view *view, uint32_t facet, double times, l
     }
 }
 
-/* One facet is chosen at random from each run of `stride` facets: meshes have regular patterns,
-   which a fixed stride could miss. */
+/* From each group of `stride` consecutive facets one is chosen at random: a fixed choice could miss
+   parts of the regular patterns that meshes have. */
 lrcsi_cost lrcsi_cost_count(const lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;
@@ -90,7 +91,7 @@ lrcsi_cost lrcsi_cost_count(const lrcsi_view *view)
             const double *b = view->point[corner[1]].x;
             const double *c = view->point[corner[2]].x;
             double twice = fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-            cost.overdraw += left * twice; /* the area */
+            cost.overdraw += left * twice; /* twice the area, until the end */
         }
         if (count - first <= stride) {
             break;
@@ -103,8 +104,8 @@ lrcsi_cost lrcsi_cost_count(const lrcsi_view *view)
     return cost;
 }
 
-/* The length of a facet's border is about the square root of its area. The sum over all facets, in
-   sides of the window, is the square root of their number times the area that they cover. */
+/* The length of a facet's border is about the square root of its area. For facets of equal size the
+   sum of these lengths is the square root of their number times the sum of their areas. */
 double lrcsi_cost_draw(const lrcsi_cost *cost, uint32_t size)
 {
     double borders = sqrt(cost->casting * cost->overdraw);
@@ -119,8 +120,8 @@ double lrcsi_cost_undecided(const lrcsi_cost *cost)
                      UNDECIDED_PER_EVENT * cost->events + UNDECIDED_PER_CONTACT * cost->contacts);
 }
 
-/* The fraction of the window that is covered, if facets whose areas sum to D windows lie
-   in it at random: 1 - exp(-D). The exponential of base/elementary.h makes choices the same on
+/* The fraction of the window that facets cover. If they lie in it at random, and the sum of their
+   areas is D windows, it is 1 - exp(-D). lrcsi_exp gives the same bits, and so the same choices, on
    every machine. */
 static double covered_fraction(const lrcsi_cost *cost)
 {
@@ -128,14 +129,13 @@ static double covered_fraction(const lrcsi_cost *cost)
     return d < 1e-4 ? d : 1 - lrcsi_exp(-lrcsi_min(d, 100));
 }
 
-/* The mean number of facets that cover a point of that fraction: one border in this many is
-   visible. */
+/* The mean number of facets over a covered point. Of so many borders about one is visible. */
 static double mean_overdraw(const lrcsi_cost *cost)
 {
     return cost->overdraw > 0 ? cost->overdraw / covered_fraction(cost) : 1;
 }
 
-/* Random segments of total length L in a square of side 1 cross at L^2 / pi points (Crofton). */
+/* Random segments of total length L in a square of side 1 cross in L^2 / pi points (Crofton). */
 double lrcsi_cost_clip(const lrcsi_cost *cost, double undecided)
 {
     double crossings = cost->borders * cost->borders / LRCS_PI / mean_overdraw(cost);
@@ -149,9 +149,10 @@ uint64_t lrcsi_cost_steps(double ns)
 }
 
 /* Visible borders of length L, in sides of the window, pass through L N pixels of area 1 / N^2.
-   Each of these has a random error of half its area: sqrt(L N) / (2 N^2) in all, of a visible area
-   A. If borders would pass through more pixels than there are, this model does not apply, and a
-   coarse raster is chosen, whose estimate does. */
+   Each of these pixels has a random error of half its area, and together they have one of sqrt(L N)
+   / (2 N^2), which is compared with the covered area. The model does not apply if borders would
+   pass through more pixels than there are; then the coarsest raster is chosen, and its own error
+   estimate decides. */
 uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t largest)
 {
     double borders = cost->borders / mean_overdraw(cost);
@@ -173,7 +174,7 @@ uint32_t lrcsi_cost_size(const lrcsi_cost *cost, double tolerance, uint32_t larg
 
 uint32_t lrcsi_cost_first(const lrcsi_cost *cost, uint32_t size)
 {
-    double allowed = FIRST_TIMES * lrcsi_cost_draw(cost, RASTER_MIN);
+    double allowed = FIRST_FACTOR * lrcsi_cost_draw(cost, RASTER_MIN);
     while (size >= RASTER_MIN + 64 && lrcsi_cost_draw(cost, size) > allowed) {
         size -= 64;
     }

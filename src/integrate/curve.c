@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Facets with curved normals. This file decides over which region of a facet its normals are
-   integrated, and bounds what not knowing that region may cost; cubature.c does the integral.
+/* Facets with curved normals. This file decides over which region of a facet f_r cos(theta) is
+   integrated, and bounds the error if that region is not known exactly; cubature.c integrates.
 
    Let F be an upper bound of f_r cos over the facet's normals, P its projected area and I the
    integral over all of it. The visible part V has an area in [low, high], so that
        I - F (P - low) <= integral over V <= F high,  and the integral is in [0, I].
-   If only an area is known, the error of any value in that interval is at most the longer distance
-   to one of its ends. Clipped pieces differ from V by an area of at most high - low, both ways, and
-   by the rounding of their corners (visibility/occlude.h): the error is at most F times that. If
-   spent steps leave an error of I, all of these errors grow by no more than it.
+   If only an area is known, the error of any value in that interval is at most its distance from
+   the farther end. Clipped pieces differ from V by an area of at most high - low, counting both
+   what they have too much and what they lack, and by the rounding of their corners
+   (visibility/occlude.h): the error is at most F times these areas. If spent steps leave an error
+   in I, all of these errors increase by at most that.
 
    Rounding: normals in view axes have errors of 12 u (the rows of a rotation, three products, two
    sums), 4 u more for each of at most 64 halvings, and 8 u at the points of a quadrature rule:
@@ -23,8 +24,8 @@
 /* Bound on the error of a normal at a point of the whole facet. */
 #define NORMAL_ERR 0x1p-44
 
-/* The cubature aims at this fraction of the tolerance, within limits that suit rules of its
-   order. */
+/* The cubature aims at this fraction of the tolerance, but at no less and no more than its rule is
+   suited for. */
 #define CUBATURE_FRACTION 0.1
 #define CUBATURE_MIN      1e-9
 #define CUBATURE_MAX      1e-2
@@ -51,12 +52,12 @@ void lrcsi_curve_integral_make(const lrcsi_curve_context *context, uint32_t face
                                      (row[0] * n[i].x[0] + row[1] * n[i].x[1] + row[2] * n[i].x[2]);
         }
     }
-    double aim = lrcsi_min(
+    double cubature_tolerance = lrcsi_min(
         CUBATURE_MAX, lrcsi_max(CUBATURE_MIN, CUBATURE_FRACTION * context->options->tolerance));
     integral->brdf =
         lrcsi_plan_brdf(context->options->plan, lrcsi_prepared_material(view->prepared, facet));
-    integral->sum = lrcsi_cubature_make(&integral->brdf, (const double(*)[3])integral->normal, aim,
-                                        context->options->stack);
+    integral->sum = lrcsi_cubature_make(&integral->brdf, (const double(*)[3])integral->normal,
+                                        cubature_tolerance, context->options->stack);
     integral->sum.area = integral->incidence.projected;
     integral->sum.position_err = NORMAL_ERR;
     integral->sum.meter = context->options->meter;
@@ -94,7 +95,7 @@ double lrcsi_curve_upper_bound(const lrcsi_curve_integral *integral)
     return integral->sum.upper_bound.glint + integral->sum.upper_bound.diffuse;
 }
 
-/* The sum of an integral times a fraction, as the contribution of its facet. */
+/* The contribution of a facet: its integral times the visible fraction. */
 static lrcsi_curved integral_part(const lrcsi_curve_integral *integral, double fraction)
 {
     const lrcsi_cubature *sum = &integral->sum;
@@ -112,7 +113,7 @@ static lrcsi_curved integral_part(const lrcsi_curve_integral *integral, double f
     return part;
 }
 
-/* --- fractions -------------------------------------------------------------------------------- */
+/* --- from areas ------------------------------------------------------------------------------- */
 
 /* The contribution of a facet of which only the visible area is known. */
 static lrcsi_curved curve_from_area(lrcsi_curve_integral *integral, const lrcsi_visible *visible)
@@ -156,7 +157,7 @@ void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *o
     }
 }
 
-/* --- pieces ----------------------------------------------------------------------------------- */
+/* --- from pieces ------------------------------------------------------------------------------ */
 
 /* Adds a convex piece as a fan of triangles from its first corner. Returns a bound on the error of
    its area. */
@@ -188,16 +189,17 @@ static double piece_add(lrcsi_curve_integral *integral, const lrcsi_target *targ
     return area_err;
 }
 
-/* Points of pieces have errors of 100 u of the target's reach in projection. Relative to the
-   smallest height of the facet, and times the largest distance of two of its unit normals, 2, this
-   is the error of the normal. */
+/* In projection, points of pieces have errors of 100 u of the target's reach. Divided by the
+   smallest height of the facet, and multiplied by the largest distance of two of its unit normals,
+   2, this is the error of the normal. */
 double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcsi_target *target)
 {
     double height = 2 * integral->incidence.projected / target->diameter;
     return NORMAL_ERR + 200 * LRCSI_U * target->reach / height;
 }
 
-/* The contribution of a facet with curved normals that o has opened, from its pieces; closes it. */
+/* The contribution of a facet with curved normals, from its visible pieces. Given: o, which has
+   opened the facet, and is closed here. */
 static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occlusion *o,
                                       lrcsi_visible *visible)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Eq. 2 over facets with curved normals: 4 pi times the integral of f_r cos(theta) over the visible
-   part of each. What visibility, rounding and spent steps leave uncertain is a bound; the error of
-   the cubature is an estimate. */
+   part of each. The errors from visibility, rounding and spent steps are bounded; that of the
+   cubature is estimated. */
 #ifndef LRCSI_CURVE_H
 #define LRCSI_CURVE_H
 
@@ -13,35 +13,34 @@
 /* What one facet adds to sigma, in scaled units of area. */
 typedef struct lrcsi_curved {
     double glint, diffuse;
-    double visibility, rounding; /* bounds; the first includes what spent steps leave uncertain */
-    double likely;               /* estimated error of a sampled area; 0: none */
-    double upper_bound;          /* of what the facet could add if all of it were visible */
+    double visibility, rounding; /* bounds; the first includes the error of spent steps */
+    double likely;               /* the estimated error due to a sampled area; 0: none */
+    double upper_bound;          /* of what the facet would add if all of it were visible */
     double estimate;             /* of the cubature's error */
-    /* with moments only: the integral of the glint times tan^2, and of the diffuse part times
-       log(1 + tan^2) */
+    /* With moments only: the integral of the glint times tan^2, and that of the diffuse term times
+       log(1 + tan^2). */
     double glint_u, diffuse_log;
 } lrcsi_curved;
 
-/* How to integrate: the plan, which selects the terms of the BRDF; the relative error accepted; the
-   limit on steps; and memory for the cubature. */
 typedef struct lrcsi_curve_options {
-    const lrcsi_plan *plan;
-    double tolerance;
-    lrcsi_meter *meter; /* limit on steps; NULL: none */
+    const lrcsi_plan *plan; /* which terms of the BRDF are evaluated */
+    double tolerance;       /* relative */
+    lrcsi_meter *meter;     /* limit on steps; NULL: none */
     lrcsi_cubature_cell *stack;
-    int moments; /* 1: compute them */
+    int moments; /* 1: compute the moments */
 } lrcsi_curve_options;
 
-/* What the integrals over all facets share. The sum so far decides how accurate the next integral
-   must be, so that facets that can add little take little work. The allowed error of a facet is its
-   share of the tolerance, by area plus by count: all together at most twice the tolerance. */
+/* The state that the integrals over all facets share. The sum so far decides how accurate the next
+   integral must be, so that facets that can add little take little work. The allowed error of a
+   facet is the tolerance times the sum so far, times the facet's fraction of the area plus one over
+   the number of facets: for all facets together at most twice the tolerance. */
 typedef struct lrcsi_curve_context {
     const lrcsi_view *view;
     const lrcsi_curve_options *options;
     double negligible; /* f_r cos below this is negligible compared with the brightest facet */
-    double projected;  /* area of all facets to integrate over */
+    double projected;  /* the projected area of all facets with curved normals */
     double count;      /* of these facets */
-    double sum;        /* integral of f_r cos over the visible parts of the facets done so far */
+    double sum;        /* the integral of f_r cos over the visible parts of the facets so far */
 } lrcsi_curve_context;
 
 /* The integral over one facet. sum.brdf points into it, so that it must not be copied. */
@@ -57,11 +56,11 @@ typedef struct lrcsi_curve_integral {
 /* 1 if a facet has curved normals and its side towards the laser reflects; else 0. */
 int lrcsi_curve_applies(const lrcsi_view *view, uint32_t facet);
 
-/* The context of all facets to which lrcsi_curve_applies. */
+/* Makes the context of all facets to which lrcsi_curve_applies. */
 lrcsi_curve_context lrcsi_curve_context_make(const lrcsi_view *view,
                                              const lrcsi_curve_options *options);
 
-/* Adds what a facet has contributed to sigma, scaled, to the sum so far. */
+/* Adds the contribution of a facet to sigma, scaled, to the sum so far. */
 void lrcsi_curve_context_add(lrcsi_curve_context *context, double sigma);
 
 /* Prepares the integral over one such facet, or over regions of it that the caller chooses.
@@ -72,8 +71,8 @@ void lrcsi_curve_integral_make(const lrcsi_curve_context *context, uint32_t face
 /* An upper bound of f_r cos on the facet. */
 double lrcsi_curve_upper_bound(const lrcsi_curve_integral *integral);
 
-/* A bound on the error of normals at points of the facet's visible pieces, rad: for
-   sum.position_err. */
+/* A bound on the error of normals at points of the facet's visible pieces, rad. The caller sets
+   sum.position_err to it before it integrates over such pieces. */
 double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcsi_target *target);
 
 /* For facets of which only the visible area is known: the integral over the whole facet, times the

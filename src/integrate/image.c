@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Converts an item buffer to a picture: row 0 on top, and the place of its window relative to the
-   body's origin. The owner of each pixel was decided before (visibility/raster.c). */
+/* Converts an item buffer to a picture with row 0 at the top, and computes the position of its
+   window relative to the body's origin. visibility/raster.c has decided which facet owns each
+   pixel. */
 #include "integrate/image.h"
 
 #include <math.h>

@@ -11,7 +11,7 @@
 #define LRCSI_IMAGE_SIZE_MAX 16384u
 
 /* Given: the view that was drawn; owner[image->size^2], row 0 at the bottom. Returned: the pixels
-   of the image, row 0 on top, and its place. */
+   of the image, row 0 at the top, and the position of its window. */
 void lrcsi_image_fill(const lrcsi_view *view, const uint32_t *owner, lrcs_image *image);
 
 #endif

@@ -33,13 +33,25 @@
        |sin alpha'| <= (|sin alpha| + a) e^a,
        |cos alpha'| >= |cos alpha| - (e^a - 1).
 
+   Where the scale of the placement differs between axes, H takes normals to directions of normals
+   (lrcs_part.normal_axis), |H| = 1, and n = H N takes the place of N. Let e_alpha, e_r and e_phi be
+   the unit vectors along the meridian, away from the axis and around it in the middle of the patch.
+   Turned by alpha', N moves by (cos alpha' - 1) N + sin alpha' e_alpha, and then by phi', its part
+   across the axis, s e_r, by s ((cos phi' - 1) e_r + sin phi' e_phi). So n moves by at most
+       kappa = (cosh a - 1) nu + sinh a |H e_alpha|
+               + (|sin alpha| cosh a + |cos alpha| sinh a) ((cosh b - 1) |H e_r| + sinh b |H
+   e_phi|). With nu = |n| in the middle, c = g . n, p = |g x n|, u = p^2 / c^2 and, since c^2 + (g x
+   n) . (g x n) = n . n for complex n as well, w = (n . n) / c^2; areas have the weight (n .
+   n)^(1/2). In the bounds above 1 becomes n . n, which lies between nu^2 - 2 nu kappa - kappa^2 <=
+   |n . n| <= (nu + kappa)^2.
+
    Rounding. N and g together have an error of at most e = PATCH_NORMAL_ERR: azimuths and angles
    below 7 are accurate to 4 u of that, a sine or cosine to 2 u, axes and direction to a few u. So c
    and p have the same error, and u has one of at most
        du = (2 p e + e^2 + 2 u c e) / c^2,
    up to 1 %. Since |d log glint / du| <= 2 + 1/s^2 and |d log diffuse / du| <= m/2 + 1, each term
    changes by at most the factor exp of that times du. Areas, weights and sums are accurate to
-   PATCH_AREA_ERR, relative, and a paraboloid's to that divided by cos alpha.
+   PATCH_AREA_ERR, relative, nu to e / nu, and a paraboloid's to that divided by cos alpha.
    Called: lrcsi_tessellate_patch, lrcsi_profile_make, lrcsi_reflect. */
 #include "integrate/patch.h"
 
@@ -97,31 +109,43 @@ static const gauss_rule rules[] = {
 static const double radii[] = {1.5, 2.5, 4.0, 7.0, 12.0};
 #define RADII ((int)(sizeof radii / sizeof *radii))
 
-/* A patch and the direction to the laser in the shape's frame. */
+/* A patch and the direction to the laser: in the shape's frame or, where its scale differs between
+   axes, in the body frame. */
 typedef struct patch_frame {
-    double g[3];         /* the direction to the laser, from the side that is lit */
-    double alpha, step;  /* of the middle, and half the width; step 0: straight wall */
-    double phi, half;    /* the same of the azimuth */
-    double sine, cosine; /* of alpha */
-    double c, p, u;      /* in the middle of the patch */
-    int fourth;          /* the weight has cos^-4 alpha */
-    double area;         /* of the patch, for a weight of 1, divided by that of its facets */
+    double g[3];             /* the direction to the laser, from the side that is lit */
+    const double (*axis)[3]; /* the images of the shape's axes under H; NULL: without distortion */
+    double alpha, step;      /* of the middle, and half the width; step 0: straight wall */
+    double phi, half;        /* the same of the azimuth */
+    double sine, cosine;     /* of alpha */
+    double along_image; /* |H e_alpha|, |H e_r|, |H e_phi| in the middle, if `axis` is not NULL */
+    double radial_image, around_image;
+    double c, p, u, nu; /* in the middle of the patch */
+    int fourth;         /* the weight has cos^-4 alpha */
+    double area;        /* of the patch, for a weight of 1, divided by that of its facets */
 } patch_frame;
 
 int lrcsi_patch_exists(const lrcs_prepared *p, uint32_t facet)
 {
     const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
-    return p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0 && part->rigid &&
+    return p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0 && part->normals_known &&
            part->curvature_known;
 }
 
 /* u = tan^2 theta of a normal, given sine and cosine of its angle from the axis, and those of its
-   azimuth. */
+   azimuth; c, p and nu. */
 static double patch_tan2(const patch_frame *f, double sine, double cosine, const double azimuth[2],
-                         double *c, double *p)
+                         double *c, double *p, double *nu)
 {
-    const double n[3] = {sine * azimuth[1], sine * azimuth[0], cosine};
+    const double given[3] = {sine * azimuth[1], sine * azimuth[0], cosine};
+    double n[3] = {given[0], given[1], given[2]};
     const double *g = f->g;
+    *nu = 1;
+    if (f->axis) {
+        for (int k = 0; k < 3; k++) {
+            n[k] = given[0] * f->axis[0][k] + given[1] * f->axis[1][k] + given[2] * f->axis[2][k];
+        }
+        *nu = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    }
     double x = g[1] * n[2] - g[2] * n[1];
     double y = g[2] * n[0] - g[0] * n[2];
     double z = g[0] * n[1] - g[1] * n[0];
@@ -131,10 +155,26 @@ static double patch_tan2(const patch_frame *f, double sine, double cosine, const
     return square / (*c * *c);
 }
 
+/* The length of the image of a vector under H. */
+static double image_length(const patch_frame *f, double x, double y, double z)
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        double image = x * f->axis[0][k] + y * f->axis[1][k] + z * f->axis[2][k];
+        square += image * image;
+    }
+    return sqrt(square);
+}
+
 static void frame_middle(patch_frame *f)
 {
     const double azimuth[2] = {sin(f->phi), cos(f->phi)};
-    f->u = patch_tan2(f, f->sine, f->cosine, azimuth, &f->c, &f->p);
+    if (f->axis) {
+        f->along_image = image_length(f, f->cosine * azimuth[1], f->cosine * azimuth[0], -f->sine);
+        f->radial_image = image_length(f, azimuth[1], azimuth[0], 0);
+        f->around_image = image_length(f, -azimuth[0], azimuth[1], 0);
+    }
+    f->u = patch_tan2(f, f->sine, f->cosine, azimuth, &f->c, &f->p, &f->nu);
 }
 
 /* The frame of patch->at. Returns 0 if rounding left its facets without area. */
@@ -150,10 +190,11 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lr
         uint32_t other = part->first_facet + ((facet - part->first_facet) ^ 1);
         facets += prepared->skip[other] ? 0 : 0.5 * prepared->normal[other].length;
     }
+    f->axis = part->rigid ? NULL : (const double(*)[3])part->normal_axis;
     for (int k = 0; k < 3; k++) {
-        f->g[k] =
-            patch->side * (part->axis[k][0] * view->unit[0] + part->axis[k][1] * view->unit[1] +
-                           part->axis[k][2] * view->unit[2]);
+        const double *axis = part->axis[k];
+        double along = axis[0] * view->unit[0] + axis[1] * view->unit[1] + axis[2] * view->unit[2];
+        f->g[k] = patch->side * (part->rigid ? along : view->unit[k]);
     }
     f->half = profile.half;
     f->phi = (2.0 * at->sector + 1.0) * profile.half;
@@ -173,7 +214,7 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lr
         f->area = f->half * ((profile.base + profile.top) * unit) * (slant * unit);
     }
     f->cosine = at->mirrored ? -f->cosine : f->cosine;
-    f->area /= facets;
+    f->area *= (part->rigid ? 1 : part->normal_area) / facets;
     frame_middle(f);
     patch->area_err = 2 * (lrcsi_profile_rounding(&profile, at->row) + part->tilted);
     return isfinite(f->area) && (!f->fourth || profile.step > 0);
@@ -184,6 +225,14 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lr
 /* kappa, from a and the exponentials of a and b; the error of the normal is added. */
 static double normal_shift(const patch_frame *f, double a, double exp_a, double exp_b)
 {
+    if (f->axis) {
+        double sinh_a = 0.5 * (exp_a - 1 / exp_a);
+        double sinh_b = 0.5 * (exp_b - 1 / exp_b);
+        double across = f->sine * (exp_a - sinh_a) + fabs(f->cosine) * sinh_a;
+        return (exp_a - sinh_a - 1) * f->nu + sinh_a * f->along_image +
+               across * ((exp_b - sinh_b - 1) * f->radial_image + sinh_b * f->around_image) +
+               PATCH_NORMAL_ERR;
+    }
     return (exp_b - 1) * (f->sine + a) * exp_a + (exp_a - 1) + PATCH_NORMAL_ERR;
 }
 
@@ -194,9 +243,12 @@ static double integrand_bound(const patch_frame *f, const lrcs_brdf *brdf, doubl
 {
     double kappa = normal_shift(f, a, exp_a, exp_b);
     double near = f->c - kappa;
-    double far = f->c + kappa;
+    double square = f->nu * f->nu - kappa * (2 * f->nu + kappa);
+    double longest = f->axis ? f->nu + kappa : 1; /* bounds of |n . n|^(1/2) */
+    double least = f->axis ? sqrt(lrcsi_max(0, square)) : 1;
+    double far = (f->c + kappa) / least;
     double most = 0;
-    if (!(kappa <= 0.5 * f->c)) {
+    if (!(kappa <= 0.5 * f->c) || !(least > 0)) {
         return HUGE_VAL;
     }
     if (brdf->A > 0) {
@@ -204,7 +256,8 @@ static double integrand_bound(const patch_frame *f, const lrcs_brdf *brdf, doubl
             (2 * f->p * kappa + kappa * kappa + f->u * kappa * (2 * f->c + kappa)) / (near * near);
         double exponent =
             (decrease - f->u + 16 * LRCSI_U * (decrease + f->u)) / (brdf->s * brdf->s);
-        most += brdf->A * lrcsi_exp(exponent) / (near * near * near * near);
+        double w = longest / near * (longest / near);
+        most += brdf->A * lrcsi_exp(exponent) * (w * w);
     }
     if (brdf->B > 0) {
         most += brdf->B * far * far * (far > 1 ? lrcsi_exp(brdf->m * (far - 1)) : 1);
@@ -213,7 +266,7 @@ static double integrand_bound(const patch_frame *f, const lrcs_brdf *brdf, doubl
         double low = f->fourth ? fabs(f->cosine) - (exp_a - 1) : 1;
         most *= low > 0 ? (f->sine + a) * exp_a / (low * low * low * low) : HUGE_VAL;
     }
-    return 1.000001 * most;
+    return 1.000001 * longest * most;
 }
 
 /* The rule in one variable with the fewest points whose remainder is at most `enough`, or the one
@@ -256,23 +309,27 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double s
 {
     double c;
     double p;
-    double u = patch_tan2(f, sine, cosine, azimuth, &c, &p);
+    double nu;
+    double u = patch_tan2(f, sine, cosine, azimuth, &c, &p, &nu);
     double du = 1.01 *
                 (2 * p * PATCH_NORMAL_ERR + PATCH_NORMAL_ERR * PATCH_NORMAL_ERR +
                  2 * u * c * PATCH_NORMAL_ERR) /
                 (c * c);
     double glint_err = brdf->A > 0 ? du * (2 + 1 / (brdf->s * brdf->s)) : 0;
     double diffuse_err = du * (0.5 * brdf->m + 1);
-    if (!(glint_err <= 1 && diffuse_err <= 1)) {
+    double nu_err = f->axis ? PATCH_NORMAL_ERR / nu : 0;
+    if (!(glint_err <= 1 && diffuse_err <= 1 && nu_err <= 1)) {
         return 0;
     }
     lrcsi_reflection at = lrcsi_reflect(brdf, u, 0);
+    weight *= nu;
     patch->glint += weight * at.glint;
     patch->diffuse += weight * at.diffuse;
     patch->glint_u += weight * at.glint * u;
     patch->diffuse_log += weight * at.diffuse * log1p(u);
-    patch->rounding += weight * (at.error + at.glint * (glint_err + glint_err * glint_err) +
-                                 at.diffuse * (diffuse_err + diffuse_err * diffuse_err));
+    patch->rounding += weight * (1 + nu_err) *
+                       (at.error + at.glint * (glint_err + glint_err * glint_err + nu_err) +
+                        at.diffuse * (diffuse_err + diffuse_err * diffuse_err + nu_err));
     return 1;
 }
 
@@ -357,7 +414,7 @@ static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const gauss_
     lrcsi_reflection at = lrcsi_reflect(brdf, f->u, 0);
     double cosine4 = f->cosine * f->cosine * f->cosine * f->cosine;
     double weight = f->step > 0 ? f->sine / (f->fourth ? cosine4 : 1) : 1;
-    *middle = weight * (at.glint + at.diffuse);
+    *middle = weight * f->nu * (at.glint + at.diffuse);
     rule[1] = rule_choose(f, brdf, 0, REMAINDER_TARGET * *middle, &around_error);
     rule[0] =
         f->step > 0 ? rule_choose(f, brdf, 1, REMAINDER_TARGET * *middle, &along_error) : &rules[0];

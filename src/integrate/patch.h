@@ -22,8 +22,7 @@ typedef struct lrcsi_patch {
     int known;           /* lrcsi_patch_make returned 1 */
 } lrcsi_patch;
 
-/* 1 if a facet may represent a patch: one of the curved wall of a shape placed without distortion.
- */
+/* 1 if a facet may represent a patch: it is on the curved wall of a shape. */
 int lrcsi_patch_exists(const lrcs_prepared *prepared, uint32_t facet);
 
 /* Given: a facet that is not skipped; the BRDF; what `patch` holds from the last call with the same

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The planner's decisions, from the proofs of scene/solid.h, from which way facets face, and from
+/* The planner decides from the proofs of scene/solid.h, from which facets face the laser, and from
    the effects that the options switch off or on. */
 #include "integrate/plan.h"
 
-/* The first raster whose bound is to meet the tolerance. */
+/* The size of the first raster, if its bound is to meet the tolerance. */
 #define FIRST_SIZE 512u
 
 /* With a tolerance below this, no raster is expected to be accepted by its estimate. */
@@ -17,8 +17,8 @@ static int has_effect(uint32_t set, int effect)
     return (set >> effect & 1u) != 0;
 }
 
-/* Is self-shadowing left out, whether or not the scene requires it? */
-static int shadows_dropped(const lrcs_run_options *options)
+/* Do the options leave self-shadowing out, whether or not the scene requires it? */
+static int shadows_omitted(const lrcs_run_options *options)
 {
     return has_effect(options->without, LRCS_EFFECT_SELF_SHADOWING) ||
            (options->method == LRCS_METHOD_FACET &&
@@ -29,14 +29,14 @@ lrcsi_view_backs lrcsi_plan_backs(const lrcs_prepared *p, const lrcs_run_options
 {
     int requested = has_effect(options->with, LRCS_EFFECT_BACK_FACE_CASTERS) ||
                     (p->two_sided && has_effect(options->with, LRCS_EFFECT_TWO_SIDED));
-    int cast = (!p->solid || (requested && !shadows_dropped(options))) &&
+    int cast = (!p->solid || (requested && !shadows_omitted(options))) &&
                !has_effect(options->without, LRCS_EFFECT_BACK_FACE_CASTERS);
     return (lrcsi_view_backs){cast, cast && !has_effect(options->without, LRCS_EFFECT_TWO_SIDED)};
 }
 
 static int plan_term(const lrcs_run_options *options, int effect)
 {
-    return has_effect(options->without, effect) ? LRCSI_TERM_OUT
+    return has_effect(options->without, effect) ? LRCSI_TERM_OMITTED
            : has_effect(options->with, effect)  ? LRCSI_TERM_FORCED
                                                 : LRCSI_TERM_ASSIGNED;
 }
@@ -55,9 +55,9 @@ static int preview_tried(const lrcs_run_options *options)
 }
 
 /* May areas be taken from the samples of a raster alone, without a proof? Not with curved normals,
-   which must know where on a facet it is visible; nor with curved shapes among other parts, whose
-   proximity band needs the classification; nor with few facets, for which the search for occluders
-   costs less than a raster, and whose sampling errors are too few to be estimated well. */
+   whose integrals need the visible region of each facet; nor with curved shapes among other parts,
+   whose proximity band needs the classification; nor with few facets, for which clipping costs less
+   than a raster, and which have too few sampling errors to estimate them well. */
 static int samples_suffice(const lrcsi_view *view, const lrcs_run_options *options)
 {
     const lrcs_prepared *p = view->prepared;
@@ -65,13 +65,13 @@ static int samples_suffice(const lrcsi_view *view, const lrcs_run_options *optio
            view->front + view->back >= PREVIEW_FACETS;
 }
 
-/* The method, with its reason. Under auto the last choice is clipping, since a raster whose bound
-   meets the tolerance mostly costs more. */
+/* Chooses the method, with its reason. If nothing else suffices, auto chooses clipping, because a
+   raster whose bound meets the tolerance costs more in most cases. */
 static void plan_method(lrcsi_plan *plan, const lrcsi_view *view, const lrcsi_clear *clear,
                         const lrcs_run_options *options)
 {
     int samples = samples_suffice(view, options);
-    if (shadows_dropped(options)) {
+    if (shadows_omitted(options)) {
         plan_choose(plan, LRCS_METHOD_FACET,
                     options->method == LRCS_METHOD_FACET ? "as asked"
                                                          : "self-shadowing is left out on request");
@@ -109,7 +109,8 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
     plan.no_back_hidden = !view->backs.cast || view->front == 0 || view->back == 0;
     plan.nothing_hidden = p->convex && plan.no_back_hidden;
     plan.shadows_forced = has_effect(options->with, LRCS_EFFECT_SELF_SHADOWING);
-    /* where back sides are left out of a scene that shows some, its true surfaces are not known */
+    /* There is no proximity band if the options leave back sides out although some may be seen: it
+       holds only if they cast shadows, or in solid scenes. */
     plan.proximity_band = p->proximity.reach && (view->backs.cast || p->solid);
     plan.patches = p->curved;
     plan.glint = plan_term(options, LRCS_EFFECT_GLINT);
@@ -122,8 +123,8 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
 lrcs_brdf lrcsi_plan_brdf(const lrcsi_plan *plan, const lrcs_material *material)
 {
     lrcs_brdf brdf = material->brdf;
-    brdf.A = plan->glint == LRCSI_TERM_OUT ? 0 : brdf.A;
-    brdf.B = plan->diffuse == LRCSI_TERM_OUT ? 0 : brdf.B;
+    brdf.A = plan->glint == LRCSI_TERM_OMITTED ? 0 : brdf.A;
+    brdf.B = plan->diffuse == LRCSI_TERM_OMITTED ? 0 : brdf.B;
     return brdf;
 }
 
@@ -163,8 +164,8 @@ static lrcs_effect caster_effect(const lrcsi_view *view, const lrcsi_plan *plan)
                             : (lrcs_effect){0, "left out on request"};
 }
 
-/* Only models have curved normals: shapes are divided as finely as the tolerance requires, with a
-   proved bound. */
+/* Only models can have curved normals: shapes have flat facets, divided as finely as the tolerance
+   requires, with a proved bound. */
 static lrcs_effect normals_effect(const lrcs_prepared *p)
 {
     int given = 0;
@@ -202,15 +203,15 @@ static lrcs_effect two_sided_effect(const lrcsi_view *view)
                                                   : "left out on request"};
 }
 
-/* The reasons given for a term of the BRDF. */
+/* The reasons that are reported for a term of the BRDF. */
 typedef struct term_text {
     const char *assigned, *none, *unseen, *forced;
 } term_text;
 
-/* A term that no visible facet has adds nothing, and is reported as off. */
+/* The effect of a term: it adds nothing, and is reported as off, if no visible facet has it. */
 static lrcs_effect term_effect(int term, int assigned, int seen, const term_text *text)
 {
-    if (assigned && term == LRCSI_TERM_OUT) {
+    if (assigned && term == LRCSI_TERM_OMITTED) {
         return (lrcs_effect){0, "left out on request"};
     }
     if (!seen && term == LRCSI_TERM_FORCED) {

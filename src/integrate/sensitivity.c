@@ -114,8 +114,8 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
         const double s = brdf[material].s;
         const double u = incidence.tan2;
         const lrcs_brdf unit = {s > 0 ? 1 : 0, 1, s, brdf[material].m};
-        const lrcs_brdf own = {plan->glint == LRCSI_TERM_OUT ? 0 : brdf[material].A,
-                               plan->diffuse == LRCSI_TERM_OUT ? 0 : brdf[material].B, s,
+        const lrcs_brdf own = {plan->glint == LRCSI_TERM_OMITTED ? 0 : brdf[material].A,
+                               plan->diffuse == LRCSI_TERM_OMITTED ? 0 : brdf[material].B, s,
                                brdf[material].m};
         double weight = LRCS_FOUR_PI * 0.5 * p->normal[f].length * fraction;
         if (curved && lrcsi_curve_applies(view, f)) { /* curved normals */
@@ -136,10 +136,10 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
         }
     }
     for (uint32_t i = 0; i < scene->material_count; i++) { /* 3. terms that the plan leaves out */
-        if (plan->glint == LRCSI_TERM_OUT) {
+        if (plan->glint == LRCSI_TERM_OMITTED) {
             response[i].glint = response[i].glint_s = (lrcsi_sum){0, 0};
         }
-        if (plan->diffuse == LRCSI_TERM_OUT) {
+        if (plan->diffuse == LRCSI_TERM_OMITTED) {
             response[i].diffuse = response[i].diffuse_m = (lrcsi_sum){0, 0};
         }
     }

@@ -180,7 +180,10 @@ static double patch_area_error(const lrcs_prepared *p, uint32_t facet, const lrc
        Int_U |h| = 2 max - |Int_U h| <= S (2 region) - (1 + a') S |F^ - F(facet normal)|,
        Int_U |F - F^| <= Int_U |h| + (1 + a') S |F^ - F(facet normal)| <= S (2 region),
        |Int_E (F - F^)| <= (Int_U |F - F^| + |Int_U (F - F^)|) / 2 <= S (region + remainder / 2).
-   At a single point F^ differs from F(facet normal) by at most |F_i - F(facet normal)| + a F_i. */
+   At a single point F^ differs from F(facet normal) by at most |F_i - F(facet normal)| + a F_i.
+   Where a scale that differs between axes stretches areas unevenly, the stretch over E and its mean
+   over the patch are both within a factor of 1 + uneven of that of the facet: T - M has also F^
+   times their difference, at most ((1 + uneven)^2 - 1) F_i per unit of E. */
 static lrcsi_deviation patch_deviation(const lrcsi_view *view, const lrcsi_plan *plan,
                                        uint32_t facet, const lrcsi_incidence *incidence,
                                        const lrcs_curvature *c, lrcsi_patch *patch, double *stretch)
@@ -197,7 +200,8 @@ static lrcsi_deviation patch_deviation(const lrcsi_view *view, const lrcsi_plan 
         deviation.region += error;
         deviation.point += difference + *stretch * (mean + error);
         deviation.value = mean + error;
-        *stretch = patch->area_err;
+        double uneven = patch_part(view->prepared, facet)->uneven;
+        *stretch = patch->area_err + uneven * (2 + uneven);
     }
     return deviation;
 }

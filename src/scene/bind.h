@@ -39,8 +39,8 @@ int lrcsi_binder_assigned(const lrcsi_binder *binder, const lrcs_recipe_part *pa
    `assigned` (or LRCS_NONE). */
 lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t assigned);
 
-/* The material of a model's surface on a part with the assigned material `assigned` (or LRCS_NONE).
- */
+/* The material of a surface of a model, on a part with the assigned material `assigned` (or
+   LRCS_NONE). */
 lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t assigned,
                                    const lrcs_surface *surface);
 

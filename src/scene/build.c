@@ -140,7 +140,11 @@ static int count_scene(scene_builder *builder, scene_totals *totals)
         .max_facets = options->max_facets,
         .parts = recipe->part_count,
         .facets_only = options->facets_only};
+    uint32_t shapes = 0; /* only they are divided */
     for (uint32_t i = 0; i < recipe->part_count; i++) {
+        shapes += !recipe->part[i].file;
+    }
+    for (uint32_t i = 0; i < recipe->part_count && shapes > 0; i++) {
         builder->fineness.area += lrcsi_fineness_area(
             &recipe->part[i], recipe->part[i].file ? &builder->models[i] : NULL);
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A draft is a table of a scene file while it is read: its keys and values so far, checked against
-   the schema, and error reports about them. recipe.c and recipe_part.c interpret a finished draft.
- */
+   the schema, and error reports about them. recipe.c and recipe_part.c interpret a finished
+   draft. */
 #ifndef LRCSI_DRAFT_H
 #define LRCSI_DRAFT_H
 

@@ -204,16 +204,19 @@ static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_
 
 /* Divisions of a shape alone in its scene whose facets represent patches: as coarse as the
    tolerance allows. Returns 0 if that does not suffice, or if these facets would need to be finer
-   than facets without patches. */
-static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
+   than facets without patches. ratio: of the scales along two axes. It multiplies the turns of
+   normals; measured with scales of 1 to 4, it multiplies the bounds of round shapes by its cube. */
+static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *part, double ratio,
                         const lrcs_brdf *brdf, lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
     int is_round = shape_is_round(&part->shape);
+    const double round = ALONE_ROUND * (ratio * ratio * ratio);
     double tolerance = fmin(ldexp(fineness->tolerance, -fineness->halvings), 1.0);
-    double corners = fmax(ALONE_SECTORS_MIN, brdf->A > 0.0 ? ALONE_PER_SLOPE / brdf->s : 0.0);
+    double corners =
+        fmax(ALONE_SECTORS_MIN, brdf->A > 0.0 ? ALONE_PER_SLOPE * ratio / brdf->s : 0.0);
     corners = is_round ? corners : fmax(corners, sqrt(ALONE_STRAIGHT / tolerance));
     while (is_round && corners < ALONE_SECTORS_MAX &&
-           corners * corners * corners * tolerance < ALONE_ROUND) {
+           corners * corners * corners * tolerance < round) {
         corners += 4.0;
     }
     if (fineness->facets_only == LRCS_FACETS_LOCAL || !(corners < ALONE_SECTORS_MAX) ||
@@ -231,11 +234,12 @@ static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *
 static int has_patches(const lrcs_recipe_part *part)
 {
     lrcsi_placer placer;
-    lrcsi_axes axes;
+    double image[3][3];
+    double area;
     int flat = part->shape.kind == LRCS_SHAPE_PLATE || part->shape.kind == LRCS_SHAPE_BOX ||
                part->shape.kind == LRCS_SHAPE_DISC;
     return !flat && lrcsi_placer_make(&part->place, &part->joint, &placer) == LRCS_OK &&
-           lrcsi_placer_axes(&placer, &axes);
+           lrcsi_placer_normals(&placer, image, &area);
 }
 
 /* Does the closed form hold for a shape in every direction? It does if the shape is alone, so that
@@ -278,8 +282,9 @@ int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part
         }
     }
     if (has_patches(part) &&
-        (fineness->parts > 1 ? divide_for_shadows(fineness, part, divisions, counts)
-                             : divide_alone(fineness, part, &material->brdf, divisions, counts))) {
+        (fineness->parts > 1
+             ? divide_for_shadows(fineness, part, divisions, counts)
+             : divide_alone(fineness, part, ratio, &material->brdf, divisions, counts))) {
         return LRCS_OK;
     }
     int status = lrcs_shape_count(&part->shape, &wanted, divisions, counts);

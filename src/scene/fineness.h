@@ -5,8 +5,7 @@
 
 #include <lrcs/scene.h>
 
-/* Round bodies are not divided for a smaller tolerance than this, unless a division is requested.
- */
+/* Round bodies are not divided for a smaller tolerance than this unless a division is requested. */
 #define LRCSI_FINENESS_ROUND 1e-4
 
 typedef struct lrcsi_fineness {

@@ -130,9 +130,10 @@ void lrcsi_placer_normal(const lrcsi_placer *placer, double normal[3])
 
 /* --- the nearest rotation --------------------------------------------------------------------- */
 
-/* A matrix R with |R^T R - I| above this is not taken for a rounded rotation, and is used as it is.
- */
+/* A matrix R with |R^T R - I| above this is not taken for a rounded rotation, but used as it is. */
 #define ROTATION_DEFECT_MAX 0x1p-40
+/* The largest ratio of two scales for which the images of normals are computed. */
+#define NORMALS_RATIO_MAX 0x1p20
 
 /* D = R^T R - I in double-double: the error of every entry is at most 2^-101. Returns its Frobenius
    norm, rounded up, or 0 if D is exactly 0. */
@@ -182,30 +183,70 @@ static int nearest_rotation(const double R[3][3], lrcsi_dd out[3][3])
     return 1;
 }
 
-int lrcsi_placer_axes(const lrcsi_placer *placer, lrcsi_axes *axes)
+/* The images of a shape's axes, image[axis][component]: the joint's nearest rotation, a factor
+   along each axis, the place's nearest rotation. Returns 0 if there is none near enough. */
+static int images_of_axes(const lrcsi_placer *placer, const double factor[3], lrcsi_dd image[3][3])
 {
     static const double identity[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-    const double *scale = placer->place.scale;
     lrcsi_dd joint[3][3];
     lrcsi_dd place[3][3];
-    if (fabs(scale[0]) != fabs(scale[1]) || fabs(scale[1]) != fabs(scale[2]) ||
-        !nearest_rotation(placer->has_joint ? placer->joint : identity, joint) ||
+    if (!nearest_rotation(placer->has_joint ? placer->joint : identity, joint) ||
         !nearest_rotation(placer->has_rotation ? placer->place.rotate : identity, place)) {
+        return 0;
+    }
+    for (int j = 0; j < 3; j++) {
+        for (int i = 0; i < 3; i++) {
+            image[j][i] = (lrcsi_dd){0.0, 0.0};
+            for (int k = 0; k < 3; k++) {
+                lrcsi_dd term = lrcsi_dd_mul(place[i][k], joint[k][j]);
+                image[j][i] = lrcsi_dd_add(image[j][i], lrcsi_dd_scale(term, factor[k]));
+            }
+        }
+    }
+    return 1;
+}
+
+int lrcsi_placer_axes(const lrcsi_placer *placer, lrcsi_axes *axes)
+{
+    const double *scale = placer->place.scale;
+    const double sign[3] = {copysign(1.0, scale[0]), copysign(1.0, scale[1]),
+                            copysign(1.0, scale[2])};
+    lrcsi_dd image[3][3];
+    if (fabs(scale[0]) != fabs(scale[1]) || fabs(scale[1]) != fabs(scale[2]) ||
+        !images_of_axes(placer, sign, image)) {
         return 0;
     }
     axes->exact = 1;
     for (int j = 0; j < 3; j++) {
         for (int i = 0; i < 3; i++) {
-            lrcsi_dd sum = {0.0, 0.0};
-            for (int k = 0; k < 3; k++) {
-                lrcsi_dd term = lrcsi_dd_mul(place[i][k], joint[k][j]);
-                sum = lrcsi_dd_add(sum, scale[k] < 0.0 ? lrcsi_dd_negate(term) : term);
-            }
-            axes->high[j][i] = sum.hi;
-            axes->low[j][i] = sum.lo;
-            axes->exact &= sum.lo == 0.0 && (sum.hi == 0.0 || fabs(sum.hi) == 1.0);
+            double high = image[j][i].hi;
+            axes->high[j][i] = high;
+            axes->low[j][i] = image[j][i].lo;
+            axes->exact &= image[j][i].lo == 0.0 && (high == 0.0 || fabs(high) == 1.0);
         }
     }
+    return 1;
+}
+
+int lrcsi_placer_normals(const lrcsi_placer *placer, double image[3][3], double *area)
+{
+    const double *scale = placer->place.scale;
+    const double least = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    const double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    double factor[3];
+    double product = most / least;
+    lrcsi_dd sum[3][3];
+    for (int k = 0; k < 3; k++) {
+        factor[k] = least / scale[k];
+        product *= fabs(scale[k]) / most;
+    }
+    if (!(most / least <= NORMALS_RATIO_MAX) || !images_of_axes(placer, factor, sum)) {
+        return 0;
+    }
+    for (int n = 0; n < 9; n++) {
+        image[n / 3][n % 3] = sum[n / 3][n % 3].hi;
+    }
+    *area = product;
     return 1;
 }
 
@@ -289,7 +330,6 @@ double lrcsi_placer_error(const lrcsi_placer *placer, double size, double error)
     if (placer->has_translation) {
         x = bound_translation(x, placer->place.translate);
     }
-    /* At most sqrt(3) times the error of a coordinate; rounded up for the rounding of this bound.
-     */
+    /* At most sqrt(3) times the error of a coordinate, rounded up. */
     return 1.7321 * x.error;
 }

@@ -31,6 +31,14 @@ typedef struct lrcsi_axes {
 } lrcsi_axes;
 int lrcsi_placer_axes(const lrcsi_placer *placer, lrcsi_axes *axes);
 
+/* How normals are transformed: by the inverse transpose of the linear map, times the least absolute
+   scale, so that its largest singular value is 1. image[j]: the image of a unit normal along axis j
+   of the shape, accurate to 4 u; without distortion it is the axis itself. *area: an element of
+   area with unit normal N is multiplied by *area times the length of N's image, relative to the
+   square of the largest absolute scale. Returns 0 if a matrix is not a rotation or reflection to
+   2^-40, or if scales differ by more than a factor of 2^20; then nothing is filled in. */
+int lrcsi_placer_normals(const lrcsi_placer *placer, double image[3][3], double *area);
+
 /* Upper bounds on the largest singular value of the linear map, and on its condition number (the
    ratio of the largest to the smallest singular value); infinite if a matrix is far from a
    rotation. */

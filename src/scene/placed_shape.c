@@ -135,6 +135,7 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
         memcpy(part->axis_low, axes.low, sizeof part->axis_low);
         part->axis_exact = axes.exact;
     }
+    part->normals_known = lrcsi_placer_normals(placer, part->normal_axis, &part->normal_area);
     part->shape = *shape;
     part->divisions = *divisions;
     part->unit = largest;

@@ -67,8 +67,8 @@ static int scene_check(const lrcs_scene *scene, int *exponent)
 }
 
 /* Marks live facets and their corners, and finds out what their materials and parts require. A
-   facet that is degenerate, for instance by rounding, still makes the scene curved if its part is.
- */
+   facet that is degenerate, for instance by rounding, still makes the scene curved if its part
+   is. */
 static void find_live(lrcs_prepared *p)
 {
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {

@@ -82,8 +82,7 @@ typedef struct lrcsi_run {
     int has_contacts; /* some facet has a contact or is marked in `met` (mesh/intersection.h) */
 } lrcsi_run;
 
-/* A side of a facet of a run whose neighbour belongs to an earlier run, or that has no neighbour.
- */
+/* A side of a facet of a run that has no neighbour, or one in an earlier run. */
 typedef struct lrcsi_run_side {
     uint32_t facet, other;
     uint32_t edge; /* of the topology */

@@ -44,8 +44,8 @@ static int out_of_memory(lrcs_where *where)
                             0);
 }
 
-/* Counts parts, materials and maps up to the end or the first error, which the second pass reports.
- */
+/* Counts parts, materials and maps up to the end or the first error, which the second pass
+   reports. */
 static int count_tables(const char *text, size_t size, lrcs_where *where, uint32_t count[3])
 {
     static const char *const table[3] = {"part", "material", "map"};

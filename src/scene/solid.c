@@ -13,8 +13,7 @@
 
 /* --- pieces: facets joined by edges ----------------------------------------------------------- */
 
-/* A live facet has a neighbour across each side, unless the edge is irregular or a boundary edge.
- */
+/* A live facet has a neighbour across each side unless the edge is irregular or a boundary edge. */
 int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
 {
     uint32_t count = p->scene->facet_count;

@@ -639,7 +639,7 @@ static void a_lone_ball_is_divided_for_what_its_facets_are_for(void **state)
     binding.brdf = odd[2];
     options.tolerance = 1e-12; /* more than a million corners */
     assert_true(facets_of(&recipe, &options) <= options.max_facets);
-    options.tolerance = 1e-2;
+    options.tolerance = 1e-3;
     uint32_t round = facets_of(&recipe, &options);
     options.max_facets = 60000;
     part.place.scale[0] = 2;

@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "base/rotate.h"
+#include "base/vec3.h"
 #include "check.h"
+#include "random.h"
 
 static const lrcs_joint no_joint = {0, {0}, {0}, 0.0};
 
@@ -236,6 +238,73 @@ static void a_shape_that_is_changed_has_no_axes(void **state)
     assert_true(isinf(ratio));
 }
 
+/* The image of a parallelogram's normal is normal to the parallelogram's image; its length, times
+   the area factor, is the ratio of their areas. */
+static void normals_and_areas_are_those_of_placed_parallelograms(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    for (int run = 0; run < 64; run++) {
+        lrcs_place place = lrcs_place_default();
+        const lrcs_joint joint = {1, {1.0, 0.25 * (run % 7), 0.5}, {1, 2, 3}, 3.7 * run};
+        const double deg[3] = {20.0 * run, 100.0, 7.0 * run};
+        const double zero[3] = {0};
+        double given[2][3];
+        double placed[3][3]; /* the origin and the two sides */
+        double image[3][3];
+        double normal[3];
+        double cross[3];
+        double n[3] = {0};
+        double area;
+        double most = 0;
+        lrcsi_placer placer;
+        assert_int_equal(lrcsi_rotate_euler("XYZ", deg, place.rotate), LRCS_OK);
+        for (int k = 0; k < 3; k++) {
+            place.scale[k] = (random_unit(&seed) < 0.5 ? -3 : 2) * (0.1 + random_unit(&seed));
+            most = fmax(most, fabs(place.scale[k]));
+            given[0][k] = random_unit(&seed) - 0.5;
+            given[1][k] = random_unit(&seed) - 0.5;
+        }
+        assert_int_equal(lrcsi_placer_make(&place, &joint, &placer), LRCS_OK);
+        assert_int_equal(lrcsi_placer_normals(&placer, image, &area), 1);
+        lrcsi_placer_run(&placer, zero, placed[0]);
+        for (int i = 0; i < 2; i++) {
+            lrcsi_placer_run(&placer, given[i], placed[i + 1]);
+            lrcsi_vec3_between(placed[0], placed[i + 1], placed[i + 1]);
+        }
+        lrcsi_vec3_cross(given[0], given[1], normal);
+        lrcsi_vec3_cross(placed[1], placed[2], cross);
+        for (int i = 0; i < 3; i++) {
+            for (int k = 0; k < 3; k++) {
+                n[k] += normal[i] * image[i][k];
+            }
+        }
+        double sign = placer.reflects ? -1 : 1; /* a reflection reverses the product of the sides */
+        for (int k = 0; k < 3; k++) {
+            check_abs(sign * cross[k], most * most * area * n[k], 1e-13 * most * most);
+        }
+    }
+}
+
+static void normals_of_flat_scales_are_refused(void **state)
+{
+    (void)state;
+    lrcs_place place = lrcs_place_default();
+    lrcsi_placer placer;
+    double image[3][3];
+    double area;
+    place.scale[1] = 0x1p-21;
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
+    assert_int_equal(lrcsi_placer_normals(&placer, image, &area), 0);
+    place.scale[1] = 0x1p-20;
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
+    assert_int_equal(lrcsi_placer_normals(&placer, image, &area), 1);
+    assert_true(image[1][1] == 1 && image[0][0] == 0x1p-20 && area == 1);
+    place.rotate[0][1] = 2.0;
+    assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
+    assert_int_equal(lrcsi_placer_normals(&placer, image, &area), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -248,6 +317,8 @@ int main(void)
         cmocka_unit_test(axes_are_those_of_the_nearest_rotation),
         cmocka_unit_test(axes_of_quarter_turns_and_mirrors_are_exact),
         cmocka_unit_test(a_shape_that_is_changed_has_no_axes),
+        cmocka_unit_test(normals_and_areas_are_those_of_placed_parallelograms),
+        cmocka_unit_test(normals_of_flat_scales_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -639,6 +639,19 @@ def table():
         ('elliptic dish and feed', [dish(scale=(1, 0.5, 1)), feed], (0.5, 0.25, 1), DIFFUSE, 1),
         ('plate before half of a paraboloid',
          [part('paraboloid', radius=0.5, length=0.5), plate(2, 2, 1, 0, 1)], (0, 0, 1), GLOSSY, 0),
+        ('ellipsoid alone', [ball(1, 0, 0, 0, scale=(1, 2, 0.5))], (0.5, 0.25, 0.375), GLOSSY, 0),
+        ('long ellipsoid alone, along its axis', [ball(1, 0, 0, 0, scale=(1, 1, 4))], (0, 0, 1), NARROW, 0),
+        ('long ellipsoid alone, from its side', [ball(1, 0, 0, 0, scale=(1, 1, 4))], (1, 0.125, 0), REAL, 0),
+        ('elliptic cylinder alone', [part('cylinder', radius=0.5, length=1, scale=(2, 0.5, 1))],
+         (0.5, 0.75, 0.25), GLOSSY, 0),
+        ('elliptic cone alone', [part('cone', radius=0.5, length=1, scale=(1, 3, 1))],
+         (0.5, 0.25, 0.125), GLOSSY, 0),
+        ('elliptic frustum alone', [part('frustum', radius=0.25, radius2=0.5, length=1, scale=(1, 2, 0.75))],
+         (0.25, 0.5, -0.125), REAL, 0),
+        ('half of an ellipsoid alone', [part('dome', radius=1, scale=(0.5, 1, 2))], (0.75, 0.25, -0.125),
+         GLOSSY, 0),
+        ('elliptic paraboloid alone', [part('paraboloid', radius=1, length=1, scale=(1, 0.5, 2))],
+         (0.25, 0.5, 0.125), GLOSSY, 0),
     ]
 
 
