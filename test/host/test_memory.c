@@ -538,11 +538,20 @@ static int entries(void)
     return count - 2;
 }
 
+/* The lowest descriptor that is free. */
+static int descriptor_next(void)
+{
+    int next = dup(STDIN_FILENO);
+    close(next);
+    return next;
+}
+
 /* Runs it with these allocations refused. Returns the number of allocations. */
 static long run_refused(operation *run, long first, long last, outcome *got, int *status)
 {
     long before = atomic_load(&held);
     int files = entries();
+    int descriptor = descriptor_next();
     *got = (outcome){.hash = UINT64_C(0xcbf29ce484222325)};
     error.text[0] = '\0';
     refuse_first = first;
@@ -552,6 +561,7 @@ static long run_refused(operation *run, long first, long last, outcome *got, int
     refuse_first = refuse_last = 0;
     assert_int_equal(atomic_load(&held), before);
     assert_int_equal(entries(), files);
+    assert_int_equal(descriptor_next(), descriptor);
     return atomic_load(&asked);
 }
 

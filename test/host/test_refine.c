@@ -260,6 +260,33 @@ static void a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is(void **sta
     }
 }
 
+/* At this resolution the proof of a raster takes more than the tolerance, its estimate does not:
+   only where that is accepted is there something left for finer facets. */
+static void an_accepted_estimate_leaves_room_for_finer_facets(void **state)
+{
+    (void)state;
+    lrcs_pose pose;
+    lrcs_result result;
+    lrcs_run_options options = lrcs_run_options_default();
+    options.method = LRCS_METHOD_ZBUFFER;
+    options.resolution = 1024;
+    options.tolerance = 4e-3;
+    assert_int_equal(lrcs_pose_from_azel(0, 20, &pose), LRCS_OK);
+    for (int accept = LRCS_ACCEPT_BOUND; accept <= LRCS_ACCEPT_ESTIMATE; accept++) {
+        lrcs_host_scene scene;
+        lrcs_build_options build = lrcs_build_options_default();
+        options.accept = accept;
+        scene_make(&scene, "test/host/refine_parts.toml", 0.1, NULL);
+        int times = refine(&scene, &pose, &options, 1, &result, &build);
+        int estimated = accept == LRCS_ACCEPT_ESTIMATE;
+        assert_int_equal(times > 0, estimated);
+        assert_int_equal(!(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET), estimated);
+        assert_int_equal((result.flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE) != 0, estimated);
+        check_most(options.tolerance * result.sigma_m2, result.bound_m2);
+        lrcs_host_scene_free(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -268,6 +295,7 @@ int main(void)
         cmocka_unit_test(levels_come_and_go_without_a_trace),
         cmocka_unit_test(a_scene_becomes_the_one_that_meets_the_tolerance),
         cmocka_unit_test(only_the_parts_that_the_error_is_due_to_are_divided),
+        cmocka_unit_test(an_accepted_estimate_leaves_room_for_finer_facets),
         cmocka_unit_test(a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
