@@ -36,11 +36,16 @@
        |cos alpha'| >= |cos alpha| - (e^a - 1).
 
    Where the scale of the placement differs between axes, H takes normals to directions of normals
-   (lrcs_part.normal_axis), |H| = 1, and n = H N takes the place of N: it too moves by at most
-   kappa. With nu = |n| in the middle, c = g . n, p = |g x n|, u = p^2 / c^2 and, since c^2 +
-   (g x n) . (g x n) = n . n for complex n as well, w = (n . n) / c^2; areas have the weight
-   (n . n)^(1/2). In the bounds above 1 becomes n . n, which lies between
-       nu^2 - 2 nu kappa - kappa^2 <= |n . n| <= (nu + kappa)^2.
+   (lrcs_part.normal_axis), |H| = 1, and n = H N takes the place of N. Let e_alpha, e_r and e_phi be
+   the unit vectors along the meridian, away from the axis and around it in the middle of the patch.
+   Turned by alpha', N moves by (cos alpha' - 1) N + sin alpha' e_alpha, and then by phi', its part
+   across the axis, s e_r, by s ((cos phi' - 1) e_r + sin phi' e_phi). So n moves by at most
+       kappa = (cosh a - 1) nu + sinh a |H e_alpha|
+               + (|sin alpha| cosh a + |cos alpha| sinh a) ((cosh b - 1) |H e_r| + sinh b |H
+   e_phi|). With nu = |n| in the middle, c = g . n, p = |g x n|, u = p^2 / c^2 and, since c^2 + (g x
+   n) . (g x n) = n . n for complex n as well, w = (n . n) / c^2; areas have the weight (n .
+   n)^(1/2). In the bounds above 1 becomes n . n, which lies between nu^2 - 2 nu kappa - kappa^2 <=
+   |n . n| <= (nu + kappa)^2.
 
    Rounding. N and g together have an error of at most e = PATCH_NORMAL_ERR: azimuths and angles
    below 7 are accurate to 4 u of that, a sine or cosine to 2 u, axes and direction to a few u. So c
@@ -114,9 +119,11 @@ typedef struct patch_frame {
     double alpha, step;      /* of the middle, and half the width; step 0: straight wall */
     double phi, half;        /* the same of the azimuth */
     double sine, cosine;     /* of alpha */
-    double c, p, u, nu;      /* in the middle of the patch */
-    int fourth;              /* the weight has cos^-4 alpha */
-    double area;             /* of the patch, for a weight of 1, divided by that of its facets */
+    double along_image; /* |H e_alpha|, |H e_r|, |H e_phi| in the middle, if `axis` is not NULL */
+    double radial_image, around_image;
+    double c, p, u, nu; /* in the middle of the patch */
+    int fourth;         /* the weight has cos^-4 alpha */
+    double area;        /* of the patch, for a weight of 1, divided by that of its facets */
 } patch_frame;
 
 int lrcsi_patch_exists(const lrcs_prepared *p, uint32_t facet)
@@ -150,9 +157,25 @@ static double patch_tan2(const patch_frame *f, double sine, double cosine, const
     return square / (*c * *c);
 }
 
+/* The length of the image of a vector under H. */
+static double image_length(const patch_frame *f, double x, double y, double z)
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        double image = x * f->axis[0][k] + y * f->axis[1][k] + z * f->axis[2][k];
+        square += image * image;
+    }
+    return sqrt(square);
+}
+
 static void frame_middle(patch_frame *f)
 {
     const double azimuth[2] = {sin(f->phi), cos(f->phi)};
+    if (f->axis) {
+        f->along_image = image_length(f, f->cosine * azimuth[1], f->cosine * azimuth[0], -f->sine);
+        f->radial_image = image_length(f, azimuth[1], azimuth[0], 0);
+        f->around_image = image_length(f, -azimuth[0], azimuth[1], 0);
+    }
     f->u = patch_tan2(f, f->sine, f->cosine, azimuth, &f->c, &f->p, &f->nu);
 }
 
@@ -204,6 +227,14 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lr
 /* kappa, from a and the exponentials of a and b; the error of the normal is added. */
 static double normal_shift(const patch_frame *f, double a, double exp_a, double exp_b)
 {
+    if (f->axis) {
+        double sinh_a = 0.5 * (exp_a - 1 / exp_a);
+        double sinh_b = 0.5 * (exp_b - 1 / exp_b);
+        double across = f->sine * (exp_a - sinh_a) + fabs(f->cosine) * sinh_a;
+        return (exp_a - sinh_a - 1) * f->nu + sinh_a * f->along_image +
+               across * ((exp_b - sinh_b - 1) * f->radial_image + sinh_b * f->around_image) +
+               PATCH_NORMAL_ERR;
+    }
     return (exp_b - 1) * (f->sine + a) * exp_a + (exp_a - 1) + PATCH_NORMAL_ERR;
 }
 
