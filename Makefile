@@ -5,7 +5,7 @@
 #   make study      what sigma of simple bodies depends on: examples/study/results anew
 #   make install    under PREFIX (/usr/local), in DESTDIR: tool, libraries, headers, manual, completion
 #   make test       every test (needs cmocka; gets it by itself where it can)
-#   make asan tsan lint purity layers fuzz coverage    further checks
+#   make asan tsan lint purity layers fuzz coverage coverage-above    further checks
 #   make amalgamation       the core as two files, build/amalgamation/lrcs.c and lrcs.h, and its tests on them
 #   make flight portable    on a Cortex-M7 (needs gcc-arm-none-eabi, qemu); on four other machines (qemu-user)
 #   make operations misra   steps a pose takes, beside the most; MISRA C:2012 and its deviations
@@ -184,6 +184,17 @@ coverage: cmocka
 	find $(BUILD)/coverage -name '*.gcda' -exec rm -f {} +
 	$(MAKE) BUILD=$(BUILD)/coverage OPT=-O0 CFLAGS=--coverage LDLIBS="--coverage $(THREADS) -lm" test-core
 	sh test/coverage.sh $(BUILD)/coverage
+# The same figures of src/host and src/analysis by their tests and the tool's, for information.
+coverage-above: cmocka
+	@mkdir -p $(BUILD)/coverage
+	find $(BUILD)/coverage -name '*.gcda' -exec rm -f {} +
+	$(MAKE) BUILD=$(BUILD)/coverage OPT=-O0 CFLAGS=--coverage LDLIBS="--coverage $(THREADS) -lm" test-above
+	sh test/coverage.sh $(BUILD)/coverage host analysis
+ABOVE_TESTS = $(patsubst %.c,$(BUILD)/%,$(filter test/host/% test/analysis/%,$(TEST_SRC)))
+# What builds anew, or limits the address space, which the counters do not fit, is left out.
+test-above: $(TOOL) $(ABOVE_TESTS) $(EXAMPLES)
+	@sh test/run.sh $(TOOL) $(ABOVE_TESTS) $(filter-out $(addprefix %/test_,$(addsuffix .sh,install limits \
+	    report_browser runner)),$(filter test/host/% test/cli/%,$(SH_TESTS)))
 test-core: $(TOOL) $(CORE_TESTS) $(FUZZ_TESTS)
 	@sh test/run.sh $(TOOL) $(CORE_TESTS) test/fuzz/test_replay.sh
 
@@ -301,7 +312,8 @@ cmocka:
 
 .PHONY: all demo charts study install uninstall clean cmocka
 .PHONY: test asan tsan lint purity layers amalgamation stack flight operations misra portable
-.PHONY: fuzz fuzz-long coverage test-core bounds agree estimate shadows bench scaling hard big
+.PHONY: fuzz fuzz-long coverage coverage-above test-core test-above bounds agree estimate shadows bench
+.PHONY: scaling hard big
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------

@@ -4,16 +4,26 @@
 # total on stdout; branches never taken with their functions and lines in BUILD/untaken.txt. The
 # functions are compared with those of test/coverage.md, which says why: it fails if either names one
 # that the other does not.
-# usage: coverage.sh BUILD    (in the root; BUILD was compiled with --coverage, and its tests ran)
+# With folders of src: a table of these instead, and BUILD/untaken.txt; nothing is compared.
+# usage: coverage.sh BUILD [FOLDER...]    (in the root; BUILD was compiled with --coverage, and its
+# tests ran)
 build=$1
-counted=$(find "$build"/src/base "$build"/src/mesh "$build"/src/optics "$build"/src/scene \
-    "$build"/src/view "$build"/src/visibility "$build"/src/integrate -name '*.gcda' | LC_ALL=C sort)
+shift
+folders=${*:-base mesh optics scene view visibility integrate}
+# shellcheck disable=SC2086
+counted=$(cd "$build/src" && find $folders -name '*.gcda' | sed "s|^|$build/src/|" | LC_ALL=C sort)
 [ -n "$counted" ] || { echo "coverage: nothing has run in $build" >&2; exit 1; }
 
 # What a header holds is compiled many times: a branch counts as taken where it was in any.
 # shellcheck disable=SC2086
-gcov -b -c -t $counted 2>/dev/null | awk -v untaken="$build/untaken.txt" '
-    /^ *-: *0:Source:/ { file = $0; sub(/^.*Source:/, "", file); ours = file ~ /^src\// }
+gcov -b -c -t $counted 2>/dev/null | awk -v untaken="$build/untaken.txt" -v folders=" $folders " '
+    /^ *-: *0:Source:/ {
+        file = folder = $0
+        sub(/^.*Source:/, "", file)
+        sub(/^.*Source:src\//, "", folder)
+        sub(/\/.*/, "", folder)
+        ours = file ~ /^src\// && index(folders, " " folder " ")
+    }
     ours && /^ *[0-9#=*-]+\*?: *[0-9]+:/ {
         count = number = text = $0
         sub(/:.*/, "", count)
@@ -61,10 +71,11 @@ gcov -b -c -t $counted 2>/dev/null | awk -v untaken="$build/untaken.txt" '
             sum[4] += missed[file]
         }
         close(order)
-        printf form, "the core", sum[1], sum[2], sum[3], sum[4]
+        printf form, "together", sum[1], sum[2], sum[3], sum[4]
         printf "lines %.2f %%, branches %.2f %%\n", 100 - 100 * sum[2] / sum[1], \
             100 - 100 * sum[4] / sum[3]
     }' || exit 1
+[ $# -eq 0 ] || exit 0
 
 cut -d: -f1,3 "$build/untaken.txt" | sed 's/:/: /' | LC_ALL=C sort -u >"$build/untaken"
 sed -n 's/^    src/src/p' test/coverage.md | LC_ALL=C sort >"$build/listed"

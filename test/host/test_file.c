@@ -3,8 +3,10 @@
 #include <lrcs/host.h>
 
 #include <dirent.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -157,6 +159,109 @@ static void a_full_device_is_an_error_and_stays_a_device(void **state)
     assert_true(S_ISCHR(about.st_mode));
 }
 
+/* Files may not grow beyond `size` bytes, as if the disk were full. Returns the limit before. */
+static rlim_t disk_limit(rlim_t size)
+{
+    struct rlimit limit;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    rlim_t before = limit.rlim_cur;
+    limit.rlim_cur = size;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    return before;
+}
+
+/* What fits the stream's buffer fails when it is closed, what does not when it is written. */
+static void a_full_disk_leaves_the_old_file_and_nothing_else(void **state)
+{
+    (void)state;
+    lrcs_host_output out;
+    lrcs_host_error error;
+    signal(SIGXFSZ, SIG_IGN);
+    put(inside("out"), "old");
+    for (int bytes = 100; bytes <= 1000000; bytes *= 10000) {
+        assert_int_equal(lrcs_host_output_open(inside("out"), &out, &error), LRCS_OK);
+        rlim_t before = disk_limit(64);
+        for (int i = 0; i < bytes; i++) {
+            putc('n', out.stream);
+        }
+        int status = lrcs_host_output_close(&out, 1, &error);
+        disk_limit(before);
+        assert_int_equal(status, LRCS_E_SYSTEM);
+        assert_non_null(strstr(error.text, "out: cannot write: File too large"));
+        assert_null(out.stream);
+        check_holds(inside("out"), "old");
+        assert_int_equal(entries(), 1);
+    }
+    signal(SIGXFSZ, SIG_DFL);
+    remove(inside("out"));
+}
+
+static void a_name_that_became_a_folder_is_an_error(void **state)
+{
+    (void)state;
+    lrcs_host_output out;
+    lrcs_host_error error;
+    assert_int_equal(lrcs_host_output_open(inside("out"), &out, &error), LRCS_OK);
+    fputs("new", out.stream);
+    assert_int_equal(mkdir(inside("out"), 0777), 0);
+    assert_int_equal(lrcs_host_output_close(&out, 1, &error), LRCS_E_SYSTEM);
+    assert_non_null(strstr(error.text, "out: cannot write: Is a directory"));
+    assert_int_equal(entries(), 1);
+    assert_int_equal(rmdir(inside("out")), 0);
+}
+
+static void a_file_whose_bytes_cannot_be_read_is_an_error(void **state)
+{
+    (void)state;
+    lrcs_host_file file = {NULL, 7};
+    lrcs_host_error error;
+    if (access("/proc/self/mem", R_OK) != 0) {
+        print_message("no /proc/self/mem here: skipped\n");
+        skip();
+    }
+    /* nothing is mapped at address 0 */
+    assert_int_equal(lrcs_host_file_read("/proc/self/mem", &file, &error), LRCS_E_SYSTEM);
+    assert_non_null(strstr(error.text, "/proc/self/mem: cannot read: Input/output error"));
+    assert_true(!file.bytes && file.size == 7);
+}
+
+/* More bytes than the system says beforehand: files of /proc have a size of 0. */
+static void a_file_is_read_to_its_end_whatever_its_stated_size(void **state)
+{
+    (void)state;
+    lrcs_host_file file;
+    struct stat about;
+    if (stat("/proc/self/maps", &about) != 0 || about.st_size != 0) {
+        print_message("no /proc/self/maps here: skipped\n");
+        skip();
+    }
+    assert_int_equal(lrcs_host_file_read("/proc/self/maps", &file, NULL), LRCS_OK);
+    assert_true(file.size > 100 && file.bytes[file.size - 1] == '\n');
+    lrcs_host_file_free(&file);
+}
+
+/* The lowest descriptor that is free. */
+static int descriptor_next(void)
+{
+    int next = dup(0);
+    close(next);
+    return next;
+}
+
+static void outputs_leave_no_descriptor_open(void **state)
+{
+    (void)state;
+    lrcs_host_output out;
+    lrcs_host_error error;
+    int next = descriptor_next();
+    assert_int_equal(lrcs_host_output_open(inside("no/out"), &out, &error), LRCS_E_SYSTEM);
+    assert_int_equal(lrcs_host_output_open(inside("out"), &out, &error), LRCS_OK);
+    assert_int_equal(lrcs_host_output_close(&out, 0, &error), LRCS_OK);
+    assert_int_equal(lrcs_host_output_close(&out, 1, &error), LRCS_OK); /* closed already */
+    assert_int_equal(descriptor_next(), next);
+    assert_int_equal(entries(), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -167,6 +272,11 @@ int main(void)
         cmocka_unit_test(a_link_is_written_through),
         cmocka_unit_test(a_folder_that_is_not_there_is_an_error),
         cmocka_unit_test(a_full_device_is_an_error_and_stays_a_device),
+        cmocka_unit_test(a_full_disk_leaves_the_old_file_and_nothing_else),
+        cmocka_unit_test(a_name_that_became_a_folder_is_an_error),
+        cmocka_unit_test(a_file_whose_bytes_cannot_be_read_is_an_error),
+        cmocka_unit_test(a_file_is_read_to_its_end_whatever_its_stated_size),
+        cmocka_unit_test(outputs_leave_no_descriptor_open),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

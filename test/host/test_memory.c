@@ -538,11 +538,20 @@ static int entries(void)
     return count - 2;
 }
 
+/* The lowest descriptor that is free. */
+static int descriptor_next(void)
+{
+    int next = dup(STDIN_FILENO);
+    close(next);
+    return next;
+}
+
 /* Runs it with these allocations refused. Returns the number of allocations. */
 static long run_refused(operation *run, long first, long last, outcome *got, int *status)
 {
     long before = atomic_load(&held);
     int files = entries();
+    int descriptor = descriptor_next();
     *got = (outcome){.hash = UINT64_C(0xcbf29ce484222325)};
     error.text[0] = '\0';
     refuse_first = first;
@@ -552,6 +561,7 @@ static long run_refused(operation *run, long first, long last, outcome *got, int
     refuse_first = refuse_last = 0;
     assert_int_equal(atomic_load(&held), before);
     assert_int_equal(entries(), files);
+    assert_int_equal(descriptor_next(), descriptor);
     return atomic_load(&asked);
 }
 
@@ -650,6 +660,47 @@ static void finer_divisions_fail_or_contain_the_truth(void **state)
     assert_true(finer > 0);
 }
 
+static int pose_around(void *context, uint64_t index, lrcs_pose *at)
+{
+    (void)context;
+    return lrcs_pose_from_azel(31.0 * (double)index, 14.0 * (double)index - 80.0, at);
+}
+
+/* Of levels that no pose uses any more, 32 are kept: 15 tolerances need more. */
+static void levels_that_are_kept_are_limited(void **state)
+{
+    (void)state;
+    lrcs_host_options options = lrcs_host_options_default();
+    lrcs_run_options run = lrcs_run_options_default();
+    lrcs_host_scene scene;
+    long one = 0; /* the blocks of a level */
+    long most = 0;
+    options.build.division = LRCS_HOST_DIVISION;
+    assert_int_equal(lrcs_host_scene_read("demo", &options, &scene, &error), LRCS_OK);
+    assert_int_equal(lrcs_host_scene_prepare(&scene, &error), LRCS_OK);
+    long start = atomic_load(&held);
+    for (int t = 0; t < 15; t++) {
+        for (int i = 0; i < 12; i++) {
+            outcome got = {0};
+            lrcs_host_sweep poses = {.first = (uint64_t)i,
+                                     .count = 1,
+                                     .threads = 1,
+                                     .pose = pose_around,
+                                     .take = result_take,
+                                     .refine = 1,
+                                     .context = &got};
+            run.tolerance = ldexp(1e-2, -t);
+            assert_int_equal(lrcs_host_sweep_run(&scene, &run, &poses, NULL, &error), LRCS_OK);
+            long more = atomic_load(&held) - start;
+            one = one > 0 ? one : more;
+            most = more > most ? more : most;
+        }
+    }
+    assert_int_equal(most, 32 * one);
+    lrcs_host_scene_free(&scene);
+    assert_true(atomic_load(&held) < start);
+}
+
 /* --- what the operations use ------------------------------------------------------------------ */
 
 static void put(char path[64], const char *name, const char *text)
@@ -717,6 +768,7 @@ int main(void)
         cmocka_unit_test(pictures_and_charts_fail_or_are_the_same),
         cmocka_unit_test(files_fail_or_are_whole),
         cmocka_unit_test(finer_divisions_fail_or_contain_the_truth),
+        cmocka_unit_test(levels_that_are_kept_are_limited),
     };
     return cmocka_run_group_tests(tests, all_begin, all_end);
 }

@@ -103,6 +103,40 @@ static void order_and_threads_change_nothing(void **state)
     }
 }
 
+/* More levels than are kept; those that were freed are built again, the same. */
+static void levels_come_and_go_without_a_trace(void **state)
+{
+    (void)state;
+    enum { TOLERANCES = 14 };
+    static lrcs_result first[TOLERANCES][POSES];
+    lrcs_result again[POSES];
+    uint32_t total[TOLERANCES * POSES];
+    uint32_t levels = 0;
+    lrcs_host_scene scene;
+    scene_make(&scene, "demo", LRCS_HOST_DIVISION, NULL);
+    for (int t = 0; t < TOLERANCES; t++) {
+        sweep_run(&scene, ldexp(1e-2, -t), 0, POSES, 1, first[t]);
+        for (uint32_t i = 0; i < POSES; i++) {
+            uint32_t k = 0;
+            total[levels] = first[t][i].facets_total;
+            while (total[k] != total[levels]) {
+                k++;
+            }
+            levels += k == levels; /* other numbers of facets: other levels */
+        }
+    }
+    assert_true(levels > 1 + 32); /* the scene's own, and those that are kept */
+    for (int t = 0; t < TOLERANCES; t++) {
+        sweep_run(&scene, ldexp(1e-2, -t), 0, POSES, 1, again);
+        for (uint32_t i = 0; i < POSES; i++) {
+            check_same(again[i].sigma_m2, first[t][i].sigma_m2);
+            check_same(again[i].bound_m2, first[t][i].bound_m2);
+            assert_int_equal(again[i].facets_total, first[t][i].facets_total);
+        }
+    }
+    lrcs_host_scene_free(&scene);
+}
+
 static void run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                 const lrcs_run_options *options, lrcs_result *result)
 {
@@ -226,13 +260,42 @@ static void a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is(void **sta
     }
 }
 
+/* At this resolution the proof of a raster takes more than the tolerance, its estimate does not:
+   only where that is accepted is there something left for finer facets. */
+static void an_accepted_estimate_leaves_room_for_finer_facets(void **state)
+{
+    (void)state;
+    lrcs_pose pose;
+    lrcs_result result;
+    lrcs_run_options options = lrcs_run_options_default();
+    options.method = LRCS_METHOD_ZBUFFER;
+    options.resolution = 1024;
+    options.tolerance = 4e-3;
+    assert_int_equal(lrcs_pose_from_azel(0, 20, &pose), LRCS_OK);
+    for (int accept = LRCS_ACCEPT_BOUND; accept <= LRCS_ACCEPT_ESTIMATE; accept++) {
+        lrcs_host_scene scene;
+        lrcs_build_options build = lrcs_build_options_default();
+        options.accept = accept;
+        scene_make(&scene, "test/host/refine_parts.toml", 0.1, NULL);
+        int times = refine(&scene, &pose, &options, 1, &result, &build);
+        int estimated = accept == LRCS_ACCEPT_ESTIMATE;
+        assert_int_equal(times > 0, estimated);
+        assert_int_equal(!(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET), estimated);
+        assert_int_equal((result.flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE) != 0, estimated);
+        check_most(options.tolerance * result.sigma_m2, result.bound_m2);
+        lrcs_host_scene_free(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pose_meets_its_tolerance_and_all_of_them_agree),
         cmocka_unit_test(order_and_threads_change_nothing),
+        cmocka_unit_test(levels_come_and_go_without_a_trace),
         cmocka_unit_test(a_scene_becomes_the_one_that_meets_the_tolerance),
         cmocka_unit_test(only_the_parts_that_the_error_is_due_to_are_divided),
+        cmocka_unit_test(an_accepted_estimate_leaves_room_for_finer_facets),
         cmocka_unit_test(a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

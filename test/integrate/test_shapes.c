@@ -72,8 +72,9 @@ static const lrcs_prepared *shapes_prepare(shapes_scene *s, const lrcs_build_opt
     return prepared;
 }
 
-/* Runs by a method; by auto closed forms may serve. Records into a static array. */
+/* Runs by a method; by auto closed forms may serve. Records and errors into static arrays. */
 static lrcs_facet_record records[1u << 16];
+static double part_error[6];
 
 static lrcs_result recorded_run(const lrcs_prepared *prepared, const double d[3], int method,
                                 lrcs_facet_record *into)
@@ -83,6 +84,7 @@ static lrcs_result recorded_run(const lrcs_prepared *prepared, const double d[3]
     lrcs_result result;
     assert_true(scene.facet_count <= ROWS(records));
     run.method = method;
+    run.part_error_m2 = part_error;
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
     size_t need = lrcs_sigma_need(prepared, &run);
     size_t before = run_work.used;
@@ -446,6 +448,66 @@ static void random_scenes_agree_with_clipped_meshes(void **state)
     assert_true(all > scenes / 20 && some > scenes / 4 && none > scenes / 20);
 }
 
+/* --- by part ---------------------------------------------------------------------------------- */
+
+/* The larger of what a facet's error adds and what it takes counts for a part: summed over the
+   parts, this is at least the larger of both sums, and at most both together. */
+static void check_part_errors(const lrcs_result *r, uint32_t parts)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < parts; i++) {
+        assert_true(part_error[i] >= 0);
+        sum += part_error[i];
+    }
+    check_most(r->budget.tessellation_m2, sum * (1 + 1e-8));
+    check_most(sum, 2 * r->budget.tessellation_m2 * (1 + 1e-8));
+}
+
+static void the_errors_of_parts_are_together_that_of_the_tessellation(void **state)
+{
+    (void)state;
+    const lrcs_build_options coarse = {1e-9, 300, LRCS_NORMALS_FLAT, 1, 0, NULL};
+    const lrcs_shape plate = {.kind = LRCS_SHAPE_BOX, .size = {2, 2, 0.25}};
+    const double d[3] = {0.48, 0.64, 0.6};
+    for (size_t b = 0; b < ROWS(bodies); b++) {
+        for (int method = LRCS_METHOD_FACET; method <= LRCS_METHOD_EXACT; method++) {
+            shapes_scene s = scene_of(glossy, 0);
+            add(&s, bodies[b]);
+            lrcs_result alone = shapes_run(&s, &coarse, d, method);
+            assert_true(part_error[0] > 0);
+            check_part_errors(&alone, 1);
+            add(&s, plate)->place.translate[2] = -0.5;
+            lrcs_result r = shapes_run(&s, &coarse, d, method);
+            check_part_errors(&r, 2);
+            check_same(part_error[1], 0); /* a plate has no curved facets */
+        }
+    }
+}
+
+/* A part that neither hides nor is hidden by others has the error that it has alone. */
+static void a_part_that_no_other_shadows_has_its_error_alone(void **state)
+{
+    (void)state;
+    const lrcs_build_options coarse = {1e-9, 300, LRCS_NORMALS_FLAT, 1, 0, NULL};
+    const double d[3] = {0.48, 0.64, 0.6};
+    double alone[6];
+    shapes_scene all = scene_of(glossy, 0);
+    assert_true(ROWS(bodies) >= 3);
+    for (int i = 0; i < 3; i++) {
+        shapes_scene s = scene_of(glossy, 0);
+        add(&s, bodies[i]);
+        shapes_run(&s, &coarse, d, LRCS_METHOD_EXACT);
+        alone[i] = part_error[0];
+        lrcs_recipe_part *part = add(&all, bodies[i]); /* in a row across the view */
+        part->place.translate[0] = 16 * 0.8 * i;
+        part->place.translate[1] = 16 * -0.6 * i;
+    }
+    shapes_run(&all, &coarse, d, LRCS_METHOD_EXACT);
+    for (int i = 0; i < 3; i++) {
+        check_rel(part_error[i], alone[i], 1e-6);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -460,6 +522,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(switched_terms_are_left_out_of_closed_forms_too),
         cmocka_unit_test(shapes_far_apart_are_all_closed_forms),
         cmocka_unit_test(random_scenes_agree_with_clipped_meshes),
+        cmocka_unit_test(the_errors_of_parts_are_together_that_of_the_tessellation),
+        cmocka_unit_test(a_part_that_no_other_shadows_has_its_error_alone),
     };
     if (argc > 2) {
         scenes = (uint32_t)strtoul(argv[1], NULL, 10);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """sigma of true curved shapes that shadow one another in part, by the definition, for
-test/integrate/test_partial_shadow.c.
+test/host/test_partial_shadow.c.
 
 Every wall is a quadric, every cap and plate a plane, each cut by planes or by a quadric. Rotated so
 that w points to the laser, the silhouette of a quadric, a rim and the curve where a plane meets a
