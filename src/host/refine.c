@@ -24,6 +24,8 @@
 #define KEPT_FACETS_MAX (UINT32_C(1) << 19)
 /* All parts are divided alike if that takes at most this many times the facets. */
 #define SHARED_MAX 1.1
+/* How far errors are reduced beside those of parts that cannot be divided any further. */
+#define FIXED_FRACTION 0.1
 /* The cost of a halving is at least that of so many facets. */
 #define COST_MIN 16.0
 
@@ -173,19 +175,23 @@ static void choice_halve(const struct lrcsi_host_levels *levels, double toleranc
 }
 
 /* Halves parts until their errors together are allowed, or no part can be halved: all parts at a
-   time, or the best one each time. Returns the number of facets. */
+   time, or the best one each time. Where parts that cannot be halved have more error than is
+   allowed, that of the others is reduced to FIXED_FRACTION of theirs. Returns the number of facets.
+ */
 static double choices_halve(const struct lrcsi_host_levels *levels, double tolerance,
                             double allowed, int all, part_choice *choice, unsigned char *halvings)
 {
     for (;;) {
         double error = 0.0;
+        double fixed = 0.0;
         double facets = 0.0;
         for (uint32_t i = 0; i < levels->parts; i++) {
             error += choice[i].error;
+            fixed += choice[i].fixed ? choice[i].error : 0.0;
             facets += choice[i].facets;
         }
         uint32_t best = choice_best(choice, levels->parts);
-        if (!(error > allowed) || best == levels->parts) {
+        if (!(error > fmax(allowed, (1.0 + FIXED_FRACTION) * fixed)) || best == levels->parts) {
             return facets;
         }
         for (uint32_t i = all ? 0 : best; i < (all ? levels->parts : best + 1); i++) {
