@@ -18,9 +18,10 @@
    on the disc of radius r: its coefficients are at most M r^-k. A rule of n points is exact for odd
    k and for k < 2 n; for even k >= 2 n its mean of x^k lies between 0 and the true mean 1/(k+1),
    since the error of Gauss's rule is f^(2n)(xi) times a positive number. So the error of its mean
-   of f is at most M sum over even k >= 2 n of r^-k / (k+1) <= M r^(-2n) / ((2n+1) (1 - r^-2)). The
-   error of a product of rules in alpha and phi, I - QQ' = (I - Q) I' + Q (I' - Q'), is at most the
-   sum of the errors of both, where M is taken over one complex and one real variable.
+   of f is at most
+       M sum over even k >= 2 n of r^-k / (k+1) <= M r^(-2n) / ((2n+1) (1 - r^-2)).
+   The error of a product of rules in alpha and phi, I - QQ' = (I - Q) I' + Q (I' - Q'), is at most
+   the sum of the errors of both, where M is taken over one complex and one real variable.
 
    M. Turning by a complex angle of size a moves a unit vector by at most e^a - 1, and N is a turn
    about z by phi of a turn by alpha of the axis; the turn about z moves only the part of N across
@@ -41,11 +42,12 @@
    Turned by alpha', N moves by (cos alpha' - 1) N + sin alpha' e_alpha, and then by phi', its part
    across the axis, s e_r, by s ((cos phi' - 1) e_r + sin phi' e_phi). So n moves by at most
        kappa = (cosh a - 1) nu + sinh a |H e_alpha|
-               + (|sin alpha| cosh a + |cos alpha| sinh a) ((cosh b - 1) |H e_r| + sinh b |H
-   e_phi|). With nu = |n| in the middle, c = g . n, p = |g x n|, u = p^2 / c^2 and, since c^2 + (g x
-   n) . (g x n) = n . n for complex n as well, w = (n . n) / c^2; areas have the weight (n .
-   n)^(1/2). In the bounds above 1 becomes n . n, which lies between nu^2 - 2 nu kappa - kappa^2 <=
-   |n . n| <= (nu + kappa)^2.
+               + s_max ((cosh b - 1) |H e_r| + sinh b |H e_phi|),
+       s_max = |sin alpha| cosh a + |cos alpha| sinh a.
+   With nu = |n| in the middle, c = g . n, p = |g x n|, u = p^2 / c^2 and, since the equation
+   c^2 + (g x n) . (g x n) = n . n holds for complex n as well, w = (n . n) / c^2; areas have the
+   weight (n . n)^(1/2). In the bounds above 1 becomes n . n, which lies between two bounds:
+       nu^2 - 2 nu kappa - kappa^2 <= |n . n| <= (nu + kappa)^2.
 
    Rounding. N and g together have an error of at most e = PATCH_NORMAL_ERR: azimuths and angles
    below 7 are accurate to 4 u of that, a sine or cosine to 2 u, axes and direction to a few u. So c
@@ -230,9 +232,9 @@ static double normal_shift(const patch_frame *f, double a, double exp_a, double 
     if (f->axis) {
         double sinh_a = 0.5 * (exp_a - 1 / exp_a);
         double sinh_b = 0.5 * (exp_b - 1 / exp_b);
-        double across = f->sine * (exp_a - sinh_a) + fabs(f->cosine) * sinh_a;
+        double s_max = f->sine * (exp_a - sinh_a) + fabs(f->cosine) * sinh_a;
         return (exp_a - sinh_a - 1) * f->nu + sinh_a * f->along_image +
-               across * ((exp_b - sinh_b - 1) * f->radial_image + sinh_b * f->around_image) +
+               s_max * ((exp_b - sinh_b - 1) * f->radial_image + sinh_b * f->around_image) +
                PATCH_NORMAL_ERR;
     }
     return (exp_b - 1) * (f->sine + a) * exp_a + (exp_a - 1) + PATCH_NORMAL_ERR;
@@ -244,31 +246,31 @@ static double integrand_bound(const patch_frame *f, const lrcs_brdf *brdf, doubl
                               double exp_b)
 {
     double kappa = normal_shift(f, a, exp_a, exp_b);
-    double near = f->c - kappa;
+    double c_min = f->c - kappa;
     double square = f->nu * f->nu - kappa * (2 * f->nu + kappa);
-    double longest = f->axis ? f->nu + kappa : 1; /* bounds of |n . n|^(1/2) */
-    double least = f->axis ? sqrt(lrcsi_max(0, square)) : 1;
-    double far = (f->c + kappa) / least;
-    double most = 0;
-    if (!(kappa <= 0.5 * f->c) || !(least > 0)) {
+    double nu_max = f->axis ? f->nu + kappa : 1; /* bounds of |n . n|^(1/2) */
+    double nu_min = f->axis ? sqrt(lrcsi_max(0, square)) : 1;
+    double x = (f->c + kappa) / nu_min;
+    double bound = 0;
+    if (!(kappa <= 0.5 * f->c) || !(nu_min > 0)) {
         return HUGE_VAL;
     }
     if (brdf->A > 0) {
-        double decrease =
-            (2 * f->p * kappa + kappa * kappa + f->u * kappa * (2 * f->c + kappa)) / (near * near);
+        double decrease = (2 * f->p * kappa + kappa * kappa + f->u * kappa * (2 * f->c + kappa)) /
+                          (c_min * c_min);
         double exponent =
             (decrease - f->u + 16 * LRCSI_U * (decrease + f->u)) / (brdf->s * brdf->s);
-        double w = longest / near * (longest / near);
-        most += brdf->A * lrcsi_exp(exponent) * (w * w);
+        double w = nu_max / c_min * (nu_max / c_min);
+        bound += brdf->A * lrcsi_exp(exponent) * (w * w);
     }
     if (brdf->B > 0) {
-        most += brdf->B * far * far * (far > 1 ? lrcsi_exp(brdf->m * (far - 1)) : 1);
+        bound += brdf->B * x * x * (x > 1 ? lrcsi_exp(brdf->m * (x - 1)) : 1);
     }
     if (f->step > 0) {
         double low = f->fourth ? fabs(f->cosine) - (exp_a - 1) : 1;
-        most *= low > 0 ? (f->sine + a) * exp_a / (low * low * low * low) : HUGE_VAL;
+        bound *= low > 0 ? (f->sine + a) * exp_a / (low * low * low * low) : HUGE_VAL;
     }
-    return 1.000001 * longest * most;
+    return 1.000001 * nu_max * bound;
 }
 
 /* Chooses the rule in one variable: that with the fewest points whose remainder is at most
@@ -278,21 +280,21 @@ static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf
                                      double target, double *error)
 {
     double best[RULES];
-    double other = lrcsi_exp(along ? f->half : f->step);
+    double exp_other = lrcsi_exp(along ? f->half : f->step);
     for (int n = 0; n < RULES; n++) {
         best[n] = HUGE_VAL;
     }
     for (int i = RADII - 1; i >= 0 && !(best[0] <= target); i--) {
         double r = radii[i];
-        double wide = lrcsi_exp(r * (along ? f->step : f->half));
-        double most = along ? integrand_bound(f, brdf, r * f->step, wide, other)
-                            : integrand_bound(f, brdf, f->step, other, wide);
+        double exp_own = lrcsi_exp(r * (along ? f->step : f->half));
+        double bound = along ? integrand_bound(f, brdf, r * f->step, exp_own, exp_other)
+                             : integrand_bound(f, brdf, f->step, exp_other, exp_own);
         double q = 1 / (r * r);
-        for (int n = 0, k = 0; n < RULES && most < HUGE_VAL; n++) {
+        for (int n = 0, k = 0; n < RULES && bound < HUGE_VAL; n++) {
             for (; k < rules[n].points; k++) {
-                most *= q;
+                bound *= q;
             }
-            best[n] = lrcsi_min(best[n], most / ((2 * k + 1) * (1 - q)));
+            best[n] = lrcsi_min(best[n], bound / ((2 * k + 1) * (1 - q)));
         }
     }
     int n = 0;

@@ -620,8 +620,9 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
 {
     double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent) +
                    2 * max_reach(prepared); /* of the scene, in any pose */
-    double most = depth / bin_m + 4;
-    size_t bins = most < LRCS_PROFILE_BINS ? (size_t)most + 1 : (size_t)LRCS_PROFILE_BINS + 4;
+    double bins_max = depth / bin_m + 4;
+    size_t bins =
+        bins_max < LRCS_PROFILE_BINS ? (size_t)bins_max + 1 : (size_t)LRCS_PROFILE_BINS + 4;
     size_t need = lrcsi_work_bytes(bins, sizeof(lrcs_profile_bin));
     need = lrcsi_work_add(need, lrcsi_work_bytes(bins, sizeof(bin_sums)));
     need = lrcsi_work_add(need, lrcsi_view_need(prepared));

@@ -277,29 +277,29 @@ static lrcsi_tessellation wall_error(const lrcsi_deviation *deviation, double a,
                                      const patch_fractions *f, int state, int partner,
                                      const sector_bound *bound)
 {
-    double most = (1 + a) * deviation->most;
+    double sup = (1 + a) * deviation->most;
     double lit = f->lit * ((1 + a) * deviation->point + stretch * deviation->value);
     if (state == PATCH_HIDDEN) {
-        return (lrcsi_tessellation){f->gain * most, f->loss * most};
+        return (lrcsi_tessellation){f->gain * sup, f->loss * sup};
     }
     if (state == PATCH_UNLIT) {
-        return (lrcsi_tessellation){partner == PATCH_UNLIT ? deviation->whole : most, 0};
+        return (lrcsi_tessellation){partner == PATCH_UNLIT ? deviation->whole : sup, 0};
     }
     if (state == PATCH_VISIBLE && partner == PATCH_VISIBLE) {
         return (lrcsi_tessellation){deviation->whole, deviation->whole};
     }
     if (bound->method == BY_HIDDEN) {
-        return (lrcsi_tessellation){deviation->whole + f->hidden * most,
-                                    deviation->whole + fmin(1, f->hidden + f->loss) * most};
+        return (lrcsi_tessellation){deviation->whole + f->hidden * sup,
+                                    deviation->whole + fmin(1, f->hidden + f->loss) * sup};
     }
     if (bound->method == BY_ROWS) {
         lit = deviation->whole + bound->rows * (deviation->region + stretch * deviation->value);
-        most = HUGE_VAL;
+        sup = HUGE_VAL;
     } else if (bound->method == BY_REGION) {
         lit = deviation->region + stretch * deviation->value;
     }
-    return (lrcsi_tessellation){fmin(lit + deviation->value * (1 + a) * f->gain, most),
-                                fmin(lit + deviation->value * (1 + a) * f->loss, most)};
+    return (lrcsi_tessellation){fmin(lit + deviation->value * (1 + a) * f->gain, sup),
+                                fmin(lit + deviation->value * (1 + a) * f->loss, sup)};
 }
 
 /* The error, per unit of area, of a facet of a closed part whose inside seems to be visible because
@@ -313,8 +313,8 @@ static double inside_error(const lrcsi_view *view, uint32_t facet, const lrcs_br
         !(visible[facet].high > 0)) {
         return 0;
     }
-    double most = lrcsi_deviation_make(brdf, -incidence->cos_theta, incidence->tan2, &flat).most;
-    return most * fmin(1, visible[facet].high / incidence->projected);
+    double sup = lrcsi_deviation_make(brdf, -incidence->cos_theta, incidence->tan2, &flat).most;
+    return sup * fmin(1, visible[facet].high / incidence->projected);
 }
 
 /* An upper bound of what a patch may reflect from its other side, the one that the facet turns away
