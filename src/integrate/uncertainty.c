@@ -19,6 +19,7 @@
 
 #include "base/elementary.h"
 #include "base/range.h"
+#include "base/sort.h"
 #include "base/work.h"
 #include "integrate/sensitivity.h"
 #include "integrate/sigma.h"
@@ -319,23 +320,6 @@ static lrcs_brdf source_draw(const source *one, uint64_t *state)
                        lrcsi_max(0, own->m + deviate[3] * e->m)};
 }
 
-/* Sorts in place by Shell's method, with Ciura's gaps (2001) continued by a factor of 9/4. */
-static void sort_ascending(double *x, uint32_t count)
-{
-    static const uint32_t gap[] = {1,    4,    10,   23,    57,    132,    301,    701,
-                                   1750, 3937, 8858, 19930, 44842, 100894, 227011, 510774};
-    for (size_t g = sizeof gap / sizeof gap[0]; g-- > 0;) {
-        for (uint32_t i = gap[g]; i < count; i++) {
-            double one = x[i];
-            uint32_t j = i;
-            for (; j >= gap[g] && x[j - gap[g]] > one; j -= gap[g]) {
-                x[j] = x[j - gap[g]];
-            }
-            x[j] = one;
-        }
-    }
-}
-
 /* A quantile of the sample, by linear interpolation between the order statistics. */
 static double quantile(const double *sorted, uint32_t count, double probability)
 {
@@ -366,7 +350,7 @@ static void sample_make(const source *list, uint32_t sources, uint32_t count, do
     for (uint32_t i = 0; i < options->draws; i++) {
         lrcsi_sum_add(&square, (draw[i] - mean) * (draw[i] - mean));
     }
-    sort_ascending(draw, options->draws);
+    lrcsi_sort_ascending(draw, options->draws);
     uncertainty->draws = options->draws;
     uncertainty->sample_mean_m2 = mean;
     uncertainty->sample_m2 = sqrt(lrcsi_sum_value(&square) / (options->draws - 1));
