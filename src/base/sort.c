@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Radix sort from the lowest digit up (Knuth TAOCP 3, 5.2.5), in digits of 11 bits. A digit that is
-   the same in every key costs nothing. */
+/* Radix sort from the lowest digit up (Knuth TAOCP 3, 5.2.5), in digits of 11 bits; a digit that is
+   the same in every key costs nothing. Shell's sort, where there is no memory for that. */
 #include "base/sort.h"
 
+#include <stddef.h>
 #include <string.h>
 
 enum { RADIX_BITS = 11, RADIX_SIZE = 1 << RADIX_BITS };
@@ -55,5 +56,22 @@ void lrcsi_sort_pairs(uint64_t *key, uint32_t *value, uint64_t *key_spare, uint3
     if (from != key) {
         memcpy(key, from, count * sizeof *key);
         memcpy(value, value_from, count * sizeof *value);
+    }
+}
+
+/* Shell's sort with the gaps of Ciura (2001), continued by a factor of 9/4. */
+void lrcsi_sort_ascending(double *x, uint32_t count)
+{
+    static const uint32_t gap[] = {1,    4,    10,   23,    57,    132,    301,    701,
+                                   1750, 3937, 8858, 19930, 44842, 100894, 227011, 510774};
+    for (size_t g = sizeof gap / sizeof gap[0]; g-- > 0;) {
+        for (uint32_t i = gap[g]; i < count; i++) {
+            double moved = x[i];
+            uint32_t at = i;
+            for (; at >= gap[g] && x[at - gap[g]] > moved; at -= gap[g]) {
+                x[at] = x[at - gap[g]];
+            }
+            x[at] = moved;
+        }
     }
 }

@@ -21,9 +21,14 @@
 #define PART_HALVINGS_MAX 64
 /* The number of levels kept, and of their facets, besides those in use. */
 #define KEPT_LEVELS_MAX 32u
-#define KEPT_FACETS_MAX (UINT32_C(1) << 19)
+#define KEPT_FACETS_MAX (UINT32_C(1) << 20)
+/* Where no division that is allowed is likely to meet the tolerance, parts have at most this
+   fraction of the facets that they may have. */
+#define MISSED_FRACTION 0.25
 /* All parts are divided alike if that takes at most this many times the facets. */
 #define SHARED_MAX 1.1
+/* How far errors are reduced beside those of parts that cannot be divided any further. */
+#define FIXED_FRACTION 0.1
 /* The cost of a halving is at least that of so many facets. */
 #define COST_MIN 16.0
 
@@ -156,14 +161,21 @@ static uint32_t choice_best(const part_choice *choice, uint32_t parts)
     return best;
 }
 
+/* What divisions are chosen for. */
+typedef struct choice_goal {
+    double division;   /* of the scene itself */
+    double tolerance;  /* of the pose */
+    double allowed;    /* the errors of all parts together */
+    double max_facets; /* of each part */
+} choice_goal;
+
 /* Halves one part, unless it would be too fine; then it is fixed. */
-static void choice_halve(const struct lrcsi_host_levels *levels, double tolerance,
-                         part_choice *choice, unsigned char *halvings)
+static void choice_halve(const choice_goal *goal, part_choice *choice, unsigned char *halvings)
 {
-    double division = ldexp(levels->build.division, -(int)*halvings - 1);
+    double division = ldexp(goal->division, -(int)*halvings - 1);
     if (choice->fixed || *halvings >= PART_HALVINGS_MAX ||
-        division < tolerance / DIVISION_FACTOR_MAX ||
-        choice->facets * choice->growth > levels->build.max_facets) {
+        division < goal->tolerance / DIVISION_FACTOR_MAX ||
+        choice->facets * choice->growth > goal->max_facets) {
         choice->fixed = 1;
         return;
     }
@@ -173,47 +185,58 @@ static void choice_halve(const struct lrcsi_host_levels *levels, double toleranc
 }
 
 /* Halves parts until their errors together are allowed, or no part can be halved: all parts at a
-   time, or the best one each time. Returns the number of facets. */
-static double choices_halve(const struct lrcsi_host_levels *levels, double tolerance,
-                            double allowed, int all, part_choice *choice, unsigned char *halvings)
+   time, or the best one each time. Where parts that cannot be halved have more error than is
+   allowed, that of the others is reduced to FIXED_FRACTION of theirs. Returns the number of facets;
+   *error is the errors together. */
+static double choices_halve(const choice_goal *goal, uint32_t parts, int all, part_choice *choice,
+                            unsigned char *halvings, double *error)
 {
     for (;;) {
-        double error = 0.0;
+        double fixed = 0.0;
         double facets = 0.0;
-        for (uint32_t i = 0; i < levels->parts; i++) {
-            error += choice[i].error;
+        *error = 0.0;
+        for (uint32_t i = 0; i < parts; i++) {
+            *error += choice[i].error;
+            fixed += choice[i].fixed ? choice[i].error : 0.0;
             facets += choice[i].facets;
         }
-        uint32_t best = choice_best(choice, levels->parts);
-        if (!(error > allowed) || best == levels->parts) {
+        uint32_t best = choice_best(choice, parts);
+        if (!(*error > fmax(goal->allowed, (1.0 + FIXED_FRACTION) * fixed)) || best == parts) {
             return facets;
         }
-        for (uint32_t i = all ? 0 : best; i < (all ? levels->parts : best + 1); i++) {
-            choice_halve(levels, tolerance, &choice[i], &halvings[i]);
+        for (uint32_t i = all ? 0 : best; i < (all ? parts : best + 1); i++) {
+            choice_halve(goal, &choice[i], &halvings[i]);
         }
     }
 }
 
-/* The halvings with which the tolerance is likely to be met, or all that are allowed: of the parts
-   that the error is due to; but of all parts alike, which more poses share, if that takes about as
-   few facets. There is room for twice as many. Returns 0 if they are those of `from`. */
+/* The halvings with which the tolerance is likely to be met, or to be missed by little: of the
+   parts that the error is due to; but of all parts alike, which more poses share, if that takes
+   about as few facets. There is room for twice as many. Returns 0 if they are those of `from`. */
 static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_scene *scene,
                            const lrcs_run_options *options, const lrcs_result *result,
                            const unsigned char *from, unsigned char *halvings)
 {
-    double allowed = error_allowed(options, result);
+    choice_goal goal = {levels->build.division, options->tolerance, error_allowed(options, result),
+                        levels->build.max_facets};
     part_choice *choice = calloc(levels->parts, sizeof *choice);
     unsigned char *alike = halvings + levels->parts;
     memcpy(halvings, from, levels->parts);
-    memcpy(alike, from, levels->parts);
-    if (choice && allowed > 0.0) {
+    for (int missed = 0; choice && goal.allowed > 0.0 && missed < 2; missed++) {
+        double error;
+        memcpy(halvings, from, levels->parts);
+        memcpy(alike, from, levels->parts);
         choices_start(scene, options, result, choice);
-        double facets = choices_halve(levels, options->tolerance, allowed, 0, choice, halvings);
+        double facets = choices_halve(&goal, levels->parts, 0, choice, halvings, &error);
+        int is_met = !(error > goal.allowed);
         choices_start(scene, options, result, choice);
-        if (choices_halve(levels, options->tolerance, allowed, 1, choice, alike) <
-            SHARED_MAX * facets) {
+        if (choices_halve(&goal, levels->parts, 1, choice, alike, &error) < SHARED_MAX * facets) {
             memcpy(halvings, alike, levels->parts);
         }
+        if (is_met) {
+            break;
+        }
+        goal.max_facets = MISSED_FRACTION * levels->build.max_facets;
     }
     free(choice);
     return memcmp(halvings, from, levels->parts) != 0;

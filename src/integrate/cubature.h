@@ -23,8 +23,8 @@ typedef struct lrcsi_cubature {
     lrcsi_reflection upper_bound; /* of the two terms of f_r cos on the surface */
     double diffuse_min;           /* a lower bound of the diffuse term of f_r cos on the surface */
     double negligible;            /* errors of f_r cos below this are accepted */
-    double reference; /* the mean of f_r cos over the surfaces with which this one is summed: errors
-                         of f_r cos below the tolerance times this are accepted too */
+    double reference; /* f_r cos of the surfaces with which this one is summed: errors below the
+                         tolerance times this are accepted too */
     lrcsi_sum glint, diffuse;
     int moments;                    /* 1: compute the next two, too; set by the caller */
     lrcsi_sum glint_u, diffuse_log; /* the integral of the glint times tan^2, and that of the

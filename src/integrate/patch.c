@@ -4,21 +4,24 @@
 
    The patch in the shape's frame. The normal at azimuth phi, at an angle alpha from the axis, is
        N = (sin alpha cos phi, sin alpha sin phi, cos alpha).
-   The patch extends over the azimuths of one sector and has these elements of area
-   (mesh/profile.c): straight wall      (rho0 + rho1) / 2 times the slant height, d phi; alpha is
-   constant sphere, dome       R^2 sin alpha, d alpha d phi paraboloid         (R / y_rim)^2 sin
-   alpha / cos^4 alpha, d alpha d phi: at slope y = tan alpha, rho = R y / y_rim, and the element of
-   the meridian is d rho sqrt(1 + y^2) Rows are at equal steps of alpha. With g the direction to the
-   laser in that frame, c = g . N and p = |g x N|, F is a function of u = p^2 / c^2 = tan^2 theta
-   and w = 1 + u = 1 / c^2: F = A w^2 exp(-u / s^2) + B w^(-m/2 - 1).
+   The patch extends over the azimuths of one sector. Its elements of area (mesh/profile.c) are
+   - on a straight wall, where alpha is constant: (rho0 + rho1) / 2 times the slant height, d phi;
+   - on a sphere or dome: R^2 sin alpha, d alpha d phi;
+   - on a paraboloid: (R / y_rim)^2 sin alpha / cos^4 alpha, d alpha d phi. At slope y = tan alpha,
+     rho = R y / y_rim, and the element of the meridian is d rho sqrt(1 + y^2).
+
+   Rows are at equal steps of alpha. With g the direction to the laser in that frame, c = g . N and
+   p = |g x N|, F is a function of u = p^2 / c^2 = tan^2 theta and w = 1 + u = 1 / c^2:
+   F = A w^2 exp(-u / s^2) + B w^(-m/2 - 1).
 
    Remainder. On [-1, 1] let f have a Taylor series about 0 whose radius exceeds r > 1, and |f| <= M
    on the disc of radius r: its coefficients are at most M r^-k. A rule of n points is exact for odd
    k and for k < 2 n; for even k >= 2 n its mean of x^k lies between 0 and the true mean 1/(k+1),
-   since the error of Gauss's rule is f^(2n)(xi) times a positive number. So its mean of f errs by
-       at most M sum over even k >= 2 n of r^-k / (k+1) <= M r^(-2n) / ((2n+1) (1 - r^-2)).
-   Of a product of rules in alpha and phi, I - QQ' = (I - Q) I' + Q (I' - Q') errs by at most the
-   sum of the two, where M is taken over one complex and one real variable.
+   since the error of Gauss's rule is f^(2n)(xi) times a positive number. So the error of its mean
+   of f is at most
+       M sum over even k >= 2 n of r^-k / (k+1) <= M r^(-2n) / ((2n+1) (1 - r^-2)).
+   The error of a product of rules in alpha and phi, I - QQ' = (I - Q) I' + Q (I' - Q'), is at most
+   the sum of the errors of both, where M is taken over one complex and one real variable.
 
    M. Turning by a complex angle of size a moves a unit vector by at most e^a - 1, and N is a turn
    about z by phi of a turn by alpha of the axis; the turn about z moves only the part of N across
@@ -39,11 +42,12 @@
    Turned by alpha', N moves by (cos alpha' - 1) N + sin alpha' e_alpha, and then by phi', its part
    across the axis, s e_r, by s ((cos phi' - 1) e_r + sin phi' e_phi). So n moves by at most
        kappa = (cosh a - 1) nu + sinh a |H e_alpha|
-               + (|sin alpha| cosh a + |cos alpha| sinh a) ((cosh b - 1) |H e_r| + sinh b |H
-   e_phi|). With nu = |n| in the middle, c = g . n, p = |g x n|, u = p^2 / c^2 and, since c^2 + (g x
-   n) . (g x n) = n . n for complex n as well, w = (n . n) / c^2; areas have the weight (n .
-   n)^(1/2). In the bounds above 1 becomes n . n, which lies between nu^2 - 2 nu kappa - kappa^2 <=
-   |n . n| <= (nu + kappa)^2.
+               + s_max ((cosh b - 1) |H e_r| + sinh b |H e_phi|),
+       s_max = |sin alpha| cosh a + |cos alpha| sinh a.
+   With nu = |n| in the middle, c = g . n, p = |g x n|, u = p^2 / c^2 and, since the equation
+   c^2 + (g x n) . (g x n) = n . n holds for complex n as well, w = (n . n) / c^2; areas have the
+   weight (n . n)^(1/2). In the bounds above 1 becomes n . n, which lies between two bounds:
+       nu^2 - 2 nu kappa - kappa^2 <= |n . n| <= (nu + kappa)^2.
 
    Rounding. N and g together have an error of at most e = PATCH_NORMAL_ERR: azimuths and angles
    below 7 are accurate to 4 u of that, a sine or cosine to 2 u, axes and direction to a few u. So c
@@ -66,20 +70,20 @@
 #define PATCH_AREA_ERR   (512 * LRCSI_U)
 /* The remainder that a rule should have, relative to F in the middle of the patch. */
 #define REMAINDER_TARGET 0x1p-26
-/* The largest remainder, relative to the mean, with which the mean is used. */
-#define REMAINDER_MOST 0x1p-10
+/* The mean is not used if its remainder, relative to the mean, is larger than this. */
+#define REMAINDER_MAX 0x1p-10
 /* The largest number of pieces into which a patch is divided in each variable. */
-#define PIECES_MOST 4
+#define PIECES_MAX 4
 /* The largest number of points of a rule. */
-#define POINTS_MOST 8
+#define POINTS_MAX 8
 /* With a smaller slope s the flank of the glint is too steep for the rounding error of u. */
-#define GLINT_SLOPE_LEAST 1e-3
+#define GLINT_SLOPE_MIN 1e-3
 
 /* Rules for the mean over [-1, 1]: the points >= 0 of those with 2, 3, 4, 5, 6 and 8 points, and
    their weights, each for x and -x. Generated to 50 digits with Newton's method. */
 typedef struct gauss_rule {
     int points, half;
-    double x[POINTS_MOST / 2], weight[POINTS_MOST / 2];
+    double x[POINTS_MAX / 2], weight[POINTS_MAX / 2];
 } gauss_rule;
 
 static const gauss_rule rules[] = {
@@ -228,9 +232,9 @@ static double normal_shift(const patch_frame *f, double a, double exp_a, double 
     if (f->axis) {
         double sinh_a = 0.5 * (exp_a - 1 / exp_a);
         double sinh_b = 0.5 * (exp_b - 1 / exp_b);
-        double across = f->sine * (exp_a - sinh_a) + fabs(f->cosine) * sinh_a;
+        double s_max = f->sine * (exp_a - sinh_a) + fabs(f->cosine) * sinh_a;
         return (exp_a - sinh_a - 1) * f->nu + sinh_a * f->along_image +
-               across * ((exp_b - sinh_b - 1) * f->radial_image + sinh_b * f->around_image) +
+               s_max * ((exp_b - sinh_b - 1) * f->radial_image + sinh_b * f->around_image) +
                PATCH_NORMAL_ERR;
     }
     return (exp_b - 1) * (f->sine + a) * exp_a + (exp_a - 1) + PATCH_NORMAL_ERR;
@@ -242,58 +246,59 @@ static double integrand_bound(const patch_frame *f, const lrcs_brdf *brdf, doubl
                               double exp_b)
 {
     double kappa = normal_shift(f, a, exp_a, exp_b);
-    double near = f->c - kappa;
+    double c_min = f->c - kappa;
     double square = f->nu * f->nu - kappa * (2 * f->nu + kappa);
-    double longest = f->axis ? f->nu + kappa : 1; /* bounds of |n . n|^(1/2) */
-    double least = f->axis ? sqrt(lrcsi_max(0, square)) : 1;
-    double far = (f->c + kappa) / least;
-    double most = 0;
-    if (!(kappa <= 0.5 * f->c) || !(least > 0)) {
+    double nu_max = f->axis ? f->nu + kappa : 1; /* bounds of |n . n|^(1/2) */
+    double nu_min = f->axis ? sqrt(lrcsi_max(0, square)) : 1;
+    double x = (f->c + kappa) / nu_min;
+    double bound = 0;
+    if (!(kappa <= 0.5 * f->c) || !(nu_min > 0)) {
         return HUGE_VAL;
     }
     if (brdf->A > 0) {
-        double decrease =
-            (2 * f->p * kappa + kappa * kappa + f->u * kappa * (2 * f->c + kappa)) / (near * near);
+        double decrease = (2 * f->p * kappa + kappa * kappa + f->u * kappa * (2 * f->c + kappa)) /
+                          (c_min * c_min);
         double exponent =
             (decrease - f->u + 16 * LRCSI_U * (decrease + f->u)) / (brdf->s * brdf->s);
-        double w = longest / near * (longest / near);
-        most += brdf->A * lrcsi_exp(exponent) * (w * w);
+        double w = nu_max / c_min * (nu_max / c_min);
+        bound += brdf->A * lrcsi_exp(exponent) * (w * w);
     }
     if (brdf->B > 0) {
-        most += brdf->B * far * far * (far > 1 ? lrcsi_exp(brdf->m * (far - 1)) : 1);
+        bound += brdf->B * x * x * (x > 1 ? lrcsi_exp(brdf->m * (x - 1)) : 1);
     }
     if (f->step > 0) {
         double low = f->fourth ? fabs(f->cosine) - (exp_a - 1) : 1;
-        most *= low > 0 ? (f->sine + a) * exp_a / (low * low * low * low) : HUGE_VAL;
+        bound *= low > 0 ? (f->sine + a) * exp_a / (low * low * low * low) : HUGE_VAL;
     }
-    return 1.000001 * longest * most;
+    return 1.000001 * nu_max * bound;
 }
 
-/* The rule in one variable with the fewest points whose remainder is at most `enough`, or the one
-   with the most points; *error is its remainder. along: 1 for alpha, 0 for phi. */
+/* Chooses the rule in one variable: that with the fewest points whose remainder is at most
+   `target`, or else the one with the most points. *error is its remainder. along: 1 for alpha, 0
+   for phi. */
 static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf, int along,
-                                     double enough, double *error)
+                                     double target, double *error)
 {
     double best[RULES];
-    double other = lrcsi_exp(along ? f->half : f->step);
+    double exp_other = lrcsi_exp(along ? f->half : f->step);
     for (int n = 0; n < RULES; n++) {
         best[n] = HUGE_VAL;
     }
-    for (int i = RADII - 1; i >= 0 && !(best[0] <= enough); i--) {
+    for (int i = RADII - 1; i >= 0 && !(best[0] <= target); i--) {
         double r = radii[i];
-        double wide = lrcsi_exp(r * (along ? f->step : f->half));
-        double most = along ? integrand_bound(f, brdf, r * f->step, wide, other)
-                            : integrand_bound(f, brdf, f->step, other, wide);
+        double exp_own = lrcsi_exp(r * (along ? f->step : f->half));
+        double bound = along ? integrand_bound(f, brdf, r * f->step, exp_own, exp_other)
+                             : integrand_bound(f, brdf, f->step, exp_other, exp_own);
         double q = 1 / (r * r);
-        for (int n = 0, k = 0; n < RULES && most < HUGE_VAL; n++) {
+        for (int n = 0, k = 0; n < RULES && bound < HUGE_VAL; n++) {
             for (; k < rules[n].points; k++) {
-                most *= q;
+                bound *= q;
             }
-            best[n] = lrcsi_min(best[n], most / ((2 * k + 1) * (1 - q)));
+            best[n] = lrcsi_min(best[n], bound / ((2 * k + 1) * (1 - q)));
         }
     }
     int n = 0;
-    while (n + 1 < RULES && !(best[n] <= enough)) {
+    while (n + 1 < RULES && !(best[n] <= target)) {
         n++;
     }
     *error = 1.000001 * best[n];
@@ -334,7 +339,7 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double s
 }
 
 /* Writes the points and weights of a rule, and returns how many there are. */
-static int rule_points(const gauss_rule *rule, double x[POINTS_MOST], double weight[POINTS_MOST])
+static int rule_points(const gauss_rule *rule, double x[POINTS_MAX], double weight[POINTS_MAX])
 {
     int count = 0;
     for (int k = 0; k < rule->half; k++) {
@@ -349,15 +354,15 @@ static int rule_points(const gauss_rule *rule, double x[POINTS_MOST], double wei
 }
 
 /* Adds the sum over the points of both rules, times `fraction`. Sines and cosines are computed once
-   for each row and column. Returns 0 as patch_add_point. */
+   for each row and column. Returns 0 if the rounding error of a point is too large. */
 static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf, const gauss_rule *along,
                             const gauss_rule *around, double fraction, lrcsi_patch *patch)
 {
-    double x[POINTS_MOST] = {0};
-    double weight[POINTS_MOST] = {0};
-    double azimuth[POINTS_MOST][2] = {{0}};
-    double share[POINTS_MOST] = {0};
-    int columns = rule_points(around, x, share);
+    double x[POINTS_MAX] = {0};
+    double weight[POINTS_MAX] = {0};
+    double azimuth[POINTS_MAX][2] = {{0}};
+    double column_weight[POINTS_MAX] = {0};
+    int columns = rule_points(around, x, column_weight);
     for (int k = 0; k < columns; k++) {
         double phi = f->phi + x[k] * f->half;
         azimuth[k][0] = sin(phi);
@@ -378,8 +383,8 @@ static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf, const g
             density = f->fourth ? sine / (cosine * cosine * cosine * cosine) : sine;
         }
         for (int k = 0; k < columns && known; k++) {
-            known =
-                patch_add_point(f, brdf, sine, cosine, azimuth[k], row * share[k] * density, patch);
+            known = patch_add_point(f, brdf, sine, cosine, azimuth[k],
+                                    row * column_weight[k] * density, patch);
         }
     }
     return known;
@@ -401,8 +406,8 @@ static patch_frame frame_piece(const patch_frame *whole, int n, int i, int k)
     return f;
 }
 
-/* The rules for one piece; *remainder is theirs, and *middle the reflection in the middle. Returns
-   0 if some of the piece may be edge-on to the laser. */
+/* Chooses the rules for one piece. *remainder is that of their product, *middle the integrand in
+   the middle of the piece. Returns 0 if some of the piece may be edge-on to the laser. */
 static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const gauss_rule *rule[2],
                        double *remainder, double *middle)
 {
@@ -423,19 +428,20 @@ static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const gauss_
 }
 
 enum pieces_answer {
-    PIECES_UNKNOWN, /* some may be edge-on to the laser, or have too large a rounding error */
+    PIECES_UNKNOWN, /* a piece may be edge-on to the laser, or its rounding error is too large */
     PIECES_COARSE,  /* more pieces are needed for a small remainder */
     PIECES_DONE
 };
 
-/* The mean over n x n pieces of the patch, without the area; and a pieces_answer. No point is
-   evaluated unless the remainder is small enough, or there cannot be more pieces. */
+/* Computes the mean over n x n pieces of the patch, without the factor of area. Returns a
+   pieces_answer. No point is evaluated unless the remainder is small enough or n is the largest
+   allowed. */
 static int patch_pieces(const patch_frame *whole, const lrcs_brdf *brdf, int n, lrcsi_patch *patch)
 {
-    const gauss_rule *rule[PIECES_MOST * PIECES_MOST][2];
+    const gauss_rule *rule[PIECES_MAX * PIECES_MAX][2];
     int rows = whole->step > 0 ? n : 1;
     double fraction = 1.0 / (rows * n);
-    double middles = 0;
+    double mean = 0; /* of the integrand in the middles of pieces */
     patch->glint = patch->diffuse = patch->glint_u = patch->diffuse_log = 0;
     patch->remainder = patch->rounding = 0;
     for (int i = 0; i < rows * n; i++) {
@@ -446,9 +452,9 @@ static int patch_pieces(const patch_frame *whole, const lrcs_brdf *brdf, int n, 
             return PIECES_UNKNOWN;
         }
         patch->remainder += fraction * remainder;
-        middles += fraction * middle;
+        mean += fraction * middle;
     }
-    if (n < PIECES_MOST && patch->remainder > 4 * REMAINDER_TARGET * middles) {
+    if (n < PIECES_MAX && patch->remainder > 4 * REMAINDER_TARGET * mean) {
         return PIECES_COARSE;
     }
     int known = 1;
@@ -469,7 +475,7 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
         return 0;
     }
     int answer = PIECES_UNKNOWN;
-    for (int n = 1; n <= PIECES_MOST && answer != PIECES_DONE; n *= 2) {
+    for (int n = 1; n <= PIECES_MAX && answer != PIECES_DONE; n *= 2) {
         answer = patch_pieces(&f, brdf, n, patch);
     }
     if (answer != PIECES_DONE) {
@@ -483,7 +489,7 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
     patch->diffuse_log *= f.area;
     patch->rounding *= 1.0001 * f.area;
     patch->remainder *= 1.0001 * f.area;
-    return patch->remainder <= REMAINDER_MOST * (patch->glint + patch->diffuse);
+    return patch->remainder <= REMAINDER_MAX * (patch->glint + patch->diffuse);
 }
 
 int lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcs_brdf *brdf,
@@ -494,7 +500,7 @@ int lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcs_
     const lrcs_part *part = &scene->part[index];
     lrcsi_patch made = {.part = index, .side = view->facing[facet]};
     if (!plan->patches || made.side == 0 || !lrcsi_patch_exists(view->prepared, facet) ||
-        (brdf->A > 0 && !(brdf->s >= GLINT_SLOPE_LEAST)) ||
+        (brdf->A > 0 && !(brdf->s >= GLINT_SLOPE_MIN)) ||
         !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet,
                                 &made.at)) {
         return 0;

@@ -7,18 +7,18 @@
 #include "integrate/plan.h"
 #include "mesh/tessellate.h"
 
-/* f_r cos^2, as its mean over a patch per unit of area of the patch's facets. */
+/* The mean of f_r cos^2 over a patch, per unit of area of the patch's facets. */
 typedef struct lrcsi_patch {
     double glint, diffuse;
     double glint_u;      /* the mean of u times the glint, u = tan^2(theta) */
-    double diffuse_log;  /* the mean of log(1 + u) times the diffuse part */
-    double remainder;    /* a bound on the error of glint + diffuse from the quadrature rule */
-    double rounding;     /* a bound on their rounding error */
-    double area_err;     /* bound on the relative change of the area of a part of the facets by
-                            rounding of their corners */
-    lrcsi_wall_patch at; /* where it is on the shape */
-    uint32_t part;       /* the shape */
-    int side;            /* 1: from outside, -1: from inside; 0: this is no patch yet */
+    double diffuse_log;  /* the mean of log(1 + u) times the diffuse term */
+    double remainder;    /* bound on the error of glint + diffuse due to the quadrature rule */
+    double rounding;     /* bound on their rounding error */
+    double area_err;     /* bound on the relative change that rounding of the corners makes in the
+                            area of a region of the facets */
+    lrcsi_wall_patch at; /* its position on the shape */
+    uint32_t part;       /* the part that is the shape */
+    int side;            /* 1: seen from outside, -1: from inside; 0: there is no patch yet */
     int known;           /* lrcsi_patch_make returned 1 */
 } lrcsi_patch;
 

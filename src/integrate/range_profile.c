@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* sigma over range. What is visible is decided in visibility/occlude.c, and what a facet reflects
-   in integrate/total.c; this file decides how the visible projected area of a facet divides among
-   bins of range, and bounds the error of that. The stages of profile_sum:
+/* Range profiles: sigma in bins of range. visibility/occlude.c decides what is visible of a facet,
+   and integrate/total.c what it reflects; this file divides the visible projected area of a facet
+   among the bins, and bounds the error of that. The stages of profile_sum:
    1. the view (lrcsi_view_face, lrcsi_view_project) and the bins (bins_number);
    2. the classification (lrcsi_classify_make), and the proximity band where curved shapes need one;
    3. each facet that reflects (facet_add_profile): its sigma per area (lrcsi_facet_terms_make, or
@@ -10,43 +10,45 @@
    4. the error of facets in place of curved shapes (tessellation_add_error).
 
    Let s be a facet's sigma per visible projected area, which is constant on a flat facet, and P one
-   of the triangles of a fan over its visible pieces. The computed range z~ is linear over P, from
-   the computed ranges at its corners. The density over z of the area of P rises linearly from the
-   nearest corner to the middle one and falls to the farthest: its integral over a bin is a sum of
-   at most two trapezia.
+   of the triangles of a fan over its visible pieces. The computed range z~ is interpolated linearly
+   over P between the computed ranges of its corners. The area of P per unit of z~ increases
+   linearly from the nearest corner to the middle one, and decreases linearly from there to the
+   farthest: its integral over a bin is the sum of at most two trapezia.
 
-   Error of a bin: the sum of the following parts, each times the largest s except (1).
-     (1) The error of s: lrcsi_facet_terms.
-     (2) Let D be the area by which the pieces differ from the visible region. It may lie anywhere
-   on the facet, so that all of it is added to the error of every bin that the facet reaches into.
-     (3) The true range z of a point differs from z~ by at most e, so that the true and the computed
-   part of P in a bin differ only where z~ is within e of an edge of the bin. That part of P has at
-   most the fraction 4 e / (z2 - z0) of its area, where z0 and z2 are the smallest and the largest
-   range of P: the density nowhere exceeds 2 / (z2 - z0) times the area, and the part is 2 e wide.
-   It is added to the error of the bins on both sides of the edge.
-     (4) Rounding of the trapezia: some ten operations on terms of one sign, 16 u.
-   (3) applies only to edges between bins that the facet reaches into. These bins are found from the
-   ranges of its corners in double-double, so that a facet normal to the line of sight is in one
-   bin.
-     (5) Where facets replace curved shapes, the difference between facets and shapes in a bin. A
-   point of the shape is within its part's reach of its image on the facet:
-   lrcsi_tessellation_parts. If both facets of a sector are visible as a whole and lie in one bin,
-   reach included, it is the error of the whole patches.
-   The sum of all bins has only (1), (2), (4) and the error of the whole patches.
+   The error of a bin is the sum of the following parts, each times the largest s except (1).
+   - (1) The error of s: lrcsi_facet_terms.
+   - (2) Let D be the area by which the pieces differ from the visible region. It may lie anywhere
+     on the facet, so all of it is added to the error of every bin that the facet extends into.
+   - (3) The true range z of a point differs from z~ by at most e, so that the true and the computed
+     part of P in a bin differ only where z~ is within e of an edge of the bin. That strip is 2 e
+     wide. Because the area per unit of range never exceeds 2 / (z2 - z0) times the area of P, where
+     z0 and z2 are the smallest and the largest range of P, the strip has at most the fraction 4 e /
+     (z2 - z0) of the area. It is added to the error of the bins on both sides of the edge, for
+     edges between bins that the facet extends into. These bins are found from the ranges of its
+     corners in double-double, so that a facet normal to the line of sight is in one bin.
+   - (4) Rounding of the trapezia: some ten operations on terms of one sign, 16 u.
+   - (5) Where facets replace curved shapes, the difference between facets and shapes in a bin. A
+     point of the shape is within its part's reach of its image on the facet:
+     lrcsi_tessellation_parts. If both facets of a sector are entirely visible and lie in one bin,
+     reach included, it is the error of the whole patches.
+
+   The error of the sum of all bins has only the parts (1), (2), (4) and the error of the whole
+   patches.
 
    On a facet with curved normals s varies over P, but ranges are still those of the flat facet. The
-   part of P in a bin is divided, at the middle corner as well, into trapezia between two lines of
-   equal range, and each of these into two triangles, whose areas are the two terms of the
+   part of P in a bin is divided into trapezia between lines of equal range (one of them through the
+   middle corner), and each of these into two triangles, whose areas are the two terms of the
    trapezium's area in (4); s is integrated over them by integrate/cubature.h. (2) and (3) hold with
-   the largest s that the facet's normals allow. (1) is replaced by the rounding error of that sum:
-   the corners of the triangles have errors of 8 u of the triangle, and their normals twice that,
-   which position_err includes (integrate/curve.c). The error of the cubature itself is an estimate,
-   and is not part of any bound.
+   the largest s that the facet's normals allow. (1) is replaced by the rounding error of the
+   integral: the corners of the triangles have errors of 8 u of the triangle, and their normals
+   twice that, which position_err includes (integrate/curve.c). The error of the cubature itself is
+   an estimate, and is not part of any bound.
 
-   e: the range of a corner in double-double has the error RANGE_DD_ERROR, which matters where z is
-   nearly 0, and is rounded once, 1.01 u |z|; a point of a piece is a sum of corners with weights
-   that add up to 1 within 4 u, and three roundings, 7 u |z|; its projection has an error of 100 u
-   of the reach of visibility/target.h, which is tan(theta) times as much in range. */
+   The error e. The range of a corner in double-double has the error RANGE_DD_ERROR, which matters
+   if z is nearly 0; it is rounded once, 1.01 u |z|. A point of a piece is a weighted sum of
+   corners; the weights add up to 1 within 4 u, and the sum has three roundings: 7 u |z|. The
+   projection of the point has an error of 100 u of the reach of visibility/target.h, which becomes
+   tan(theta) times as much in range. */
 #include <lrcs/profile.h>
 
 #include <float.h>
@@ -71,12 +73,12 @@
    the unit vector are accurate to 2^-97, three products and two sums add 16 u^2. */
 #define RANGE_DD_ERROR 0x1p-96
 
-/* The tolerance given to the cubature over curved normals, relative to what all facets with curved
-   normals reflect; it aims at a tenth of it. */
+/* The tolerance given to the cubature over curved normals, relative to the sigma of all facets with
+   curved normals; the cubature aims at a tenth of it. */
 #define CURVE_TOLERANCE 1e-6
 
-/* The sums of a bin, scaled. `bound` has parts (1) to (4) of the error of sigma and of anything
-   that weighs sigma by range; part (5) differs between the two. */
+/* The sums of a bin, scaled. `bound` contains the parts (1) to (4) of the error, both of the bin's
+   sigma and of sums that weight sigma by range; part (5) differs between the two. */
 typedef struct bin_sums {
     lrcsi_sum glint, diffuse, moment;
     double bound;
@@ -93,9 +95,11 @@ typedef struct profile_run {
     int64_t first;       /* the number of bin[0] */
     uint32_t count;
     bin_sums *bin;
-    uint32_t begin, end;      /* only bins begin <= i < end may hold something */
+    uint32_t begin, end;      /* only bins begin <= i < end may have any sigma */
     lrcsi_sum glint, diffuse; /* of all bins */
-    double bound, additions, range_err, estimate;
+    double bound, estimate;   /* of all bins */
+    double additions;         /* the number of additions to the sums */
+    double range_err;
     lrcsi_curve_options curve_options; /* its stack is NULL if all normals are flat */
     lrcsi_curve_context curves;
     lrcsi_visible *visible; /* of every facet; NULL if no facet replaces a curved shape */
@@ -105,13 +109,13 @@ typedef struct profile_run {
     double tessellation;              /* (5) of all bins together */
 } profile_run;
 
-/* A facet: where its corners are, which bins it reaches into, and what it reflects per unit of
+/* A facet: the ranges of its corners, the bins that it extends into, and its sigma per unit of
    visible projected area. */
 typedef struct profile_facet {
     double range[3], range_max; /* at its corners; the largest |range| */
     double range_dd_err;        /* the error of the ranges of corners before they were rounded */
     double extent;              /* upper bound of the distance in range of any two of its points */
-    uint32_t first, last;
+    uint32_t first, last;       /* bins */
     double glint, diffuse, rounding; /* of a flat facet */
     double upper_bound;              /* of its true sigma per unit area, at any point */
     lrcsi_curve_integral *curve;     /* NULL: its normals are not curved */
@@ -129,8 +133,8 @@ static double centre_of(const profile_run *run, uint32_t i)
     return ldexp(((double)(run->first + i) + 0.5) * run->bin_m, -run->prepared->exponent);
 }
 
-/* The bin of a range; the nearest bin if the range is outside all of them. The quotient has an
-   error of a few ulps, which changes the bin by at most one. */
+/* The bin that contains a range, or the nearest one if none does. The quotient has an error of a
+   few ulps, which changes the bin by at most one; the loops correct that. */
 static uint32_t bin_of(const profile_run *run, double range)
 {
     double k = floor(range / run->width) - (double)run->first;
@@ -144,7 +148,7 @@ static uint32_t bin_of(const profile_run *run, double range)
     return i;
 }
 
-/* The same, among the bins that a facet reaches into. */
+/* The same, among the bins that a facet extends into. */
 static uint32_t bin_within(const profile_run *run, const profile_facet *f, double range)
 {
     uint32_t i = bin_of(run, range);
@@ -217,7 +221,7 @@ static lrcsi_dd range_of(const lrcsi_view *view, const double x[3], double *err)
 }
 
 /* The bins that may contain a corner: two if its range cannot be distinguished from their common
-   edge. Where the range is exact, bin_of is. */
+   edge. If the range is exact, so is bin_of. */
 static void corner_bins(const profile_run *run, lrcsi_dd range, double err, uint32_t *low,
                         uint32_t *high)
 {
@@ -232,7 +236,7 @@ static void corner_bins(const profile_run *run, lrcsi_dd range, double err, uint
     }
 }
 
-/* The ranges of a facet's corners, and the bins that it reaches into. */
+/* Computes the ranges of a facet's corners, and finds the bins that it extends into. */
 static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *f)
 {
     f->first = run->count;
@@ -320,9 +324,10 @@ static void normal_at(const profile_triangle *t, int a, int b, double range, dou
     }
 }
 
-/* The same for curved normals. The part is a trapezium whose parallel sides lead, at either range,
-   from a point of the long side of the triangle to a point of a short side. A diagonal divides it
-   into two triangles, whose areas are the two terms of the area in part_add. */
+/* The same as part_add for curved normals. The part is a trapezium. Each of its parallel sides, at
+   `from` and at `to`, leads from a point of the long side of the triangle to a point of a short
+   side. A diagonal divides it into two triangles, whose areas are the two terms of the area in
+   part_add. */
 static void part_add_smooth(profile_run *run, const profile_facet *f, const profile_triangle *t,
                             uint32_t bin, double from, double to)
 {
@@ -346,8 +351,8 @@ static void part_add_smooth(profile_run *run, const profile_facet *f, const prof
     bin_add_smooth(run, f, bin, scale * last, range[1], (const double(*)[3])(normal + 1));
 }
 
-/* Adds part (3) of the error: at each edge within range_err of the triangle, the fraction of its
-   area that may lie on the other side. */
+/* Adds part (3) of the error: at each edge of a bin within range_err of the triangle, the fraction
+   of the triangle's area that may lie on the other side. */
 static void edges_add_error(profile_run *run, const profile_facet *f, const profile_triangle *t,
                             double range_err)
 {
@@ -547,13 +552,14 @@ static double fraction_between(const double corner[3], double from, double to)
 }
 
 /* Adds part (5) of the error for one facet:
-   1. the bins that the facet or its partner reaches into, enlarged by the reach;
-   2. the error of the whole patches, which is that of the sum of all bins, and of a bin that
-   contains both facets;
-   3. for each bin the smaller of two bounds: from the deviation of sigma on the patch and the area
-      that may be in the bin on only one of facet and patch; or from the larger of the two values,
-      because the difference of two numbers >= 0 is at most the larger one. Weights that depend on
-      range may turn that difference into the sum, at most twice the larger one. */
+   1. finds the bins that the facet or its partner extends into, enlarged by the reach;
+   2. adds the error of the whole patches to the sum of all bins; it is also the error of a bin that
+      contains both facets;
+   3. adds to each bin the smaller of two bounds: one from the deviation of sigma on the patch and
+      from the area that may be in the bin on only one of facet and patch; the other from the larger
+      of the two values, because the difference of two numbers >= 0 is at most the larger one. With
+      weights that depend on range the difference may become the sum, at most twice the larger
+      one. */
 static void tessellation_add_error(profile_run *run, uint32_t facet)
 {
     profile_facet f;
@@ -586,7 +592,7 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
         double shifted = fraction_between(t.z, from - reach, from + reach) +
                          fraction_between(t.z, to - reach, to + reach) + parts.mismatch;
         double general = LRCS_FOUR_PI * (parts.deviation * fraction + parts.shift * shifted);
-        double larger = parts.lit ? LRCS_FOUR_PI * parts.most * fraction : whole;
+        double larger = parts.lit ? LRCS_FOUR_PI * parts.upper_bound * fraction : whole;
         general = parts.lit ? general : HUGE_VAL;
         run->bin[i].tessellation_variation += lrcsi_min(general, 2 * larger);
         run->bin[i].tessellation += begin == end ? whole : lrcsi_min(general, larger);
@@ -598,8 +604,8 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* The largest reach of the parts whose curvature is known, m. That of others may be infinite; where
-   one of them counts, no error of its facets is added. */
+/* The largest reach of the parts whose curvature is known, m. That of other parts may be infinite;
+   no tessellation error is added for their facets. */
 static double max_reach(const lrcs_prepared *prepared)
 {
     double reach = 0;
@@ -614,8 +620,9 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
 {
     double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent) +
                    2 * max_reach(prepared); /* of the scene, in any pose */
-    double most = depth / bin_m + 4;
-    size_t bins = most < LRCS_PROFILE_BINS ? (size_t)most + 1 : (size_t)LRCS_PROFILE_BINS + 4;
+    double bins_max = depth / bin_m + 4;
+    size_t bins =
+        bins_max < LRCS_PROFILE_BINS ? (size_t)bins_max + 1 : (size_t)LRCS_PROFILE_BINS + 4;
     size_t need = lrcsi_work_bytes(bins, sizeof(lrcs_profile_bin));
     need = lrcsi_work_add(need, lrcsi_work_bytes(bins, sizeof(bin_sums)));
     need = lrcsi_work_add(need, lrcsi_view_need(prepared));
@@ -659,8 +666,8 @@ static int bins_number(profile_run *run)
     return LRCS_OK;
 }
 
-/* What curved shapes and curved normals need beside the classification: the visible areas of all
-   facets and the proximity band; the stack of the cubature. */
+/* Takes what curved shapes need besides the classification, the visible areas of all facets and the
+   proximity band, and what curved normals need, the stack of the cubature. */
 static int curved_take(profile_run *run, const lrcsi_classification *classification,
                        lrcs_work *work)
 {
@@ -687,7 +694,7 @@ static int curved_take(profile_run *run, const lrcsi_classification *classificat
     return LRCS_OK;
 }
 
-/* The stages of the comment at the top. */
+/* Runs the stages listed at the top of this file. */
 static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose, lrcs_work *work)
 {
     const lrcs_prepared *p = run->prepared;
@@ -805,7 +812,7 @@ int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, doubl
 
 /* --- a pulse ---------------------------------------------------------------------------------- */
 
-/* Beyond this many standard deviations from its peak the pulse counts as 0; its error is then at
+/* More than this many standard deviations from its peak the pulse counts as 0, with an error of at
    most e^-72 of the peak. */
 #define PULSE_END       12.0
 #define PULSE_END_VALUE 5.4e-32 /* above e^-72 */
@@ -818,9 +825,9 @@ int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, doubl
    |g''|, where |x - c| is at most half the bin. With t in standard deviations d, g' = -t g / d and
    g'' = (t^2 - 1) g / d^2. Over a bin g is at most its value at the point nearest to z, and
    |t^2 - 1| at most the larger of 1 and t^2 - 1 at the farthest point. The error of the bin's sigma
-   counts at most that value of g; points with an error e in range count e |g'| more. Rounding: t
-   has an error of 4 u (|z| + |c|) / d, as if z had one of 4 u (|z| + |c|), which is added to e; the
-   rest is below 64 u. */
+   adds at most that value of g times itself; an error e in the range of points adds e |g'|.
+   Rounding: t has an error of 4 u (|z| + |c|) / d, as if z had one of 4 u (|z| + |c|), which is
+   added to e; all other rounding errors are below 64 u. */
 int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_m,
                        double *density_m, double *bound_m, double *estimate_m)
 {

@@ -46,14 +46,14 @@ static void response_add(lrcsi_response *response, double glint, double glint_s,
     lrcsi_sum_add(&response->diffuse_m, diffuse_m);
 }
 
-/* What one unit of area reflects at amplitudes of 1, and its derivatives. */
+/* The response of one unit of area at amplitudes of 1, and its derivatives. */
 typedef struct unit_response {
     double glint, glint_s;
     double diffuse, diffuse_m;
 } unit_response;
 
-/* Of a flat facet. Given: the BRDF with amplitudes of 1, and u, which is finite for a facet that
-   faces the laser or faces away from it. */
+/* The response of a flat facet. Given: the BRDF with amplitudes of 1, and u, which is finite for
+   every facet that is not edge-on. */
 static unit_response flat_response(const lrcs_brdf *unit, double u)
 {
     const double s = unit->s;
@@ -62,11 +62,11 @@ static unit_response flat_response(const lrcs_brdf *unit, double u)
                            at.diffuse, at.diffuse * (-0.5 * lrcsi_log1p(u).hi)};
 }
 
-/* Of a facet, as the sum counts it: with the mean over its patch of a wall, or flat. Which of them
-   depends on the amplitudes, so that the patch is made with those of the sum (`own`), and its terms
-   are divided by them. A term of amplitude 0 comes from the patch at amplitudes of 1 (`unit`) or,
-   if that has no mean, from the flat facet. patch[0] and patch[1] hold the last patch for either
-   BRDF. */
+/* The response of a facet, computed as the sum of Eq. 2 computes it: from the mean over its patch
+   or, if there is none, from the flat facet. Whether there is a mean depends on the amplitudes, so
+   the patch is made with those of the sum (`own`), and its terms are divided by them. A term of
+   amplitude 0 is taken from the patch at amplitudes of 1 (`unit`) or, if that has no mean, from the
+   flat facet. patch[0] and patch[1] hold the last patch for either BRDF. */
 static unit_response facet_response(const lrcsi_view *view, const lrcsi_plan *plan,
                                     const lrcs_brdf *own, const lrcs_brdf *unit, uint32_t facet,
                                     double u, lrcsi_patch patch[2])

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What the surfaces of each material reflect at amplitudes of 1, and the derivatives of that in s
-   and m. For any A and B, sigma is A times the glint plus B times the diffuse response. */
+/* The responses of materials: what the surfaces of each material add to sigma at amplitudes A = B =
+   1, and the derivatives of that in s and m. For any A and B, a material adds A times its glint
+   response plus B times its diffuse response. */
 #ifndef LRCSI_SENSITIVITY_H
 #define LRCSI_SENSITIVITY_H
 
@@ -17,9 +18,9 @@ typedef struct lrcsi_response {
 
 /* Given: a view, its plan, its visible areas and its clear shapes as for lrcsi_total_make;
    curved[]: the integrals over facets with curved normals, at amplitudes of 1 and with moments
-   (NULL: there are none); brdf[material_count]: the s and m to use, with the A and B that
-   decide which facets count with the mean over their patch.
-   Returned: response[material_count], summed over facets in their order, then clear shapes. */
+   (NULL: there are none); brdf[material_count]: the s and m at which the responses are computed,
+   and the A and B that decide for which facets the mean over their patch is used. Returned:
+   response[material_count], summed over facets in their order, then over clear shapes. */
 void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcsi_areas *areas,
                          const lrcsi_curved *curved, const lrcsi_clear *clear,
                          const lrcs_brdf *brdf, lrcsi_response *response);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* One shape in a scene by its closed form (optics/closed.h): its frame, its scale, and what these
-   add to the bound. view/clear.h proves which shapes may be evaluated like this.
+/* Evaluates the closed form of a placed shape (optics/closed.h), in its own frame and scale, and
+   bounds the errors of these. view/clear.h proves which shapes may be evaluated like this.
 
    Error of the direction to the laser in the shape's frame. The direction is exact by definition,
    and the axes have errors below 2^-97: angles have errors of at most eta = 2^-95 rad, or none
    where the axes are exact. With t = tan(theta), d ln F / d theta is 4 t - 2 t (1 + t^2) / s^2 for
    the glint. Up to t = 64 s its absolute value is at most 64 s (4 + 2 (1 + 4096 s^2) / s^2), and
-   that times eta is the relative error of everything at such angles; at larger angles F is below
+   that times eta is the relative error of the glint at such angles; at larger angles F is below
    exp(-4095) of its peak, and underflows. F of the diffuse term changes by at most (m + 2) B eta
    per unit of surface. */
 #include "integrate/shapes.h"
@@ -43,8 +43,8 @@ static void shape_direction(const lrcsi_view *view, const lrcs_part *placed, lrc
     }
 }
 
-/* The bound on what the slab may hide is the largest value of F times its area: the glint (1 + u)^2
-   exp(-u / s^2) is at most q^2 for q = 2 s^2 > 1, else 1. */
+/* What the slab may hide is at most its area times the largest value of F. The glint
+   (1 + u)^2 exp(-u / s^2) is at most q^2 for q = 2 s^2 > 1, else 1. */
 lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t part, double slab)
 {
@@ -73,8 +73,7 @@ lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_pla
                                .silhouette = silhouette * unit * unit};
 }
 
-/* --- derivatives --------------------------------------------------------------------------------
- */
+/* --- derivatives ------------------------------------------------------------------------------ */
 
 /* The integrals of both terms over the shape, at amplitudes of 1. */
 static void unit_terms(const lrcs_shape *shape, const lrcsi_dd direction[3], double s, double m,
@@ -88,8 +87,8 @@ static void unit_terms(const lrcs_shape *shape, const lrcsi_dd direction[3], dou
     out[1] = sum.value[LRCSI_DIFFUSE];
 }
 
-/* The logarithmic slope |change / value| / step of a term whose value is above 0: the inverse of
-   the scale over which it varies. */
+/* The logarithmic slope |change / value| / step of a term that is above 0. Its inverse is the step
+   in which the term changes by about as much as its value; it sets the step of a difference. */
 static double term_slope(double value, double moved, double step)
 {
     return fabs(moved - value) / value / step;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* One pose, from a prepared scene to a result. This file decides in which order the stages run,
-   which method follows if the first one does not meet the tolerance, and at which resolution
+/* Computes one pose, from a prepared scene to a result. This file decides in which order the stages
+   run, which method follows if the first one does not meet the tolerance, and at which resolution
    rasters are drawn. The stages, in the order of lrcsi_sigma_stages:
    1. view: lrcsi_plan_backs, lrcsi_view_face, lrcsi_clear_make, lrcsi_plan_make,
       lrcsi_view_project;
@@ -17,11 +17,11 @@
 #include "integrate/image.h"
 #include "visibility/preview.h"
 
-/* The finest raster: a finer one costs more than the bound gains. */
+/* The size of the finest raster: a finer one would improve the bound too little for its cost. */
 #define LAST_SIZE 4096u
 
-/* Clipping is tried before a raster if it is estimated to cost at most this many times as much: the
-   first factor before the first raster, the second after an estimate was not accepted. */
+/* Clipping is tried before a raster if its estimated cost is at most this many times that of the
+   raster: by the first factor before the first raster, by the second before each later one. */
 #define CLIP_PREFERRED      1.5
 #define CLIP_PREFERRED_NEXT 2.5
 
@@ -81,13 +81,13 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     return lrcsi_work_add(need, clips ? exact : raster);
 }
 
-/* Is no search for shadows made? */
+/* Is there no search for shadows? */
 static int run_is_unshadowed(const lrcsi_sigma *run)
 {
     return run->plan.method == LRCS_METHOD_FACET || run->plan.method == LRCS_METHOD_CLOSED;
 }
 
-/* Memory for the results of the facets, as far as the plan's method needs it. */
+/* Takes memory for the results of facets, as far as the plan's method needs it. */
 static int run_take(lrcsi_sigma *run)
 {
     const lrcs_prepared *p = run->view.prepared;
@@ -107,12 +107,12 @@ static double total_bound(const lrcsi_total *total)
     return total->visibility + fmax(0, total->tessellation) + total->rounding;
 }
 
-/* The flag of the answer: 0 if its bound meets the tolerance.
-   Where the options accept estimates, the estimated error of sampled areas takes the place of the
-   proved one. There is no such estimate where sigma is 0, since no sample has met anything that
-   reflects; where the depths at a sample are undecided, since its owner is a guess; and where the
-   steps are spent, since undecided facets then count by half. */
-static uint32_t run_verdict(const lrcsi_sigma *run)
+/* How the answer is accepted: 0 if its bound meets the tolerance, else a flag. If the options
+   accept estimates, the estimated error of sampled areas replaces the proved bound. There is no
+   such estimate in three cases: sigma is 0, because no sample has met anything that reflects; the
+   depth order at a sample is undecided, because its owner is then a guess; the steps are spent,
+   because undecided facets then count by half. */
+static uint32_t run_acceptance(const lrcsi_sigma *run)
 {
     const lrcsi_total *t = &run->total;
     double allowed = run->options->tolerance * (t->glint + t->diffuse);
@@ -145,8 +145,8 @@ static lrcsi_total run_total(const lrcsi_sigma *run, lrcs_facet_record *records)
                             records, run->options->part_error_m2);
 }
 
-/* Method facet. Only facets with curved normals need areas in memory; lrcsi_total_make takes those
-   of the others from the plan. */
+/* Runs method facet. Only facets with curved normals need areas in memory; for all others
+   lrcsi_total_make derives them from the plan. */
 static void run_facet(lrcsi_sigma *run)
 {
     const lrcsi_view *view = &run->view;
@@ -166,7 +166,7 @@ static void run_facet(lrcsi_sigma *run)
     run->total = run_total(run, NULL);
 }
 
-/* Is something proved about the visible areas of the pose that the methods do not use? */
+/* Are there proofs about the visible areas of the pose that the methods do not use? */
 static int run_has_proofs(const lrcsi_sigma *run)
 {
     return run->plan.unshadowed || run->clear.count > 0 ||
@@ -174,10 +174,11 @@ static int run_has_proofs(const lrcsi_sigma *run)
 }
 
 /* Replaces areas by what is proved about them:
-   1. On a convex surface fronts are visible, and only back sides are left to samples. If the search
-      was made for fronts all the same, the proved interval is joined with the one found: bodies
-      that are convex by construction have no contacts, so that the search alone proves nothing.
-   2. Back sides that are proved never to be seen, but were searched for, may show nothing.
+   1. On a convex surface fronts are visible, and only the areas of back sides are used. If the
+      options force a search for shadows, the interval that it found for a front is extended by the
+      proved one: for bodies that are convex by construction no contacts are computed, so that the
+      search alone proves nothing.
+   2. Back sides that are proved never to be seen have no visible area, whatever the search found.
    3. The fronts of clear shapes are visible; this is needed only for what is reported about their
       facets. */
 static void areas_apply_proofs(const lrcsi_sigma *run)
@@ -206,13 +207,13 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
     }
 }
 
-/* The sum over visible areas that samples or clipping found:
-   1. the areas, with what is proved about them;
-   2. if they are sampled, the integrals over facets with curved normals, which are clipped where
-      they are partly visible, provided there is memory for it; clipping has already integrated
-      over its pieces;
-   3. the hidden regions of the proximity band;
-   4. the sum. */
+/* Computes the sum over the visible areas found by samples or by clipping:
+   1. replaces areas by what is proved about them;
+   2. if they are sampled, integrates over facets with curved normals, which are clipped if they are
+      partly visible and there is memory for it; method exact has already integrated over its
+      pieces;
+   3. finds the hidden regions of the proximity band;
+   4. sums. */
 static void run_sum(lrcsi_sigma *run, int sampled)
 {
     if (run->last < LRCSI_SIGMA_SUM) {
@@ -238,8 +239,8 @@ static void run_sum(lrcsi_sigma *run, int sampled)
 
 /* --- classification, clipping ----------------------------------------------------------------- */
 
-/* Finds which facets are undecided, and the proximity band if the plan needs it: once a pose. Steps
-   are taken from the meter: that of the run, or of an attempt. */
+/* Finds which facets are undecided, and the proximity band if the plan needs it; once per pose.
+   Steps are taken from the given meter, which is that of the run or of an attempt. */
 static int run_classify(lrcsi_sigma *run, lrcsi_meter *meter)
 {
     if (run->classified) {
@@ -256,9 +257,9 @@ static int run_classify(lrcsi_sigma *run, lrcsi_meter *meter)
     return status;
 }
 
-/* Clipping. If the sum is all that reads the visible areas, uniform facets get only an answer and
-   no area; tessellation and the proofs of areas_apply_proofs need the areas of all facets. The
-   meter is that of run_classify. */
+/* Runs method exact: clipping. If only the sum reads the visible areas, facets that are entirely
+   visible or hidden get only an answer and no area; tessellation errors and areas_apply_proofs need
+   the areas of all facets. The meter is as in run_classify. */
 static int run_exact(lrcsi_sigma *run, lrcsi_meter *meter)
 {
     int status = run_classify(run, meter);
@@ -280,8 +281,9 @@ static int run_exact(lrcsi_sigma *run, lrcsi_meter *meter)
 
 /* --- rasters ---------------------------------------------------------------------------------- */
 
-/* One raster of the given size, or of half of it, a quarter and so on until it fits into the work
-   area; and the sum over its areas. Where known is NULL the areas are those of samples alone. */
+/* Draws one raster of the given size, or of half of it, a quarter and so on until it fits into the
+   work area, and computes the sum over its areas. If `known` is NULL, the areas are taken from the
+   samples alone. */
 static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
 {
     lrcsi_raster raster;
@@ -307,9 +309,9 @@ static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
     return status;
 }
 
-/* The size of the next raster. The visibility bound falls as 1/N, and the estimated error as
-   N^-1.33 or faster on most models; a coarse raster's estimate is rough, so the size grows by at
-   most four times for its sake. */
+/* The size of the next raster. With the size N the visibility bound falls as 1/N, and the estimated
+   error as N^-1.33 or faster on most models. Because the estimate of a coarse raster is rough, it
+   increases the size to at most four times. */
 static uint32_t next_size(const lrcsi_sigma *run)
 {
     double sigma = run->total.glint + run->total.diffuse;
@@ -325,16 +327,16 @@ static uint32_t next_size(const lrcsi_sigma *run)
     return 64 * ((uint32_t)size / 64 + 1);
 }
 
-/* Is the last raster accepted, or can a finer one gain nothing? */
+/* Is the last raster accepted, or would a finer one be no better? */
 static int raster_ends(const lrcsi_sigma *run)
 {
     return run->options->resolution != 0 || run->size >= LAST_SIZE || run->meter.spent ||
            (run->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
            (!run->plan.samples_only && run->classification.undecided_count == 0) ||
-           !(run_verdict(run) & LRCS_FLAG_TOLERANCE_NOT_MET);
+           !(run_acceptance(run) & LRCS_FLAG_TOLERANCE_NOT_MET);
 }
 
-/* Rasters from the first size up, until one is accepted or is the finest. */
+/* Draws rasters of increasing size until one is accepted or is the finest. */
 static int run_zbuffer(lrcsi_sigma *run)
 {
     lrcsi_known known;
@@ -362,10 +364,10 @@ static int run_zbuffer(lrcsi_sigma *run)
 /* The outcome of an attempt to clip. */
 enum clip_outcome { CLIP_DONE, CLIP_ABANDONED, CLIP_NOT_BEGUN };
 
-/* Clips in at most the steps that fit into ns, the estimated time of a raster. The attempt is
-   abandoned when these are spent, and is not begun if too many facets turn out to be undecided; the
-   run is then as before, except for the steps taken and, if it was completed, the classification.
- */
+/* Tries to clip within ns, the estimated time of a raster, which limits the number of steps. The
+   attempt is abandoned when the steps are spent, and is not begun if too many facets turn out to be
+   undecided. The state of the run is then restored, except for the number of steps taken and, if it
+   was completed, the classification. */
 static int run_clip_within(lrcsi_sigma *run, const lrcsi_cost *cost, double ns)
 {
     const lrcsi_plan plan = run->plan;
@@ -402,13 +404,14 @@ static int run_clip_within(lrcsi_sigma *run, const lrcsi_cost *cost, double ns)
     return outcome;
 }
 
-/* Looks for an answer that is accepted by its estimate, by the method that is estimated to cost
-   less:
-   1. clipping, if it is likely to take little longer than the next raster, whose estimate may not
-      be accepted; after an abandoned attempt again only if a raster takes four times as long as
-      that attempt was allowed;
-   2. a raster of samples alone, a cheap one first.
-   If no raster is accepted the caller clips. If any answer is accepted, the first raster is. */
+/* Computes an answer whose estimate may be accepted, by the method whose estimated cost is lower.
+   In each round:
+   1. clipping is tried if it is likely to take little longer than the next raster, whose estimate
+      may not be accepted; after an abandoned attempt it is tried again only if a raster takes four
+      times as long as that attempt was allowed to take;
+   2. a raster of samples alone is drawn; the first one is cheap.
+   If no raster is accepted, the caller clips. If the options accept any answer, the first raster is
+   accepted. */
 static int run_previews(lrcsi_sigma *run)
 {
     const lrcsi_cost cost = lrcsi_cost_count(&run->view);
@@ -445,13 +448,13 @@ static int run_previews(lrcsi_sigma *run)
 
 /* --- the stages ------------------------------------------------------------------------------- */
 
-/* Visible areas and their sum, where shadows are searched for:
+/* Computes visible areas and their sum, where shadows are searched for:
    1. view coordinates;
-   2. the classification, except for samples alone;
-   3. the plan's method. Under auto a raster comes first if its size was asked for, or if it costs
+   2. the classification, unless areas are taken from samples alone;
+   3. the plan's method. Under auto a raster comes first if its size was requested, or if it costs
       less than clipping and its estimate may be accepted;
    4. clipping under auto, if no raster was accepted;
-   5. a raster, which needs less memory, if clipping had too little. */
+   5. a raster, which needs less memory, if there was too little memory for clipping. */
 static int run_shadowed(lrcsi_sigma *run)
 {
     const lrcs_run_options *options = run->options;
@@ -468,7 +471,7 @@ static int run_shadowed(lrcsi_sigma *run)
                                                    : run_zbuffer(run);
     if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
         run->plan.method == LRCS_METHOD_ZBUFFER && !run->meter.spent &&
-        (run_verdict(run) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
+        (run_acceptance(run) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
         run->plan.method = LRCS_METHOD_EXACT;
         run->plan.reason = options->resolution != 0 ? "the raster asked for misses the tolerance"
                                                     : "no raster's estimate meets the tolerance";
@@ -536,7 +539,7 @@ int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result)
                      .flags = run->flags,
                      .steps = run->meter.taken};
     lrcsi_plan_effects(&run->view, &run->plan, &run->clear, t->seen, r.effect);
-    r.flags |= run_verdict(run);
+    r.flags |= run_acceptance(run);
     r.flags |= run->meter.spent ? LRCS_FLAG_STEPS_SPENT : 0u;
     r.notices |= t->back_sides != 0 ? LRCS_NOTICE_BACK_SIDES_VISIBLE : 0u;
     r.notices |= t->tessellation < 0 ? LRCS_NOTICE_TESSELLATION_UNKNOWN : 0u;
@@ -563,7 +566,7 @@ int lrcsi_sigma_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
     return status;
 }
 
-/* Draws the picture that was asked for. */
+/* Draws the requested picture. */
 static int run_image(const lrcsi_sigma *run)
 {
     lrcsi_raster raster;

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* One pose, stage by stage: for lrcs_sigma_run, for computations that need what its stages leave
-   (integrate/uncertainty.c), and for a host that times the stages, because the core has no clock.
- */
+/* The stages of one pose. They are called by lrcs_sigma_run, by computations that need intermediate
+   results (integrate/uncertainty.c), and by hosts that time them, because the core has no clock. */
 #ifndef LRCSI_SIGMA_H
 #define LRCSI_SIGMA_H
 
 #include "integrate/total.h"
 
 enum lrcsi_sigma_stage {
-    LRCSI_SIGMA_VIEW,       /* which way facets face; their view coordinates, if needed */
-    LRCSI_SIGMA_CLASSIFY,   /* event edges; which facets are uniform and which are undecided */
+    LRCSI_SIGMA_VIEW,       /* which facets face the laser; their view coordinates, if needed */
+    LRCSI_SIGMA_CLASSIFY,   /* event edges; which facets are undecided */
     LRCSI_SIGMA_VISIBILITY, /* visible areas */
     LRCSI_SIGMA_SUM,        /* Eq. 2; the integrals over facets with curved normals */
     LRCSI_SIGMA_STAGES
@@ -19,7 +18,7 @@ enum lrcsi_sigma_stage {
 typedef struct lrcsi_sigma {
     const lrcs_run_options *options;
     lrcs_work *work;
-    lrcs_image *image; /* NULL: no picture is asked for */
+    lrcs_image *image; /* NULL: no picture is requested */
     int last;          /* lrcsi_sigma_stage: the run ends after it */
     int moments;       /* 1: curved normals are integrated with moments, for derivatives */
 
@@ -34,8 +33,8 @@ typedef struct lrcsi_sigma {
     lrcsi_visible *visible;           /* [facet_count]; NULL: the plan implies all areas */
     const unsigned char *answer;      /* as in lrcsi_areas */
     lrcsi_curved *curved;             /* [facet_count]; NULL: all normals are flat */
-    lrcsi_cubature_cell *stack;       /* NULL: likewise */
-    uint32_t size;                    /* of the raster that the areas come from, 0: none */
+    lrcsi_cubature_cell *stack;       /* NULL: all normals are flat */
+    uint32_t size;                    /* of the raster that gave the areas; 0: none did */
     uint32_t flags;
     lrcsi_total total;
 } lrcsi_sigma;
@@ -43,16 +42,16 @@ typedef struct lrcsi_sigma {
 /* Checks options and the size of a picture (NULL: none). Status: LRCS_OK; LRCS_E_ARGUMENT. */
 int lrcsi_sigma_check(const lrcs_run_options *options, const lrcs_image *image);
 
-/* All stages up to run->last, for checked options. Status: as lrcs_sigma_run. What the stages found
-   stays in the work area. */
+/* Runs all stages up to run->last, with checked options. Status: as lrcs_sigma_run. The results of
+   the stages stay in the work area. */
 int lrcsi_sigma_stages(lrcsi_sigma *run, const lrcs_prepared *prepared, const lrcs_pose *pose);
 
 /* The result after the last stage. Status: LRCS_OK; LRCS_E_NUMBER if sigma or its bound is not
    finite. */
 int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result);
 
-/* Runs a pose up to a stage and discards what it found. The method is not AUTO, which may go
-   through stages more than once: LRCS_E_ARGUMENT. Otherwise as lrcs_sigma_run. */
+/* Runs a pose up to a stage and discards the results. Status: as lrcs_sigma_run; LRCS_E_ARGUMENT
+   for method AUTO, which may run stages more than once. */
 int lrcsi_sigma_until(const lrcs_prepared *prepared, const lrcs_pose *pose,
                       const lrcs_run_options *options, int last, lrcs_work *work);
 

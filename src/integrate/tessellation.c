@@ -3,32 +3,33 @@
    over the facet's patch (optics/deviation.c) with the fraction of the facet on which the true
    shapes and the facets may differ in what is visible (visibility/proximity_band.h).
 
-   Let f be the facet, of area S, and U its patch, of an area within a S of S. Let v and w be 1
-   where a point of U or of f is visible and 0 where it is not. They agree except where v is 1 and w
-   is 0, on a fraction g of both (gain), and where v is 0 and w is 1, on a fraction l (loss). The
-   truth is T = Int_U F v, and the facets' sum M = F_i Int_f w, where F_i is F at the facet's normal
-   or, where that is known, its mean over the patch (patch_deviation). Bounds on T - M, from above
-   and from below; the sums over all facets of the one and of the other bound the error of sigma:
-   - The facet is visible everywhere, and g = l = 0: the deviation of the whole patch, either way.
-     Its numbers hold for the two facets of a sector together, so both must be visible.
+   Let f be the facet, of area S, and U its patch, whose area differs from S by at most a S. Let v
+   be 1 where a point of U is visible and 0 where it is not, and w the same for points of f. They
+   agree except on a fraction g of both where v is 1 and w is 0 (gain), and on a fraction l where v
+   is 0 and w is 1 (loss). The true value is T = Int_U F v, and that of the facet M = F_i Int_f w,
+   where F_i is F at the facet's normal or, if that is known, its mean over the patch
+   (patch_deviation). Upper and lower bounds of T - M follow; the sums of each over all facets bound
+   the error of sigma.
+   - The facet is visible everywhere, and g = l = 0: |T - M| is at most the deviation of the whole
+     patch. This deviation holds for the two facets of a sector together, so both must be visible.
    - It is hidden except for a fraction h: 0 <= M <= S h F_i and 0 <= T <= (1 + a) S (g + h) sup F.
    - Otherwise, T - M = Int_U (F - F_i) v + F_i (Int_U v - Int_f w), where the first term is at most
-     (1 + a) S sup |F - F_i| in size and the second between -F_i S (a + (1 + a) l) and
-     F_i S (a + (1 + a) g); and |T - M| <= (1 + a) S sup F. Where neither facet of the sector is
-     hidden or unlit, the first term of both together is at most the integral of F - F_i over some
-     region of both patches. And v is 1 on at most a fraction q of the patch, that of the facet
-   which may be visible and g: the first term is at most (1 + a) S q sup |F - F_i|, and the part of
-   the second that is due to a at most F_i S a q.
+     (1 + a) S sup |F - F_i| in size and the second between -F_i S (a + (1 + a) l) and F_i S (a + (1
+     + a) g); and |T - M| <= (1 + a) S sup F. Where neither facet of the sector is hidden or unlit,
+     the first term of both together is at most the integral of F - F_i over some region of both
+     patches. And v is 1 on at most a fraction q of the patch: g, plus the fraction of the facet
+     that may be visible. The first term is at most (1 + a) S q sup |F - F_i|, and the part of the
+   second that is due to a is at most F_i S a q.
    - All but a fraction h of it is visible: T - M = Int_U (F - F_i) - Int_U F (1 - v) + F_i Int_f (1
      - w), where 0 <= Int_f (1 - w) <= S h, and 0 <= Int_U F (1 - v) <= (1 + a) S (h + l) sup F.
    - The facet faces away from the laser: M is 0. Its patch may be lit in part, and T is at most the
      deviation.
    - The laser may see parts of a patch from its other side. On a two-sided part that is not closed
-     these reflect as well, hidden though the facet may be: T exceeds what is said above by at most
+     these reflect as well, even if the facet is hidden: T exceeds the bounds above by at most
      (1 + a) S sup F of that side.
-   Where a scale that differs between axes stretches areas within a patch unevenly, regions of it
-   deviate by more than the whole patch: a is then patch_area_error, except in the deviation of the
-   whole patch. On flat facets a = 0 and F = F_i.
+   If a scale that differs between axes stretches areas within a patch unevenly, the areas of
+   regions differ by more than that of the whole patch: a is then patch_area_error, except in the
+   deviation of the whole patch. On flat facets a = 0 and F = F_i.
 
    More is known of a sector of a straight wall (cylinder, cone, frustum). Its map onto the facets
    takes rows to rows and stretches area evenly (mesh/profile.c), also after an affine map; F, and
@@ -41,8 +42,8 @@
    a sector of which no facet is hidden or unlit: T - M <= S (whole + m region + F_i (m a + (1 + a)
    g)), and M - T likewise with l.
 
-   Without a proximity band the facets count as visible: what may be hidden of them is then in the
-   bounds of the visible area, for both the truth and the facets. */
+   Without a proximity band the facets count as visible: the bounds of the visible areas then
+   include what may be hidden, both of the true surface and of the facets. */
 #include "integrate/tessellation.h"
 
 #include <math.h>
@@ -52,18 +53,18 @@
 #include "optics/reflect.h"
 #include "scene/proximity.h"
 
-/* The turn of a flat facet's patch: larger than the error of its angle. */
+/* The turn that flat facets count as having: it is larger than the error of their angles. */
 #define FLAT_TILT 1e-12
-/* A facet of which at most this fraction can be visible counts as hidden, and the fraction is
-   added to its error. */
+/* A facet of which at most this fraction can be visible counts as hidden; what may be visible of it
+   is then part of its error. */
 #define HIDDEN_FRACTION 0x1p-20
 
-/* What is known of a facet and its patch. */
+/* What is known about the visibility of a facet and its patch. */
 enum patch_state {
-    PATCH_UNLIT,   /* no side of it that reflects faces the laser */
-    PATCH_VISIBLE, /* all of it is visible, on the true surface too */
-    PATCH_HIDDEN,  /* no more of the facet is visible than the bounds of its visible area allow */
-    PATCH_PARTIAL
+    PATCH_UNLIT,   /* no side of the facet that reflects faces the laser */
+    PATCH_VISIBLE, /* facet and patch are entirely visible */
+    PATCH_HIDDEN,  /* the facet is hidden, except for at most HIDDEN_FRACTION of it */
+    PATCH_PARTIAL  /* none of these */
 };
 
 static const lrcs_part *patch_part(const lrcs_prepared *p, uint32_t facet)
@@ -110,8 +111,8 @@ static int patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_vi
 }
 
 /* An upper bound of the visible fraction of a facet that counts as hidden. */
-static double fraction_visible(const lrcsi_incidence *incidence, uint32_t facet,
-                               const lrcsi_visible *visible, const lrcsi_proximity_band *band)
+static double hidden_facet_fraction(const lrcsi_incidence *incidence, uint32_t facet,
+                                    const lrcsi_visible *visible, const lrcsi_proximity_band *band)
 {
     return !band || band->hidden[band->region[facet]] || !(visible[facet].high > 0)
                ? 0
@@ -135,13 +136,14 @@ static int is_lit(int state)
     return state == PATCH_VISIBLE || state == PATCH_PARTIAL;
 }
 
-/* Upper bounds of fractions of a facet: that its own polygons leave hidden or undecided; the gain
-   and the loss of the truth; that in which the truth is visible. */
+/* Upper bounds of fractions of a facet: */
 typedef struct patch_fractions {
-    double hidden, gain, loss, lit;
+    double hidden; /* hidden, or not known to be visible, by facets */
+    double gain, loss;
+    double lit; /* visible on the true surface */
 } patch_fractions;
 
-/* Only what is hidden may be gained, and only what is visible lost. */
+/* The fractions of a facet. Only hidden parts may be gained, and only visible parts lost. */
 static patch_fractions patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
                                           const lrcsi_visible *visible,
                                           const lrcsi_proximity_band *band)
@@ -163,7 +165,8 @@ static patch_fractions patch_fractions_of(const lrcsi_incidence *incidence, uint
 }
 
 /* A bound on the relative difference between the area of a region of a patch and that of its image
-   on the facet: that of the whole patch, and that of a stretch that varies over the patch. */
+   on the facet. It combines the difference of the whole patch with the variation of the stretch
+   over the patch. */
 static double patch_area_error(const lrcs_prepared *p, uint32_t facet, const lrcs_curvature *c)
 {
     double uneven = patch_part(p, facet)->uneven;
@@ -206,15 +209,15 @@ static lrcsi_deviation patch_deviation(const lrcsi_view *view, const lrcsi_plan 
     return deviation;
 }
 
-/* The bounds that hold for a sector of which no facet is hidden or unlit. */
-enum sector_way {
+/* The alternative bounds for a sector of which no facet is hidden or unlit, by what they use. */
+enum sector_method {
     BY_REGION, /* the deviation over any region of both patches */
     BY_POINT,  /* the deviation at any point, times what is visible of the facet */
     BY_HIDDEN, /* what is hidden of the facet, subtracted from the whole patch */
     BY_ROWS    /* the deviation of the whole patch, and of the rows that meet a proximity band */
 };
 typedef struct sector_bound {
-    int way;
+    int method;  /* sector_method */
     double rows; /* BY_ROWS: the fraction of the sector in rows that meet a proximity band */
 } sector_bound;
 
@@ -231,7 +234,8 @@ static double sector_rows(const lrcsi_view *view, uint32_t facet, const lrcsi_pr
     return fmin(1, 2 * rows);
 }
 
-/* The smallest of these bounds. The numbers of the sector's first facet decide for both. */
+/* Chooses the smallest of these bounds, for both facets of the sector: from the deviation of the
+   first facet, and the larger fractions of both. */
 static sector_bound sector_choose(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
                                   const lrcs_curvature *c, const lrcsi_visible *visible,
                                   const lrcsi_proximity_band *band, lrcsi_patch *patch)
@@ -259,47 +263,47 @@ static sector_bound sector_choose(const lrcsi_view *view, const lrcsi_plan *plan
     double by_either = fmin(either + (1 + a) * b * deviation.value, (1 + a) * deviation.most);
     sector_bound bound = {by_point < by_region ? BY_POINT : BY_REGION, rows};
     if (by_rows < fmin(by_hidden, by_either)) {
-        bound.way = BY_ROWS;
+        bound.method = BY_ROWS;
     } else if (by_hidden < either) {
-        bound.way = BY_HIDDEN;
+        bound.method = BY_HIDDEN;
     }
     return bound;
 }
 
-/* The error of a facet on a curved wall, per unit of its area. Given: a, g and l, and the states of
-   the facet and of the other facet of its sector. Of a hidden facet, gain and loss include what may
-   be visible of it. */
+/* The error of a facet on a curved wall, per unit of its area. Given: a; the fractions of the
+   facet; the states of the facet and of the other facet of its sector. If the facet is hidden, gain
+   and loss include what may be visible of it. */
 static lrcsi_tessellation wall_error(const lrcsi_deviation *deviation, double a, double stretch,
                                      const patch_fractions *f, int state, int partner,
                                      const sector_bound *bound)
 {
-    double most = (1 + a) * deviation->most;
+    double sup = (1 + a) * deviation->most;
     double lit = f->lit * ((1 + a) * deviation->point + stretch * deviation->value);
     if (state == PATCH_HIDDEN) {
-        return (lrcsi_tessellation){f->gain * most, f->loss * most};
+        return (lrcsi_tessellation){f->gain * sup, f->loss * sup};
     }
     if (state == PATCH_UNLIT) {
-        return (lrcsi_tessellation){partner == PATCH_UNLIT ? deviation->whole : most, 0};
+        return (lrcsi_tessellation){partner == PATCH_UNLIT ? deviation->whole : sup, 0};
     }
     if (state == PATCH_VISIBLE && partner == PATCH_VISIBLE) {
         return (lrcsi_tessellation){deviation->whole, deviation->whole};
     }
-    if (bound->way == BY_HIDDEN) {
-        return (lrcsi_tessellation){deviation->whole + f->hidden * most,
-                                    deviation->whole + fmin(1, f->hidden + f->loss) * most};
+    if (bound->method == BY_HIDDEN) {
+        return (lrcsi_tessellation){deviation->whole + f->hidden * sup,
+                                    deviation->whole + fmin(1, f->hidden + f->loss) * sup};
     }
-    if (bound->way == BY_ROWS) {
+    if (bound->method == BY_ROWS) {
         lit = deviation->whole + bound->rows * (deviation->region + stretch * deviation->value);
-        most = HUGE_VAL;
-    } else if (bound->way == BY_REGION) {
+        sup = HUGE_VAL;
+    } else if (bound->method == BY_REGION) {
         lit = deviation->region + stretch * deviation->value;
     }
-    return (lrcsi_tessellation){fmin(lit + deviation->value * (1 + a) * f->gain, most),
-                                fmin(lit + deviation->value * (1 + a) * f->loss, most)};
+    return (lrcsi_tessellation){fmin(lit + deviation->value * (1 + a) * f->gain, sup),
+                                fmin(lit + deviation->value * (1 + a) * f->loss, sup)};
 }
 
-/* The error, per unit of area, of a facet of a closed part whose inside appears visible because of
-   rounding. */
+/* The error, per unit of area, of a facet of a closed part whose inside seems to be visible because
+   of rounding. */
 static double inside_error(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
                            const lrcsi_incidence *incidence, const lrcsi_visible *visible,
                            const lrcsi_proximity_band *band)
@@ -309,12 +313,12 @@ static double inside_error(const lrcsi_view *view, uint32_t facet, const lrcs_br
         !(visible[facet].high > 0)) {
         return 0;
     }
-    double most = lrcsi_deviation_make(brdf, -incidence->cos_theta, incidence->tan2, &flat).most;
-    return most * fmin(1, visible[facet].high / incidence->projected);
+    double sup = lrcsi_deviation_make(brdf, -incidence->cos_theta, incidence->tan2, &flat).most;
+    return sup * fmin(1, visible[facet].high / incidence->projected);
 }
 
-/* What the other side of a patch than the one that the facet shows to the laser may reflect, per
-   unit of the facet's area. */
+/* An upper bound of what a patch may reflect from its other side, the one that the facet turns away
+   from the laser, per unit of the facet's area. */
 static double other_side(const lrcsi_view *view, uint32_t facet, const lrcs_brdf *brdf,
                          const lrcsi_incidence *incidence, const lrcs_curvature *c,
                          const lrcsi_proximity_band *band)
@@ -354,8 +358,9 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
     int state = patch_state_of(view, facet, visible, band);
     int is_certain = !band || band->share[facet] == 0;
     double area = 0.5 * p->normal[facet].length;
-    double seen =
-        is_curved && state == PATCH_HIDDEN ? fraction_visible(incidence, facet, visible, band) : 0;
+    double seen = is_curved && state == PATCH_HIDDEN
+                      ? hidden_facet_fraction(incidence, facet, visible, band)
+                      : 0;
     lrcsi_tessellation error = {0, 0};
     error.above = area * other_side(view, facet, brdf, incidence, &c, band);
     if (state == PATCH_UNLIT) {
@@ -434,7 +439,7 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_p
         parts.deviation =
             is_curved ? area * ((1 + a) * deviation.point + stretch * deviation.value + other) : 0;
         parts.shift = area * (1 + a) * deviation.value;
-        parts.most = area * ((1 + a) * deviation.most + other);
+        parts.upper_bound = area * ((1 + a) * deviation.most + other);
     }
     return parts;
 }

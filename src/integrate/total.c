@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* The sum of Eq. 2 over visible areas, material by material, compensated. A facet of area S at
-   incidence theta whose visible projected area is a adds
+/* Computes the sum of Eq. 2 over visible areas, material by material, by compensated summation. A
+   facet of area S at incidence theta whose visible projected area is a adds
        4 pi f_r cos(theta) a = 4 pi S f (a / (S cos(theta))),  f = f_r cos^2(theta).
 
    Nearly all facets are summed in blocks of LRCSI_LANES, in plain doubles (optics/shade.h). Facets
    near grazing incidence, in the bright lobe of a narrow glint, with curved normals, or on curved
    walls are added one by one (add_any_facet), with incidence in double-double (view/view.h). What
-   each step adds to the bounds is stated beside it; at the end the bounds are increased by 1e-9 and
-   2 u a facet, relative, for the rounding of their own sums. The steps of lrcsi_total_make:
+   each step adds to the bounds is stated beside it; at the end the bounds are increased by the
+   fraction 1e-9 + 2 u per facet, for the rounding of their own sums. The steps of lrcsi_total_make:
    1. add_batch, for each material: select_facets selects the facets of its batch that face the
       laser (lrcsi_view_dot), keep_visible keeps those that are visible, and add_block evaluates
       blocks of them: normals and areas, lrcsi_shade, visible areas, sums, bounds;
@@ -40,8 +40,9 @@
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
     double visibility, rounding, curvature;
-    double above, below; /* bounds on how far the truth is above and below the facets' sum */
-    double likely, bias; /* estimated errors: independent ones (root of squares); one of one sign */
+    double above, below; /* bounds on how far the true sigma is above, and below, the facets' sum */
+    double likely,
+        bias; /* estimated errors: random (root of the sum of squares); systematic (sum) */
     uint32_t seen;
 } total_sums;
 
@@ -56,7 +57,7 @@ typedef struct total_run {
     const lrcsi_clear *clear;         /* NULL: no shape is evaluated by its closed form */
     lrcs_facet_record *records;       /* NULL: none are asked for */
     double *part_error;               /* by part, scaled until the end; NULL: not asked for */
-    int tessellation;  /* facets replace curved shapes, and the error of that is known */
+    int tessellation;  /* 1: facets replace curved shapes, and the error of that can be bounded */
     lrcsi_patch patch; /* of the last facet that has one */
     lrcsi_total total;
     total_sums sums;
@@ -64,8 +65,8 @@ typedef struct total_run {
 
 /* --- the terms of one facet ------------------------------------------------------------------- */
 
-/* The reflection at tan^2. A term of amplitude 0 that the plan evaluates all the same is evaluated
-   at amplitude 1 and multiplied by 0; without a slope there is no glint to evaluate. */
+/* The reflection at tan^2. If the plan forces the evaluation of a term of amplitude 0, it is
+   evaluated at amplitude 1 and multiplied by 0; the glint is not evaluated if s = 0. */
 static lrcsi_reflection reflection_planned(const lrcs_brdf *brdf, const lrcsi_plan *plan,
                                            double tan2)
 {
@@ -88,9 +89,9 @@ static double glint_peak(double s)
     return q <= 1 ? 1 : q * q * lrcsi_exp(2 / q - 2);
 }
 
-/* A bound on the error of the glint where the relative error of tan^2 is too large for its slope to
-   be linearised: the true and the computed value both lie between 0 and the glint at the lower
-   bound of tan^2, which is their upper bound beyond the peak (at 2 s^2 - 1). */
+/* A bound on the error of the glint where the relative error of tan^2 is too large for a linear
+   approximation. Beyond the peak (at 2 s^2 - 1) the glint decreases, so the true and the computed
+   value both lie between 0 and the glint at the lower bound of tan^2. */
 static double glint_uncertainty(const lrcs_brdf *brdf, const lrcsi_incidence *incidence)
 {
     double lower = incidence->tan2 * (1 - 2 * incidence->tan2_err);
@@ -128,8 +129,7 @@ static double reflection_uncertainty(const lrcs_brdf *brdf, const lrcsi_incidenc
            (diffuse < 1 ? at->diffuse * exp_minus_1_bound(diffuse) : brdf->B);
 }
 
-/* The fraction part / whole: 1, without a division, for the many facets that are entirely
-   visible. */
+/* The fraction part / whole; without a division for the many facets that are entirely visible. */
 static double fraction_of(double part, double whole)
 {
     return part == whole ? 1 : part / whole;
@@ -166,7 +166,7 @@ lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_pla
 
 /* --- what is visible of a facet --------------------------------------------------------------- */
 
-/* Is all of the facet visible, or nothing, by its answer? */
+/* Has the facet an answer, that it is entirely visible or entirely hidden? */
 static inline int facet_answered(const total_run *run, uint32_t facet)
 {
     return run->answer && run->answer[facet] != LRCSI_QUERY_UNDECIDED;
@@ -187,22 +187,22 @@ static lrcsi_visible facet_visible(const total_run *run, uint32_t facet,
                : (lrcsi_visible){0, 0, 0, 0, 0};
 }
 
-/* The visible area of a facet, where areas were found and some of it may be visible. */
+/* The visible area of a facet that may be visible. Given: visible areas (not method facet). */
 static inline double facet_area(const total_run *run, uint32_t facet)
 {
     return facet_answered(run, facet) ? lrcsi_view_projected(run->view, facet)
                                       : run->visible[facet].area;
 }
 
-/* May something of a facet be visible, where areas were found? */
+/* May some of a facet be visible? Given: visible areas (not method facet). */
 static inline int area_may_be_visible(const total_run *run, uint32_t facet)
 {
     return facet_answered(run, facet) ? run->answer[facet] == LRCSI_QUERY_VISIBLE
                                       : run->visible[facet].high > 0;
 }
 
-/* The same for any method, from the side that faces the laser: 1, or -1 for the back. Instead of a
-   redundant facet, the one that coincides with it is visible. */
+/* The same for any method. Given: the side that faces the laser, 1, or -1 for the back. A redundant
+   facet is not visible; a facet that coincides with it is seen instead. */
 static inline int side_may_be_visible(const total_run *run, uint32_t facet, int side)
 {
     int limit = side > 0 ? LRCSI_REDUNDANT : LRCSI_REDUNDANT_FROM_BEHIND;
@@ -216,8 +216,8 @@ static int is_in_clear_shape(const total_run *run, uint32_t facet)
     return run->clear && run->clear->part[run->view->prepared->scene->facet_part[facet]];
 }
 
-/* Counts a facet if nothing, or only a part, of it is visible. The area of a clipped facet that
-   cannot be distinguished from 0, or from the projected area, counts as that. */
+/* Counts a facet that is hidden or partly visible. If the area of a clipped facet cannot be
+   distinguished from 0, the facet counts as hidden; if not from the projected area, as visible. */
 static void count_visible(lrcsi_total *total, double projected, const lrcsi_visible *visible)
 {
     int below = visible->area < projected;
@@ -236,7 +236,7 @@ static void add_seen(total_sums *sums, const lrcs_brdf *brdf)
     sums->seen |= brdf->B > 0 ? 1u << LRCS_EFFECT_DIFFUSE : 0u;
 }
 
-/* Adds the errors of an uncertain visible area, given what the facet reflects per area. */
+/* Adds the errors due to an uncertain visible area. Given: sigma per unit of visible area. */
 static void add_area_error(total_sums *sums, double per_area, const lrcsi_visible *visible)
 {
     double area_err = lrcsi_max(visible->area - visible->low, visible->high - visible->area);
@@ -291,8 +291,8 @@ static void add_reflecting_facet(total_run *run, uint32_t facet)
     }
 }
 
-/* A facet of a clear shape. What it reflects is part of the closed form, and nothing hides its
-   front. So is the projected area, if the shape is solid. */
+/* Counts a facet of a clear shape, of which nothing hides the front. Its sigma is part of the
+   closed form; so is its projected area if the shape is solid. */
 static void add_facet_of_clear_shape(total_run *run, uint32_t facet)
 {
     const lrcs_prepared *p = run->view->prepared;
@@ -303,7 +303,7 @@ static void add_facet_of_clear_shape(total_run *run, uint32_t facet)
     run->total.hidden += front ? 0 : 1;
 }
 
-/* Adds any facet, by its exact facing. */
+/* Adds a facet of any kind, by its exact facing. */
 static void add_any_facet(total_run *run, uint32_t facet)
 {
     int reflects = lrcsi_view_reflects(run->view, facet);
@@ -325,8 +325,8 @@ static void add_any_facet(total_run *run, uint32_t facet)
     }
 }
 
-/* Divides a facet's error among the parts that it is due to, in proportion to how far their facets
-   are from their true surfaces: its own part, and those whose shadows may end on it. */
+/* Divides the error of a facet among the parts that cause it, in proportion to their reaches: its
+   own part, and those whose shadows may end on the facet. */
 static void add_part_errors(const total_run *run, uint32_t facet, double error)
 {
     const lrcs_scene *scene = run->view->prepared->scene;
@@ -343,8 +343,9 @@ static void add_part_errors(const total_run *run, uint32_t facet, double error)
     }
 }
 
-/* Adds the error of a facet that replaces a part of a curved shape. Facets with curved normals add
-   what may be visible or hidden within the proximity band; clear shapes have no such error. */
+/* Adds the tessellation error of a facet: the error of replacing curved shapes by facets. A facet
+   with curved normals adds only the effect of differences in visibility within the proximity band;
+   clear shapes have no such error. */
 static void add_tessellation_error(total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
 {
     if (is_in_clear_shape(run, facet)) {
@@ -367,14 +368,14 @@ static void add_tessellation_error(total_run *run, uint32_t facet, const lrcsi_i
 /* --- facets in blocks ------------------------------------------------------------------------- */
 
 /* The facets of one material. Those that can be evaluated in blocks are collected until there are
-   enough for one; they are identified by their places in prepared->batches. */
+   enough for one block. */
 typedef struct total_batch {
     lrcsi_lobes lobes;
-    int back_reflects; /* back sides reflect */
-    int back_visible;  /* back sides may be visible */
-    int seen;          /* a facet that reflects may be visible */
-    uint32_t waiting;  /* facets collected for the next block */
-    uint32_t place[2 * LRCSI_LANES];
+    int back_reflects;                 /* back sides reflect */
+    int back_visible;                  /* back sides may be visible */
+    int seen;                          /* a facet that reflects may be visible */
+    uint32_t waiting;                  /* facets collected for the next block */
+    uint32_t element[2 * LRCSI_LANES]; /* their indices in prepared->batches */
     signed char side[2 * LRCSI_LANES]; /* 1 or, if back sides reflect, -1 for those */
     lrcsi_shades shades;
     double area[LRCSI_LANES]; /* S, then S cos(theta), then the visible part of that */
@@ -383,8 +384,9 @@ typedef struct total_batch {
     double error[LRCSI_SUM_LANES];
 } total_batch;
 
-/* Fills the block with the unit normals towards the laser, and the areas, of the first facets
-   collected. Unused lanes get the direction to the laser as their normal, and no area. */
+/* Fills the block with the unit normals, on the side towards the laser, and the areas of the first
+   `count` facets collected. Unused lanes get the direction to the laser as their normal, and area
+   0. */
 static void block_gather(const total_run *run, total_batch *batch, uint32_t count)
 {
     const lrcsi_view *view = run->view;
@@ -395,7 +397,7 @@ static void block_gather(const total_run *run, total_batch *batch, uint32_t coun
     const double *area = b->area;
     lrcsi_shades *shades = &batch->shades;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t at = batch->place[i];
+        uint32_t at = batch->element[i];
         shades->normal[0][i] = x[at];
         shades->normal[1][i] = y[at];
         shades->normal[2][i] = z[at];
@@ -414,14 +416,14 @@ static void block_gather(const total_run *run, total_batch *batch, uint32_t coun
     }
 }
 
-/* The visible areas of a block, where areas were found: replaces S cos(theta) where the facet is
-   not known to be entirely visible, and adds the errors of these areas. */
+/* Replaces S cos(theta) by the visible areas of facets that have no answer, and adds the errors due
+   to these areas. */
 static void block_visible(total_run *run, total_batch *batch, uint32_t count)
 {
     const lrcsi_shades *shades = &batch->shades;
     memcpy(batch->high, batch->area, sizeof batch->high);
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t facet = run->view->prepared->batches.facet[batch->place[i]];
+        uint32_t facet = run->view->prepared->batches.facet[batch->element[i]];
         if (facet_answered(run, facet)) {
             continue;
         }
@@ -435,13 +437,13 @@ static void block_visible(total_run *run, total_batch *batch, uint32_t count)
     }
 }
 
-/* Eq. 2 for one block, the first LRCSI_LANES facets collected:
-   1. normals and areas S;
-   2. 4 pi f_r cos(theta), with errors;
-   3. projected areas S cos(theta), and the visible part of them. With method facet, facets that are
-      not proved to be steeper than the plan's grazing threshold may be hidden;
-   4. the products of 2 and 3, added to the sums;
-   5. records. */
+/* Adds one block by Eq. 2, the first LRCSI_LANES facets collected:
+   1. gathers their normals and areas S;
+   2. computes 4 pi f_r cos(theta), with errors;
+   3. computes projected areas S cos(theta), and replaces them by visible areas. With method facet,
+      facets may be hidden unless cos(theta) is proved to exceed the plan's grazing threshold;
+   4. adds the products of 2 and 3 to the sums;
+   5. fills records. */
 static void add_block(total_run *run, total_batch *batch)
 {
     const lrcsi_view *view = run->view;
@@ -476,19 +478,19 @@ static void add_block(total_run *run, total_batch *batch)
     lrcsi_sum_lanes_add(&batch->projected, batch->area);
     lrcsi_lanes_add(batch->error, error);
     for (uint32_t i = 0; run->records && i < count; i++) {
-        record_sigma(run, view->prepared->batches.facet[batch->place[i]], glint[i], diffuse[i]);
+        record_sigma(run, view->prepared->batches.facet[batch->element[i]], glint[i], diffuse[i]);
     }
     if (batch->lobes.A > 0 || batch->lobes.B > 0) {
         run->sums.rounding += count * LRCSI_FACET_UNDERFLOW;
     }
     batch->waiting -= count;
-    memmove(batch->place, batch->place + LRCSI_LANES, sizeof batch->place / 2);
+    memmove(batch->element, batch->element + LRCSI_LANES, sizeof batch->element / 2);
     memmove(batch->side, batch->side + LRCSI_LANES, sizeof batch->side / 2);
 }
 
-/* Given places of facets that reflect, keeps those that are evaluated in blocks, and returns how
-   many these are. Facets of clear shapes, and those with curved normals, are added at once; hidden
-   ones are counted. */
+/* Given the indices in the batches of facets that reflect, keeps those that are evaluated in
+   blocks, and returns their number. Facets of clear shapes and facets with curved normals are added
+   here; hidden ones are counted. */
 static uint32_t keep_visible(total_run *run, uint32_t *list, uint32_t count, int side)
 {
     const uint32_t *facet = run->view->prepared->batches.facet;
@@ -525,15 +527,15 @@ static uint32_t keep_visible(total_run *run, uint32_t *list, uint32_t count, int
     return left;
 }
 
-/* Collects the facets selected from `place` on for the next block, and adds the block once it is
-   full. They reflect from the side that faces the laser: 1, or -1 for their back. */
-static void batch_collect(total_run *run, total_batch *batch, uint32_t place,
+/* Collects the selected facets among the LRCSI_LANES from index `start` on, and adds the block once
+   it is full. The facets reflect from the side that faces the laser: 1, or -1 for their back. */
+static void batch_collect(total_run *run, total_batch *batch, uint32_t start,
                           const uint64_t pick[LRCSI_LANES], int side)
 {
-    uint32_t *list = batch->place + batch->waiting;
+    uint32_t *list = batch->element + batch->waiting;
     uint32_t count = 0;
     for (uint32_t i = 0; i < LRCSI_LANES; i++) { /* without branches: facings follow no pattern */
-        list[count] = place + i;
+        list[count] = start + i;
         count += (uint32_t)(pick[i] >> 63);
     }
     if (run->visible || run->clear || run->view->prepared->batches.redundant) {
@@ -549,14 +551,14 @@ static void batch_collect(total_run *run, total_batch *batch, uint32_t place,
     }
 }
 
-/* The cosine of the incidence at a place. */
-static inline double place_dot(const lrcsi_batches *b, uint32_t at, const double d[3])
+/* The cosine of the incidence of an element of the batches. */
+static inline double element_dot(const lrcsi_batches *b, uint32_t at, const double d[3])
 {
     return lrcsi_view_dot(b->normal[0][at], b->normal[1][at], b->normal[2][at], d);
 }
 
-/* Adds the areas of the selected back sides, which do not reflect, as far as they are visible. */
-static void add_back_areas(total_run *run, total_batch *batch, uint32_t place,
+/* Adds the visible areas of the selected back sides, which do not reflect. */
+static void add_back_areas(total_run *run, total_batch *batch, uint32_t start,
                            const uint64_t pick[LRCSI_LANES])
 {
     const lrcsi_batches *b = &run->view->prepared->batches;
@@ -566,18 +568,19 @@ static void add_back_areas(total_run *run, total_batch *batch, uint32_t place,
     if (run->visible || b->redundant) {
         for (uint32_t i = 0; i < LRCSI_LANES; i++) {
             if (pick[i] >> 63) {
-                uint32_t facet = b->facet[place + i];
+                uint32_t facet = b->facet[start + i];
                 if (side_may_be_visible(run, facet, -1)) {
                     area[count] = run->visible ? facet_area(run, facet)
-                                               : -place_dot(b, place + i, d) * b->area[place + i];
+                                               : -element_dot(b, start + i, d) * b->area[start + i];
                 }
                 run->total.back_sides += area[count++] > 0;
             }
         }
     } else {
         for (uint32_t i = 0; i < LRCSI_LANES; i++) {
-            uint32_t at = place + i;
-            area[i] = lrcsi_bits_masked(-place_dot(b, at, d) * b->area[at], ~((pick[i] >> 63) - 1));
+            uint32_t at = start + i;
+            area[i] =
+                lrcsi_bits_masked(-element_dot(b, at, d) * b->area[at], ~((pick[i] >> 63) - 1));
             count += (uint32_t)(pick[i] >> 63);
         }
         run->total.back_sides += count;
@@ -585,21 +588,22 @@ static void add_back_areas(total_run *run, total_batch *batch, uint32_t place,
     lrcsi_sum_lanes_add(&batch->back_side, area);
 }
 
-/* Which of LRCSI_LANES places have facets that are evaluated in blocks, as sign bits: those whose
-   front faces the laser, and those whose back does. */
+/* Which of LRCSI_LANES facets are evaluated in blocks, as sign bits: those whose front faces the
+   laser, and those whose back does. */
 typedef struct total_selection {
     uint64_t front[LRCSI_LANES], back[LRCSI_LANES];
     uint64_t any_front, any_back, any_other; /* sign bit: 1 if there is one */
 } total_selection;
 
-/* Compares cosines by the sign bits of differences: a - b is negative if a < b. */
-static void select_facets(const total_run *run, const total_batch *batch, uint32_t place,
+/* Selects among the facets from index `start` on, without branches: the comparison a < b is the
+   sign bit of a - b. */
+static void select_facets(const total_run *run, const total_batch *batch, uint32_t start,
                           uint32_t count, total_selection *restrict pick)
 {
     const lrcsi_batches *b = &run->view->prepared->batches;
-    const double *x = b->normal[0] + place;
-    const double *y = b->normal[1] + place;
-    const double *z = b->normal[2] + place;
+    const double *x = b->normal[0] + start;
+    const double *y = b->normal[1] + start;
+    const double *z = b->normal[2] + start;
     const double d[3] = {run->view->unit[0], run->view->unit[1], run->view->unit[2]};
     const double low = batch->lobes.low;
     const double high = batch->lobes.high;
@@ -625,16 +629,18 @@ static void select_facets(const total_run *run, const total_batch *batch, uint32
     pick->any_other = others;
 }
 
-/* Adds up to LRCSI_LANES facets from a place on:
-   1. selects those that are evaluated in blocks: not facets that represent patches of curved walls;
+/* Adds up to LRCSI_LANES facets from index `start` on:
+   1. selects those that are evaluated in blocks, except facets that represent patches of curved
+      walls;
    2. collects front sides for a block;
    3. collects back sides too if they reflect; otherwise adds their areas;
-   4. adds the others one by one: near grazing, or in the bright lobe of a narrow glint. */
-static void add_places(total_run *run, total_batch *batch, uint32_t place, uint32_t count)
+   4. adds the others one by one: facets near grazing incidence or in the bright lobe of a narrow
+      glint, and those of curved walls. */
+static void add_lanes(total_run *run, total_batch *batch, uint32_t start, uint32_t count)
 {
-    const uint32_t *facet = run->view->prepared->batches.facet + place;
+    const uint32_t *facet = run->view->prepared->batches.facet + start;
     total_selection pick;
-    select_facets(run, batch, place, count, &pick);
+    select_facets(run, batch, start, count, &pick);
     for (uint32_t i = 0; run->plan->patches && i < count; i++) {
         if (lrcsi_patch_exists(run->view->prepared, facet[i])) {
             pick.front[i] = pick.back[i] = 0;
@@ -642,13 +648,13 @@ static void add_places(total_run *run, total_batch *batch, uint32_t place, uint3
         }
     }
     if (pick.any_front >> 63) {
-        batch_collect(run, batch, place, pick.front, 1);
+        batch_collect(run, batch, start, pick.front, 1);
     }
     int back = (int)(pick.any_back >> 63);
     if (back && batch->back_reflects) { /* then they cast shadows, and may be visible */
-        batch_collect(run, batch, place, pick.back, -1);
+        batch_collect(run, batch, start, pick.back, -1);
     } else if (back && batch->back_visible) {
-        add_back_areas(run, batch, place, pick.back);
+        add_back_areas(run, batch, start, pick.back);
     }
     for (uint32_t i = 0; pick.any_other >> 63 && i < count; i++) {
         if (!((pick.front[i] | pick.back[i]) >> 63)) {
@@ -683,9 +689,9 @@ static void add_batch(total_run *run, uint32_t material)
         .back_reflects = view->backs.reflect && m->two_sided,
         .back_visible = view->backs.cast || run->visible};
     const uint32_t *first = view->prepared->batches.first + material;
-    for (uint32_t place = first[0]; place < first[1]; place += LRCSI_LANES) {
-        uint32_t left = first[1] - place;
-        add_places(run, &batch, place, left < LRCSI_LANES ? left : LRCSI_LANES);
+    for (uint32_t start = first[0]; start < first[1]; start += LRCSI_LANES) {
+        uint32_t left = first[1] - start;
+        add_lanes(run, &batch, start, left < LRCSI_LANES ? left : LRCSI_LANES);
     }
     if (batch.waiting > 0) {
         add_block(run, &batch);
@@ -711,19 +717,19 @@ static void add_batch(total_run *run, uint32_t material)
 
 /* --- curved shapes ---------------------------------------------------------------------------- */
 
-/* Adds the errors of the facets that replace curved shapes, except those that represent patches,
-   whose errors add_places adds. */
+/* Adds the tessellation errors of all facets except those that represent patches: add_lanes has
+   added theirs. */
 static void add_tessellation_errors(total_run *run)
 {
     const lrcsi_batches *b = &run->view->prepared->batches;
-    for (uint32_t place = 0; place < b->count; place += LRCSI_INCIDENCES) {
+    for (uint32_t start = 0; start < b->count; start += LRCSI_INCIDENCES) {
         lrcsi_incidence incidence[LRCSI_INCIDENCES];
-        uint32_t left = b->count - place;
+        uint32_t left = b->count - start;
         uint32_t count = left < LRCSI_INCIDENCES ? left : LRCSI_INCIDENCES;
-        lrcsi_view_incidences(run->view, b->facet + place, count, incidence);
+        lrcsi_view_incidences(run->view, b->facet + start, count, incidence);
         for (uint32_t i = 0; i < count; i++) {
-            if (!lrcsi_patch_exists(run->view->prepared, b->facet[place + i])) {
-                add_tessellation_error(run, b->facet[place + i], &incidence[i]);
+            if (!lrcsi_patch_exists(run->view->prepared, b->facet[start + i])) {
+                add_tessellation_error(run, b->facet[start + i], &incidence[i]);
             }
         }
     }
@@ -761,7 +767,7 @@ static void record_shape(const total_run *run, const lrcs_part *part,
     }
 }
 
-/* Adds a clear shape. The rounding of the compensated sums is part of that of the facets. */
+/* Adds a clear shape. total_finish bounds the rounding of the compensated sums. */
 static void add_clear_shape(total_run *run, uint32_t index, double slab)
 {
     const lrcs_prepared *p = run->view->prepared;
@@ -799,8 +805,8 @@ static void records_start(const total_run *run)
     }
 }
 
-/* Below the normal doubles the conversion may round by up to 2^-1075, and so may that of the values
-   that the bound holds for, at most two: 2^-1073 covers them. */
+/* If the result is denormal, the conversion may round by up to 2^-1075, and so may the conversions
+   of the values to which the bound applies, at most two: 2^-1073 covers all of them. */
 double lrcsi_bound_area(const lrcs_prepared *p, double scaled)
 {
     double area = lrcsi_prepared_area(p, scaled);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The sum of Eq. 2: from visible areas to sigma, its parts, and what each cause adds to its
-   bound. */
+/* The sum of Eq. 2: from visible areas to sigma and its parts, with the contribution of each source
+   of error to the bound. */
 #ifndef LRCSI_TOTAL_H
 #define LRCSI_TOTAL_H
 
@@ -17,7 +17,7 @@ typedef struct lrcsi_total {
     double curvature;                          /* estimated error of facets with curved normals */
     double projected, back_side;
     uint32_t back_sides, hidden, partial; /* facets */
-    uint32_t seen; /* GLINT and DIFFUSE bits: the terms of facets that may be visible */
+    uint32_t seen; /* the bits GLINT and DIFFUSE, if some facet that may be visible has that term */
 } lrcsi_total;
 
 /* What one facet with a flat normal adds to sigma, scaled, with the factor 4 pi. */
@@ -28,13 +28,14 @@ typedef struct lrcsi_facet_terms {
     double per_area; /* glint + diffuse per unit of visible area */
 } lrcsi_facet_terms;
 
-/* Given: a facet that reflects towards the laser, its incidence, its visible area; the patch of the
-   last facet (integrate/patch.h), or one with side = 0. */
+/* Computes these terms. Given: a facet that reflects towards the laser, its incidence, its visible
+   area; the patch of the last facet (integrate/patch.h), or one with side = 0. */
 lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t facet, const lrcsi_incidence *incidence,
                                          const lrcsi_visible *visible, lrcsi_patch *patch);
 
-/* A scaled bound on areas or on sigma in square metres, rounded outward where it underflows. */
+/* Converts a scaled bound on areas or on sigma to square metres, rounded outward where it
+   underflows. */
 double lrcsi_bound_area(const lrcs_prepared *p, double scaled);
 
 /* A bound on the underflow error of a facet's terms, scaled: some 30 operations lose at most
@@ -52,12 +53,12 @@ typedef struct lrcsi_areas {
 /* Given: the view and its plan; the visible areas (answer NULL if shapes are curved); the results
    of facets with curved normals, curved[facet_count] (NULL: all are flat); the proximity band
    (NULL: none was made); the shapes that are evaluated by their closed forms instead of their
-   facets (NULL: none). Returned: the total. The sum is taken material by material, each in facet
-   order, and then over clear shapes in the scene's order. Unless NULL, records[facet_count]: the
-   sigma of a clear shape is divided among its facets in proportion to what they would reflect or,
-   if none of them would reflect, to their projected areas. If only a sliver of a shape is lit and
-   none of its facets faces the laser, its sigma is in no record. Unless NULL,
-   part_error[part_count] is that of lrcs_run_options. */
+   facets (NULL: none). Returned: the total. The order of the sum is: materials in their order, the
+   facets of each in theirs; then clear shapes in theirs. Unless NULL, also records[facet_count]:
+   the sigma of a clear shape is divided among its facets in proportion to what they would reflect
+   or, if none of them would reflect, to their projected areas. If only a sliver of a shape faces
+   the laser, and none of its facets does, its sigma is in no record. Unless NULL, also
+   part_error[part_count], as in lrcs_run_options. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
                              const lrcsi_proximity_band *band, const lrcsi_clear *clear,

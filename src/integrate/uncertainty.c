@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* The material uncertainty of sigma: what the stated errors of A, B, s and m leave uncertain. sigma
-   is the sum over materials of A G(s) + B D(m), so that a sample needs nothing of the scene but the
-   responses G and D of each material near its own s and m. lrcs_uncertainty_run takes these steps:
+/* The material uncertainty of sigma: the standard deviation of sigma that follows from the stated
+   errors of A, B, s and m. sigma is the sum over materials of A G(s) + B D(m), so that a sample
+   needs only the responses G and D of each material near its own s and m. The steps of
+   lrcs_uncertainty_run:
    1. The pose, as lrcs_sigma_run (lrcsi_sigma_stages).
    2. The responses of all materials at the nodes of s and m (lrcsi_response_make): over the visible
       areas of that pose or, with curved normals, from a pose for each node (run_node).
-   3. The derivatives of sigma, from the materials' own node.
-   4. Sources: materials with the same source have the same errors, and are joined (sources_make).
+   3. The derivatives of sigma, from the node of the materials' own s and m.
+   4. Sources: materials with the same source have the same errors, and are combined (sources_make).
    5. First order: with v the four derivatives times the four standard deviations and C the
       correlations, the variance is the sum over sources of v' C v.
    6. The sample: normal deviates with these correlations (C = L L'), clamped to the domain; G and D
@@ -18,6 +19,7 @@
 
 #include "base/elementary.h"
 #include "base/range.h"
+#include "base/sort.h"
 #include "base/work.h"
 #include "integrate/sensitivity.h"
 #include "integrate/sigma.h"
@@ -25,21 +27,22 @@
 /* The nodes of each material's s and m; the middle one is its own. */
 #define NODES        17u
 #define NODES_CURVED 9u /* with curved normals, where each node takes a pose */
-/* Nodes and draws reach this many standard deviations to either side. */
-#define REACH 4.0
-/* The smallest s of nodes and draws, relative to the material's own: below it sigma changes
+/* Nodes and draws of s and m extend this many standard deviations to either side. */
+#define DEVIATIONS_MAX 4.0
+/* The smallest s of nodes and draws, relative to the material's own; below it sigma changes
    little. */
 #define SLOPE_MIN 0.0625
-/* First order is reported while its standard deviation differs by no more than this, relatively,
-   from that of the sample, and while the sample's mean differs from sigma by no more than this many
-   of its standard deviations. Differences below three standard errors count as chance. */
-#define DEVIATION_AGREES 0.05
-#define MEAN_AGREES      0.1
-#define STANDARD_ERRORS  3.0
+/* The result to first order is reported unless its standard deviation differs from that of the
+   sample by more than this fraction, or the sample's mean differs from sigma by more than this many
+   of its standard deviations. Differences below three standard errors are attributed to chance. */
+#define DEVIATION_DIFFERENCE_MAX 0.05
+#define MEAN_DIFFERENCE_MAX      0.1
+#define STANDARD_ERRORS          3.0
 /* The probabilities of a normal deviate below -1 and below 1 standard deviation. */
 #define QUANTILE_LOW  0.15865525393145705
 #define QUANTILE_HIGH 0.84134474606854295
-/* The polar method accepts pi / 4 of all pairs: this many are never all rejected. */
+/* The polar method accepts a fraction of pi / 4 of all pairs. That it rejects so many in succession
+   has a probability of 2e-43. */
 #define POLAR_TRIES 64
 /* Responses are interpolated in their logarithm unless one is smaller than this. */
 #define RESPONSE_MIN 1e-250
@@ -57,8 +60,8 @@ lrcs_uncertainty_options lrcs_uncertainty_options_default(void)
 
 /* --- nodes ------------------------------------------------------------------------------------ */
 
-/* How many nodes a sample needs. sigma is linear in A and B: if nothing else is uncertain, the
-   materials' own node suffices. */
+/* The number of nodes that a sample needs. sigma is linear in A and B: if nothing else is
+   uncertain, the node of the materials' own s and m suffices. */
 static uint32_t node_count(const lrcs_prepared *prepared, const lrcs_uncertainty_options *options)
 {
     const lrcs_scene *scene = prepared->scene;
@@ -72,16 +75,16 @@ static uint32_t node_count(const lrcs_prepared *prepared, const lrcs_uncertainty
 /* The first and the last node of a parameter. */
 static double node_low(double value, double deviation, double minimum)
 {
-    return lrcsi_max(minimum, value - REACH * deviation);
+    return lrcsi_max(minimum, value - DEVIATIONS_MAX * deviation);
 }
 
 static double node_high(double value, double deviation)
 {
-    return value + REACH * deviation;
+    return value + DEVIATIONS_MAX * deviation;
 }
 
-/* Node k of `count`: equal steps from the first node to the value, and equal steps from there to
-   the last node. */
+/* Node k of `count`: the steps from the first node to the material's own value are equal, and so
+   are those from there to the last node. */
 static double node_at(double low, double value, double high, uint32_t k, uint32_t count)
 {
     uint32_t half = count / 2;
@@ -105,7 +108,7 @@ static lrcs_brdf node_brdf(const lrcs_material *material, uint32_t k, uint32_t c
 
 /* --- sources ---------------------------------------------------------------------------------- */
 
-/* The materials of one source, joined. */
+/* A source: all materials whose parameters, and so their errors, have the same origin. */
 typedef struct source {
     const lrcs_material *material; /* the first of them */
     response_node *node;           /* [count]: the sums of their responses */
@@ -145,8 +148,8 @@ static void correlation_root(const double c[6], double root[4][4])
     }
 }
 
-/* Lists the sources with errors, and adds the responses of all materials of each. Returns how many
-   there are. */
+/* Lists the sources with errors, each with the sum of the responses of its materials. Returns their
+   number. */
 static uint32_t sources_make(const lrcs_scene *scene, const response_node *node, uint32_t count,
                              response_node *memory, source *list)
 {
@@ -238,8 +241,8 @@ static double hermite(double f0, double f1, double g0, double g1, double step, d
     return f0 + t * (f1 - f0) + t * (1 - t) * ((1 - t) * a + t * b);
 }
 
-/* A response between two nodes. Its logarithm is interpolated, since on the flank of a glint it
-   varies by orders of magnitude; where it underflows, the response itself is. */
+/* A response between two nodes. Its logarithm is interpolated, because on the flank of a glint it
+   varies by orders of magnitude; near underflow the response itself is interpolated. */
 static double interpolate(double f0, double f1, double g0, double g1, double step, double t)
 {
     if (!(f0 > RESPONSE_MIN) || !(f1 > RESPONSE_MIN)) {
@@ -309,29 +312,12 @@ static lrcs_brdf source_draw(const source *one, uint64_t *state)
         }
     }
     for (int i = 2; i < 4; i++) {
-        deviate[i] = lrcsi_min(REACH, lrcsi_max(-REACH, deviate[i]));
+        deviate[i] = lrcsi_min(DEVIATIONS_MAX, lrcsi_max(-DEVIATIONS_MAX, deviate[i]));
     }
     return (lrcs_brdf){lrcsi_max(0, own->A + deviate[0] * e->A),
                        lrcsi_max(0, own->B + deviate[1] * e->B),
                        lrcsi_max(SLOPE_MIN * own->s, own->s + deviate[2] * e->s),
                        lrcsi_max(0, own->m + deviate[3] * e->m)};
-}
-
-/* Sorts in place by Shell's method, with Ciura's gaps (2001) continued by a factor of 9/4. */
-static void sort_ascending(double *x, uint32_t count)
-{
-    static const uint32_t gap[] = {1,    4,    10,   23,    57,    132,    301,    701,
-                                   1750, 3937, 8858, 19930, 44842, 100894, 227011, 510774};
-    for (size_t g = sizeof gap / sizeof gap[0]; g-- > 0;) {
-        for (uint32_t i = gap[g]; i < count; i++) {
-            double one = x[i];
-            uint32_t j = i;
-            for (; j >= gap[g] && x[j - gap[g]] > one; j -= gap[g]) {
-                x[j] = x[j - gap[g]];
-            }
-            x[j] = one;
-        }
-    }
 }
 
 /* A quantile of the sample, by linear interpolation between the order statistics. */
@@ -342,8 +328,8 @@ static double quantile(const double *sorted, uint32_t count, double probability)
     return sorted[k] + (position - k) * (sorted[k + 1] - sorted[k]);
 }
 
-/* Draws the sample and summarises it.
-   Given: sigma, and the part of it, `own`, that the sources reflect with their own parameters. */
+/* Draws the sample and computes its statistics. Given: sigma, and the part of it, `own`, that the
+   sources add with their own parameters. */
 static void sample_make(const source *list, uint32_t sources, uint32_t count, double sigma,
                         double own, const lrcs_uncertainty_options *options, double *draw,
                         lrcs_uncertainty *uncertainty)
@@ -364,15 +350,16 @@ static void sample_make(const source *list, uint32_t sources, uint32_t count, do
     for (uint32_t i = 0; i < options->draws; i++) {
         lrcsi_sum_add(&square, (draw[i] - mean) * (draw[i] - mean));
     }
-    sort_ascending(draw, options->draws);
+    lrcsi_sort_ascending(draw, options->draws);
     uncertainty->draws = options->draws;
     uncertainty->sample_mean_m2 = mean;
     uncertainty->sample_m2 = sqrt(lrcsi_sum_value(&square) / (options->draws - 1));
     double chance = STANDARD_ERRORS / sqrt(options->draws);
     double difference = fabs(uncertainty->sample_m2 - uncertainty->first_order_m2);
     double bias = fabs(mean - sigma);
-    if (difference > lrcsi_max(DEVIATION_AGREES, chance / sqrt(2.0)) * uncertainty->sample_m2 ||
-        bias > lrcsi_max(MEAN_AGREES, chance) * uncertainty->sample_m2) {
+    if (difference >
+            lrcsi_max(DEVIATION_DIFFERENCE_MAX, chance / sqrt(2.0)) * uncertainty->sample_m2 ||
+        bias > lrcsi_max(MEAN_DIFFERENCE_MAX, chance) * uncertainty->sample_m2) {
         uncertainty->sampled = 1;
         uncertainty->deviation_m2 = uncertainty->sample_m2;
         uncertainty->low_m2 = quantile(draw, options->draws, QUANTILE_LOW);
@@ -450,7 +437,7 @@ static int responses_take(lrcs_work *work, uint32_t nodes, uint32_t materials,
                                                                                 : LRCS_E_MEMORY;
 }
 
-/* The responses at node k, over the visible areas of a finished run. */
+/* Computes the responses at node k, over the visible areas of a finished run. */
 static void node_fill(const lrcsi_sigma *run, const response_memory *memory, uint32_t k)
 {
     const lrcs_prepared *p = run->view.prepared;
@@ -468,8 +455,8 @@ static void node_fill(const lrcsi_sigma *run, const response_memory *memory, uin
     }
 }
 
-/* The responses at node k of a scene with curved normals: a run of the pose with the parameters of
-   the node, and amplitudes of 1. */
+/* Computes the responses at node k of a scene with curved normals, by a run of the pose with the
+   parameters of the node and amplitudes of 1. */
 static int run_node(const lrcs_prepared *prepared, const lrcs_pose *pose,
                     const lrcs_run_options *options, lrcs_work *work, const response_memory *memory,
                     uint32_t k)
@@ -512,7 +499,8 @@ static int uncertainty_check(const lrcs_scene *scene, const lrcs_run_options *op
     return LRCS_OK;
 }
 
-/* The derivatives with respect to the parameters of one material, from its own node. */
+/* The derivatives with respect to the parameters of one material. Given: the responses at the node
+   of its own s and m. */
 static lrcs_sensitivity sensitivity_of(const lrcs_brdf *brdf, const response_node *own)
 {
     return (lrcs_sensitivity){own->glint, own->diffuse, brdf->A * own->glint_s,

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/range.h"
+#include "base/sort.h"
 
 /* The largest number of vertices in the sample. */
 #define SAMPLE 256u
@@ -20,21 +21,6 @@ typedef struct bulk_sample {
     double distance[SAMPLE]; /* from the median, in the maximum norm */
     uint32_t count;
 } bulk_sample;
-
-/* Shell's sort with gaps 3 h + 1: a few thousand steps for a sample. */
-static void bulk_sort(double *x, uint32_t count)
-{
-    for (uint32_t gap = 121; gap > 0; gap /= 3) {
-        for (uint32_t i = gap; i < count; i++) {
-            double moved = x[i];
-            uint32_t at = i;
-            for (; at >= gap && x[at - gap] > moved; at -= gap) {
-                x[at] = x[at - gap];
-            }
-            x[at] = moved;
-        }
-    }
-}
 
 /* Takes every stride-th vertex. The stride is odd, so that a model made of many equal pieces is not
    sampled at the same corner of each piece. */
@@ -60,7 +46,7 @@ static void sample_centre(bulk_sample *s, double median[3])
     memset(s->distance, 0, sizeof s->distance);
     for (int k = 0; k < 3; k++) {
         memcpy(sorted, s->x[k], s->count * sizeof *sorted);
-        bulk_sort(sorted, s->count);
+        lrcsi_sort_ascending(sorted, s->count);
         median[k] = sorted[s->count / 2];
         for (uint32_t i = 0; i < s->count; i++) {
             s->distance[i] = lrcsi_max(s->distance[i], fabs(s->x[k][i] - median[k]));
@@ -77,7 +63,7 @@ static double bulk_radius(const bulk_sample *s, double whole, uint32_t vertices)
 {
     double sorted[SAMPLE];
     memcpy(sorted, s->distance, s->count * sizeof *sorted);
-    bulk_sort(sorted, s->count);
+    lrcsi_sort_ascending(sorted, s->count);
     double half = sorted[s->count / 2];
     double cost_of_all = (whole / half) * (whole / half);
     double least = cost_of_all / WORK_RATIO;

@@ -171,13 +171,6 @@ int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
 
 /* --- contacts --------------------------------------------------------------------------------- */
 
-/* The facet of an opposite pair for which contacts were computed; the facet itself if it has no
-   opposite. */
-static uint32_t first_of_pair(const lrcs_prepared *p, uint32_t facet)
-{
-    return p->opposite[facet] < facet ? p->opposite[facet] : facet;
-}
-
 /* The number of entries of the completed lists. */
 static uint64_t count_entries(const lrcs_prepared *p)
 {
@@ -216,7 +209,7 @@ static void complete_lists(lrcs_prepared *p, uint32_t count)
 {
     lrcsi_intersections *t = &p->intersections;
     for (uint32_t f = p->scene->facet_count; f-- > 0;) {
-        uint32_t first = first_of_pair(p, f);
+        uint32_t first = p->opposite[f] < f ? p->opposite[f] : f; /* of its pair, or f itself */
         uint32_t to = count;
         for (uint32_t i = t->first[first + 1]; i-- > t->first[first];) {
             lrcsi_intersection contact = t->entry[i];

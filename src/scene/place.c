@@ -231,16 +231,16 @@ int lrcsi_placer_axes(const lrcsi_placer *placer, lrcsi_axes *axes)
 int lrcsi_placer_normals(const lrcsi_placer *placer, double image[3][3], double *area)
 {
     const double *scale = placer->place.scale;
-    const double least = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
-    const double most = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
+    const double smallest = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
+    const double largest = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
     double factor[3];
-    double product = most / least;
+    double product = largest / smallest;
     lrcsi_dd sum[3][3];
     for (int k = 0; k < 3; k++) {
-        factor[k] = least / scale[k];
-        product *= fabs(scale[k]) / most;
+        factor[k] = smallest / scale[k];
+        product *= fabs(scale[k]) / largest;
     }
-    if (!(most / least <= NORMALS_RATIO_MAX) || !images_of_axes(placer, factor, sum)) {
+    if (!(largest / smallest <= NORMALS_RATIO_MAX) || !images_of_axes(placer, factor, sum)) {
         return 0;
     }
     for (int n = 0; n < 9; n++) {

@@ -241,8 +241,8 @@ static int facet_normals(const smooth_job *job, uint32_t facet, lrcs_point n[3])
         if (!(lrcsi_vec3_dot(x, own) > 0.0)) {
             memcpy(x, own, 3 * sizeof *x);
         }
-        const double off[3] = {x[0] - own[0], x[1] - own[1], x[2] - own[2]};
-        curved |= lrcsi_length(off) > SMOOTH_FLAT;
+        const double difference[3] = {x[0] - own[0], x[1] - own[1], x[2] - own[2]};
+        curved |= lrcsi_length(difference) > SMOOTH_FLAT;
     }
     return curved;
 }

@@ -55,11 +55,17 @@ static double tetrahedron(const lrcs_prepared *p, uint32_t facet, const double *
     return det;
 }
 
-/* Is the volume of every piece positive, in spite of the rounding of its sum? */
-static int pieces_outward(const lrcs_prepared *p, const uint32_t *piece, double *volume,
-                          double *error)
+/* Sums the volumes of pieces, with bounds on their rounding errors. */
+int lrcsi_solid_outward(const lrcs_prepared *p, const uint32_t *piece, lrcs_work *work, int *proved)
 {
+    size_t mark = work->used;
     uint32_t count = p->scene->facet_count;
+    double *volume = lrcsi_work_take_zero(work, count, sizeof *volume); /* times 6 */
+    double *error = lrcsi_work_take_zero(work, count, sizeof *error);
+    if (!volume || !error) {
+        work->used = mark;
+        return LRCS_E_MEMORY;
+    }
     for (uint32_t f = 0; f < count; f++) {
         if (!p->skip[f]) {
             double six_err = 0;
@@ -68,26 +74,14 @@ static int pieces_outward(const lrcs_prepared *p, const uint32_t *piece, double 
             error[piece[f]] += six_err + 2 * LRCSI_U * fabs(volume[piece[f]]);
         }
     }
+    *proved = 1;
     for (uint32_t f = 0; f < count; f++) {
         if (!p->skip[f] && piece[f] == f && !(volume[f] > 2 * error[f])) {
-            return 0;
+            *proved = 0;
         }
     }
-    return 1;
-}
-
-int lrcsi_solid_outward(const lrcs_prepared *p, const uint32_t *piece, lrcs_work *work, int *proved)
-{
-    size_t mark = work->used;
-    uint32_t count = p->scene->facet_count;
-    double *volume = lrcsi_work_take_zero(work, count, sizeof *volume);
-    double *error = lrcsi_work_take_zero(work, count, sizeof *error);
-    int status = volume && error ? LRCS_OK : LRCS_E_MEMORY;
-    if (status == LRCS_OK) {
-        *proved = pieces_outward(p, piece, volume, error);
-    }
     work->used = mark;
-    return status;
+    return LRCS_OK;
 }
 
 /* --- convexity -------------------------------------------------------------------------------- */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The radix sort: order, stability, and keys that differ in any byte. */
+/* The radix sort: order, stability, and keys that differ in any byte. The sort of numbers: order,
+   and that the numbers stay the same, against the number of smaller ones. */
 #include "base/sort.h"
 
 #include "check.h"
@@ -50,12 +51,38 @@ static void empty_and_single_lists_are_sorted(void **state)
     check_mask(0, 2);
 }
 
+/* Numbers with many ties, and their order by counting the smaller ones. */
+static void numbers_come_out_in_order(void **state)
+{
+    static double x[MANY], before[MANY];
+    (void)state;
+    for (uint32_t count = 0; count < 1500; count += count < 20 ? 1 : 367) {
+        uint64_t seed = 88172645463325252u + count;
+        for (uint32_t i = 0; i < count; i++) {
+            x[i] = before[i] = (double)(random_xorshift(&seed) % 1000) - 500;
+        }
+        lrcsi_sort_ascending(x, count);
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t below = 0;
+            uint32_t ties = 0;
+            for (uint32_t k = 0; k < count; k++) {
+                below += before[k] < before[i];
+                ties += before[k] == before[i];
+            }
+            for (uint32_t k = 0; k < ties; k++) {
+                assert_true(x[below + k] == before[i]);
+            }
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_come_out_in_order_and_stable),
         cmocka_unit_test(each_byte_counts),
         cmocka_unit_test(empty_and_single_lists_are_sorted),
+        cmocka_unit_test(numbers_come_out_in_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
