@@ -241,7 +241,7 @@ static double normal_shift(const patch_frame *f, double a, double exp_a, double 
 }
 
 /* M, with the weights; infinite if the surface may be edge-on to the laser somewhere in the
-   neighbourhood. With x = c + kappa, x^(m+2) <= x^2 exp(m (x - 1)), or x^2 if x <= 1. */
+   neighbourhood. With x = (c + kappa) / nu_min, x^(m+2) <= x^2 exp(m (x - 1)), or x^2 if x <= 1. */
 static double integrand_bound(const patch_frame *f, const lrcs_brdf *brdf, double a, double exp_a,
                               double exp_b)
 {

@@ -820,7 +820,7 @@ int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, doubl
 /* The full width at half maximum is 2 sqrt(2 ln 2) standard deviations. */
 #define FWHM_DEVIATIONS 2.3548200450309493
 
-/* Let g be the pulse, z the range at which the response is asked for, and c the centre of a bin.
+/* Let g be the pulse, z the range at which the response is requested, and c the centre of a bin.
    For a point x of the bin g(z - x) = g(z - c) - (x - c) g'(z - c) + R,  |R| <= (x - c)^2 / 2 sup
    |g''|, where |x - c| is at most half the bin. With t in standard deviations d, g' = -t g / d and
    g'' = (t^2 - 1) g / d^2. Over a bin g is at most its value at the point nearest to z, and

@@ -19,7 +19,7 @@
      the first term of both together is at most the integral of F - F_i over some region of both
      patches. And v is 1 on at most a fraction q of the patch: g, plus the fraction of the facet
      that may be visible. The first term is at most (1 + a) S q sup |F - F_i|, and the part of the
-   second that is due to a is at most F_i S a q.
+     second that is due to a is at most F_i S a q.
    - All but a fraction h of it is visible: T - M = Int_U (F - F_i) - Int_U F (1 - v) + F_i Int_f (1
      - w), where 0 <= Int_f (1 - w) <= S h, and 0 <= Int_U F (1 - v) <= (1 + a) S (h + l) sup F.
    - The facet faces away from the laser: M is 0. Its patch may be lit in part, and T is at most the

@@ -146,7 +146,7 @@ static void cuts_contact(ref_cuts *cuts, const lrcsi_classification *classificat
     if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
         cuts_outline(cuts, other, &c);
     } else if (kind != LRCSI_CONTACT_POINT) {
-        double width = cuts->target->needle ? width_in_needle(c.off + c.position_err)
+        double width = cuts->target->needle ? width_in_needle(c.corner_err + c.position_err)
                                             : width_of(cuts, c.reach) + c.position_err;
         cut_new(cuts, c.end[0], c.end[1], width);
     }
