@@ -689,7 +689,7 @@ static void levels_that_are_kept_are_limited(void **state)
                                      .take = result_take,
                                      .refine = 1,
                                      .context = &got};
-            run.tolerance = ldexp(1e-2, -t);
+            run.tolerance = 1e-2 * pow(0.55, t);
             assert_int_equal(lrcs_host_sweep_run(&scene, &run, &poses, NULL, &error), LRCS_OK);
             long more = atomic_load(&held) - start;
             one = one > 0 ? one : more;
