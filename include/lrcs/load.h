@@ -24,7 +24,7 @@ lrcs_host_options lrcs_host_options_default(void);
    limit for the facets of one shape at finer divisions: preparing so many takes about a tenth of a
    second. */
 #define LRCS_HOST_DIVISION 1e-2
-#define LRCS_HOST_FACETS   (UINT32_C(1) << 19)
+#define LRCS_HOST_FACETS   (UINT32_C(1) << 17)
 
 /* A regular file that a scene was read from: its name, the FNV-1a hash of its bytes, and its device
    and inode number. */

@@ -21,7 +21,7 @@
 #define PART_HALVINGS_MAX 64
 /* The number of levels kept, and of their facets, besides those in use. */
 #define KEPT_LEVELS_MAX 32u
-#define KEPT_FACETS_MAX (UINT32_C(1) << 20)
+#define KEPT_FACETS_MAX (UINT32_C(1) << 19)
 /* All parts are divided alike if that takes at most this many times the facets. */
 #define SHARED_MAX 1.1
 /* How far errors are reduced beside those of parts that cannot be divided any further. */
