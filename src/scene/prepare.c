@@ -152,11 +152,11 @@ static int prepare_neighbours(lrcs_prepared *p, lrcs_work *work)
                              : status;
 }
 
-/* The contacts of a body that is convex by construction: none. Its facets meet only in their
+/* The contacts of a solid that is convex by construction: none. Its facets meet only in their
    boundaries, up to the rounding that grazing_cos allows for, so no search is needed. Whether they
    meet there otherwise than in shared vertices and edges is not decided: all facets are marked in
    `met`. */
-static int contacts_of_convex(lrcs_prepared *p, lrcs_work *work)
+static int contacts_of_convex_solid(lrcs_prepared *p, lrcs_work *work)
 {
     lrcsi_intersections *t = &p->intersections;
     size_t facets = p->scene->facet_count;
@@ -177,8 +177,8 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
 {
     uint32_t facets = p->scene->facet_count;
     p->convex = lrcsi_convex_by_construction(p, &p->solid);
-    if (p->convex) {
-        return contacts_of_convex(p, work);
+    if (p->convex && p->solid) {
+        return contacts_of_convex_solid(p, work);
     }
     unsigned char *excluded = lrcsi_work_take(work, facets, sizeof *excluded);
     size_t mark = work->used;

@@ -406,7 +406,7 @@ void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *
     lrcsi_cells_work c = {.view = view, .meter = meter, .frame = {.view = view}, .wanted = open};
     c.negligible =
         0x1p-10 * ACCURACY_OF_SCENE * extent_of(view->prepared) * extent_of(view->prepared);
-    if (!view->prepared->convex && cells_allocate(classification, answer, work, &c)) {
+    if (cells_allocate(classification, answer, work, &c)) {
         for (uint32_t y = 0; y < c.grid.side; y++) {
             lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, y, c.grid.side);
             for (uint32_t x = 0; x < c.grid.side; x++) {

@@ -428,7 +428,9 @@ typedef struct single_sample {
     int test; /* an single_test */
     double point[3];
     double err;                     /* the distance in the view between `at` and `point` */
-    lrcsi_view_box box;             /* in the view; its depth does not count */
+    double view[3];                 /* its coordinates in the view, except for the depth */
+    double view_err;                /* their error, each */
+    lrcsi_view_box box;             /* around it in the view; its depth does not count */
     uint32_t ends;                  /* of the components in front of f, the fewest segments of the
                                        cell at which one ends or meets f */
     const lrcsi_cells_segment *cut; /* one of these segments */
@@ -450,21 +452,35 @@ static void sample_lift(const lrcsi_cells_single *a, single_sample *sample)
     sample->test = TEST_EXACT;
 }
 
-/* The sample in the view: f's first corner plus the vector from there. The vector has the error of
-   f's own corners, 10 u of their reach, a rounding error of 3 u, and in a needle the frame's
-   position error. */
-static lrcsi_view_box sample_view_box(const lrcsi_cells_single *a, const single_sample *sample)
+/* Places the sample in the view: f's first corner plus the vector from there. The vector has the
+   error of f's own corners, 10 u of their reach, a rounding error of 3 u, and in a needle the
+   frame's position error. */
+static void sample_place(const lrcsi_cells_single *a, single_sample *sample)
 {
     double first[3];
-    double x[3];
     lrcsi_view_coordinates(a->cells.view, a->target.origin, first);
-    lrcsi_target_to_axes(&a->frame, sample->at, x);
-    x[0] += first[0];
-    x[1] += first[1];
-    x[2] = first[2];
-    return lrcsi_view_box_about(a->cells.view, x,
-                                lrcsi_view_point_err(first) + sample->err +
-                                    (16 * LRCSI_U + 2 * a->frame.position_err) * a->target.reach);
+    lrcsi_target_to_axes(&a->frame, sample->at, sample->view);
+    sample->view[0] += first[0];
+    sample->view[1] += first[1];
+    sample->view[2] = first[2];
+    sample->view_err = lrcsi_view_point_err(first) + sample->err +
+                       (16 * LRCSI_U + 2 * a->frame.position_err) * a->target.reach;
+    sample->box = lrcsi_view_box_about(a->cells.view, sample->view, sample->view_err);
+}
+
+/* Does the sample lie beyond a side of a facet, by view coordinates? */
+static int sample_is_beyond(const lrcsi_cells_single *a, const single_sample *sample,
+                            uint32_t other)
+{
+    const lrcsi_view *view = a->cells.view;
+    const uint32_t *corner = view->prepared->scene->facet[other].corner;
+    int beyond = 0;
+    for (int k = 0; k < 3 && !beyond; k++) {
+        lrcsi_view_side side = lrcsi_view_side_of(view, corner[k], corner[k == 2 ? 0 : k + 1]);
+        beyond =
+            view->facing[other] * lrcsi_view_side_turn(&side, sample->view, sample->view_err) == -1;
+    }
+    return beyond;
 }
 
 /* Does a facet cover the point of a needle with these barycentric coordinates? 1 certainly, -1
@@ -500,26 +516,13 @@ static int needle_covered(const lrcsi_cells_single *a, const single_sample *samp
     return inside || !guess ? inside : -1;
 }
 
-/* Does a candidate cover the sample? 1 certainly; -1 certainly not, or it is behind f; 0 the sample
-   is too near a side. Boxes exclude most candidates. The order and the sides of others are computed
-   when they are first needed; sides are kept as far as there is room. */
-static int candidate_covers(lrcsi_cells_single *a, const single_sample *sample, uint32_t candidate,
-                            double tolerance)
+/* The same in a frame that is not a needle's. The sides are computed when they are first needed,
+   and kept as far as there is room. */
+static int sides_cover(lrcsi_cells_single *a, const single_sample *sample, uint32_t candidate,
+                       double tolerance)
 {
     const double *at = sample->at;
     uint32_t other = a->candidate[candidate];
-    if (lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&a->grid.boxes, other))) {
-        return -1;
-    }
-    if (a->order[other] == ORDER_NOT_COMPUTED) {
-        a->order[other] = order_of(a, other);
-    }
-    if (a->order[other] == ORDER_BEHIND) {
-        return -1;
-    }
-    if (a->frame.needle) {
-        return needle_covered(a, sample, candidate);
-    }
     if (sample->test == TEST_EXACT) {
         return lrcsi_sample_covers(a->cells.view, other, sample->point) ? 1 : -1;
     }
@@ -540,6 +543,30 @@ static int candidate_covers(lrcsi_cells_single *a, const single_sample *sample, 
         inside &= left > err;
     }
     return guess && !inside ? -1 : inside;
+}
+
+/* Does a candidate cover the sample? 1 certainly; -1 certainly not, or it is behind f; 0 the sample
+   is too near a side. Boxes exclude most candidates. The depth order, which takes longest, is
+   computed last. */
+static int candidate_covers(lrcsi_cells_single *a, const single_sample *sample, uint32_t candidate,
+                            double tolerance)
+{
+    uint32_t other = a->candidate[candidate];
+    uint32_t *order = &a->order[other];
+    if (*order == ORDER_BEHIND ||
+        lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&a->grid.boxes, other))) {
+        return -1;
+    }
+    int covered = -1;
+    if (!a->frame.needle) {
+        covered = sides_cover(a, sample, candidate, tolerance);
+    } else if (!sample_is_beyond(a, sample, other)) {
+        covered = needle_covered(a, sample, candidate);
+    }
+    if (covered >= 0 && *order == ORDER_NOT_COMPUTED) {
+        *order = order_of(a, other);
+    }
+    return *order == ORDER_BEHIND ? -1 : covered;
 }
 
 /* Is a facet that covers the sample in front of f there? 1 yes, -1 no, 0 it cannot be decided: the
@@ -608,12 +635,12 @@ static int find_sample(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
         if (!(sample->clear > margin)) {
             continue;
         }
-        sample->box = sample_view_box(a, sample);
+        sample_place(a, sample);
         answer = sample_is_hidden(a, cell, s, sample);
         if (answer < 0 && !a->frame.needle && sample->clear > margin + lift) {
             sample_lift(a, sample);
             sample->err = lift;
-            sample->box = sample_view_box(a, sample);
+            sample_place(a, sample);
             sample->clear -= lift;
             answer = sample_is_hidden(a, cell, s, sample);
         }
@@ -623,7 +650,7 @@ static int find_sample(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
         lrcsi_cells_sample_point(cell, 0, sample->at);
         sample_lift(a, sample);
         sample->test = TEST_GUESSED;
-        sample->box = sample_view_box(a, sample);
+        sample_place(a, sample);
         *guess = sample_is_hidden(a, cell, s, sample) > 0;
     }
     return answer;

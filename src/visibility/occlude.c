@@ -70,10 +70,12 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* Can undecided facets be processed together? */
+/* Can undecided facets be processed together? Not in a convex solid, where there are none unless a
+   search is requested: it saves their memory. */
 static int cells_serve(const lrcs_prepared *prepared)
 {
-    return prepared->scene->facet_count >= MIN_UNDECIDED && !prepared->convex;
+    return prepared->scene->facet_count >= MIN_UNDECIDED &&
+           !(prepared->convex && prepared->solid);
 }
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)

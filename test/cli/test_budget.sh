@@ -125,7 +125,7 @@ children() { ps -A -o pid=,ppid=,stat= | awk -v p="$1" '$2 == p && $3 !~ /^Z/ { 
 crossing 4000 >dense.obj
 "$tool" run dense.obj --azel 20,30 --time-budget 600000 --json >/dev/null 2>&1 &
 started=$!
-left=300
+left=3000
 while [ "$(children $started | wc -l)" -lt 1 ] && [ $left -gt 0 ]; do
     sleep 0.1
     left=$((left - 1))
@@ -135,7 +135,7 @@ same one_sequence_runs_in_one_process "$(printf '%s\n' "$all" | grep -c .)" 1
 sleep 5 # by now it clips: the rasters, whose answers nobody reads, would end it too
 kill -KILL $started
 wait $started 2>/dev/null
-left=300
+left=3000
 while [ "$(ps -A -o pid=,stat= | awk -v all="$(echo $all)" 'BEGIN { n = split(all, list, " "); for (i = 1; i <= n; i++) is[list[i]] = 1 } is[$1] && $2 !~ /^Z/' | wc -l)" -gt 0 ] && [ $left -gt 0 ]; do
     sleep 0.1
     left=$((left - 1))

@@ -187,6 +187,49 @@ static void turned_stack_takes_linear_steps(void **state)
     check_growth(TURNED, 1000, (const double[3]){0, 0, 1}, 670000, 2.6);
 }
 
+/* The steps of an open wall alone, scaled unevenly, into which the laser looks. */
+static uint64_t wall_steps(int kind)
+{
+    static unsigned char built_area[1u << 22], prepared_area[1u << 24];
+    lrcs_recipe_part part = {.name = "", .place = lrcs_place_default(), .material_index = -1};
+    part.shape = (lrcs_shape){.kind = kind, .parts = LRCS_SHAPE_WALL, .radius = 1, .length = 2};
+    part.shape.radius2 = kind == LRCS_SHAPE_FRUSTUM ? 0.5 : 0;
+    part.place.scale[1] = 0.5;
+    part.place.scale[2] = 2;
+    lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = lrcs_brdf_default()};
+    const lrcs_recipe recipe = {
+        .part = &part, .part_count = 1, .binding = &binding, .binding_count = 1};
+    lrcs_build_options build = lrcs_build_options_default();
+    lrcs_run_options options = lrcs_run_options_default();
+    const lrcs_prepared *prepared;
+    lrcs_scene built;
+    lrcs_pose pose;
+    lrcs_result r;
+    build.tolerance = 4e-6;
+    lrcs_work work = lrcs_work_make(built_area, sizeof built_area);
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &work, &built, NULL), LRCS_OK);
+    work = lrcs_work_make(prepared_area, sizeof prepared_area);
+    assert_int_equal(lrcs_prepare_run(&built, &work, &prepared), LRCS_OK);
+    work = lrcs_work_make(scene_memory, sizeof scene_memory);
+    assert_int_equal(lrcs_pose_from_direction((const double[3]){0.4, 0.9, -0.3}, &pose), LRCS_OK);
+    options.method = LRCS_METHOD_EXACT;
+    assert_int_equal(lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL), LRCS_OK);
+    assert_int_equal(r.flags, 0);
+    assert_true(r.facets_total > 2000);
+    assert_true(r.back_side_area_m2 > 0);
+    return r.steps;
+}
+
+/* The facets of a wall are long and narrow, and those near its silhouette overlap. One by one they
+   took 3e7 to 1.3e8 steps. */
+static void open_wall_hides_its_inside_once(void **state)
+{
+    (void)state;
+    check_most((double)wall_steps(LRCS_SHAPE_CONE), 1.5e6);
+    check_most((double)wall_steps(LRCS_SHAPE_CYLINDER), 1.2e7);
+    check_most((double)wall_steps(LRCS_SHAPE_FRUSTUM), 1.4e7);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -196,6 +239,7 @@ int main(void)
         cmocka_unit_test(star_hides_its_folds_once),
         cmocka_unit_test(zigzag_hides_its_folds_once),
         cmocka_unit_test(turned_stack_takes_linear_steps),
+        cmocka_unit_test(open_wall_hides_its_inside_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

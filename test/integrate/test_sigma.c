@@ -319,7 +319,7 @@ static void a_search_for_shadows_on_a_convex_body_finds_none(void **state)
     const lrcs_brdf brdf = {1, 0.25, 0.3, 0.5};
     lrcs_scene built;
     const lrcs_prepared *prepared = ball(&brdf, 3, LRCS_FACETS_TOTAL, &built);
-    for (int i = 0; i < 40; i++) {
+    for (int i = 0; i < 10; i++) {
         lrcs_pose pose;
         lrcs_result r[2];
         lrcs_run_options options = lrcs_run_options_default();
