@@ -102,7 +102,7 @@ static int patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_vi
     if (view->facing[facet] <= 0 && !back_is_lit(view, facet)) {
         return PATCH_UNLIT;
     }
-    if (!band || (band->share[facet] == 0 && !band->classification->undecided[facet] &&
+    if (!band || (band->mismatch[facet] == 0 && !band->classification->undecided[facet] &&
                   visible[facet].low > 0)) {
         return PATCH_VISIBLE;
     }
@@ -356,7 +356,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
     const lrcs_curvature c = patch_curvature(p, facet);
     int is_curved = c.turn > FLAT_TILT;
     int state = patch_state_of(view, facet, visible, band);
-    int is_certain = !band || band->share[facet] == 0;
+    int is_certain = !band || band->mismatch[facet] == 0;
     double area = 0.5 * p->normal[facet].length;
     double seen = is_curved && state == PATCH_HIDDEN
                       ? hidden_facet_fraction(incidence, facet, visible, band)
@@ -421,7 +421,7 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_p
         lrcsi_tessellation_error(view, plan, facet, incidence, visible, band, patch);
     lrcsi_patch_parts parts = {.whole = fmax(error.above, error.below),
                                .lit = is_lit(state),
-                               .mismatch = band ? band->share[facet] : 0,
+                               .mismatch = band ? band->mismatch[facet] : 0,
                                .partner = facet};
     uint32_t first = patch_part(p, facet)->first_facet;
     uint32_t partner = first + ((facet - first) ^ 1);
