@@ -213,8 +213,8 @@ static lrcsi_slice edge_slice(const band_job *job, uint32_t facet, const edge_bo
     }
     const double *along = box->along;
     const double left[3] = {-along[1], along[0], 0};
-    const double right[3] = {along[1], -along[0], 0};
     const double back[3] = {-along[0], -along[1], 0};
+    const double right[3] = {along[1], -along[0], 0};
     slice = lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
                               view->point[corner[2]].x);
     lrcsi_slice_cut(&slice, left, box->a, box->half_width);
