@@ -65,24 +65,24 @@ static void turn_fraction(uint32_t k, uint32_t n, double *c, double *s)
     double angle = (2.0 * LRCS_PI) * (double)fold / (double)n;
     double x = 2 * fold == quarter ? SQRT_HALF : cos(angle);
     double y = 2 * fold == quarter ? SQRT_HALF : sin(angle);
-    double ahead = 2 * remainder > quarter ? y : x;
-    double aside = 2 * remainder > quarter ? x : y;
+    double cosine = 2 * remainder > quarter ? y : x;
+    double sine = 2 * remainder > quarter ? x : y;
     switch (k / quarter) {
     case 0:
-        *c = ahead;
-        *s = aside;
+        *c = cosine;
+        *s = sine;
         return;
     case 1:
-        *c = -aside;
-        *s = ahead;
+        *c = -sine;
+        *s = cosine;
         return;
     case 2:
-        *c = -ahead;
-        *s = -aside;
+        *c = -cosine;
+        *s = -sine;
         return;
     default:
-        *c = aside;
-        *s = -ahead;
+        *c = sine;
+        *s = -cosine;
         return;
     }
 }

@@ -9,7 +9,7 @@
    panel [h/2, h] such a function is analytic inside the ellipse with foci at the panel's ends that
    reaches to rho = 2.2 (the one through the end itself has rho = 5.8), and there |F| is bounded by
    its own size on the axis: arguments stay within 18 degrees, where exp(-z^2), z^nu and
-   exp(-1/z^4) all decay. Gauss's rule of n = 24 points then errs by at most
+   exp(-1/z^4) all decay. Gauss's rule of n = 24 points then has an error of at most
    (64/15) M rho^(-2n) / (1 - rho^-2) (Trefethen 2008, Theorem 4.5), 2e-16 M per unit of length,
    where M is the magnitude of F on the panel. The last panel at an end is one over which F changes
    by less than a factor e and the rest is smooth, or one that holds less than 2^-40 of the
@@ -21,9 +21,9 @@
    from h to 4 h; so inside the ellipse F changes by at most a factor exp(40), and the error is
    exp(40) rho^(-48), about 1e-19.
 
-   Rounding. Values are positive, their sums compensated: q to 4 units, which the exponent E of
-   exp(-E) multiplies by at most 4 E, and E averages below 3 where F is not negligible; with the
-   powers, 40 units in all. */
+   Rounding. Values are positive, and their sums compensated. q is accurate to 4 units, which the
+   exponent E of exp(-E) multiplies by at most 4 E; E is below 3 on average where F is not
+   negligible. With the powers the error is 40 units in all. */
 #include "optics/closed_arc.h"
 
 #include <math.h>

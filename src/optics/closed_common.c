@@ -23,8 +23,8 @@ static lrcsi_dd closed_shift(lrcsi_dd a, int shift)
 
 lrcsi_dd lrcsi_closed_hypot(lrcsi_dd a, lrcsi_dd b)
 {
-    double most = fmax(fabs(a.hi), fabs(b.hi));
-    int shift = most > 0.0 ? -ilogb(most) : 0;
+    double largest = fmax(fabs(a.hi), fabs(b.hi));
+    int shift = largest > 0.0 ? -ilogb(largest) : 0;
     a = closed_shift(a, shift);
     b = closed_shift(b, shift);
     return closed_shift(closed_root(lrcsi_dd_add(lrcsi_dd_mul(a, a), lrcsi_dd_mul(b, b))), -shift);
