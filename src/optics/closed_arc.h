@@ -50,7 +50,7 @@ typedef struct lrcsi_cap {
 
 typedef struct lrcsi_arc {
     lrcsi_arc_law law[LRCSI_PARTS];
-    int wanted[LRCSI_PARTS]; /* 0: that part is not integrated */
+    int requested[LRCSI_PARTS]; /* 0: that part is not integrated */
     double length;
     int is_cap;
     lrcsi_ring ring;

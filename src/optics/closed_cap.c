@@ -41,7 +41,7 @@ lrcsi_amount lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
     lrcsi_amount amount = {{brdf->A, brdf->B}, {0.0, 0.0}};
     amount.error[LRCSI_GLINT] = LRCSI_U * brdf->A;
     amount.error[LRCSI_DIFFUSE] = LRCSI_U * brdf->B;
-    lrcsi_closed_weigh(&amount, factor, 22.0);
+    lrcsi_closed_scale_parts(&amount, factor, 22.0);
     lrcsi_closed_scale(&amount, LRCS_PI * shape->radius * shape->radius, 3.0);
     return amount;
 }
@@ -189,18 +189,18 @@ static void cap_add_piece(const lrcs_brdf *brdf, const cap_body *body, lrcsi_arc
     double factor[LRCSI_PARTS] = {body->area, body->area};
     double integral[LRCSI_PARTS];
     for (int part = 0; part < LRCSI_PARTS; part++) {
-        arc->wanted[part] = amount.value[part] > 0.0;
+        arc->requested[part] = amount.value[part] > 0.0;
         arc->law[part] = lrcsi_arc_law_make(brdf, part, theta_r.cosine.hi);
     }
-    if (arc->wanted[LRCSI_GLINT] || arc->wanted[LRCSI_DIFFUSE]) {
+    if (arc->requested[LRCSI_GLINT] || arc->requested[LRCSI_DIFFUSE]) {
         lrcsi_arc_integral(arc, integral);
     }
     for (int part = 0; part < LRCSI_PARTS; part++) {
-        if (arc->wanted[part]) {
+        if (arc->requested[part]) {
             factor[part] = integral[part] * body->scale * body->scale;
         }
     }
-    lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 40.0);
+    lrcsi_closed_scale_parts(&amount, factor, LRCSI_ARC_UNITS + 40.0);
     lrcsi_closed_add(sum, &amount);
 }
 

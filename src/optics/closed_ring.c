@@ -116,14 +116,14 @@ static lrcsi_amount ring_integral(const ring_wall *wall, const lrcs_brdf *brdf,
         double integral[LRCSI_PARTS];
         lrcsi_arc arc = ring_arc(brdf, sum.sine.hi, difference.sine.hi, b);
         for (int part = 0; part < LRCSI_PARTS; part++) {
-            arc.wanted[part] = amount.value[part] > 0.0;
+            arc.requested[part] = amount.value[part] > 0.0;
         }
         lrcsi_arc_integral(&arc, integral);
         for (int part = 0; part < LRCSI_PARTS; part++) {
-            factor[part] = arc.wanted[part] ? integral[part] / LRCS_PI : 1.0;
+            factor[part] = arc.requested[part] ? integral[part] / LRCS_PI : 1.0;
         }
     }
-    lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 12.0);
+    lrcsi_closed_scale_parts(&amount, factor, LRCSI_ARC_UNITS + 12.0);
     lrcsi_closed_scale(&amount, wall->area, 6.0);
     return amount;
 }
@@ -156,7 +156,7 @@ lrcsi_amount lrcsi_closed_cylinder(const lrcs_shape *shape, const lrcs_brdf *brd
     double w = brdf->s * light->aspect.sine.hi;
     const double factor[LRCSI_PARTS] = {sqrt(LRCS_PI) * w * (1.0 + 0.5 * w * w),
                                         lrcsi_special_cosine_power(brdf->m + 2.0)};
-    lrcsi_closed_weigh(&amount, factor, 50.0);
+    lrcsi_closed_scale_parts(&amount, factor, 50.0);
     lrcsi_closed_scale(&amount, shape->radius * shape->length, 1.0);
     return amount;
 }

@@ -134,8 +134,8 @@ static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, 
    is so short that the direction of its line is uncertain, near the line from the segment to the
    corner. That distance is added to the position error, and the kind says where the rest of the
    facet lies: FRONT or BEHIND. The part cut off extends along the line as far as the corner, which
-   may be far beyond the segment; within 4 diameters of the target, the corner's error moves it no
-   more than if the corner were there. */
+   may be far beyond the segment. Within 4 diameters of the target, the corner's error displaces it
+   by no more than if the corner were at that distance. */
 static int find_segment(const lrcsi_target *t, const contact_heights *h, lrcsi_contact *c,
                         int above)
 {
