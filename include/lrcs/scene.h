@@ -41,10 +41,10 @@ typedef struct lrcs_part {
     double misplaced;    /* m, bound on the rounding error of its placed vertices */
     double tilted; /* rad, bound on the rotation of facet normals by rounding in placing, where
                       reach > 0; included in curvature */
-    double reach;  /* m, bound on the distance of a point of the true surface from its place on
+    double reach;  /* m, bound on the distance of a point of the true surface from its image on
                       the facets; 0 if the facets are the truth */
-    double displaced[3]; /* m, of a rigid shape's curved wall: bounds on that distance from the axis
-                            or towards it, along the axis, and across both */
+    double displaced[3]; /* m, of a rigid shape's curved wall: bounds on the radial, axial and
+                            tangential components of that distance */
     int articulated;     /* has a joint */
     int smoothed;        /* its model has smoothing groups or vertex normals */
     int rigid;        /* an engine-made shape placed by rotations, reflections and one scale for all

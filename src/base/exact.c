@@ -31,8 +31,8 @@
 
 #define EXACT_UNDECIDED 2
 
-/* Terms at most: a difference 2, a product of two of them 8, a 2 x 2 minor 16, its product with a
-   third 64, the determinant 192. */
+/* The largest numbers of terms: a difference 2, a product of two of them 8, a 2 x 2 minor 16, its
+   product with a third 64, the determinant 192. */
 enum { EXACT_PAIR = 8, EXACT_MINOR = 16, EXACT_TERM = 64, EXACT_DET = 192 };
 
 /* h = e + f, en + fn terms at most (Shewchuk's fast expansion sum, with zeros left out). */
@@ -259,11 +259,11 @@ int lrcsi_exact_collinear(const double a[3], const double b[3], const double c[3
     return 1;
 }
 
-/* The sum of an expansion. Its terms, smallest first, do not overlap, none is next to two others,
-   and two that are next to each other are powers of two (Shewchuk's strongly nonoverlapping). So
-   each is at most half of the next, partial sums are at most twice their last term, those of all of
-   them together four times the largest, and the whole is at least a quarter of that. Additions of 3
-   u^2 each make 48 u^2. */
+/* The sum of an expansion. Its terms, smallest first, do not overlap, none is adjacent to two
+   others, and two that are adjacent to each other are powers of two (Shewchuk's strongly
+   nonoverlapping). So each is at most half of the next, each partial sum is at most twice its last
+   term, all partial sums together are at most four times the largest term, and the total is at
+   least a quarter of that. Additions of 3 u^2 each make 48 u^2. */
 static lrcsi_dd expansion_value(const double *e, int n)
 {
     lrcsi_dd sum = {0.0, 0.0};

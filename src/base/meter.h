@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A limit on work: steps of bounded time each, which are reserved before they are executed. Once a
-   request is refused, all later ones are refused too, so that a caller who checks at the end of a
-   piece of work knows whether all of it was done. NULL: no limit. */
+/* A limit on the number of steps, each of bounded time, which are reserved before they are
+   executed. Once a request is refused, all later ones are refused too: a caller who checks at the
+   end of a piece of work knows whether all of it was done. NULL: no limit. */
 #ifndef LRCSI_METER_H
 #define LRCSI_METER_H
 
@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 typedef struct lrcsi_meter {
-    uint64_t most, taken;
+    uint64_t limit, taken; /* steps */
     int spent;
 } lrcsi_meter;
 
@@ -19,7 +19,7 @@ static inline int lrcsi_meter_take(lrcsi_meter *meter, uint64_t steps)
     if (!meter) {
         return 1;
     }
-    if (meter->spent || steps > meter->most - meter->taken) {
+    if (meter->spent || steps > meter->limit - meter->taken) {
         meter->spent = 1;
         return 0;
     }

@@ -8,14 +8,15 @@
 
 #include <stdint.h>
 
-/* Room for `count` items of `size` bytes, not cleared, or NULL (peak then says what was missing).
-   A count of 0 gives a valid pointer. */
+/* Memory for `count` items of `size` bytes, not cleared; NULL if it does not fit (work->peak is
+   then the size that would have sufficed so far). A count of 0 gives a valid pointer. */
 void *lrcsi_work_take(lrcs_work *work, size_t count, size_t size);
 
 /* The same, every byte zero. */
 void *lrcsi_work_take_zero(lrcs_work *work, size_t count, size_t size);
 
-/* Bytes lrcsi_work_take uses at most for such a block: for the _need functions. Saturates. */
+/* Upper bound of the bytes that lrcsi_work_take uses for such a block, for the _need functions.
+   Saturates. */
 size_t lrcsi_work_bytes(size_t count, size_t size);
 
 /* side * side, saturating. */
@@ -24,6 +25,6 @@ size_t lrcsi_work_square(uint32_t side);
 /* a + b, saturating at SIZE_MAX. */
 size_t lrcsi_work_add(size_t a, size_t b);
 
-/* To release memory, set `used` back: size_t mark = work->used; ... work->used = mark;*/
+/* To release memory, restore `used`: size_t mark = work->used; ... work->used = mark; */
 
 #endif

@@ -136,7 +136,8 @@ static lrcsi_curved curve_from_area(lrcsi_curve_integral *integral, const lrcsi_
     part.visibility =
         LRCS_FOUR_PI * (lrcsi_max(high - value, value - low) + integral->sum.unresolved);
     part.rounding = integral_part(integral, 1).rounding;
-    part.likely = part.visibility > 0 ? (LRCS_FOUR_PI * whole / projected) * visible->likely : 0;
+    part.error_estimate =
+        part.visibility > 0 ? (LRCS_FOUR_PI * whole / projected) * visible->error_estimate : 0;
     part.estimate = LRCS_FOUR_PI * integral->sum.estimate;
     return part;
 }

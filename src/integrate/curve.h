@@ -14,7 +14,7 @@
 typedef struct lrcsi_curved {
     double glint, diffuse;
     double visibility, rounding; /* bounds; the first includes the error of spent steps */
-    double likely;               /* the estimated error due to a sampled area; 0: none */
+    double error_estimate;       /* the estimated error due to a sampled area; 0: none */
     double upper_bound;          /* of what the facet would add if all of it were visible */
     double estimate;             /* of the cubature's error */
     /* With moments only: the integral of the glint times tan^2, and that of the diffuse term times

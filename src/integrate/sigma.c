@@ -118,7 +118,7 @@ static uint32_t run_acceptance(const lrcsi_sigma *run)
     double allowed = run->options->tolerance * (t->glint + t->diffuse);
     int estimated = run->size != 0 && !(run->flags & LRCS_FLAG_DEPTH_UNDECIDED) &&
                     !run->meter.spent && allowed > 0 &&
-                    t->likely + fmax(0, t->tessellation) + t->rounding <= allowed;
+                    t->error_estimate + fmax(0, t->tessellation) + t->rounding <= allowed;
     if (total_bound(t) <= allowed && t->curvature <= allowed) {
         return 0;
     }
@@ -194,7 +194,7 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
             if (run->plan.shadows_forced) {
                 known.area = visible->area;
                 known.low = lrcsi_min(known.low, visible->low);
-                known.likely = visible->likely;
+                known.error_estimate = visible->error_estimate;
                 known.bias = visible->bias;
             }
             *visible = known;
@@ -317,7 +317,7 @@ static uint32_t next_size(const lrcsi_sigma *run)
     double sigma = run->total.glint + run->total.diffuse;
     double others = total_bound(&run->total) - run->total.visibility;
     double allowed = run->options->tolerance * sigma - others; /* for visibility */
-    double ratio = sqrt(run->total.likely / allowed);
+    double ratio = sqrt(run->total.error_estimate / allowed);
     double times = run->options->accept == LRCS_ACCEPT_BOUND ? 1.2 * run->total.visibility / allowed
                                                              : fmin(ratio * sqrt(ratio), 4);
     double size = run->size * fmax(1.5, times);
@@ -377,8 +377,8 @@ static int run_clip_within(lrcsi_sigma *run, const lrcsi_cost *cost, double ns)
     const int classified = run->classified;
     const lrcsi_proximity_band *band = run->band;
     uint64_t steps = lrcsi_cost_steps(ns);
-    uint64_t left = run->meter.most - run->meter.taken;
-    lrcsi_meter meter = {.most = steps < left ? steps : left}; /* of this attempt */
+    uint64_t left = run->meter.limit - run->meter.taken;
+    lrcsi_meter meter = {.limit = steps < left ? steps : left}; /* of this attempt */
     size_t mark = run->work->used;
     int outcome = CLIP_ABANDONED;
     if (run_classify(run, &meter) != LRCS_OK || meter.spent) {
@@ -491,7 +491,7 @@ static int run_shadowed(lrcsi_sigma *run)
 int lrcsi_sigma_stages(lrcsi_sigma *run, const lrcs_prepared *prepared, const lrcs_pose *pose)
 {
     const lrcs_run_options *options = run->options;
-    run->meter.most = options->steps != 0 ? options->steps : UINT64_MAX;
+    run->meter.limit = options->steps != 0 ? options->steps : UINT64_MAX;
     const lrcsi_view_backs backs = lrcsi_plan_backs(prepared, options);
     int status = lrcsi_view_face(prepared, pose, backs, run->work, &run->view);
     if (status == LRCS_OK) {
@@ -524,7 +524,7 @@ int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result)
                      .sigma_diffuse_m2 = t->diffuse,
                      .bound_m2 = total_bound(t),
                      .budget = {t->visibility, t->tessellation, t->rounding},
-                     .estimate_m2 = run->size != 0 ? t->likely : -1,
+                     .estimate_m2 = run->size != 0 ? t->error_estimate : -1,
                      .curvature_estimate_m2 = run->curved ? t->curvature : -1,
                      .projected_area_m2 = t->projected,
                      .back_side_area_m2 = t->back_side,

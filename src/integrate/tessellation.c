@@ -102,7 +102,7 @@ static int patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_vi
     if (view->facing[facet] <= 0 && !back_is_lit(view, facet)) {
         return PATCH_UNLIT;
     }
-    if (!band || (band->share[facet] == 0 && !band->classification->undecided[facet] &&
+    if (!band || (band->mismatch[facet] == 0 && !band->classification->undecided[facet] &&
                   visible[facet].low > 0)) {
         return PATCH_VISIBLE;
     }
@@ -253,14 +253,14 @@ static sector_bound sector_choose(const lrcsi_view *view, const lrcsi_plan *plan
     double a = patch_area_error(view->prepared, facet, c);
     double rows = sector_rows(view, part->kind == LRCS_SHAPE_CONE ? facet : first, band);
     double b = fmax(fmax(one.gain, one.loss), fmax(two.gain, two.loss));
-    double by_hidden = deviation.whole + (1 + a) * hidden * deviation.most;
+    double by_hidden = deviation.whole + (1 + a) * hidden * deviation.value_max;
     double by_rows = deviation.whole + rows * (deviation.region + stretch * deviation.value) +
                      (1 + a) * b * deviation.value;
     double lit = fmax(one.lit, two.lit);
     double by_region = deviation.region + stretch * deviation.value;
     double by_point = lit * ((1 + a) * deviation.point + stretch * deviation.value);
     double either = fmin(by_region, by_point);
-    double by_either = fmin(either + (1 + a) * b * deviation.value, (1 + a) * deviation.most);
+    double by_either = fmin(either + (1 + a) * b * deviation.value, (1 + a) * deviation.value_max);
     sector_bound bound = {by_point < by_region ? BY_POINT : BY_REGION, rows};
     if (by_rows < fmin(by_hidden, by_either)) {
         bound.method = BY_ROWS;
@@ -277,7 +277,7 @@ static lrcsi_tessellation wall_error(const lrcsi_deviation *deviation, double a,
                                      const patch_fractions *f, int state, int partner,
                                      const sector_bound *bound)
 {
-    double sup = (1 + a) * deviation->most;
+    double sup = (1 + a) * deviation->value_max;
     double lit = f->lit * ((1 + a) * deviation->point + stretch * deviation->value);
     if (state == PATCH_HIDDEN) {
         return (lrcsi_tessellation){f->gain * sup, f->loss * sup};
@@ -313,7 +313,8 @@ static double inside_error(const lrcsi_view *view, uint32_t facet, const lrcs_br
         !(visible[facet].high > 0)) {
         return 0;
     }
-    double sup = lrcsi_deviation_make(brdf, -incidence->cos_theta, incidence->tan2, &flat).most;
+    double sup =
+        lrcsi_deviation_make(brdf, -incidence->cos_theta, incidence->tan2, &flat).value_max;
     return sup * fmin(1, visible[facet].high / incidence->projected);
 }
 
@@ -331,7 +332,7 @@ static double other_side(const lrcsi_view *view, uint32_t facet, const lrcs_brdf
     }
     double cosine = -fabs(incidence->cos_theta);
     return (1 + patch_area_error(p, facet, c)) *
-           lrcsi_deviation_make(brdf, cosine, incidence->tan2, c).most;
+           lrcsi_deviation_make(brdf, cosine, incidence->tan2, c).value_max;
 }
 
 int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
@@ -356,7 +357,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
     const lrcs_curvature c = patch_curvature(p, facet);
     int is_curved = c.turn > FLAT_TILT;
     int state = patch_state_of(view, facet, visible, band);
-    int is_certain = !band || band->share[facet] == 0;
+    int is_certain = !band || band->mismatch[facet] == 0;
     double area = 0.5 * p->normal[facet].length;
     double seen = is_curved && state == PATCH_HIDDEN
                       ? hidden_facet_fraction(incidence, facet, visible, band)
@@ -382,7 +383,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
     if (state != PATCH_UNLIT) {
         f = patch_fractions_of(incidence, facet, visible, band);
     }
-    lrcsi_tessellation unit = {f.gain * deviation.most, f.loss * deviation.most};
+    lrcsi_tessellation unit = {f.gain * deviation.value_max, f.loss * deviation.value_max};
     if (is_curved) {
         sector_bound bound = {BY_POINT, 1};
         if (is_lit(state) && is_lit(partner) &&
@@ -421,7 +422,7 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_p
         lrcsi_tessellation_error(view, plan, facet, incidence, visible, band, patch);
     lrcsi_patch_parts parts = {.whole = fmax(error.above, error.below),
                                .lit = is_lit(state),
-                               .mismatch = band ? band->share[facet] : 0,
+                               .mismatch = band ? band->mismatch[facet] : 0,
                                .partner = facet};
     uint32_t first = patch_part(p, facet)->first_facet;
     uint32_t partner = first + ((facet - first) ^ 1);
@@ -439,7 +440,7 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_p
         parts.deviation =
             is_curved ? area * ((1 + a) * deviation.point + stretch * deviation.value + other) : 0;
         parts.shift = area * (1 + a) * deviation.value;
-        parts.upper_bound = area * ((1 + a) * deviation.most + other);
+        parts.upper_bound = area * ((1 + a) * deviation.value_max + other);
     }
     return parts;
 }

@@ -41,7 +41,7 @@ typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
     double visibility, rounding, curvature;
     double above, below; /* bounds on how far the true sigma is above, and below, the facets' sum */
-    double likely,
+    double error_estimate,
         bias; /* estimated errors: random (root of the sum of squares); systematic (sum) */
     uint32_t seen;
 } total_sums;
@@ -221,7 +221,7 @@ static int is_in_clear_shape(const total_run *run, uint32_t facet)
 static void count_visible(lrcsi_total *total, double projected, const lrcsi_visible *visible)
 {
     int below = visible->area < projected;
-    int clipped = visible->likely == 0 && visible->high - visible->low < projected;
+    int clipped = visible->error_estimate == 0 && visible->high - visible->low < projected;
     int partly = visible->area > 0 && below &&
                  !(clipped && (visible->low <= 0 || visible->high >= projected));
     total->partial += partly ? 1 : 0;
@@ -241,7 +241,8 @@ static void add_area_error(total_sums *sums, double per_area, const lrcsi_visibl
 {
     double area_err = lrcsi_max(visible->area - visible->low, visible->high - visible->area);
     sums->visibility += per_area * area_err;
-    sums->likely = lrcsi_length_flat(sums->likely, per_area * visible->likely);
+    sums->error_estimate =
+        lrcsi_length_flat(sums->error_estimate, per_area * visible->error_estimate);
     sums->bias += per_area * visible->bias;
 }
 
@@ -275,7 +276,7 @@ static void add_reflecting_facet(total_run *run, uint32_t facet)
         lrcsi_sum_add(&sums->diffuse, curved->diffuse);
         sums->visibility += curved->visibility;
         sums->rounding += curved->rounding + LRCSI_FACET_UNDERFLOW;
-        sums->likely = lrcsi_length_flat(sums->likely, curved->likely);
+        sums->error_estimate = lrcsi_length_flat(sums->error_estimate, curved->error_estimate);
         sums->curvature += curved->estimate;
         record_sigma(run, facet, curved->glint, curved->diffuse);
         return;
@@ -832,8 +833,8 @@ static void total_finish(total_run *run)
     total->tessellation = lrcsi_bound_area(p, either * outward);
     double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
     total->rounding = lrcsi_bound_area(p, (sums->rounding + adding) * outward);
-    double likely = lrcsi_length_flat(sums->likely, sums->bias);
-    total->likely = fmin(lrcsi_prepared_area(p, likely), total->visibility);
+    double estimate = lrcsi_length_flat(sums->error_estimate, sums->bias);
+    total->error_estimate = fmin(lrcsi_prepared_area(p, estimate), total->visibility);
     total->curvature = lrcsi_prepared_area(p, sums->curvature);
     total->seen = sums->seen;
 }

@@ -13,7 +13,7 @@
 typedef struct lrcsi_total {
     double glint, diffuse;
     double visibility, tessellation, rounding; /* bounds; tessellation negative: not known */
-    double likely;                             /* estimated error of the sampled areas */
+    double error_estimate;                     /* estimated error of the sampled areas */
     double curvature;                          /* estimated error of facets with curved normals */
     double projected, back_side;
     uint32_t back_sides, hidden, partial; /* facets */

@@ -4,11 +4,11 @@
 
    Area and volume are computed in double-double on coordinates divided by a power of two near the
    box's size, so that nothing overflows and only negligible terms underflow. With u = 2^-53 and
-   coordinate differences exact, each component of a facet's normal errs by at most 20 u^2 times its
-   largest product: for a sliver of aspect q the relative error is q times larger, so the error of
-   its area is a few u up to q = 10^15. Volume: the corners relative to the box centre are exact,
-   and each facet's determinant errs by at most 64 u^2 times the sum of its products. Sums are
-   double-double. */
+   coordinate differences exact, each component of a facet's normal has an error of at most 20 u^2
+   times its largest product: for a sliver of aspect q the relative error is q times larger, so the
+   error of its area is a few u up to q = 10^15. Volume: the corners relative to the box centre are
+   exact, and each facet's determinant has an error of at most 64 u^2 times the sum of its products.
+   Sums are double-double. */
 #include <lrcs/mesh.h>
 
 #include <math.h>

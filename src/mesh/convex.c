@@ -3,27 +3,29 @@
      1. every edge is used by two facets, in opposite directions;
      2. the facets are connected across edges, and those around each point form one cycle;
      3. at each edge the two facets form a convex crease or continue each other in one plane: the
-        third corner of one lies below the plane of the other, or in it and across the edge;
+        third corner of one lies below the plane of the other, or in it and beyond the edge;
      4. around each point the facets bound a convex cone (below).
    Then the surface is closed, connected and locally convex, hence the boundary of a convex body
    (van Heijenoort 1952, "On locally convex manifolds"; the extreme point that the theorem requires
    exists, since the surface is bounded). A flat pair of opposite facets fails 3.
 
    4. Conditions 1 to 3 alone admit a star: ten facets around the axis of a {5/2} bipyramid are
-   convex at every edge and wind twice. Cut the cone at point v by a small sphere: a closed polygon
-   of great arcs shorter than pi, one for each facet, that seen from v turns left or goes straight
-   at each corner, never back. Merge straight stretches: let r_0 .. r_{m-1} be the corners at
-   creases and call the facets between two consecutive ones a chain. m = 0: all is flat; the polygon
-   is a great circle, passed k times: r_0 (any corner) must lie in one facet only. m = 1 is
-   impossible. In all other cases no chain may span more than pi. m = 2: two great circles meet at
-   opposite points only, so that both chains span pi: a wedge. m > 2: no chain may span pi. Let s(i,
-   j, k) be the sign of -det(r_i - v, r_j - v, r_k - v): positive if the corners turn left as seen
-   from v. Require s(0, 1, i) > 0 for all i > 1 and s(0, i, i+1) > 0 for all 0 < i < m-1. By the
-   first the longitudes of r_2 .. about the axis r_0, counted from r_1, lie in (0, pi); by the
-   second they increase. So the triangles (r_0, r_i, r_{i+1}) lie side by side and fill a simple
-   polygon inside a lune narrower than pi that leaves out -r_0; it lies in an open hemisphere, and
-   is seen from v as a plane polygon that is simple and turns left at each corner: convex. A convex
-   cone passes. */
+   convex at every edge and wind twice. A small sphere about point v cuts the cone in a closed
+   polygon of great-circle arcs shorter than pi, one for each facet. Seen from v, it turns left or
+   goes straight at each corner, and never back. Let r_0 .. r_{m-1} be the corners at creases, and a
+   chain the facets between two consecutive ones.
+     m = 0: all is flat; the polygon is a great circle, traversed k times. The condition is that
+       r_0 (any corner) lies in one facet only: k = 1.
+     m = 1: impossible.
+     m = 2: two great circles meet at opposite points only, so both chains must span pi: a wedge.
+     m > 2: each chain must span less than pi. Let s(i, j, k) be the sign of -det(r_i - v, r_j - v,
+       r_k - v): positive if the corners turn left as seen from v. Require s(0, 1, i) > 0 for all
+       i > 1 and s(0, i, i+1) > 0 for all 0 < i < m-1. By the first, the longitudes of r_2 .. about
+       the axis r_0, counted from r_1, lie in (0, pi); by the second they increase. So the triangles
+       (r_0, r_i, r_{i+1}) lie side by side and fill a simple polygon in a lune narrower than pi
+       that does not contain -r_0. The polygon lies in an open hemisphere. Seen from v it is a
+       simple plane polygon that turns left at each corner, so it is convex.
+   Every convex cone passes. */
 #include "mesh/convex.h"
 
 #include "base/exact.h"

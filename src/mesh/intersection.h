@@ -20,9 +20,9 @@ typedef struct lrcsi_intersections {
     uint32_t *first; /* facet_count + 1: entries of facet i are entry[first[i] .. first[i+1]) */
     lrcsi_intersection *entry; /* by facet, then by other */
     uint32_t count;
-    unsigned char *met; /* facet: not 0 if another facet meets it, its sides included, elsewhere
-                           than in common corners and along common sides; then also a bit for each
-                           of its sides (lrcsi_intersection_along) */
+    unsigned char *met; /* facet: not 0 if another facet meets it or a side of it, except in common
+                           corners and along common sides; then also a bit for each of its sides
+                           (lrcsi_intersection_along) */
     int self; /* 1: a facet meets the interior or a side of another one of its own piece; 0 if not,
                  or if pieces are not given */
 } lrcsi_intersections;
@@ -58,9 +58,9 @@ static inline int lrcsi_intersection_along(const lrcsi_intersections *intersecti
    NULL, names the piece of surface of each facet; then `self` is decided too, which includes a
    corner of one facet on a side of another, ends excluded: that alone is no contact.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT (more than 2^32 - 2 entries).
-   Work: almost linear on ordinary meshes, quadratic if all facets overlap each other. The
-   result stays in the work area, scratch does not; lrcsi_intersection_need bytes serve up to
-   `count` entries. */
+   Work: almost linear on ordinary meshes, quadratic if all facets overlap each other. The result
+   stays in the work area, and scratch memory is released; lrcsi_intersection_need bytes suffice for
+   up to `count` entries. */
 size_t lrcsi_intersection_need(uint32_t vertex_count, uint32_t facet_count, size_t count);
 int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
                             const lrcs_facet *facet, uint32_t facet_count,

@@ -35,10 +35,10 @@
 
 static const double unit_axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-/* 10 u. Of a plane's height: with n the computed normal at corner a and w_k = |p_i q_j| + |p_j
-   q_i|, each component of n errs by at most 5 u w_k (base/exact.c), a difference x - a by u of
-   itself, and the sum of three products by 3 u of its terms; |n_k| <= (1 + 4 u) w_k. Of a turn: 4 u
-   of its two products. */
+/* 10 u. For the height above a plane: with n the computed normal at corner a and w_k = |p_i q_j| +
+   |p_j q_i|, each component of n has an error of at most 5 u w_k (base/exact.c), a difference x - a
+   one of u of itself, and the sum of three products one of 3 u of its terms; |n_k| <= (1 + 4 u)
+   w_k. For an orientation: 4 u of its two products. */
 #define PAIR_FILTER (10.0 * LRCSI_U)
 
 /* A sign that rounded arithmetic does not decide. */
@@ -367,7 +367,7 @@ int lrcsi_pair_meet(const lrcsi_pair_facet *f, lrcsi_pair_facet *t, lrcsi_pair_r
     *result = (lrcsi_pair_result){{LRCSI_INTERSECTION_NONE, LRCSI_INTERSECTION_NONE}, {0, 0}};
     of_t[0] = rounded_side(f, t->x[0]);
     int flat =
-        of_t[0] == PAIR_UNDECIDED; /* probably in one plane: then lines are more likely to decide */
+        of_t[0] == PAIR_UNDECIDED; /* probably in one plane: lines are then more likely to decide */
     if (flat && lines_separate(f, t)) {
         return 0;
     }

@@ -35,22 +35,23 @@
 
    Reach. The patch of a trapezoid is mapped onto it so that a fraction of the azimuth becomes the
    same fraction of its width, and a fraction a of the area, counted from the top, the same fraction
-   of its area: area is then stretched by A'/A everywhere. On the trapezoid r^2 (r is the radius of
-   the true circle for which the middle of a side is at kappa r) is linear in a, from rho1^2 at the
-   top row to rho0^2. On the patch
-     straight walls: rho^2 is linear in a: r = rho, and heights agree;
-     sphere: cos theta is, and rho^2 - r^2 = R^2 a (1 - a) (cos theta1 - cos theta0)^2;
-     paraboloid: w^3 is, w^2 = 1 + y^2; over w^3, w^2 exceeds its chord most where w is v = 2 (w0^2
-   + w0 w1 + w1^2) / (3 (w0 + w1)), by (v - w1)^2 (v + 2 w1) / (3 v), and v - w1 = (w0 - w1) (2 w0 +
-   w1) / (3 (w0 + w1)). With b a bound on rho^2 - r^2 (strip_bulge), rho - r <=
-   min(sqrt(b), b / (2 rho1), rho0 - rho1). In height, as a fraction from the top, the trapezoid's
-   point is at beta = (r - rho1)/(rho0 - rho1), which exceeds a by at most (rho0 - rho1) / (4 (rho0
-   + rho1)); the sphere's is at a, the paraboloid's between a and a + b/(rho0^2 - rho1^2); to that
-   the differences in height between the rows and the true circles are added. Across, with v in -1
-   .. 1, (cos vh, sin vh) is mapped to kappa (1, v tan h): a distance of at most max(1 - kappa,
-   kappa - cos h) inward or outward and max(h^3/6, (mu - 1) sin h) sideways, times r. For a disc
-   only the last applies; that map preserves areas everywhere, so that it holds for any division of
-   the polygon into facets. */
+   of its area: area is then stretched by A'/A everywhere. Let r be the radius of the true circle
+   for which the middle of a side is at kappa r. On the trapezoid r^2 is linear in a, from rho1^2 at
+   the top row to rho0^2. On the patch
+     straight walls: rho^2 is linear in a, so that rho = r and heights agree;
+     sphere: cos theta is linear in a, and rho^2 - r^2 = R^2 a (1 - a) (cos theta1 - cos theta0)^2;
+     paraboloid: w^3 is linear in a, where w^2 = 1 + y^2. As a function of w^3, w^2 exceeds its
+       chord most at w = v = 2 (w0^2 + w0 w1 + w1^2) / (3 (w0 + w1)), by
+       (v - w1)^2 (v + 2 w1) / (3 v), where v - w1 = (w0 - w1) (2 w0 + w1) / (3 (w0 + w1)).
+   With b a bound on rho^2 - r^2 (strip_bulge), rho - r <= min(sqrt(b), b / (2 rho1), rho0 - rho1).
+   Heights are compared as fractions from the top. The trapezoid's point is at
+   beta = (r - rho1)/(rho0 - rho1), which exceeds a by at most (rho0 - rho1) / (4 (rho0 + rho1)).
+   The sphere's point is at a, the paraboloid's between a and a + b/(rho0^2 - rho1^2). To the
+   difference, those between the heights of the rows and of the true circles are added. Within a
+   row, with v in -1 .. 1, (cos vh, sin vh) is mapped to kappa (1, v tan h): at a distance of at
+   most max(1 - kappa, kappa - cos h) radially and max(h^3/6, (mu - 1) sin h) tangentially, times r.
+   For a disc only the latter map applies. It preserves areas everywhere, so that it holds for any
+   division of the polygon into facets. */
 #include "mesh/profile.h"
 
 #include <math.h>
@@ -391,8 +392,8 @@ static lrcsi_reach sector_reach(const lrcsi_profile *profile)
     double h = profile->half;
     double kappa = profile->vertex_ratio * cos(h);
     double inward = fmax(1.0 - kappa, kappa - cos(h)) + SLACK;
-    double sideways = fmax(h * h * h / 6.0, (profile->vertex_ratio - 1.0) * sin(h)) + SLACK;
-    return (lrcsi_reach){hypot(inward, sideways), inward, 0.0, sideways};
+    double tangential = fmax(h * h * h / 6.0, (profile->vertex_ratio - 1.0) * sin(h)) + SLACK;
+    return (lrcsi_reach){hypot(inward, tangential), inward, 0.0, tangential};
 }
 
 /* True height of row i. */
@@ -456,7 +457,7 @@ static lrcsi_reach strip_reach(const lrcsi_profile *profile, uint32_t i, double 
     double rise = profile_height(profile, i + 1) - profile_height(profile, i);
     double wide = fmax(below, above);
     lrcsi_reach reach = {0.0, wide * sector.radial + out, height_err + fmin(1.0, fraction) * rise,
-                         wide * sector.aside + out * sin(profile->half)};
+                         wide * sector.tangential + out * sin(profile->half)};
     reach.all = hypot(wide * sector.all + out, reach.axial);
     return reach;
 }
@@ -475,10 +476,10 @@ lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile)
         bound.all = fmax(bound.all, strip.all);
         bound.radial = fmax(bound.radial, strip.radial);
         bound.axial = fmax(bound.axial, strip.axial);
-        bound.aside = fmax(bound.aside, strip.aside);
+        bound.tangential = fmax(bound.tangential, strip.tangential);
     }
     double rounding = (32.0 + 2.0 * (double)profile->strips) * LRCSI_U * (wide + profile->height);
     return (lrcsi_reach){
         bound.all * REACH_MARGIN + rounding, bound.radial * REACH_MARGIN + rounding,
-        bound.axial * REACH_MARGIN + rounding, bound.aside * REACH_MARGIN + rounding};
+        bound.axial * REACH_MARGIN + rounding, bound.tangential * REACH_MARGIN + rounding};
 }

@@ -53,7 +53,7 @@ typedef struct lrcsi_reach {
     double all;    /* any point, caps included */
     double radial; /* points of the wall: from or towards the axis in the sector's middle plane */
     double axial;  /* along the axis */
-    double aside;  /* across the middle plane */
+    double tangential; /* perpendicular to the middle plane */
 } lrcsi_reach;
 lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile);
 

@@ -12,31 +12,31 @@
    4. if there is such a spoke, some direction is in no sector; if not, some direction is in exactly
       one.
    Then any two facets of the ring meet only in v and in the side that they have in common.
-   Proof. Going round counter-clockwise, the number of sectors above a direction rises by one at a
-   start and falls by one at an end (2). If every spoke is both, the number is the same everywhere:
-   one (4). If not, it is k + 1 from the spoke that is a start only to the one that is an end only
-   and k beyond, and k = 0 (4). So the interiors of sectors do not overlap. Nor do two spokes
-   coincide, seen against m: just before that ray there would be two sectors if both are ends, just
-   after it if both are starts; and the only start and the only end in one ray would leave no
-   direction free. So if points of two facets coincide, seen against m, they are v or lie on one
-   spoke that bounds both sectors. m is parallel to neither facet (1), so the points are equal only
-   on that spoke, along which both facets have the same side. QED
+   Proof. Let n be the number of sectors that contain a direction. Going round counter-clockwise, n
+   rises by one at a start and falls by one at an end (2). If every spoke is both, n is the same
+   everywhere: 1 by condition 4. Otherwise n is k + 1 from the spoke that is a start only to the
+   spoke that is an end only, and k elsewhere; k = 0 by condition 4. So the interiors of sectors do
+   not overlap. Nor do two spokes coincide, seen against m. If both are ends, n would be 2 just
+   before them; if both are starts, just after them; and if one is the only start and the other the
+   only end, no direction would be in no sector. So if points of two facets coincide, seen against
+   m, they are v or lie on one spoke that bounds both sectors. As m is parallel to neither facet
+   (1), the points are equal only there, and along this spoke both facets have the same side. []
 
-   4 is decided with a line through v: g = m x w for some w. A sector crosses the ray along w, seen
-   against m, if it starts with g . (b - v) < 0 and ends with g . (c - v) > 0, and the opposite ray
-   if the signs are the other way round. If all signs are certain, no spoke lies on the line, and
-   the crossings counted are the numbers of sectors above these two directions: `up` and `down`.
-   With a spoke that is a start only, up = 0 or down = 0 shows a direction in no sector. If both are
-   1, then k is 0 or 1, and both directions are between the lone start and the lone end, or both
-   beyond; so these two lie on one side of the line, and k = 0 if the turn from the end to the start
-   is counter-clockwise (less than 180 degrees, in no sector), k = 1 if it is clockwise.
+   Condition 4 is decided with a line through v along w and -w, for some w: g = m x w. Seen against
+   m, a sector contains w if it starts with g . (b - v) < 0 and ends with g . (c - v) > 0, and -w if
+   the signs are reversed. If all signs are certain, no spoke lies on the line, and `up` and `down`,
+   the numbers of sectors that contain w and -w, are exact. If one spoke is a start only, up = 0 or
+   down = 0 shows a direction in no sector. If both are 1, then k is 0 or 1, and the spokes that are
+   a start only and an end only do not separate w from -w, so that they lie on one side of the line.
+   Then k = 0 if the turn from the end to the start is counter-clockwise (less than 180 degrees, in
+   no sector), and k = 1 if it is clockwise.
 
    m, roughly the mean normal, is rounded to whole numbers up to M = 2^20 and w is (5, 3, 7), so
-   that g is exact and |g_k| <= 12 M. Errors, u = 2^-53: in g . d a difference rounds once, a
-   product once, their sum twice, in all less than 10 u 12 M (|d_x| + |d_y| + |d_z|). Of the
-   determinant of 1, a component of the normal q x p has an error of at most 5 u (|q_i p_j| + |q_j
-   p_i|) (base/exact.c), and the sum of three products by 3 u of its terms: less than 10 u M times
-   the sum of the components' |q_i p_j| + |q_j p_i|. */
+   that g is exact and |g_k| <= 12 M. Errors, u = 2^-53: in g . d a difference is rounded once, a
+   product once, their sum twice: in all less than 10 u 12 M (|d_x| + |d_y| + |d_z|). In the
+   determinant of condition 1, a component of the normal q x p has an error of at most
+   5 u (|q_i p_j| + |q_j p_i|) (base/exact.c), and the sum of three products one of 3 u of its
+   terms: less than 10 u M times the sum of the components' |q_i p_j| + |q_j p_i|. */
 #include "mesh/ring.h"
 
 #include <math.h>
@@ -61,7 +61,7 @@ enum { FAN_FACETS = 32 };
 typedef struct vertex_ring {
     float m[3];             /* sum of the facets' normals, then m */
     uint32_t count;         /* facets */
-    uint32_t start, end;    /* the last spoke seen that is not both a start and an end */
+    uint32_t start, end;    /* the last spokes found that are a start only, and an end only */
     unsigned char open;     /* spokes that are starts only; 2 for more */
     unsigned char up, down; /* sectors above the directions w and -w; 2 for more */
     unsigned char refused;  /* a condition is not met, or not proved */

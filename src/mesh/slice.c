@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Cutting a triangle in space by half-spaces (Sutherland and Hodgman 1974), for upper bounds of
-   areas. It decides nothing exactly. */
+/* A triangle in space, clipped by half-spaces (Sutherland and Hodgman 1974), for upper bounds of
+   areas. Nothing is decided exactly. */
 #include "mesh/slice.h"
 
 #include <math.h>
@@ -52,20 +52,20 @@ void lrcsi_slice_cut(lrcsi_slice *slice, const double n[3], const double origin[
         slice->count = beyond == 0 ? slice->count : 0;
         return;
     }
-    lrcsi_slice left = {.count = 0};
+    lrcsi_slice kept = {.count = 0};
     for (int i = 0; i < slice->count; i++) {
         int next = i + 1 < slice->count ? i + 1 : 0;
         if (height[i] <= 0) {
-            slice_add(&left, slice->x[i], slice->x[i], 0);
+            slice_add(&kept, slice->x[i], slice->x[i], 0);
         }
         if ((height[i] < 0 && height[next] > 0) || (height[i] > 0 && height[next] < 0)) {
-            slice_add(&left, slice->x[i], slice->x[next], height[i] / (height[i] - height[next]));
+            slice_add(&kept, slice->x[i], slice->x[next], height[i] / (height[i] - height[next]));
         }
     }
-    *slice = left;
+    *slice = kept;
 }
 
-/* Twice the vector area about the first corner. */
+/* The area: the length of the vector area about the first corner. */
 static double slice_area(const lrcsi_slice *slice)
 {
     double sum[3] = {0, 0, 0};
@@ -103,8 +103,8 @@ double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const dou
     double e[3];
     double h[3];
     double along = 0;
-    double side = 0;
-    double far = 0;
+    double square_e = 0;
+    double square_h = 0;
     double altitude = 0;
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
@@ -115,11 +115,11 @@ double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const dou
         e[k] = q[k] - p[k];
         h[k] = o[k] - p[k];
         along += e[k] * h[k];
-        side += e[k] * e[k];
-        far += h[k] * h[k];
+        square_e += e[k] * e[k];
+        square_h += h[k] * h[k];
     }
     for (int k = 0; k < 3; k++) {
-        h[k] -= along / side * e[k];
+        h[k] -= along / square_e * e[k];
         altitude += h[k] * h[k];
     }
     for (int i = 0; i < slice->count; i++) {
@@ -127,6 +127,6 @@ double lrcsi_slice_extent(const lrcsi_slice *slice, const double o[3], const dou
         low = height < low ? height : low;
         high = height > high ? height : high;
     }
-    double extent = (high - low + EXTENT_MARGIN * (1 + side + far)) / altitude;
+    double extent = (high - low + EXTENT_MARGIN * (1 + square_e + square_h)) / altitude;
     return extent < 1 ? extent : 1;
 }

@@ -65,24 +65,24 @@ static void turn_fraction(uint32_t k, uint32_t n, double *c, double *s)
     double angle = (2.0 * LRCS_PI) * (double)fold / (double)n;
     double x = 2 * fold == quarter ? SQRT_HALF : cos(angle);
     double y = 2 * fold == quarter ? SQRT_HALF : sin(angle);
-    double ahead = 2 * remainder > quarter ? y : x;
-    double aside = 2 * remainder > quarter ? x : y;
+    double cosine = 2 * remainder > quarter ? y : x;
+    double sine = 2 * remainder > quarter ? x : y;
     switch (k / quarter) {
     case 0:
-        *c = ahead;
-        *s = aside;
+        *c = cosine;
+        *s = sine;
         return;
     case 1:
-        *c = -aside;
-        *s = ahead;
+        *c = -sine;
+        *s = cosine;
         return;
     case 2:
-        *c = -ahead;
-        *s = -aside;
+        *c = -cosine;
+        *s = -sine;
         return;
     default:
-        *c = aside;
-        *s = -ahead;
+        *c = sine;
+        *s = -cosine;
         return;
     }
 }
@@ -123,7 +123,7 @@ static uint32_t ring_nearest(uint32_t k, uint32_t many, uint32_t few)
    the nearest corner of the shorter one. Of two polygons about one centre, the shorter one inside,
    the facets do not overlap: a side's ends lie, seen from the centre, between that corner and one
    of its neighbours, so that they are beyond the side that joins those two. */
-static void row_zip(const row_builder *row, uint32_t first, uint32_t count)
+static void row_join_unequal(const row_builder *row, uint32_t first, uint32_t count)
 {
     int inward = row->count > count;
     uint32_t many = inward ? row->count : count;
@@ -147,7 +147,7 @@ static void row_zip(const row_builder *row, uint32_t first, uint32_t count)
 static void row_join(const row_builder *row, uint32_t first, uint32_t count)
 {
     if (row->count > 1 && count > 1 && row->count != count) {
-        row_zip(row, first, count);
+        row_join_unequal(row, first, count);
         return;
     }
     uint32_t around = row->count > count ? row->count : count;

@@ -192,9 +192,8 @@ static void sort_sides(sorted_side *s, size_t n)
     }
 }
 
-/* Fills use[], edge[] and facet_edge[]. Scratch: side[], as many items as use[]; place[vertex_count
- * + 1].
- */
+/* Fills use[], edge[] and facet_edge[]. Scratch: side[], with as many items as use[]; and place[],
+   with vertex_count + 1. */
 static void build_edges(lrcsi_topology *t, uint32_t vertex_count, const lrcs_facet *facet,
                         uint32_t facet_count, sorted_side *side, uint32_t *place)
 {

@@ -22,12 +22,13 @@
 
    Cones. Let v be a corner of every facet in two blocks, and let the directions from v to their
    other corners lie within alpha of an axis a in the one, within beta of b in the other, both less
-   than 90 degrees. A facet is, as seen from v, an arc between two such directions: within alpha
-   too, for caps that small are convex. So if the angle between a and b exceeds alpha + beta, that
-   is if a . b < cos(alpha + beta) = cos(alpha) cos(beta) - sin(alpha) sin(beta), facets of one
-   block meet those of the other in v only. Errors, u = 2^-53: axes and directions have errors of 6
-   u, so that cosines computed from them have errors of 16 u; CONE_MARGIN, 512 u, covers each. A
-   stored cosine counts as exact: the sine, the root of (1 - c) (1 + c), then has an error of 3 u.
+   than 90 degrees. Seen from v, a facet is an arc between two such directions, and lies within
+   alpha too, because such small caps are convex. So if the angle between a and b exceeds alpha +
+   beta, that is if a . b < cos(alpha + beta) = cos(alpha) cos(beta) - sin(alpha) sin(beta), facets
+   of one block meet those of the other in v only. Errors, u = 2^-53: axes and directions have
+   errors of 6 u, so that cosines computed from them have errors of 16 u; CONE_MARGIN, 512 u, covers
+   each. A stored cosine counts as exact; the sine, the root of (1 - c) (1 + c), then has an error
+   of 3 u.
  */
 #include "mesh/tree.h"
 

@@ -29,7 +29,7 @@ typedef struct lrcsi_tree_slabs {
     double direction[3][LRCSI_TREE_LANES], low[LRCSI_TREE_LANES], high[LRCSI_TREE_LANES];
 } lrcsi_tree_slabs;
 
-/* A single one. */
+/* The slab of one block. */
 typedef struct lrcsi_tree_slab {
     double direction[3], low, high;
     double size; /* the largest |x| + |y| + |z| of the corners */
@@ -97,8 +97,8 @@ static inline lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t l
    Boxes are disjoint if along some axis one ends before the other starts: if a difference of their
    ends is negative. A rounded difference has the sign of the exact one (subnormal numbers are kept,
    base/ieee.h), and equal ends differ by +0, as none is -0. The sign bits of the six differences
-   are combined lane by lane, which compilers vectorize; comparisons, which might trap, they do
-   not. */
+   are combined lane by lane, which compilers vectorize. They do not vectorize comparisons, which
+   might trap. */
 static inline unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrcsi_box *box)
 {
     static const uint64_t lane_bit[LRCSI_TREE_LANES] = {1, 2, 4, 8, 16, 32, 64, 128};

@@ -34,17 +34,17 @@ static int light_by_degrees(double deg, lrcsi_light *light)
    counts as 0 in squares. */
 static int light_by_direction(const lrcsi_dd direction[3], lrcsi_light *light)
 {
-    double most = 0.0;
+    double largest = 0.0;
     for (int i = 0; i < 3; i++) {
         if (!isfinite(direction[i].hi)) {
             return LRCS_E_NUMBER;
         }
-        most = fmax(most, fabs(direction[i].hi));
+        largest = fmax(largest, fabs(direction[i].hi));
     }
-    if (!(most > 0.0)) {
+    if (!(largest > 0.0)) {
         return LRCS_E_ARGUMENT;
     }
-    int shift = -ilogb(most);
+    int shift = -ilogb(largest);
     lrcsi_dd d[3];
     for (int i = 0; i < 3; i++) {
         d[i] = (lrcsi_dd){scalbn(direction[i].hi, shift), scalbn(direction[i].lo, shift)};

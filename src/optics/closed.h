@@ -54,7 +54,7 @@ lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta);
 
 /* amount *= factor, by part; the factors have a relative error of `units` of 2^-53, or an absolute
    one of 2^-1070 if they are subnormal. A factor of 0 is exact: no area. */
-void lrcsi_closed_weigh(lrcsi_amount *amount, const double factor[LRCSI_PARTS], double units);
+void lrcsi_closed_scale_parts(lrcsi_amount *amount, const double factor[LRCSI_PARTS], double units);
 
 /* The same factor for both parts. */
 void lrcsi_closed_scale(lrcsi_amount *amount, double factor, double units);

@@ -3,13 +3,12 @@
    towards both ends. It decides how finely the panels at an end are graded; the samples define the
    integrand.
 
-   Truncation. All singularities of the integrands lie at an end, beyond it, or on the line
-   through it parallel to the imaginary axis, and every peak is at an end or is as wide as its
-   distance from one. On a
-   panel [h/2, h] such a function is analytic inside the ellipse with foci at the panel's ends that
-   reaches to rho = 2.2 (the one through the end itself has rho = 5.8), and there |F| is bounded by
-   its own size on the axis: arguments stay within 18 degrees, where exp(-z^2), z^nu and
-   exp(-1/z^4) all decay. Gauss's rule of n = 24 points then errs by at most
+   Truncation. All singularities of the integrands are at an end, beyond it, or on the line through
+   it parallel to the imaginary axis, and every peak is at an end or is as wide as its distance from
+   one. So on a panel [h/2, h] an integrand is analytic inside the ellipse with foci at the panel's
+   ends and rho = 2.2 (the ellipse through the end of the arc has rho = 5.8), and there |F| is at
+   most its size on the axis: arguments stay within 18 degrees, where exp(-z^2), z^nu and
+   exp(-1/z^4) all decay. Gauss's rule of n = 24 points then has an error of at most
    (64/15) M rho^(-2n) / (1 - rho^-2) (Trefethen 2008, Theorem 4.5), 2e-16 M per unit of length,
    where M is the magnitude of F on the panel. The last panel at an end is one over which F changes
    by less than a factor e and the rest is smooth, or one that holds less than 2^-40 of the
@@ -21,9 +20,9 @@
    from h to 4 h; so inside the ellipse F changes by at most a factor exp(40), and the error is
    exp(40) rho^(-48), about 1e-19.
 
-   Rounding. Values are positive, their sums compensated: q to 4 units, which the exponent E of
-   exp(-E) multiplies by at most 4 E, and E averages below 3 where F is not negligible; with the
-   powers, 40 units in all. */
+   Rounding. Values are positive, and their sums compensated. q is accurate to 4 units, which the
+   exponent E of exp(-E) multiplies by at most 4 E; E is below 3 on average where F is not
+   negligible. With the powers the error is 40 units in all. */
 #include "optics/closed_arc.h"
 
 #include <math.h>
@@ -90,7 +89,7 @@ static void arc_add_point(const lrcsi_arc *arc, int right, double d, double widt
 {
     lrcsi_arc_point at = arc_point(arc, right, d);
     for (int part = 0; part < LRCSI_PARTS; part++) {
-        if (arc->wanted[part]) {
+        if (arc->requested[part]) {
             double value = width * law_sample(&arc->law[part], &at).value;
             lrcsi_dd next = lrcsi_dd_two_sum(sum[part].hi, value);
             sum[part] = (lrcsi_dd){next.hi, sum[part].lo + next.lo};
@@ -146,7 +145,7 @@ static int part_ends(const lrcsi_arc *arc, int part, int right, double h, double
 static int arc_ends(const lrcsi_arc *arc, int right, double h, const lrcsi_dd *sum)
 {
     for (int part = 0; part < LRCSI_PARTS; part++) {
-        if (arc->wanted[part] && !part_ends(arc, part, right, h, sum[part].hi)) {
+        if (arc->requested[part] && !part_ends(arc, part, right, h, sum[part].hi)) {
             return 0;
         }
     }

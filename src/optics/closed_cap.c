@@ -41,7 +41,7 @@ lrcsi_amount lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
     lrcsi_amount amount = {{brdf->A, brdf->B}, {0.0, 0.0}};
     amount.error[LRCSI_GLINT] = LRCSI_U * brdf->A;
     amount.error[LRCSI_DIFFUSE] = LRCSI_U * brdf->B;
-    lrcsi_closed_weigh(&amount, factor, 22.0);
+    lrcsi_closed_scale_parts(&amount, factor, 22.0);
     lrcsi_closed_scale(&amount, LRCS_PI * shape->radius * shape->radius, 3.0);
     return amount;
 }
@@ -56,8 +56,8 @@ static const double cap_rule[CAP_PAIRS][2] = {
 
 /* The integral over y sqrt(|kappa|) = low .. high of (g + 2 g r S)^3; r = Q/(P+Q), g = n_0/(P+Q).
    That is a polynomial of degree 3 in the cosine or the hyperbolic cosine, over no more than pi: 14
-   points err by (3 pi/2)^28 2^29 (14!)^4 / (29 (28!)^3), 3e-19 of its largest term, which is at
-   most 20 times the integral. */
+   points have an error of (3 pi/2)^28 2^29 (14!)^4 / (29 (28!)^3), 3e-19 of its largest term, which
+   is at most 20 times the integral. */
 static double cap_weight_panel(double kappa, double low, double high, double g, double r)
 {
     double root = sqrt(fabs(kappa));
@@ -91,28 +91,29 @@ static double cap_weight_integral(double kappa, double end, double g, double r)
     return sum / sqrt(fabs(kappa)) * g;
 }
 
-/* Phi, weighted with (n_0/n_z)^4, over the arc |phi| < phi_1 with w2 = tan^2(phi_1/2); near and far
-   are P + Q and P - Q. For kappa < 0, 1 + kappa w2 = n_0 (1 + w2)/(P + Q) without cancellation. */
-static double cap_weight_arc(double near, double far, double q, double n_0, double w2)
+/* Phi, weighted with (n_0/n_z)^4, over the arc |phi| < phi_1 with w2 = tan^2(phi_1/2); n_max is
+   P + Q and n_min is P - Q. For kappa < 0, 1 + kappa w2 = n_0 (1 + w2)/(P + Q) without
+   cancellation. */
+static double cap_weight_arc(double n_max, double n_min, double q, double n_0, double w2)
 {
-    double kappa = far != 0.0 ? far / near : 0x1p-1000;
-    double g = n_0 / near;
+    double kappa = n_min != 0.0 ? n_min / n_max : 0x1p-1000;
+    double g = n_0 / n_max;
     double z = sqrt(fabs(kappa) * w2);
     double end = 2.0 * atan(z);
     if (kappa < 0.0) {
         double complement = g * (1.0 + w2); /* 1 - z^2 */
         end = complement > 0.5 ? 2.0 * atanh(z) : 2.0 * log1p(z) - log(complement);
     }
-    return 2.0 * cap_weight_integral(kappa, end, g, q / near);
+    return 2.0 * cap_weight_integral(kappa, end, g, q / n_max);
 }
 
 /* The same over the whole circle, where kappa > 0: (a - b cos E)^3 integrated over a half turn. */
-static double cap_weight_circle(double near, double far, double q, double n_0)
+static double cap_weight_circle(double n_max, double n_min, double q, double n_0)
 {
-    double g = n_0 / near;
-    double a = 0.5 * g * ((near + far) / far);
-    double b = g * (q / far);
-    return 2.0 * LRCS_PI * sqrt(g) * sqrt(n_0 / far) * (a * a * a + 1.5 * a * b * b);
+    double g = n_0 / n_max;
+    double a = 0.5 * g * ((n_max + n_min) / n_min);
+    double b = g * (q / n_min);
+    return 2.0 * LRCS_PI * sqrt(g) * sqrt(n_0 / n_min) * (a * a * a + 1.5 * a * b * b);
 }
 
 /* Phi at theta = start + delta = end - h (outer), sine and cosine of theta given. */
@@ -122,15 +123,15 @@ static double cap_outer_weight(const lrcsi_cap *cap, double delta, double h, dou
     double inward = cap->light_inside ? 2.0 * cap->start + delta : delta;  /* tau + theta - alpha */
     double outward = cap->light_inside ? delta : 2.0 * cap->start + delta; /* alpha + theta - tau */
     double first = sin(0.5 * inward) * sin(0.5 * (cap->horizon ? cap->gap + h : h));
-    double second =
-        sin(0.5 * outward) * (cap->horizon ? sin(0.5 * (cap->slack + h)) : sin(cap->end - 0.5 * h));
+    double second = sin(0.5 * outward) *
+                    (cap->horizon ? sin(0.5 * (cap->supplement + h)) : sin(cap->end - 0.5 * h));
     if (!cap->paraboloid) {
         return 4.0 * atan2(sqrt(first), sqrt(second));
     }
-    double near = cap->cos_alpha >= 0.0 ? cap->cos_alpha * cosine + cap->sin_alpha * sine
-                                        : cap->n_0 * cos(delta) + cap->sin_tau * sin(delta);
-    double far = cap->n_0 * cos(outward) - cap->sin_tau * sin(outward);
-    return cap_weight_arc(near, far, cap->sin_alpha * sine, cap->n_0, first / second);
+    double n_max = cap->cos_alpha >= 0.0 ? cap->cos_alpha * cosine + cap->sin_alpha * sine
+                                         : cap->n_0 * cos(delta) + cap->sin_tau * sin(delta);
+    double n_min = cap->n_0 * cos(outward) - cap->sin_tau * sin(outward);
+    return cap_weight_arc(n_max, n_min, cap->sin_alpha * sine, cap->n_0, first / second);
 }
 
 static double cap_inner_weight(const lrcsi_cap *cap, double h, double sine, double cosine)
@@ -138,9 +139,9 @@ static double cap_inner_weight(const lrcsi_cap *cap, double h, double sine, doub
     if (!cap->paraboloid) {
         return 2.0 * LRCS_PI;
     }
-    double near = cap->cos_alpha * cosine + cap->sin_alpha * sine;
-    double far = cap->n_0 * cos(h) + cap->sin_tau * sin(h); /* cos(tau - h) */
-    return cap_weight_circle(near, far, cap->sin_alpha * sine, cap->n_0);
+    double n_max = cap->cos_alpha * cosine + cap->sin_alpha * sine;
+    double n_min = cap->n_0 * cos(h) + cap->sin_tau * sin(h); /* cos(tau - h) */
+    return cap_weight_circle(n_max, n_min, cap->sin_alpha * sine, cap->n_0);
 }
 
 lrcsi_arc_point lrcsi_cap_point(const lrcsi_arc *arc, int right, double d)
@@ -149,11 +150,11 @@ lrcsi_arc_point lrcsi_cap_point(const lrcsi_arc *arc, int right, double d)
     double delta = right ? arc->length - d : d;
     double h = right ? d : arc->length - d;
     double half = sin(0.5 * delta);
-    double ahead = cap->horizon && !cap->full_circle
-                       ? sin(h)
-                       : cap->cos_end * cos(h) + cap->sin_end * sin(h); /* cos(end - h) */
+    double cos_from_end = cap->horizon && !cap->full_circle
+                              ? sin(h)
+                              : cap->cos_end * cos(h) + cap->sin_end * sin(h); /* cos(end - h) */
     if (cap->full_circle) {
-        double cosine = right ? ahead : cos(delta);
+        double cosine = right ? cos_from_end : cos(delta);
         lrcsi_arc_point at = {2.0 * half * half, cosine, 0.0};
         if (cosine > 0.0) {
             at.weight = sin(delta) * cap_inner_weight(cap, h, sin(delta), cosine);
@@ -161,7 +162,7 @@ lrcsi_arc_point lrcsi_cap_point(const lrcsi_arc *arc, int right, double d)
         return at;
     }
     double y = 2.0 * half * half + cap->sin_start / cap->cos_start * sin(delta);
-    double q = right ? ahead / cap->cos_start : 1.0 - y;
+    double q = right ? cos_from_end / cap->cos_start : 1.0 - y;
     lrcsi_arc_point at = {y, q, 0.0};
     if (q > 0.0) {
         double sine = sin(cap->start + delta);
@@ -188,18 +189,18 @@ static void cap_add_piece(const lrcs_brdf *brdf, const cap_body *body, lrcsi_arc
     double factor[LRCSI_PARTS] = {body->area, body->area};
     double integral[LRCSI_PARTS];
     for (int part = 0; part < LRCSI_PARTS; part++) {
-        arc->wanted[part] = amount.value[part] > 0.0;
+        arc->requested[part] = amount.value[part] > 0.0;
         arc->law[part] = lrcsi_arc_law_make(brdf, part, theta_r.cosine.hi);
     }
-    if (arc->wanted[LRCSI_GLINT] || arc->wanted[LRCSI_DIFFUSE]) {
+    if (arc->requested[LRCSI_GLINT] || arc->requested[LRCSI_DIFFUSE]) {
         lrcsi_arc_integral(arc, integral);
     }
     for (int part = 0; part < LRCSI_PARTS; part++) {
-        if (arc->wanted[part]) {
+        if (arc->requested[part]) {
             factor[part] = integral[part] * body->scale * body->scale;
         }
     }
-    lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 40.0);
+    lrcsi_closed_scale_parts(&amount, factor, LRCSI_ARC_UNITS + 40.0);
     lrcsi_closed_add(sum, &amount);
 }
 
@@ -224,7 +225,7 @@ static lrcsi_cap cap_make(const cap_body *body, const lrcsi_light *light, lrcsi_
     cap.start = lrcsi_closed_radians(*start);
     double beyond = 0.0 - end->cosine.hi; /* +0, not -0, where the end is the horizon */
     cap.gap = atan2(beyond, end->sine.hi);
-    cap.slack = atan2(beyond, -end->sine.hi);
+    cap.supplement = atan2(beyond, -end->sine.hi);
     cap.end = lrcsi_closed_radians(*end);
     return cap;
 }
@@ -234,7 +235,7 @@ static lrcsi_cap cap_make(const cap_body *body, const lrcsi_light *light, lrcsi_
 static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light,
                                  const cap_body *body)
 {
-    const lrcsi_angle nose = {{0.0, 0.0}, {1.0, 0.0}};
+    const lrcsi_angle zero = {{0.0, 0.0}, {1.0, 0.0}};
     lrcsi_amount sum = {{0.0, 0.0}, {0.0, 0.0}};
     lrcsi_angle start, end;
     lrcsi_arc arc = {.is_cap = 1, .cap = cap_make(body, light, &start, &end)};
@@ -246,7 +247,7 @@ static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light
         cap->cos_end = cap->cos_start;
         arc.length = arc.left_smooth = cap->start;
         arc.right_smooth = 0.25 * fmin(cap->cos_start, arc.weight_scale);
-        cap_add_piece(brdf, body, &arc, nose, &sum);
+        cap_add_piece(brdf, body, &arc, zero, &sum);
     }
     cap->full_circle = 0;
     cap->sin_end = end.sine.hi;

@@ -23,8 +23,8 @@ static lrcsi_dd closed_shift(lrcsi_dd a, int shift)
 
 lrcsi_dd lrcsi_closed_hypot(lrcsi_dd a, lrcsi_dd b)
 {
-    double most = fmax(fabs(a.hi), fabs(b.hi));
-    int shift = most > 0.0 ? -ilogb(most) : 0;
+    double largest = fmax(fabs(a.hi), fabs(b.hi));
+    int shift = largest > 0.0 ? -ilogb(largest) : 0;
     a = closed_shift(a, shift);
     b = closed_shift(b, shift);
     return closed_shift(closed_root(lrcsi_dd_add(lrcsi_dd_mul(a, a), lrcsi_dd_mul(b, b))), -shift);
@@ -84,7 +84,7 @@ lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta)
     return out;
 }
 
-void lrcsi_closed_weigh(lrcsi_amount *amount, const double factor[LRCSI_PARTS], double units)
+void lrcsi_closed_scale_parts(lrcsi_amount *amount, const double factor[LRCSI_PARTS], double units)
 {
     for (int part = 0; part < LRCSI_PARTS; part++) {
         /* a part that is exactly 0 stays 0 for every factor */
@@ -102,7 +102,7 @@ void lrcsi_closed_weigh(lrcsi_amount *amount, const double factor[LRCSI_PARTS], 
 void lrcsi_closed_scale(lrcsi_amount *amount, double factor, double units)
 {
     const double both[LRCSI_PARTS] = {factor, factor};
-    lrcsi_closed_weigh(amount, both, units);
+    lrcsi_closed_scale_parts(amount, both, units);
 }
 
 void lrcsi_closed_add(lrcsi_amount *sum, const lrcsi_amount *amount)

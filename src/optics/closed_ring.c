@@ -47,15 +47,16 @@ static ring_wall ring_wall_from_degrees(double radius, double beta_deg)
 
 /* alpha + beta and beta - alpha; from exact degrees if both are given in degrees, so that 0 and 180
    are exact. */
-static void ring_extremes(const ring_wall *wall, const lrcsi_light *light, lrcsi_angle *most,
-                          lrcsi_angle *least)
+static void ring_extremes(const ring_wall *wall, const lrcsi_light *light, lrcsi_angle *sum,
+                          lrcsi_angle *difference)
 {
     if (wall->beta_deg >= 0.0 && light->deg >= 0.0) {
-        lrcsi_degrees_sincos_dd(light->deg, wall->beta_deg, &most->sine, &most->cosine);
-        lrcsi_degrees_sincos_dd(wall->beta_deg, -light->deg, &least->sine, &least->cosine);
+        lrcsi_degrees_sincos_dd(light->deg, wall->beta_deg, &sum->sine, &sum->cosine);
+        lrcsi_degrees_sincos_dd(wall->beta_deg, -light->deg, &difference->sine,
+                                &difference->cosine);
     } else {
-        *most = lrcsi_closed_angle_sum(light->aspect, wall->beta);
-        *least = lrcsi_closed_angle_difference(wall->beta, light->aspect);
+        *sum = lrcsi_closed_angle_sum(light->aspect, wall->beta);
+        *difference = lrcsi_closed_angle_difference(wall->beta, light->aspect);
     }
 }
 
@@ -105,24 +106,24 @@ static lrcsi_arc ring_arc(const lrcs_brdf *brdf, double c_max, double c_min, dou
 static lrcsi_amount ring_integral(const ring_wall *wall, const lrcs_brdf *brdf,
                                   const lrcsi_light *light)
 {
-    lrcsi_angle most, least;
-    ring_extremes(wall, light, &most, &least);
-    lrcsi_angle theta = {most.cosine, most.sine}; /* cos(theta) = sin(alpha + beta) */
+    lrcsi_angle sum, difference;
+    ring_extremes(wall, light, &sum, &difference);
+    lrcsi_angle theta = {sum.cosine, sum.sine}; /* cos(theta) = sin(alpha + beta) */
     lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta);
     double b = wall->beta.cosine.hi * light->aspect.sine.hi;
     double factor[LRCSI_PARTS] = {1.0, 1.0};
     if (b > 0.0 && (amount.value[LRCSI_GLINT] > 0.0 || amount.value[LRCSI_DIFFUSE] > 0.0)) {
         double integral[LRCSI_PARTS];
-        lrcsi_arc arc = ring_arc(brdf, most.sine.hi, least.sine.hi, b);
+        lrcsi_arc arc = ring_arc(brdf, sum.sine.hi, difference.sine.hi, b);
         for (int part = 0; part < LRCSI_PARTS; part++) {
-            arc.wanted[part] = amount.value[part] > 0.0;
+            arc.requested[part] = amount.value[part] > 0.0;
         }
         lrcsi_arc_integral(&arc, integral);
         for (int part = 0; part < LRCSI_PARTS; part++) {
-            factor[part] = arc.wanted[part] ? integral[part] / LRCS_PI : 1.0;
+            factor[part] = arc.requested[part] ? integral[part] / LRCS_PI : 1.0;
         }
     }
-    lrcsi_closed_weigh(&amount, factor, LRCSI_ARC_UNITS + 12.0);
+    lrcsi_closed_scale_parts(&amount, factor, LRCSI_ARC_UNITS + 12.0);
     lrcsi_closed_scale(&amount, wall->area, 6.0);
     return amount;
 }
@@ -155,7 +156,7 @@ lrcsi_amount lrcsi_closed_cylinder(const lrcs_shape *shape, const lrcs_brdf *brd
     double w = brdf->s * light->aspect.sine.hi;
     const double factor[LRCSI_PARTS] = {sqrt(LRCS_PI) * w * (1.0 + 0.5 * w * w),
                                         lrcsi_special_cosine_power(brdf->m + 2.0)};
-    lrcsi_closed_weigh(&amount, factor, 50.0);
+    lrcsi_closed_scale_parts(&amount, factor, 50.0);
     lrcsi_closed_scale(&amount, shape->radius * shape->length, 1.0);
     return amount;
 }

@@ -6,20 +6,21 @@
    On the sphere of normals F(n) = G(theta), theta the angle between n and s_hat. Along the geodesic
    from the facet's normal by the turn vector t
        F = F_i + grad F_i . t + R,  |R| <= |t|^2/2 sup |Hess F|,
-   the eigenvalues of the Hessian being G'' and cot(theta) G'; G is once continuously
+   where the eigenvalues of the Hessian are G'' and cot(theta) G'. G is once continuously
    differentiable, also across 90 deg, where it becomes 0, and its second derivative is bounded,
-   which suffices here. Integrated over the patch, per unit of facet area, with the numbers
-   of lrcs_curvature (a = area_error) and each supremum taken over angles within `turn` of theta_i:
+   which suffices here. This is integrated over the patch, per unit of facet area, with the numbers
+   of lrcs_curvature (a = area_error) and suprema over the angles within `turn` of theta_i:
        second   a F_i + bias |G'_i| + spread^2/2 sup max(|G''|, |cot G'|)
        first    a F_i + sqrt(1 + a) spread sup |G'|        (Cauchy-Schwarz on the integral of |t|)
        range    a F_i + (1 + a) max(sup G - F_i, F_i)      (inf G >= 0)
-   and the least of the three holds. At single points |F - F_i| is at most turn sup |G'|, and at
-   most max(sup G - F_i, F_i). Over any region of the patch the integral of h = F - F_i is at most
-   that of its positive part or of its negative part over the whole patch: with h = g . t + R, both
-   are at most (Int |g . t| + |Int g . t|)/2 + Int |R|, that is |G'_i| (sqrt(1 + a) spread + bias)/2
-   + spread^2/2 sup max(|G''|, |cot G'|). If both sides of a surface reflect, F continues as G(180
-   deg - theta) beyond 90 deg: once continuously differentiable there too, with the same suprema, so
-   that each bound also holds if some points beyond 90 deg count and others do not.
+   All three bounds hold; the smallest is used. At single points |F - F_i| is at most turn sup |G'|,
+   and at most max(sup G - F_i, F_i). Over any region of the patch the integral of h = F - F_i is at
+   most that of its positive part or of its negative part over the whole patch: with h = g . t + R
+   both are at most (Int |g . t| + |Int g . t|)/2 + Int |R|, that is
+       |G'_i| (sqrt(1 + a) spread + bias)/2 + spread^2/2 sup max(|G''|, |cot G'|).
+   If both sides of a surface reflect, F continues as G(180 deg - theta) beyond 90 deg. It is once
+   continuously differentiable there too, with the same suprema; so each bound also holds if some
+   points beyond 90 deg count and others do not.
 
    With u = tan^2 theta, w = 1 + u, E = exp(-u/s^2), nu = m + 2:
        glint/A    G = w^2 E                              G' = 2 sqrt(u) (2 w^2 - w^3/s^2) E
@@ -44,10 +45,10 @@
 #define DEVIATION_MARGIN (1.0 + 1e-10)
 #define EXPONENT_LOW     (-700.0)
 #define DEVIATION_TINY   0x1p-1009 /* above e^-700: replaces all smaller values */
-#define SLOPE_HUGE       1e75 /* for larger s the peaks lie beyond every finite u that occurs */
+#define SLOPE_HUGE       1e75      /* for larger s the peaks are beyond all finite u that occur */
 
-/* u = tan^2(theta), and the logarithms that the terms there consist of: computed at first use,
-   because they are most of the work. */
+/* u = tan^2(theta), and the logarithms from which the terms are computed. They are computed at
+   first use, because they are most of the work. */
 typedef struct tan2_point {
     double u, log_u, log_w;
     int known;
@@ -142,9 +143,9 @@ static deviation_suprema glint_suprema(double s, int front, tan2_point *at_facet
     if (front && isfinite(at_facet->u)) {
         double up = 4.0 * glint_term(0.5, 2.0, 0.0, &slope, at_facet);
         double down = 2.0 * glint_term(0.5, 3.0, 1.0, &slope, at_facet);
-        double more = fmax(up, down);
+        double larger = fmax(up, down);
         sup.value = glint_term(0.0, 2.0, 0.0, &slope, at_facet);
-        sup.slope = isfinite(more) ? fabs(up - down) + 1e-10 * more : more;
+        sup.slope = isfinite(larger) ? fabs(up - down) + 1e-10 * larger : larger;
     }
     sup.value_max = glint_sup(0.0, 2.0, 0.0, &slope, range);
     sup.slope_max = fmax(4.0 * glint_sup(0.5, 2.0, 0.0, &slope, range),
@@ -213,14 +214,14 @@ static int range_around(double theta, double turn, tan2_range *range)
     if (low > HALF_PI_BELOW) {
         return 0;
     }
-    double near = low > 0.0 ? tan(low) : 0.0;
-    double far = high < HALF_PI_BELOW ? tan(high) : HUGE_VAL;
-    range->low = tan2_at(near * near * (1.0 - 8.0 * LRCSI_U));
-    range->high = tan2_at(far * far * (1.0 + 8.0 * LRCSI_U));
+    double tan_low = low > 0.0 ? tan(low) : 0.0;
+    double tan_high = high < HALF_PI_BELOW ? tan(high) : HUGE_VAL;
+    range->low = tan2_at(tan_low * tan_low * (1.0 - 8.0 * LRCSI_U));
+    range->high = tan2_at(tan_high * tan_high * (1.0 + 8.0 * LRCSI_U));
     return 1;
 }
 
-/* The least of the three bounds, and the bound for every single point of the patch. */
+/* The smallest of the three bounds, and the other bounds. */
 static lrcsi_deviation deviation_of(const deviation_suprema *all, const lrcs_curvature *c)
 {
     double second = times(c->bias, all->slope) + times(0.5 * c->spread * c->spread, all->second);
@@ -279,17 +280,17 @@ double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double t
 /* f_r cos is w^(5/2) E, one of the glint terms, and w^(-(m+1)/2), which decreases. */
 lrcsi_reflection lrcsi_reflect_bound(const lrcs_brdf *brdf, double theta, double turn)
 {
-    lrcsi_reflection most = {0.0, 0.0, 0.0};
+    lrcsi_reflection bound = {0.0, 0.0, 0.0};
     tan2_range range;
     if (!range_around(theta, turn, &range)) {
-        return most;
+        return bound;
     }
     if (brdf->A > 0.0) {
         const glint_slope slope = {brdf->s, 0.0}; /* a term with c = 0 needs no logarithm */
-        most.glint = brdf->A * glint_sup(0.0, 2.5, 0.0, &slope, &range) * DEVIATION_MARGIN;
+        bound.glint = brdf->A * glint_sup(0.0, 2.5, 0.0, &slope, &range) * DEVIATION_MARGIN;
     }
     if (brdf->B > 0.0) {
-        most.diffuse = brdf->B * diffuse_sup(0.0, brdf->m + 1.0, &range) * DEVIATION_MARGIN;
+        bound.diffuse = brdf->B * diffuse_sup(0.0, brdf->m + 1.0, &range) * DEVIATION_MARGIN;
     }
-    return most;
+    return bound;
 }

@@ -14,7 +14,7 @@
             far tail: log1p, below x/1.9: 1, x/2: 2, their difference: 1; exp: 2; squared: 8 x
    diffuse  the exponent y = (m/4) log(1 + u), by LRCSI_LOG_ERROR y and at most y or (m/4) 2^-53;
             exp: 3; squared: twice all that; 1 + u, quotient and two products: 4
-            by roots: w' left out, m/2 + 1: 2; a root of a root: 1.5; two quotients: 2
+            by roots: the rounding of 1 + u, times m/2 + 1: 2; a root of a root: 1.5; quotients: 2
    These are first order; the constants below leave room for the rest. */
 #include "optics/reflect.h"
 
@@ -122,8 +122,8 @@ static int first_order_holds(const reflect_part *part, double e)
            part->value > 0x1p-900;
 }
 
-/* The true u lies in [u / (1 + e), u / (1 - e)]: for e <= 1/4, log(u) errs by at most 1.16 e and
-   log_slope grows by at most a factor of 4/3, so log(part) errs by delta. */
+/* The true u lies in [u / (1 + e), u / (1 - e)]. For e <= 1/4, log(u) has an error of at most 1.16
+   e, and log_slope grows by at most a factor of 4/3. So the error of log(part) is at most delta. */
 static double part_error(const reflect_part *part, double e)
 {
     double delta = part->relative + 2.0 * e * part->log_slope;
@@ -131,20 +131,20 @@ static double part_error(const reflect_part *part, double e)
 }
 
 /* Does a glint whose first-order error is not valid bound its own error? If tan^2 is exact, only
-   underflow affects it. A value of at most 2^-900 has q < 2^-200 for these A, so that (A q) q loses
-   2^-1074 q and 2^-1074; a q below 2^-1022, accurate to 2^-1074, makes it lose 2^-1071. `relative`
-   is above 1 only if both the true and the computed value are negligible. All of this is below
-   2^-1000. */
+   underflow affects it. For these A a value of at most 2^-900 has q < 2^-200. Then (A q) q has
+   errors of 2^-1074 q and 2^-1074, and a q below 2^-1022, which is accurate to 2^-1074, causes an
+   error of 2^-1071. `relative` is above 1 only if both the true and the computed value are
+   negligible. All of this is below 2^-1000. */
 static int glint_bounds_own_error(const lrcs_brdf *brdf, const reflect_part *glint, double e)
 {
     return e == 0.0 && glint->value <= 0x1p-900 && brdf->A >= 0x1p-500;
 }
 
-/* A bound on the error from a bound `most` on the part: twice that covers underflow and rounding.
+/* A bound on the error from a bound on the part itself: twice that covers underflow and rounding.
  */
-static double part_error_bound(const reflect_part *part, double most)
+static double part_error_bound(const reflect_part *part, double part_bound)
 {
-    return 2.0 * fmax(part->value, most) + 0x1p-1000;
+    return 2.0 * fmax(part->value, part_bound) + 0x1p-1000;
 }
 
 /* tan^2 is in [tan2 / (1 + e), tan2 / (1 - e)] if e <= 1/4; else it may have any value. */

@@ -36,7 +36,7 @@ typedef struct lrcsi_deviation {
     double point;  /* |F - F(facet normal)| at any point of the patch */
     double region; /* |integral of F - F(facet normal) over any region of the patch| / facet area */
     double value;  /* F(facet normal) */
-    double most;   /* F at any point of the patch */
+    double value_max; /* F at any point of the patch */
 } lrcsi_deviation;
 
 /* The same bounds for any curvature. For a flat patch `whole`, `point` and `region` may be of the

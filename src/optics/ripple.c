@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The error of a glint caused by flat facets, from the turn between them: an estimate. Its model is
-   a cylinder at broadside, the worst of the common cases.
+   a cylinder seen at broadside, the worst of the common cases.
 
    N facets sample the normals of a full turn at spacing h = 2 pi / N. Their sum is a trapezoidal
    rule over azimuth for a Gaussian of slope s; by Poisson's formula its error relative to the
@@ -18,17 +18,17 @@ double lrcsi_ripple_error(double turn, double s)
     return turn * turn / 24.0 + 2.0 * exp(-ratio * ratio);
 }
 
-double lrcsi_ripple_around(double s, double most)
+double lrcsi_ripple_around(double s, double max_error)
 {
     double low = 2.0;
     double high = 3.0;
-    while (lrcsi_ripple_error(2.0 * LRCS_PI / high, s) > most && high < 1e15) {
+    while (lrcsi_ripple_error(2.0 * LRCS_PI / high, s) > max_error && high < 1e15) {
         low = high;
         high *= 2.0;
     }
-    while (high - low > 1.0) { /* the error falls with N */
+    while (high - low > 1.0) { /* the error decreases with N */
         double middle = floor(0.5 * (low + high));
-        if (lrcsi_ripple_error(2.0 * LRCS_PI / middle, s) > most) {
+        if (lrcsi_ripple_error(2.0 * LRCS_PI / middle, s) > max_error) {
             low = middle;
         } else {
             high = middle;

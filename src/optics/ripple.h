@@ -8,7 +8,7 @@
    and 2 exp(-(pi s / turn)^2) for the ripple of the sum over discrete normals. */
 double lrcsi_ripple_error(double turn, double s);
 
-/* The smallest number of facets per full turn with an error of at most `most`. */
-double lrcsi_ripple_around(double s, double most);
+/* The smallest number of facets per full turn with an error of at most `max_error`. */
+double lrcsi_ripple_around(double s, double max_error);
 
 #endif

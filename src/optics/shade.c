@@ -7,12 +7,12 @@
 
    Error of q, with u = 2^-53 and r = |v|: n has an error of at most 1.01 u in all, d is exact, the
    two subtractions add 2 u of v; squares and their sums add 3 u of q. Together |dq| <= 2.02 u r + 7
-   u q + 8 u^2, also with r and q as computed. As dc = -dq/2, this changes the logarithm of c^-5
-   exp(-tan^2/s^2) by at most (2.5/c + 1/(s^2 c^3)) |dq|, of c^(m+1)              by at most (m +
-   2)/(2 c) |dq|, and by no more those of c^-4 exp(-tan^2/s^2) and c^(m+2), which apply to an area S
-   c.
+   u q + 8 u^2, also with r and q as computed. As dc = -dq/2, this changes the logarithms
+       of c^-5 exp(-tan^2/s^2)  by at most (2.5/c + 1/(s^2 c^3)) |dq|,
+       of c^(m+1)               by at most (m + 2)/(2 c) |dq|,
+   and those of c^-4 exp(-tan^2/s^2) and c^(m+2), which apply to an area S c, by no more.
 
-   All else is rounding in functions of q as computed, relative, in units of u:
+   All other errors are roundings in functions of the computed q: relative, in units of u:
 
    c      1; its inverse 2, of which the square has 5, the fourth power 11, the fifth 14
 
@@ -34,8 +34,8 @@
    x/q and x <= 700 make it at most (2.02/r + 7) (1400/c) u < 2^-23; otherwise c is almost 1, and s
    >= 2^-20 makes it at most (2.02 r + 7 q) 2^41 u < 2^-22.
 
-   Exponents beyond 700 count as 0: the part is then below 4 pi A c^-5 e^-699, or 4 pi B e^-699.
-   What underflows in between loses 2^-1075 at most. */
+   A part with an exponent beyond 700 counts as 0: it is below 4 pi A c^-5 e^-699, or 4 pi B e^-699.
+   Underflow of intermediate results causes an error of at most 2^-1075. */
 #include "optics/shade.h"
 
 #include <string.h>
@@ -48,7 +48,7 @@
 #define SHADE_EXPONENT      700.0
 #define SHADE_CUTOFF        0x1p-924 /* 2^53 times 2^31 e^-699 */
 
-/* Closer to grazing incidence than this the errors grow. */
+/* The smallest cosine: closer to grazing incidence errors grow. */
 #define SHADE_GRAZING 0x1p-6
 /* For a glint of smaller slope, and a diffuse lobe as narrow, the error of q matters within the
    bright lobe: up to an exponent of about 12, 2 r/s^2 exceeds 150 units. */

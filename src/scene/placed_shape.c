@@ -151,7 +151,7 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
         part->reach = scaled * reach.all + placed;
         part->displaced[0] = scaled * reach.radial + placed;
         part->displaced[1] = scaled * reach.axial + placed;
-        part->displaced[2] = scaled * reach.aside + placed;
+        part->displaced[2] = scaled * reach.tangential + placed;
     }
     part->convex_patch = 1;
     part->thinnest = smallest * smallest_extent(shape);

@@ -8,7 +8,7 @@
    Proof. A point q of Q that hides p in P is q = p + t d with t > 0. Then
        c >= n . q = n . p + t n . d >= c + t n . d,
    so that n . d = 0, and p lies in the plane n . x = c. That plane contains d, so the part of P in
-   it is edge-on, without projected area. QED. P hides none of its own front, because it lies on a
+   it is edge-on, without projected area. [] P hides none of its own front, because it lies on a
    convex body. So P is clear if there is such a plane for each other part. A plane that contains d
    separates the silhouettes; n = d means that Q is behind P; planes in between separate parts that
    stand on one another.
@@ -110,20 +110,20 @@ static double support_facets(const clear_body *body, const double n[3])
 {
     const lrcs_prepared *p = body->prepared;
     const lrcs_part *part = body->part;
-    double most = -HUGE_VAL;
+    double highest = -HUGE_VAL;
     if (part->reach > 0 || part->facet_count > CORNERS_MAX) {
-        most = 0;
+        highest = 0;
         for (int k = 0; k < 3; k++) {
-            most += n[k] * (n[k] > 0 ? body->extent->high[k] : body->extent->low[k]);
+            highest += n[k] * (n[k] > 0 ? body->extent->high[k] : body->extent->low[k]);
         }
-        return most;
+        return highest;
     }
     for (uint32_t f = part->first_facet; f < part->first_facet + part->facet_count; f++) {
         for (int k = 0; k < 3 && !p->skip[f]; k++) {
-            most = lrcsi_max(most, lrcsi_vec3_dot(lrcsi_prepared_corner(p, f, k), n));
+            highest = lrcsi_max(highest, lrcsi_vec3_dot(lrcsi_prepared_corner(p, f, k), n));
         }
     }
-    return most;
+    return highest;
 }
 
 static double support(const clear_body *body, const double n[3])
@@ -137,15 +137,15 @@ static double support(const clear_body *body, const double n[3])
 static double slab_surface(const clear_body *body, double height)
 {
     const double two_pi = 6.2832; /* rounded up */
-    double wide = lrcsi_max(body->radius, body->radius2);
+    double radius = lrcsi_max(body->radius, body->radius2);
     double slant = 1;
     if (body->part->kind == LRCS_SHAPE_CONE || body->part->kind == LRCS_SHAPE_FRUSTUM) {
         double rise = (body->part->kind == LRCS_SHAPE_CONE ? 0 : body->radius2) - body->radius;
         slant += fabs(rise) / body->length;
     } else if (body->part->kind == LRCS_SHAPE_PARABOLOID) {
-        slant += 0.5 * wide / body->length;
+        slant += 0.5 * radius / body->length;
     }
-    return 1.001 * two_pi * wide * slant * height + 32 * LRCSI_U * wide * wide;
+    return 1.001 * two_pi * radius * slant * height + 32 * LRCSI_U * radius * radius;
 }
 
 /* Does a plane across n, a unit vector to 8 u, separate a pair? If so, *slab is the area that may
@@ -174,9 +174,9 @@ static int is_separated_along(const clear_body *P, const clear_body *Q, const do
     }
     const double up[3] = {n[0] / length, n[1] / length, n[2] / length};
     const double down[3] = {-up[0], -up[1], -up[2]};
-    double toward = lrcsi_vec3_dot(up, d);
-    return (toward >= -8 * LRCSI_U && is_separating(P, Q, d, up, has_slab, slab)) ||
-           (toward <= 8 * LRCSI_U && is_separating(P, Q, d, down, has_slab, slab));
+    double cosine = lrcsi_vec3_dot(up, d);
+    return (cosine >= -8 * LRCSI_U && is_separating(P, Q, d, up, has_slab, slab)) ||
+           (cosine <= 8 * LRCSI_U && is_separating(P, Q, d, down, has_slab, slab));
 }
 
 /* Tries these directions: P's axis; that to the laser; from centre to centre, and its projection

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The axes of a view from a pose. Decides which poses are invalid, and how a rounded R is
-   corrected: with d the direction and a the given first row, the axes are those of a without its
-   component along d, of d x a, and of d. */
+   corrected: with d the direction and a the given first row, the axes are the unit vectors along a
+   without its component along d, along d x a, and along d. */
 #include "view/frame.h"
 
 #include <math.h>
@@ -15,8 +15,8 @@
 
 static const double zero_low[3]; /* the low parts of plain doubles */
 
-/* A dot product with one rounding, the square root and quotients with one more each: the length
-   has an error of 1.5 u, and the rounded quotients add a vector of at most u. */
+/* The dot product is rounded once, the square root and the quotients once each: the length has an
+   error of 1.5 u, and the rounded quotients add a vector of at most u. */
 static void unit(const double v[3], double out[3])
 {
     double length = sqrt(lrcsi_product_dot(v, zero_low, v));
@@ -48,11 +48,10 @@ static int pose_check(const lrcs_pose *pose)
     return largest >= 0.5 && largest <= 1 ? LRCS_OK : LRCS_E_ARGUMENT;
 }
 
-/* Let e be the unit vector along the computed first row without its component along d. The row's
-   component along d consists of the rounding errors of a - t d (t is accurate to 4 u and below
-   2^-19), u, and of the quotients, u; its length has an error of 2.5 u. The second row: d x the
-   first is exactly along d x e, its components are rounded once, u, and `unit` adds 2.5 u. The
-   third: 2.5 u. All below 4 u. */
+/* First row: let e be the unit vector along it without its component along d. That component is due
+   to rounding: u in a - t d (t is accurate to 4 u and below 2^-19) and u in the quotients. The
+   length has an error of 2.5 u. Second row: d x (first row) is exactly along d x e; its components
+   are rounded once, u, and `unit` adds 2.5 u. Third row: 2.5 u. All errors are below 4 u. */
 int lrcsi_frame_make(const lrcs_pose *pose, double direction[3], double R[3][3])
 {
     int status = pose_check(pose);

@@ -8,7 +8,8 @@
 #include "view/view.h"
 
 /* The point from + t to, 0 <= t <= 1, has an error of at most err + t err_growth in each
- * coordinate. */
+ * coordinate.
+ */
 typedef struct lrcsi_strip_segment {
     double from[2], to[2];
     double err, err_growth;

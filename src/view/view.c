@@ -74,9 +74,9 @@ static incidence_dot incidence_dot_of(const lrcsi_view *view, uint32_t facet, do
                                  lrcsi_prepared_corner(view->prepared, facet, 2), view->direction));
         dot.err = 2 * LRCSI_U * dot.value;
     }
-    double least = GRAZING_MIN * view->prepared->normal[facet].length * view->length;
-    if (dot.value < least) {
-        dot.value = least;
+    double smallest = GRAZING_MIN * view->prepared->normal[facet].length * view->length;
+    if (dot.value < smallest) {
+        dot.value = smallest;
         dot.replaced = 1;
     }
     return dot;
@@ -175,9 +175,10 @@ void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32
     }
 }
 
-/* Let p be the point as seen from the origin, both doubles. The rounded difference has an error of
-   u |p|, the row by 4 u (view/frame.h), which moves the coordinate by 4 u |p|, and three products
-   and two sums add 3 u |p|: together 8.01 u |p|, at most 8.1 u of the sum of |coordinates|. */
+/* Let p be the difference of the point and the origin, both doubles. The rounded difference has an
+   error of u |p|; the row has an error of 4 u (view/frame.h), which changes the coordinate by 4 u
+   |p|; three products and two sums add 3 u |p|. Together 8.01 u |p|, at most 8.1 u of the sum of
+   |coordinates|. */
 static inline void point_place(const lrcsi_view *view, const double point[3], double x[3])
 {
     const double *o = view->prepared->origin;
@@ -199,8 +200,9 @@ void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]
     }
 }
 
-/* As vectors: the rows have errors of 4 u each, two products and a sum by 2 u (|x| + |y|), and the
-   last sum by u of its result, of length below |x| + |y| and sqrt(3) times the origin's largest. */
+/* As vectors: the rows have errors of 4 u each, two products and a sum one of 2 u (|x| + |y|), and
+   the last sum one of u times its result, whose length is below |x| + |y| plus sqrt(3) times the
+   origin's largest coordinate. */
 double lrcsi_view_lift_err(const lrcsi_view *view, double x, double y)
 {
     const double *o = view->prepared->origin;
@@ -208,8 +210,8 @@ double lrcsi_view_lift_err(const lrcsi_view *view, double x, double y)
     return LRCSI_U * (8 * (fabs(x) + fabs(y)) + 2 * origin);
 }
 
-/* By the sign of the dot product of unit vectors; exactly if its error may hide the sign, which is
-   rare: one test suffices for a block. */
+/* Facing is the sign of the dot product of unit vectors. It is computed exactly if the product may
+   have the wrong sign, which is so rare that one test per block suffices. */
 static void view_facings(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;

@@ -149,7 +149,7 @@ static tested_facet tested_facet_of(const lrcsi_view *view, uint32_t facet)
 /* The number of steps, of those wanted, that the meter allows. */
 static uint32_t steps_allowed(const lrcsi_meter *meter, uint32_t steps)
 {
-    uint64_t left = meter ? (meter->spent ? 0 : meter->most - meter->taken) : steps;
+    uint64_t left = meter ? (meter->spent ? 0 : meter->limit - meter->taken) : steps;
     return left < steps ? (uint32_t)left : steps;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Convex polygons and lines of the plane in plain doubles. The caller knows the errors of what it
-   gives; rounding errors of what is computed stand beside each function. */
+/* Convex polygons and lines of the plane in plain doubles. The caller accounts for the errors of
+   the arguments; rounding errors of the results are stated at each function. */
 #include "visibility/clip.h"
 
 #include <math.h>

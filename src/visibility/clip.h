@@ -68,8 +68,8 @@ static inline void lrcsi_line_range(const lrcsi_clip_polygon *shape, const doubl
 void lrcsi_box_range(const double low[2], const double high[2], const double line[3],
                      double range[2]);
 
-/* The part of a segment in a cell or near it, between two fractions of its length; for a segment at
-   the border, the width of the strip around it that is undecided. */
+/* The part of a segment in a cell or near it, between two fractions of its length; and, for a
+   segment at the border, the width of the undecided strip around it. */
 typedef struct lrcsi_cells_part {
     double from, to, strip_width;
 } lrcsi_cells_part;
@@ -85,8 +85,8 @@ static inline int lrcsi_cells_box_outside(const lrcsi_cells_sides *s, const doub
 
 enum lrcsi_cells_location {
     LRCSI_CELLS_OUTSIDE, /* the segment is farther from the cell than its error */
-    LRCSI_CELLS_BORDER,  /* it is nowhere deeper in the cell than its error; in a corner, twice that
-                          */
+    LRCSI_CELLS_BORDER,  /* it extends into the cell by no more than its error; in a corner of the
+                            cell, by no more than twice that */
     LRCSI_CELLS_CROSSES  /* neither is certain */
 };
 

@@ -15,7 +15,7 @@
 #include "visibility/clip.h"
 #include "visibility/sample.h"
 
-/* A height that is at least this many times its error gives intersections accurate to a double. */
+/* Intersections are accurate to a double if heights exceed their errors by this factor. */
 #define HEIGHT_SUFFICES 0x1p53
 
 /* The heights of a facet's corners above the target's plane. */
@@ -43,8 +43,8 @@ static lrcsi_dd height_dd(const lrcsi_target *t, const double *x, double *err)
     return t->view->facing[t->facet] > 0 ? sum : lrcsi_dd_negate(sum);
 }
 
-/* The heights in double-double if that suffices, otherwise from the exact determinant; for a needle
-   always from the latter, because other facets may be 2^88 times as long as the needle is wide. */
+/* The heights in double-double if that suffices, otherwise from the exact determinant. For a needle
+   always the latter, because other facets may be 2^88 times as long as the needle is wide. */
 static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
 {
     const lrcs_prepared *p = t->view->prepared;
@@ -113,16 +113,16 @@ static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, 
                        double *reach)
 {
     int next = (k + 1) % 3;
-    int near = c->away[k] <= c->away[next] ? k : next;
+    int near = c->distance[k] <= c->distance[next] ? k : next;
     int far = near == k ? next : k;
     double span = fabs(h->height[k]) + fabs(h->height[next]);
     double t = lrcsi_min(1, fabs(h->height[near]) / span);
     for (int i = 0; i < 2; i++) {
         at[i] = c->corner[near][i] + t * (c->corner[far][i] - c->corner[near][i]);
     }
-    *reach = (1 - t) * c->away[near] + t * c->away[far];
+    *reach = (1 - t) * c->distance[near] + t * c->distance[far];
     double err = (1 - t) * h->err[near] + t * h->err[far];
-    return 2 * (c->away[k] + c->away[next]) * (err / span);
+    return 2 * (c->distance[k] + c->distance[next]) * (err / span);
 }
 
 /* The segment's part near the target, and its kind. The segment's ends, and the single corner that
@@ -134,8 +134,8 @@ static double side_cut(const contact_heights *h, const lrcsi_contact *c, int k, 
    is so short that the direction of its line is uncertain, near the line from the segment to the
    corner. That distance is added to the position error, and the kind says where the rest of the
    facet lies: FRONT or BEHIND. The part cut off extends along the line as far as the corner, which
-   may be far beyond the segment; within 4 diameters of the target, the corner's error moves it no
-   more than if the corner were there. */
+   may be far beyond the segment. Within 4 diameters of the target, the corner's error displaces it
+   by no more than if the corner were at that distance. */
 static int find_segment(const lrcsi_target *t, const contact_heights *h, lrcsi_contact *c,
                         int above)
 {
@@ -148,19 +148,19 @@ static int find_segment(const lrcsi_target *t, const contact_heights *h, lrcsi_c
             c->position_err = lrcsi_max(c->position_err, position_err);
         } else {
             memcpy(c->end[i], c->corner[crossing[i]], sizeof c->end[i]);
-            reach[i] = c->away[crossing[i]];
+            reach[i] = c->distance[crossing[i]];
         }
     }
     c->reach = lrcsi_target_segment(t, c->end, reach);
 
-    int lone = above == 1 ? 1 : -1; /* the sign of the single corner's height */
-    int corner = h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2;
+    int single = above == 1 ? 1 : -1; /* the sign of the height of the single corner */
+    int corner = h->above[0] == single ? 0 : h->above[1] == single ? 1 : 2;
     const double *p = c->corner[corner];
-    double err = 16 * LRCSI_U * lrcsi_max(c->away[corner], c->reach) + c->position_err;
+    double err = 16 * LRCSI_U * lrcsi_max(c->distance[corner], c->reach) + c->position_err;
     const double along[2] = {c->end[1][0] - c->end[0][0], c->end[1][1] - c->end[0][1]};
     double length = lrcsi_length_flat(along[0], along[1]);
     double twice = along[0] * (p[1] - c->end[0][1]) - along[1] * (p[0] - c->end[0][0]);
-    double beyond = length > 0 ? lone * twice / length : 0;
+    double beyond = length > 0 ? single * twice / length : 0;
     lrcsi_clip_polygon triangle;
     lrcsi_clip_triangle((const double(*)[2])c->corner, &triangle);
     if (position_err_exceeds_width(c, lrcsi_clip_area(&triangle))) {
@@ -170,14 +170,14 @@ static int find_segment(const lrcsi_target *t, const contact_heights *h, lrcsi_c
         return LRCSI_CONTACT_LINE;
     }
     if (length > 4 * err) {
-        double away = lrcsi_min(c->away[corner], c->reach + 4 * t->diameter);
-        c->position_err += fabs(beyond) + 16 * LRCSI_U * away;
+        double distance = lrcsi_min(c->distance[corner], c->reach + 4 * t->diameter);
+        c->position_err += fabs(beyond) + 16 * LRCSI_U * distance;
     } else {
         c->position_err += length;
         memcpy(c->end[1], p, sizeof c->end[1]);
-        c->reach = lrcsi_max(c->reach, c->away[corner]);
+        c->reach = lrcsi_max(c->reach, c->distance[corner]);
     }
-    return lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
+    return single > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
 }
 
 /* --- in a needle ------------------------------------------------------------------------------ */
@@ -237,13 +237,13 @@ static int ends_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c)
 
 /* As find_segment. The segment is clipped only afterwards: with errors e of its ends and of the
    corner, its direction has an error of 2 e over its length, and the corner's distance from its
-   line an error of 2 e plus that angle times the distance to the corner. `turned` is this second
-   term. The facet's area is computed in double-double, because it may be a needle too. */
+   line an error of 2 e plus that angle times the distance to the corner. `direction_err` is this
+   second term. The facet's area is computed in double-double, because it may be a needle too. */
 static int find_segment_dd(const contact_heights *h, contact_dd *f, lrcsi_contact *c, int above)
 {
     int is_short = ends_dd(h, f, c);
-    int lone = above == 1 ? 1 : -1;
-    const lrcsi_dd *p = f->corner[h->above[0] == lone ? 0 : h->above[1] == lone ? 1 : 2];
+    int single = above == 1 ? 1 : -1;
+    const lrcsi_dd *p = f->corner[h->above[0] == single ? 0 : h->above[1] == single ? 1 : 2];
     lrcsi_dd along[2];
     lrcsi_dd to_corner[2];
     lrcsi_dd side[2][2];
@@ -255,14 +255,14 @@ static int find_segment_dd(const contact_heights *h, contact_dd *f, lrcsi_contac
     }
     double err = c->corner_err + 16 * LRCSI_U + c->position_err;
     double length = lrcsi_length_flat(along[0].hi, along[1].hi);
-    double beyond = length > 0 ? lone * cross_dd(along, to_corner) / length : 0;
+    double beyond = length > 0 ? single * cross_dd(along, to_corner) / length : 0;
     double far = lrcsi_length_flat(to_corner[0].hi, to_corner[1].hi);
-    double turned = is_short ? 0 : 4 * far / length * (c->corner_err + c->position_err);
+    double direction_err = is_short ? 0 : 4 * far / length * (c->corner_err + c->position_err);
     int kind = LRCSI_CONTACT_LINE;
-    if (!(beyond > 4 * err + turned)) {
-        kind = lone > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
+    if (!(beyond > 4 * err + direction_err)) {
+        kind = single > 0 ? LRCSI_CONTACT_BEHIND : LRCSI_CONTACT_FRONT;
         if (length > 4 * err) {
-            c->position_err += fabs(beyond) + turned;
+            c->position_err += fabs(beyond) + direction_err;
         } else {
             c->position_err += length;
             memcpy(f->end[1], p, sizeof f->end[1]);
@@ -288,7 +288,7 @@ int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
         above += h.above[k] > 0;
         below += h.above[k] < 0;
         if (!t->needle) {
-            c->away[k] = lrcsi_target_coordinates(t, x, c->corner[k]);
+            c->distance[k] = lrcsi_target_coordinates(t, x, c->corner[k]);
             continue;
         }
         double corner_err = lrcsi_needle_coordinates(t->needle, x, f.corner[k]);

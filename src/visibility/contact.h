@@ -13,15 +13,15 @@ enum lrcsi_contact_kind {
     LRCSI_CONTACT_FRONT,  /* a segment; the facet is in front, except near the segment's line */
     LRCSI_CONTACT_BEHIND, /* a segment; the facet is behind, except near the segment's line */
     LRCSI_CONTACT_FLAT,   /* both facets lie exactly in one plane */
-    LRCSI_CONTACT_UNKNOWN /* a segment somewhere in the facet: nothing better is known */
+    LRCSI_CONTACT_UNKNOWN /* a segment somewhere in the facet: no more is known */
 };
 
 /* A facet in the target's frame, and its intersection with the target's plane. */
 typedef struct lrcsi_contact {
     double corner[3][2]; /* counter-clockwise; in a needle, rounded */
-    double away[3];      /* their distances, in space, from the target's origin; 0 in a needle */
+    double distance[3];  /* of the corners from the target's origin, in space; 0 in a needle */
     double end[2][2];    /* of the segment; in a needle, of its part near the target */
-    double reach;        /* upper bound of the distances of the ends, as `away` */
+    double reach;        /* upper bound of the ends' distances from that origin */
     double position_err; /* error of the ends, in addition to 16 u reach */
     double corner_err; /* in a needle: error of the corners; it and rounding add to position_err */
 } lrcsi_contact;

@@ -42,7 +42,7 @@ int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part, uin
 
 /* --- all edges -------------------------------------------------------------------------------- */
 
-/* One bit for each edge: the events are listed in order, each once, in little memory. */
+/* One bit for each edge, so that events are listed in order, each once, with little memory. */
 enum { MARK_BITS = 32 };
 
 static size_t mark_words(const lrcs_prepared *p)

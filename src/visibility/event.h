@@ -21,7 +21,7 @@ enum lrcsi_edge_kind {
 };
 
 /* The kind of an edge with any number of facets; if it joins two, they are returned in pair.
-   part: LRCS_NONE, or a part of the scene, as if there were no others. Then its facets count
+   part: LRCS_NONE, or a part of the scene; the other parts are then ignored. Its facets count
    whether or not they can hide anything, and two facets are joined only if their winding is
    consistent and they are not edge-on: the true surface of the part continues from one to the
    other. */
@@ -47,7 +47,7 @@ static inline int lrcsi_run_alike(const signed char *value, uint32_t run)
 enum lrcsi_joined {
     LRCSI_JOINED_NONE, /* joins none of them */
     LRCSI_JOINED_ALL,  /* joins all of them into one group */
-    LRCSI_JOINED_SOME  /* some of them, or all but this is not known in advance */
+    LRCSI_JOINED_SOME  /* joins some of them, or all, which is not known in advance */
 };
 
 static inline int lrcsi_events_joined(const lrcs_prepared *p, const signed char *joinable,
@@ -60,7 +60,7 @@ static inline int lrcsi_events_joined(const lrcs_prepared *p, const signed char 
 }
 
 /* Joins facets into groups (base/disjoint.h) across all edges that are not event edges.
-   Given: joinable[facet], as cast, but also 0 for facets that are not to be joined. Returned: the
+   Given: joinable[facet], as `cast`, but also 0 for facets that are not to be joined. Returned: the
    first facet of each facet's group; group[] has lrcsi_runs_room entries. */
 void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group);
 

@@ -81,10 +81,10 @@ static int cells_serve(const lrcs_prepared *prepared)
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
     size_t need = 2 * lrcsi_work_bytes(prepared->scene->facet_count, 1);
-    size_t alone = lrcsi_cells_single_need(prepared);
-    size_t cells = cells_serve(prepared) ? lrcsi_cells_need(prepared) : 0;
+    size_t single = lrcsi_cells_single_need(prepared);
+    size_t cells = can_process_together(prepared) ? lrcsi_cells_need(prepared) : 0;
     need = lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
-    return lrcsi_work_add(need, alone > cells ? alone : cells);
+    return lrcsi_work_add(need, single > cells ? single : cells);
 }
 
 /* Everything except the memory for single facets. */
@@ -129,7 +129,7 @@ static int occlude_undecided(lrcsi_occlusion *o, lrcs_work *work, unsigned char 
     const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
     if (classification->undecided_count >= MIN_UNDECIDED &&
-        classification->undecided_count >= count / MIN_FRACTION && cells_serve(p)) {
+        classification->undecided_count >= count / MIN_FRACTION && can_process_together(p)) {
         lrcsi_cells_areas(classification, o->meter, work, o->uniform, open, visible);
     }
     uint32_t f = next_facet_with(open, 1, 0, count);

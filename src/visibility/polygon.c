@@ -100,7 +100,7 @@ static void ring_add_piece(ring_list *list, const lrcsi_target *t, const lrcsi_c
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* If the bounds of the visible area admit the whole facet or nothing, but not both, that is taken:
+/* If the bounds of the visible area include the whole facet or 0, but not both, that is the result:
    its error is at most the difference of the bounds. */
 static int facet_add(ring_list *list, lrcsi_occlusion *o, uint32_t facet)
 {

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* Draws every facet into one z-buffer and counts samples. The owner of a sample is exact: heights
-   in floats or doubles decide it where their error bounds allow, nearly always, and otherwise
-   visibility/sample.h. The errors of areas are estimates; nothing is proved of them.
+   in floats or doubles decide it where their error bounds suffice, which is nearly always;
+   otherwise visibility/sample.h decides. The errors of areas are estimates; nothing is proved about
+   them.
 
    The driver is lrcsi_preview_make:
    1. draw_facets. Depths are stored as floats. A facet is ordinary if the error of its heights, as
       floats, is below a millionth of the window's side; nearly all are. Ordinary facets are drawn
       first, several samples at once, and compared with the stored depths. The others (nearly
-      edge-on, or reaching far from the window) are drawn afterwards, sample by sample, with heights
-      in doubles.
+      edge-on, or extending far from the window) are drawn afterwards, sample by sample, with
+      heights in doubles.
    2. count_samples: the samples that each facet owns, and the borders of its visible region.
    3. find_fractions: the visible fraction of each facet.
    4. bias_of_small_facets, preview_area: the areas, and their estimated errors. */
@@ -42,7 +43,7 @@ typedef struct preview_counts {
     uint32_t longest;  /* pixels on the longest of these along one row or column */
     uint32_t bordered; /* 1 if there is any border, also if the facet does not continue beyond it */
     float fraction;    /* its visible fraction */
-    uint32_t round; /* the round in which that was found: 0 from its samples, LRCS_NONE not yet */
+    uint32_t round; /* the round in which it was found; 0: from samples; LRCS_NONE: not found yet */
 } preview_counts;
 
 /* Facets with fewer samples than this are corrected for bias (preview_bias). */
@@ -59,13 +60,13 @@ typedef struct preview_job {
     preview_counts *counts; /* facet */
     preview_border *column; /* column of pixels */
     double ordinary_err;    /* bound on the error of an ordinary facet's depth */
-    double outline;         /* pairs of adjacent samples with exactly one owner that reflects */
+    double outline;         /* pairs of adjacent samples of which exactly one's owner reflects */
     int undecided;
 } preview_job;
 
 /* --- drawing ---------------------------------------------------------------------------------- */
 
-/* No lrcsi_sample_order: not computed yet. */
+/* Not a value of lrcsi_sample_order: it has not been computed yet. */
 #define ORDER_UNKNOWN 2
 
 /* A facet being drawn. */
@@ -74,12 +75,12 @@ typedef struct preview_facet {
     lrcsi_plane plane;
     double err; /* error bound of its heights */
     int ordinary;
-    float close; /* ordinary: depths that differ by no more are not distinguished */
-    /* Of the last owner for which floats did not decide: */
-    uint32_t rival;          /* the owner, or LRCS_NONE */
-    lrcsi_plane rival_plane; /* its plane */
-    double rival_err;        /* the error of its heights */
-    int rival_order;         /* its lrcsi_sample_order; ORDER_UNKNOWN */
+    float tolerance; /* ordinary: floats do not decide between depths that differ by no more */
+    /* The last owner for which floats did not decide: */
+    uint32_t last_owner;    /* its facet, or LRCS_NONE */
+    lrcsi_plane last_plane; /* its plane */
+    double last_err;        /* the error of its heights */
+    int last_order;         /* its lrcsi_sample_order; ORDER_UNKNOWN */
 } preview_facet;
 
 /* The height of a plane at the centre of a pixel. */
@@ -93,21 +94,21 @@ static double plane_height(const lrcsi_plane *plane, uint32_t x, uint32_t y)
 static int preview_nearer(preview_job *job, preview_facet *f, uint32_t owner, uint32_t x,
                           uint32_t y)
 {
-    if (owner != f->rival) {
-        f->rival = owner;
-        f->rival_plane = lrcsi_raster_plane(&job->raster, owner);
-        f->rival_err = lrcsi_raster_height_err(&job->raster, owner);
-        f->rival_order = ORDER_UNKNOWN;
+    if (owner != f->last_owner) {
+        f->last_owner = owner;
+        f->last_plane = lrcsi_raster_plane(&job->raster, owner);
+        f->last_err = lrcsi_raster_height_err(&job->raster, owner);
+        f->last_order = ORDER_UNKNOWN;
     }
-    double ahead = plane_height(&f->plane, x, y) - plane_height(&f->rival_plane, x, y);
-    if (fabs(ahead) > f->err + f->rival_err) {
+    double ahead = plane_height(&f->plane, x, y) - plane_height(&f->last_plane, x, y);
+    if (fabs(ahead) > f->err + f->last_err) {
         return ahead > 0;
     }
-    if (f->rival_order == ORDER_UNKNOWN) {
-        f->rival_order = lrcsi_sample_order(job->view, f->facet, owner);
+    if (f->last_order == ORDER_UNKNOWN) {
+        f->last_order = lrcsi_sample_order(job->view, f->facet, owner);
     }
-    if (f->rival_order != 0) {
-        return f->rival_order > 0;
+    if (f->last_order != 0) {
+        return f->last_order > 0;
     }
     double point[3];
     lrcsi_raster_sample(&job->raster, x, y, point);
@@ -116,7 +117,7 @@ static int preview_nearer(preview_job *job, preview_facet *f, uint32_t owner, ui
     return nearer > 0;
 }
 
-/* Gives the facet a sample that it covers, if it is nearer than the owner. */
+/* Makes the facet the owner of a sample that it covers, if it is nearer than the owner so far. */
 static void draw_sample(preview_job *job, preview_facet *f, uint32_t x, uint32_t y)
 {
     size_t i = (size_t)y * job->raster.size + x;
@@ -127,18 +128,19 @@ static void draw_sample(preview_job *job, preview_facet *f, uint32_t x, uint32_t
 }
 
 /* The depth test for the first `count` of LANES samples: the facet becomes the owner of those at
-   which it is certainly nearer. Its height at sample k is first + slope k. Returns 0 if its order
-   is certain at all of them. Masks instead of branches, so that compilers vectorize the loop. */
+   which it is certainly nearer. Its height at sample k is first + slope k. Returns 0 if the order
+   is certain at all of them. Masks are used instead of branches, so that compilers vectorize the
+   loop. */
 static inline uint32_t draw_lanes(uint32_t *restrict owner, float *restrict depth, float first,
-                                  float slope, float close, uint32_t facet, int32_t count)
+                                  float slope, float tolerance, uint32_t facet, int32_t count)
 {
     uint32_t uncertainty[LANES];
     for (int32_t k = 0; k < LANES; k++) {
         float height = first + slope * (float)k;
         float ahead = height - depth[k];
         uint32_t within = 0u - (uint32_t)(k < count);
-        uint32_t nearer = (0u - (uint32_t)(ahead > close)) & within;
-        uint32_t close_by = (0u - (uint32_t)(ahead >= -close)) & within;
+        uint32_t nearer = (0u - (uint32_t)(ahead > tolerance)) & within;
+        uint32_t possible = (0u - (uint32_t)(ahead >= -tolerance)) & within;
         uint32_t new_bits;
         uint32_t bits;
         memcpy(&new_bits, &height, sizeof bits);
@@ -146,7 +148,7 @@ static inline uint32_t draw_lanes(uint32_t *restrict owner, float *restrict dept
         bits = (new_bits & nearer) | (bits & ~nearer);
         memcpy(&depth[k], &bits, sizeof bits);
         owner[k] = (facet & nearer) | (owner[k] & ~nearer);
-        uncertainty[k] = close_by & ~nearer;
+        uncertainty[k] = possible & ~nearer;
     }
     uint32_t any = 0;
     for (int32_t k = 0; k < LANES; k++) {
@@ -167,12 +169,12 @@ static void draw_row_span(preview_job *job, preview_facet *f, uint32_t y, uint32
     uint32_t uncertainty = !f->ordinary;
     for (uint32_t i = 0; i < x1 - x0 && f->ordinary; i += LANES) {
         uncertainty |= draw_lanes(job->owner + start + i, job->depth + start + i,
-                                  first + slope * (float)(int32_t)i, slope, f->close, f->facet,
+                                  first + slope * (float)(int32_t)i, slope, f->tolerance, f->facet,
                                   (int32_t)(x1 - x0 - i));
     }
-    for (uint32_t i = 0; i < x1 - x0 && uncertainty != 0; i++) { /* those undecided */
+    for (uint32_t i = 0; i < x1 - x0 && uncertainty != 0; i++) { /* the undecided ones */
         float ahead = first + slope * (float)(int32_t)i - job->depth[start + i];
-        if (job->owner[start + i] != f->facet && (!f->ordinary || ahead >= -f->close)) {
+        if (job->owner[start + i] != f->facet && (!f->ordinary || ahead >= -f->tolerance)) {
             draw_sample(job, f, x0 + i, y);
         }
     }
@@ -206,26 +208,27 @@ static int box_sampled(const lrcsi_raster *r, const double low[3], const double 
     return 1;
 }
 
-/* Draws a facet if it is as `ordinary` says, 1 or 0. Returns 1 if it is ordinary; facets that
-   certainly cover no sample count as ordinary. The last term of `err` covers subnormal floats. */
+/* Draws a facet if it is ordinary (`ordinary` 1), or if it is not (0). Returns 1 if it is ordinary;
+   facets that certainly cover no sample count as ordinary. The last term of `err` covers subnormal
+   floats. */
 static int draw_facet(preview_job *job, uint32_t facet, int ordinary)
 {
     double low[3];
     double high[3];
     lrcsi_view_bounds(job->view, job->view->prepared->scene->facet[facet].corner, 3, low, high);
     if (!box_sampled(&job->raster, low, high)) {
-        return 1; /* most small facets */
+        return 1; /* as for most small facets */
     }
-    preview_facet f = {.facet = facet, .rival = LRCS_NONE};
+    preview_facet f = {.facet = facet, .last_owner = LRCS_NONE};
     f.plane = lrcsi_raster_plane(&job->raster, facet);
     f.err = lrcsi_raster_height_err(&job->raster, facet);
-    double most = lrcsi_max(fabs(low[2]), fabs(high[2])) + f.err;
-    double err = f.err + 0x1p-21 * most + 0x1p-140;
+    double magnitude = lrcsi_max(fabs(low[2]), fabs(high[2])) + f.err;
+    double err = f.err + 0x1p-21 * magnitude + 0x1p-140;
     f.ordinary = err <= job->ordinary_err;
     if (f.ordinary != ordinary) {
         return f.ordinary;
     }
-    f.close = f.ordinary ? (float)(1.01 * (err + job->ordinary_err)) : 0;
+    f.tolerance = f.ordinary ? (float)(1.01 * (err + job->ordinary_err)) : 0;
     lrcsi_edge_functions e = lrcsi_raster_edge_functions(&job->raster, facet);
     for (uint32_t y = e.y0; y < e.y1; y++) {
         lrcsi_sample_spans row = lrcsi_span_samples(&e, y);
@@ -283,7 +286,7 @@ static int continues_beyond(const preview_job *job, uint32_t facet, uint32_t x, 
     return 1;
 }
 
-/* The sample at x, y and its owner. */
+/* The owner of the sample at x, y. */
 typedef struct preview_owned {
     uint32_t facet, x, y;
 } preview_owned;
@@ -329,7 +332,7 @@ static void count_samples(preview_job *job)
         const uint32_t *row = job->owner + (size_t)y * size;
         const uint32_t *next = y + 1 < size ? row + size : row;
         preview_border along = {{LRCS_NONE, LRCS_NONE}, LRCS_NONE - 1, 0};
-        uint32_t from = 0; /* the first sample of a row of samples with one owner */
+        uint32_t from = 0; /* the first sample of a run of samples with the same owner */
         for (uint32_t x = 0; x < size; x++) {
             uint32_t owner = row[x];
             if (next[x] != owner) {
@@ -353,8 +356,8 @@ static void count_samples(preview_job *job)
 
 /* --- areas ------------------------------------------------------------------------------------ */
 
-/* The visible fraction of a facet from its centroid: 1 if it is not more than a pixel behind the
-   plane of the owner of the nearest sample, else 0. */
+/* The visible fraction of a facet from its centroid: 1 if that is at most a pixel behind the plane
+   of the owner of the nearest sample, else 0. */
 static float fraction_by_depth(const preview_job *job, uint32_t facet)
 {
     const lrcsi_raster *r = &job->raster;
@@ -398,9 +401,9 @@ static int fraction_by_neighbours(const preview_job *job, uint32_t facet, uint32
     return count > 0;
 }
 
-/* The visible fractions of all facets. With samples: from these. Without: from adjacent facets, in
-   rounds, so that the result does not depend on the order of facets. If that gives none: from the
-   depth of the centroid. */
+/* The visible fractions of all facets: of facets with samples from these; of others from adjacent
+   facets, in rounds, so that the result does not depend on the order of facets; or, failing that,
+   from the depth of the centroid. */
 static void find_fractions(preview_job *job)
 {
     uint32_t facets = job->view->prepared->scene->facet_count;
@@ -423,20 +426,20 @@ static void find_fractions(preview_job *job)
 }
 
 /* The square of the estimated error of one pixel on a border: two standard deviations, which one
-   error in twenty exceeds. The visible fraction of such a pixel, about uniformly distributed, is
-   rounded to 0 or 1: the error is at most half a pixel, and 1 / 12 in the mean square. The errors
-   of pixels are independent, except along a border parallel to a row or column, where all are
-   equal: therefore the longest such border is added with the square of its length. */
-#define LIKELY_SQUARE (4.0 / 12)
+   error in twenty exceeds. The visible fraction of such a pixel is about uniformly distributed, and
+   it is rounded to 0 or 1: the error is at most half a pixel, and its mean square is 1 / 12. The
+   errors of pixels are independent, except along a border parallel to a row or column, where all
+   are equal: therefore the longest such border is added with the square of its length. */
+#define PIXEL_ERROR_SQUARE (4.0 / 12)
 
 /* The total visible area of facets with few samples can be computed in two ways: from their visible
    fractions, and from all samples whose owners reflect, minus the areas of facets with many
    samples. The second has no bias, only a random error along the outline of the reflecting region.
    Therefore the fractions are corrected towards it. If the two differ by d, and the second has an
-   estimated error of `chance`, the correction is d^3 / (d^2 + chance^2): nearly all of d if it is
-   much larger than chance, hardly any of it if it is smaller. The remaining bias is estimated as
-   twice the uncorrected part of d, because one correction is applied to facets that reflect
-   differently, plus what no facet has room for. */
+   estimated random error e, the correction is d^3 / (d^2 + e^2): nearly all of d if d is much
+   larger than e, and little of it if d is smaller. The remaining bias is estimated as twice the
+   uncorrected part of d, because one correction is applied to facets that reflect differently, plus
+   the part of the correction that exceeds the areas to which it applies. */
 typedef struct preview_bias {
     double less; /* subtracted, relative to a facet's visible area */
     double more; /* added, relative to the hidden area of a facet of which something is visible */
@@ -468,15 +471,16 @@ static preview_bias bias_of_small_facets(const preview_job *job)
             hidden += c->covered < FEW_SAMPLES ? area - by_fraction : 0;
         }
     }
-    double chance = sqrt(LIKELY_SQUARE * job->outline) * pixel;
-    double both = sqrt(excess * excess + chance * chance);
+    double random_error = sqrt(PIXEL_ERROR_SQUARE * job->outline) * pixel;
+    double both = sqrt(excess * excess + random_error * random_error);
     preview_bias bias = {0, 0, 0};
     if (both > 0 && visible > 0) {
         double correction = excess * (excess / both) * (excess / both);
         double applied = lrcsi_min(visible, lrcsi_max(-hidden, correction));
         bias.less = applied > 0 ? applied / visible : 0;
         bias.more = applied < 0 ? -applied / hidden : 0;
-        bias.left = (2 * fabs(excess) * (chance / both) + fabs(correction - applied)) / visible;
+        bias.left =
+            (2 * fabs(excess) * (random_error / both) + fabs(correction - applied)) / visible;
     }
     return bias;
 }
@@ -494,11 +498,11 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const 
         v.area = lrcsi_min(area, lrcsi_max(0, v.area));
     }
     if (c->covered == 0) {
-        v.likely = sqrt(LIKELY_SQUARE) * area;
-    } else if (c->owned != 0) { /* even if it owns all, a strip may be hidden at a border */
+        v.error_estimate = sqrt(PIXEL_ERROR_SQUARE) * area;
+    } else if (c->owned != 0) { /* a facet that owns all: a strip at a border may be hidden */
         double square = c->borders + (double)c->longest * c->longest;
         square = c->owned != c->covered ? square : c->bordered;
-        v.likely = lrcsi_min(area, sqrt(LIKELY_SQUARE * square) * pixel);
+        v.error_estimate = lrcsi_min(area, sqrt(PIXEL_ERROR_SQUARE * square) * pixel);
     }
     return v;
 }

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Visible areas at the cost of drawing, for answers that are accepted by estimate: a z-buffer of
    N x N samples at pixel centres, whose owners are exact (visibility/raster.h), and for each facet
-   the fraction of its samples that it owns. The area of a facet is proved to lie between 0 and all
-   of the facet, and no more; its error is estimated from the pixels in which owners change. */
+   the fraction of its samples that it owns. The only bounds of the area of a facet are 0 and its
+   whole projected area; the error is estimated from the pixels in which owners change. */
 #ifndef LRCSI_PREVIEW_H
 #define LRCSI_PREVIEW_H
 
 #include "visibility/visible.h"
 
-/* Bytes at most. */
+/* Upper bound of bytes. */
 size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size);
 
 /* Finds visible[facet_count] from size x size samples. *undecided: 1 if the depth order of some

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Adds up, for each facet, the fractions of its area near event edges and near facets of other
-   parts. Nothing is decided exactly: every distance is enlarged by the errors of the positions that
-   it separates. What the uncertain areas add to the bound of sigma is decided in
-   integrate/tessellation.c. */
+   parts. Nothing is decided exactly: every distance is increased by the errors of the positions
+   between which it is measured. integrate/tessellation.c decides what the uncertain areas add to
+   the bound of sigma. */
 #include "visibility/proximity_band.h"
 
 #include <math.h>
@@ -15,9 +15,10 @@
 
 /* Errors of positions computed here, as a multiple of the error of view coordinates. */
 #define ERR_MARGIN 8.0
-/* Rounding of a facet's cosine, generously. */
+/* More than the rounding error of a facet's cosine. */
 #define COS_MARGIN 1e-9
-/* The grid has so many cells for each event: rims are many short edges in few of its cells. */
+/* The number of cells of the grid for each event edge: the many short edges of a rim lie in few
+   cells. */
 #define EVENT_CELLS 4u
 
 /* Bounds in view coordinates. */
@@ -25,16 +26,17 @@ typedef struct band_box {
     double low[3], high[3];
 } band_box;
 
-/* What one run needs; the edges' grid lists events by index. */
+/* What one run needs. The items of the grid are indices of events; an event is a pair of an event
+   edge and the part for which it is one. */
 typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
-    double *share, *gain, *loss, *rows;
+    double *mismatch, *gain, *loss, *rows;
     lrcsi_part_set *parts;
-    uint32_t *edge, *part; /* event: its topology edge, the part for which it is one */
+    uint32_t *edge, *part; /* event: its topology edge, its part */
     signed char *side;     /* event: on which side of it, from low to high, the part's facets lie: 1
                               left, -1 right, 0 both or not known */
-    uint32_t *seen;        /* event: the facet + 1 that last met it */
+    uint32_t *seen;        /* event: 1 + the last facet for which it was considered */
     uint32_t count;
     lrcsi_grid grid;
     band_box *box;   /* part: that of its facets in the view */
@@ -68,7 +70,7 @@ static int event_side(const lrcsi_view *view, const lrcsi_edge *edge, uint32_t p
     return left - right;
 }
 
-/* Lists each pair of edge and part once, or only counts them if job->edge is NULL. */
+/* Lists all events, each pair once; only counts them if job->edge is NULL. */
 static void list_events(band_job *job)
 {
     const lrcsi_topology *topology = &job->view->prepared->topology;
@@ -126,20 +128,19 @@ static double facet_err(const band_job *job, uint32_t facet)
     return ERR_MARGIN * err;
 }
 
-/* The rectangle about an edge in projection that holds all points of a facet within a distance of
-   it: from a by `wide` against and across `along`, from b by `end` along it. */
+/* A rectangle about an edge in projection that contains all points of a facet within some distance
+   of the edge. It extends by `half_width` to either side and before a, and by `end` beyond b. */
 typedef struct edge_box {
     const double *a, *b;
     double along[3];
-    double wide, end;
+    double half_width, end;
     double err;  /* a bound on the error of distances from the edge's line, within the rectangle */
     int reverse; /* a is the edge's end `high` */
 } edge_box;
 
-/* The position error of the edge's point at parameter t (0 .. 1) is linear in t. A point of the
-   edge near the facet is no farther from end a than the facet's farthest corner plus the width, t
-   length
-   <= far + wide; therefore the error of end b counts only t times. */
+/* The error of the edge's position at parameter t (0 .. 1) is linear in t. A point of the edge near
+   the facet is no farther from a than the facet's farthest corner plus the half-width: t length is
+   at most far + half_width. So the error of end b is multiplied by t. */
 static edge_box edge_box_make(const band_job *job, uint32_t facet, const lrcsi_edge *edge,
                               double slack)
 {
@@ -162,25 +163,25 @@ static edge_box edge_box_make(const band_job *job, uint32_t facet, const lrcsi_e
         far = lrcsi_max(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
     }
     box.err = facet_err(job, facet) + first;
-    box.wide = slack + box.err;
-    box.end = box.wide + last;
+    box.half_width = slack + box.err;
+    box.end = box.half_width + last;
     if (length > 2 * (first + last)) {
         box.along[0] /= length;
         box.along[1] /= length;
-        last *= lrcsi_min(1, 2 * (far + box.wide) / length);
-        box.wide += last;
+        last *= lrcsi_min(1, 2 * (far + box.half_width) / length);
+        box.half_width += last;
         box.err += last;
-    } else { /* of no length: a square about it, without sides */
+    } else { /* no length: a square about it, without sides */
         box.along[0] = 1;
         box.along[1] = 0;
         box.end += length;
-        box.wide = box.end;
+        box.half_width = box.end;
         box.err = box.end;
     }
     return box;
 }
 
-/* Are all corners of a facet beyond one side of the rectangle about an edge? */
+/* Do all corners of a facet lie beyond one side of the rectangle about an edge? */
 static int edge_box_apart(const band_job *job, uint32_t facet, const edge_box *box)
 {
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
@@ -193,9 +194,9 @@ static int edge_box_apart(const band_job *job, uint32_t facet, const edge_box *b
         const double from_a[2] = {x[0] - box->a[0], x[1] - box->a[1]};
         const double from_b[2] = {x[0] - box->b[0], x[1] - box->b[1]};
         double across = box->along[0] * from_a[1] - box->along[1] * from_a[0];
-        left += across > box->wide;
-        right += across < -box->wide;
-        before += box->along[0] * from_a[0] + box->along[1] * from_a[1] < -box->wide;
+        left += across > box->half_width;
+        right += across < -box->half_width;
+        before += box->along[0] * from_a[0] + box->along[1] * from_a[1] < -box->half_width;
         beyond += box->along[0] * from_b[0] + box->along[1] * from_b[1] > box->end;
     }
     return left == 3 || right == 3 || before == 3 || beyond == 3;
@@ -211,20 +212,20 @@ static lrcsi_slice edge_slice(const band_job *job, uint32_t facet, const edge_bo
         return slice;
     }
     const double *along = box->along;
-    const double aside[3] = {-along[1], along[0], 0};
+    const double left[3] = {-along[1], along[0], 0};
     const double back[3] = {-along[0], -along[1], 0};
-    const double other[3] = {along[1], -along[0], 0};
+    const double right[3] = {along[1], -along[0], 0};
     slice = lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
                               view->point[corner[2]].x);
-    lrcsi_slice_cut(&slice, aside, box->a, box->wide);
-    lrcsi_slice_cut(&slice, other, box->a, box->wide);
+    lrcsi_slice_cut(&slice, left, box->a, box->half_width);
+    lrcsi_slice_cut(&slice, right, box->a, box->half_width);
     lrcsi_slice_cut(&slice, along, box->b, box->end);
-    lrcsi_slice_cut(&slice, back, box->a, box->wide);
+    lrcsi_slice_cut(&slice, back, box->a, box->half_width);
     return slice;
 }
 
-/* What lies to the left of the edge, from low to high (side 1), or to the right (-1), of a slice of
-   the rectangle about it; the errors of positions included. */
+/* The part of a slice that may lie to the left (side 1) or to the right (-1) of the edge, seen from
+   low to high; the slice lies in the rectangle about the edge. */
 static lrcsi_slice edge_half(lrcsi_slice slice, const edge_box *box, int side)
 {
     double outward = box->reverse ? -side : side;
@@ -233,8 +234,8 @@ static lrcsi_slice edge_half(lrcsi_slice slice, const edge_box *box, int side)
     return slice;
 }
 
-/* 1 if the whole edge lies so far behind a facet's plane that every point of it within `slack`, in
-   projection, of a point of the facet is at least 2 slack behind that point. */
+/* 1 if the edge lies so far behind a facet's plane that wherever it is within `slack` of a point of
+   the facet in projection, it is at least 2 slack behind that point. */
 static int edge_behind(const band_job *job, uint32_t facet, const lrcsi_edge *edge, double slack)
 {
     const lrcs_prepared *p = job->view->prepared;
@@ -279,9 +280,10 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
     return count == 1 && facing;
 }
 
-/* The distance in projection within which an event edge affects a facet, unless it is behind; 0 if
-   it cannot. Of the facet's own part only the rims of openings do. */
-static double event_slack(const band_job *job, uint32_t facet, uint32_t event, double aside)
+/* The distance in projection within which an event edge may change what is visible of a facet,
+   unless it is behind the facet; 0 if it cannot. In the facet's own part only the rims of openings
+   can. */
+static double event_slack(const band_job *job, uint32_t facet, uint32_t event, double lateral)
 {
     const lrcs_prepared *p = job->view->prepared;
     uint32_t part = band_part(job, facet);
@@ -289,33 +291,33 @@ static double event_slack(const band_job *job, uint32_t facet, uint32_t event, d
         const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
         return own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
     }
-    return lrcsi_proximity_slack_across(p, part, job->part[event], aside);
+    return lrcsi_proximity_slack_across(p, part, job->part[event], lateral);
 }
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
 /* Where to look for event edges near a facet: in a box, and in rows of the grid between the facet's
-   sides, whose errors include the largest relevant distance. Event edges on the outer side of a
-   line along one of the sides are too far away: outward . x > limit there, errors included. */
-typedef struct band_walk {
+   sides, whose errors include the largest relevant distance. Beyond a line parallel to one of the
+   sides event edges are too far away: there outward . x > limit, errors included. */
+typedef struct edge_search {
     double low[3], high[3];
     lrcsi_strip_segment side[3];
     double outward[3][2], limit[3];
-    int tried;    /* the side to try first: the one that the last edge was beyond */
-    int inside;   /* the laser may see the facet through an opening of its own part */
-    double aside; /* lrcsi_proximity_lateral; negative: not computed yet */
-} band_walk;
+    int first;      /* the side to try first: the one that excluded the last edge */
+    int inside;     /* the laser may see the facet through an opening of its own part */
+    double lateral; /* lrcsi_proximity_lateral; negative: not computed yet */
+} edge_search;
 
 /* outward . x of a point, with `err` times its position's error added. */
-static double walk_height(const band_walk *walk, int side, const double x[3], double err)
+static double search_height(const edge_search *search, int side, const double x[3], double err)
 {
-    return walk->outward[side][0] * x[0] + walk->outward[side][1] * x[1] +
+    return search->outward[side][0] * x[0] + search->outward[side][1] * x[1] +
            err * lrcsi_view_point_err(x);
 }
 
-/* The line along a side, `near` away from the facet. Where the side has no length nothing is beyond
-   it. */
-static void walk_line(band_walk *walk, int side, const double *const corner[3], double near)
+/* The line parallel to a side at the distance `near` from the facet; nothing is beyond it if the
+   side has no length. */
+static void search_line(edge_search *search, int side, const double *const corner[3], double near)
 {
     const double *from = corner[side];
     const double *to = corner[(side + 1) % 3];
@@ -323,24 +325,24 @@ static void walk_line(band_walk *walk, int side, const double *const corner[3], 
     double x = to[1] - from[1];
     double y = from[0] - to[0];
     double length = sqrt(x * x + y * y);
-    double turn = x * (apex[0] - from[0]) + y * (apex[1] - from[1]) > 0 ? -1 : 1;
-    walk->outward[side][0] = length > 0 ? turn * x / length : 0;
-    walk->outward[side][1] = length > 0 ? turn * y / length : 0;
-    double most = -HUGE_VAL;
+    double sign = x * (apex[0] - from[0]) + y * (apex[1] - from[1]) > 0 ? -1 : 1;
+    search->outward[side][0] = length > 0 ? sign * x / length : 0;
+    search->outward[side][1] = length > 0 ? sign * y / length : 0;
+    double highest = -HUGE_VAL;
     for (int k = 0; k < 3; k++) {
-        most = lrcsi_max(most, walk_height(walk, side, corner[k], ERR_MARGIN));
+        highest = lrcsi_max(highest, search_height(search, side, corner[k], ERR_MARGIN));
     }
-    walk->limit[side] = length > 0 ? most + near * (1 + 0x1p-40) : HUGE_VAL;
+    search->limit[side] = length > 0 ? highest + near * (1 + 0x1p-40) : HUGE_VAL;
 }
 
-/* Is a whole edge beyond one of these lines? */
-static int walk_apart(band_walk *walk, const double a[3], const double b[3])
+/* Is the whole edge a b beyond one of these lines? */
+static int search_excludes(edge_search *search, const double a[3], const double b[3])
 {
-    int side = walk->tried;
+    int side = search->first;
     for (int i = 0; i < 3; i++) {
-        if (walk_height(walk, side, a, -ERR_MARGIN) > walk->limit[side] &&
-            walk_height(walk, side, b, -ERR_MARGIN) > walk->limit[side]) {
-            walk->tried = side;
+        if (search_height(search, side, a, -ERR_MARGIN) > search->limit[side] &&
+            search_height(search, side, b, -ERR_MARGIN) > search->limit[side]) {
+            search->first = side;
             return 1;
         }
         side = side < 2 ? side + 1 : 0;
@@ -348,7 +350,7 @@ static int walk_apart(band_walk *walk, const double a[3], const double b[3])
     return 0;
 }
 
-static band_walk walk_make(const band_job *job, uint32_t facet)
+static edge_search search_make(const band_job *job, uint32_t facet)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
@@ -358,57 +360,58 @@ static band_walk walk_make(const band_job *job, uint32_t facet)
     double wide = near + facet_err(job, facet);
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
                                     view->point[corner[2]].x};
-    band_walk walk = {.tried = 0, .aside = -1};
-    walk.inside = view->facing[facet] < 0 && !lrcsi_proximity_closed(p, band_part(job, facet));
-    lrcsi_grid_sides(&job->grid, corner, 3, near, walk.side);
-    lrcsi_view_bounds(view, corner, 3, walk.low, walk.high);
+    edge_search search = {.first = 0, .lateral = -1};
+    search.inside = view->facing[facet] < 0 && !lrcsi_proximity_closed(p, band_part(job, facet));
+    lrcsi_grid_sides(&job->grid, corner, 3, near, search.side);
+    lrcsi_view_bounds(view, corner, 3, search.low, search.high);
     for (int k = 0; k < 3; k++) {
-        walk.low[k] -= wide;
-        walk.high[k] += wide;
-        walk_line(&walk, k, point, near);
+        search.low[k] -= wide;
+        search.high[k] += wide;
+        search_line(&search, k, point, near);
     }
-    return walk;
+    return search;
 }
 
-/* Adds a fraction of a facet's area where facets and true shapes may differ either way, near one of
-   these parts. */
-static void add_both(band_job *job, uint32_t facet, double share, lrcsi_part_set parts)
+/* Adds a fraction of a facet's area, near one of these parts, where the facets may hide what the
+   true shapes do not, or the reverse. */
+static void add_both(band_job *job, uint32_t facet, double fraction, lrcsi_part_set parts)
 {
     job->parts[facet] |= parts;
-    job->share[facet] += share;
-    job->gain[facet] += share;
-    job->loss[facet] += share;
+    job->mismatch[facet] += fraction;
+    job->gain[facet] += fraction;
+    job->loss[facet] += fraction;
 }
 
-/* Does the truth gain area only on the side of event edges on which the part's facets lie? It does
-   where an open part has one opening, and the facet is not inside its box. */
-static int gain_is_inside(const band_job *job, const band_walk *walk, uint32_t part)
+/* Is gain possible only on the inner side of a part's event edges? It is for parts without openings
+   or without reach, and for parts with one opening if their boxes do not contain points of the
+   facet's patch. */
+static int gain_is_inside(const band_job *job, const edge_search *search, uint32_t part)
 {
     const lrcs_prepared *p = job->view->prepared;
     const band_box *box = &job->box[part];
     int openings = p->proximity.reach[part] > 0 ? lrcsi_proximity_openings(p, part) : 0;
     int apart = 0;
     for (int k = 0; k < 3; k++) {
-        apart |= walk->low[k] > box->high[k] || walk->high[k] < box->low[k];
+        apart |= search->low[k] > box->high[k] || search->high[k] < box->low[k];
     }
     return openings == 0 || (openings == 1 && apart);
 }
 
 /* Adds the fractions of area and of rows near an event edge. */
-static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *walk)
+static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search *search)
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
     int is_own = job->part[event] == band_part(job, facet);
     int side = is_own ? 0 : job->side[event];
-    if ((is_own && !walk->inside) ||
-        walk_apart(walk, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
+    if ((is_own && !search->inside) ||
+        search_excludes(search, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
         return;
     }
-    if (walk->aside < 0) {
-        walk->aside = lrcsi_proximity_lateral(p, facet, job->view->unit);
+    if (search->lateral < 0) {
+        search->lateral = lrcsi_proximity_lateral(p, facet, job->view->unit);
     }
-    double slack = event_slack(job, facet, event, walk->aside);
+    double slack = event_slack(job, facet, event, search->lateral);
     if (!(slack > 0)) {
         return;
     }
@@ -432,24 +435,24 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, band_walk *
     }
     lrcsi_slice outer = edge_half(slice, &box, -side);
     lrcsi_slice inner = edge_half(slice, &box, side);
-    double share = lrcsi_slice_fraction(&slice, whole, longest);
+    double fraction = lrcsi_slice_fraction(&slice, whole, longest);
     job->parts[facet] |= part;
-    job->share[facet] += share;
+    job->mismatch[facet] += fraction;
     job->loss[facet] += lrcsi_slice_fraction(&outer, whole, longest);
-    job->gain[facet] += gain_is_inside(job, walk, job->part[event])
+    job->gain[facet] += gain_is_inside(job, search, job->part[event])
                             ? lrcsi_slice_fraction(&inner, whole, longest)
-                            : share;
+                            : fraction;
 }
 
-/* Adds the fractions near all event edges; the whole facet if the limit of steps is reached. */
-static void add_events(band_job *job, uint32_t facet, band_walk *walk)
+/* Adds the fractions near all event edges, or the whole facet if the limit of steps is reached. */
+static void add_events(band_job *job, uint32_t facet, edge_search *search)
 {
     const lrcsi_grid *grid = &job->grid;
-    lrcsi_view_box box = lrcsi_view_box_round(job->view, walk->low, walk->high);
+    lrcsi_view_box box = lrcsi_view_box_round(job->view, search->low, search->high);
     lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
     int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        lrcsi_cells row = several ? lrcsi_grid_row(grid, walk->side, 3, y) : cells;
+        lrcsi_cells row = several ? lrcsi_grid_row(grid, search->side, 3, y) : cells;
         lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, row.x0, row.x1);
         if (!lrcsi_meter_take(job->meter, (uint64_t)1 + items.to - items.from)) {
             add_both(job, facet, 1, LRCSI_PART_SET_ALL);
@@ -458,12 +461,12 @@ static void add_events(band_job *job, uint32_t facet, band_walk *walk)
         for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t event = grid->item[i];
             if (job->gain[facet] >= 1 && job->loss[facet] >= 1) {
-                job->parts[facet] = LRCSI_PART_SET_ALL; /* the others are not looked for */
+                job->parts[facet] = LRCSI_PART_SET_ALL; /* others are not searched for */
                 return;
             }
             if (job->seen[event] != facet + 1) {
                 job->seen[event] = facet + 1;
-                add_event(job, facet, event, walk);
+                add_event(job, facet, event, search);
             }
         }
     }
@@ -476,17 +479,18 @@ static int facet_matters(const lrcsi_view *view, uint32_t facet)
                                p->proximity.reach[p->scene->facet_part[facet]] > 0);
 }
 
-static void facet_share(band_job *job, uint32_t facet)
+static void facet_fractions(band_job *job, uint32_t facet)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     double reach = p->proximity.reach[band_part(job, facet)];
-    band_walk walk = walk_make(job, facet);
-    if (reach == 0 && (walk.low[0] > job->curved.high[0] || walk.low[1] > job->curved.high[1] ||
-                       walk.high[0] < job->curved.low[0] || walk.high[1] < job->curved.low[1])) {
+    edge_search search = search_make(job, facet);
+    if (reach == 0 &&
+        (search.low[0] > job->curved.high[0] || search.low[1] > job->curved.high[1] ||
+         search.high[0] < job->curved.low[0] || search.high[1] < job->curved.low[1])) {
         return;
     }
-    add_events(job, facet, &walk);
+    add_events(job, facet, &search);
     if (reach > 0 &&
         fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
             p->proximity.grazing_cos[band_part(job, facet)] + COS_MARGIN * COS_MARGIN) {
@@ -496,9 +500,9 @@ static void facet_share(band_job *job, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* Adds the fractions near facets of other parts. Facets seen edge-on hide nothing, and neither do
-   back sides of closed parts: fronts of the same part do. */
-static void band_contacts(band_job *job)
+/* Adds the fractions near facets of other parts. Facets seen edge-on hide nothing, and the back
+   sides of a closed part hide nothing that its front sides do not hide. */
+static void add_pairs(band_job *job)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
@@ -522,8 +526,8 @@ static void box_add(band_box *box, const double low[3], const double high[3])
     }
 }
 
-/* The boxes of curved parts: their facets', not enlarged by their reach, as the boxes that are
-   compared with them are (walk_make). */
+/* The boxes of the facets of curved parts. They are not enlarged by the parts' reach: the boxes
+   that they are compared with are enlarged (search_make). */
 static void band_boxes(band_job *job)
 {
     static const band_box none = {{HUGE_VAL, HUGE_VAL, HUGE_VAL},
@@ -547,9 +551,10 @@ static void band_boxes(band_job *job)
 /* --- regions ---------------------------------------------------------------------------------- */
 
 /* Joins facets of one part across edges into groups, each named by its first facet: facets of
-   curved parts without bands or, if `ask` is given, facets that it marks and that meet bands of the
-   same parts. */
-static void join_facets(const lrcsi_proximity_band *band, const unsigned char *ask, uint32_t *group)
+   curved parts without bands or, if `candidate` is given, facets that it marks and that meet bands
+   of the same parts. */
+static void join_facets(const lrcsi_proximity_band *band, const unsigned char *candidate,
+                        uint32_t *group)
 {
     const lrcs_prepared *p = band->classification->view->prepared;
     const uint32_t *part = p->scene->facet_part;
@@ -561,10 +566,11 @@ static void join_facets(const lrcsi_proximity_band *band, const unsigned char *a
         for (uint32_t i = 1; i < p->topology.edge[e].uses; i++) {
             uint32_t a = use[i - 1].facet;
             uint32_t b = use[i].facet;
-            int alike =
-                ask ? ask[a] && ask[b] && band->parts[a] == band->parts[b]
-                    : p->proximity.reach[part[a]] > 0 && band->share[a] == 0 && band->share[b] == 0;
-            if (part[a] == part[b] && alike) {
+            int joined = candidate
+                             ? candidate[a] && candidate[b] && band->parts[a] == band->parts[b]
+                             : p->proximity.reach[part[a]] > 0 && band->mismatch[a] == 0 &&
+                                   band->mismatch[b] == 0;
+            if (part[a] == part[b] && joined) {
                 lrcsi_disjoint_union(group, a, b);
             }
         }
@@ -574,13 +580,14 @@ static void join_facets(const lrcsi_proximity_band *band, const unsigned char *a
 
 /* --- what is hidden --------------------------------------------------------------------------- */
 
-/* Values of band->hidden: by the visible area of a facet of the region; by a query, for good. */
+/* Values of band->hidden: found from the visible area of a facet of the region, anew each time; or
+   by a query, which is final. */
 enum { HIDDEN_REGION = 1, HIDDEN_FACET = 2 };
-/* A facet of which no larger fraction may be visible is asked about. */
-#define ASKED_FRACTION 0x1p-20
+/* A candidate for such a query: at most this fraction of the facet may be visible. */
+#define CANDIDATE_FRACTION 0x1p-20
 
-/* A region is entirely hidden or entirely visible. So it is hidden if at most half of one of its
-   front facets is visible. */
+/* Other parts hide a region entirely or not at all: entirely if at most half of one of its front
+   facets is visible. */
 static void settle_regions(const lrcsi_proximity_band *band, const lrcsi_visible *visible)
 {
     const lrcsi_view *view = band->classification->view;
@@ -590,44 +597,45 @@ static void settle_regions(const lrcsi_proximity_band *band, const lrcsi_visible
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         if (view->facing[f] > 0 && p->proximity.reach[p->scene->facet_part[f]] > 0 &&
-            band->share[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f) &&
+            band->mismatch[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f) &&
             band->hidden[f] == 0) {
             band->hidden[band->region[f]] = HIDDEN_REGION;
         }
     }
 }
 
-/* Marks hidden facets that meet bands, but not of all parts. Returns their number. */
-static uint32_t facets_to_ask(const lrcsi_proximity_band *band, const lrcsi_visible *visible,
-                              unsigned char *ask)
+/* Marks facets that are hidden and meet bands, but not those of all parts. Returns their number. */
+static uint32_t mark_candidates(const lrcsi_proximity_band *band, const lrcsi_visible *visible,
+                                unsigned char *candidate)
 {
     const lrcsi_view *view = band->classification->view;
     uint32_t count = 0;
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        ask[f] = band->share[f] > 0 && band->parts[f] != LRCSI_PART_SET_ALL &&
-                 lrcsi_view_casts(view, f) &&
-                 visible[f].high <= ASKED_FRACTION * lrcsi_view_projected(view, f);
-        count += ask[f];
+        candidate[f] = band->mismatch[f] > 0 && band->parts[f] != LRCSI_PART_SET_ALL &&
+                       lrcsi_view_casts(view, f) &&
+                       visible[f].high <= CANDIDATE_FRACTION * lrcsi_view_projected(view, f);
+        count += candidate[f];
     }
     return count;
 }
 
-/* Other parts than those whose bands it meets hide all of a group or nothing of it. Of its own
-   part, fronts are never hidden, and the inside is left to the rims. */
-static void settle_groups(const lrcsi_proximity_band *band, const unsigned char *ask,
+/* A part whose bands a group does not meet hides all of the group or nothing of it. The group's own
+   part is not asked: it hides no front, and the bands at its rims decide about its inside. */
+static void settle_groups(const lrcsi_proximity_band *band, const unsigned char *candidate,
                           const uint32_t *group, const lrcsi_grid *facets, lrcsi_meter *meter)
 {
     const lrcs_scene *scene = band->classification->view->prepared->scene;
     for (uint32_t f = 0; f < scene->facet_count; f++) {
         lrcsi_part_set others = band->parts[f] | lrcsi_part_set_of(scene->facet_part[f]);
-        if (ask[f] && group[f] == f && lrcsi_query_hidden_by_others(facets, f, others, meter)) {
+        if (candidate[f] && group[f] == f &&
+            lrcsi_query_hidden_by_others(facets, f, others, meter)) {
             band->hidden[f] = HIDDEN_FACET;
         }
     }
     for (uint32_t f = 0; f < scene->facet_count; f++) {
-        if (ask[f] && band->hidden[group[f]] == HIDDEN_FACET) {
+        if (candidate[f] && band->hidden[group[f]] == HIDDEN_FACET) {
             band->hidden[f] = HIDDEN_FACET;
-            band->share[f] = band->gain[f] = band->loss[f] = band->rows[f] = 0;
+            band->mismatch[f] = band->gain[f] = band->loss[f] = band->rows[f] = 0;
         }
     }
 }
@@ -646,21 +654,21 @@ void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_v
     const lrcsi_classification *c = band->classification;
     size_t mark = work->used;
     uint32_t count = c->view->prepared->scene->facet_count;
-    unsigned char *ask = lrcsi_work_take(work, count, 1);
+    unsigned char *candidate = lrcsi_work_take(work, count, 1);
     uint32_t *group = lrcsi_work_take(work, count, sizeof *group);
     lrcsi_grid facets;
-    if (ask && group && facets_to_ask(band, visible, ask) > 0) {
-        const lrcsi_grid_readers readers = {.undecided = ask};
-        join_facets(band, ask, group);
+    if (candidate && group && mark_candidates(band, visible, candidate) > 0) {
+        const lrcsi_grid_readers readers = {.undecided = candidate};
+        join_facets(band, candidate, group);
         if (lrcsi_grid_facets(&c->grid, &c->boxes, &readers, work, &facets) == LRCS_OK) {
-            settle_groups(band, ask, group, &facets, meter);
+            settle_groups(band, candidate, group, &facets, meter);
         }
     }
     work->used = mark;
     settle_regions(band, visible);
 }
 
-/* Upper bound of the number of pairs of an edge and a part with a facet at it. */
+/* Upper bound of the number of events: pairs of an edge and a part that has a facet on it. */
 static size_t band_edges(const lrcs_prepared *p)
 {
     const lrcsi_topology *topology = &p->topology;
@@ -692,22 +700,22 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
 }
 
 /* Computes all fractions; scratch memory is released. */
-static int band_shares(band_job *job, lrcs_work *work)
+static int all_fractions(band_job *job, lrcs_work *work)
 {
     size_t mark = work->used;
     job->box = lrcsi_work_take(work, job->view->prepared->scene->part_count, sizeof *job->box);
     int status = job->box ? band_events(job, work) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        band_contacts(job);
+        add_pairs(job);
         band_boxes(job);
         for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
             if (facet_matters(job->view, f)) {
-                facet_share(job, f);
+                facet_fractions(job, f);
             }
-            job->share[f] = lrcsi_min(1, job->share[f]);
+            job->mismatch[f] = lrcsi_min(1, job->mismatch[f]);
             job->gain[f] = lrcsi_min(1, job->gain[f]);
             job->loss[f] = lrcsi_min(1, job->loss[f]);
-            job->rows[f] = job->share[f] < 1 ? lrcsi_min(1, job->rows[f]) : 1;
+            job->rows[f] = job->mismatch[f] < 1 ? lrcsi_min(1, job->rows[f]) : 1;
         }
     }
     work->used = mark;
@@ -721,7 +729,7 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_
     uint32_t facets = view->prepared->scene->facet_count;
     size_t mark = work->used;
     lrcsi_proximity_band m = {.classification = classification};
-    m.share = lrcsi_work_take_zero(work, facets, sizeof *m.share);
+    m.mismatch = lrcsi_work_take_zero(work, facets, sizeof *m.mismatch);
     m.gain = lrcsi_work_take_zero(work, facets, sizeof *m.gain);
     m.loss = lrcsi_work_take_zero(work, facets, sizeof *m.loss);
     m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
@@ -730,13 +738,13 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_
     m.hidden = lrcsi_work_take_zero(work, facets, 1);
     band_job job = {.view = view,
                     .meter = meter,
-                    .share = m.share,
+                    .mismatch = m.mismatch,
                     .gain = m.gain,
                     .loss = m.loss,
                     .rows = m.rows,
                     .parts = m.parts};
-    int status = m.share && m.gain && m.loss && m.rows && m.parts && m.region && m.hidden
-                     ? band_shares(&job, work)
+    int status = m.mismatch && m.gain && m.loss && m.rows && m.parts && m.region && m.hidden
+                     ? all_fractions(&job, work)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;

@@ -2,76 +2,105 @@
 /* For curved shapes among other parts: on which fraction of each facet the visibility of the true
    shapes may differ from that of their facets.
 
-   Truth: each engine-made curved part is a piece W of the boundary of a closed convex body B (all
-   of it; or less flat openings; or a flat body), and a map moves W onto the part's facets S, no
-   point by more than e (lrcs_part.reach; 0 for plate, box and models, whose facets are the truth).
-   Let x be a true point of part P, y its place on a facet of P, and d the direction to the laser.
+   Definitions. A part Q may hide points of another part P.
+     d        direction to the laser; heights are measured along d, and "in projection" means in
+              the projection along d
+     ray      of a point: the half-line from it towards the laser; what it meets hides the point
+     B, W     of a curved part that the library makes: a closed convex body, which may be flat, and
+              the true surface, which is the boundary of B; if the part is open, without one or
+              more flat openings
+     S        the part's facets; a map takes W onto S
+     e        the part's reach (lrcs_part.reach): the map moves no point by more than e. For plates,
+              boxes and models e = 0, and W is S
+     x, y     a point of the true surface of P, and its image on a facet of P
+     r        the slack of P and Q (lrcsi_proximity_slack), at least e_P + e_Q, and if Q is open at
+              least e_Q + max(e_P, e_Q)
+     V        all points of B and behind B; V is convex
+     upper, lower side of B: the points where lines along d leave B, and where they enter it; in
+              projection their heights are a concave and a convex function
+     event edge of Q: an edge, unless exactly two facets of Q meet in it, continue each other and
+              face the same way; contours and the rims of openings are event edges
+   In 1 to 3, B, W, S and V are those of Q. Two conditions on y:
+     (1) A facet of Q is within r of y in space; if Q is closed, a facet that faces the laser.
+     (2) An event edge of Q is within r of y in projection, and not 2 r behind y.
 
-   Claim. Another part Q hides x from the laser if and only if its facets hide y, unless within the
-   slack r of lrcsi_proximity_slack there is (1) a facet of Q near y in space (of closed Q: one that
-   faces the laser), or (2) an event edge of Q near y in projection and not 2 r behind it: one on
-   which not exactly two facets of Q stand that continue each other and face the same way (contours
-   and rims). Proof. Moving a point z within the ball of radius r about y, its ray meets more or
-   fewer facets of Q only across (1) or (2); across a back-facing facet of a closed Q it leaves or
-   enters the inside, from which the ray meets a front. So Q's facets hide all z of the ball, or
-   none. None: were x hidden by b in W, the place of b on S, at most e_Q from it, would hide a point
-   of the ball. All: where e_Q = 0 the truth is S itself and x lies in the ball. Else let V(B) be
-   all points of and behind B, convex. Every z lies within e_Q of V(B), so the ball of radius r -
-   e_Q lies in V(B), and x in it: the ray of x meets B, and leaves it at a point u. It hides x but
-   where all that it meets are openings. Then let s in S hide the topmost z, w in W be what s is the
-   place of, and walk on B's surface from the ray of x to w, at most max(e_P, e_Q) away in
-   projection: on its upper side from u, which lies in an opening, if w is there; else on its lower
-   side. The walk leaves the opening over its rim, whose place is an event edge within max(e_P, e_Q)
-   + e_Q of y in projection; and not behind it, for the upper side is concave and both ends of the
-   walk lie above y - e, the lower convex and w above y + r - e_Q, so that where its rim lies lower
-   the walk climbs past y on W itself, and (1) holds. []
+   1. Visibility. Unless (1) or (2) holds, Q hides x if and only if its facets hide y. Proof:
+   a. The facets of Q hide all points z of the ball of radius r about y, or none of them: as z
+      moves, the number of facets of Q on its ray changes only where z crosses a facet, (1), or the
+      ray crosses an event edge, (2). In (1), facets of a closed Q that face away from the laser
+      need not be counted: where z crosses one, it enters or leaves the inside of Q, and on either
+      side of it the ray of z meets a facet that faces the laser.
+   b. If they hide no z, Q does not hide x: if a point of W hid x, its image on S, which is within
+      e_Q of it, would hide a point within e_Q of x, and that point is in the ball.
+   c. If they hide all z and e_Q = 0, Q hides x: W is S, and x is in the ball.
+   d. If they hide all z and e_Q > 0, every z lies within e_Q of V. Since V is convex, the ball of
+      radius r - e_Q about y lies in V, and x is in that ball. So the ray of x meets B, and leaves
+      it at a point u. Q hides x, unless all points of the boundary of B on the ray lie in openings.
+   e. In that remaining case (1) or (2) holds. Let m = max(e_P, e_Q), s a point of S that hides the
+      highest z, and w the point of W whose image is s: in projection w is within e_Q of y, and it
+      is higher than y by at least r - e_Q. Follow the boundary of B from the line through x along
+      d to w, straight in projection. In projection this path stays within m of y.
+      - If w is on the upper side, follow that side from u. The path crosses a rim, because u is in
+        an opening and w is not. Both ends are higher than y - e_P, and the upper side is concave:
+        so the rim point is higher than y - e_P as well.
+      - Otherwise follow the lower side, and at its end a wall parallel to d if w is on one. From
+        some point on, the path stays on W. If that point is lower than y, the path passes the
+        height of y after it, on W and within m of y. The image of a point of W within m of y is
+        within m + e_Q <= r of y, so (1) holds. If that point is not lower than y, it is a rim
+        point, or it is the start of the path, on W. Such a start is below x, because no point of
+        W is on the ray of x; so it is within e_P of y, and (1) holds again.
+      The image of the rim point lies on an event edge, within m + e_Q <= r of y in projection and
+      not 2 r behind y: (2) holds. []
 
-   Distance in projection. Only the component of x - y across the line of sight matters there. On
-   the curved wall of a shape that is placed without distortion, points move by known distances
-   along the axis, away from it, and across both (lrcs_part.displaced); the first two are multiplied
-   by the sines of their angles with the line of sight. The sum replaces e_P in the distance of (2)
-   from y, unless Q is open and e_Q > 0. For in the proof it suffices to take for z the points x +
-   v, |v|
-   <= e_Q, and the straight paths from y to them: the place of b hides one of them; and if S hides
-   them all, the ball of radius e_Q about x lies within e_Q of V(B), so that x lies in V(B).
+   2. Distance in projection. In the distance of (2) from y, a bound on the component of x - y
+   perpendicular to d may replace e_P, unless Q is open and e_Q > 0. On the curved wall of a shape
+   that is placed without distortion, the map moves points by known distances from or towards the
+   axis, along it, and tangentially (lrcs_part.displaced). The bound is the sum of the three, of
+   which the first two are multiplied by the sines of the angles between these directions and d.
+   Proof: it suffices to take for z the points x + v, |v| <= e_Q, and the straight paths from y to
+   them. In b, the image of the point that hides x hides one of these z. In c, x is one of them. In
+   d, if S hides all of them, the ball of radius e_Q about x lies within e_Q of V; so x lies in V,
+   and Q, without openings, hides x. []
 
-   Gain and loss. Call an event edge one-sided if all facets of Q on it lie on the same side of it
-   in projection, its inner side. Along a straight path from y to such a z, the number of facets of
-   Q in front of the moving point rises from 0 only where the path crosses an edge from its outer to
-   its inner side, and falls to 0 only where it crosses one the other way; or at edges that are not
-   one-sided, or at (1).
-   - Loss: Q hides x but not y. The number rises from 0 on the path to the z that the place of b
-     hides. So y is on the outer side of a one-sided edge near it, or near an edge of another kind.
-   - Gain: Q hides y but not x, and Q is closed or e_Q = 0. If y were on the outer side of all edges
-     near it, the number would never fall to 0, S would hide all z, and Q would hide x. So y is on
-     the inner side of some edge near it. The same holds if Q has one opening and x is not in B: the
-     ray of x enters B and leaves it, and passes the opening only once.
-   For other Q a gain is possible on both sides.
+   3. Gain and loss. An event edge is near if (2) holds for it. It is one-sided if all facets of Q
+   on it lie on the same side of it in projection, its inner side; the other side is its outer side.
+   Let a point move from y straight to one of the z, and let n be the number of facets of Q on its
+   ray. Unless (1) holds or a near edge is not one-sided, n rises from 0 only where the ray crosses
+   a near edge from its outer to its inner side, and falls to 0 only where it crosses one from its
+   inner to its outer side. It crosses the line of an edge at most once.
+   - Loss: Q hides x, but its facets do not hide y. Then (1) holds, or a near edge is not one-sided,
+     or y is on the outer side of a near edge. Proof: n rises from 0 on the path to the z of b.
+   - Gain: the facets of Q hide y, but Q does not hide x. If Q is not open or e_Q = 0, (1) holds, or
+     a near edge is not one-sided, or y is on the inner side of a near edge. Proof: otherwise n
+     never falls to 0, so S hides all z, and Q hides x. The same is true if Q has one opening and x
+     is not in B: the ray of x enters B and leaves it, and passes the opening only once. For any
+     other Q, gain is possible on both sides.
 
-   A part's own fronts are never hidden by it: they are the upper side of B. The inside of an open
-   part, where it reflects (two-sided), is the lower side, seen through an opening: x is visible
-   if and only if the projected opening holds its projection, y likewise. Projected openings, true
-   and of facets, are convex and within e of each other: both agree unless y lies within 2 e in
-   projection of a rim beyond which the wall faces the laser, or may.
+   4. Own part. A part never hides those of its own points that face the laser: they are the upper
+   side of its B. The inside of an open part, where it reflects (two-sided), is the lower side of B,
+   seen through an opening: the part does not hide x if and only if the projection of x lies in the
+   projected opening of W, and likewise y for S. Projected openings of W and S are convex and within
+   e of each other. So x and y agree, unless y is in projection within 2 e of a rim beyond which the
+   wall faces the laser, or may face it.
 
-   Facets that are edge-on to within rounding (lrcsi_proximity.grazing_cos) count as uncertain over
-   their whole area: rounding may have folded the facet mesh there.
+   5. Grazing facets. Facets that are edge-on to within rounding (lrcsi_proximity.grazing_cos) count
+   as uncertain over their whole area: rounding may have folded the mesh there.
 
-   Facets of a curved part without any uncertain area, joined across edges, form regions. Other
-   parts hide a region entirely or not at all; one hidden front facet tells which.
+   6. Bands. A proximity band contains all points of a facet where (1), (2) or the condition of 4
+   may hold: prisms about facets, rectangles about edges. The fractions of a facet in its bands add
+   up to an upper bound of the fraction where the visibility of true shapes and facets may differ.
+   A fraction of the facet's area is the same fraction of its patch, because the map stretches
+   areas evenly (mesh/profile.c), up to what lrcs_part.uneven bounds.
 
-   A facet that meets no band of some other part, one of whose facets hides a point of it, is hidden
-   by that part entirely, whatever bands of further parts it meets.
+   7. Regions. Facets of a curved part that are nowhere uncertain, joined across edges, form
+   regions. Other parts hide a region entirely or not at all; one hidden facet that faces the laser
+   tells which. A facet that meets no band of Q, and of which a facet of Q hides a point, is hidden
+   by Q entirely, whatever bands of other parts it meets.
 
-   A row of a facet on a straight wall that meets no band is visible over its whole length or
-   nowhere, for the facets and for the true shapes. By facets: whether another part hides a point of
-   it can change only across (1) or (2), and whether its own part does, seen from inside, only
-   across a rim as above. In truth: by the claim, point by point.
-
-   So the fractions of a facet within such bands (rectangles about edges, prisms about facets) add
-   up to an upper bound of the fraction where true shapes and facets may differ. The fraction of the
-   facet's area is that of its patch, because the map stretches areas evenly (mesh/profile.c), up to
-   what lrcs_part.uneven bounds. */
+   8. Rows. A row of a facet on a straight wall (scene/proximity.h) that meets no band is visible
+   over its whole length or nowhere, for the facets and for the true shapes. For the facets: along
+   the row, what other parts hide changes only where (1) or (2) holds, and what its own part hides,
+   seen from inside, only at a rim as in 4. For the true shapes: by 1, at each of its points. */
 #ifndef LRCSI_PROXIMITY_BAND_H
 #define LRCSI_PROXIMITY_BAND_H
 
@@ -81,10 +110,10 @@
 
 typedef struct lrcsi_proximity_band {
     const lrcsi_classification *classification;
-    double *share; /* facet: fraction of its area where visibility may differ, 0 .. 1 */
-    double *gain;  /* facet: fraction that the facets hide and the true shapes may not */
-    double *loss;  /* facet: fraction that the true shapes may hide and the facets do not */
-    double *rows;  /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
+    double *mismatch; /* facet: fraction of its area where visibility may differ, 0 .. 1 */
+    double *gain;     /* facet: fraction that the facets hide and the true shapes may not */
+    double *loss;     /* facet: fraction that the true shapes may hide and the facets do not */
+    double *rows;     /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
     lrcsi_part_set *parts; /* facet: the parts whose bands it meets */
     uint32_t *region;      /* facet of a curved part: its region, named by one of its facets */
     unsigned char *hidden; /* region: not 0 if other parts hide all of it, in truth too */
@@ -94,16 +123,16 @@ typedef struct lrcsi_proximity_band {
 size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 
 /* For a scene with prepared->proximity.reach. No region is marked hidden yet. Facets that neither
-   reflect nor belong to a curved part are left out: share 0. Status: LRCS_OK;
-   LRCS_E_MEMORY; LRCS_E_LIMIT. The shares stay in the work area, scratch does not. */
+   reflect nor belong to a curved part are left out: mismatch 0. Status: LRCS_OK; LRCS_E_MEMORY;
+   LRCS_E_LIMIT. The fractions stay in the work area; scratch memory is released. */
 int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
                               lrcs_work *work, lrcsi_proximity_band *band);
 
 /* Bytes for lrcsi_proximity_band_settle. */
 size_t lrcsi_proximity_band_settle_need(const lrcs_prepared *prepared);
 
-/* Finds what is hidden in truth too, once visible areas are known: regions, and facets with bands,
-   which then have none. Without memory, or when the meter is spent, it finds less. */
+/* Given visible areas, finds what is hidden in truth too: regions; and facets that meet bands, of
+   which all fractions become 0. Without memory, or when the meter is spent, it finds less. */
 void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_visible *visible,
                                  lrcsi_meter *meter, lrcs_work *work);
 

@@ -104,8 +104,8 @@ static void normal_in_view(const lrcsi_view *view, uint32_t facet, double normal
     }
 }
 
-/* For a facet that is edge-on, the plane is arbitrary: the error bound of its heights is infinite,
-   and so they decide nothing. */
+/* For a facet that is edge-on the plane is arbitrary: the error bound of its heights is infinite,
+   so that they decide nothing. */
 lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet)
 {
     const lrcsi_view *view = raster->view;
@@ -121,10 +121,10 @@ lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet)
     return plane;
 }
 
-/* A height is that of a corner plus slopes times differences from the corner. These coordinates are
-   at most `radius`: that of samples and that of the corners together. Each has an error of 16 u of
-   it, to which the error of the sample is added. Division by |cos| gives the error of the height.
-   The error of the denominator moves a height that lies within `radius` by as much again. */
+/* A height is that of a corner plus slopes times differences of coordinates from the corner. These
+   differences are at most `radius`, which includes samples and corners. Each has an error of 16 u
+   radius, to which the error of the sample is added. Division by |cos| gives the error of the
+   height. The error of the denominator changes a height within `radius` by as much again. */
 double lrcsi_raster_height_err(const lrcsi_raster *raster, uint32_t facet)
 {
     const lrcsi_view *view = raster->view;
@@ -150,9 +150,9 @@ typedef struct raster_job {
     lrcsi_edge_functions edges;
     lrcsi_plane plane;
     double height_err;
-    /* Of the last owner for which heights in doubles did not decide: */
-    uint32_t rival;  /* the owner, or LRCS_NONE */
-    int rival_order; /* its lrcsi_sample_order */
+    /* The last owner for which heights in doubles did not decide: */
+    uint32_t last_owner; /* its facet, or LRCS_NONE */
+    int last_order;      /* its lrcsi_sample_order */
 } raster_job;
 
 /* Does the facet cover the sample? Decided exactly. */
@@ -164,8 +164,8 @@ static int job_covers(const raster_job *job, uint32_t x, uint32_t y)
 }
 
 /* Is the facet nearer than the owner of a sample that both cover? ahead: the difference of their
-   heights. Where doubles do not decide, most pairs have the same order at all samples; it is found
-   once. */
+   heights. If doubles do not decide: most pairs have the same order at all samples, which is
+   computed only once. */
 static int job_nearer(raster_job *job, uint32_t owner, double ahead, uint32_t x, uint32_t y)
 {
     lrcsi_raster *r = job->raster;
@@ -173,12 +173,12 @@ static int job_nearer(raster_job *job, uint32_t owner, double ahead, uint32_t x,
     if (ahead > height_err || ahead < -height_err) {
         return ahead > 0;
     }
-    if (owner != job->rival) {
-        job->rival = owner;
-        job->rival_order = lrcsi_sample_order(r->view, job->facet, owner);
+    if (owner != job->last_owner) {
+        job->last_owner = owner;
+        job->last_order = lrcsi_sample_order(r->view, job->facet, owner);
     }
-    if (job->rival_order != 0) {
-        return job->rival_order > 0;
+    if (job->last_order != 0) {
+        return job->last_order > 0;
     }
     double point[3];
     lrcsi_raster_sample(r, x, y, point);
@@ -223,21 +223,21 @@ static inline void draw_uncertain(raster_job *job, uint32_t y, uint32_t x0, uint
     }
 }
 
-/* How far the height of the facet's plane at the centre of a pixel that the facet covers entirely
-   is above the lowest point of the facet in that pixel, at most; rounding to a float included. The
-   heights of covered samples lie between those of the corners, within the height error. HUGE_VAL
-   where floats might overflow. */
+/* For a pixel that the facet covers entirely, an upper bound of the height of its plane at the
+   pixel's centre above the lowest point of the facet in that pixel; rounding to a float is
+   included. The heights of covered samples lie between those of the corners, within the height
+   error. HUGE_VAL if floats might overflow. */
 static double occluder_drop(const raster_job *job)
 {
     const lrcsi_view *view = job->raster->view;
     const uint32_t *corner = view->prepared->scene->facet[job->facet].corner;
-    double most = job->height_err;
+    double magnitude = job->height_err;
     for (int k = 0; k < 3; k++) {
-        most = lrcsi_max(most, fabs(view->point[corner[k]].x[2]));
+        magnitude = lrcsi_max(magnitude, fabs(view->point[corner[k]].x[2]));
     }
     double drop = 0.5 * (fabs(job->plane.dx) + fabs(job->plane.dy)) + job->height_err;
-    drop += 0x1p-22 * (most + drop) + 0x1p-140;
-    return most + drop < 0x1p100 ? drop : HUGE_VAL;
+    drop += 0x1p-22 * (magnitude + drop) + 0x1p-140;
+    return magnitude + drop < 0x1p100 ? drop : HUGE_VAL;
 }
 
 /* Raises the occluder heights of pixels of a row that the facet covers entirely. */
@@ -253,7 +253,7 @@ static void occluder_raise(const raster_job *job, double drop, uint32_t y, lrcsi
 
 void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet)
 {
-    raster_job job = {.raster = raster, .facet = facet, .rival = LRCS_NONE};
+    raster_job job = {.raster = raster, .facet = facet, .last_owner = LRCS_NONE};
     raster->height_err[facet] = job.height_err = lrcsi_raster_height_err(raster, facet);
     job.edges = lrcsi_raster_edge_functions(raster, facet);
     job.plane = lrcsi_raster_plane(raster, facet);
@@ -292,8 +292,8 @@ static inline uint32_t tile_next(const unsigned char *tiles, uint32_t x, uint32_
     return x < x1 ? x : x1;
 }
 
-/* One row of tiles after the other: the tiles from the first to the last column that the facet may
-   touch in these rows of pixels and in the two rows on either side of them. */
+/* For each row of tiles: the tiles from the first to the last column that the facet may touch in
+   the row's pixels and in two rows of pixels on either side. */
 void lrcsi_raster_activate(lrcsi_raster *raster, uint32_t facet)
 {
     const uint32_t tile = LRCSI_RASTER_TILE;

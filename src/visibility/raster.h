@@ -47,7 +47,7 @@ size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size);
    Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area. */
 int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster);
 
-/* The same in steps: start, activate the tiles of facets, clear, fill, draw.
+/* The same in steps: start; activate the tiles of facets; clear; fill; draw.
    Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area; none of its tiles is active.
  */
 int lrcsi_raster_start(const lrcsi_view *view, uint32_t size, lrcs_work *work,

@@ -2,23 +2,23 @@
 /* An estimate of the error of an area that was counted in samples. It is heuristic: it is never
    part of a bound.
 
-   Consider a straight line between the visible and the hidden part of a facet. At every step along
+   Consider a straight line between the visible and the hidden part of a facet. In every step along
    the line's longer axis (a column of pixels, or a row) it passes between two neighbouring samples,
-   and counting samples puts it midway between them. The sum of the offsets, from the line to that
-   middle, is the error of the area. The sum stays small if the offsets run through all values; it
+   and counting samples places it midway between them. The sum of the offsets between the line and
+   these middles is the error of the area. The sum stays small if the offsets are spread evenly; it
    grows with every step if the line is parallel to the rows or has a simple slope. A step counts if
    one of its two samples shows the facet (or, outside the facet, its surface component) and the
-   other does not. Because the steps that count are known only to one or two, the range of the
-   partial sums is used and not only the sum.
+   other does not. Which steps count is uncertain by one or two; therefore the range of the partial
+   sums is used instead of the sum alone.
 
    A facet's own sides cause errors in both the covered and the owned samples. These cancel unless
    the visible fraction along the side differs from that of the facet.
 
    A facet that owns all of its samples or none, or that has no samples, may still be visible in
-   part; the hidden part is at most as large as what could hide it. These cases have constants that
-   were calibrated (see below), and so has the error of thin facets whose samples are pooled.
+   part; the hidden part is at most as large as the facets that could hide it. These cases have
+   calibrated constants (see below), and so has the error of thin facets whose samples are pooled.
 
-   Strips that are thinner than a pixel and hide the facet between all samples are not noticed. */
+   Strips that are thinner than a pixel and hide the facet between all samples are not detected. */
 #include "visibility/sampling_error.h"
 
 #include <math.h>
@@ -27,17 +27,17 @@
 
 /* Squares of estimates, in pixels, calibrated on scenes of seeds 101 and 102 (make bounds), on the
    demo and on three models (make estimate). */
-#define PARTIAL      0.9  /* a facet that owns some of its samples: errors at the ends of lines */
-#define PARTIAL_SUMS 1.4  /* times the squared range of the partial sums along a line */
-#define SIDES        0.3  /* the same for the facet's own sides, times fraction (1 - fraction) */
-#define MISCOUNT     1.5  /* times the squared error of the fraction that is caused by each side */
-#define ALL          1.0  /* a facet that owns all of its samples */
-#define HIDERS       1.33 /* at most this, times the squared area of what could hide the facet */
-#define NONE         2.0  /* a facet that owns none of its samples */
-#define SMALL        0.8  /* any facet: at most this times its squared area */
-#define UNSAMPLED    0.5  /* a facet without samples: times its squared area */
-#define POOLED       0.5  /* a facet whose samples are pooled: times its width */
-#define POOLED_PART  3.0  /* the same: in addition, times its width and fraction (1 - fraction) */
+#define PARTIAL        0.9  /* a facet that owns some of its samples: errors at the ends of lines */
+#define PARTIAL_SUMS   1.4  /* times the squared range of the partial sums along a line */
+#define SIDES          0.3  /* the same for the facet's own sides, times fraction (1 - fraction) */
+#define FRACTION_ERROR 1.5  /* times the squared error of the fraction that each side causes */
+#define ALL            1.0  /* a facet that owns all of its samples */
+#define OCCLUDERS      1.33 /* at most this, times the squared area of possible occluders */
+#define NONE           2.0  /* a facet that owns none of its samples */
+#define SMALL          0.8  /* any facet: at most this times its squared area */
+#define UNSAMPLED      0.5  /* a facet without samples: times its squared area */
+#define POOLED         0.5  /* a facet whose samples are pooled: times its width */
+#define POOLED_PART    3.0  /* the same: in addition, times its width and fraction (1 - fraction) */
 
 /* A facet in a raster. */
 typedef struct sampled_facet {
@@ -49,11 +49,11 @@ typedef struct sampled_facet {
 } sampled_facet;
 
 /* The sum of the offsets along a line, over the steps that count. */
-typedef struct miscount_sum {
+typedef struct offset_sum {
     double sum, low, high; /* the sum, and the least and the largest partial sum */
     double bias;           /* signed: positive if too much of the facet counts as visible */
-    double miscount; /* for a side: the error of the visible fraction that its offsets cause */
-} miscount_sum;
+    double fraction_error; /* of a side: the error of the visible fraction that its offsets cause */
+} offset_sum;
 
 /* Does the facet cover the sample in the middle of a pixel? */
 static int sampled_covers(const lrcsi_edge_functions *e, double x, double y)
@@ -81,24 +81,24 @@ static int sampled_shows(const sampled_facet *f, int axis, double along, double 
             !sampled_covers(&f->edges, x, y));
 }
 
-/* The position at which the samples place a line that passes at `across`: midway between the two
-   samples on either side. If the line passes through a sample to within rounding, it may be placed
-   on either side of it; then the samples decide. */
-static double sampled_limit(const sampled_facet *f, int axis, double along, double across)
+/* Where the samples place a line that passes at `across`: midway between the two samples on either
+   side of it. If the line passes through a sample to within rounding, it may be placed on either
+   side of that sample; then the samples decide. */
+static double sampled_boundary(const sampled_facet *f, int axis, double along, double across)
 {
-    double limit = floor(across + 0.5);
+    double boundary = floor(across + 0.5);
     double sample = floor(across);
     if (fabs(across - sample - 0.5) > 4 * f->edges.position_err) {
-        return limit;
+        return boundary;
     }
     int at = sampled_shows(f, axis, along, sample);
     return at != sampled_shows(f, axis, along, sample - 1)   ? sample
            : at != sampled_shows(f, axis, along, sample + 1) ? sample + 1
-                                                             : limit;
+                                                             : boundary;
 }
 
 /* Adds one step. Along a facet's own side every step counts. */
-static void miscount_step(miscount_sum *s, double offset, int above, int below, int side)
+static void offset_sum_add(offset_sum *s, double offset, int above, int below, int side)
 {
     if (above != below || side != 0) {
         s->sum += offset;
@@ -108,11 +108,11 @@ static void miscount_step(miscount_sum *s, double offset, int above, int below, 
     }
 }
 
-/* The error that a side causes in one step. If the side passes between the facet's inner sample of
-   that step and the limit, what this sample shows has too large a weight in the visible fraction.
- */
-static double sampled_miscount(const sampled_facet *f, int axis, double along, double inner,
-                               double offset)
+/* The error of the visible fraction that a side causes in one step: the facet's sample next to the
+   boundary has too large or too small a weight if the side passes on one or the other side of that
+   boundary. */
+static double side_weight_error(const sampled_facet *f, int axis, double along, double inner,
+                                double offset)
 {
     double x = axis == 0 ? along : inner;
     double y = axis == 0 ? inner : along;
@@ -146,10 +146,10 @@ static int segment_clip(const lrcsi_edge_functions *e, const double a[2], const 
 
 /* Sums over the part of the segment a b that lies within the facet. side: 1 or -1 if the segment is
    a side of the facet and the facet lies above or below it; otherwise 0. */
-static miscount_sum miscount_along(const sampled_facet *f, const double a[2], const double b[2],
+static offset_sum offset_sum_along(const sampled_facet *f, const double a[2], const double b[2],
                                    int side)
 {
-    miscount_sum s = {0};
+    offset_sum s = {0};
     double t[2] = {0, 1};
     int axis = fabs(b[1] - a[1]) > fabs(b[0] - a[0]);
     double run = b[axis] - a[axis];
@@ -162,61 +162,61 @@ static miscount_sum miscount_along(const sampled_facet *f, const double a[2], co
     double last = lrcsi_min(to - 0.5, f->raster->size - 1.0);
     for (double step = lrcsi_max(ceil(from - 0.5), 0); step <= last; step++) {
         double across = a[!axis] + slope * (step + 0.5 - a[axis]);
-        double limit = sampled_limit(f, axis, step, across);
-        miscount_step(&s, across - limit, sampled_shows(f, axis, step, limit),
-                      sampled_shows(f, axis, step, limit - 1), side);
+        double boundary = sampled_boundary(f, axis, step, across);
+        offset_sum_add(&s, across - boundary, sampled_shows(f, axis, step, boundary),
+                       sampled_shows(f, axis, step, boundary - 1), side);
         if (side != 0) {
-            s.miscount +=
-                side * sampled_miscount(f, axis, step, limit - (side < 0), across - limit);
+            s.fraction_error +=
+                side * side_weight_error(f, axis, step, boundary - (side < 0), across - boundary);
         }
     }
     return s;
 }
 
 /* Adds the error of a line between the visible part and what another facet hides. */
-static void miscount_add(const sampled_facet *f, const double a[2], const double b[2],
-                         lrcsi_sampling_error *error)
+static void add_line_error(const sampled_facet *f, const double a[2], const double b[2],
+                           lrcsi_sampling_error *error)
 {
-    miscount_sum s = miscount_along(f, a, b, 0);
+    offset_sum s = offset_sum_along(f, a, b, 0);
     error->square += PARTIAL_SUMS * (s.high - s.low) * (s.high - s.low);
     error->bias += s.bias;
 }
 
-static void miscount_add_edge(const sampled_facet *f, uint32_t edge, lrcsi_sampling_error *error)
+static void add_edge_error(const sampled_facet *f, uint32_t edge, lrcsi_sampling_error *error)
 {
     const lrcsi_edge *e = &f->raster->view->prepared->topology.edge[edge];
     double a[2];
     double b[2];
     lrcsi_raster_point(f->raster, e->low, a);
     lrcsi_raster_point(f->raster, e->high, b);
-    miscount_add(f, a, b, error);
+    add_line_error(f, a, b, error);
 }
 
 /* Adds the line in which the planes of two facets intersect, if it may cross the facet's box. */
-static void miscount_add_intersection(const sampled_facet *f, uint32_t other,
-                                      lrcsi_sampling_error *error)
+static void add_intersection_error(const sampled_facet *f, uint32_t other,
+                                   lrcsi_sampling_error *error)
 {
     const lrcsi_edge_functions *box = &f->edges;
     lrcsi_plane p = lrcsi_raster_plane(f->raster, f->facet);
     lrcsi_plane q = lrcsi_raster_plane(f->raster, other);
     double dx = p.dx - q.dx;
     double dy = p.dy - q.dy;
-    double steep = sqrt(dx * dx + dy * dy);
+    double gradient = sqrt(dx * dx + dy * dy);
     double x = 0.5 * ((double)box->x0 + box->x1);
     double y = 0.5 * ((double)box->y0 + box->y1);
-    double reach = 2.0 + box->x1 - box->x0 + box->y1 - box->y0;
-    double far = (p.c - q.c + dx * x + dy * y) / steep; /* distance from the middle of the box */
-    if (!(fabs(far) < reach)) {
+    double extent = 2.0 + box->x1 - box->x0 + box->y1 - box->y0;
+    double distance = (p.c - q.c + dx * x + dy * y) / gradient; /* of the box's centre */
+    if (!(fabs(distance) < extent)) {
         return;
     }
-    dx /= steep;
-    dy /= steep;
-    const double a[2] = {x - dx * far - dy * reach, y - dy * far + dx * reach};
-    const double b[2] = {x - dx * far + dy * reach, y - dy * far - dx * reach};
-    miscount_add(f, a, b, error);
+    dx /= gradient;
+    dy /= gradient;
+    const double a[2] = {x - dx * distance - dy * extent, y - dy * distance + dx * extent};
+    const double b[2] = {x - dx * distance + dy * extent, y - dy * distance - dx * extent};
+    add_line_error(f, a, b, error);
 }
 
-static void miscount_add_contacts(const sampled_facet *f, lrcsi_sampling_error *error)
+static void add_contact_errors(const sampled_facet *f, lrcsi_sampling_error *error)
 {
     const lrcsi_view *view = f->raster->view;
     const lrcsi_intersections *intersections = &view->prepared->intersections;
@@ -226,17 +226,16 @@ static void miscount_add_contacts(const sampled_facet *f, lrcsi_sampling_error *
             continue;
         }
         if (contact->kind == LRCSI_INTERSECTION_CROSS) {
-            miscount_add_intersection(f, contact->other, error);
+            add_intersection_error(f, contact->other, error);
             continue;
         }
         for (int k = 0; k < 3; k++) {
-            miscount_add_edge(f, view->prepared->topology.facet_edge[contact->other].corner[k],
-                              error);
+            add_edge_error(f, view->prepared->topology.facet_edge[contact->other].corner[k], error);
         }
     }
 }
 
-static void miscount_add_sides(const sampled_facet *f, lrcsi_sampling_error *error)
+static void add_side_errors(const sampled_facet *f, lrcsi_sampling_error *error)
 {
     const uint32_t *corner = f->raster->view->prepared->scene->facet[f->facet].corner;
     double p[3][2];
@@ -250,10 +249,10 @@ static void miscount_add_sides(const sampled_facet *f, lrcsi_sampling_error *err
         int axis = fabs(b[1] - a[1]) > fabs(b[0] - a[0]);
         double slope = (b[!axis] - a[!axis]) / (b[axis] - a[axis]);
         int above = c[!axis] - a[!axis] > slope * (c[axis] - a[axis]);
-        miscount_sum s = miscount_along(f, a, b, above ? 1 : -1);
+        offset_sum s = offset_sum_along(f, a, b, above ? 1 : -1);
         double range = s.high - s.low;
         error->square += SIDES * f->fraction * (1 - f->fraction) * range * range;
-        error->square += MISCOUNT * s.miscount * s.miscount;
+        error->square += FRACTION_ERROR * s.fraction_error * s.fraction_error;
     }
 }
 
@@ -266,8 +265,8 @@ static double area_in_pixels(const lrcsi_raster *raster, uint32_t facet)
 /* The area of the facets that may hide a part of a facet that owns all of its samples: the facets
    of the event edges that cross it (by half, since each crosses it with at least two edges), and
    the facets that intersect it. */
-static double hiding_area(const lrcsi_raster *raster, uint32_t facet, const uint32_t *crossing,
-                          uint32_t crossings)
+static double occluder_area(const lrcsi_raster *raster, uint32_t facet, const uint32_t *crossing,
+                            uint32_t crossings)
 {
     const lrcs_prepared *p = raster->view->prepared;
     double area = 0;
@@ -289,10 +288,10 @@ static lrcsi_sampling_error error_partial(const sampled_facet *f, const uint32_t
 {
     lrcsi_sampling_error error = {PARTIAL, 0};
     for (uint32_t i = 0; i < crossings; i++) {
-        miscount_add_edge(f, crossing[i], &error);
+        add_edge_error(f, crossing[i], &error);
     }
-    miscount_add_contacts(f, &error);
-    miscount_add_sides(f, &error);
+    add_contact_errors(f, &error);
+    add_side_errors(f, &error);
     return error;
 }
 
@@ -310,8 +309,8 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
     } else if (owned == 0) {
         error.square = lrcsi_min(error.square, NONE);
     } else if (owned == covered) {
-        double hiders = hiding_area(raster, facet, crossing, crossings);
-        error.square = lrcsi_min(error.square, lrcsi_min(ALL, HIDERS * hiders * hiders));
+        double occluders = occluder_area(raster, facet, crossing, crossings);
+        error.square = lrcsi_min(error.square, lrcsi_min(ALL, OCCLUDERS * occluders * occluders));
     } else {
         f.fraction = (double)owned / covered;
         error = error_partial(&f, crossing, crossings);

@@ -137,14 +137,14 @@ static inline lrcsi_pixel_span span_of(uint32_t x0, uint32_t x1)
     return (lrcsi_pixel_span){x0 < x1 ? x0 : x1, x1};
 }
 
-/* The pixels whose centres, or parts, lie between the ends of a kind that includes all in doubt. */
+/* The pixels between the ends of a kind with uncertain pixels: TOUCHED, POSSIBLE. */
 static inline lrcsi_pixel_span outer_span(const span_ends *ends, int kind, uint32_t x0, uint32_t x1)
 {
     return span_of(round_up(lrcsi_min(ends->from[kind], x1)),
                    (uint32_t)lrcsi_max(ends->to[kind], x0));
 }
 
-/* The pixels of `outer` that lie between the ends of a kind that excludes all in doubt. */
+/* The pixels of `outer` between the ends of a kind without uncertain pixels: CERTAIN, FULL. */
 static inline lrcsi_pixel_span inner_span(const span_ends *ends, int kind, lrcsi_pixel_span outer)
 {
     return span_of((uint32_t)lrcsi_max(lrcsi_min(ends->from[kind], outer.x1), outer.x0),
@@ -156,7 +156,7 @@ lrcsi_row_spans lrcsi_span_row(const lrcsi_edge_functions *e, uint32_t y)
     double x0 = e->x0;
     double x1 = e->x1;
     span_ends ends = {{e->left, x0, x0, x0}, {e->right, x1, x1, x1}};
-    /* Not a loop, so that compilers keep the ends in registers. */
+    /* No loop, so that compilers keep the ends in registers. */
     ends_narrow(&ends, e, 0, y + 0.5);
     ends_narrow(&ends, e, 1, y + 0.5);
     ends_narrow(&ends, e, 2, y + 0.5);

@@ -14,9 +14,9 @@
 typedef struct lrcsi_edge_functions {
     double c[3], dx[3], dy[3];
     double inv_dx[3]; /* 1 / dx; 0 if the side is parallel to the rows */
-    /* How far along a row from the point where side k crosses it, plus half a pixel, a pixel has to
-       begin or end for the sign to be certain: at its centre (sample_margin) or in all of it
-       (pixel_margin). */
+    /* Half a pixel plus the distance of a pixel's centre, along a row, from the point where side k
+       crosses the row, beyond which the sign is certain: at the centre (sample_margin), in the
+       whole pixel (pixel_margin). */
     double sample_margin[3], pixel_margin[3];
     /* Where the sides cross the rows: at the height of the centres of row y, side i is at x =
        cross_x[i] + cross_dx[i] y. Sides 0 and 1 bound the facet on the left, 2 and 3 on the right;

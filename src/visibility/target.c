@@ -11,8 +11,8 @@
 #include "base/range.h"
 #include "view/product.h"
 
-/* A point counts as far away if its distance is this many times that of the points it is compared
-   with. */
+/* A point counts as far if its distance is more than this many times that of the points with which
+   it is compared. */
 #define FAR_POINT 8.0
 
 /* The position of a scene point that is much deeper, or much nearer, than the origin. The rows r of
@@ -59,13 +59,14 @@ static double frame_point(const lrcsi_view *view, const double *origin, const do
     for (int k = 0; k < 2; k++) {
         out[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
     }
-    double away = sqrt(square);
-    return away * view->scale > FAR_POINT && away > FAR_POINT * (fabs(out[0]) + fabs(out[1]))
+    double distance = sqrt(square);
+    return distance * view->scale > FAR_POINT &&
+                   distance > FAR_POINT * (fabs(out[0]) + fabs(out[1]))
                ? frame_point_deep(view, origin, x, out)
-               : away;
+               : distance;
 }
 
-/* The corner at which a facet's frame begins: its first, unless that one is far away from the bulk
+/* The corner that is the origin of a facet's frame: its first, unless that one is far from the bulk
    of the scene and another is not. With a far corner as origin, positions near the other corners
    would have errors in proportion to the distance. */
 static int corner_first(const lrcsi_view *view, uint32_t facet)
@@ -107,11 +108,11 @@ double lrcsi_target_coordinates(const lrcsi_target *t, const double x[3], double
    the frame's origin. The segment can therefore be cut where a coordinate exceeds 4 d: if its end
    is at least 32 u f beyond that, the coordinate grows faster than the error. The rounding error
    of the new end is 4 u (n + 8 d). */
-double lrcsi_target_segment(const lrcsi_target *t, double end[2][2], const double away[2])
+double lrcsi_target_segment(const lrcsi_target *t, double end[2][2], const double distance[2])
 {
-    int far = away[1] > away[0];
-    double n = away[!far];
-    double f = away[far];
+    int far = distance[1] > distance[0];
+    double n = distance[!far];
+    double f = distance[far];
     double box = 4 * t->diameter;
     double t_end = 1;
     for (int k = 0; k < 2 && f > FAR_POINT * (n + box); k++) {
@@ -134,9 +135,9 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
     *t = (lrcsi_target){.view = view, .facet = facet, .unit = 1};
     t->origin = lrcsi_target_frame_corner(view, facet, 0);
     for (int k = 0; k < 3; k++) {
-        double away =
+        double distance =
             lrcsi_target_coordinates(t, lrcsi_target_frame_corner(view, facet, k), t->corner[k]);
-        t->reach = lrcsi_max(t->reach, away);
+        t->reach = lrcsi_max(t->reach, distance);
     }
     for (int k = 0; k < 3; k++) {
         const double *p = t->corner[k];
@@ -196,8 +197,8 @@ double lrcsi_target_lift_err(const lrcsi_target *t)
 lrcsi_dd lrcsi_needle_quotient(lrcsi_dd a, lrcsi_dd b)
 {
     double first = a.hi / b.hi;
-    lrcsi_dd rest = lrcsi_dd_sub(a, lrcsi_dd_scale(b, first));
-    return lrcsi_dd_quick_sum(first, rest.hi / b.hi);
+    lrcsi_dd remainder = lrcsi_dd_sub(a, lrcsi_dd_scale(b, first));
+    return lrcsi_dd_quick_sum(first, remainder.hi / b.hi);
 }
 
 /* x - from, exactly. Returns its length, within 4 u. */
@@ -305,8 +306,7 @@ void lrcsi_needle_clip(const lrcsi_dd from[2], const lrcsi_dd to[2], double end[
     }
 }
 
-/* The parameter runs from the nearer end, so that the error of the farther end counts only in
-   proportion to it. */
+/* The parameter is 0 at the nearer end, so that it multiplies the error of the farther end. */
 double lrcsi_needle_segment(const lrcsi_needle *n, const double p[3], const double q[3],
                             double end[2][2])
 {
@@ -403,8 +403,8 @@ static double clamped(double x, double low, double high)
     return lrcsi_max(low, lrcsi_min(x, high));
 }
 
-/* The corner at which the longest side begins. */
-static int longest_from(const lrcsi_target *t)
+/* The first corner of the longest side, counter-clockwise. */
+static int longest_side_start(const lrcsi_target *t)
 {
     int longest = 0;
     double square = 0;
@@ -430,7 +430,7 @@ static int longest_from(const lrcsi_target *t)
    at most 50 u d; d is at most twice the reach. */
 void lrcsi_target_weights(const lrcsi_target *t, const double at[2], double weight[3])
 {
-    int k = longest_from(t);
+    int k = longest_side_start(t);
     const double *from = t->corner[k];
     const double *third = t->corner[(k + 2) % 3];
     double b[3] = {0, 0, 1}; /* barycentric coordinates of corners k, k + 1, k + 2 */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The target, a facet that may be hidden, in a frame of its own in the view plane: relative to its
-   first corner, along the view's axes. A needle, a facet that is much longer than wide in the view,
-   also has a frame of barycentric coordinates. */
+/* The target, a facet that may be hidden, and its frame in the view plane: the origin is its first
+   corner, the axes are those of the view. A needle, a facet that is much longer than wide in the
+   view, has a second frame, of barycentric coordinates. */
 #ifndef LRCSI_TARGET_H
 #define LRCSI_TARGET_H
 
@@ -10,11 +10,11 @@
 
 /* The frame of a needle: the barycentric coordinates of its second and third corner, counted
    counter-clockwise. Its corners are (0, 0), (1, 0) and (0, 1), so that in this frame it is as wide
-   as it is long. Computed in double-double: rounding errors are a fraction of the needle's width,
-   not of its length. */
+   as it is long. It is computed in double-double, so that rounding errors are in proportion to the
+   needle's width, not to its length. */
 typedef struct lrcsi_needle {
     const double *origin; /* the first corner */
-    lrcsi_dd side[2][3];  /* from there to the other corners, exactly */
+    lrcsi_dd side[2][3];  /* the vectors from there to the other corners, exact */
     lrcsi_dd row[2][3];   /* a coordinate is row . (x - origin) / determinant */
     lrcsi_dd determinant;
     const double *direction;
@@ -47,8 +47,8 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *tar
    of the facet that lrcsi_target_weights gives for it, with rounded coordinates. */
 double lrcsi_target_lift_err(const lrcsi_target *target);
 
-/* The frame that resolves the width of the facet: barycentric coordinates if it is a needle,
-   otherwise the same frame. */
+/* The frame in which errors are small in proportion to the width of the facet: barycentric
+   coordinates if it is a needle, otherwise the same frame. */
 void lrcsi_target_refine(const lrcsi_target *target, lrcsi_needle *needle, lrcsi_target *refined);
 
 /* From the refined frame to the frame along the view's axes, within 3 u of the reach. */
@@ -57,7 +57,7 @@ void lrcsi_target_to_axes(const lrcsi_target *refined, const double at[2], doubl
 /* Corner k of a facet, counted so that they run counter-clockwise in the view. */
 const double *lrcsi_target_corner(const lrcsi_view *view, uint32_t facet, int k);
 
-/* The same, counted from the corner at which the facet's frame begins: one that is not far away
+/* The same, counted from the corner that is the origin of the facet's frame: one that is not far
    from the bulk of the scene, if the facet has one. */
 const double *lrcsi_target_frame_corner(const lrcsi_view *view, uint32_t facet, int k);
 
@@ -65,10 +65,10 @@ const double *lrcsi_target_frame_corner(const lrcsi_view *view, uint32_t facet, 
    corner, in space: the position error is at most 10 u of it. */
 double lrcsi_target_coordinates(const lrcsi_target *target, const double x[3], double out[2]);
 
-/* Cuts off the part of a segment that is far away from the target.
-   Given: end, in the frame, with errors of 10 u times away[0] and away[1]. Returns a distance: the
-   errors of both ends are then at most 10 u of it. */
-double lrcsi_target_segment(const lrcsi_target *target, double end[2][2], const double away[2]);
+/* Removes the part of a segment that is far from the target.
+   Given: end, in the frame, with errors of 10 u distance[0] and 10 u distance[1]. Returns a
+   distance: the errors of both ends are then at most 10 u of it. */
+double lrcsi_target_segment(const lrcsi_target *target, double end[2][2], const double distance[2]);
 
 /* The point of the facet that is visible at `at`, a point of the frame, in barycentric coordinates,
    in the order of the facet's corners: each at least 0, their sum 1 within rounding. A corner gives

@@ -68,8 +68,8 @@ typedef struct pixel_sums {
 typedef struct visible_job {
     const lrcsi_known *known;
     lrcsi_raster *raster;
-    lrcsi_row_spans *row; /* by row: the spans of the facet at hand, in the rows that it touches */
-    unsigned char *mixed; /* by pixel: 1 if mixed for the facet at hand; set where it touches */
+    lrcsi_row_spans *row; /* by row: the spans of the current facet, in the rows that it touches */
+    unsigned char *mixed; /* by pixel: 1 if mixed for the current facet; set where it touches */
     pixel_sums *first;    /* by undecided facet: the result of first_pass */
     /* The pixels in which first_pass decides nothing, facet after facet: 2 pixel + 1 if the facet
        covers the whole pixel, otherwise 2 pixel; LRCS_NONE ends the list of a facet. */
@@ -77,7 +77,7 @@ typedef struct visible_job {
     size_t unresolved_room, unresolved_count;
 } visible_job;
 
-/* The facet at hand. */
+/* The current facet. */
 typedef struct drawn_facet {
     uint32_t facet;
     lrcsi_edge_functions edges;
@@ -155,12 +155,12 @@ static void mark_intersection(const visible_job *job, const drawn_facet *f, uint
         double x1 = job->row[y].touched.x1;
         double zero = -row / dx;
         double half = err / fabs(dx);
-        double spare = 2 + 8 * LRCSI_U * (fabs(zero) + half);
-        if (zero - half - spare > x0) {
-            x0 = floor(zero - half - spare);
+        double widening = 2 + 8 * LRCSI_U * (fabs(zero) + half);
+        if (zero - half - widening > x0) {
+            x0 = floor(zero - half - widening);
         }
-        if (zero + half + spare < x1) {
-            x1 = ceil(zero + half + spare);
+        if (zero + half + widening < x1) {
+            x1 = ceil(zero + half + widening);
         }
         if (!(x0 < x1)) {
             continue;
@@ -220,14 +220,14 @@ static void mark_mixed(const visible_job *job, const drawn_facet *f)
 /* --- decided pixels --------------------------------------------------------------------------- */
 
 /* The part of a unit square in which a linear function is positive. Given: its value at the centre,
-   and how much it changes along the sides of the square, most >= least >= 0. */
-static double square_part(double value, double most, double least)
+   and how much it changes along the sides of the square, larger >= smaller >= 0. */
+static double square_part(double value, double larger, double smaller)
 {
     double from = fabs(value);
-    double beyond = 0.5 * (most + least) - from;
-    double less = beyond >= least ? 0.5 - from / most
-                  : beyond > 0    ? 0.5 * (beyond / most) * (beyond / least)
-                                  : 0;
+    double beyond = 0.5 * (larger + smaller) - from;
+    double less = beyond >= smaller ? 0.5 - from / larger
+                  : beyond > 0      ? 0.5 * (beyond / larger) * (beyond / smaller)
+                                    : 0;
     return value > 0 ? 1 - less : less;
 }
 
@@ -251,9 +251,9 @@ static double pixel_area(const drawn_facet *f, uint32_t x, uint32_t y)
         double dy = fabs(e->dy[k]);
         double value = e->c[k] + e->dx[k] * (x + 0.5) + e->dy[k] * (y + 0.5);
         if (!(value - 0.5 * (dx + dy) > e->value_err)) {
-            double most = lrcsi_max(dx, dy);
+            double larger = lrcsi_max(dx, dy);
             sides++;
-            area = square_part(value, most, lrcsi_min(dx, dy)) - 2 * e->value_err / most;
+            area = square_part(value, larger, lrcsi_min(dx, dy)) - 2 * e->value_err / larger;
         }
     }
     if (sides != 1) {
@@ -444,7 +444,7 @@ static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, 
     v->high = lrcsi_max(v->low, area - (sums->full_hidden + sums->hidden) * pixel * (1 - 1e-12));
     lrcsi_visible_fraction_apply(pool, facet, area, &fraction, v);
     double gap = v->high - v->low;
-    v->likely = lrcsi_min(gap, sqrt(error.square) * pixel);
+    v->error_estimate = lrcsi_min(gap, sqrt(error.square) * pixel);
     v->bias = lrcsi_min(gap, lrcsi_max(-gap, error.bias * pixel));
 }
 

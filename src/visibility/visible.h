@@ -11,8 +11,8 @@
 #include "visibility/visible_area.h"
 
 /* The area of a facet that nothing is known to hide: all of it. This is proved for |cos(theta)| >
-   grazing_cos. Otherwise the area is only an upper bound, and low is 0; so it is for every facet if
-   grazing_cos is 1. */
+   grazing_cos. Otherwise, and for every facet if grazing_cos is 1, the area is only an upper bound,
+   and low is 0. */
 static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_incidence *incidence,
                                                      double grazing_cos)
 {
@@ -21,7 +21,7 @@ static inline lrcsi_visible lrcsi_visible_unshadowed(const lrcsi_incidence *inci
 }
 
 /* A visible area, corrected for back sides. In a scene that is closed and outward they are never
-   visible; a search that did not find one hidden does not prove that it is visible. */
+   visible: there a search that did not find one hidden does not prove that it is visible. */
 static inline lrcsi_visible lrcsi_visible_proved(const lrcsi_view *view, uint32_t facet,
                                                  lrcsi_visible visible)
 {
@@ -29,7 +29,7 @@ static inline lrcsi_visible lrcsi_visible_proved(const lrcsi_view *view, uint32_
     return visible;
 }
 
-/* Sets visible[facet] to all of the facet or nothing, by its lrcsi_query_answer; leaves it as it is
+/* Sets visible[facet] to all of the facet or nothing, by its lrcsi_query_answer; does not change it
    if that is undecided. */
 void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
                             lrcsi_visible *visible);

@@ -10,8 +10,8 @@
    projected area. The true area is between low and high. */
 typedef struct lrcsi_visible {
     double area, low, high;
-    double likely; /* estimated error of an area from samples; else 0 */
-    double bias;   /* the part of that error that has a sign: positive if the area is too large */
+    double error_estimate; /* estimated error of an area from samples; else 0 */
+    double bias; /* the part of that error that has a sign: positive if the area is too large */
 } lrcsi_visible;
 
 /* What exact queries decide about facets before samples are taken. */

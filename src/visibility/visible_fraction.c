@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The visible area of an undecided facet, from its samples. The bounds of the area are given, and
-   the likely error is estimated elsewhere (visibility/sampling_error.h).
+   the error is estimated elsewhere (visibility/sampling_error.h).
 
    With many samples, the visible fraction is the fraction of its samples that the facet owns. The
    facet's own sides, which cause errors in both counts, then cancel.
@@ -135,9 +135,9 @@ static void random_point(const lrcsi_raster *raster, uint32_t facet, double poin
     uint64_t bits[2];
     lrcsi_raster_point(raster, p->scene->facet[facet].corner[0], at);
     memcpy(bits, at, sizeof bits);
-    uint64_t chance = lrcsi_fnv_bits(lrcsi_fnv_bits(LRCSI_FNV_START, bits[0], 8), bits[1], 8);
-    double along = (double)(chance >> 32) * 0x1p-32;
-    double up = (double)(chance & 0xffffffff) * 0x1p-32;
+    uint64_t hash = lrcsi_fnv_bits(lrcsi_fnv_bits(LRCSI_FNV_START, bits[0], 8), bits[1], 8);
+    double along = (double)(hash >> 32) * 0x1p-32;
+    double up = (double)(hash & 0xffffffff) * 0x1p-32;
     int beyond = along + up > 1;
     for (int k = 0; k < 3; k++) {
         double corner = lrcsi_prepared_corner(p, facet, 0)[k];

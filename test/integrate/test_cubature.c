@@ -209,7 +209,7 @@ static void without_steps_what_is_left_is_within_its_bound(void **state)
         for (int k = 0; k < 9; k++) {
             normal[k / 3][k % 3] = v->normal[k / 3][k % 3] + (k % 3 == 0 ? 0.99 : 0) * position_err;
         }
-        lrcsi_meter meter = {.most = i % 4 < 2 ? 0 : 2000};
+        lrcsi_meter meter = {.limit = i % 4 < 2 ? 0 : 2000};
         lrcsi_cubature sum = start(&brdf, (const double(*)[3])normal, 1e-5);
         sum.position_err = position_err;
         sum.meter = &meter;

@@ -502,13 +502,13 @@ static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along
             seen.all = fmax(seen.all, sqrt(dot(off, off)));
             seen.radial = fmax(seen.radial, fabs(off[0]));
             seen.axial = fmax(seen.axial, fabs(off[2]));
-            seen.aside = fmax(seen.aside, fabs(off[1]));
+            seen.tangential = fmax(seen.tangential, fabs(off[1]));
         }
     }
     check_most(seen.all, reach.all);
     check_most(seen.radial, reach.radial);
     check_most(seen.axial, reach.axial);
-    check_most(seen.aside, reach.aside);
+    check_most(seen.tangential, reach.tangential);
     if (along == 1 || along > 20) { /* and they are not idle, unless rings are coarse */
         check_most(reach.all, 4.0 * seen.all + 1e-12);
         check_most(reach.radial, 2.0 * seen.radial + 1e-12);

@@ -318,8 +318,8 @@ static void a_patch_nearly_edge_on_deviates_by_what_it_reflects(void **state)
     double t = 1 / tan(0.1);
     lrcsi_reflection f = lrcsi_reflect(&brdf, t * t, 0);
     check_same(deviation.value, 0.0);
-    assert_true(deviation.most >= f.glint + f.diffuse &&
-                deviation.most <= 1.5 * (f.glint + f.diffuse));
+    assert_true(deviation.value_max >= f.glint + f.diffuse &&
+                deviation.value_max <= 1.5 * (f.glint + f.diffuse));
     assert_true(deviation.point >= f.glint + f.diffuse && isfinite(deviation.whole));
 }
 

@@ -457,7 +457,7 @@ static void hatch_takes_steps_like_the_pieces_that_are_seen(void **state)
     uint64_t steps[2];
     for (int i = 0; i < 2; i++) {
         uint32_t left;
-        lrcsi_meter meter = {.most = UINT64_MAX};
+        lrcsi_meter meter = {.limit = UINT64_MAX};
         hatch(50 << i);
         turned((const double[3]){0, 0, 1});
         limit = &meter;
@@ -476,7 +476,7 @@ static void steps_that_run_out_leave_facets_open(void **state)
     hatch(20);
     for (uint64_t most = 1; most < 200000; most *= 4) {
         uint32_t left;
-        lrcsi_meter meter = {.most = most};
+        lrcsi_meter meter = {.limit = most};
         turned((const double[3]){0, 0, 1});
         limit = &meter;
         uint32_t asked = ask(&left);

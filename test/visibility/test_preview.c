@@ -89,7 +89,8 @@ static void check_shares(const lrcsi_view *view, uint32_t size, unsigned *parted
             }
             int parts = raster.owned[f] != 0 && raster.owned[f] != raster.covered[f];
             *parted += (unsigned)parts;
-            assert_true(parts || v->likely <= LIKELY * raster.pixel * raster.pixel * (1 + 1e-9));
+            assert_true(parts ||
+                        v->error_estimate <= LIKELY * raster.pixel * raster.pixel * (1 + 1e-9));
         }
     }
     work.used = mark;
@@ -228,7 +229,7 @@ static void areas_do_not_depend_on_the_order_of_facets(void **state)
         double likely = 0;
         for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
             sum += visible[f].area;
-            likely += visible[f].likely * visible[f].likely;
+            likely += visible[f].error_estimate * visible[f].error_estimate;
         }
         before = seed == 0 ? sum + likely : before;
         check_abs(sum + likely, before, 1e-12);
@@ -259,7 +260,8 @@ static void the_likely_error_is_near_the_error(void **state)
                 for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
                     double weight = 1 + f % 5;
                     error += weight * (visible[f].area - truth[f].area);
-                    square += weight * weight * visible[f].likely * visible[f].likely;
+                    square +=
+                        weight * weight * visible[f].error_estimate * visible[f].error_estimate;
                     bias += weight * visible[f].bias;
                 }
                 double likely = sqrt(square + bias * bias);
