@@ -72,7 +72,7 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o)
 
 /* Can undecided facets be processed together? Not in a convex solid, where there are none unless a
    search is requested: it saves their memory. */
-static int cells_serve(const lrcs_prepared *prepared)
+static int can_process_together(const lrcs_prepared *prepared)
 {
     return prepared->scene->facet_count >= MIN_UNDECIDED &&
            !(prepared->convex && prepared->solid);
