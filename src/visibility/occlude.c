@@ -74,8 +74,7 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o)
    search is requested: it saves their memory. */
 static int can_process_together(const lrcs_prepared *prepared)
 {
-    return prepared->scene->facet_count >= MIN_UNDECIDED &&
-           !(prepared->convex && prepared->solid);
+    return prepared->scene->facet_count >= MIN_UNDECIDED && !(prepared->convex && prepared->solid);
 }
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
