@@ -68,9 +68,11 @@
 
 #define PATCH_NORMAL_ERR (64 * LRCSI_U)
 #define PATCH_AREA_ERR   (512 * LRCSI_U)
-/* The remainder that a rule should have, relative to F in the middle of the patch. */
+/* The remainder that a rule should have, relative to F in the middle of the patch; but a remainder
+   that is negligible (lrcsi_patch) is small enough. */
 #define REMAINDER_TARGET 0x1p-26
-/* The mean is not used if its remainder, relative to the mean, is larger than this. */
+/* The mean is not used if its remainder, relative to the mean, is larger than this, and not
+   negligible. */
 #define REMAINDER_MAX 0x1p-10
 /* The largest number of pieces into which a patch is divided in each variable. */
 #define PIECES_MAX 4
@@ -126,6 +128,7 @@ typedef struct patch_frame {
     double c, p, u, nu; /* in the middle of the patch */
     int fourth;         /* the weight has cos^-4 alpha */
     double area;        /* of the patch, for a weight of 1, divided by that of its facets */
+    double negligible;  /* remainder, without that factor */
 } patch_frame;
 
 int lrcsi_patch_exists(const lrcs_prepared *p, uint32_t facet)
@@ -220,6 +223,7 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lr
     f->cosine = at->mirrored ? -f->cosine : f->cosine;
     f->area *= (part->rigid ? 1 : part->normal_area) / facets;
     frame_middle(f);
+    f->negligible = patch->negligible / f->area;
     patch->area_err = 2 * (lrcsi_profile_rounding(&profile, at->row) + part->tilted);
     return isfinite(f->area) && (!f->fourth || profile.step > 0);
 }
@@ -420,9 +424,9 @@ static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const gauss_
     double cosine4 = f->cosine * f->cosine * f->cosine * f->cosine;
     double weight = f->step > 0 ? f->sine / (f->fourth ? cosine4 : 1) : 1;
     *middle = weight * f->nu * (at.glint + at.diffuse);
-    rule[1] = rule_choose(f, brdf, 0, REMAINDER_TARGET * *middle, &around_error);
-    rule[0] =
-        f->step > 0 ? rule_choose(f, brdf, 1, REMAINDER_TARGET * *middle, &along_error) : &rules[0];
+    double target = lrcsi_max(REMAINDER_TARGET * *middle, 0.5 * f->negligible);
+    rule[1] = rule_choose(f, brdf, 0, target, &around_error);
+    rule[0] = f->step > 0 ? rule_choose(f, brdf, 1, target, &along_error) : &rules[0];
     *remainder = along_error + around_error;
     return 1;
 }
@@ -454,7 +458,8 @@ static int patch_pieces(const patch_frame *whole, const lrcs_brdf *brdf, int n, 
         patch->remainder += fraction * remainder;
         mean += fraction * middle;
     }
-    if (n < PIECES_MAX && patch->remainder > 4 * REMAINDER_TARGET * mean) {
+    if (n < PIECES_MAX && patch->remainder > 4 * REMAINDER_TARGET * mean &&
+        patch->remainder > whole->negligible) {
         return PIECES_COARSE;
     }
     int known = 1;
@@ -489,7 +494,8 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
     patch->diffuse_log *= f.area;
     patch->rounding *= 1.0001 * f.area;
     patch->remainder *= 1.0001 * f.area;
-    return patch->remainder <= REMAINDER_MAX * (patch->glint + patch->diffuse);
+    return patch->remainder <=
+           lrcsi_max(REMAINDER_MAX * (patch->glint + patch->diffuse), patch->negligible);
 }
 
 int lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcs_brdf *brdf,
@@ -498,7 +504,8 @@ int lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcs_
     const lrcs_scene *scene = view->prepared->scene;
     const uint32_t index = scene->facet_part[facet];
     const lrcs_part *part = &scene->part[index];
-    lrcsi_patch made = {.part = index, .side = view->facing[facet]};
+    lrcsi_patch made = {
+        .part = index, .side = view->facing[facet], .negligible = patch->negligible};
     if (!plan->patches || made.side == 0 || !lrcsi_patch_exists(view->prepared, facet) ||
         (brdf->A > 0 && !(brdf->s >= GLINT_SLOPE_MIN)) ||
         !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet,

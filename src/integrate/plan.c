@@ -113,6 +113,7 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
        holds only if they cast shadows, or in solid scenes. */
     plan.proximity_band = p->proximity.reach && (view->backs.cast || p->solid);
     plan.patches = p->curved;
+    plan.tolerance = options->tolerance;
     plan.glint = plan_term(options, LRCS_EFFECT_GLINT);
     plan.diffuse = plan_term(options, LRCS_EFFECT_DIFFUSE);
     plan.size = options->resolution != 0 ? options->resolution : FIRST_SIZE;

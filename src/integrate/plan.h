@@ -31,6 +31,7 @@ typedef struct lrcsi_plan {
     int proximity_band; /* differences in visibility between curved shapes and their facets are
                            bounded by a proximity band (visibility/proximity_band.h) */
     int patches;        /* facets of curved walls represent the true surface (integrate/patch.h) */
+    double tolerance;   /* lrcs_run_options.tolerance */
     int glint, diffuse; /* lrcsi_term */
 } lrcsi_plan;
 

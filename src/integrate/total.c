@@ -36,6 +36,9 @@
    lrcsi_incidence.projected (8 u), and a product. */
 #define AREA_ERROR (10 * LRCSI_U)
 
+/* The remainders of all patches together are to be at most this fraction of the tolerance. */
+#define REMAINDER_SHARE (1.0 / 32)
+
 /* Running sums, scaled. */
 typedef struct total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
@@ -736,6 +739,49 @@ static void add_tessellation_errors(total_run *run)
     }
 }
 
+/* The BRDF with a glint as wide as that of a facet of a curved wall: neighbouring facets differ by
+   up to its turn. */
+static lrcs_brdf brdf_widened(const lrcs_brdf *brdf, double turn)
+{
+    lrcs_brdf wide = *brdf;
+    double square = brdf->s * brdf->s + turn * turn;
+    if (brdf->A > 0 && square > 0) {
+        wide.A = brdf->A * (brdf->s * brdf->s / square);
+        wide.s = sqrt(square);
+    }
+    return wide;
+}
+
+/* The remainder that can be neglected in the mean over a patch: REMAINDER_SHARE of the tolerance,
+   divided among the patches by area. Where the glint is dim, or reaches only one end of a patch,
+   this saves most of the work. Sigma is estimated from the normals of facets. This is a choice
+   without a proof: the remainders are part of the bound, whatever they are. */
+static double negligible_remainder(const total_run *run)
+{
+    const lrcs_prepared *p = run->view->prepared;
+    const lrcsi_batches *b = &p->batches;
+    double sum = 0;   /* sigma / 4 pi */
+    double areas = 0; /* of facets with patches */
+    for (uint32_t at = 0; at < b->count; at++) {
+        uint32_t facet = b->facet[at];
+        double cosine = fabs(element_dot(b, at, run->view->unit));
+        if (!lrcsi_view_reflects(run->view, facet) || !(cosine > 0) ||
+            (run->visible && !area_may_be_visible(run, facet))) {
+            continue;
+        }
+        const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
+        int has_patch = lrcsi_patch_exists(p, facet);
+        lrcs_brdf brdf = lrcsi_plan_brdf(run->plan, lrcsi_prepared_material(p, facet));
+        brdf = brdf_widened(&brdf, has_patch ? part->curvature.turn : 0);
+        lrcsi_reflection f =
+            lrcsi_reflect(&brdf, (1 - cosine) * (1 + cosine) / (cosine * cosine), 0);
+        double visible = run->visible ? facet_area(run, facet) : b->area[at] * cosine;
+        sum += (f.glint + f.diffuse) * (visible / cosine);
+        areas += has_patch ? b->area[at] : 0;
+    }
+    return areas > 0 && isfinite(sum) ? REMAINDER_SHARE * run->plan->tolerance * sum / areas : 0;
+}
+
 /* Divides the sigma of a clear part among its facets that face the laser: each of its terms in
    proportion to that of the flat facets or, if they have none, to the projected areas. */
 static void record_shape(const total_run *run, const lrcs_part *part,
@@ -743,7 +789,7 @@ static void record_shape(const total_run *run, const lrcs_part *part,
 {
     lrcs_facet_record *records = run->records;
     lrcsi_shape_terms flat = {0, 0, 0, 0, 0};
-    lrcsi_patch patch = {.side = 0};
+    lrcsi_patch patch = {.negligible = run->patch.negligible};
     uint32_t end = part->first_facet + part->facet_count;
     for (uint32_t f = part->first_facet; f < end; f++) {
         lrcsi_incidence incidence = lrcsi_view_incidence(run->view, f);
@@ -856,6 +902,9 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                      .part_error = part_error};
     for (uint32_t i = 0; part_error && i < p->scene->part_count; i++) {
         part_error[i] = 0;
+    }
+    if (plan->patches) {
+        run.patch.negligible = negligible_remainder(&run);
     }
     if (records) {
         records_start(&run);

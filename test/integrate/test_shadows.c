@@ -55,6 +55,7 @@ static lrcs_result shadow_run(shadow_scene *s, uint32_t facets, const double d[3
     lrcs_build_options build = {1e-9, facets, LRCS_NORMALS_FLAT, 1, 0, NULL};
     lrcs_run_options run = lrcs_run_options_default();
     run.method = method;
+    run.tolerance = 1e-9; /* means over patches have a small remainder */
     run.resolution = method == LRCS_METHOD_ZBUFFER ? 300 : 0;
     lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
     lrcs_scene scene;
