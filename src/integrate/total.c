@@ -36,8 +36,9 @@
    lrcsi_incidence.projected (8 u), and a product. */
 #define AREA_ERROR (10 * LRCSI_U)
 
-/* The remainders of all patches together are to be at most this fraction of the tolerance. */
-#define REMAINDER_SHARE (1.0 / 32)
+/* The remainders of all patches together are to be at most this fraction of the tolerance: small,
+   so that bounds change little. */
+#define REMAINDER_SHARE 0x1p-10
 
 /* Running sums, scaled. */
 typedef struct total_sums {
