@@ -39,10 +39,13 @@ typedef struct lrcs_part {
     int solid;           /* a closed outward solid by construction, up to rounding */
     double thinnest;     /* m, smallest extent of such a shape; 0 for plate and disc */
     double misplaced;    /* m, bound on the rounding error of its placed vertices */
-    double tilted; /* rad, bound on the rotation of facet normals by rounding in placing, where
-                      reach > 0; included in curvature */
-    double reach;  /* m, bound on the distance of a point of the true surface from its image on
-                      the facets; 0 if the facets are the truth */
+    double tilted;    /* rad, bound on the rotation of facet normals by rounding in placing, where
+                         reach > 0; included in curvature */
+    double reach;     /* m, bound on the distance of a point of the true surface from its image on
+                         the facets; 0 if the facets are the truth */
+    double hausdorff; /* m, where reach > 0: bound on the distance of any point of the true solid
+                         (of an open shape, of the true surface) from the facets' solid (from the
+                         facets), and the reverse */
     double displaced[3]; /* m, of a rigid shape's curved wall: bounds on the radial, axial and
                             tangential components of that distance */
     int articulated;     /* has a joint */

@@ -51,7 +51,24 @@
    row, with v in -1 .. 1, (cos vh, sin vh) is mapped to kappa (1, v tan h): at a distance of at
    most max(1 - kappa, kappa - cos h) radially and max(h^3/6, (mu - 1) sin h) tangentially, times r.
    For a disc only the latter map applies. It preserves areas everywhere, so that it holds for any
-   division of the polygon into facets. */
+   division of the polygon into facets.
+
+   Hausdorff distances. Let z_i be the height of the true circle i, z_i' that of row i, and sigma
+   the largest distance between the meridian of a patch and its chord: R (1 - cos(d/2)) on a sphere;
+   on a paraboloid, where the meridian is at most H x^2 / 4 above its chord in a strip of width x R,
+   that times the cosine of the chord's inclination; 0 on straight walls. Meridian and chord are
+   within sigma of each other, since all tangents are inclined by less than 90 deg to the chord.
+   - Every cross-section of the facets' solid between two rows is a regular N-gon that contains the
+     circle interpolated between those of radius kappa rho_i at z_i' and kappa rho_(i+1) at
+     z_(i+1)'. So a point of a true patch is within sigma of a point of the chord, which is within
+     max over its two ends of |((1 - kappa) rho_i, z_i - z_i')| of the facets' solid. True circles
+     are within the same distance of their polygons, and so are caps.
+   - A vertex is at |((mu - 1) rho_i, z_i - z_i')| from the true circle. The distance from a convex
+     body is a convex function, so all points of the facets' solid are that close to the true one.
+   - A point of a facet is between kappa and mu times as far from the axis as the point of the chord
+     at the same fraction of the height: both are within
+     max over the two ends of |(max(1 - kappa, mu - 1) rho_i, z_i - z_i')|, and the chord is within
+     sigma of the true wall. The same holds in the other direction. */
 #include "mesh/profile.h"
 
 #include <math.h>
@@ -386,6 +403,18 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
         (k * c->bias + k * (g + G * E) * square) * outward, k * c->spread * sqrt(E) * outward};
 }
 
+/* How far the polygon's vertices are outside the unit circle, and the middles of its sides inside.
+ */
+static double outward_ratio(const lrcsi_profile *profile)
+{
+    return profile->vertex_ratio - 1.0 + SLACK;
+}
+
+static double inward_ratio(const lrcsi_profile *profile)
+{
+    return fmax(0.0, 1.0 - profile->vertex_ratio * cos(profile->half)) + SLACK;
+}
+
 /* How far points of the unit disc move when their sector is mapped to a triangle of the N-gon. */
 static lrcsi_reach sector_reach(const lrcsi_profile *profile)
 {
@@ -393,7 +422,8 @@ static lrcsi_reach sector_reach(const lrcsi_profile *profile)
     double kappa = profile->vertex_ratio * cos(h);
     double inward = fmax(1.0 - kappa, kappa - cos(h)) + SLACK;
     double tangential = fmax(h * h * h / 6.0, (profile->vertex_ratio - 1.0) * sin(h)) + SLACK;
-    return (lrcsi_reach){hypot(inward, tangential), inward, 0.0, tangential};
+    return (lrcsi_reach){
+        .all = hypot(inward, tangential), .radial = inward, .tangential = tangential};
 }
 
 /* True height of row i. */
@@ -434,6 +464,23 @@ static double strip_bulge(const lrcsi_profile *profile, uint32_t i)
     return fmin(whole, rise * rise * (apart + 3.0 * p) / (3.0 * (apart + p))); /* ignores a NaN */
 }
 
+/* The largest distance between the meridian of strip i and its chord. */
+static double strip_sagitta(const lrcsi_profile *profile, uint32_t i)
+{
+    if (profile_straight(profile)) {
+        return 0.0;
+    }
+    if (profile->kind != LRCS_SHAPE_PARABOLOID) {
+        double quarter = sin(0.25 * profile->step);
+        return 2.0 * profile->height * quarter * quarter;
+    }
+    double wide = profile_fraction(profile, i) - profile_fraction(profile, i + 1);
+    double rise = level_rise(profile, i);
+    double slant = hypot(wide * profile->base, rise);
+    double above = 0.25 * profile->height * wide * wide;
+    return slant > 0.0 ? above * (wide * profile->base / slant) : above;
+}
+
 /* How far points of strip i move, if its rows differ from their true heights by at most
    height_err. */
 static lrcsi_reach strip_reach(const lrcsi_profile *profile, uint32_t i, double height_err)
@@ -456,16 +503,23 @@ static lrcsi_reach strip_reach(const lrcsi_profile *profile, uint32_t i, double 
     }
     double rise = profile_height(profile, i + 1) - profile_height(profile, i);
     double wide = fmax(below, above);
-    lrcsi_reach reach = {0.0, wide * sector.radial + out, height_err + fmin(1.0, fraction) * rise,
-                         wide * sector.tangential + out * sin(profile->half)};
+    double sagitta = strip_sagitta(profile, i);
+    lrcsi_reach reach = {.radial = wide * sector.radial + out,
+                         .axial = height_err + fmin(1.0, fraction) * rise,
+                         .tangential = wide * sector.tangential + out * sin(profile->half)};
     reach.all = hypot(wide * sector.all + out, reach.axial);
+    reach.solid = fmax(hypot(wide * outward_ratio(profile), height_err),
+                       sagitta + hypot(wide * inward_ratio(profile), height_err));
+    reach.surface =
+        sagitta + hypot(wide * fmax(outward_ratio(profile), inward_ratio(profile)), height_err);
     return reach;
 }
 
 lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile)
 {
     double wide = fmax(profile->base, profile->top);
-    lrcsi_reach bound = {wide * sector_reach(profile).all, 0.0, 0.0, 0.0};
+    lrcsi_reach bound = {.all = wide * sector_reach(profile).all,
+                         .solid = wide * fmax(outward_ratio(profile), inward_ratio(profile))};
     double z = 0.0;
     double height_err = 0.0;
     for (uint32_t i = 0; i < profile->strips; i++) {
@@ -477,9 +531,15 @@ lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile)
         bound.radial = fmax(bound.radial, strip.radial);
         bound.axial = fmax(bound.axial, strip.axial);
         bound.tangential = fmax(bound.tangential, strip.tangential);
+        bound.solid = fmax(bound.solid, strip.solid);
+        bound.surface = fmax(bound.surface, strip.surface);
     }
+    bound.surface = fmax(bound.surface, bound.solid);
     double rounding = (32.0 + 2.0 * (double)profile->strips) * LRCSI_U * (wide + profile->height);
-    return (lrcsi_reach){
-        bound.all * REACH_MARGIN + rounding, bound.radial * REACH_MARGIN + rounding,
-        bound.axial * REACH_MARGIN + rounding, bound.tangential * REACH_MARGIN + rounding};
+    return (lrcsi_reach){.all = bound.all * REACH_MARGIN + rounding,
+                         .radial = bound.radial * REACH_MARGIN + rounding,
+                         .axial = bound.axial * REACH_MARGIN + rounding,
+                         .tangential = bound.tangential * REACH_MARGIN + rounding,
+                         .solid = bound.solid * REACH_MARGIN + rounding,
+                         .surface = bound.surface * REACH_MARGIN + rounding};
 }

@@ -46,14 +46,19 @@ lrcs_curvature lrcsi_profile_rounded(const lrcs_curvature *curvature, double rou
 lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *curvature, double ratio,
                                        double *uneven);
 
-/* Upper bounds of how far, m, a map of the true surface onto the facets moves points. The map takes
-   every facet's patch to it, and stretches area evenly over a facet (before any
-   lrcsi_profile_stretched). */
+/* Upper bounds of distances, m. The first four: how far a map of the true surface onto the facets
+   moves points. The map takes every facet's patch to it, and stretches area evenly over a facet
+   (before any lrcsi_profile_stretched). The others are Hausdorff distances: how far any point of
+   either set is from the nearest point of the other. */
 typedef struct lrcsi_reach {
     double all;    /* any point, caps included */
     double radial; /* points of the wall: from or towards the axis in the sector's middle plane */
     double axial;  /* along the axis */
     double tangential; /* perpendicular to the middle plane */
+    double solid;      /* between the true solid and the one that the facets enclose; of a disc,
+                          between it and its polygon */
+    double surface;    /* between the true wall and its facets, and between the circles at the ends
+                          of the wall and the polygons there */
 } lrcsi_reach;
 lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile);
 

@@ -395,7 +395,7 @@ lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_di
 lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions)
 {
     if (shape_is_plane_faced(shape)) {
-        return (lrcsi_reach){0.0, 0.0, 0.0, 0.0};
+        return (lrcsi_reach){.all = 0.0};
     }
     lrcsi_profile profile = lrcsi_profile_make(shape, divisions);
     return lrcsi_profile_reach(&profile);

@@ -145,15 +145,18 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     if (!plane && !part->rigid && part->curvature_known) {
         part->curvature = lrcsi_profile_stretched(curvature, condition, &part->uneven);
     }
+    part->convex_patch = 1;
+    part->thinnest = smallest * smallest_extent(shape);
+    part->solid = is_closed(shape) && part->thinnest > 0.0;
     if (reach.all > 0.0) {
         double scaled = 1.000001 * stretch;
         double placed = 2.0 * part->misplaced;
         part->reach = scaled * reach.all + placed;
+        part->hausdorff =
+            scaled * (part->solid || shape->kind == LRCS_SHAPE_DISC ? reach.solid : reach.surface) +
+            placed;
         part->displaced[0] = scaled * reach.radial + placed;
         part->displaced[1] = scaled * reach.axial + placed;
         part->displaced[2] = scaled * reach.tangential + placed;
     }
-    part->convex_patch = 1;
-    part->thinnest = smallest * smallest_extent(shape);
-    part->solid = is_closed(shape) && part->thinnest > 0.0;
 }

@@ -66,8 +66,9 @@ typedef struct lrcsi_proximity_pair {
 typedef struct lrcsi_proximity {
     double *reach; /* part: lrcs_part.reach, scaled; NULL if there is no curved shape among other
                       parts, or if the curvature of some part is not known */
+    double *hausdorff;   /* part: lrcs_part.hausdorff, scaled */
     double *grazing_cos; /* part: rounding cannot reverse a facet with |cos(theta)| above this */
-    double max_reach;
+    double max_hausdorff;
     lrcsi_proximity_pair *pair; /* in no order */
     size_t count;
 } lrcsi_proximity;

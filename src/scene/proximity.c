@@ -42,7 +42,7 @@ static int part_is_open(const lrcs_prepared *p, uint32_t part)
 double lrcsi_proximity_slack(const lrcs_prepared *p, uint32_t part, uint32_t other)
 {
     double own = p->proximity.reach[part];
-    double theirs = p->proximity.reach[other];
+    double theirs = p->proximity.hausdorff[other];
     if (own == 0 && theirs == 0) {
         return 0;
     }
@@ -52,7 +52,7 @@ double lrcsi_proximity_slack(const lrcs_prepared *p, uint32_t part, uint32_t oth
 double lrcsi_proximity_slack_across(const lrcs_prepared *p, uint32_t part, uint32_t other,
                                     double lateral)
 {
-    double theirs = p->proximity.reach[other];
+    double theirs = p->proximity.hausdorff[other];
     double slack = lrcsi_proximity_slack(p, part, other);
     return slack == 0 || (theirs > 0 && part_is_open(p, other))
                ? slack
@@ -233,7 +233,8 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tr
 {
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
-    double within = 2 * (p->proximity.reach[part] + p->proximity.max_reach) + LRCSI_PROXIMITY_ERR;
+    double within =
+        2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR;
     lrcsi_box box = lrcsi_box_of(p->vertex, &scene->facet[facet]);
     for (int k = 0; k < 3; k++) {
         box.low[k] -= within;
@@ -299,17 +300,18 @@ static int parts_known(const lrcs_prepared *p)
     return 1;
 }
 
-/* Fills reach, max_reach and grazing_cos. A facet of a convex part whose vertices have errors of at
-   most vertex_err faces the same side as without these errors, and keeps its depth order among the
-   part's facets, if |cos(theta)| exceeds GRAZING_FACTOR vertex_err divided by its smallest altitude
-   (scene/solid.c). */
+/* Fills reach, hausdorff, max_hausdorff and grazing_cos. A facet of a convex part whose vertices
+   have errors of at most vertex_err faces the same side as without these errors, and keeps its
+   depth order among the part's facets, if |cos(theta)| exceeds GRAZING_FACTOR vertex_err divided by
+   its smallest altitude (scene/solid.c). */
 static void parts_fill(lrcs_prepared *p)
 {
     lrcsi_proximity *proximity = &p->proximity;
     const lrcs_scene *scene = p->scene;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         proximity->reach[i] = ldexp(scene->part[i].reach, -p->exponent);
-        proximity->max_reach = lrcsi_max(proximity->max_reach, proximity->reach[i]);
+        proximity->hausdorff[i] = ldexp(scene->part[i].hausdorff, -p->exponent);
+        proximity->max_hausdorff = lrcsi_max(proximity->max_hausdorff, proximity->hausdorff[i]);
         proximity->grazing_cos[i] = 0;
     }
     for (uint32_t f = 0; f < scene->facet_count; f++) {
@@ -331,7 +333,7 @@ size_t lrcsi_proximity_need(const lrcs_scene *scene)
         if (scene->part[i].reach > 0) {
             need =
                 lrcsi_work_bytes(4 * (size_t)scene->facet_count + 64, sizeof(lrcsi_proximity_pair));
-            need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(scene->part_count, sizeof(double)));
+            need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(scene->part_count, sizeof(double)));
         }
     }
     return need;
@@ -343,9 +345,11 @@ int lrcsi_proximity_make(lrcs_prepared *p, lrcs_work *work)
         return LRCS_OK;
     }
     p->proximity.reach = lrcsi_work_take(work, p->scene->part_count, sizeof *p->proximity.reach);
+    p->proximity.hausdorff =
+        lrcsi_work_take(work, p->scene->part_count, sizeof *p->proximity.hausdorff);
     p->proximity.grazing_cos =
         lrcsi_work_take(work, p->scene->part_count, sizeof *p->proximity.grazing_cos);
-    if (!p->proximity.reach || !p->proximity.grazing_cos) {
+    if (!p->proximity.reach || !p->proximity.hausdorff || !p->proximity.grazing_cos) {
         return LRCS_E_MEMORY;
     }
     parts_fill(p);

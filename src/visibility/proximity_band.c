@@ -355,7 +355,7 @@ static edge_search search_make(const band_job *job, uint32_t facet)
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     const uint32_t *corner = p->scene->facet[facet].corner;
-    double near = 2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.max_reach) +
+    double near = 2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.max_hausdorff) +
                   LRCSI_PROXIMITY_ERR;
     double wide = near + facet_err(job, facet);
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,

@@ -12,9 +12,15 @@
      S        the part's facets; a map takes W onto S
      e        the part's reach (lrcs_part.reach): the map moves no point by more than e. For plates,
               boxes and models e = 0, and W is S
+     k        the part's Hausdorff distance (lrcs_part.hausdorff). If the part is closed or flat: every
+              point of B is within k of the solid that S encloses (or of S, if it is flat), and every
+              point of that is within k of B. If it is open: every point of W is within k of S, every
+              point of S is within k of W, and every rim of W is within k of an event edge of S. For
+              plates, boxes and models k = 0. It is smaller than e, because nearest points need not
+              preserve areas
      x, y     a point of the true surface of P, and its image on a facet of P
-     r        the slack of P and Q (lrcsi_proximity_slack), at least e_P + e_Q, and if Q is open at
-              least e_Q + max(e_P, e_Q)
+     r        the slack of P and Q (lrcsi_proximity_slack), at least e_P + k_Q, and if Q is open at
+              least k_Q + max(e_P, k_Q)
      V        all points of B and behind B; V is convex
      upper, lower side of B: the points where lines along d leave B, and where they enter it; in
               projection their heights are a concave and a convex function
@@ -30,37 +36,39 @@
       ray crosses an event edge, (2). In (1), facets of a closed Q that face away from the laser
       need not be counted: where z crosses one, it enters or leaves the inside of Q, and on either
       side of it the ray of z meets a facet that faces the laser.
-   b. If they hide no z, Q does not hide x: if a point of W hid x, its image on S, which is within
-      e_Q of it, would hide a point within e_Q of x, and that point is in the ball.
-   c. If they hide all z and e_Q = 0, Q hides x: W is S, and x is in the ball.
-   d. If they hide all z and e_Q > 0, every z lies within e_Q of V. Since V is convex, the ball of
-      radius r - e_Q about y lies in V, and x is in that ball. So the ray of x meets B, and leaves
+   b. If they hide no z, Q does not hide x: if a point of W hid x, a point s within k_Q of it would
+      hide a point z within k_Q of x, and z is in the ball. If Q is open or flat, s is a point of S.
+      If Q is closed, s is a point of the solid that S encloses: a ray that reaches s from below
+      leaves that solid at s or above, through S, so that S hides z.
+   c. If they hide all z and k_Q = 0, Q hides x: W is S, and x is in the ball.
+   d. If they hide all z and k_Q > 0, every z lies within k_Q of V. Since V is convex, the ball of
+      radius r - k_Q about y lies in V, and x is in that ball. So the ray of x meets B, and leaves
       it at a point u. Q hides x, unless all points of the boundary of B on the ray lie in openings.
-   e. In that remaining case (1) or (2) holds. Let m = max(e_P, e_Q), s a point of S that hides the
-      highest z, and w the point of W whose image is s: in projection w is within e_Q of y, and it
-      is higher than y by at least r - e_Q. Follow the boundary of B from the line through x along
-      d to w, straight in projection. In projection this path stays within m of y.
+   e. In that remaining case (1) or (2) holds. Let m = max(e_P, k_Q), s a point of S that hides the
+      highest z, and w a point of W within k_Q of s: in projection w is within k_Q of y, and it is
+      higher than y by at least r - k_Q. Follow the boundary of B from the line through x along d
+      to w, straight in projection. In projection this path stays within m of y.
       - If w is on the upper side, follow that side from u. The path crosses a rim, because u is in
         an opening and w is not. Both ends are higher than y - e_P, and the upper side is concave:
         so the rim point is higher than y - e_P as well.
       - Otherwise follow the lower side, and at its end a wall parallel to d if w is on one. From
         some point on, the path stays on W. If that point is lower than y, the path passes the
-        height of y after it, on W and within m of y. The image of a point of W within m of y is
-        within m + e_Q <= r of y, so (1) holds. If that point is not lower than y, it is a rim
+        height of y after it, on W and within m of y. Next to a point of W within m of y is a point
+        of S within m + k_Q <= r of y, so (1) holds. If that point is not lower than y, it is a rim
         point, or it is the start of the path, on W. Such a start is below x, because no point of
         W is on the ray of x; so it is within e_P of y, and (1) holds again.
-      The image of the rim point lies on an event edge, within m + e_Q <= r of y in projection and
-      not 2 r behind y: (2) holds. []
+      The event edge within k_Q of the rim point is within m + k_Q <= r of y in projection and not
+      2 r behind y: (2) holds. []
 
    2. Distance in projection. In the distance of (2) from y, a bound on the component of x - y
-   perpendicular to d may replace e_P, unless Q is open and e_Q > 0. On the curved wall of a shape
+   perpendicular to d may replace e_P, unless Q is open and k_Q > 0. On the curved wall of a shape
    that is placed without distortion, the map moves points by known distances from or towards the
    axis, along it, and tangentially (lrcs_part.displaced). The bound is the sum of the three, of
    which the first two are multiplied by the sines of the angles between these directions and d.
-   Proof: it suffices to take for z the points x + v, |v| <= e_Q, and the straight paths from y to
-   them. In b, the image of the point that hides x hides one of these z. In c, x is one of them. In
-   d, if S hides all of them, the ball of radius e_Q about x lies within e_Q of V; so x lies in V,
-   and Q, without openings, hides x. []
+   Proof: it suffices to take for z the points x + v, |v| <= k_Q, and the straight paths from y to
+   them. In b, the point s hides one of these z. In c, x is one of them. In d, if S hides all of
+   them, the ball of radius k_Q about x lies within k_Q of V; so x lies in V, and Q, without
+   openings, hides x. []
 
    3. Gain and loss. An event edge is near if (2) holds for it. It is one-sided if all facets of Q
    on it lie on the same side of it in projection, its inner side; the other side is its outer side.
@@ -70,7 +78,7 @@
    inner to its outer side. It crosses the line of an edge at most once.
    - Loss: Q hides x, but its facets do not hide y. Then (1) holds, or a near edge is not one-sided,
      or y is on the outer side of a near edge. Proof: n rises from 0 on the path to the z of b.
-   - Gain: the facets of Q hide y, but Q does not hide x. If Q is not open or e_Q = 0, (1) holds, or
+   - Gain: the facets of Q hide y, but Q does not hide x. If Q is not open or k_Q = 0, (1) holds, or
      a near edge is not one-sided, or y is on the inner side of a near edge. Proof: otherwise n
      never falls to 0, so S hides all z, and Q hides x. The same is true if Q has one opening and x
      is not in B: the ray of x enters B and leaves it, and passes the opening only once. For any

@@ -481,7 +481,7 @@ static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along
         lrcsi_tessellate_reach(shape, &(lrcs_divisions){around, along, level_rings});
     double h = pi / around;
     double swell = sqrt(2.0 * h / sin(2.0 * h));
-    lrcsi_reach seen = {0.0, 0.0, 0.0, 0.0};
+    lrcsi_reach seen = {.all = 0.0};
     for (uint32_t i = 0; i < along; i++) {
         const double *low = mesh.vertex[i * around].x;
         const double *high = mesh.vertex[(i + 1) * around].x;
@@ -533,6 +533,142 @@ static void reach_bounds_how_far_the_map_onto_facets_moves_points(void **state)
         check_reach(&shapes[i / 2], 16, along, i % 2);
         check_reach(&shapes[i / 2], 64, along * along, i % 2);
         check_reach(&shapes[i / 2], 400, along, i % 2);
+    }
+}
+
+/* The distance of a point from a triangle: from its plane, if the point is above it, else from the
+   nearest side. */
+static double triangle_distance(const double p[3], const lrcs_mesh *mesh, uint32_t facet)
+{
+    double n[3];
+    double off[3];
+    double best = HUGE_VAL;
+    int above = 1;
+    facet_vector(mesh, facet, n);
+    for (int k = 0; k < 3; k++) {
+        double side[3];
+        double inward[3];
+        minus(corner(mesh, facet, k + 1), corner(mesh, facet, k), side);
+        minus(p, corner(mesh, facet, k), off);
+        cross(n, side, inward);
+        above &= dot(inward, off) >= 0.0;
+        double t = fmin(1.0, fmax(0.0, dot(side, off) / dot(side, side)));
+        const double rest[3] = {off[0] - t * side[0], off[1] - t * side[1], off[2] - t * side[2]};
+        best = fmin(best, sqrt(dot(rest, rest)));
+    }
+    return above ? fabs(dot(n, off)) / sqrt(dot(n, n)) : best;
+}
+
+/* The distance of the point at radius r and height z from the true meridian within one strip, by a
+   search for the nearest fraction of its area. */
+static double meridian_distance(const lrcs_shape *shape, double lower, double upper, double r,
+                                double z)
+{
+    double at = 0.0;
+    double best = HUGE_VAL;
+    double step = 0.5;
+    for (int round = 0; round < 40; round++) {
+        double middle = round == 0 ? 0.5 : at;
+        for (int k = -4; k <= 4; k++) {
+            double fraction = fmin(1.0, fmax(0.0, middle + 0.25 * k * step));
+            double rho;
+            double height;
+            true_point(shape, lower, upper, fraction, &rho, &height);
+            double distance = hypot(r - rho, z - height);
+            if (distance < best) {
+                best = distance;
+                at = fraction;
+            }
+        }
+        step *= 0.5;
+    }
+    return best;
+}
+
+/* Both Hausdorff distances, by distances of points of each surface from the other. Points of a
+   patch are compared with the facets of the same sector, in its own strip and the next ones. */
+static void check_hausdorff(const lrcs_shape *shape, uint32_t around, uint32_t along,
+                            int level_rings)
+{
+    enum { STEPS = 7 };
+    lrcs_mesh mesh = make_rings(shape, around, along, level_rings, NULL);
+    lrcsi_reach reach =
+        lrcsi_tessellate_reach(shape, &(lrcs_divisions){around, along, level_rings});
+    double h = pi / around;
+    double swell = sqrt(2.0 * h / sin(2.0 * h));
+    double solid = 0.0;
+    double surface = 0.0;
+    int has_apex = shape->kind != LRCS_SHAPE_FRUSTUM;
+    for (uint32_t i = 0; i < along; i++) {
+        int apex = i + 1 == along && has_apex;
+        const double *low = mesh.vertex[i * around].x;
+        const double *high = mesh.vertex[(i + 1) * around].x;
+        double lower = low[0] / swell;
+        double upper = apex ? 0.0 : high[0] / swell;
+        for (int j = 0; j < STEPS * STEPS; j++) {
+            double fraction = (double)(j / STEPS) / (STEPS - 1);
+            double angle = h + h * (2.0 * (j % STEPS) / (STEPS - 1.0) - 1.0); /* sector 0 */
+            double r;
+            double z;
+            true_point(shape, lower, upper, fraction, &r, &z);
+            const double p[3] = {r * cos(angle), r * sin(angle), z};
+            double nearest = HUGE_VAL;
+            int outside = 0;
+            for (uint32_t strip = i > 0 ? i - 1 : 0; strip < along && strip <= i + 1; strip++) {
+                uint32_t per = strip + 1 == along && has_apex ? 1 : 2;
+                for (uint32_t f = 2 * around * strip; f < 2 * around * strip + per; f++) {
+                    nearest = fmin(nearest, triangle_distance(p, &mesh, f));
+                    double n[3];
+                    double off[3];
+                    facet_vector(&mesh, f, n);
+                    minus(p, corner(&mesh, f, 0), off);
+                    outside |= dot(n, off) > 0.0;
+                }
+            }
+            surface = fmax(surface, nearest);
+            solid = outside ? fmax(solid, nearest) : solid;
+            /* the same fractions of a facet */
+            double width = swell * (lower + fraction * (upper - lower));
+            double side = tan(angle - h) / tan(h);
+            double x = width * hypot(cos(h), side * sin(h));
+            double height = low[2] + fraction * (high[2] - low[2]);
+            double distance = HUGE_VAL;
+            for (uint32_t strip = i > 0 ? i - 1 : 0; strip < along && strip <= i + 1; strip++) {
+                int end = strip + 1 == along && has_apex;
+                double from = mesh.vertex[strip * around].x[0] / swell;
+                double to = end ? 0.0 : mesh.vertex[(strip + 1) * around].x[0] / swell;
+                distance = fmin(distance, meridian_distance(shape, from, to, x, height));
+            }
+            surface = fmax(surface, distance);
+            true_point(shape, lower, upper, 1.0, &r, &z);
+            solid = x > lower ? fmax(solid, distance) : solid; /* surely outside */
+        }
+    }
+    check_most(surface, reach.surface);
+    check_most(solid, reach.solid);
+    check_most(reach.surface, 3.0 * surface + 1e-12); /* and they are not idle */
+    check_most(reach.solid, 3.0 * solid + 1e-12);
+    check_most(reach.solid, reach.surface);
+}
+
+static void hausdorff_distances_bound_how_far_the_surfaces_are_from_each_other(void **state)
+{
+    (void)state;
+    const lrcs_shape shapes[] = {
+        {.kind = LRCS_SHAPE_DOME, .radius = 2, .parts = LRCS_SHAPE_WALL},
+        {.kind = LRCS_SHAPE_PARABOLOID, .radius = 1, .length = 1.5, .parts = LRCS_SHAPE_WALL},
+        {.kind = LRCS_SHAPE_PARABOLOID, .radius = 1, .length = 0.1, .parts = LRCS_SHAPE_WALL},
+        {.kind = LRCS_SHAPE_CONE, .radius = 1, .length = 2, .parts = LRCS_SHAPE_WALL},
+        {.kind = LRCS_SHAPE_FRUSTUM,
+         .radius = 0.5,
+         .radius2 = 1,
+         .length = 0.7,
+         .parts = LRCS_SHAPE_WALL}};
+    for (int i = 0; i < 5 * 2; i++) {
+        int is_round = i / 2 < 3;
+        check_hausdorff(&shapes[i / 2], 16, is_round ? 5 : 1, i % 2);
+        check_hausdorff(&shapes[i / 2], 64, is_round ? 20 : 1, i % 2);
+        check_hausdorff(&shapes[i / 2], 400, is_round ? 10 : 1, i % 2);
     }
 }
 
@@ -698,6 +834,7 @@ int main(void)
         cmocka_unit_test(plane_faced_bodies_and_discs_have_no_curvature),
         cmocka_unit_test(curvature_bounds_every_patch_and_is_nearly_reached),
         cmocka_unit_test(reach_bounds_how_far_the_map_onto_facets_moves_points),
+        cmocka_unit_test(hausdorff_distances_bound_how_far_the_surfaces_are_from_each_other),
         cmocka_unit_test(level_rings_are_closer_to_the_true_surface),
         cmocka_unit_test(no_dimension_at_all_makes_a_mesh_of_no_area),
         cmocka_unit_test(extreme_dimensions_stay_finite),
