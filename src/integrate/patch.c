@@ -334,8 +334,10 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double s
     weight *= nu;
     patch->glint += weight * at.glint;
     patch->diffuse += weight * at.diffuse;
-    patch->glint_u += weight * at.glint * u;
-    patch->diffuse_log += weight * at.diffuse * log1p(u);
+    if (patch->moments) {
+        patch->glint_u += weight * at.glint * u;
+        patch->diffuse_log += weight * at.diffuse * lrcsi_log1p(u).hi;
+    }
     patch->rounding += weight * (1 + nu_err) *
                        (at.error + at.glint * (glint_err + glint_err * glint_err + nu_err) +
                         at.diffuse * (diffuse_err + diffuse_err * diffuse_err + nu_err));
@@ -504,8 +506,10 @@ int lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcs_
     const lrcs_scene *scene = view->prepared->scene;
     const uint32_t index = scene->facet_part[facet];
     const lrcs_part *part = &scene->part[index];
-    lrcsi_patch made = {
-        .part = index, .side = view->facing[facet], .negligible = patch->negligible};
+    lrcsi_patch made = {.part = index,
+                        .side = view->facing[facet],
+                        .negligible = patch->negligible,
+                        .moments = patch->moments};
     if (!plan->patches || made.side == 0 || !lrcsi_patch_exists(view->prepared, facet) ||
         (brdf->A > 0 && !(brdf->s >= GLINT_SLOPE_MIN)) ||
         !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet,

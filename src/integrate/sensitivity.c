@@ -100,7 +100,7 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_scene *scene = p->scene;
-    lrcsi_patch patch[2] = {{.side = 0}, {.side = 0}};
+    lrcsi_patch patch[2] = {{.moments = 1}, {.moments = 1}};
     memset(response, 0, scene->material_count * sizeof *response);
     for (uint32_t f = 0; f < scene->facet_count; f++) { /* 1. facets */
         int in_clear_shape = clear->count > 0 && clear->part[scene->facet_part[f]];
