@@ -12,11 +12,14 @@
 #include "base/work.h"
 #include "mesh/slice.h"
 #include "scene/proximity.h"
+#include "visibility/outline.h"
 
 /* Errors of positions computed here, as a multiple of the error of view coordinates. */
 #define ERR_MARGIN 8.0
 /* More than the rounding error of a facet's cosine. */
 #define COS_MARGIN 1e-9
+/* The projected areas of facets with a larger cosine than this are accurate to COS_MARGIN. */
+#define COS_MIN 1e-4
 /* The number of cells of the grid for each event edge: the many short edges of a rim lie in few
    cells. */
 #define EVENT_CELLS 4u
@@ -36,11 +39,14 @@ typedef struct band_job {
     uint32_t *edge, *part; /* event: its topology edge, its part */
     signed char *side;     /* event: on which side of it, from low to high, the part's facets lie: 1
                               left, -1 right, 0 both or not known */
-    uint32_t *seen;        /* event: 1 + the last facet for which it was considered */
+    lrcsi_lens *lens; /* event: the areas along it between the outlines of the true shape and of
+                         its facets; gain < 0: not computed yet */
+    uint32_t *seen;   /* event: 1 + the last facet for which it was considered */
     uint32_t count;
     lrcsi_grid grid;
-    band_box *box;   /* part: that of its facets in the view */
-    band_box curved; /* of all facets of curved parts */
+    band_box *box;          /* part: that of its facets in the view */
+    lrcsi_outline *outline; /* part */
+    band_box curved;        /* of all facets of curved parts */
 } band_job;
 
 static uint32_t band_part(const band_job *job, uint32_t facet)
@@ -104,9 +110,13 @@ static int band_events(band_job *job, lrcs_work *work)
     uint32_t *edge = lrcsi_work_take(work, job->count, sizeof *edge);
     job->part = lrcsi_work_take(work, job->count, sizeof *job->part);
     job->side = lrcsi_work_take(work, job->count, sizeof *job->side);
+    job->lens = lrcsi_work_take(work, job->count, sizeof *job->lens);
     job->seen = lrcsi_work_take_zero(work, job->count, sizeof *job->seen);
-    if (!edge || !job->part || !job->side || !job->seen) {
+    if (!edge || !job->part || !job->side || !job->lens || !job->seen) {
         return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < job->count; i++) {
+        job->lens[i].gain = -1;
     }
     job->edge = edge;
     list_events(job);
@@ -397,6 +407,44 @@ static int gain_is_inside(const band_job *job, const edge_search *search, uint32
     return openings == 0 || (openings == 1 && apart);
 }
 
+/* --- flat facets behind a shape --------------------------------------------------------------- */
+
+/* Is a facet flat, and a part in front of its plane? *err: as for lrcsi_outline_in_front. */
+static int part_in_front(const band_job *job, uint32_t facet, uint32_t part, double *err)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    int is_flat =
+        p->scene->facet_smooth[facet] == 0 || p->proximity.reach[band_part(job, facet)] == 0;
+    return is_flat && job->outline[part].known &&
+           lrcsi_outline_in_front(&job->outline[part], job->view, facet, err);
+}
+
+/* The largest fractions of a facet that can be gained and lost along an event edge; infinite if
+   nothing is known. */
+static void outline_fractions(band_job *job, uint32_t facet, uint32_t event, double lateral,
+                              double *gain, double *loss)
+{
+    const lrcsi_view *view = job->view;
+    const lrcsi_edge *edge = &view->prepared->topology.edge[job->edge[event]];
+    const lrcsi_outline *outline = &job->outline[job->part[event]];
+    double projected = lrcsi_view_projected(view, facet);
+    double whole = 0.5 * view->prepared->normal[facet].length;
+    double err;
+    *gain = *loss = HUGE_VAL;
+    if (job->side[event] == 0 || !(projected > COS_MIN * whole) ||
+        !part_in_front(job, facet, job->part[event], &err) || !(lateral + err <= outline->k)) {
+        return;
+    }
+    lrcsi_lens *lens = &job->lens[event];
+    if (lens->gain < 0) {
+        *lens = lrcsi_outline_lens(outline, view->point[edge->low].x, view->point[edge->high].x,
+                                   job->side[event]);
+    }
+    double wider = lens->width * (lateral + err);
+    *gain = (lens->gain + wider) / projected * (1 + COS_MARGIN);
+    *loss = (lens->loss + wider) / projected * (1 + COS_MARGIN);
+}
+
 /* Adds the fractions of area and of rows near an event edge. */
 static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search *search)
 {
@@ -436,12 +484,17 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
     lrcsi_slice outer = edge_half(slice, &box, -side);
     lrcsi_slice inner = edge_half(slice, &box, side);
     double fraction = lrcsi_slice_fraction(&slice, whole, longest);
+    double gain = gain_is_inside(job, search, job->part[event])
+                      ? lrcsi_slice_fraction(&inner, whole, longest)
+                      : fraction;
+    double loss = lrcsi_slice_fraction(&outer, whole, longest);
+    double gain_max;
+    double loss_max;
+    outline_fractions(job, facet, event, search->lateral, &gain_max, &loss_max);
     job->parts[facet] |= part;
-    job->mismatch[facet] += fraction;
-    job->loss[facet] += lrcsi_slice_fraction(&outer, whole, longest);
-    job->gain[facet] += gain_is_inside(job, search, job->part[event])
-                            ? lrcsi_slice_fraction(&inner, whole, longest)
-                            : fraction;
+    job->mismatch[facet] += lrcsi_min(fraction, gain_max + loss_max);
+    job->loss[facet] += lrcsi_min(loss, loss_max);
+    job->gain[facet] += lrcsi_min(gain, gain_max);
 }
 
 /* Adds the fractions near all event edges, or the whole facet if the limit of steps is reached. */
@@ -501,7 +554,8 @@ static void facet_fractions(band_job *job, uint32_t facet)
 /* --- all facets ------------------------------------------------------------------------------- */
 
 /* Adds the fractions near facets of other parts. Facets seen edge-on hide nothing, and the back
-   sides of a closed part hide nothing that its front sides do not hide. */
+   sides of a closed part hide nothing that its front sides do not hide. The depth order of a flat
+   facet and a part in front of its plane is certain. */
 static void add_pairs(band_job *job)
 {
     const lrcsi_view *view = job->view;
@@ -510,7 +564,9 @@ static void add_pairs(band_job *job)
         const lrcsi_proximity_pair *pair = &p->proximity.pair[i];
         int facing = view->facing[pair->other];
         int shut = p->solid || lrcsi_proximity_closed(p, band_part(job, pair->other));
-        if (facing > 0 || (facing < 0 && !shut)) {
+        double err;
+        if ((facing > 0 || (facing < 0 && !shut)) &&
+            !part_in_front(job, pair->facet, band_part(job, pair->other), &err)) {
             add_both(job, pair->facet, (double)pair->area_fraction,
                      lrcsi_part_set_of(band_part(job, pair->other)));
             job->rows[pair->facet] += (double)pair->row_fraction;
@@ -695,7 +751,9 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, 1));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_lens)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(band_box)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_outline)));
     return lrcsi_work_add(need, lrcsi_grid_need(EVENT_CELLS * edges, 8 * edges));
 }
 
@@ -703,9 +761,14 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
 static int all_fractions(band_job *job, lrcs_work *work)
 {
     size_t mark = work->used;
-    job->box = lrcsi_work_take(work, job->view->prepared->scene->part_count, sizeof *job->box);
-    int status = job->box ? band_events(job, work) : LRCS_E_MEMORY;
+    uint32_t parts = job->view->prepared->scene->part_count;
+    job->box = lrcsi_work_take(work, parts, sizeof *job->box);
+    job->outline = lrcsi_work_take(work, parts, sizeof *job->outline);
+    int status = job->box && job->outline ? band_events(job, work) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
+        for (uint32_t i = 0; i < parts; i++) {
+            job->outline[i] = lrcsi_outline_make(job->view, i);
+        }
         add_pairs(job);
         band_boxes(job);
         for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {

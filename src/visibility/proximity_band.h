@@ -12,10 +12,10 @@
      S        the part's facets; a map takes W onto S
      e        the part's reach (lrcs_part.reach): the map moves no point by more than e. For plates,
               boxes and models e = 0, and W is S
-     k        the part's Hausdorff distance (lrcs_part.hausdorff). If the part is closed or flat: every
-              point of B is within k of the solid that S encloses (or of S, if it is flat), and every
-              point of that is within k of B. If it is open: every point of W is within k of S, every
-              point of S is within k of W, and every rim of W is within k of an event edge of S. For
+     k        the part's Hausdorff distance (lrcs_part.hausdorff). If the part is closed or flat:
+   every point of B is within k of the solid that S encloses (or of S, if it is flat), and every
+              point of that is within k of B. If it is open: every point of W is within k of S,
+   every point of S is within k of W, and every rim of W is within k of an event edge of S. For
               plates, boxes and models k = 0. It is smaller than e, because nearest points need not
               preserve areas
      x, y     a point of the true surface of P, and its image on a facet of P
@@ -108,7 +108,14 @@
    8. Rows. A row of a facet on a straight wall (scene/proximity.h) that meets no band is visible
    over its whole length or nowhere, for the facets and for the true shapes. For the facets: along
    the row, what other parts hide changes only where (1) or (2) holds, and what its own part hides,
-   seen from inside, only at a rim as in 4. For the true shapes: by 1, at each of its points. */
+   seen from inside, only at a rim as in 4. For the true shapes: by 1, at each of its points.
+
+   9. Flat facets behind a closed Q. If Q is in front of the plane of a facet, x and y lie in that
+   plane, and whether Q and its facets hide them depends only on their outlines
+   (visibility/outline.h): (1) need not be considered. y is gained or lost along the event edge of
+   (2) that is nearest to it, and there only within the region of outline.h, 2, where delta is the
+   distance in projection of x from y and the error of outline.h, 1. So along each edge the smaller
+   of two areas counts: that of the rectangle and that of the region. */
 #ifndef LRCSI_PROXIMITY_BAND_H
 #define LRCSI_PROXIMITY_BAND_H
 

@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: MIT */
+/* Support points of true shapes, and the areas between their outlines and an edge. outline.h proves
+   what these areas bound. Every area is enlarged by the errors of the points that it is computed
+   from. */
+#include "visibility/outline.h"
+
+#include <math.h>
+
+#include "base/vec3.h"
+#include "mesh/profile.h"
+#include "optics/closed.h"
+
+/* The number of support points on either side of the one in the direction of the edge's normal. */
+#define POINTS_SIDE 4
+#define POINTS      (2 * POINTS_SIDE + 1)
+/* Steps of the bisection for the largest angle. */
+#define BISECTIONS 20
+/* An edge that is shorter than this many Hausdorff distances is not used. */
+#define LENGTH_MIN  8.0
+#define RIGHT_ANGLE 1.57079632679489661923
+
+lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_part *part = &p->scene->part[index];
+    lrcsi_outline o = {.part = part};
+    if (!part->rigid || !part->solid || !(part->reach > 0)) {
+        return o;
+    }
+    lrcsi_profile profile = lrcsi_profile_make(&part->shape, &part->divisions);
+    if (profile.step > 0 && !profile.level_rings) {
+        return o; /* its vertices are not at the true heights */
+    }
+    double unit = ldexp(part->unit, -p->exponent);
+    double far = 0;
+    o.known = 1;
+    o.vertex_ratio = profile.vertex_ratio;
+    o.radius = unit * part->shape.radius;
+    o.radius2 = unit * part->shape.radius2;
+    o.length = unit * lrcsi_closed_length(&part->shape);
+    for (int k = 0; k < 3; k++) {
+        o.origin[k] = ldexp(part->origin[k], -p->exponent);
+        far += fabs(o.origin[k] - p->origin[k]) + fabs(o.origin[k]);
+    }
+    double x[3];
+    lrcsi_view_coordinates(view, o.origin, x);
+    for (int i = 0; i < 2; i++) {
+        o.centre[i] = x[i];
+        for (int k = 0; k < 3; k++) {
+            o.axis[k][i] = lrcsi_vec3_dot(view->R[i], part->axis[k]);
+        }
+    }
+    o.size = 2 * o.vertex_ratio * lrcsi_max(o.radius, o.radius2) + o.length;
+    o.k = p->proximity.hausdorff[index];
+    o.err = 64 * LRCSI_U * (far + o.size) + ldexp(part->misplaced, -p->exponent);
+    return o;
+}
+
+/* The largest x . n over the true solid, from its origin, n given by its components along the axes;
+   r is the one across the axis of revolution. */
+static double solid_support(const lrcsi_outline *o, double x, double y, double z)
+{
+    double r = sqrt(x * x + y * y);
+    double rim = o->radius * r;
+    double rise = o->length * z;
+    switch (o->part->kind) {
+    case LRCS_SHAPE_SPHERE:
+        return o->radius * sqrt(r * r + z * z);
+    case LRCS_SHAPE_DOME:
+        return z > 0 ? o->radius * sqrt(r * r + z * z) : rim;
+    case LRCS_SHAPE_CYLINDER:
+        return rim + lrcsi_max(0, rise);
+    case LRCS_SHAPE_CONE:
+        return lrcsi_max(rim, rise);
+    case LRCS_SHAPE_FRUSTUM:
+        return lrcsi_max(o->radius2 * r, rim + rise);
+    default: /* paraboloid: rho r + z H (1 - rho^2/R^2) is largest at rho = R r / (2 H z) R */
+        return 2 * rise > rim ? rise + 0.25 * rim * (rim / rise) : rim;
+    }
+}
+
+/* The vertices of a solid of facets are those of the true one, stretched across the axis by
+   vertex_ratio: so is its support. */
+int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint32_t facet,
+                           double *err)
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_normal *normal = &p->normal[facet];
+    double n[3];
+    double from[3];
+    for (int k = 0; k < 3; k++) {
+        n[k] = normal->high[k] / normal->length;
+    }
+    lrcsi_vec3_between(lrcsi_prepared_corner(p, facet, 0), o->origin, from);
+    double x = lrcsi_vec3_dot(o->part->axis[0], n);
+    double y = lrcsi_vec3_dot(o->part->axis[1], n);
+    double z = lrcsi_vec3_dot(o->part->axis[2], n);
+    double at = lrcsi_vec3_dot(from, n);
+    double tolerance = 2 * o->err + 64 * LRCSI_U * (fabs(from[0]) + fabs(from[1]) + fabs(from[2]));
+    double ratio = o->vertex_ratio;
+    double behind =
+        lrcsi_max(solid_support(o, -x, -y, -z), solid_support(o, -ratio * x, -ratio * y, -z)) - at;
+    double height = at + solid_support(o, x, y, z) - tolerance;
+    *err = height > 0 ? 2 * tolerance * (1 + o->size / height) : HUGE_VAL;
+    return view->facing[facet] > 0 && behind <= tolerance && height > 0;
+}
+
+/* The point of the true solid that is farthest in a direction of the view plane. */
+static void support_point(const lrcsi_outline *o, const double w[2], double point[2])
+{
+    double x = o->axis[0][0] * w[0] + o->axis[0][1] * w[1];
+    double y = o->axis[1][0] * w[0] + o->axis[1][1] * w[1];
+    double z = o->axis[2][0] * w[0] + o->axis[2][1] * w[1];
+    double r = sqrt(x * x + y * y);
+    double c = r > 0 ? x / r : 1;
+    double s = r > 0 ? y / r : 0;
+    double rho = o->radius;
+    double height = 0;
+    double length = sqrt(r * r + z * z);
+    switch (o->part->kind) {
+    case LRCS_SHAPE_SPHERE:
+        rho = o->radius * (r / length);
+        height = o->radius * (z / length);
+        break;
+    case LRCS_SHAPE_DOME:
+        rho = z > 0 ? o->radius * (r / length) : o->radius;
+        height = z > 0 ? o->radius * (z / length) : 0;
+        break;
+    case LRCS_SHAPE_CYLINDER:
+        height = z > 0 ? o->length : 0;
+        break;
+    case LRCS_SHAPE_CONE:
+        rho = o->length * z > o->radius * r ? 0 : o->radius;
+        height = o->length * z > o->radius * r ? o->length : 0;
+        break;
+    case LRCS_SHAPE_FRUSTUM:
+        height = o->radius * r + o->length * z > o->radius2 * r ? o->length : 0;
+        rho = height > 0 ? o->radius : o->radius2;
+        break;
+    default:
+        if (2 * o->length * z > o->radius * r) {
+            double fraction = o->radius * r / (2 * o->length * z);
+            rho = o->radius * fraction;
+            height = o->length * (1 - fraction) * (1 + fraction);
+        }
+    }
+    for (int i = 0; i < 2; i++) {
+        point[i] =
+            o->centre[i] + rho * (c * o->axis[0][i] + s * o->axis[1][i]) + height * o->axis[2][i];
+    }
+}
+
+/* An edge, and the coordinates of support points about it. */
+typedef struct edge_frame {
+    const lrcsi_outline *outline;
+    const double *a;
+    double along[2], outward[2], length;
+} edge_frame;
+
+/* A support point: coordinates t and depth, and the slope of its tangent. */
+typedef struct outline_point {
+    double t, depth, slope;
+} outline_point;
+
+static outline_point point_at(const edge_frame *edge, double angle)
+{
+    double c = cos(angle);
+    double s = sin(angle);
+    const double w[2] = {c * edge->outward[0] + s * edge->along[0],
+                         c * edge->outward[1] + s * edge->along[1]};
+    double q[2];
+    support_point(edge->outline, w, q);
+    const double off[2] = {q[0] - edge->a[0], q[1] - edge->a[1]};
+    return (outline_point){edge->along[0] * off[0] + edge->along[1] * off[1],
+                           -(edge->outward[0] * off[0] + edge->outward[1] * off[1]), s / c};
+}
+
+/* The angle, 0 .. a right angle to the given side (1: towards b), at which the support point is as
+   far as `until`; a right angle if none is. */
+static double angle_until(const edge_frame *edge, int side, double until)
+{
+    double low = 0;
+    double high = RIGHT_ANGLE;
+    if (side * point_at(edge, 0).t >= side * until) {
+        return 0;
+    }
+    for (int i = 0; i < BISECTIONS; i++) {
+        /* angles of all magnitudes: the mean of logarithms first */
+        double middle = i < 8 ? sqrt(lrcsi_max(low, 1e-6) * high) : 0.5 * (low + high);
+        if (side * point_at(edge, side * middle).t >= side * until) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    return high;
+}
+
+/* The integral from t0 to t1 of max(0, v), v linear with these values at the ends. */
+static double integral_positive(double t0, double t1, double v0, double v1)
+{
+    if (!(t1 > t0) || (v0 <= 0 && v1 <= 0)) {
+        return 0;
+    }
+    if (v0 >= 0 && v1 >= 0) {
+        return 0.5 * (t1 - t0) * (v0 + v1);
+    }
+    double v = lrcsi_max(v0, v1);
+    return 0.5 * (t1 - t0) * v * (v / (v - lrcsi_min(v0, v1)));
+}
+
+/* Adds the areas between the edge and the polygon, or the tangents, from point p to point q.
+   Returns 0 if either is too steep. */
+static int lens_add(const edge_frame *edge, const outline_point *p, const outline_point *q,
+                    lrcsi_lens *lens)
+{
+    double beyond = 2 * edge->outline->k;
+    double low = lrcsi_max(p->t, -beyond);
+    double high = lrcsi_min(q->t, edge->length + beyond);
+    if (!(high > low)) {
+        return 1;
+    }
+    double chord = (q->depth - p->depth) / (q->t - p->t);
+    if (!(fabs(chord) <= 1 && fabs(p->slope) <= 1 && fabs(q->slope) <= 1)) {
+        return 0;
+    }
+    double t0 = lrcsi_max(p->t, 0);
+    double t1 = lrcsi_min(q->t, edge->length);
+    lens->gain +=
+        integral_positive(t0, t1, p->depth + chord * (t0 - p->t), p->depth + chord * (t1 - p->t));
+    double turn = q->slope - p->slope;
+    double meet = turn > 0 ? (p->depth - p->slope * p->t - q->depth + q->slope * q->t) / turn : low;
+    meet = lrcsi_min(high, lrcsi_max(low, meet));
+    lens->loss += integral_positive(low, meet, -(p->depth + p->slope * (low - p->t)),
+                                    -(p->depth + p->slope * (meet - p->t)));
+    lens->loss += integral_positive(meet, high, -(q->depth + q->slope * (meet - q->t)),
+                                    -(q->depth + q->slope * (high - q->t)));
+    return 1;
+}
+
+lrcsi_lens lrcsi_outline_lens(const lrcsi_outline *o, const double a[3], const double b[3],
+                              int side)
+{
+    const lrcsi_lens unknown = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    edge_frame edge = {.outline = o, .a = a};
+    const double ab[2] = {b[0] - a[0], b[1] - a[1]};
+    edge.length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
+    if (!o->known || side == 0 || !(edge.length > LENGTH_MIN * o->k)) {
+        return unknown;
+    }
+    edge.along[0] = ab[0] / edge.length;
+    edge.along[1] = ab[1] / edge.length;
+    edge.outward[0] = side * edge.along[1];
+    edge.outward[1] = -side * edge.along[0];
+    double before = angle_until(&edge, -1, -2 * o->k);
+    double after = angle_until(&edge, 1, edge.length + 2 * o->k);
+    lrcsi_lens lens = {0, 0, 0};
+    outline_point last = point_at(&edge, -before);
+    if (last.t > -2 * o->k) { /* the end of K */
+        return unknown;
+    }
+    for (int i = 1; i < POINTS; i++) {
+        double angle = i <= POINTS_SIDE ? before * ((double)i / POINTS_SIDE - 1)
+                                        : after * ((double)i / POINTS_SIDE - 1);
+        outline_point next = point_at(&edge, angle);
+        if (!lens_add(&edge, &last, &next, &lens)) {
+            return unknown;
+        }
+        last = next;
+    }
+    if (last.t < edge.length + 2 * o->k) {
+        return unknown;
+    }
+    lens.width = 1.4143 * (edge.length + 4 * o->k);
+    double err = 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
+    lens.gain = (lens.gain + err * lens.width) * (1 + 0x1p-40);
+    lens.loss = (lens.loss + err * lens.width) * (1 + 0x1p-40);
+    return lens;
+}
