@@ -9,6 +9,7 @@
 #include "base/vec3.h"
 #include "mesh/profile.h"
 #include "optics/closed.h"
+#include "scene/proximity.h"
 
 /* The number of support points on either side of the one in the direction of the edge's normal. */
 #define POINTS_SIDE 4
@@ -16,15 +17,18 @@
 /* Steps of the bisection for the largest angle. */
 #define BISECTIONS 20
 /* An edge that is shorter than this many Hausdorff distances is not used. */
-#define LENGTH_MIN  8.0
-#define RIGHT_ANGLE 1.57079632679489661923
+#define LENGTH_MIN 8.0
+/* Cosines larger than this have the sign that they seem to have. */
+#define OPENING_COS_MIN 1e-6
+#define RIGHT_ANGLE     1.57079632679489661923
 
 lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *part = &p->scene->part[index];
     lrcsi_outline o = {.part = part};
-    if (!part->rigid || !part->solid || !(part->reach > 0)) {
+    if (!part->rigid || !(part->reach > 0) || part->kind == LRCS_SHAPE_DISC ||
+        lrcsi_proximity_openings(p, index) > 1) {
         return o;
     }
     lrcsi_profile profile = lrcsi_profile_make(&part->shape, &part->divisions);
@@ -80,11 +84,13 @@ static double solid_support(const lrcsi_outline *o, double x, double y, double z
 }
 
 /* The vertices of a solid of facets are those of the true one, stretched across the axis by
-   vertex_ratio: so is its support. */
+   vertex_ratio: so is its support. If the facet belongs to a curved part, the plane of its true
+   surface differs from its own by the rounding of its corners. */
 int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint32_t facet,
                            double *err)
 {
     const lrcs_prepared *p = view->prepared;
+    const lrcs_part *own = &p->scene->part[p->scene->facet_part[facet]];
     const lrcsi_normal *normal = &p->normal[facet];
     double n[3];
     double from[3];
@@ -96,13 +102,24 @@ int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint3
     double y = lrcsi_vec3_dot(o->part->axis[1], n);
     double z = lrcsi_vec3_dot(o->part->axis[2], n);
     double at = lrcsi_vec3_dot(from, n);
-    double tolerance = 2 * o->err + 64 * LRCSI_U * (fabs(from[0]) + fabs(from[1]) + fabs(from[2]));
+    double far = fabs(from[0]) + fabs(from[1]) + fabs(from[2]) + o->size;
+    double e = 2 * o->err + 64 * LRCSI_U * far;
+    if (own->reach > 0) {
+        e += own->tilted * far + 2 * ldexp(own->misplaced, -p->exponent);
+    }
     double ratio = o->vertex_ratio;
     double behind =
         lrcsi_max(solid_support(o, -x, -y, -z), solid_support(o, -ratio * x, -ratio * y, -z)) - at;
-    double height = at + solid_support(o, x, y, z) - tolerance;
-    *err = height > 0 ? 2 * tolerance * (1 + o->size / height) : HUGE_VAL;
-    return view->facing[facet] > 0 && behind <= tolerance && height > 0;
+    double height = at + solid_support(o, x, y, z) - e;
+    *err = height > 0 ? 2 * e * (1 + o->size / height) : HUGE_VAL;
+    return view->facing[facet] > 0 && behind <= e && *err <= 0.5 * o->k;
+}
+
+/* The opening is at z = 0, its normal along -z. */
+int lrcsi_outline_inside(const lrcsi_outline *o, const lrcsi_view *view, int facing)
+{
+    double cosine = -lrcsi_vec3_dot(o->part->axis[2], view->unit);
+    return (facing > 0 && cosine > OPENING_COS_MIN) || (facing < 0 && cosine < -OPENING_COS_MIN);
 }
 
 /* The point of the true solid that is farthest in a direction of the view plane. */

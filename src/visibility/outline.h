@@ -3,11 +3,14 @@
    between the two along an edge. It does not decide which facets the shape's shadow meets
    (visibility/proximity_band.h).
 
-   Q is a closed part that the library makes, placed without distortion; B is its true solid, a
-   convex body, S^ the solid that its facets enclose, and k its Hausdorff distance
-   (lrcs_part.hausdorff). In projection along the direction to the laser K is the image of B and K'
-   that of S^. The boundary of K' consists of contour edges of Q, because only there the number of
-   its facets above a point can fall to 0.
+   Q is a part that the library makes, placed without distortion, and closed or with one flat
+   opening; B is its true solid, a convex body, S^ the solid that its facets enclose, with flat
+   openings closed, and k its Hausdorff distance (lrcs_part.hausdorff). In projection along the
+   direction to the laser K is the image of B and K' that of S^. A line along that direction that
+   meets B or S^ also meets the true surface or the facets: it cannot both enter and leave through
+   the same opening. The boundary of K' consists of contour edges of Q, because only there the
+   number of facets of S^ that face the laser above a point can fall to 0; and of rim edges, except
+   where the opening faces the laser as the wall beside it does, or both face away.
 
    1. In front of a plane. Let P be a plane, and B and S^ in front of it: no point of them is behind
    it by more than e, and some point of B is in front of it by h. Then Q hides a point x of P if its
@@ -39,7 +42,7 @@
 
 #include "view/view.h"
 
-/* A part's true solid. */
+/* A part's true solid, its opening closed. */
 typedef struct lrcsi_outline {
     const lrcs_part *part;
     int known; /* 0: the part has no outline here; the other fields are not set */
@@ -53,8 +56,12 @@ typedef struct lrcsi_outline {
 
 lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t part);
 
-/* Is the solid in front of the plane of a facet that faces the laser? If so, *err is the distance
-   in projection within which this leaves open whether it hides a point of that plane. */
+/* Is a rim edge of the part, beside a facet with the given facing, surely inside K'? */
+int lrcsi_outline_inside(const lrcsi_outline *outline, const lrcsi_view *view, int facing);
+
+/* Is the solid in front of the plane of a flat facet that faces the laser? If so, *err is the
+   distance in projection within which this leaves open whether it hides a point of that plane, at
+   most k / 2. */
 int lrcsi_outline_in_front(const lrcsi_outline *outline, const lrcsi_view *view, uint32_t facet,
                            double *err);
 

@@ -419,9 +419,26 @@ static int part_in_front(const band_job *job, uint32_t facet, uint32_t part, dou
            lrcsi_outline_in_front(&job->outline[part], job->view, facet, err);
 }
 
-/* The largest fractions of a facet that can be gained and lost along an event edge; infinite if
-   nothing is known. */
-static void outline_fractions(band_job *job, uint32_t facet, uint32_t event, double lateral,
+/* Is an event edge a rim inside the outline of its part? */
+static int rim_is_inside(const band_job *job, uint32_t event)
+{
+    const lrcsi_view *view = job->view;
+    const lrcsi_edge *edge = &view->prepared->topology.edge[job->edge[event]];
+    const lrcsi_edge_use *use = view->prepared->topology.use + edge->first_use;
+    uint32_t facets = 0;
+    int facing = 0;
+    for (uint32_t i = 0; i < edge->uses; i++) {
+        if (band_part(job, use[i].facet) == job->part[event]) {
+            facing = view->facing[use[i].facet];
+            facets++;
+        }
+    }
+    return facets == 1 && lrcsi_outline_inside(&job->outline[job->part[event]], view, facing);
+}
+
+/* The largest fractions of a facet, behind the event's part, that can be gained and lost along an
+   event edge; infinite if nothing is known. delta: as in visibility/outline.h. */
+static void outline_fractions(const band_job *job, uint32_t facet, uint32_t event, double delta,
                               double *gain, double *loss)
 {
     const lrcsi_view *view = job->view;
@@ -429,20 +446,19 @@ static void outline_fractions(band_job *job, uint32_t facet, uint32_t event, dou
     const lrcsi_outline *outline = &job->outline[job->part[event]];
     double projected = lrcsi_view_projected(view, facet);
     double whole = 0.5 * view->prepared->normal[facet].length;
-    double err;
+    lrcsi_lens *lens = &job->lens[event];
     *gain = *loss = HUGE_VAL;
-    if (job->side[event] == 0 || !(projected > COS_MIN * whole) ||
-        !part_in_front(job, facet, job->part[event], &err) || !(lateral + err <= outline->k)) {
+    if (!(projected > COS_MIN * whole) || !(delta <= outline->k)) {
         return;
     }
-    lrcsi_lens *lens = &job->lens[event];
     if (lens->gain < 0) {
-        *lens = lrcsi_outline_lens(outline, view->point[edge->low].x, view->point[edge->high].x,
-                                   job->side[event]);
+        const double *a = view->point[edge->low].x;
+        const double *b = view->point[edge->high].x;
+        *lens = rim_is_inside(job, event) ? (lrcsi_lens){0, 0, 0}
+                                          : lrcsi_outline_lens(outline, a, b, job->side[event]);
     }
-    double wider = lens->width * (lateral + err);
-    *gain = (lens->gain + wider) / projected * (1 + COS_MARGIN);
-    *loss = (lens->loss + wider) / projected * (1 + COS_MARGIN);
+    *gain = (lens->gain + lens->width * delta) / projected * (1 + COS_MARGIN);
+    *loss = (lens->loss + lens->width * delta) / projected * (1 + COS_MARGIN);
 }
 
 /* Adds the fractions of area and of rows near an event edge. */
@@ -460,9 +476,12 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
         search->lateral = lrcsi_proximity_lateral(p, facet, job->view->unit);
     }
     double slack = event_slack(job, facet, event, search->lateral);
+    double err = 0;
+    int in_front = !is_own && part_in_front(job, facet, job->part[event], &err);
     if (!(slack > 0)) {
         return;
     }
+    slack += in_front ? err : 0;
     edge_box box = edge_box_make(job, facet, edge, slack);
     lrcsi_slice slice = edge_slice(job, facet, &box);
     if (slice.count == 0 || (!is_own && edge_behind(job, facet, edge,
@@ -488,9 +507,11 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
                       ? lrcsi_slice_fraction(&inner, whole, longest)
                       : fraction;
     double loss = lrcsi_slice_fraction(&outer, whole, longest);
-    double gain_max;
-    double loss_max;
-    outline_fractions(job, facet, event, search->lateral, &gain_max, &loss_max);
+    double gain_max = HUGE_VAL;
+    double loss_max = HUGE_VAL;
+    if (in_front) {
+        outline_fractions(job, facet, event, search->lateral + err, &gain_max, &loss_max);
+    }
     job->parts[facet] |= part;
     job->mismatch[facet] += lrcsi_min(fraction, gain_max + loss_max);
     job->loss[facet] += lrcsi_min(loss, loss_max);
