@@ -434,33 +434,25 @@ static int run_clear(lrcsi_classification *c, uint32_t run, lrcsi_meter *meter)
     corners.count = 0;
     corners.err = 0;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        const uint32_t *row = grid->first + (size_t)y * grid->size;
-        uint32_t end = row[cells.x0] == row[cells.x1] ? cells.x0 : cells.x1;
-        uint32_t row_steps = 1 + end - cells.x0;
-        if (row_steps > steps) {
+        const lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
+        const uint32_t listed = items.to - items.from;
+        if (1 + listed > steps || !lrcsi_meter_take(meter, listed)) {
             return 0;
         }
-        steps -= row_steps;
-        for (uint32_t x = cells.x0; x < end; x++) {
-            for (uint32_t i = row[x]; i < row[x + 1]; i++) {
-                lrcsi_event_box *event = &c->event[grid->item[i]];
-                if (steps-- == 0 || !lrcsi_meter_take(meter, 1)) {
-                    return 0;
-                }
-                if (lrcsi_view_box_behind(&event->box, &box)) {
-                    break;
-                }
-                if (event->last_search == search || lrcsi_view_box_beside(&event->box, &box)) {
-                    continue;
-                }
-                if (corners.count == 0) {
-                    run_gather(c, run, &corners);
-                }
-                if (!event_beside_run(c->view, &corners, event->edge)) {
-                    return 0;
-                }
-                event->last_search = search;
+        steps -= 1 + listed;
+        for (uint32_t i = items.from; i < items.to; i++) {
+            lrcsi_event_box *event = &c->event[grid->item[i]];
+            if (lrcsi_view_box_behind(&event->box, &box) ||
+                lrcsi_view_box_beside(&event->box, &box) || event->last_search == search) {
+                continue;
             }
+            if (corners.count == 0) {
+                run_gather(c, run, &corners);
+            }
+            if (!event_beside_run(c->view, &corners, event->edge)) {
+                return 0;
+            }
+            event->last_search = search;
         }
     }
     return 1;
