@@ -22,8 +22,8 @@
 /* If a facet is in at least so many rows and columns of the grid, each row is limited to the cells
    between its sides: long facets across the grid meet few of the cells of their boxes. */
 #define MIN_ROWS 3
-/* The largest number of rows, cells and listed events that are examined to decide whether any event
-   may cross a run. */
+/* The largest number of rows and listed events that are examined to decide whether any event may
+   cross a run. */
 #define RUN_STEPS 1024u
 
 /* --- crossings -------------------------------------------------------------------------------- */
