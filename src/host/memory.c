@@ -1,25 +1,45 @@
 /* SPDX-License-Identifier: MIT */
 /* Blocks and work areas from the heap. It decides how areas grow (at least doubling, a bounded
-   number of times) and does not depend on their content. */
+   number of times), and asks for large pages; it does not depend on what the memory holds. */
+#define _DEFAULT_SOURCE 1 /* madvise, and MADV_HUGEPAGE where there is one */
 #include "host/memory.h"
 
 #include "host/refine.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <time.h>
 
 #define STEP_TRIES 12
+/* The large pages of most machines that have any; with others the request has no effect. */
+#define LARGE_PAGE ((size_t)1 << 21)
 
 /* The link before each block; what follows it is aligned for anything. */
 typedef struct host_block {
     _Alignas(max_align_t) struct host_block *next;
 } host_block;
 
+/* As malloc. The whole large pages within a block are requested as such: a block that is filled for
+   the first time then causes one page fault where it would cause 512, and random accesses miss the
+   translation cache less often. It takes more memory where a block is used only here and there. */
+static void *memory_take(size_t bytes)
+{
+    unsigned char *block = malloc(bytes);
+#ifdef MADV_HUGEPAGE
+    size_t before = (LARGE_PAGE - (uintptr_t)block % LARGE_PAGE) % LARGE_PAGE;
+    if (block && bytes >= before + LARGE_PAGE) {
+        size_t within = (bytes - before) / LARGE_PAGE * LARGE_PAGE;
+        (void)madvise(block + before, within, MADV_HUGEPAGE); /* may be refused: no harm */
+    }
+#endif
+    return block;
+}
+
 /* A block not yet owned, or NULL. */
 static host_block *block_make(size_t bytes)
 {
-    return bytes <= SIZE_MAX - sizeof(host_block) ? malloc(sizeof(host_block) + bytes) : NULL;
+    return bytes <= SIZE_MAX - sizeof(host_block) ? memory_take(sizeof(host_block) + bytes) : NULL;
 }
 
 static void block_own(void **blocks, host_block *block)
@@ -83,7 +103,7 @@ int lrcsi_host_area_run(lrcsi_host_area *area, size_t need, lrcsi_host_step *ste
     for (int i = 0; i < STEP_TRIES && status == LRCS_E_MEMORY; i++) {
         if (need > area->size) {
             lrcsi_host_area_free(area);
-            area->bytes = malloc(need);
+            area->bytes = memory_take(need);
             area->size = area->bytes ? need : 0;
         }
         if (need > area->size) {

@@ -82,7 +82,7 @@ static int set_pair_neighbours(const neighbours_job *job, lrcsi_neighbours *a, u
 }
 
 /* Classifies every edge. The first case is only a shortcut: most edges have two facets. */
-static void edge_facetss(const neighbours_job *job, uint32_t facet_count, lrcsi_neighbours *a)
+static void edges_classify(const neighbours_job *job, uint32_t facet_count, lrcsi_neighbours *a)
 {
     for (uint32_t e = 0; e < job->topology->edge_count; e++) {
         const lrcsi_edge_use *use = job->topology->use + job->topology->edge[e].first_use;
@@ -122,7 +122,7 @@ int lrcsi_neighbours_make(const lrcsi_topology *topology, uint32_t facet_count,
     for (uint32_t f = 0; f < facet_count; f++) {
         a.facet[f] = (lrcs_facet){{f, f, f}};
     }
-    edge_facetss(&job, facet_count, &a);
+    edges_classify(&job, facet_count, &a);
     work->used = end; /* takes the same memory again, as long as the list turned out to be */
     a.irregular = lrcsi_work_take(work, a.irregular_count, sizeof *a.irregular);
     *neighbours = a;

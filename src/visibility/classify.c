@@ -22,8 +22,8 @@
 /* If a facet is in at least so many rows and columns of the grid, each row is limited to the cells
    between its sides: long facets across the grid meet few of the cells of their boxes. */
 #define MIN_ROWS 3
-/* The largest number of rows, cells and listed events that are examined to decide whether any event
-   may cross a run. */
+/* The largest number of rows and listed events that are examined to decide whether any event may
+   cross a run. */
 #define RUN_STEPS 1024u
 
 /* --- crossings -------------------------------------------------------------------------------- */
@@ -362,36 +362,97 @@ static int events_make_boxes(lrcsi_classification *c, lrcs_work *work)
     return LRCS_OK;
 }
 
-/* Is it proved that no event edge crosses any facet of a run? The cells of most runs far from
-   events list nothing, which takes one step per row to see. Returns 0 if this takes more steps than
-   testing the facets of the run. */
-static int run_clear(const lrcsi_classification *c, uint32_t run, lrcsi_meter *meter)
+/* The corners in the view of the facets of a run that can hide others. */
+typedef struct run_corners {
+    uint32_t count; /* 0: not gathered yet */
+    double err;     /* no coordinate of any of them has a larger error */
+    double x[3 * LRCSI_RUN], y[3 * LRCSI_RUN];
+} run_corners;
+
+/* Leaves out the corners that a facet shares with the one before it: most of them. */
+static void run_gather(const lrcsi_classification *c, uint32_t run, run_corners *corners)
+{
+    const lrcs_scene *scene = c->view->prepared->scene;
+    const uint32_t end = lrcsi_run_end(run * LRCSI_RUN, scene->facet_count);
+    uint32_t before[3] = {LRCS_NONE, LRCS_NONE, LRCS_NONE};
+    uint32_t count = 0;
+    corners->err = 0;
+    for (uint32_t f = run * LRCSI_RUN; f < end; f++) {
+        if (c->joinable[f] == 0) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = scene->facet[f].corner[k];
+            const double *x = c->view->point[v].x;
+            corners->x[count] = x[0];
+            corners->y[count] = x[1];
+            corners->err = lrcsi_max(corners->err, lrcsi_view_point_err(x));
+            count += v != before[0] && v != before[1] && v != before[2];
+        }
+        memcpy(before, scene->facet[f].corner, sizeof before);
+    }
+    corners->count = count;
+}
+
+/* Do all corners lie strictly on one side of the line of an event edge, so that it neither crosses
+   a facet of the run nor runs along a side? The error of each turn is that of
+   lrcsi_view_side_turn, which increases with the distance and with the error of the point: the
+   largest of both bound the errors of all turns. */
+static int event_beside_run(const lrcsi_view *view, const run_corners *corners, uint32_t edge)
+{
+    const lrcsi_edge *e = &view->prepared->topology.edge[edge];
+    const lrcsi_view_side line = lrcsi_view_side_of(view, e->low, e->high);
+    double least = HUGE_VAL;
+    double most = -HUGE_VAL;
+    double distance = 0;
+    for (uint32_t i = 0; i < corners->count; i++) {
+        double x = corners->x[i] - line.at[0];
+        double y = corners->y[i] - line.at[1];
+        double turn = line.to[0] * y - line.to[1] * x;
+        least = lrcsi_min(least, turn);
+        most = lrcsi_max(most, turn);
+        distance = lrcsi_max(distance, fabs(x) + fabs(y));
+    }
+    double err = line.at_err + corners->err;
+    double turn_err = 1.5 * (line.to_err * (distance + 2 * err) + err * line.length);
+    return least > turn_err || most < -turn_err;
+}
+
+/* Is it proved that no event edge crosses any facet of a run, nor runs along a side of one in front
+   of it? The cells of most runs far from events list nothing, which takes one step per row to see.
+   An event that is not behind the run is beside it if their boxes are disjoint, or else if all of
+   the run lies on one side of the event's line: most of those near a long straight contour do.
+   Returns 0 if this takes more steps than testing the facets of the run. */
+static int run_clear(lrcsi_classification *c, uint32_t run, lrcsi_meter *meter)
 {
     const lrcsi_grid *grid = &c->grid;
     const lrcsi_view_box box = c->boxes.run[run];
+    const uint32_t search = ++c->searches;
     lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
     uint32_t steps = RUN_STEPS;
+    run_corners corners;
+    corners.count = 0;
+    corners.err = 0;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        const uint32_t *row = grid->first + (size_t)y * grid->size;
-        uint32_t end = row[cells.x0] == row[cells.x1] ? cells.x0 : cells.x1;
-        uint32_t row_steps = 1 + end - cells.x0;
-        if (row_steps > steps) {
+        const lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
+        const uint32_t listed = items.to - items.from;
+        if (1 + listed > steps || !lrcsi_meter_take(meter, listed)) {
             return 0;
         }
-        steps -= row_steps;
-        for (uint32_t x = cells.x0; x < end; x++) {
-            for (uint32_t i = row[x]; i < row[x + 1]; i++) {
-                const lrcsi_view_box *event = &c->event[grid->item[i]].box;
-                if (steps-- == 0 || !lrcsi_meter_take(meter, 1)) {
-                    return 0;
-                }
-                if (lrcsi_view_box_behind(event, &box)) {
-                    break;
-                }
-                if (!lrcsi_view_box_beside(event, &box)) {
-                    return 0;
-                }
+        steps -= 1 + listed;
+        for (uint32_t i = items.from; i < items.to; i++) {
+            lrcsi_event_box *event = &c->event[grid->item[i]];
+            if (lrcsi_view_box_behind(&event->box, &box) ||
+                lrcsi_view_box_beside(&event->box, &box) || event->last_search == search) {
+                continue;
             }
+            if (corners.count == 0) {
+                run_gather(c, run, &corners);
+            }
+            if (!event_beside_run(c->view, &corners, event->edge)) {
+                return 0;
+            }
+            event->last_search = search;
         }
     }
     return 1;

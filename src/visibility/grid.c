@@ -69,12 +69,7 @@ int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work 
     boxes->opened = &boxes->start[p->runs.count];
     *boxes->opened = 0;
     for (uint32_t r = 0; r < p->runs.count; r++) {
-        uint32_t end = lrcsi_run_end(r * LRCSI_RUN, count);
-        int any = 0;
-        for (uint32_t f = r * LRCSI_RUN; f < end; f++) {
-            any |= cast[f];
-        }
-        if (any != 0) {
+        if (cast[(size_t)r * LRCSI_RUN] != 0 || !lrcsi_run_alike(cast, r)) {
             boxes->run[r] = run_box(view, &p->runs.run[r]);
             boxes->state[r] = LRCSI_BOXES_RUN;
         }
@@ -172,10 +167,10 @@ int lrcsi_lists_room(uint32_t *first, size_t lists, uint64_t most, lrcs_work *wo
     uint64_t total = 0;
     for (size_t i = 0; i <= lists; i++) {
         total += first[i];
-        if (total > most) {
-            return LRCS_E_LIMIT;
-        }
         first[i] = (uint32_t)total;
+    }
+    if (total > most) {
+        return LRCS_E_LIMIT;
     }
     *item = lrcsi_work_take(work, (size_t)total, sizeof **item);
     return *item ? LRCS_OK : LRCS_E_MEMORY;

@@ -40,8 +40,8 @@ static inline const lrcsi_view_box *lrcsi_boxes_facet(const lrcsi_boxes *boxes, 
 /* Bytes at most. */
 size_t lrcsi_boxes_need(const lrcs_prepared *prepared);
 
-/* Makes the boxes of runs. Given cast[facet]: not 0 if it can hide something. Status: LRCS_OK;
-   LRCS_E_MEMORY. They stay in the work area. */
+/* Makes the boxes of runs. Given: cast[], as for lrcsi_events_make. Status: LRCS_OK; LRCS_E_MEMORY.
+   They stay in the work area. */
 int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
                      lrcsi_boxes *boxes);
 
