@@ -245,8 +245,7 @@ lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture)
     return colouring;
 }
 
-/* The colour of a facet where the picture's x and y are `view`. A facet without a value on the
-   scale is grey, darker at larger incidence. */
+/* A facet without a value on the scale is grey, darker at larger incidence. */
 uint32_t lrcsi_colouring_colour(const lrcsi_colouring *colouring, uint32_t facet,
                                 const double view[2])
 {
