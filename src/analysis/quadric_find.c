@@ -192,8 +192,8 @@ static uint32_t region_grow(finder *f, uint32_t seed, const lrcs_quadric *surfac
     return count;
 }
 
-/* The guess of a kind with which most of the surroundings of a seed, around[0], agree: their
- * number. */
+/* Finds the surface of a kind, through a seed, around[0], and one or two of its surroundings, with
+   which most of the surroundings agree. Returns 0 if with none of them enough do. */
 static int best_guess(finder *f, int kind, const uint32_t *around, uint32_t around_count,
                       lrcs_quadric *best)
 {
@@ -392,14 +392,6 @@ static uint64_t descending_key(double area)
     return ~lrcsi_bits_of(area); /* bits of doubles that are not negative have their order */
 }
 
-static double region_glint_error(const lrcs_scene *scene, const lrcs_quadric_region *region)
-{
-    const lrcs_brdf *brdf = &scene->material[region->material].brdf;
-    return region->surface.kind == LRCS_QUADRIC_PLANE || !(brdf->A > 0.0)
-               ? 0.0
-               : lrcsi_ripple_error(2.0 * region->bound.normal_angle, brdf->s);
-}
-
 static size_t regions_max(const lrcs_scene *scene)
 {
     return scene->facet_count / LRCS_QUADRIC_FACETS + 1;
@@ -417,25 +409,6 @@ size_t lrcs_quadric_need(const lrcs_scene *scene)
     }
     return lrcsi_work_add(need,
                           2 * lrcsi_work_bytes(regions_max(scene), sizeof(lrcs_quadric_region)));
-}
-
-/* Sorts the regions, and renumbers those of the facets. */
-static void regions_sort(finder *f, const lrcs_quadric_region *found, uint32_t count, uint64_t *key,
-                         uint32_t *order, uint64_t *key_spare, uint32_t *order_spare,
-                         lrcs_quadric_region *list)
-{
-    for (uint32_t i = 0; i < count; i++) {
-        key[i] = descending_key(found[i].area);
-        order[i] = i;
-    }
-    lrcsi_sort_pairs(key, order, key_spare, order_spare, count);
-    for (uint32_t i = 0; i < count; i++) {
-        list[i] = found[order[i]];
-        order_spare[order[i]] = i;
-    }
-    for (uint32_t i = 0; i < f->scene->facet_count; i++) {
-        f->region[i] = f->region[i] == LRCS_NONE ? LRCS_NONE : order_spare[f->region[i]];
-    }
 }
 
 int lrcs_quadric_find(const lrcs_scene *scene, lrcs_work *work, lrcs_quadric_region **list,
@@ -485,15 +458,26 @@ int lrcs_quadric_find(const lrcs_scene *scene, lrcs_work *work, lrcs_quadric_reg
             !seed_region(&f, seed, &region)) {
             continue;
         }
-        region.glint_error = region_glint_error(scene, &region);
+        const lrcs_brdf *brdf = &scene->material[region.material].brdf;
+        region.glint_error = region.surface.kind == LRCS_QUADRIC_PLANE || !(brdf->A > 0.0)
+                                 ? 0.0
+                                 : lrcsi_ripple_error(2.0 * region.bound.normal_angle, brdf->s);
         for (uint32_t k = 0; k < region.facet_count; k++) {
             f.region[f.best[k]] = used;
         }
         found[used++] = region;
     }
-    regions_sort(&f, found, used, key, order, key_spare, order_spare, regions);
-    if (facet_region) {
-        memcpy(facet_region, f.region, n * sizeof *facet_region);
+    for (uint32_t i = 0; i < used; i++) { /* the largest region first */
+        key[i] = descending_key(found[i].area);
+        order[i] = i;
+    }
+    lrcsi_sort_pairs(key, order, key_spare, order_spare, used);
+    for (uint32_t i = 0; i < used; i++) {
+        regions[i] = found[order[i]];
+        order_spare[order[i]] = i;
+    }
+    for (uint32_t i = 0; facet_region && i < n; i++) {
+        facet_region[i] = f.region[i] == LRCS_NONE ? LRCS_NONE : order_spare[f.region[i]];
     }
     work->used = end;
     *list = regions;
