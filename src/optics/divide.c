@@ -272,7 +272,7 @@ static double plan_factor(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32
 }
 
 /* If even `around_max` leaves an error as large as sigma itself, more facets do not help: the glint
-   is ignored, and the diffuse part (or a matt surface, if there is none) determines the count. */
+   is ignored, and the diffuse term (or a matt surface, if there is none) determines the count. */
 static uint32_t plan_curved(const lrcs_shape *shape, const lrcs_fineness *fineness,
                             uint32_t around_max)
 {
