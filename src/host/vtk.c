@@ -37,10 +37,14 @@ static double vtk_number(const lrcs_host_picture *picture, const vtk_array *arra
     const lrcs_scene *scene = picture->scene;
     const lrcs_facet_record *records = picture->records;
     switch (array->kind) {
-    case VTK_VERTEX:
-        return scene->vertex[i / 3].x[i % 3];
-    case VTK_CORNER:
-        return scene->facet[i / 3].corner[i % 3];
+    case VTK_VERTEX: {
+        const lrcs_point *point = &scene->vertex[i / 3];
+        return point->x[i % 3];
+    }
+    case VTK_CORNER: {
+        const lrcs_facet *facet = &scene->facet[i / 3];
+        return facet->corner[i % 3];
+    }
     case VTK_OFFSET:
         return 3.0 * (double)(i + 1);
     case VTK_DIRECTION:

@@ -332,25 +332,13 @@ static void cell_finish(cubature_cell *cell)
     cell_measure(cell);
 }
 
-/* Halves a cell by a line, which is the zero line of a linear function `level` of position, given
-   by its values at the corners. Because levels depend on positions only, the areas of the halves
-   add up to that of the cell whatever the errors of normals are.
-   1. The two corners whose unit normals are farthest apart, and the chord between these normals:
-      the direction in which normals turn most.
-   2. The gradient g, up to a positive factor, of the component of the normals along the chord, in
-      the largest triangle of the fan.
-   3. The line perpendicular to g, midway between the two corners; a diagonal if the cell has
-      CORNERS corners. If no level is negative, for instance because all normals are the same, the
-      first half is the whole cell, and the second one is empty.
-   4. The halves. The normals of half[1] are closer to the direction to the laser. */
-static void cell_halve(const cubature_cell *cell, cubature_cell half[2])
+/* The chord between the two unit normals at corners that are farthest apart, which is the direction
+   in which normals turn most; and these corners. */
+static void cell_chord(const cubature_cell *cell, int *from, int *to, double chord[3])
 {
     double unit[CORNERS][3];
-    double chord[3] = {0, 0, 0};
     double longest = -1;
-    int from = 0;
-    int to = 0;
-    for (int i = 0; i < cell->count; i++) { /* 1 */
+    for (int i = 0; i < cell->count; i++) {
         double length = sqrt(lrcsi_vec3_dot(cell->normal[i], cell->normal[i]));
         for (int k = 0; k < 3; k++) {
             unit[i][k] = length > 0 ? cell->normal[i][k] / length : 0;
@@ -361,15 +349,32 @@ static void cell_halve(const cubature_cell *cell, cubature_cell half[2])
             double square = lrcsi_vec3_dot(apart, apart);
             if (square > longest) {
                 longest = square;
-                from = j;
-                to = i;
+                *from = j;
+                *to = i;
                 memcpy(chord, apart, sizeof apart);
             }
         }
     }
+}
+
+/* Halves a cell by a line, which is the zero line of a linear function `level` of position, given
+   by its values at the corners. Because levels depend on positions only, the areas of the halves
+   add up to that of the cell whatever the errors of normals are.
+   1. The gradient g, up to a positive factor, of the component of the normals along their longest
+      chord, in the largest triangle of the fan.
+   2. The line perpendicular to g, midway between the ends of the chord; a diagonal if the cell has
+      CORNERS corners. If no level is negative, for instance because all normals are the same, the
+      first half is the whole cell, and the second one is empty.
+   3. The halves. The normals of half[1] are closer to the direction to the laser. */
+static void cell_halve(const cubature_cell *cell, cubature_cell half[2])
+{
+    double chord[3] = {0, 0, 0};
+    int from = 0;
+    int to = 0;
+    cell_chord(cell, &from, &to, chord);
     double g[2] = {0, 0};
     double largest = 0;
-    for (int i = 1; i + 1 < cell->count; i++) { /* 2 */
+    for (int i = 1; i + 1 < cell->count; i++) { /* 1 */
         const double *u = cell->at[i];
         const double *v = cell->at[i + 1];
         double gu = 0;
@@ -387,7 +392,7 @@ static void cell_halve(const cubature_cell *cell, cubature_cell half[2])
     double level[CORNERS];
     int below = 0;
     const double *p = cell->at[CORNERS / 2];
-    for (int i = 0; i < cell->count; i++) { /* 3 */
+    for (int i = 0; i < cell->count; i++) { /* 2 */
         const double *at = cell->at[i];
         level[i] = cell->count == CORNERS
                        ? p[0] * at[1] - p[1] * at[0]
@@ -395,7 +400,7 @@ static void cell_halve(const cubature_cell *cell, cubature_cell half[2])
                              g[1] * (at[1] - 0.5 * (cell->at[from][1] + cell->at[to][1]));
         below |= level[i] < 0;
     }
-    for (int h = 0; h < 2; h++) { /* 4 */
+    for (int h = 0; h < 2; h++) { /* 3 */
         half[h] = (cubature_cell){.unit = cell->unit,
                                   .skipped = cell->skipped,
                                   .depth = cell->depth + 1,

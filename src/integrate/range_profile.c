@@ -271,6 +271,13 @@ static void corners_order(const double range[3], int order[3])
     }
 }
 
+/* A triangle of a piece: its area, and the ranges of its corners in ascending order; on a facet
+   with curved normals, also the normals at them. */
+typedef struct profile_triangle {
+    double area, z[3];
+    double normal[3][3];
+} profile_triangle;
+
 /* The normal at the point of the side from corner a to corner b that has the range z. Given: the
    normals at all corners, and their ranges in ascending order. */
 static void normal_at(const double corner[3][3], const double range[3], int a, int b, double z,
@@ -282,76 +289,83 @@ static void normal_at(const double corner[3][3], const double range[3], int a, i
     }
 }
 
+/* Adds the part of a triangle between two ranges, which lie on one side of its middle corner, to a
+   bin. The part is a trapezium: its parallel sides, at `from` and at
+   `to`, lead from the long side of the triangle to a short one, from corner a to corner b. A
+   diagonal divides it into two triangles, whose areas are the fractions `first` and `last` of the
+   largest area per unit of range, which is at the middle corner, times half the width. On a flat
+   facet the area and its first moment are added to *part and *moment; curved normals are
+   integrated. */
+static void trapezium_add(profile_run *run, const profile_facet *f, uint32_t bin,
+                          const profile_triangle *t, double from, double to, double *part,
+                          double *moment)
+{
+    if (!(from < to)) {
+        return;
+    }
+    const double *z = t->z;
+    const double(*normal)[3] = (const double(*)[3])t->normal;
+    int rising = to <= z[1];
+    int a = rising ? 0 : 1;
+    int b = rising ? 1 : 2;
+    double first = (rising ? from - z[0] : z[2] - from) / (z[b] - z[a]);
+    double last = (rising ? to - z[0] : z[2] - to) / (z[b] - z[a]);
+    double scale = t->area / (z[2] - z[0]) * (to - from);
+    if (f->curve) {
+        const double range[2][3] = {{from, from, to}, {from, to, to}};
+        double side[4][3]; /* at `from` on the long side, on the short one; at `to` likewise */
+        normal_at(normal, z, 0, 2, from, side[0]);
+        normal_at(normal, z, a, b, from, side[1]);
+        normal_at(normal, z, 0, 2, to, side[2]);
+        normal_at(normal, z, a, b, to, side[3]);
+        bin_add_smooth(run, f, bin, scale * first, range[0], (const double(*)[3])side);
+        bin_add_smooth(run, f, bin, scale * last, range[1], (const double(*)[3])(side + 1));
+        return;
+    }
+    double centre = centre_of(run, bin);
+    double trapezium = scale * (first + last);
+    *part += trapezium;
+    *moment += trapezium * (0.5 * (from - centre) + 0.5 * (to - centre)) +
+               scale * (last - first) * (0.5 * (to - from)) / 3;
+}
+
 /* Adds a triangle to the bins. Given: its area; the ranges of its corners, with errors of at most
    range_err; the normals at its corners, used if those of the facet are curved.
    1. The corners are ordered by range.
    2. A triangle in one bin is added to it.
-   3. Otherwise each bin receives the part between its edges. It is divided at the middle corner
-      into at most two trapezia. The parallel sides of a trapezium, at `from` and at `to`, lead from
-      the long side of the triangle to a short one, from corner a to corner b. A diagonal divides it
-      into two triangles, whose areas are the fractions `first` and `last` of the largest area per
-      unit of range, which is at the middle corner, times half the width. On a flat facet the areas
-      and first moments of the trapezia are added; curved normals are integrated over the triangles.
+   3. Otherwise each bin receives the part between its edges, divided at the middle corner.
    4. Part (3) of the error: at each edge of a bin within range_err of the triangle, the fraction of
       its area that may lie on the other side. */
 static void triangle_add(profile_run *run, const profile_facet *f, double area,
                          const double range[3], const double normal[3][3], double range_err)
 {
     int order[3]; /* 1 */
-    double z[3];
-    double n[3][3];
+    profile_triangle t = {.area = area};
+    const double *z = t.z;
     corners_order(range, order);
     for (int k = 0; k < 3; k++) {
-        z[k] = range[order[k]];
+        t.z[k] = range[order[k]];
         for (int c = 0; c < 3 && f->curve; c++) {
-            n[k][c] = normal[order[k]][c];
+            t.normal[k][c] = normal[order[k]][c];
         }
     }
-    const double(*corner)[3] = (const double(*)[3])n;
     uint32_t begin = bin_within(run, f, z[0]);
     uint32_t end = bin_within(run, f, z[2]);
     if (begin == end && f->curve) { /* 2 */
-        bin_add_smooth(run, f, begin, area, z, corner);
+        bin_add_smooth(run, f, begin, area, z, (const double(*)[3])t.normal);
     } else if (begin == end) {
         double centre = centre_of(run, begin);
         double mean = ((z[0] - centre) + (z[1] - centre) + (z[2] - centre)) / 3;
         bin_add_flat(run, f, begin, area, area * mean);
     }
     for (uint32_t i = begin; begin < end && i <= end; i++) { /* 3 */
-        double centre = centre_of(run, i);
-        double low = i == begin ? z[0] : edge_of(run, i);
-        double high = i == end ? z[2] : edge_of(run, i + 1);
-        double middle = lrcsi_min(high, lrcsi_max(low, z[1]));
+        double from = i == begin ? z[0] : edge_of(run, i);
+        double to = i == end ? z[2] : edge_of(run, i + 1);
+        double middle = lrcsi_min(to, lrcsi_max(from, z[1]));
         double part = 0;
         double moment = 0;
-        for (int half = 0; half < 2; half++) {
-            double from = half == 0 ? low : middle;
-            double to = half == 0 ? middle : high;
-            if (!(from < to)) {
-                continue;
-            }
-            int rising = to <= z[1];
-            int a = rising ? 0 : 1;
-            int b = rising ? 1 : 2;
-            double first = (rising ? from - z[0] : z[2] - from) / (z[b] - z[a]);
-            double last = (rising ? to - z[0] : z[2] - to) / (z[b] - z[a]);
-            double scale = area / (z[2] - z[0]) * (to - from);
-            if (f->curve) {
-                const double ranges[2][3] = {{from, from, to}, {from, to, to}};
-                double side[4][3]; /* at `from` on the long side, on the short one; at `to` */
-                normal_at(corner, z, 0, 2, from, side[0]);
-                normal_at(corner, z, a, b, from, side[1]);
-                normal_at(corner, z, 0, 2, to, side[2]);
-                normal_at(corner, z, a, b, to, side[3]);
-                bin_add_smooth(run, f, i, scale * first, ranges[0], (const double(*)[3])side);
-                bin_add_smooth(run, f, i, scale * last, ranges[1], (const double(*)[3])(side + 1));
-                continue;
-            }
-            double trapezium = scale * (first + last);
-            part += trapezium;
-            moment += trapezium * (0.5 * (from - centre) + 0.5 * (to - centre)) +
-                      scale * (last - first) * (0.5 * (to - from)) / 3;
-        }
+        trapezium_add(run, f, i, &t, from, middle, &part, &moment);
+        trapezium_add(run, f, i, &t, middle, to, &part, &moment);
         if (!f->curve) {
             bin_add_flat(run, f, i, part, moment);
         }
