@@ -290,12 +290,11 @@ static void normal_at(const double corner[3][3], const double range[3], int a, i
 }
 
 /* Adds the part of a triangle between two ranges, which lie on one side of its middle corner, to a
-   bin. The part is a trapezium: its parallel sides, at `from` and at
-   `to`, lead from the long side of the triangle to a short one, from corner a to corner b. A
-   diagonal divides it into two triangles, whose areas are the fractions `first` and `last` of the
-   largest area per unit of range, which is at the middle corner, times half the width. On a flat
-   facet the area and its first moment are added to *part and *moment; curved normals are
-   integrated. */
+   bin. The part is a trapezium: its parallel sides, at `from` and at `to`, lead from the long side
+   of the triangle to a short one, from corner a to corner b. A diagonal divides it into two
+   triangles, whose areas are the fractions `first` and `last` of the largest area per unit of
+   range, which is at the middle corner, times half the width. On a flat facet the area and its
+   first moment are added to *part and *moment; curved normals are integrated. */
 static void trapezium_add(profile_run *run, const profile_facet *f, uint32_t bin,
                           const profile_triangle *t, double from, double to, double *part,
                           double *moment)
