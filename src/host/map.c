@@ -232,9 +232,9 @@ static void row_draw(const map_plan *plan, uint32_t row)
 
 /* ---- contours ---- */
 
-/* Draws the contours between the middles of four cells, by marching squares. Of the four points at
-   which a level is crossed at a saddle, those are connected that do not separate corners on the
-   same side of the level as the mean. */
+/* Draws the contours between the middles of four cells, by marching squares. At a saddle a level is
+   crossed on all four sides, and the contour has two pieces; the mean of the four values decides
+   which corners they separate. */
 static void contours_between(const map_plan *plan, uint32_t column, uint32_t row)
 {
     static const uint32_t step[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

@@ -479,11 +479,11 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     if (status != LRCS_OK) {
         return status;
     }
-    const response_memory memory = {
-        .node = lrcsi_work_take(work, (size_t)nodes * materials, sizeof *memory.node),
-        .brdf = lrcsi_work_take(work, materials, sizeof *memory.brdf),
-        .response = lrcsi_work_take(work, materials, sizeof *memory.response),
-        .material = lrcsi_work_take(work, materials, sizeof *memory.material)};
+    response_memory memory;
+    memory.node = lrcsi_work_take(work, (size_t)nodes * materials, sizeof *memory.node);
+    memory.brdf = lrcsi_work_take(work, materials, sizeof *memory.brdf);
+    memory.response = lrcsi_work_take(work, materials, sizeof *memory.response);
+    memory.material = lrcsi_work_take(work, materials, sizeof *memory.material);
     if (!memory.node || !memory.brdf || !memory.response || !memory.material) {
         work->used = mark;
         return LRCS_E_MEMORY;
