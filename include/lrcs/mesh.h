@@ -75,8 +75,8 @@ typedef struct lrcs_mesh_report {
     int closed;                    /* every edge is used equally often in both directions */
     int convex;                    /* closed, one piece, and exactly convex: no self-shadowing */
     double box_min[3], box_max[3]; /* of the vertices that facets use */
-    double area;
-    double volume; /* signed, about the box centre; meaningful only if closed */
+    double area;                   /* in the square of the coordinates' unit */
+    double volume; /* in its cube; signed, about the box centre; meaningful only if closed */
 } lrcs_mesh_report;
 
 /* Bytes of work area that lrcs_mesh_check takes for a mesh of these counts (upper bound). */

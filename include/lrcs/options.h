@@ -7,12 +7,12 @@
 #include <stdint.h>
 
 enum lrcs_method {
-    LRCS_METHOD_AUTO = 0,
-    LRCS_METHOD_FACET,
-    LRCS_METHOD_ZBUFFER,
-    LRCS_METHOD_EXACT,
-    LRCS_METHOD_CLOSED /* in results only, chosen by auto: every part is a shape that nothing hides
-                        */
+    LRCS_METHOD_AUTO = 0, /* the cheapest of the others that meets the tolerance */
+    LRCS_METHOD_FACET,    /* no search for shadows: exact only for a convex body */
+    LRCS_METHOD_ZBUFFER,  /* visible areas from the samples of a raster */
+    LRCS_METHOD_EXACT,    /* visible areas by clipping */
+    LRCS_METHOD_CLOSED    /* in results only, chosen by auto: every part is a shape that nothing
+                             hides */
 };
 
 /* The method's name ("auto", ...), or NULL. lrcs_method_find is the inverse for the methods that
@@ -33,16 +33,17 @@ enum lrcs_accept {
 const char *lrcs_accept_text(int accept);
 int lrcs_accept_find(const char *name);
 
-/* What the engine can leave out. */
+/* What a scene may call for; what it does not call for is left out. */
 enum lrcs_effect_name {
-    LRCS_EFFECT_SELF_SHADOWING,
-    LRCS_EFFECT_BACK_FACE_CASTERS,
-    LRCS_EFFECT_GLINT,
-    LRCS_EFFECT_DIFFUSE,
-    LRCS_EFFECT_CURVED_NORMALS,
-    LRCS_EFFECT_TWO_SIDED,
-    LRCS_EFFECT_ARTICULATION,
-    LRCS_EFFECT_CLOSED_FORMS, /* method auto evaluates shapes that nothing hides without facets */
+    LRCS_EFFECT_SELF_SHADOWING,    /* facets hide others */
+    LRCS_EFFECT_BACK_FACE_CASTERS, /* so do facets whose backs face the laser */
+    LRCS_EFFECT_GLINT,             /* the term A of the BRDF */
+    LRCS_EFFECT_DIFFUSE,           /* the term B of the BRDF */
+    LRCS_EFFECT_CURVED_NORMALS,    /* normals vary over a facet */
+    LRCS_EFFECT_TWO_SIDED,         /* backs of facets reflect, too */
+    LRCS_EFFECT_ARTICULATION,      /* a part has a joint */
+    LRCS_EFFECT_CLOSED_FORMS,      /* method auto evaluates shapes that nothing hides without
+                                      facets */
     LRCS_EFFECTS
 };
 

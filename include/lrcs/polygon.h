@@ -36,8 +36,9 @@ size_t lrcs_polygon_need(const lrcs_prepared *prepared);
 /* The visible polygons of a pose.
    Given: prepared; pose; work.
    Returned: polygons, in the work area.
-   Status: LRCS_OK; LRCS_E_ARGUMENT, LRCS_E_NUMBER (the pose); LRCS_E_MEMORY; LRCS_E_LIMIT;
-   LRCS_E_UNSUPPORTED (this thread's arithmetic, as lrcs_prepare_run).
+   Status: LRCS_OK; LRCS_E_ARGUMENT, LRCS_E_NUMBER (the pose); LRCS_E_MEMORY; LRCS_E_LIMIT (more
+   than 2^32 - 2 points, or candidates in a grid); LRCS_E_UNSUPPORTED (this thread's arithmetic, as
+   lrcs_prepare_run).
    Notes: 1. A facet that is entirely visible, or cannot be distinguished from one that is, has one
    ring: its own three corners, exactly. A facet that cannot be distinguished from a hidden one has
    no ring, and neither has a facet whose visibility is unknown; bound_m2 includes both.

@@ -28,16 +28,17 @@ lrcs_pose lrcs_pose_default(void);
 int lrcs_pose_from_direction(const double direction[3], lrcs_pose *pose);
 
 /* From azimuth and elevation, deg, body frame: s_hat = (cos EL cos AZ, cos EL sin AZ, sin EL).
-   Degrees are reduced exactly: (0, 90) is exactly +z. Status: LRCS_OK; LRCS_E_NUMBER. */
+   Degrees are reduced exactly: (0, 90) is exactly +z. Status: LRCS_OK; LRCS_E_NUMBER (not
+   finite). */
 int lrcs_pose_from_azel(double az_deg, double el_deg, lrcs_pose *pose);
 
 /* From three Euler angles, deg. sequence: three letters of xyz, uppercase intrinsic, lowercase
    extrinsic, not mixed, neighbours different: "XYZ" means R = Rx(a) Ry(b) Rz(c), "xyz" means
-   R = Rz(c) Ry(b) Rx(a). Status: LRCS_OK; LRCS_E_NAME (sequence); LRCS_E_NUMBER. */
+   R = Rz(c) Ry(b) Rx(a). Status: LRCS_OK; LRCS_E_NAME (sequence); LRCS_E_NUMBER (not finite). */
 int lrcs_pose_from_euler(const char *sequence, const double angles_deg[3], lrcs_pose *pose);
 
 /* From a quaternion (w, x, y, z), Hamilton, body to observation; normalised here.
-   Status: LRCS_OK; LRCS_E_NUMBER; LRCS_E_ARGUMENT (zero). */
+   Status: LRCS_OK; LRCS_E_NUMBER (not finite); LRCS_E_ARGUMENT (zero). */
 int lrcs_pose_from_quaternion(const double q[4], lrcs_pose *pose);
 
 #endif

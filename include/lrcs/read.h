@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Readers for 3DS, OBJ with MTL, and STL, from bytes in memory.
    Each format has two calls: `count` walks the bytes once and fills the counts, `read` fills a
-   mesh in the work area (lrcs_mesh_need bytes). Both read only bytes[0..size-1] and report where
-   they stopped. */
+   mesh in the work area (lrcs_mesh_need bytes). Both read only bytes[0..size-1]. On failure `where`
+   states the place, and what the format requires there.
+   A status written _SYNTAX is LRCS_E_SYNTAX, and so on; its cause is that of lrcs/status.h. */
 #ifndef LRCS_READ_H
 #define LRCS_READ_H
 
@@ -15,8 +16,8 @@ enum lrcs_format {
     LRCS_FORMAT_STL /* binary or ASCII, distinguished by content */
 };
 
-/* The format of a file, determined from its content first and the extension of its name second
-   (either may be missing: name NULL, size 0). */
+/* The format of a file (lrcs_format), determined from its content first and the extension of its
+   name second (either may be missing: name NULL, size 0). */
 int lrcs_format_check(const void *bytes, size_t size, const char *name);
 
 /* Bytes of work area a read takes, an upper bound, including what it needs while it reads. */

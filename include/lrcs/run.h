@@ -8,14 +8,14 @@
 #include <lrcs/prepare.h>
 
 typedef struct lrcs_effect {
-    int on;
-    const char *reason; /* constant text */
+    int on;             /* 1: simulated; 0: left out */
+    const char *reason; /* why: constant text */
 } lrcs_effect;
 
 /* Flags: the answer is degraded, and the bound widened accordingly; or it was accepted without
    proof. */
 enum lrcs_flag {
-    LRCS_FLAG_TOLERANCE_NOT_MET = 1 << 0,
+    LRCS_FLAG_TOLERANCE_NOT_MET = 1 << 0, /* neither the bound nor an accepted estimate does */
     /* lack of memory: a raster instead of clipping, or a coarser raster than requested, or facets
        that were not clipped */
     LRCS_FLAG_MEMORY_FALLBACK = 1 << 1,
@@ -35,7 +35,7 @@ enum lrcs_notice {
     LRCS_NOTICE_BACK_SIDES_VISIBLE = 1 << 0,  /* open or inverted mesh */
     LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* a curved shape no larger than rounding errors */
 };
-const char *lrcs_notice_text(int bit);
+const char *lrcs_notice_text(int bit); /* one sentence; never NULL */
 
 typedef struct lrcs_budget {
     double visibility_m2;   /* raster or clipping, and what a limit of steps left unknown */
@@ -48,7 +48,7 @@ typedef struct lrcs_budget {
    none of its facets faces the laser, no record contains its sigma. */
 typedef struct lrcs_facet_record {
     double area_m2;         /* of the facet itself; 0 for degenerate and omitted ones */
-    double cos_theta;       /* signed */
+    double cos_theta;       /* of the incidence angle; negative if the back faces the laser */
     double visible_area_m2; /* visible projected area, also of back sides */
     double sigma_m2;
     double sigma_glint_m2; /* the glint part of sigma_m2; the rest is diffuse */
@@ -65,14 +65,17 @@ typedef struct lrcs_result {
                                      bound; negative: all facets are flat */
     double projected_area_m2;     /* the whole silhouette */
     double back_side_area_m2;     /* visible projected area of one-sided back sides */
-    uint32_t back_side_facets;
-    int method;                /* the one used, never AUTO */
+    uint32_t back_side_facets;    /* their number */
+    int method;                   /* lrcs_method: the one used, never AUTO */
     const char *method_reason; /* reason for the choice: constant text, "as asked" unless auto chose
                                 */
     uint32_t resolution;       /* 0: no raster */
-    uint32_t facets_total, facets_front, facets_hidden, facets_partial;
-    lrcs_effect effect[LRCS_EFFECTS];
-    uint32_t flags, notices;
+    uint32_t facets_total;     /* of the scene */
+    uint32_t facets_front;     /* whose front faces the laser */
+    uint32_t facets_hidden;    /* of those that could reflect, how many are hidden */
+    uint32_t facets_partial;   /* likewise, how many are visible in part */
+    lrcs_effect effect[LRCS_EFFECTS]; /* by lrcs_effect_name */
+    uint32_t flags, notices;          /* lrcs_flag and lrcs_notice bits */
     uint64_t steps; /* of the visibility computation: note 3 of lrcs_run_options_default */
 } lrcs_result;
 
@@ -97,9 +100,9 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
    every method, image->size > 0 is its size, and image->facet has room for it.
    Status: LRCS_OK; LRCS_E_ARGUMENT (options, the image's size or the pose); LRCS_E_MEMORY;
    LRCS_E_NUMBER (the pose, or sigma beyond double range); LRCS_E_LIMIT (more than 2^32 - 2
-   candidates in a grid); LRCS_E_UNSUPPORTED (this thread's arithmetic, as lrcs_prepare_run). Work:
-   nothing stays in the work area. Every loop is bounded: examples/flight/README.md states the most
-   work that a pose can require and what poses require in practice; options->steps sets a close
+   candidates in a grid); LRCS_E_UNSUPPORTED (this thread's arithmetic, as lrcs_prepare_run).
+   Work: nothing stays in the work area. Every loop is bounded: examples/flight/README.md states the
+   most work that a pose can require and what poses require in practice; options->steps sets a close
    limit.
    Notes: 1. With curved normals an integral replaces f_r cos^2 times an area. Its cubature has an
    error of about curvature_estimate_m2, which is not proved and not in the bound.

@@ -40,7 +40,9 @@ typedef struct lrcs_shape {
 const char *lrcs_shape_text(int kind);
 int lrcs_shape_find(const char *name);
 
-/* LRCS_OK, or LRCS_E_ARGUMENT / LRCS_E_NUMBER with where->item naming the dimension at fault. */
+/* Checks a shape. Status: LRCS_OK; LRCS_E_ARGUMENT (kind, parts, or a dimension that the kind does
+   not use or that disagrees with another one); LRCS_E_NUMBER (not finite, or outside its range).
+   where->item names what is at fault. */
 int lrcs_shape_check(const lrcs_shape *shape, lrcs_where *where);
 
 /* The direction to the laser: an angle from the axis, taken as exact in degrees (90 is exactly 90),
@@ -114,7 +116,7 @@ typedef struct lrcs_divisions {
    aspect of a sampled set, relative to sigma or to its mean over attitudes, whichever is larger;
    at most max_facets. If even max_facets do not reduce the error below sigma itself, the glint is
    disregarded and the diffuse part determines the count.
-   Status: LRCS_OK; LRCS_E_ARGUMENT; LRCS_E_NUMBER.
+   Status: LRCS_OK; LRCS_E_ARGUMENT, LRCS_E_NUMBER (shape, as lrcs_shape_check; fineness).
    Work: O(around log around); milliseconds. */
 int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
                      lrcs_divisions *divisions, lrcs_mesh_counts *counts);

@@ -50,7 +50,8 @@ typedef struct lrcs_host_sweep {
 /* Runs the poses of a sweep.
    Given: a prepared scene (NULL if sweep->scene makes the scenes); options of each run; sweep.
    Returned: done unless NULL, also on failure: the first `done` poses were taken.
-   Status: LRCS_OK; LRCS_E_CANCELLED; LRCS_E_ARGUMENT; LRCS_E_SYSTEM (memory); as
+   Status: LRCS_OK; LRCS_E_CANCELLED; LRCS_E_ARGUMENT (threads, first + count, or a scene that
+   is not prepared); LRCS_E_SYSTEM (memory); as
    lrcs_host_scene_run or `pose` for the first pose that fails, whose number the sentence states:
    all poses before it were taken, for any number of threads; as `take`.
    Work: one work area per thread, which grows as the poses need it; a queue of results whose length

@@ -44,62 +44,52 @@ typedef struct gpu_shade {
     double glint, diffuse, cos_theta;
 } gpu_shade;
 
-/* The product of R and the facet's unit normal, both as they are uploaded. */
-static void shade_normal(const lrcsi_view *view, int single, uint32_t facet, double out[3])
-{
-    const lrcsi_normal *n = &view->prepared->normal[facet];
-    for (int k = 0; k < 3; k++) {
-        double part[3];
-        for (int j = 0; j < 3; j++) {
-            part[j] = lrcsi_single(single, lrcsi_single(single, view->R[k][j]) *
-                                               lrcsi_single(single, n->high[j] / n->length));
-        }
-        out[k] = lrcsi_single(single, lrcsi_single(single, part[0] + part[1]) + part[2]);
-    }
-}
-
-/* A exp(-(tan / s)^2) / cos^5. The tangent is computed from the components of the normal: from the
-   cosine alone, floats would lose a narrow glint. The result is infinite only if it exceeds the
-   range of the precision; it is 0 if the exponential is 0. */
-static double shade_glint(int single, const lrcs_brdf *brdf, double cos_theta, double across,
-                          double along)
-{
-    double A = lrcsi_single(single, brdf->A);
-    double s = lrcsi_single(single, brdf->s);
-    double x = across > 0 ? lrcsi_single(single, across / lrcsi_single(single, along * s)) : 0;
-    double e = lrcsi_single(single, exp(-lrcsi_single(single, x * x)));
-    double c2 = lrcsi_single(single, cos_theta * cos_theta);
-    double c5 = lrcsi_single(single, lrcsi_single(single, c2 * c2) * cos_theta);
-    return A > 0 && e > 0 ? lrcsi_single(single, A * lrcsi_single(single, e / c5)) : 0;
-}
-
-/* B cos^m cos. */
-static double shade_diffuse(int single, const lrcs_brdf *brdf, double cos_theta)
-{
-    double B = lrcsi_single(single, brdf->B);
-    double power = lrcsi_single(single, pow(cos_theta, lrcsi_single(single, brdf->m)));
-    double weight = lrcsi_single(single, power * cos_theta);
-    return B > 0 && weight > 0 ? lrcsi_single(single, B * weight) : 0;
-}
-
-/* A facet whose visible side reflects nothing has no shade. */
+/* The shade of a facet; none if its visible side reflects nothing. Every operation is rounded to
+   the precision.
+   1. The product of R and the unit normal, both as they are uploaded.
+   2. The cosine and the sine of the incidence angle, times the length of that product.
+   3. The glint A exp(-(tan / s)^2) / cos^5. The tangent is computed from the components of the
+      normal: from the cosine alone, floats would lose a narrow glint. It is infinite only if it
+      exceeds the range of the precision; it is 0 if the exponential is 0.
+   4. The diffuse term B cos^m cos. */
 static gpu_shade shade_make(const lrcsi_gpu *gpu, uint32_t facet)
 {
     int single = gpu->single;
-    const lrcs_material *material = lrcsi_prepared_material(gpu->view->prepared, facet);
+    const lrcsi_view *view = gpu->view;
+    const lrcs_material *material = lrcsi_prepared_material(view->prepared, facet);
+    const lrcs_brdf *brdf = &material->brdf;
+    const lrcsi_normal *normal = &view->prepared->normal[facet];
     double n[3];
-    shade_normal(gpu->view, single, facet, n);
-    double across2 =
+    for (int k = 0; k < 3; k++) { /* 1 */
+        double part[3];
+        for (int j = 0; j < 3; j++) {
+            part[j] =
+                lrcsi_single(single, lrcsi_single(single, view->R[k][j]) *
+                                         lrcsi_single(single, normal->high[j] / normal->length));
+        }
+        n[k] = lrcsi_single(single, lrcsi_single(single, part[0] + part[1]) + part[2]);
+    }
+    double across2 = /* 2 */
         lrcsi_single(single, lrcsi_single(single, n[0] * n[0]) + lrcsi_single(single, n[1] * n[1]));
     double length = lrcsi_single(
         single, sqrt(lrcsi_single(single, across2 + lrcsi_single(single, n[2] * n[2]))));
     gpu_shade shade = {.cos_theta = lrcsi_single(single, n[2] / length)};
     double c = fabs(shade.cos_theta);
-    if (shade.cos_theta > 0 || (c > 0 && material->two_sided)) {
-        double across = lrcsi_single(single, sqrt(across2));
-        shade.glint = shade_glint(single, &material->brdf, c, across, fabs(n[2]));
-        shade.diffuse = shade_diffuse(single, &material->brdf, c);
+    if (!(shade.cos_theta > 0 || (c > 0 && material->two_sided))) {
+        return shade;
     }
+    double across = lrcsi_single(single, sqrt(across2));
+    double A = lrcsi_single(single, brdf->A); /* 3 */
+    double s = lrcsi_single(single, brdf->s);
+    double x = across > 0 ? lrcsi_single(single, across / lrcsi_single(single, fabs(n[2]) * s)) : 0;
+    double e = lrcsi_single(single, exp(-lrcsi_single(single, x * x)));
+    double c2 = lrcsi_single(single, c * c);
+    double c5 = lrcsi_single(single, lrcsi_single(single, c2 * c2) * c);
+    shade.glint = A > 0 && e > 0 ? lrcsi_single(single, A * lrcsi_single(single, e / c5)) : 0;
+    double B = lrcsi_single(single, brdf->B); /* 4 */
+    double power = lrcsi_single(single, pow(c, lrcsi_single(single, brdf->m)));
+    double weight = lrcsi_single(single, power * c);
+    shade.diffuse = B > 0 && weight > 0 ? lrcsi_single(single, B * weight) : 0;
     return shade;
 }
 
@@ -131,32 +121,6 @@ static double pair_value(const pair_sum *sum, int single)
         total = sum->count >> k & 1u ? lrcsi_single(single, sum->level[k] + total) : total;
     }
     return total;
-}
-
-/* The steps after the item buffer. */
-typedef struct gpu_totals {
-    double glint, diffuse; /* of f_r cos(theta) over pixels, in pairs */
-    double running[2];     /* the same, added one pixel after the other */
-    uint64_t owned;        /* pixels */
-} gpu_totals;
-
-static gpu_totals totals_make(const lrcsi_gpu *gpu, const gpu_shade *shade)
-{
-    static const gpu_shade none = {0, 0, 0};
-    pair_sum glint = {.count = 0};
-    pair_sum diffuse = {.count = 0};
-    gpu_totals totals = {.owned = 0};
-    for (size_t i = 0; i < (size_t)gpu->size * gpu->size; i++) {
-        const gpu_shade *at = gpu->owner[i] != LRCS_NONE ? &shade[gpu->owner[i]] : &none;
-        totals.owned += at != &none;
-        pair_add(&glint, gpu->single, at->glint);
-        pair_add(&diffuse, gpu->single, at->diffuse);
-        totals.running[0] = lrcsi_single(gpu->single, totals.running[0] + at->glint);
-        totals.running[1] = lrcsi_single(gpu->single, totals.running[1] + at->diffuse);
-    }
-    totals.glint = pair_value(&glint, gpu->single);
-    totals.diffuse = pair_value(&diffuse, gpu->single);
-    return totals;
 }
 
 /* --- outputs ---------------------------------------------------------------------------------- */
@@ -194,15 +158,30 @@ static void records_fill(const lrcsi_gpu *gpu, const gpu_shade *shade, lrcs_face
     }
 }
 
-static lrcs_emulation emulation_make(const lrcsi_gpu *gpu, const gpu_totals *totals)
+/* Adds the shades of all pixels, each term in pairs and one after the other. */
+static lrcs_emulation pixels_add(const lrcsi_gpu *gpu, const gpu_shade *shade)
 {
+    static const gpu_shade none = {0, 0, 0};
+    pair_sum glint = {.count = 0};
+    pair_sum diffuse = {.count = 0};
+    double running_glint = 0;
+    double running_diffuse = 0;
+    uint64_t owned = 0; /* pixels that show a facet */
+    for (size_t i = 0; i < (size_t)gpu->size * gpu->size; i++) {
+        const gpu_shade *at = gpu->owner[i] != LRCS_NONE ? &shade[gpu->owner[i]] : &none;
+        owned += at != &none;
+        pair_add(&glint, gpu->single, at->glint);
+        pair_add(&diffuse, gpu->single, at->diffuse);
+        running_glint = lrcsi_single(gpu->single, running_glint + at->glint);
+        running_diffuse = lrcsi_single(gpu->single, running_diffuse + at->diffuse);
+    }
     lrcs_emulation e;
-    e.sigma_glint_m2 = pixels_area(gpu, LRCS_FOUR_PI * totals->glint);
-    e.sigma_diffuse_m2 = pixels_area(gpu, LRCS_FOUR_PI * totals->diffuse);
+    e.sigma_glint_m2 = pixels_area(gpu, LRCS_FOUR_PI * pair_value(&glint, gpu->single));
+    e.sigma_diffuse_m2 = pixels_area(gpu, LRCS_FOUR_PI * pair_value(&diffuse, gpu->single));
     e.sigma_m2 = e.sigma_glint_m2 + e.sigma_diffuse_m2;
-    e.running_m2 = pixels_area(gpu, LRCS_FOUR_PI * totals->running[0]) +
-                   pixels_area(gpu, LRCS_FOUR_PI * totals->running[1]);
-    e.projected_area_m2 = pixels_area(gpu, (double)totals->owned);
+    e.running_m2 = pixels_area(gpu, LRCS_FOUR_PI * running_glint) +
+                   pixels_area(gpu, LRCS_FOUR_PI * running_diffuse);
+    e.projected_area_m2 = pixels_area(gpu, (double)owned);
     return e;
 }
 
@@ -228,56 +207,40 @@ size_t lrcs_emulate_need(const lrcs_prepared *prepared, const lrcs_emulation_opt
     return lrcsi_work_add(need, lrcsi_gpu_need(prepared, options->resolution));
 }
 
-static gpu_shade *shades_make(const lrcsi_gpu *gpu, lrcs_work *work)
-{
-    const lrcs_prepared *p = gpu->view->prepared;
-    gpu_shade *shade = lrcsi_work_take_zero(work, p->scene->facet_count, sizeof *shade);
-    for (uint32_t f = 0; shade && f < p->scene->facet_count; f++) {
-        if (!p->skip[f]) {
-            shade[f] = shade_make(gpu, f);
-        }
-    }
-    return shade;
-}
-
-/* Nothing can fail after the sums: outputs are written last. */
-static int emulate_in(lrcsi_view *view, const lrcs_emulation_options *options, lrcs_work *work,
-                      lrcs_emulation *emulation, lrcs_facet_record *records, lrcs_image *image)
-{
-    lrcsi_gpu gpu;
-    int status = lrcsi_gpu_make(view, options, work, &gpu);
-    if (status != LRCS_OK) {
-        return status;
-    }
-    const gpu_shade *shade = shades_make(&gpu, work);
-    if (!shade) {
-        return LRCS_E_MEMORY;
-    }
-    gpu_totals totals = totals_make(&gpu, shade);
-    lrcs_emulation e = emulation_make(&gpu, &totals);
-    if (!isfinite(e.sigma_m2 + e.running_m2)) {
-        return LRCS_E_NUMBER;
-    }
-    *emulation = e;
-    if (records) {
-        records_fill(&gpu, shade, records);
-    }
-    if (image) {
-        lrcsi_image_fill(view, gpu.owner, image);
-    }
-    return LRCS_OK;
-}
-
 int lrcs_emulate_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
                      const lrcs_emulation_options *options, lrcs_work *work,
                      lrcs_emulation *emulation, lrcs_facet_record *records, lrcs_image *image)
 {
     lrcsi_view view;
+    lrcsi_gpu gpu;
+    gpu_shade *shade = NULL;
+    lrcs_emulation e = {0};
+    uint32_t facets = prepared->scene->facet_count;
     size_t mark = work->used;
     int status = emulation_check(prepared, options, image);
     status = status == LRCS_OK ? lrcsi_view_make(prepared, pose, work, &view) : status;
+    status = status == LRCS_OK ? lrcsi_gpu_make(&view, options, work, &gpu) : status;
     if (status == LRCS_OK) {
-        status = emulate_in(&view, options, work, emulation, records, image);
+        shade = lrcsi_work_take_zero(work, facets, sizeof *shade);
+        status = shade ? LRCS_OK : LRCS_E_MEMORY;
+    }
+    if (status == LRCS_OK) {
+        for (uint32_t f = 0; f < facets; f++) {
+            if (!prepared->skip[f]) {
+                shade[f] = shade_make(&gpu, f);
+            }
+        }
+        e = pixels_add(&gpu, shade);
+        status = isfinite(e.sigma_m2 + e.running_m2) ? LRCS_OK : LRCS_E_NUMBER;
+    }
+    if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
+        *emulation = e;
+        if (records) {
+            records_fill(&gpu, shade, records);
+        }
+        if (image) {
+            lrcsi_image_fill(&view, gpu.owner, image);
+        }
     }
     work->used = mark;
     return status;

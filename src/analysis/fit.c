@@ -67,26 +67,17 @@ static int size_is_good(double size, double high)
     return size > 1.0 / high && size < high;
 }
 
-static int sizes_are_good(const lrcs_fit_reading *reading, uint32_t count,
-                          const lrcs_fit_options *options, double largest)
-{
-    int given = options->noise == LRCS_FIT_GIVEN || options->noise == LRCS_FIT_WEIGHTED;
-    int good = size_is_good(options->unit * largest, FIT_SIZE_MAX);
-    for (uint32_t i = 0; i < count && given && good; i++) {
-        good = size_is_good(largest / reading[i].sigma, FIT_RATIO_MAX);
-    }
-    return good;
-}
-
+/* Checks options and readings. Returned: the largest absolute value of the readings. */
 static int readings_check(const lrcs_fit_reading *reading, uint32_t count,
                           const lrcs_fit_options *options, double *largest)
 {
+    double highest = 0.0; /* by its sign */
+    int given = options->noise == LRCS_FIT_GIVEN || options->noise == LRCS_FIT_WEIGHTED;
     *largest = 0.0;
     if (!(options->unit > 0.0 && isfinite(options->unit)) || options->noise < LRCS_FIT_ABSOLUTE ||
         options->noise > LRCS_FIT_WEIGHTED) {
         return LRCS_E_ARGUMENT;
     }
-    double highest = 0.0; /* reading, by its sign */
     for (uint32_t i = 0; i < count; i++) {
         if (!(fabs(reading[i].angle_deg) < 90.0) || !isfinite(reading[i].value)) {
             return LRCS_E_NUMBER;
@@ -97,7 +88,11 @@ static int readings_check(const lrcs_fit_reading *reading, uint32_t count,
     if (count < LRCS_FIT_READINGS || !(highest > 0.0)) {
         return LRCS_E_EMPTY;
     }
-    return sizes_are_good(reading, count, options, *largest) ? LRCS_OK : LRCS_E_NUMBER;
+    int good = size_is_good(options->unit * *largest, FIT_SIZE_MAX);
+    for (uint32_t i = 0; i < count && given && good; i++) {
+        good = size_is_good(*largest / reading[i].sigma, FIT_RATIO_MAX);
+    }
+    return good ? LRCS_OK : LRCS_E_NUMBER;
 }
 
 static int data_take(lrcs_work *work, uint32_t count, lrcsi_fit_data *data)
@@ -116,49 +111,35 @@ static int data_take(lrcs_work *work, uint32_t count, lrcsi_fit_data *data)
     return LRCS_OK;
 }
 
-/* The limits of the search for each coordinate. */
-static void data_limits(lrcsi_fit_data *data)
+/* Fills the vectors:
+   1. tan^2 and log(1 + tan^2) of the angles;
+   2. the readings, divided by the power of two just below the largest: an exact operation, after
+      which no square overflows;
+   3. 1 / (the first estimate of the error of a reading);
+   4. the limits of the search for each coordinate. */
+static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *options,
+                      double scale, lrcsi_fit_data *data)
 {
     double tan2_min = HUGE_VAL; /* the smallest above 0 */
     for (uint32_t i = 0; i < data->count; i++) {
+        double sine;
+        double cosine;
+        lrcsi_degrees_sincos(reading[i].angle_deg, &sine, &cosine); /* 1 */
+        data->u[i] = sine / cosine * (sine / cosine);
+        data->log_w[i] = log1p(data->u[i]);
         tan2_min = data->u[i] > 0.0 ? lrcsi_min(tan2_min, data->u[i]) : tan2_min;
+        data->factor[i] = options->cosine ? cosine : 1.0;
+        data->y[i] = reading[i].value / scale;                       /* 2 */
+        data->inverse[i] = options->noise == LRCS_FIT_ABSOLUTE ? 1.0 /* 3 */
+                           : options->noise == LRCS_FIT_RELATIVE
+                               ? 1.0 / lrcsi_max(fabs(data->y[i]), FIT_FLOOR)
+                               : scale / reading[i].sigma;
     }
-    double slope = lrcsi_min(sqrt(tan2_min) / FIT_S_DIVISOR, 0.1 * FIT_S_MAX);
+    double slope = lrcsi_min(sqrt(tan2_min) / FIT_S_DIVISOR, 0.1 * FIT_S_MAX); /* 4 */
     const double high[] = {FIT_AMPLITUDE_MAX, FIT_AMPLITUDE_MAX, log(FIT_S_MAX), log1p(FIT_M_MAX)};
     const double low[] = {0.0, 0.0, log(slope), 0.0};
     memcpy(data->low, low, sizeof low);
     memcpy(data->high, high, sizeof high);
-}
-
-/* 1 / (the first estimate of the error of a reading). */
-static double error_inverse(const lrcs_fit_reading *reading, int noise, double y, double scale)
-{
-    switch (noise) {
-    case LRCS_FIT_ABSOLUTE:
-        return 1.0;
-    case LRCS_FIT_RELATIVE:
-        return 1.0 / lrcsi_max(fabs(y), FIT_FLOOR);
-    default:
-        return scale / reading->sigma;
-    }
-}
-
-/* Divides the readings by the power of two just below the largest: an exact operation, after which
-   no square overflows. */
-static void data_fill(const lrcs_fit_reading *reading, const lrcs_fit_options *options,
-                      double scale, lrcsi_fit_data *data)
-{
-    for (uint32_t i = 0; i < data->count; i++) {
-        double sine;
-        double cosine;
-        lrcsi_degrees_sincos(reading[i].angle_deg, &sine, &cosine);
-        data->u[i] = sine / cosine * (sine / cosine);
-        data->log_w[i] = log1p(data->u[i]);
-        data->factor[i] = options->cosine ? cosine : 1.0;
-        data->y[i] = reading[i].value / scale;
-        data->inverse[i] = error_inverse(&reading[i], options->noise, data->y[i], scale);
-    }
-    data_limits(data);
 }
 
 /* ---- the fit ---- */
@@ -177,23 +158,6 @@ typedef struct fit_job {
     lrcsi_fit_spread spread;
     double limit[LRCS_FIT_PARAMETERS][2];
 } fit_job;
-
-/* Minimizes from all starting points with Huber's weights, the best first. They are ordered by the
-   sum of absolute residuals, on which a few outliers have little influence. */
-static void starts_make(fit_job *job)
-{
-    uint32_t best = 0;
-    double sum_min = HUGE_VAL;
-    job->starts = lrcsi_fit_search(&job->data, job->start);
-    for (uint32_t i = 0; i < job->starts; i++) {
-        double sum = lrcsi_fit_huber(&job->data, job->noise, &job->start[i]);
-        best = sum < sum_min ? i : best;
-        sum_min = lrcsi_min(sum, sum_min);
-    }
-    lrcsi_fit_parameters first = job->start[best];
-    job->start[best] = job->start[0];
-    job->start[0] = first;
-}
 
 /* The lowest minimum from all starting points and from the fit so far, with A or B held at 0 if
    `without` names it. */
@@ -285,11 +249,27 @@ static void errors_estimate(fit_job *job)
     job->rise = (known ? 1.0 : variance) * t * t;
 }
 
+/* Makes the fit:
+   1. minimizes from all starting points with Huber's weights. They are ordered by the sum of
+      absolute residuals, on which a few outliers have little influence;
+   2. fits all four parameters, excluding outliers, and leaves out a part that is not significant;
+   3. estimates the errors, and finds the confidence limits. If a better fit is found on the way, 2
+      and 3 are repeated from there. */
 static void fit_make(fit_job *job)
 {
     int done = 0;
-    starts_make(job);
-    job->full = job->start[0];
+    uint32_t best = 0;
+    double sum_min = HUGE_VAL;
+    job->starts = lrcsi_fit_search(&job->data, job->start); /* 1 */
+    for (uint32_t i = 0; i < job->starts; i++) {
+        double sum = lrcsi_fit_huber(&job->data, job->noise, &job->start[i]);
+        best = sum < sum_min ? i : best;
+        sum_min = lrcsi_min(sum, sum_min);
+    }
+    lrcsi_fit_parameters first = job->start[best];
+    job->start[best] = job->start[0];
+    job->start[0] = first;
+    job->full = first;
     for (int repeat = 0; repeat < FIT_REPEATS && !done; repeat++) {
         full_fit(job);
         parts_choose(job);

@@ -33,50 +33,34 @@ typedef struct clip_matrix {
     double unit; /* per scaled unit: a power of two */
 } clip_matrix;
 
-/* The smallest and largest depth of the facets that are drawn. */
-static void depth_range(const lrcsi_view *view, double *low, double *high)
-{
-    const lrcs_prepared *p = view->prepared;
-    *low = HUGE_VAL;
-    *high = -HUGE_VAL;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
-            double z = view->point[p->scene->facet[f].corner[corner]].x[2];
-            *low = lrcsi_min(*low, z);
-            *high = lrcsi_max(*high, z);
-        }
-    }
-}
-
-/* The distance along a view axis from the origin of views to the centre of the scene; 0 in most
-   scenes. */
-static double centre_along(const lrcsi_view *view, int axis)
-{
-    const lrcs_prepared *p = view->prepared;
-    double along = 0;
-    for (int k = 0; k < 3; k++) {
-        along += view->R[axis][k] * (p->centre[k] - p->origin[k]);
-    }
-    return along;
-}
-
+/* The cube of the clip coordinates encloses the window and, with a margin, the depths of all facets
+   that are drawn. Positions are relative to the centre of the scene; in most scenes that is the
+   origin of views. */
 static clip_matrix clip_make(const lrcsi_gpu *gpu)
 {
     const lrcsi_view *view = gpu->view;
-    clip_matrix clip = {.unit = ldexp(1, -ilogb(view->prepared->radius))};
-    double low;
-    double high;
-    depth_range(view, &low, &high);
+    const lrcs_prepared *p = view->prepared;
+    clip_matrix clip = {.unit = ldexp(1, -ilogb(p->radius))};
+    double low = HUGE_VAL; /* depths */
+    double high = -HUGE_VAL;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        for (int corner = 0; corner < 3 && !p->skip[f]; corner++) {
+            double z = view->point[p->scene->facet[f].corner[corner]].x[2];
+            low = lrcsi_min(low, z);
+            high = lrcsi_max(high, z);
+        }
+    }
     const double middle[3] = {view->low[0] + 0.5 * view->side, view->low[1] + 0.5 * view->side,
                               0.5 * (low + high)};
     const double half[3] = {0.5 * view->side, 0.5 * view->side,
                             -(0.5 * (high - low) + DEPTH_MARGIN * view->side)};
     for (int k = 0; k < 3; k++) {
+        double centre = 0; /* of the scene, along a view axis */
         for (int j = 0; j < 3; j++) {
             clip.rotation[k][j] = lrcsi_single(gpu->single, view->R[k][j] / (half[k] * clip.unit));
+            centre += view->R[k][j] * (p->centre[j] - p->origin[j]);
         }
-        clip.translation[k] =
-            lrcsi_single(gpu->single, (centre_along(view, k) - middle[k]) / half[k]);
+        clip.translation[k] = lrcsi_single(gpu->single, (centre - middle[k]) / half[k]);
     }
     return clip;
 }
@@ -264,48 +248,6 @@ size_t lrcsi_gpu_need(const lrcs_prepared *prepared, uint32_t size)
     return lrcsi_work_add(need, lrcsi_work_bytes(pixels, sizeof(double)));
 }
 
-static int gpu_arrays(lrcsi_gpu *gpu, lrcs_work *work)
-{
-    size_t pixels = lrcsi_work_square(gpu->size);
-    gpu->vertex =
-        lrcsi_work_take(work, gpu->view->prepared->scene->vertex_count, sizeof *gpu->vertex);
-    gpu->owner = lrcsi_work_take(work, pixels, sizeof *gpu->owner);
-    gpu->depth = lrcsi_work_take(work, pixels, sizeof *gpu->depth);
-    if (!gpu->vertex || !gpu->owner || !gpu->depth) {
-        return LRCS_E_MEMORY;
-    }
-    for (size_t i = 0; i < pixels; i++) {
-        gpu->owner[i] = LRCS_NONE;
-        gpu->depth[i] = gpu->steps > 0 ? gpu->steps : 1;
-    }
-    return LRCS_OK;
-}
-
-static void gpu_draw(lrcsi_gpu *gpu)
-{
-    const lrcs_prepared *p = gpu->view->prepared;
-    clip_matrix clip = clip_make(gpu);
-    for (uint32_t i = 0; i < p->scene->vertex_count; i++) {
-        gpu->vertex[i] = gpu_vertex(gpu, &clip, i);
-    }
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        if (!p->skip[f]) {
-            facet_draw(gpu, f);
-        }
-    }
-}
-
-/* Enlarges the window of a needle that is seen along its axis, about the same centre. */
-static void window_widen(lrcsi_view *view)
-{
-    double wider = WINDOW_MIN * view->prepared->radius - view->side;
-    if (wider > 0) {
-        view->low[0] -= 0.5 * wider;
-        view->low[1] -= 0.5 * wider;
-        view->side += wider;
-    }
-}
-
 int lrcsi_gpu_make(lrcsi_view *view, const lrcs_emulation_options *options, lrcs_work *work,
                    lrcsi_gpu *gpu)
 {
@@ -314,14 +256,35 @@ int lrcsi_gpu_make(lrcsi_view *view, const lrcs_emulation_options *options, lrcs
     g.single = options->precision == LRCS_PRECISION_FLOAT32;
     g.steps = options->depth_bits < 32 ? ldexp(1, (int)options->depth_bits) - 1 : 0;
     g.short_depth = options->depth_bits == 32;
-    window_widen(view);
-    int status = gpu_arrays(&g, work);
-    if (status != LRCS_OK) {
-        work->used = mark;
-        return status;
+    double wider = WINDOW_MIN * view->prepared->radius - view->side;
+    if (wider > 0) { /* a needle that is seen along its axis */
+        view->low[0] -= 0.5 * wider;
+        view->low[1] -= 0.5 * wider;
+        view->side += wider;
     }
-    if (view->prepared->live > 0) {
-        gpu_draw(&g);
+    const lrcs_prepared *p = view->prepared;
+    size_t pixels = lrcsi_work_square(g.size);
+    g.vertex = lrcsi_work_take(work, p->scene->vertex_count, sizeof *g.vertex);
+    g.owner = lrcsi_work_take(work, pixels, sizeof *g.owner);
+    g.depth = lrcsi_work_take(work, pixels, sizeof *g.depth);
+    if (!g.vertex || !g.owner || !g.depth) {
+        work->used = mark;
+        return LRCS_E_MEMORY;
+    }
+    for (size_t i = 0; i < pixels; i++) {
+        g.owner[i] = LRCS_NONE;
+        g.depth[i] = g.steps > 0 ? g.steps : 1;
+    }
+    if (p->live > 0) {
+        clip_matrix clip = clip_make(&g);
+        for (uint32_t i = 0; i < p->scene->vertex_count; i++) {
+            g.vertex[i] = gpu_vertex(&g, &clip, i);
+        }
+        for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+            if (!p->skip[f]) {
+                facet_draw(&g, f);
+            }
+        }
     }
     *gpu = g;
     return LRCS_OK;

@@ -192,8 +192,8 @@ static uint32_t region_grow(finder *f, uint32_t seed, const lrcs_quadric *surfac
     return count;
 }
 
-/* The guess of a kind with which most of the surroundings of a seed, around[0], agree: their
- * number. */
+/* Finds the surface of a kind, through a seed, around[0], and one or two of its surroundings, with
+   which most of the surroundings agree. Returns 0 if with none of them enough do. */
 static int best_guess(finder *f, int kind, const uint32_t *around, uint32_t around_count,
                       lrcs_quadric *best)
 {
@@ -392,12 +392,38 @@ static uint64_t descending_key(double area)
     return ~lrcsi_bits_of(area); /* bits of doubles that are not negative have their order */
 }
 
-static double region_glint_error(const lrcs_scene *scene, const lrcs_quadric_region *region)
+/* Memory for sorting. */
+typedef struct area_order {
+    uint64_t *key, *key_spare;
+    uint32_t *order, *order_spare;
+} area_order;
+
+/* Makes order[0 .. count) list the items by descending area. Given: their keys, descending_key. */
+static void order_make(const area_order *by_area, uint32_t count)
 {
-    const lrcs_brdf *brdf = &scene->material[region->material].brdf;
-    return region->surface.kind == LRCS_QUADRIC_PLANE || !(brdf->A > 0.0)
-               ? 0.0
-               : lrcsi_ripple_error(2.0 * region->bound.normal_angle, brdf->s);
+    for (uint32_t i = 0; i < count; i++) {
+        by_area->order[i] = i;
+    }
+    lrcsi_sort_pairs(by_area->key, by_area->order, by_area->key_spare, by_area->order_spare, count);
+}
+
+/* Takes the arrays, for n facets. Returns 0 if there is too little memory. */
+static int finder_take(finder *f, area_order *by_area, uint32_t n, lrcs_work *work)
+{
+    f->neighbour = lrcsi_work_take(work, n, sizeof *f->neighbour);
+    f->normal = lrcsi_work_take(work, n, sizeof *f->normal);
+    f->area = lrcsi_work_take(work, n, sizeof *f->area);
+    f->region = lrcsi_work_take(work, n, sizeof *f->region);
+    f->mark = lrcsi_work_take_zero(work, n, sizeof *f->mark);
+    f->queue = lrcsi_work_take(work, n, sizeof *f->queue);
+    f->best = lrcsi_work_take(work, n, sizeof *f->best);
+    f->tried = lrcsi_work_take_zero(work, n, sizeof *f->tried);
+    by_area->key = lrcsi_work_take(work, n, sizeof *by_area->key);
+    by_area->key_spare = lrcsi_work_take(work, n, sizeof *by_area->key_spare);
+    by_area->order = lrcsi_work_take(work, n, sizeof *by_area->order);
+    by_area->order_spare = lrcsi_work_take(work, n, sizeof *by_area->order_spare);
+    return f->neighbour && f->normal && f->area && f->region && f->mark && f->queue && f->best &&
+           f->tried && by_area->key && by_area->key_spare && by_area->order && by_area->order_spare;
 }
 
 static size_t regions_max(const lrcs_scene *scene)
@@ -419,25 +445,6 @@ size_t lrcs_quadric_need(const lrcs_scene *scene)
                           2 * lrcsi_work_bytes(regions_max(scene), sizeof(lrcs_quadric_region)));
 }
 
-/* Sorts the regions, and renumbers those of the facets. */
-static void regions_sort(finder *f, const lrcs_quadric_region *found, uint32_t count, uint64_t *key,
-                         uint32_t *order, uint64_t *key_spare, uint32_t *order_spare,
-                         lrcs_quadric_region *list)
-{
-    for (uint32_t i = 0; i < count; i++) {
-        key[i] = descending_key(found[i].area);
-        order[i] = i;
-    }
-    lrcsi_sort_pairs(key, order, key_spare, order_spare, count);
-    for (uint32_t i = 0; i < count; i++) {
-        list[i] = found[order[i]];
-        order_spare[order[i]] = i;
-    }
-    for (uint32_t i = 0; i < f->scene->facet_count; i++) {
-        f->region[i] = f->region[i] == LRCS_NONE ? LRCS_NONE : order_spare[f->region[i]];
-    }
-}
-
 int lrcs_quadric_find(const lrcs_scene *scene, lrcs_work *work, lrcs_quadric_region **list,
                       uint32_t *count, uint32_t *facet_region)
 {
@@ -448,20 +455,8 @@ int lrcs_quadric_find(const lrcs_scene *scene, lrcs_work *work, lrcs_quadric_reg
     lrcs_quadric_region *regions = lrcsi_work_take(work, regions_max(scene), sizeof *regions);
     size_t end = work->used;
     lrcs_quadric_region *found = lrcsi_work_take(work, regions_max(scene), sizeof *found);
-    f.neighbour = lrcsi_work_take(work, n, sizeof *f.neighbour);
-    f.normal = lrcsi_work_take(work, n, sizeof *f.normal);
-    f.area = lrcsi_work_take(work, n, sizeof *f.area);
-    f.region = lrcsi_work_take(work, n, sizeof *f.region);
-    f.mark = lrcsi_work_take_zero(work, n, sizeof *f.mark);
-    f.queue = lrcsi_work_take(work, n, sizeof *f.queue);
-    f.best = lrcsi_work_take(work, n, sizeof *f.best);
-    f.tried = lrcsi_work_take_zero(work, n, sizeof *f.tried);
-    uint64_t *key = lrcsi_work_take(work, n, sizeof *key);
-    uint64_t *key_spare = lrcsi_work_take(work, n, sizeof *key_spare);
-    uint32_t *order = lrcsi_work_take(work, n, sizeof *order);
-    uint32_t *order_spare = lrcsi_work_take(work, n, sizeof *order_spare);
-    int taken = regions && found && f.neighbour && f.normal && f.area && f.region && f.mark &&
-                f.queue && f.best && f.tried && key && key_spare && order && order_spare;
+    area_order by_area;
+    int taken = finder_take(&f, &by_area, n, work) && regions && found;
     int status = taken ? lrcsi_topology_make(scene->vertex, scene->vertex_count, scene->facet, n,
                                              work, &topology)
                        : LRCS_E_MEMORY;
@@ -473,27 +468,37 @@ int lrcs_quadric_find(const lrcs_scene *scene, lrcs_work *work, lrcs_quadric_reg
     neighbours_find(&f, &topology);
     for (uint32_t i = 0; i < n; i++) {
         f.region[i] = LRCS_NONE;
-        key[i] = descending_key(f.area[i]);
-        order[i] = i;
+        by_area.key[i] = descending_key(f.area[i]);
     }
-    lrcsi_sort_pairs(key, order, key_spare, order_spare, n);
+    order_make(&by_area, n);
     uint32_t used = 0;
     for (uint32_t i = 0; i < n && f.comparisons_left > 0; i++) {
-        uint32_t seed = order[i];
+        uint32_t seed = by_area.order[i];
         lrcs_quadric_region region;
         if (f.region[seed] != LRCS_NONE || f.tried[seed] || !(f.area[seed] > 0.0) ||
             !seed_region(&f, seed, &region)) {
             continue;
         }
-        region.glint_error = region_glint_error(scene, &region);
+        const lrcs_brdf *brdf = &scene->material[region.material].brdf;
+        region.glint_error = region.surface.kind == LRCS_QUADRIC_PLANE || !(brdf->A > 0.0)
+                                 ? 0.0
+                                 : lrcsi_ripple_error(2.0 * region.bound.normal_angle, brdf->s);
         for (uint32_t k = 0; k < region.facet_count; k++) {
             f.region[f.best[k]] = used;
         }
         found[used++] = region;
     }
-    regions_sort(&f, found, used, key, order, key_spare, order_spare, regions);
-    if (facet_region) {
-        memcpy(facet_region, f.region, n * sizeof *facet_region);
+    for (uint32_t i = 0; i < used; i++) { /* the largest region first */
+        by_area.key[i] = descending_key(found[i].area);
+    }
+    order_make(&by_area, used);
+    uint32_t *place = by_area.order_spare; /* of each region in the list */
+    for (uint32_t i = 0; i < used; i++) {
+        regions[i] = found[by_area.order[i]];
+        place[by_area.order[i]] = i;
+    }
+    for (uint32_t i = 0; facet_region && i < n; i++) {
+        facet_region[i] = f.region[i] == LRCS_NONE ? LRCS_NONE : place[f.region[i]];
     }
     work->used = end;
     *list = regions;

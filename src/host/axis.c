@@ -53,56 +53,8 @@ static void axis_decimal(char text[48], long mantissa, int decade)
     }
 }
 
-static void log_tick_name(lrcsi_tick *tick, long mantissa, int decade, int plain)
-{
-    if (plain || mantissa != 1) {
-        axis_decimal(tick->text, mantissa, decade);
-        return;
-    }
-    strcpy(tick->text, "10");
-    snprintf(tick->raised, sizeof tick->raised, "%d", decade);
-}
-
-static void log_ticks(lrcsi_axis *axis, double labels)
-{
-    int first = axis_decade(axis->low);
-    int last = axis_decade(axis->high);
-    double span = log10(axis->high / axis->low);
-    int step = (int)ceil(span / fmax(labels, 1.0));
-    int plain = first >= -3 && last <= 5;
-    int between = 3.0 * span <= labels && (plain || span < 2.0); /* 2 and 5 are labelled too */
-    step = step > 1 ? step : 1;
-    for (int decade = first; decade <= last; decade++) {
-        for (long k = 1; k < 10; k++) {
-            double value = (double)k * pow(10.0, decade);
-            int major = k == 1 ? decade % step == 0 : between && (k == 2 || k == 5);
-            int shown = k == 1 ? major || step < 6 : step == 1;
-            if (shown && value > axis->low * (1.0 - 1e-9) && value < axis->high * (1.0 + 1e-9)) {
-                lrcsi_tick *tick = tick_add(axis, value, major);
-                if (major) {
-                    log_tick_name(tick, k, decade, plain);
-                }
-            }
-        }
-    }
-}
-
-static void linear_ticks(lrcsi_axis *axis, double step)
-{
-    int decade = axis_decade(step);
-    long mantissa = lround(step / pow(10.0, decade)); /* 1, 2 or 5 */
-    int parts = mantissa == 2 ? 4 : 5;
-    long first = lround(axis->low / step) * parts;
-    long last = lround(axis->high / step) * parts;
-    for (long i = first; i <= last; i++) {
-        double value = (double)i * step / parts;
-        lrcsi_tick *tick = tick_add(axis, value, i % parts == 0);
-        if (tick->major) {
-            axis_decimal(tick->text, i / parts * mantissa, decade);
-        }
-    }
-}
-
+/* From 1, 2 or 5 times a power of ten to another one. Decades are labelled as 10 with an exponent,
+   or as plain numbers if all of them are short; 2 and 5 are labelled too where they fit. */
 static void log_range(lrcsi_axis *axis, double low, double high, double labels)
 {
     int some = low >= LRCSI_AXIS_MIN && high <= LRCSI_AXIS_MAX && low <= high;
@@ -112,9 +64,33 @@ static void log_range(lrcsi_axis *axis, double low, double high, double labels)
         axis->low = axis_round_outward(0.5 * axis->low, 0);
         axis->high = axis_round_outward(2.0 * axis->high, 1);
     }
-    log_ticks(axis, labels);
+    int first = axis_decade(axis->low);
+    int last = axis_decade(axis->high);
+    double span = log10(axis->high / axis->low);
+    int step = (int)fmax(ceil(span / fmax(labels, 1.0)), 1.0);
+    int plain = first >= -3 && last <= 5;
+    int between = 3.0 * span <= labels && (plain || span < 2.0);
+    for (int decade = first; decade <= last; decade++) {
+        for (long k = 1; k < 10; k++) {
+            double value = (double)k * pow(10.0, decade);
+            int major = k == 1 ? decade % step == 0 : between && (k == 2 || k == 5);
+            int shown = k == 1 ? major || step < 6 : step == 1;
+            if (!shown ||
+                !(value > axis->low * (1.0 - 1e-9) && value < axis->high * (1.0 + 1e-9))) {
+                continue;
+            }
+            lrcsi_tick *tick = tick_add(axis, value, major);
+            if (major && (plain || k != 1)) {
+                axis_decimal(tick->text, k, decade);
+            } else if (major) {
+                strcpy(tick->text, "10");
+                snprintf(tick->raised, sizeof tick->raised, "%d", decade);
+            }
+        }
+    }
 }
 
+/* From one multiple of a step of 1, 2 or 5 times a power of ten to another one. */
 static void linear_range(lrcsi_axis *axis, double low, double high, double labels)
 {
     int some = low >= -LRCSI_AXIS_MAX && high <= LRCSI_AXIS_MAX && low <= high;
@@ -129,7 +105,17 @@ static void linear_range(lrcsi_axis *axis, double low, double high, double label
     double step = axis_round_outward((high - low) / fmax(labels, 2.0), 1);
     axis->low = step * floor(low / step + 1e-9);
     axis->high = step * ceil(high / step - 1e-9);
-    linear_ticks(axis, step);
+    int decade = axis_decade(step);
+    long mantissa = lround(step / pow(10.0, decade)); /* 1, 2 or 5 */
+    int parts = mantissa == 2 ? 4 : 5;
+    long first = lround(axis->low / step) * parts;
+    long last = lround(axis->high / step) * parts;
+    for (long i = first; i <= last; i++) {
+        lrcsi_tick *tick = tick_add(axis, (double)i * step / parts, i % parts == 0);
+        if (tick->major) {
+            axis_decimal(tick->text, i / parts * mantissa, decade);
+        }
+    }
 }
 
 /* Steps of angles in familiar fractions of a turn; -1 if that gives too few or too many. */

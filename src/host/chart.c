@@ -16,23 +16,11 @@
 typedef struct chart_plan {
     const lrcs_host_chart *chart;
     lrcsi_plotter *plotter;
-    lrcsi_axis x, y;
-    double right; /* of the plot; the legend is to the right of it */
+    lrcsi_chart_axes axes; /* the legend is to the right of them */
     lrcsi_label_area *labels;
 } chart_plan;
 
 /* ---- positions ---- */
-
-static double chart_x(const chart_plan *plan, double value)
-{
-    return LRCSI_CHART_LEFT + lrcsi_axis_at(&plan->x, value) * (plan->right - LRCSI_CHART_LEFT);
-}
-
-static double chart_y(const chart_plan *plan, double value)
-{
-    return LRCSI_CHART_BOTTOM -
-           lrcsi_axis_at(&plan->y, value) * (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP);
-}
 
 /* A value as the axis shows it; returns 0 if it cannot. */
 static int chart_shows(int log, double floor, double *value)
@@ -52,7 +40,7 @@ static int chart_point(const chart_plan *plan, const lrcs_host_series *series, u
     if (!chart_shows(chart->x_log, 0.0, &x) || !chart_shows(chart->y_log, chart->floor, &y)) {
         return 0;
     }
-    *point = (lrcsi_plot_point){chart_x(plan, x), chart_y(plan, y)};
+    *point = (lrcsi_plot_point){lrcsi_chart_x(&plan->axes, x), lrcsi_chart_y(&plan->axes, y)};
     return 1;
 }
 
@@ -98,32 +86,20 @@ static void chart_grid(const chart_plan *plan, int major)
 {
     uint32_t colour = major ? LRCSI_COLOUR_GRID : LRCSI_COLOUR_MINOR;
     double width = major ? 0.9 : 0.7;
-    for (uint32_t i = 0; i < plan->x.count; i++) {
-        double x = chart_x(plan, plan->x.tick[i].value);
-        if (plan->x.tick[i].major == major && (major || plan->x.count <= GRID_TICKS_MAX)) {
+    for (uint32_t i = 0; i < plan->axes.x.count; i++) {
+        double x = lrcsi_chart_x(&plan->axes, plan->axes.x.tick[i].value);
+        if (plan->axes.x.tick[i].major == major &&
+            (major || plan->axes.x.count <= GRID_TICKS_MAX)) {
             lrcsi_plot_line(plan->plotter, x, LRCSI_CHART_TOP, x, LRCSI_CHART_BOTTOM, colour,
                             width);
         }
     }
-    for (uint32_t i = 0; i < plan->y.count; i++) {
-        double y = chart_y(plan, plan->y.tick[i].value);
-        if (plan->y.tick[i].major == major && (major || plan->y.count <= GRID_TICKS_MAX)) {
-            lrcsi_plot_line(plan->plotter, LRCSI_CHART_LEFT, y, plan->right, y, colour, width);
+    for (uint32_t i = 0; i < plan->axes.y.count; i++) {
+        double y = lrcsi_chart_y(&plan->axes, plan->axes.y.tick[i].value);
+        if (plan->axes.y.tick[i].major == major &&
+            (major || plan->axes.y.count <= GRID_TICKS_MAX)) {
+            lrcsi_plot_line(plan->plotter, LRCSI_CHART_LEFT, y, plan->axes.right, y, colour, width);
         }
-    }
-}
-
-static void chart_ticks(const chart_plan *plan)
-{
-    for (uint32_t i = 0; i < plan->x.count; i++) {
-        const lrcsi_tick *tick = &plan->x.tick[i];
-        const lrcsi_plot_point at = {chart_x(plan, tick->value), LRCSI_CHART_BOTTOM};
-        lrcsi_chart_tick(plan->plotter, tick, at, 0);
-    }
-    for (uint32_t i = 0; i < plan->y.count; i++) {
-        const lrcsi_tick *tick = &plan->y.tick[i];
-        const lrcsi_plot_point at = {LRCSI_CHART_LEFT, chart_y(plan, tick->value)};
-        lrcsi_chart_tick(plan->plotter, tick, at, 1);
     }
 }
 
@@ -200,56 +176,13 @@ static void series_labels(const chart_plan *plan, const lrcs_host_series *series
     }
 }
 
-/* The meaning of the floor, below the list of series. */
-static void legend_floor(const chart_plan *plan, double x, double y)
-{
-    const lrcs_host_chart *chart = plan->chart;
-    const lrcsi_plot_text label = {
-        .text = chart->floor_name,
-        .at = {x + LRCSI_CHART_SAMPLE + 8.0, y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
-        .size = LRCSI_CHART_SMALL,
-        .colour = LRCSI_COLOUR_TEXT};
-    lrcsi_plot_rectangle(plan->plotter, x, y - 5.0, x + LRCSI_CHART_SAMPLE, y + 6.0,
-                         LRCSI_COLOUR_FLOOR);
-    lrcsi_plot_line(plan->plotter, x, y - 5.0, x + LRCSI_CHART_SAMPLE, y - 5.0, LRCSI_COLOUR_FAINT,
-                    1.2);
-    arrow_draw(plan, LRCSI_COLOUR_FAINT, (lrcsi_plot_point){x + 0.5 * LRCSI_CHART_SAMPLE, y - 8.5});
-    plan->plotter->text(plan->plotter, &label);
-}
-
-static void chart_legend(const chart_plan *plan)
-{
-    const lrcs_host_chart *chart = plan->chart;
-    double x = plan->right + LRCSI_CHART_MARGIN;
-    double y = lrcsi_chart_legend(plan->plotter, chart, x, LRCSI_CHART_TOP + 8.0);
-    if (chart->y_log && chart->floor > 0.0 && chart->floor_name) {
-        legend_floor(plan, x, y);
-    }
-}
-
-/* The background of the data: the region below the floor, where values are indistinguishable, and
-   the grid. */
-static void chart_background(const chart_plan *plan)
-{
-    int floor = plan->chart->y_log && plan->chart->floor > 0.0;
-    double y = floor ? chart_y(plan, plan->chart->floor) : LRCSI_CHART_BOTTOM;
-    if (floor) {
-        lrcsi_plot_rectangle(plan->plotter, LRCSI_CHART_LEFT, y, plan->right, LRCSI_CHART_BOTTOM,
-                             LRCSI_COLOUR_FLOOR);
-    }
-    chart_grid(plan, 0);
-    chart_grid(plan, 1);
-    if (floor) {
-        lrcsi_plot_line(plan->plotter, LRCSI_CHART_LEFT, y, plan->right, y, LRCSI_COLOUR_FAINT,
-                        1.2);
-    }
-}
-
 /* The position of an end of a band, clamped to the frame. */
 static double band_y(const chart_plan *plan, double value)
 {
     int shown = chart_shows(plan->chart->y_log, plan->chart->floor, &value);
-    double y = shown ? chart_y(plan, value) : value > 0.0 ? LRCSI_CHART_TOP : LRCSI_CHART_BOTTOM;
+    double y = shown         ? lrcsi_chart_y(&plan->axes, value)
+               : value > 0.0 ? LRCSI_CHART_TOP
+                             : LRCSI_CHART_BOTTOM;
     return fmin(LRCSI_CHART_BOTTOM, fmax(LRCSI_CHART_TOP, y));
 }
 
@@ -263,65 +196,78 @@ static void series_band(const chart_plan *plan, const lrcs_host_series *series)
             continue;
         }
         const lrcsi_plot_point corner[4] = {
-            {chart_x(plan, x[0]), band_y(plan, series->low[i - 1])},
-            {chart_x(plan, x[0]), band_y(plan, series->high[i - 1])},
-            {chart_x(plan, x[1]), band_y(plan, series->high[i])},
-            {chart_x(plan, x[1]), band_y(plan, series->low[i])}};
+            {lrcsi_chart_x(&plan->axes, x[0]), band_y(plan, series->low[i - 1])},
+            {lrcsi_chart_x(&plan->axes, x[0]), band_y(plan, series->high[i - 1])},
+            {lrcsi_chart_x(&plan->axes, x[1]), band_y(plan, series->high[i])},
+            {lrcsi_chart_x(&plan->axes, x[1]), band_y(plan, series->low[i])}};
         lrcsi_series_band(plan->plotter, series, corner);
     }
 }
 
-/* All bands first, then all lines, then markers, so that nothing covers a marker. */
-static void chart_data(const chart_plan *plan)
-{
-    const lrcs_host_chart *chart = plan->chart;
-    for (uint32_t i = 0; i < chart->series_count; i++) {
-        series_band(plan, &chart->series[i]);
-    }
-    for (uint32_t i = 0; i < chart->series_count; i++) {
-        series_line(plan, &chart->series[i]);
-    }
-    for (uint32_t i = 0; i < chart->series_count; i++) {
-        series_marks(plan, &chart->series[i]);
-    }
-    for (uint32_t i = 0; i < chart->series_count; i++) {
-        series_labels(plan, &chart->series[i]);
-    }
-}
-
-/* The frame, both axes with their titles, the title and the legend. */
-static void chart_annotate(const chart_plan *plan)
-{
-    const lrcs_host_chart *chart = plan->chart;
-    lrcsi_chart_box(plan->plotter, LRCSI_CHART_LEFT, plan->right);
-    chart_ticks(plan);
-    lrcsi_chart_title(plan->plotter, chart->title, chart->note);
-    lrcsi_chart_names(plan->plotter, chart->x_name, 0.5 * (LRCSI_CHART_LEFT + plan->right),
-                      plan->right - LRCSI_CHART_LEFT, chart->y_name,
-                      0.5 * (LRCSI_CHART_TOP + LRCSI_CHART_BOTTOM),
-                      LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP);
-    chart_legend(plan);
-}
-
+/* Draws a chart:
+   1. the layout: the width of the legend, the ranges of the axes;
+   2. the background: the region below the floor, where values are indistinguishable, and the grid;
+   3. the data: all bands first, then all lines, then markers, so that nothing covers a marker, and
+      labels where they find room;
+   4. the frame with the axes, titles and names;
+   5. the legend, with the meaning of the floor below the list of series. */
 static void chart_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
 {
-    double legend = lrcsi_chart_legend_width(chart);
+    double legend = lrcsi_chart_legend_width(chart); /* 1 */
     double right =
         LRCSI_CHART_WIDTH - LRCSI_CHART_MARGIN - (legend > 0.0 ? legend + LRCSI_CHART_MARGIN : 8.0);
     right = fmax(right, 0.5 * LRCSI_CHART_WIDTH); /* a longer legend is cut */
     lrcsi_label_area labels = {.frame = {(float)LRCSI_CHART_LEFT, (float)LRCSI_CHART_TOP,
                                          (float)right, (float)LRCSI_CHART_BOTTOM}};
-    chart_plan plan = {.chart = chart, .plotter = plotter, .right = right, .labels = &labels};
+    chart_plan plan = {
+        .chart = chart, .plotter = plotter, .axes = {.right = right}, .labels = &labels};
     double range[2];
     int kind = chart->x_log ? LRCSI_AXIS_LOG : chart->x_deg ? LRCSI_AXIS_DEG : LRCSI_AXIS_LINEAR;
     chart_range(chart, 0, range);
-    plan.x = lrcsi_axis_make(kind, range[0], range[1], (right - LRCSI_CHART_LEFT) / 55.0);
+    plan.axes.x = lrcsi_axis_make(kind, range[0], range[1], (right - LRCSI_CHART_LEFT) / 55.0);
     chart_range(chart, 1, range);
-    plan.y = lrcsi_axis_make(chart->y_log, range[0], range[1],
-                             (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP) / 26.0);
-    chart_background(&plan);
-    chart_data(&plan);
-    chart_annotate(&plan);
+    plan.axes.y = lrcsi_axis_make(chart->y_log, range[0], range[1],
+                                  (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP) / 26.0);
+    int floor = chart->y_log && chart->floor > 0.0; /* 2 */
+    double floor_y = floor ? lrcsi_chart_y(&plan.axes, chart->floor) : LRCSI_CHART_BOTTOM;
+    if (floor) {
+        lrcsi_plot_rectangle(plotter, LRCSI_CHART_LEFT, floor_y, right, LRCSI_CHART_BOTTOM,
+                             LRCSI_COLOUR_FLOOR);
+    }
+    chart_grid(&plan, 0);
+    chart_grid(&plan, 1);
+    if (floor) {
+        lrcsi_plot_line(plotter, LRCSI_CHART_LEFT, floor_y, right, floor_y, LRCSI_COLOUR_FAINT,
+                        1.2);
+    }
+    for (uint32_t i = 0; i < chart->series_count; i++) { /* 3 */
+        series_band(&plan, &chart->series[i]);
+    }
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        series_line(&plan, &chart->series[i]);
+    }
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        series_marks(&plan, &chart->series[i]);
+    }
+    for (uint32_t i = 0; i < chart->series_count; i++) {
+        series_labels(&plan, &chart->series[i]);
+    }
+    lrcsi_chart_frame(plotter, &plan.axes); /* 4 */
+    lrcsi_chart_title(plotter, chart->title, chart->note);
+    lrcsi_chart_names(plotter, right, chart->x_name, chart->y_name);
+    double x = right + LRCSI_CHART_MARGIN; /* 5 */
+    double y = lrcsi_chart_legend(plotter, chart, x, LRCSI_CHART_TOP + 8.0);
+    if (floor && chart->floor_name) {
+        lrcsi_plot_rectangle(plotter, x, y - 5.0, x + LRCSI_CHART_SAMPLE, y + 6.0,
+                             LRCSI_COLOUR_FLOOR);
+        lrcsi_plot_line(plotter, x, y - 5.0, x + LRCSI_CHART_SAMPLE, y - 5.0, LRCSI_COLOUR_FAINT,
+                        1.2);
+        arrow_draw(&plan, LRCSI_COLOUR_FAINT,
+                   (lrcsi_plot_point){x + 0.5 * LRCSI_CHART_SAMPLE, y - 8.5});
+        lrcsi_chart_number(plotter, chart->floor_name,
+                           (lrcsi_plot_point){x + LRCSI_CHART_SAMPLE + 8.0, y}, LRCSI_CHART_SMALL,
+                           LRCSI_ANCHOR_LEFT);
+    }
 }
 
 /* A chart of either kind. */

@@ -50,12 +50,6 @@ uint32_t lrcsi_colouring_text_colour(const lrcsi_colouring *colouring)
 
 /* ---- numbers of a facet ---- */
 
-static const lrcs_material *facet_material_of(const lrcsi_colouring *colouring, uint32_t facet)
-{
-    const lrcs_scene *scene = colouring->picture->scene;
-    return &scene->material[scene->facet_material[facet]];
-}
-
 /* sigma per visible projected area in dB, or -HUGE_VAL if nothing is returned. */
 static double facet_return(const lrcs_facet_record *record)
 {
@@ -65,27 +59,29 @@ static double facet_return(const lrcs_facet_record *record)
     return 10.0 * (log10(record->sigma_m2) - log10(record->visible_area_m2));
 }
 
-/* A corner in the observation frame, about the scene's centre. */
-static void corner_view(const lrcsi_colouring *colouring, uint32_t facet, int corner,
-                        double view[3])
+/* Coordinate k of the scene's centre in the observation frame. */
+static double centre_view(const lrcsi_colouring *colouring, int k)
 {
-    const lrcs_scene *scene = colouring->picture->scene;
-    const double *x = scene->vertex[scene->facet[facet].corner[corner]].x;
-    for (int k = 0; k < 3; k++) {
-        const double *axis = colouring->picture->pose->R[k];
-        view[k] = axis[0] * (x[0] - colouring->centre[0]) +
-                  axis[1] * (x[1] - colouring->centre[1]) + axis[2] * (x[2] - colouring->centre[2]);
-    }
+    const double *axis = colouring->picture->pose->R[k];
+    const double *c = colouring->centre;
+    return axis[0] * c[0] + axis[1] * c[1] + axis[2] * c[2];
 }
 
-/* The plane of a facet over the picture, about the scene's centre; level if the facet is edge-on.
-   Returned: the least and the largest height of its corners. */
+/* The plane of a facet, z = at[0] + at[1] x + at[2] y in the observation frame about the scene's
+   centre; level if the facet is edge-on. Returned, too: the least and the largest z of its
+   corners. */
 static void facet_plane(const lrcsi_colouring *colouring, uint32_t facet, double at[3],
                         double height[2])
 {
+    const lrcs_scene *scene = colouring->picture->scene;
+    const double *c = colouring->centre;
     double p[3][3];
-    for (int k = 0; k < 3; k++) {
-        corner_view(colouring, facet, k, p[k]);
+    for (int i = 0; i < 3; i++) {
+        const double *x = scene->vertex[scene->facet[facet].corner[i]].x;
+        for (int k = 0; k < 3; k++) {
+            const double *axis = colouring->picture->pose->R[k];
+            p[i][k] = axis[0] * (x[0] - c[0]) + axis[1] * (x[1] - c[1]) + axis[2] * (x[2] - c[2]);
+        }
     }
     double ax = p[1][0] - p[0][0];
     double ay = p[1][1] - p[0][1];
@@ -119,53 +115,43 @@ static double histogram_quantile(const double area[SCALE_BINS], double fraction)
     return bin - SCALE_BINS / 2.0;
 }
 
-/* The scale covers all visible returns except the weakest and the strongest half percent of the
-   area, in steps of 5 dB; values beyond its ends have the colours of the ends. */
-static void sigma_range(const lrcs_host_picture *picture, double range[2])
-{
-    double area[SCALE_BINS] = {0};
-    double largest = 0.0;
-    for (uint32_t f = 0; f < picture->scene->facet_count; f++) {
-        double bin = floor(facet_return(&picture->records[f])) + SCALE_BINS / 2.0;
-        if (bin >= 0.0 && bin < SCALE_BINS) {
-            area[(int)bin] += picture->records[f].visible_area_m2;
-            largest = fmax(largest, area[(int)bin]);
-        }
-    }
-    if (!(largest > 0.0)) { /* nothing is returned: any scale will do */
-        range[0] = -10.0;
-        range[1] = 0.0;
-        return;
-    }
-    range[1] = 5.0 * ceil((histogram_quantile(area, 0.995) + 1.0) / 5.0);
-    range[0] = 5.0 * floor(histogram_quantile(area, 0.005) / 5.0);
-    range[0] = fmax(range[0], range[1] - SCALE_DB);
-    range[0] = fmin(range[0], range[1] - 10.0);
-}
-
-/* All corners of the visible facets. */
-static void height_range(const lrcsi_colouring *colouring, double range[2])
-{
-    range[0] = HUGE_VAL;
-    range[1] = -HUGE_VAL;
-    for (uint32_t f = 0; f < colouring->picture->scene->facet_count; f++) {
-        if (colouring->picture->records[f].visible_area_m2 > 0.0) {
-            double at[3];
-            double height[2];
-            facet_plane(colouring, f, at, height);
-            range[0] = fmin(range[0], height[0]);
-            range[1] = fmax(range[1], height[1]);
-        }
-    }
-}
-
+/* By sigma, the scale covers all visible returns except the weakest and the strongest half percent
+   of the area, in steps of 5 dB; values beyond its ends have the colours of the ends. By range, it
+   covers all corners of the visible facets; by angle, 0 to 90 degrees. */
 static void scale_make(lrcsi_colouring *colouring)
 {
+    const lrcs_host_picture *picture = colouring->picture;
     double range[2] = {0.0, 90.0};
-    if (colouring->picture->colouring == LRCS_HOST_BY_SIGMA) {
-        sigma_range(colouring->picture, range);
-    } else if (colouring->picture->colouring == LRCS_HOST_BY_RANGE) {
-        height_range(colouring, range);
+    if (picture->colouring == LRCS_HOST_BY_SIGMA) {
+        double area[SCALE_BINS] = {0};
+        double largest = 0.0;
+        for (uint32_t f = 0; f < picture->scene->facet_count; f++) {
+            double bin = floor(facet_return(&picture->records[f])) + SCALE_BINS / 2.0;
+            if (bin >= 0.0 && bin < SCALE_BINS) {
+                area[(int)bin] += picture->records[f].visible_area_m2;
+                largest = fmax(largest, area[(int)bin]);
+            }
+        }
+        range[0] = -10.0; /* where nothing is returned, any scale will do */
+        range[1] = 0.0;
+        if (largest > 0.0) {
+            range[1] = 5.0 * ceil((histogram_quantile(area, 0.995) + 1.0) / 5.0);
+            range[0] = 5.0 * floor(histogram_quantile(area, 0.005) / 5.0);
+            range[0] = fmax(range[0], range[1] - SCALE_DB);
+            range[0] = fmin(range[0], range[1] - 10.0);
+        }
+    } else if (picture->colouring == LRCS_HOST_BY_RANGE) {
+        range[0] = HUGE_VAL;
+        range[1] = -HUGE_VAL;
+        for (uint32_t f = 0; f < picture->scene->facet_count; f++) {
+            if (picture->records[f].visible_area_m2 > 0.0) {
+                double at[3];
+                double height[2];
+                facet_plane(colouring, f, at, height);
+                range[0] = fmin(range[0], height[0]);
+                range[1] = fmax(range[1], height[1]);
+            }
+        }
     }
     colouring->scale = lrcsi_axis_make(0, range[0], range[1], SCALE_LABELS);
 }
@@ -200,18 +186,8 @@ static uint32_t material_find(const lrcsi_colouring *colouring, uint32_t materia
     return i;
 }
 
-/* Is there an earlier material that is used and looks the same? */
-static int material_repeats(const lrcs_scene *scene, const unsigned char *used, uint32_t material)
-{
-    for (uint32_t i = 0; i < material; i++) {
-        if (used[i] && material_alike(&scene->material[i], &scene->material[material])) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* The materials assigned to facets, in the order of the scene's list, each with its own colour. */
+/* Lists the materials assigned to facets, in the order of the scene's list, those that look the
+   same once, each with its own colour. */
 static void materials_list(lrcsi_colouring *colouring)
 {
     const lrcs_scene *scene = colouring->picture->scene;
@@ -220,13 +196,14 @@ static void materials_list(lrcsi_colouring *colouring)
         used[scene->facet_material[f]] = !scene->material[scene->facet_material[f]].omitted;
     }
     for (uint32_t i = 0; used && i < scene->material_count; i++) {
-        if (!used[i] || material_repeats(scene, used, i)) {
-            continue;
+        int is_new = used[i];
+        for (uint32_t k = 0; is_new && k < i; k++) {
+            is_new = !(used[k] && material_alike(&scene->material[k], &scene->material[i]));
         }
-        if (colouring->materials < LRCSI_COLOURING_MATERIALS) {
+        if (is_new && colouring->materials < LRCSI_COLOURING_MATERIALS) {
             colouring->material[colouring->materials++] = i;
         } else {
-            colouring->more++;
+            colouring->more += is_new ? 1 : 0;
         }
     }
     free(used);
@@ -247,16 +224,6 @@ uint32_t lrcsi_colouring_material(const lrcsi_colouring *colouring, uint32_t mat
 
 /* ---- colours of facets ---- */
 
-static void centre_make(lrcsi_colouring *colouring)
-{
-    double low[3];
-    double high[3];
-    lrcs_host_scene_box(colouring->picture->scene, low, high);
-    for (int k = 0; k < 3; k++) {
-        colouring->centre[k] = 0.5 * (low[k] + high[k]);
-    }
-}
-
 lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture)
 {
     lrcsi_colouring colouring = {.picture = picture,
@@ -265,7 +232,12 @@ lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture)
         materials_list(&colouring);
     }
     if (picture->colouring == LRCS_HOST_BY_RANGE) {
-        centre_make(&colouring);
+        double low[3];
+        double high[3];
+        lrcs_host_scene_box(picture->scene, low, high);
+        for (int k = 0; k < 3; k++) {
+            colouring.centre[k] = 0.5 * (low[k] + high[k]);
+        }
     }
     if (colouring.scaled && picture->records) {
         scale_make(&colouring);
@@ -273,74 +245,44 @@ lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture)
     return colouring;
 }
 
-/* The colour of a facet without a value on the scale: darker at larger incidence. */
-static uint32_t facet_grey(const lrcs_facet_record *record)
-{
-    return lrcsi_palette_shade(0x787878u, 0.375 + 0.625 * fmin(fabs(record->cos_theta), 1.0));
-}
-
-static int facet_reflects_nothing(const lrcsi_colouring *colouring, uint32_t facet)
-{
-    return colouring->picture->records[facet].cos_theta < 0.0 &&
-           !facet_material_of(colouring, facet)->two_sided;
-}
-
-static double facet_height(const lrcsi_colouring *colouring, uint32_t facet, const double view[2])
-{
-    double at[3];
-    double height[2];
-    double x[2];
-    facet_plane(colouring, facet, at, height);
-    for (int k = 0; k < 2; k++) {
-        const double *axis = colouring->picture->pose->R[k];
-        const double *c = colouring->centre;
-        x[k] = view[k] - (axis[0] * c[0] + axis[1] * c[1] + axis[2] * c[2]);
-    }
-    return fmin(fmax(at[0] + at[1] * x[0] + at[2] * x[1], height[0]), height[1]);
-}
-
-static uint32_t facet_shaded(const lrcsi_colouring *colouring, uint32_t facet)
-{
-    const lrcs_material *material = facet_material_of(colouring, facet);
-    double light = 0.12 + 0.88 * fmin(fabs(colouring->picture->records[facet].cos_theta), 1.0);
-    uint32_t own = (uint32_t)material->rgb[0] << 16 | (uint32_t)material->rgb[1] << 8 |
-                   (uint32_t)material->rgb[2];
-    return lrcsi_palette_shade(material->has_colour ? own : COLOUR_PLAIN, light);
-}
-
-/* The value on the scale; -HUGE_VAL if there is none. */
-static double facet_value(const lrcsi_colouring *colouring, uint32_t facet, const double view[2])
-{
-    const lrcs_facet_record *record = &colouring->picture->records[facet];
-    switch (colouring->picture->colouring) {
-    case LRCS_HOST_BY_SIGMA:
-        return facet_return(record);
-    case LRCS_HOST_BY_THETA:
-        return facet_reflects_nothing(colouring, facet)
-                   ? -HUGE_VAL
-                   : DEGREES * acos(fmin(fabs(record->cos_theta), 1.0));
-    default:
-        return facet_height(colouring, facet, view);
-    }
-}
-
+/* A facet without a value on the scale is grey, darker at larger incidence. */
 uint32_t lrcsi_colouring_colour(const lrcsi_colouring *colouring, uint32_t facet,
                                 const double view[2])
 {
-    if (colouring->scaled) {
-        double value = facet_value(colouring, facet, view);
-        return isfinite(value) ? lrcsi_palette_viridis(lrcsi_axis_at(&colouring->scale, value))
-                               : facet_grey(&colouring->picture->records[facet]);
-    }
+    const lrcs_scene *scene = colouring->picture->scene;
+    const lrcs_facet_record *record = &colouring->picture->records[facet];
+    const lrcs_material *material = &scene->material[scene->facet_material[facet]];
+    double cosine = fmin(fabs(record->cos_theta), 1.0);
+    double value = -HUGE_VAL; /* on the scale */
+    double at[3];
+    double height[2];
     switch (colouring->picture->colouring) {
+    case LRCS_HOST_BY_SIGMA:
+        value = facet_return(record);
+        break;
+    case LRCS_HOST_BY_THETA:
+        if (record->cos_theta >= 0.0 || material->two_sided) {
+            value = DEGREES * acos(cosine);
+        }
+        break;
+    case LRCS_HOST_BY_RANGE:
+        facet_plane(colouring, facet, at, height);
+        value = at[0] + at[1] * (view[0] - centre_view(colouring, 0)) +
+                at[2] * (view[1] - centre_view(colouring, 1));
+        value = fmin(fmax(value, height[0]), height[1]);
+        break;
     case LRCS_HOST_BY_FACET:
         return lrcsi_palette_distinct(facet);
     case LRCS_HOST_BY_MATERIAL:
-        return lrcsi_colouring_material(colouring,
-                                        colouring->picture->scene->facet_material[facet]);
-    default:
-        return facet_shaded(colouring, facet);
+        return lrcsi_colouring_material(colouring, scene->facet_material[facet]);
+    default: {
+        uint32_t own = (uint32_t)material->rgb[0] << 16 | (uint32_t)material->rgb[1] << 8 |
+                       (uint32_t)material->rgb[2];
+        return lrcsi_palette_shade(material->has_colour ? own : COLOUR_PLAIN, 0.12 + 0.88 * cosine);
     }
+    }
+    return isfinite(value) ? lrcsi_palette_viridis(lrcsi_axis_at(&colouring->scale, value))
+                           : lrcsi_palette_shade(0x787878u, 0.375 + 0.625 * cosine);
 }
 
 int lrcsi_colouring_slope(const lrcsi_colouring *colouring, uint32_t facet, double at[3])
@@ -351,9 +293,7 @@ int lrcsi_colouring_slope(const lrcsi_colouring *colouring, uint32_t facet, doub
     }
     facet_plane(colouring, facet, at, height);
     for (int k = 0; k < 2; k++) {
-        const double *axis = colouring->picture->pose->R[k];
-        const double *c = colouring->centre;
-        at[0] -= at[k + 1] * (axis[0] * c[0] + axis[1] * c[1] + axis[2] * c[2]);
+        at[0] -= at[k + 1] * centre_view(colouring, k);
     }
     return hypot(at[1], at[2]) > VISIBLE_SLOPE;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The per-facet table of a run, CSV as in RFC 4180, but with line ends of LF. */
+/* The tables of a run, facets and visible polygons: CSV as in RFC 4180, but with line ends of LF.
+ */
 #include <lrcs/host.h>
 
 #include <string.h>
@@ -21,6 +22,17 @@ static void csv_text(FILE *out, const char *text)
     putc('"', out);
 }
 
+/* The rest of a row. */
+static void numbers_write(FILE *out, const double *value, int count)
+{
+    for (int k = 0; k < count; k++) {
+        char text[LRCS_HOST_NUMBER_SIZE];
+        lrcs_host_number_text(value[k], text);
+        fprintf(out, ",%s", text);
+    }
+    putc('\n', out);
+}
+
 void lrcs_host_facets_write(FILE *out, const lrcs_scene *scene, const lrcs_facet_record *records)
 {
     fputs("facet,material,area_m2,cos_theta,visible_area_m2,sigma_m2\n", out);
@@ -29,11 +41,20 @@ void lrcs_host_facets_write(FILE *out, const lrcs_scene *scene, const lrcs_facet
                                  records[i].visible_area_m2, records[i].sigma_m2};
         fprintf(out, "%lu,", (unsigned long)i);
         csv_text(out, scene->material[scene->facet_material[i]].name);
-        for (int k = 0; k < 4; k++) {
-            char text[LRCS_HOST_NUMBER_SIZE];
-            lrcs_host_number_text(value[k], text);
-            fprintf(out, ",%s", text);
+        numbers_write(out, value, 4);
+    }
+}
+
+void lrcs_host_polygons_write(FILE *out, const lrcs_polygons *polygons)
+{
+    fputs("facet,ring,x_m,y_m,z_m,u_m,v_m\n", out);
+    for (uint32_t r = 0; r < polygons->rings; r++) {
+        const lrcs_ring *ring = &polygons->ring[r];
+        for (uint32_t i = ring->first; i < ring->first + ring->count; i++) {
+            const lrcs_ring_point *p = &polygons->point[i];
+            const double value[5] = {p->body[0], p->body[1], p->body[2], p->view[0], p->view[1]};
+            fprintf(out, "%lu,%lu", (unsigned long)ring->facet, (unsigned long)r);
+            numbers_write(out, value, 5);
         }
-        putc('\n', out);
     }
 }

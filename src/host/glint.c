@@ -50,13 +50,6 @@ static int turn_order(const void *a, const void *b)
     return order ? order : (x->turn > y->turn) - (x->turn < y->turn);
 }
 
-static int glint_wanted(const lrcs_scene *scene, uint32_t facet)
-{
-    const lrcs_material *material = &scene->material[scene->facet_material[facet]];
-    return scene->part[scene->facet_part[facet]].kind < 0 && scene->facet_smooth[facet] != 0 &&
-           material->brdf.A > 0.0 && !material->omitted;
-}
-
 /* A facet's normal, scaled so that nothing overflows; not of unit length. */
 static void glint_normal(const lrcs_scene *scene, uint32_t facet, double n[3])
 {
@@ -88,25 +81,23 @@ static double facets_turn(const lrcs_scene *scene, uint32_t a, uint32_t b)
     return atan2(sqrt(lrcsi_vec3_dot(cross, cross)), lrcsi_vec3_dot(n, p) + 0.0); /* no -0 */
 }
 
-static size_t edges_list(const lrcs_scene *scene, glint_edge *edges)
+/* The turns over edges that two facets of one part, material and smoothing group of a model share.
+   Given: memory for three edges of each facet. Returns their number. */
+static size_t edge_turns(const lrcs_scene *scene, glint_edge *edges, glint_turn *turns)
 {
+    size_t edge_count = 0;
     size_t count = 0;
     for (uint32_t i = 0; i < scene->facet_count; i++) {
-        for (int k = 0; glint_wanted(scene, i) && k < 3; k++) {
+        const lrcs_material *material = &scene->material[scene->facet_material[i]];
+        int wanted = scene->part[scene->facet_part[i]].kind < 0 && scene->facet_smooth[i] != 0 &&
+                     material->brdf.A > 0.0 && !material->omitted;
+        for (int k = 0; wanted && k < 3; k++) {
             uint32_t a = scene->facet[i].corner[k];
             uint32_t b = scene->facet[i].corner[(k + 1) % 3];
-            edges[count++] = (glint_edge){a < b ? a : b, a < b ? b : a, i};
+            edges[edge_count++] = (glint_edge){a < b ? a : b, a < b ? b : a, i};
         }
     }
-    qsort(edges, count, sizeof *edges, edge_order);
-    return count;
-}
-
-/* Turns over edges that two facets of one part, material and smoothing group share. */
-static size_t turns_list(const lrcs_scene *scene, const glint_edge *edges, size_t edge_count,
-                         glint_turn *turns)
-{
-    size_t count = 0;
+    qsort(edges, edge_count, sizeof *edges, edge_order);
     for (size_t i = 1; i < edge_count; i++) {
         uint32_t a = edges[i - 1].facet;
         uint32_t b = edges[i].facet;
@@ -124,27 +115,21 @@ static size_t turns_list(const lrcs_scene *scene, const glint_edge *edges, size_
     return count;
 }
 
-/* The largest angle between the normals at a facet's corners; 0 for a flat one. */
-static double corners_turn(const lrcs_scene *scene, uint32_t facet)
-{
-    const lrcs_point *n = &scene->corner_normal[3 * (size_t)facet];
-    double largest = 0.0;
-    for (int i = 0; i < 3; i++) {
-        const double *a = n[i].x;
-        const double *b = n[(i + 1) % 3].x;
-        double chord = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-        largest = fmax(largest, 2.0 * asin(fmin(1.0, 0.5 * chord)));
-    }
-    return largest;
-}
-
-/* The turns of facets in no smoothing group, between the normals at their corners. */
-static size_t corners_list(const lrcs_scene *scene, glint_turn *turns)
+/* The turns of facets in no smoothing group: the largest angle between the normals at their
+   corners. Returns their number. */
+static size_t corner_turns(const lrcs_scene *scene, glint_turn *turns)
 {
     size_t count = 0;
     for (uint32_t i = 0; scene->corner_normal && i < scene->facet_count; i++) {
         const lrcs_material *material = &scene->material[scene->facet_material[i]];
-        double turn = corners_turn(scene, i);
+        const lrcs_point *n = &scene->corner_normal[3 * (size_t)i];
+        double turn = 0.0;
+        for (int k = 0; k < 3; k++) {
+            const double *a = n[k].x;
+            const double *b = n[(k + 1) % 3].x;
+            double chord = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+            turn = fmax(turn, 2.0 * asin(fmin(1.0, 0.5 * chord)));
+        }
         if (scene->facet_smooth[i] == 0 && material->brdf.A > 0.0 && !material->omitted &&
             turn > FLAT_TURN) {
             turns[count++] = (glint_turn){scene->facet_part[i], scene->facet_material[i], turn};
@@ -166,40 +151,6 @@ static lrcs_host_glint glint_entry(const lrcs_scene *scene, uint32_t part, uint3
                              lrcsi_ripple_around(s, 1e-3)};
 }
 
-/* One entry per run of facets with equal part and material: the median turn. */
-static uint32_t models_glint(const lrcs_scene *scene, const glint_turn *turns, size_t count,
-                             lrcs_host_glint *list)
-{
-    uint32_t used = 0;
-    size_t from = 0;
-    for (size_t i = 1; i <= count; i++) {
-        if (i == count || turns[i].part != turns[from].part ||
-            turns[i].material != turns[from].material) {
-            const glint_turn *middle = &turns[from + (i - from) / 2];
-            list[used++] = glint_entry(scene, middle->part, middle->material, middle->turn);
-            from = i;
-        }
-    }
-    return used;
-}
-
-/* A shape has one assigned material; one with plane faces has no turn. */
-static uint32_t shapes_glint(const lrcs_scene *scene, lrcs_host_glint *list)
-{
-    uint32_t used = 0;
-    for (uint32_t i = 0; i < scene->part_count; i++) {
-        const lrcs_part *part = &scene->part[i];
-        if (part->kind < 0 || part->facet_count == 0 || !(part->curvature.turn > 0.0)) {
-            continue;
-        }
-        uint32_t material = scene->facet_material[part->first_facet];
-        if (scene->material[material].brdf.A > 0.0) {
-            list[used++] = glint_entry(scene, i, material, 2.0 * part->curvature.turn);
-        }
-    }
-    return used;
-}
-
 static int entry_order(const void *a, const void *b)
 {
     const lrcs_host_glint *x = a;
@@ -208,6 +159,9 @@ static int entry_order(const void *a, const void *b)
     return order ? order : glint_order(x->material, y->material);
 }
 
+/* 1. The turns between neighbours of models, and those within facets with curved normals.
+   2. One entry for each part and material of models: the median of its turns.
+   3. One entry for each curved shape, which has one material. */
 int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint32_t *count,
                           lrcs_host_error *error)
 {
@@ -216,9 +170,9 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
     glint_turn *turns = malloc(capacity * sizeof *turns);
     size_t turn_count = 0;
     size_t entries = scene->part_count + (size_t)1;
-    if (edges && turns) {
-        turn_count = turns_list(scene, edges, edges_list(scene, edges), turns);
-        turn_count += corners_list(scene, turns + turn_count);
+    if (edges && turns) { /* 1 */
+        turn_count = edge_turns(scene, edges, turns);
+        turn_count += corner_turns(scene, turns + turn_count);
         qsort(turns, turn_count, sizeof *turns, turn_order);
     }
     for (size_t i = 0; i < turn_count; i++) {
@@ -227,8 +181,25 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
     }
     lrcs_host_glint *all = edges && turns ? malloc(entries * sizeof *all) : NULL;
     if (all) {
-        uint32_t used = models_glint(scene, turns, turn_count, all);
-        used += shapes_glint(scene, all + used);
+        uint32_t used = 0;
+        size_t from = 0;
+        for (size_t i = 1; i <= turn_count; i++) { /* 2 */
+            if (i == turn_count || turns[i].part != turns[from].part ||
+                turns[i].material != turns[from].material) {
+                const glint_turn *middle = &turns[from + (i - from) / 2];
+                all[used++] = glint_entry(scene, middle->part, middle->material, middle->turn);
+                from = i;
+            }
+        }
+        for (uint32_t i = 0; i < scene->part_count; i++) { /* 3 */
+            const lrcs_part *part = &scene->part[i];
+            uint32_t material =
+                part->facet_count > 0 ? scene->facet_material[part->first_facet] : 0;
+            if (part->kind >= 0 && part->facet_count > 0 && part->curvature.turn > 0.0 &&
+                scene->material[material].brdf.A > 0.0) {
+                all[used++] = glint_entry(scene, i, material, 2.0 * part->curvature.turn);
+            }
+        }
         qsort(all, used, sizeof *all, entry_order);
         *list = all;
         *count = used;

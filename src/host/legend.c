@@ -65,53 +65,18 @@ static void length_draw(lrcsi_plotter *plotter, double y, double width, double s
 
 /* ---- the colour scale ---- */
 
-/* The number of ticks from one labelled tick to the next, so that all labels fit. */
-static uint32_t numbers_step(const lrcsi_axis *scale, double width)
-{
-    double widest = 0.0;
-    uint32_t named = 0;
-    for (uint32_t i = 0; i < scale->count; i++) {
-        widest = fmax(widest, lrcsi_letters_width(scale->tick[i].text));
-        named += scale->tick[i].major != 0;
-    }
-    double apart = width / fmax(named - 1.0, 1.0);
-    return (uint32_t)ceil((LEGEND_TYPE * widest + 6.0) / apart);
-}
-
-/* Numbers under the scale, among them 0 if it is on the scale. */
-static void scale_numbers(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double left,
-                          double width, double y, uint32_t colour)
-{
-    uint32_t step = numbers_step(&colouring->scale, width);
-    uint32_t named = 0;
-    for (uint32_t i = 0; i < colouring->scale.count && colouring->scale.tick[i].value < 0.0; i++) {
-        named += colouring->scale.tick[i].major != 0;
-    }
-    named = colouring->scale.high < 0.0
-                ? 0
-                : (step - named % step) % step; /* so that 0 counts as one */
-    for (uint32_t i = 0; i < colouring->scale.count; i++) {
-        const lrcsi_tick *tick = &colouring->scale.tick[i];
-        double x = left + width * lrcsi_axis_at(&colouring->scale, tick->value);
-        if (tick->major && named++ % step == 0) {
-            const lrcsi_plot_text label = {.text = tick->text,
-                                           .at = {x, y + 15.0},
-                                           .size = LEGEND_TYPE,
-                                           .anchor = LRCSI_ANCHOR_MIDDLE,
-                                           .colour = colour};
-            lrcsi_plot_line(plotter, x, y, x, y + 3.0, colour, LEGEND_LINE);
-            plotter->text(plotter, &label);
-        }
-    }
-}
-
+/* Draws the colour scale:
+   1. its title and the bar of colours;
+   2. the number of ticks from one labelled tick to the next, so that all labels fit;
+   3. the labels, among them 0 if it is on the scale. */
 static void scale_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double top,
                        double width, uint32_t colour)
 {
+    const lrcsi_axis *scale = &colouring->scale;
     double left = LEGEND_MARGIN + (LEGEND_LENGTH + 0.06) * width;
     double bar = width - LEGEND_MARGIN - 8.0 - left;
     double y = top + 16.0;
-    const lrcsi_plot_text title = {.text = lrcsi_colouring_name(colouring),
+    const lrcsi_plot_text title = {.text = lrcsi_colouring_name(colouring), /* 1 */
                                    .at = {left + 0.5 * bar, top + 10.0},
                                    .size = LEGEND_TYPE,
                                    .anchor = LRCSI_ANCHOR_MIDDLE,
@@ -122,7 +87,31 @@ static void scale_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter,
         lrcsi_plot_rectangle(plotter, left + bar * i / LEGEND_STEPS, y, left + bar, y + LEGEND_BAR,
                              lrcsi_palette_viridis((i + 0.5) / LEGEND_STEPS));
     }
-    scale_numbers(colouring, plotter, left, bar, y + LEGEND_BAR, colour);
+    double widest = 0.0; /* 2 */
+    uint32_t majors = 0;
+    uint32_t negative = 0; /* major ticks below 0 */
+    for (uint32_t i = 0; i < scale->count; i++) {
+        widest = fmax(widest, lrcsi_letters_width(scale->tick[i].text));
+        majors += scale->tick[i].major != 0;
+        negative += scale->tick[i].major && scale->tick[i].value < 0.0;
+    }
+    double apart = bar / fmax(majors - 1.0, 1.0);
+    uint32_t step = (uint32_t)ceil((LEGEND_TYPE * widest + 6.0) / apart);
+    uint32_t first = scale->high < 0.0 ? 0 : negative % step; /* the first labelled major tick */
+    y += LEGEND_BAR;
+    for (uint32_t i = 0, major = 0; i < scale->count; i++) { /* 3 */
+        const lrcsi_tick *tick = &scale->tick[i];
+        double x = left + bar * lrcsi_axis_at(scale, tick->value);
+        if (tick->major && major++ % step == first) {
+            const lrcsi_plot_text label = {.text = tick->text,
+                                           .at = {x, y + 15.0},
+                                           .size = LEGEND_TYPE,
+                                           .anchor = LRCSI_ANCHOR_MIDDLE,
+                                           .colour = colour};
+            lrcsi_plot_line(plotter, x, y, x, y + 3.0, colour, LEGEND_LINE);
+            plotter->text(plotter, &label);
+        }
+    }
 }
 
 /* ---- materials ---- */

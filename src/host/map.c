@@ -31,7 +31,8 @@
 typedef struct map_plan {
     const lrcs_host_map *map;
     lrcsi_plotter *plotter;
-    lrcsi_axis x, y, z;
+    lrcsi_chart_axes axes;  /* of a map in a rectangle */
+    lrcsi_axis z;           /* the scale of colours */
     uint32_t columns, rows; /* cells */
     uint32_t wide, high;    /* points of a cell, each way */
 } map_plan;
@@ -61,17 +62,6 @@ static double cell_value(const map_plan *plan, uint32_t column, uint32_t row)
         }
     }
     return count > 0 ? sum / count : (double)NAN;
-}
-
-static double map_x(const map_plan *plan, double value)
-{
-    return LRCSI_CHART_LEFT + lrcsi_axis_at(&plan->x, value) * (MAP_RIGHT - LRCSI_CHART_LEFT);
-}
-
-static double map_y(const map_plan *plan, double value)
-{
-    return LRCSI_CHART_BOTTOM -
-           lrcsi_axis_at(&plan->y, value) * (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP);
 }
 
 /* The beginning of a column or row of cells: halfway from the one before; the first begins at its
@@ -176,26 +166,10 @@ static void ellipse_background(const map_plan *plan)
     plan->plotter->area(plan->plotter, point, 120, ELLIPSE_EMPTY);
 }
 
-static void ellipse_number(const map_plan *plan, int degrees, lrcsi_plot_point at, int anchor)
-{
-    char text[16];
-    snprintf(text, sizeof text, "%d", degrees);
-    const lrcsi_plot_text label = {.text = text,
-                                   .at = {at.x, at.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
-                                   .size = LRCSI_CHART_SMALL,
-                                   .anchor = anchor,
-                                   .colour = LRCSI_COLOUR_TEXT};
-    if (anchor == LRCSI_ANCHOR_MIDDLE) { /* on the map */
-        double half = 0.5 * LRCSI_CHART_SMALL * lrcsi_letters_width(text) + 2.0;
-        lrcsi_plot_rectangle(plan->plotter, at.x - half, at.y - 7.0, at.x + half, at.y + 7.0,
-                             LRCSI_COLOUR_BACKGROUND);
-    }
-    plan->plotter->text(plan->plotter, &label);
-}
-
 /* Meridians and parallels every 30 degrees, with numbers along the equator and on the left. */
 static void ellipse_graticule(const map_plan *plan)
 {
+    char text[16];
     for (int degrees = -150; degrees <= 150; degrees += 30) {
         ellipse_line(plan, degrees, 0x777777u, 0.5);
     }
@@ -205,10 +179,13 @@ static void ellipse_graticule(const map_plan *plan)
         lrcsi_plot_point right = ellipse_point(180.0, height);
         lrcsi_plot_line(plan->plotter, left.x, left.y, right.x, right.y, 0x777777u, 0.5);
         left.x -= 8.0;
-        ellipse_number(plan, degrees, left, LRCSI_ANCHOR_RIGHT);
+        snprintf(text, sizeof text, "%d", degrees);
+        lrcsi_chart_number(plan->plotter, text, left, LRCSI_CHART_SMALL, LRCSI_ANCHOR_RIGHT);
     }
     for (int degrees = -120; degrees <= 120; degrees += 60) {
-        ellipse_number(plan, degrees, ellipse_point(degrees, 0.0), LRCSI_ANCHOR_MIDDLE);
+        snprintf(text, sizeof text, "%d", degrees);
+        lrcsi_chart_number_over(plan->plotter, text, ellipse_point(degrees, 0.0),
+                                LRCSI_CHART_SMALL);
     }
     ellipse_line(plan, -180.0, LRCSI_COLOUR_TEXT, 0.9);
     ellipse_line(plan, 180.0, LRCSI_COLOUR_TEXT, 0.9);
@@ -232,10 +209,10 @@ static void row_draw(const map_plan *plan, uint32_t row)
     const lrcs_host_map *map = plan->map;
     const double side[2] = {cell_begin(map->y, row, plan->high, map->rows),
                             cell_begin(map->y, row + 1, plan->high, map->rows)};
-    double low = map_y(plan, side[0]);
-    double high = map_y(plan, side[1]);
-    double top = fmax(high - MAP_OVERLAP, map_y(plan, map->y[map->rows - 1]));
-    double end = map_x(plan, map->x[map->columns - 1]);
+    double low = lrcsi_chart_y(&plan->axes, side[0]);
+    double high = lrcsi_chart_y(&plan->axes, side[1]);
+    double top = fmax(high - MAP_OVERLAP, lrcsi_chart_y(&plan->axes, map->y[map->rows - 1]));
+    double end = lrcsi_chart_x(&plan->axes, map->x[map->columns - 1]);
     for (uint32_t column = 0; column < plan->columns;) {
         uint32_t colour = cell_colour_of(plan, column, row);
         double from = cell_begin(map->x, column, plan->wide, map->columns);
@@ -246,49 +223,18 @@ static void row_draw(const map_plan *plan, uint32_t row)
         if (map->mollweide) {
             ellipse_cells(plan, from, to, side, colour);
         } else {
-            lrcsi_plot_rectangle(plan->plotter, map_x(plan, from), top,
-                                 fmin(map_x(plan, to) + MAP_OVERLAP, end), low, colour);
+            lrcsi_plot_rectangle(plan->plotter, lrcsi_chart_x(&plan->axes, from), top,
+                                 fmin(lrcsi_chart_x(&plan->axes, to) + MAP_OVERLAP, end), low,
+                                 colour);
         }
     }
 }
 
 /* ---- contours ---- */
 
-/* The point between two corners at which a level is crossed. */
-static lrcsi_plot_point contour_cross(const lrcsi_plot_point corner[4], const double z[4], int side,
-                                      double level)
-{
-    const lrcsi_plot_point *a = &corner[side];
-    const lrcsi_plot_point *b = &corner[(side + 1) % 4];
-    double part = (level - z[side]) / (z[(side + 1) % 4] - z[side]);
-    return (lrcsi_plot_point){a->x + part * (b->x - a->x), a->y + part * (b->y - a->y)};
-}
-
-/* The pieces of a contour between four points, two of them at a saddle: then the mean decides which
-   corners are connected. */
-static void contour_square(const map_plan *plan, const lrcsi_plot_point corner[4],
-                           const double z[4], double level, const lrcsi_line_style *style)
-{
-    lrcsi_plot_point point[4];
-    int count = 0;
-    for (int side = 0; side < 4; side++) {
-        if ((z[side] >= level) != (z[(side + 1) % 4] >= level)) {
-            point[count++] = contour_cross(corner, z, side, level);
-        }
-    }
-    if (count == 2) {
-        plan->plotter->line(plan->plotter, point, 2, style);
-    } else if (count == 4) {
-        int middle = 0.25 * (z[0] + z[1] + z[2] + z[3]) >= level;
-        int separate =
-            middle == (z[0] >= level); /* contours separate corners 1 and 3, not 0 and 2 */
-        const lrcsi_plot_point pair[4] = {point[separate ? 0 : 3], point[separate ? 1 : 0],
-                                          point[separate ? 2 : 1], point[separate ? 3 : 2]};
-        plan->plotter->line(plan->plotter, pair, 2, style);
-        plan->plotter->line(plan->plotter, pair + 2, 2, style);
-    }
-}
-
+/* Draws the contours between the middles of four cells, by marching squares. At a saddle a level is
+   crossed on all four sides, and the contour has two pieces; the mean of the four values decides
+   which corners they separate. */
 static void contours_between(const map_plan *plan, uint32_t column, uint32_t row)
 {
     static const uint32_t step[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -303,16 +249,37 @@ static void contours_between(const map_plan *plan, uint32_t column, uint32_t row
         double y = cell_place(map->y, r, plan->high, map->rows);
         z[k] = cell_value(plan, c, r);
         corner[k] = map->mollweide ? ellipse_point(x + shift, ellipse_height(y))
-                                   : (lrcsi_plot_point){map_x(plan, x), map_y(plan, y)};
+                                   : (lrcsi_plot_point){lrcsi_chart_x(&plan->axes, x),
+                                                        lrcsi_chart_y(&plan->axes, y)};
         if (!isfinite(z[k]) || (map->mollweide && x + shift > 180.0)) {
             return; /* nothing there, or on both sides of the map */
         }
     }
     for (uint32_t i = 0; i < plan->z.count; i++) {
-        double part = lrcsi_axis_at(&plan->z, plan->z.tick[i].value);
+        double level = plan->z.tick[i].value;
+        double part = lrcsi_axis_at(&plan->z, level);
         const lrcsi_line_style style = {part < 0.6 ? 0xffffffu : 0x333333u, 0.7, {0.0, 0.0}};
-        if (plan->z.tick[i].major && part > 0.0 && part < 1.0) {
-            contour_square(plan, corner, z, plan->z.tick[i].value, &style);
+        lrcsi_plot_point point[4]; /* where the level is crossed, side by side */
+        int count = 0;
+        for (int k = 0; k < 4 && plan->z.tick[i].major && part > 0.0 && part < 1.0; k++) {
+            const lrcsi_plot_point *a = &corner[k];
+            const lrcsi_plot_point *b = &corner[(k + 1) % 4];
+            double to = z[(k + 1) % 4];
+            if ((z[k] >= level) != (to >= level)) {
+                double t = (level - z[k]) / (to - z[k]);
+                point[count++] =
+                    (lrcsi_plot_point){a->x + t * (b->x - a->x), a->y + t * (b->y - a->y)};
+            }
+        }
+        if (count == 2) {
+            plan->plotter->line(plan->plotter, point, 2, &style);
+        } else if (count == 4) {
+            int middle = 0.25 * (z[0] + z[1] + z[2] + z[3]) >= level;
+            int separate = middle == (z[0] >= level); /* corners 1 and 3 are, not 0 and 2 */
+            const lrcsi_plot_point pair[4] = {point[separate ? 0 : 3], point[separate ? 1 : 0],
+                                              point[separate ? 2 : 1], point[separate ? 3 : 2]};
+            plan->plotter->line(plan->plotter, pair, 2, &style);
+            plan->plotter->line(plan->plotter, pair + 2, 2, &style);
         }
     }
 }
@@ -334,13 +301,10 @@ static void map_scale(const map_plan *plan)
         const lrcsi_tick *tick = &plan->z.tick[i];
         double y = LRCSI_CHART_BOTTOM - high * lrcsi_axis_at(&plan->z, tick->value);
         double x = left + MAP_BAR;
-        const lrcsi_plot_text label = {.text = tick->text,
-                                       .at = {x + 8.0, y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
-                                       .size = LRCSI_CHART_SMALL,
-                                       .colour = LRCSI_COLOUR_TEXT};
         if (tick->major) {
             lrcsi_plot_line(plan->plotter, x, y, x + 5.0, y, LRCSI_COLOUR_TEXT, 0.9);
-            plan->plotter->text(plan->plotter, &label);
+            lrcsi_chart_number(plan->plotter, tick->text, (lrcsi_plot_point){x + 8.0, y},
+                               LRCSI_CHART_SMALL, LRCSI_ANCHOR_LEFT);
         }
     }
     const lrcsi_plot_text name = {
@@ -351,38 +315,6 @@ static void map_scale(const map_plan *plan)
         .upwards = 1,
         .colour = LRCSI_COLOUR_TEXT};
     lrcsi_letters_fit(plan->plotter, name, high);
-}
-
-/* Frame and numbers of a map in a rectangle. */
-static void map_frame(const map_plan *plan)
-{
-    lrcsi_chart_box(plan->plotter, LRCSI_CHART_LEFT, MAP_RIGHT);
-    for (uint32_t i = 0; i < plan->x.count; i++) {
-        const lrcsi_tick *tick = &plan->x.tick[i];
-        const lrcsi_plot_point at = {map_x(plan, tick->value), LRCSI_CHART_BOTTOM};
-        lrcsi_chart_tick(plan->plotter, tick, at, 0);
-    }
-    for (uint32_t i = 0; i < plan->y.count; i++) {
-        const lrcsi_tick *tick = &plan->y.tick[i];
-        const lrcsi_plot_point at = {LRCSI_CHART_LEFT, map_y(plan, tick->value)};
-        lrcsi_chart_tick(plan->plotter, tick, at, 1);
-    }
-}
-
-static void map_annotate(const map_plan *plan)
-{
-    const lrcs_host_map *map = plan->map;
-    if (map->mollweide) {
-        ellipse_graticule(plan);
-    } else {
-        map_frame(plan);
-    }
-    lrcsi_chart_title(plan->plotter, map->title, map->note);
-    lrcsi_chart_names(plan->plotter, map->x_name, 0.5 * (LRCSI_CHART_LEFT + MAP_RIGHT),
-                      MAP_RIGHT - LRCSI_CHART_LEFT, map->y_name,
-                      0.5 * (LRCSI_CHART_TOP + LRCSI_CHART_BOTTOM),
-                      LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP);
-    map_scale(plan);
 }
 
 static map_plan map_place(const lrcs_host_map *map, lrcsi_plotter *plotter)
@@ -402,10 +334,11 @@ static map_plan map_place(const lrcs_host_map *map, lrcsi_plotter *plotter)
     if (map->deep > 0.0) {
         range[0] = fmax(range[0], range[1] - map->deep);
     }
-    plan.x = lrcsi_axis_make(map->x_deg ? LRCSI_AXIS_DEG : 0, map->x[0], map->x[map->columns - 1],
-                             (MAP_RIGHT - LRCSI_CHART_LEFT) / 50.0);
-    plan.y = lrcsi_axis_make(map->y_deg ? LRCSI_AXIS_DEG : 0, map->y[0], map->y[map->rows - 1],
-                             (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP) / 30.0);
+    plan.axes.right = MAP_RIGHT;
+    plan.axes.x = lrcsi_axis_make(map->x_deg ? LRCSI_AXIS_DEG : 0, map->x[0],
+                                  map->x[map->columns - 1], (MAP_RIGHT - LRCSI_CHART_LEFT) / 50.0);
+    plan.axes.y = lrcsi_axis_make(map->y_deg ? LRCSI_AXIS_DEG : 0, map->y[0], map->y[map->rows - 1],
+                                  (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP) / 30.0);
     plan.z = lrcsi_axis_make(0, range[0], range[1], MAP_LABELS);
     return plan;
 }
@@ -424,7 +357,14 @@ static void map_draw(const lrcs_host_map *map, lrcsi_plotter *plotter)
             contours_between(&plan, column, row);
         }
     }
-    map_annotate(&plan);
+    if (map->mollweide) {
+        ellipse_graticule(&plan);
+    } else {
+        lrcsi_chart_frame(plotter, &plan.axes);
+    }
+    lrcsi_chart_title(plotter, map->title, map->note);
+    lrcsi_chart_names(plotter, MAP_RIGHT, map->x_name, map->y_name);
+    map_scale(&plan);
 }
 
 /* ---- in public ---- */

@@ -51,19 +51,6 @@ void lrcs_host_scene_box(const lrcs_scene *scene, double box_min[3], double box_
     }
 }
 
-static double part_size(const lrcs_scene *scene, const lrcs_part *part)
-{
-    double box_min[3];
-    double box_max[3];
-    double size = 0.0;
-    if (facets_box(scene, part->first_facet, part->facet_count, box_min, box_max)) {
-        for (int axis = 0; axis < 3; axis++) {
-            size = fmax(size, box_max[axis] - box_min[axis]);
-        }
-    }
-    return size;
-}
-
 /* A model without a stated unit: the assumed unit and, if that is unlikely, a likelier one. */
 static void unit_note(lrcs_host_scene *host, uint32_t part)
 {
@@ -72,7 +59,11 @@ static void unit_note(lrcs_host_scene *host, uint32_t part)
         double metres;
     } unit[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"in", 0.0254}, {"ft", 0.3048}};
     const lrcs_recipe_part *given = &host->recipe.part[part];
-    double size = part_size(&host->scene, &host->scene.part[part]);
+    const lrcs_part *placed = &host->scene.part[part];
+    double low[3] = {0.0, 0.0, 0.0};
+    double high[3] = {0.0, 0.0, 0.0};
+    facets_box(&host->scene, placed->first_facet, placed->facet_count, low, high);
+    double size = fmax(high[0] - low[0], fmax(high[1] - low[1], high[2] - low[2]));
     char others[200] = "";
     size_t used = 0;
     if (!given->file || given->unit_m > 0.0 || !(size > 0.0)) {
@@ -99,20 +90,17 @@ static void unit_note(lrcs_host_scene *host, uint32_t part)
 
 /* ---- maps ---- */
 
-static int surface_matches(const lrcs_surface *surface, const lrcs_binding *binding)
-{
-    return binding->kind == LRCS_BIND_MAP_NAME
-               ? strcmp(surface->name, binding->name) == 0
-               : surface->has_colour &&
-                     memcmp(surface->rgb, binding->rgb, sizeof surface->rgb) == 0;
-}
-
-static int models_match(const lrcs_host_scene *host, const lrcs_binding *binding)
+/* Does a material of a model have the name or the colour that a map binds? */
+static int map_matches(const lrcs_host_scene *host, const lrcs_binding *binding)
 {
     for (uint32_t i = 0; i < host->recipe.part_count; i++) {
         const lrcs_mesh *model = &host->model[i];
         for (uint32_t k = 0; host->recipe.part[i].file && k < model->material_count; k++) {
-            if (surface_matches(&model->material[k], binding)) {
+            const lrcs_surface *surface = &model->material[k];
+            if (binding->kind == LRCS_BIND_MAP_NAME
+                    ? strcmp(surface->name, binding->name) == 0
+                    : surface->has_colour &&
+                          memcmp(surface->rgb, binding->rgb, sizeof surface->rgb) == 0) {
                 return 1;
             }
         }
@@ -122,14 +110,27 @@ static int models_match(const lrcs_host_scene *host, const lrcs_binding *binding
 
 #define NEAREST_MAX 4u /* names reported */
 
-static void map_name_note(lrcs_host_scene *host, const char *name)
+/* A map of a scene file that matches no material of a model; for a name, the nearest ones. */
+static void map_note(lrcs_host_scene *host, const lrcs_binding *binding)
 {
+    int named = binding->kind == LRCS_BIND_MAP_NAME;
+    if ((!named && binding->kind != LRCS_BIND_MAP_COLOUR) || map_matches(host, binding)) {
+        return;
+    }
+    if (!named) {
+        lrcsi_host_note(
+            &host->notices,
+            "[[map]] colour = \"#%02X%02X%02X\": no material of a model has that colour",
+            binding->rgb[0], binding->rgb[1], binding->rgb[2]);
+        return;
+    }
     const char *near[NEAREST_MAX];
     char list[400] = "";
     size_t used = 0;
     uint32_t count = 0;
     const char *const *names = lrcsi_host_binding_names(host, LRCS_BIND_MAP_NAME, &count);
-    uint32_t found = names ? lrcs_host_names_near(name, names, count, near, NEAREST_MAX) : 0;
+    uint32_t found =
+        names ? lrcs_host_names_near(binding->name, names, count, near, NEAREST_MAX) : 0;
     for (uint32_t i = 0; i < found; i++) {
         used += (size_t)snprintf(list + used, sizeof list - used, "%s'%.60s'",
                                  i > 1   ? ", "
@@ -138,44 +139,23 @@ static void map_name_note(lrcs_host_scene *host, const char *name)
                                  near[i]);
     }
     lrcsi_host_note(&host->notices,
-                    "[[map]] name = \"%.200s\": no material of a model has that name%s", name,
-                    list);
-}
-
-static void map_note(lrcs_host_scene *host, const lrcs_binding *binding)
-{
-    char colour[8];
-    int named = binding->kind == LRCS_BIND_MAP_NAME;
-    if ((!named && binding->kind != LRCS_BIND_MAP_COLOUR) || models_match(host, binding)) {
-        return;
-    }
-    if (named) {
-        map_name_note(host, binding->name);
-        return;
-    }
-    snprintf(colour, sizeof colour, "#%02X%02X%02X", binding->rgb[0], binding->rgb[1],
-             binding->rgb[2]);
-    lrcsi_host_note(&host->notices,
-                    "[[map]] colour = \"%s\": no material of a model has that colour", colour);
+                    "[[map]] name = \"%.200s\": no material of a model has that name%s",
+                    binding->name, list);
 }
 
 /* ---- assigned materials ---- */
 
-static const lrcs_brdf_entry *library_entry(const lrcs_brdf *brdf)
+static int brdf_equals(const lrcs_brdf *a, const lrcs_brdf *b)
 {
-    const lrcs_brdf_entry *entry;
-    for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
-        if (entry->brdf.A == brdf->A && entry->brdf.B == brdf->B && entry->brdf.s == brdf->s &&
-            entry->brdf.m == brdf->m) {
-            return entry;
-        }
-    }
-    return NULL;
+    return a->A == b->A && a->B == b->B && a->s == b->s && a->m == b->m;
 }
 
 static void material_notes(lrcs_host_notices *notices, const lrcs_material *material)
 {
-    const lrcs_brdf_entry *library = library_entry(&material->brdf);
+    const lrcs_brdf_entry *library = lrcs_brdf_library(0);
+    for (uint32_t i = 0; library && !brdf_equals(&library->brdf, &material->brdf);) {
+        library = lrcs_brdf_library(++i);
+    }
     const char *name = material->name[0] ? material->name : "(default)";
     int warnings = lrcs_brdf_check(&material->brdf);
     if (library && material->bound && library->source) {
@@ -193,16 +173,19 @@ static void material_notes(lrcs_host_notices *notices, const lrcs_material *mate
     }
 }
 
-static int is_default(const lrcs_brdf *brdf)
-{
-    const lrcs_brdf other = lrcs_brdf_default();
-    return brdf->A == other.A && brdf->B == other.B && brdf->s == other.s && brdf->m == other.m;
-}
-
-/* Facets by material: counts omitted and unbound ones, and checks the assigned materials. */
-static void scene_notes(lrcs_host_scene *host, const uint32_t *facets)
+/* Counts facets that are left out, and those without a given material; checks the materials that
+   are assigned to facets. */
+static void scene_notes(lrcs_host_scene *host)
 {
     const lrcs_scene *scene = &host->scene;
+    const lrcs_brdf unknown = lrcs_brdf_default();
+    uint32_t *facets = calloc((size_t)scene->material_count + 1, sizeof *facets); /* by material */
+    if (!facets) {
+        return;
+    }
+    for (uint32_t i = 0; i < scene->facet_count; i++) {
+        facets[scene->facet_material[i]]++;
+    }
     uint64_t omitted = 0;
     uint64_t unbound = 0;
     uint64_t assumed = 0;
@@ -215,9 +198,11 @@ static void scene_notes(lrcs_host_scene *host, const uint32_t *facets)
             omitted += facets[i];
             continue;
         }
-        *(is_default(&material->brdf) ? &unbound : &assumed) += material->bound ? 0 : facets[i];
+        *(brdf_equals(&material->brdf, &unknown) ? &unbound : &assumed) +=
+            material->bound ? 0 : facets[i];
         material_notes(&host->notices, material);
     }
+    free(facets);
     if (omitted > 0) {
         lrcsi_host_note(
             &host->notices,
@@ -240,19 +225,6 @@ static void scene_notes(lrcs_host_scene *host, const uint32_t *facets)
     }
 }
 
-static void scene_material_notes(lrcs_host_scene *host)
-{
-    const lrcs_scene *scene = &host->scene;
-    uint32_t *facets = calloc((size_t)scene->material_count + 1, sizeof *facets);
-    for (uint32_t i = 0; facets && i < scene->facet_count; i++) {
-        facets[scene->facet_material[i]]++;
-    }
-    if (facets) {
-        scene_notes(host, facets);
-    }
-    free(facets);
-}
-
 /* ---- all ---- */
 
 void lrcsi_host_scene_notes(lrcs_host_scene *host, uint32_t kept)
@@ -260,7 +232,7 @@ void lrcsi_host_scene_notes(lrcs_host_scene *host, uint32_t kept)
     while (host->notices.count > kept) {
         free(host->notices.text[--host->notices.count]);
     }
-    scene_material_notes(host);
+    scene_notes(host);
     for (uint32_t i = 0; i < host->recipe.part_count; i++) {
         unit_note(host, i);
     }

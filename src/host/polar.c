@@ -49,44 +49,32 @@ static void polar_range(const lrcs_host_chart *chart, double range[2])
     range[0] = chart->y_from_0 ? 0.0 : fmax(range[0], range[1] - POLAR_DEPTH);
 }
 
-static void ring_draw(const polar_plan *plan, double part, uint32_t colour, double width)
-{
-    lrcsi_plot_point point[181];
-    const lrcsi_line_style style = {colour, width, {0.0, 0.0}};
-    for (int i = 0; i <= 180; i++) {
-        point[i] = polar_point(plan, 2.0 * i, part);
-    }
-    plan->plotter->line(plan->plotter, point, 181, &style);
-}
-
-static void spoke_draw(const polar_plan *plan, int deg)
-{
-    char text[16];
-    lrcsi_plot_point end = polar_point(plan, deg, 1.0);
-    lrcsi_plot_point name = polar_point(plan, deg, 1.0 + 15.0 / plan->radius);
-    snprintf(text, sizeof text, "%d", deg);
-    const lrcsi_plot_text label = {.text = text,
-                                   .at = {name.x, name.y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL},
-                                   .size = LRCSI_CHART_SMALL,
-                                   .anchor = LRCSI_ANCHOR_MIDDLE,
-                                   .colour = LRCSI_COLOUR_TEXT};
-    lrcsi_plot_line(plan->plotter, plan->pole.x, plan->pole.y, end.x, end.y, LRCSI_COLOUR_GRID,
-                    0.9);
-    plan->plotter->text(plan->plotter, &label);
-}
-
+/* Spokes with their angles, and a ring at each labelled distance. */
 static void polar_background(const polar_plan *plan)
 {
     for (int deg = 0; deg < 360; deg += POLAR_SPOKE) {
-        spoke_draw(plan, deg);
+        char text[16];
+        lrcsi_plot_point end = polar_point(plan, deg, 1.0);
+        snprintf(text, sizeof text, "%d", deg);
+        lrcsi_plot_line(plan->plotter, plan->pole.x, plan->pole.y, end.x, end.y, LRCSI_COLOUR_GRID,
+                        0.9);
+        lrcsi_chart_number(plan->plotter, text, polar_point(plan, deg, 1.0 + 15.0 / plan->radius),
+                           LRCSI_CHART_SMALL, LRCSI_ANCHOR_MIDDLE);
     }
     for (uint32_t i = 0; i < plan->axis.count; i++) {
         const lrcsi_tick *tick = &plan->axis.tick[i];
         double part = lrcsi_axis_at(&plan->axis, tick->value);
-        if (tick->major && part > 0.0) {
-            int last = i + 1 == plan->axis.count;
-            ring_draw(plan, part, last ? LRCSI_COLOUR_TEXT : LRCSI_COLOUR_GRID, 0.9);
+        if (!tick->major || !(part > 0.0)) {
+            continue;
         }
+        int last = i + 1 == plan->axis.count;
+        const lrcsi_line_style style = {
+            last ? LRCSI_COLOUR_TEXT : LRCSI_COLOUR_GRID, 0.9, {0.0, 0.0}};
+        lrcsi_plot_point ring[181];
+        for (int k = 0; k <= 180; k++) {
+            ring[k] = polar_point(plan, 2.0 * k, part);
+        }
+        plan->plotter->line(plan->plotter, ring, 181, &style);
     }
 }
 
@@ -142,20 +130,10 @@ static void polar_numbers(const polar_plan *plan)
     for (uint32_t i = 0; i < plan->axis.count; i++) {
         const lrcsi_tick *tick = &plan->axis.tick[i];
         double part = lrcsi_axis_at(&plan->axis, tick->value);
-        if (!tick->major || !(part > 0.0)) {
-            continue;
+        if (tick->major && part > 0.0) {
+            lrcsi_chart_number_over(plan->plotter, tick->text, polar_point(plan, 75.0, part),
+                                    LRCSI_CHART_SMALL - 1.0);
         }
-        double size = LRCSI_CHART_SMALL - 1.0;
-        double half = 0.5 * size * lrcsi_letters_width(tick->text) + 2.0;
-        lrcsi_plot_point at = polar_point(plan, 75.0, part);
-        const lrcsi_plot_text label = {.text = tick->text,
-                                       .at = {at.x, at.y + LRCSI_CHART_DROP * size},
-                                       .size = size,
-                                       .anchor = LRCSI_ANCHOR_MIDDLE,
-                                       .colour = LRCSI_COLOUR_TEXT};
-        lrcsi_plot_rectangle(plan->plotter, at.x - half, at.y - 7.0, at.x + half, at.y + 7.0,
-                             LRCSI_COLOUR_BACKGROUND);
-        plan->plotter->text(plan->plotter, &label);
     }
 }
 

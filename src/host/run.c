@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* A scene's preparation and runs, with work areas from the heap. It decides how much memory to try,
-   and measures the time. The core computes the effect of a coarser raster on the bound. */
+/* A scene's preparation, and everything that is run on a prepared scene: sigma, its uncertainty and
+   derivatives, forecasts, emulation, visible polygons, range profiles. It decides how much memory
+   from the heap to try, and measures the time. The core computes the effect of a coarser raster on
+   the bound. */
 #include "host/run.h"
 
 #include <stdlib.h>
@@ -290,4 +292,75 @@ int lrcs_host_scene_emulate(const lrcs_host_scene *scene, const lrcs_pose *pose,
                                lrcs_precision_text(options->precision));
     }
     return run_fail(error, status, "emulating");
+}
+
+/* ---- results in memory of their own ---- */
+
+typedef struct polygon_step {
+    const lrcs_prepared *prepared;
+    const lrcs_pose *pose;
+    lrcs_polygons *list;
+} polygon_step;
+
+static int run_polygons(void *context, lrcs_work *work)
+{
+    polygon_step *step = context;
+    return lrcs_polygon_run(step->prepared, step->pose, work, step->list);
+}
+
+int lrcs_host_polygons_make(const lrcs_host_scene *scene, const lrcs_pose *pose,
+                            lrcs_host_polygons *polygons, lrcs_host_error *error)
+{
+    lrcs_host_polygons p = {{0}, NULL};
+    polygon_step step = {scene->prepared, pose, &p.list};
+    size_t need = lrcs_polygon_need(scene->prepared);
+    int status = lrcsi_host_step_run(&p.blocks, need, run_polygons, &step, error);
+    if (status == LRCS_OK) {
+        *polygons = p;
+    }
+    return run_fail(error, status, "visible polygons");
+}
+
+void lrcs_host_polygons_free(lrcs_host_polygons *polygons)
+{
+    lrcsi_host_free(polygons->blocks);
+    *polygons = (lrcs_host_polygons){{0}, NULL};
+}
+
+typedef struct profile_step {
+    const lrcs_prepared *prepared;
+    const lrcs_pose *pose;
+    double bin_m;
+    lrcs_profile *list;
+} profile_step;
+
+static int run_profile(void *context, lrcs_work *work)
+{
+    profile_step *step = context;
+    return lrcs_profile_run(step->prepared, step->pose, step->bin_m, work, step->list);
+}
+
+int lrcs_host_profile_make(const lrcs_host_scene *scene, const lrcs_pose *pose, double bin_m,
+                           lrcs_host_profile *profile, lrcs_host_error *error)
+{
+    lrcs_host_profile p = {{0}, NULL};
+    profile_step step = {scene->prepared, pose, bin_m, &p.list};
+    size_t need = lrcs_profile_need(scene->prepared, bin_m);
+    int status = lrcsi_host_step_run(&p.blocks, need, run_profile, &step, error);
+    if (status == LRCS_OK) {
+        *profile = p;
+    }
+    if (status == LRCS_E_LIMIT) {
+        return lrcsi_host_fail(error, status,
+                               "range profile: bins of %g m are more than the %lu that a profile "
+                               "may have, or too fine for the scene's distance from the origin",
+                               bin_m, (unsigned long)LRCS_PROFILE_BINS);
+    }
+    return run_fail(error, status, "range profile");
+}
+
+void lrcs_host_profile_free(lrcs_host_profile *profile)
+{
+    lrcsi_host_free(profile->blocks);
+    *profile = (lrcs_host_profile){{0}, NULL};
 }

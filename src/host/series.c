@@ -13,7 +13,39 @@
 
 /* ---- axes ---- */
 
-void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_plot_point at,
+double lrcsi_chart_x(const lrcsi_chart_axes *axes, double value)
+{
+    return LRCSI_CHART_LEFT + lrcsi_axis_at(&axes->x, value) * (axes->right - LRCSI_CHART_LEFT);
+}
+
+double lrcsi_chart_y(const lrcsi_chart_axes *axes, double value)
+{
+    return LRCSI_CHART_BOTTOM -
+           lrcsi_axis_at(&axes->y, value) * (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP);
+}
+
+void lrcsi_chart_number(lrcsi_plotter *plotter, const char *text, lrcsi_plot_point at, double size,
+                        int anchor)
+{
+    const lrcsi_plot_text label = {.text = text,
+                                   .at = {at.x, at.y + LRCSI_CHART_DROP * size},
+                                   .size = size,
+                                   .anchor = anchor,
+                                   .colour = LRCSI_COLOUR_TEXT};
+    plotter->text(plotter, &label);
+}
+
+void lrcsi_chart_number_over(lrcsi_plotter *plotter, const char *text, lrcsi_plot_point at,
+                             double size)
+{
+    double half = 0.5 * size * lrcsi_letters_width(text) + 2.0;
+    lrcsi_plot_rectangle(plotter, at.x - half, at.y - 7.0, at.x + half, at.y + 7.0,
+                         LRCSI_COLOUR_BACKGROUND);
+    lrcsi_chart_number(plotter, text, at, size, LRCSI_ANCHOR_MIDDLE);
+}
+
+/* A mark at a point of an axis, with its number below or, on an upright axis, to the left. */
+static void tick_draw(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_plot_point at,
                       int upright)
 {
     double length = tick->major ? 5.0 : 3.0;
@@ -43,6 +75,21 @@ void lrcsi_chart_box(lrcsi_plotter *plotter, double left, double right)
                                         {left, LRCSI_CHART_TOP}};
     const lrcsi_line_style style = {LRCSI_COLOUR_TEXT, 0.9, {0.0, 0.0}};
     plotter->line(plotter, corner, 5, &style);
+}
+
+void lrcsi_chart_frame(lrcsi_plotter *plotter, const lrcsi_chart_axes *axes)
+{
+    lrcsi_chart_box(plotter, LRCSI_CHART_LEFT, axes->right);
+    for (uint32_t i = 0; i < axes->x.count; i++) {
+        const lrcsi_tick *tick = &axes->x.tick[i];
+        const lrcsi_plot_point at = {lrcsi_chart_x(axes, tick->value), LRCSI_CHART_BOTTOM};
+        tick_draw(plotter, tick, at, 0);
+    }
+    for (uint32_t i = 0; i < axes->y.count; i++) {
+        const lrcsi_tick *tick = &axes->y.tick[i];
+        const lrcsi_plot_point at = {LRCSI_CHART_LEFT, lrcsi_chart_y(axes, tick->value)};
+        tick_draw(plotter, tick, at, 1);
+    }
 }
 
 /* ---- series ---- */
@@ -132,22 +179,22 @@ void lrcsi_chart_title(lrcsi_plotter *plotter, const char *title, const char *no
     lrcsi_letters_fit(plotter, second, room);
 }
 
-void lrcsi_chart_names(lrcsi_plotter *plotter, const char *below, double x, double wide,
-                       const char *beside, double y, double high)
+void lrcsi_chart_names(lrcsi_plotter *plotter, double right, const char *x_name, const char *y_name)
 {
-    const lrcsi_plot_text first = {.text = below,
-                                   .at = {x, LRCSI_CHART_HEIGHT - 14.0},
-                                   .size = LRCSI_CHART_NAMES,
-                                   .anchor = LRCSI_ANCHOR_MIDDLE,
-                                   .colour = LRCSI_COLOUR_TEXT};
-    const lrcsi_plot_text second = {.text = beside,
-                                    .at = {22.0, y},
+    const lrcsi_plot_text below = {
+        .text = x_name,
+        .at = {0.5 * (LRCSI_CHART_LEFT + right), LRCSI_CHART_HEIGHT - 14.0},
+        .size = LRCSI_CHART_NAMES,
+        .anchor = LRCSI_ANCHOR_MIDDLE,
+        .colour = LRCSI_COLOUR_TEXT};
+    const lrcsi_plot_text beside = {.text = y_name,
+                                    .at = {22.0, 0.5 * (LRCSI_CHART_TOP + LRCSI_CHART_BOTTOM)},
                                     .size = LRCSI_CHART_NAMES,
                                     .anchor = LRCSI_ANCHOR_MIDDLE,
                                     .upwards = 1,
                                     .colour = LRCSI_COLOUR_TEXT};
-    lrcsi_letters_fit(plotter, first, wide);
-    lrcsi_letters_fit(plotter, second, high);
+    lrcsi_letters_fit(plotter, below, right - LRCSI_CHART_LEFT);
+    lrcsi_letters_fit(plotter, beside, LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP);
 }
 
 double lrcsi_chart_legend_width(const lrcs_host_chart *chart)
@@ -162,7 +209,6 @@ double lrcsi_chart_legend_width(const lrcs_host_chart *chart)
 
 double lrcsi_chart_legend(lrcsi_plotter *plotter, const lrcs_host_chart *chart, double x, double y)
 {
-    lrcsi_plot_text label = {.size = LRCSI_CHART_SMALL, .colour = LRCSI_COLOUR_TEXT};
     for (uint32_t i = 0; i < chart->series_count; i++) {
         const lrcs_host_series *series = &chart->series[i];
         const lrcsi_line_style style = lrcsi_series_ink(series);
@@ -174,10 +220,9 @@ double lrcsi_chart_legend(lrcsi_plotter *plotter, const lrcs_host_chart *chart, 
             plotter->line(plotter, sample, 2, &style);
         }
         lrcsi_series_marker(plotter, series, (lrcsi_plot_point){x + 0.5 * LRCSI_CHART_SAMPLE, y});
-        label.text = series->name;
-        label.at = (lrcsi_plot_point){x + LRCSI_CHART_SAMPLE + 8.0,
-                                      y + LRCSI_CHART_DROP * LRCSI_CHART_SMALL};
-        plotter->text(plotter, &label);
+        lrcsi_chart_number(plotter, series->name,
+                           (lrcsi_plot_point){x + LRCSI_CHART_SAMPLE + 8.0, y}, LRCSI_CHART_SMALL,
+                           LRCSI_ANCHOR_LEFT);
         y += LRCSI_CHART_LINE;
     }
     return y;

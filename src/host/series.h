@@ -39,19 +39,36 @@ void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series,
 void lrcsi_series_band(lrcsi_plotter *plotter, const lrcs_host_series *series,
                        const lrcsi_plot_point corner[4]);
 
-/* A mark at a point of an axis, with its number below or, on an upright axis, to the left. */
-void lrcsi_chart_tick(lrcsi_plotter *plotter, const lrcsi_tick *tick, lrcsi_plot_point at,
-                      int upright);
+/* A chart in a rectangle that extends from LRCSI_CHART_LEFT to `right`: its axes, and where a value
+   is on them. */
+typedef struct lrcsi_chart_axes {
+    lrcsi_axis x, y;
+    double right;
+} lrcsi_chart_axes;
+
+double lrcsi_chart_x(const lrcsi_chart_axes *axes, double value);
+double lrcsi_chart_y(const lrcsi_chart_axes *axes, double value);
+
+/* Draws the frame of the rectangle, and the marks and numbers of both axes. */
+void lrcsi_chart_frame(lrcsi_plotter *plotter, const lrcsi_chart_axes *axes);
 
 /* The frame of what is drawn between left and right. */
 void lrcsi_chart_box(lrcsi_plotter *plotter, double left, double right);
 
+/* A number at a point, which is its middle, its left end or its right end (lrcsi_anchor). */
+void lrcsi_chart_number(lrcsi_plotter *plotter, const char *text, lrcsi_plot_point at, double size,
+                        int anchor);
+
+/* The same, by its middle, on a background that covers what is below it. */
+void lrcsi_chart_number_over(lrcsi_plotter *plotter, const char *text, lrcsi_plot_point at,
+                             double size);
+
 /* The two lines above a chart. */
 void lrcsi_chart_title(lrcsi_plotter *plotter, const char *title, const char *note);
 
-/* The names of axes: below the middle x, and upwards about the middle y. */
-void lrcsi_chart_names(lrcsi_plotter *plotter, const char *below, double x, double wide,
-                       const char *beside, double y, double high);
+/* The names of the axes of a chart that extends from LRCSI_CHART_LEFT to `right`. */
+void lrcsi_chart_names(lrcsi_plotter *plotter, double right, const char *x_name,
+                       const char *y_name);
 
 /* The list of named series beside a chart: its width, 0 if no series has a name; and drawing it
    from its upper left corner, which returns the y of its end. */

@@ -7,75 +7,66 @@
 
 #include "base/bits.h"
 
+/* What the numbers of an array are. */
+enum vtk_kind {
+    VTK_VERTEX,
+    VTK_CORNER,
+    VTK_OFFSET,
+    VTK_DIRECTION,
+    VTK_COSINE,
+    VTK_AREA,
+    VTK_VISIBLE,
+    VTK_FRACTION,
+    VTK_SIGMA,
+    VTK_MATERIAL,
+    VTK_PART
+};
+
 /* An array of one number, or three, for each of its items. */
 typedef struct vtk_array {
     const char *name;
     size_t count;
     uint32_t each;
     int whole; /* integers instead of doubles */
-    double (*value)(const lrcs_host_picture *picture, size_t i);
+    enum vtk_kind kind;
 } vtk_array;
 
-/* ---- the numbers ---- */
-
-static double vtk_vertex(const lrcs_host_picture *picture, size_t i)
+/* Number i of an array. */
+static double vtk_number(const lrcs_host_picture *picture, const vtk_array *array, size_t i)
 {
-    const lrcs_point *point = &picture->scene->vertex[i / 3];
-    return point->x[i % 3];
-}
-
-static double vtk_corner(const lrcs_host_picture *picture, size_t i)
-{
-    const lrcs_facet *facet = &picture->scene->facet[i / 3];
-    return facet->corner[i % 3];
-}
-
-static double vtk_offset(const lrcs_host_picture *picture, size_t i)
-{
-    (void)picture;
-    return 3.0 * (double)(i + 1);
-}
-
-static double vtk_direction(const lrcs_host_picture *picture, size_t i)
-{
-    return picture->pose->R[2][i];
-}
-
-static double vtk_cosine(const lrcs_host_picture *picture, size_t i)
-{
-    return picture->records[i].cos_theta;
-}
-
-static double vtk_area(const lrcs_host_picture *picture, size_t i)
-{
-    return picture->records[i].area_m2;
-}
-
-static double vtk_visible(const lrcs_host_picture *picture, size_t i)
-{
-    return picture->records[i].visible_area_m2;
-}
-
-static double vtk_fraction(const lrcs_host_picture *picture, size_t i)
-{
-    const lrcs_facet_record *record = &picture->records[i];
-    double projected = record->area_m2 * fabs(record->cos_theta);
-    return projected > 0.0 ? fmin(record->visible_area_m2 / projected, 1.0) : 0.0;
-}
-
-static double vtk_sigma(const lrcs_host_picture *picture, size_t i)
-{
-    return picture->records[i].sigma_m2;
-}
-
-static double vtk_material(const lrcs_host_picture *picture, size_t i)
-{
-    return picture->scene->facet_material[i];
-}
-
-static double vtk_part(const lrcs_host_picture *picture, size_t i)
-{
-    return picture->scene->facet_part[i];
+    const lrcs_scene *scene = picture->scene;
+    const lrcs_facet_record *records = picture->records;
+    switch (array->kind) {
+    case VTK_VERTEX: {
+        const lrcs_point *point = &scene->vertex[i / 3];
+        return point->x[i % 3];
+    }
+    case VTK_CORNER: {
+        const lrcs_facet *facet = &scene->facet[i / 3];
+        return facet->corner[i % 3];
+    }
+    case VTK_OFFSET:
+        return 3.0 * (double)(i + 1);
+    case VTK_DIRECTION:
+        return picture->pose->R[2][i];
+    case VTK_COSINE:
+        return records[i].cos_theta;
+    case VTK_AREA:
+        return records[i].area_m2;
+    case VTK_VISIBLE:
+        return records[i].visible_area_m2;
+    case VTK_FRACTION: {
+        double projected = records[i].area_m2 * fabs(records[i].cos_theta);
+        return projected > 0.0 ? fmin(records[i].visible_area_m2 / projected, 1.0) : 0.0;
+    }
+    case VTK_SIGMA:
+        return records[i].sigma_m2;
+    case VTK_MATERIAL:
+        return scene->facet_material[i];
+    case VTK_PART:
+    default:
+        return scene->facet_part[i];
+    }
 }
 
 #define VTK_CELL_ARRAYS 7
@@ -83,13 +74,13 @@ static double vtk_part(const lrcs_host_picture *picture, size_t i)
 static void cell_arrays(const lrcs_host_picture *picture, vtk_array array[VTK_CELL_ARRAYS])
 {
     uint32_t facets = picture->scene->facet_count;
-    array[0] = (vtk_array){"cos_theta", facets, 1, 0, vtk_cosine};
-    array[1] = (vtk_array){"area_m2", facets, 1, 0, vtk_area};
-    array[2] = (vtk_array){"visible_area_m2", facets, 1, 0, vtk_visible};
-    array[3] = (vtk_array){"visible_fraction", facets, 1, 0, vtk_fraction};
-    array[4] = (vtk_array){"sigma_m2", facets, 1, 0, vtk_sigma};
-    array[5] = (vtk_array){"material", facets, 1, 1, vtk_material};
-    array[6] = (vtk_array){"part", facets, 1, 1, vtk_part};
+    array[0] = (vtk_array){"cos_theta", facets, 1, 0, VTK_COSINE};
+    array[1] = (vtk_array){"area_m2", facets, 1, 0, VTK_AREA};
+    array[2] = (vtk_array){"visible_area_m2", facets, 1, 0, VTK_VISIBLE};
+    array[3] = (vtk_array){"visible_fraction", facets, 1, 0, VTK_FRACTION};
+    array[4] = (vtk_array){"sigma_m2", facets, 1, 0, VTK_SIGMA};
+    array[5] = (vtk_array){"material", facets, 1, 1, VTK_MATERIAL};
+    array[6] = (vtk_array){"part", facets, 1, 1, VTK_PART};
 }
 
 /* ---- legacy, binary: the high byte first ---- */
@@ -104,7 +95,7 @@ static void bytes_write(FILE *out, uint64_t bits, int count)
 static void legacy_numbers(FILE *out, const lrcs_host_picture *picture, const vtk_array *array)
 {
     for (size_t i = 0; i < array->count * array->each; i++) {
-        double value = array->value(picture, i);
+        double value = vtk_number(picture, array, i);
         bytes_write(out, array->whole ? (uint64_t)value : lrcsi_bits_of(value),
                     array->whole ? 4 : 8);
     }
@@ -114,8 +105,8 @@ static void legacy_numbers(FILE *out, const lrcs_host_picture *picture, const vt
 static void legacy_write(FILE *out, const lrcs_host_picture *picture)
 {
     const lrcs_scene *scene = picture->scene;
-    const vtk_array direction = {"direction", 1, 3, 0, vtk_direction};
-    const vtk_array point = {"points", scene->vertex_count, 3, 0, vtk_vertex};
+    const vtk_array direction = {"direction", 1, 3, 0, VTK_DIRECTION};
+    const vtk_array point = {"points", scene->vertex_count, 3, 0, VTK_VERTEX};
     unsigned long facets = scene->facet_count;
     vtk_array cell[VTK_CELL_ARRAYS];
     cell_arrays(picture, cell);
@@ -146,10 +137,10 @@ static void xml_array(FILE *out, const lrcs_host_picture *picture, const vtk_arr
     fprintf(out,
             "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%lu\"%s format=\"ascii\">\n",
             array->whole ? "Int64" : "Float64", array->name, (unsigned long)array->each,
-            array->value == vtk_direction ? " NumberOfTuples=\"1\"" : "");
+            array->kind == VTK_DIRECTION ? " NumberOfTuples=\"1\"" : "");
     for (size_t i = 0; i < array->count * array->each; i++) {
         char text[LRCS_HOST_NUMBER_SIZE];
-        lrcs_host_number_text(array->value(picture, i), text);
+        lrcs_host_number_text(vtk_number(picture, array, i), text);
         fputs(text, out);
         putc(i % 3 == 2 ? '\n' : ' ', out);
     }
@@ -159,10 +150,10 @@ static void xml_array(FILE *out, const lrcs_host_picture *picture, const vtk_arr
 static void xml_write(FILE *out, const lrcs_host_picture *picture)
 {
     const lrcs_scene *scene = picture->scene;
-    const vtk_array direction = {"direction", 1, 3, 0, vtk_direction};
-    const vtk_array point = {"points", scene->vertex_count, 3, 0, vtk_vertex};
-    const vtk_array corner = {"connectivity", 3 * (size_t)scene->facet_count, 1, 1, vtk_corner};
-    const vtk_array offset = {"offsets", scene->facet_count, 1, 1, vtk_offset};
+    const vtk_array direction = {"direction", 1, 3, 0, VTK_DIRECTION};
+    const vtk_array point = {"points", scene->vertex_count, 3, 0, VTK_VERTEX};
+    const vtk_array corner = {"connectivity", 3 * (size_t)scene->facet_count, 1, 1, VTK_CORNER};
+    const vtk_array offset = {"offsets", scene->facet_count, 1, 1, VTK_OFFSET};
     vtk_array cell[VTK_CELL_ARRAYS];
     cell_arrays(picture, cell);
     fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "

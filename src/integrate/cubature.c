@@ -31,6 +31,7 @@
 #include "integrate/cubature.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/constant.h"
 #include "base/elementary.h"
@@ -140,9 +141,16 @@ static void value_add(cubature_value *sum, double weight, const cubature_value *
     sum->weighted += weight * value->weighted;
 }
 
-/* A bound on the rounding error of the area of the triangle of corners 0, i and i + 1, in units of
-   the cell's. Each halving adds an error of 2 u of the cell's size to positions, which is that
-   times the size in the area; the area itself adds 4 u. */
+/* Twice the area of the triangle of corners 0, i and i + 1, in units of the cell's. */
+static double fan_cross(const cubature_cell *cell, int i)
+{
+    const double *u = cell->at[i];
+    const double *v = cell->at[i + 1];
+    return u[0] * v[1] - u[1] * v[0];
+}
+
+/* A bound on the rounding error of half of it. Each halving adds an error of 2 u of the cell's size
+   to positions, which is that times the size in the area; the area itself adds 4 u. */
 static double fan_area_err(const cubature_cell *cell, int i)
 {
     const double *u = cell->at[i];
@@ -151,45 +159,37 @@ static double fan_area_err(const cubature_cell *cell, int i)
            (u[0] * u[0] + u[1] * u[1] + v[0] * v[0] + v[1] * v[1]);
 }
 
-/* Adds the value of the rule on the triangle of corners 0, i and i + 1. Its nodes are the centroid,
-   with weight 9/40, and the points (a, a, 1 - 2 a) and their permutations, a = (6 -+ sqrt 15)/21,
-   with weights (155 -+ sqrt 15)/1200. Weights and sums have relative errors below 16 u. */
-static void rule_add(const lrcsi_cubature *sum, const cubature_cell *cell, int i,
-                     cubature_value *value)
+/* The value of the rule on a cell: the sum over the triangles of corners 0, i and i + 1. The nodes
+   of a triangle are its centroid, with weight 9/40, and the points (a, a, 1 - 2 a) and their
+   permutations, a = (6 -+ sqrt 15)/21, with weights (155 -+ sqrt 15)/1200. Weights and sums have
+   relative errors below 16 u. */
+static cubature_value rule_value(const lrcsi_cubature *sum, const cubature_cell *cell)
 {
     static const double rule[3][3] = {
         {1.0 / 3, 1.0 / 3, 0.225},
         {0.10128650732345633880, 0.79742698535308732240, 0.12593918054482715260},
         {0.47014206410511508977, 0.05971587178976982046, 0.13239415278850618074}};
-    const double *u = cell->at[i];
-    const double *v = cell->at[i + 1];
-    double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
-    double area_err = fan_area_err(cell, i);
-    cubature_value mean = {0, 0, 0, 0, 0, 0};
-    for (int k = 0; k < 7 && area > 0; k++) {
-        const double *node = rule[(k + 2) / 3]; /* the centroid once, the other two three times */
-        int odd = (k + 2) % 3;
-        double n[3];
-        for (int c = 0; c < 3; c++) {
-            n[c] = node[odd == 0] * cell->normal[0][c] + node[odd == 1] * cell->normal[i][c] +
-                   node[odd == 2] * cell->normal[i + 1][c];
-        }
-        cubature_value at = node_value(sum, n);
-        at.weighted = (at.glint + at.diffuse) *
-                      (node[odd == 0] * cell->weight[0] + node[odd == 1] * cell->weight[i] +
-                       node[odd == 2] * cell->weight[i + 1]);
-        value_add(&mean, node[2], &at);
-    }
-    mean.rounding += 16 * LRCSI_U * (mean.glint + mean.diffuse);
-    value_add(value, cell->unit * area, &mean);
-    value->rounding += cell->unit * area_err * (mean.glint + mean.diffuse);
-}
-
-static cubature_value rule_value(const lrcsi_cubature *sum, const cubature_cell *cell)
-{
     cubature_value value = {0, 0, 0, 0, 0, 0};
     for (int i = 1; i + 1 < cell->count; i++) {
-        rule_add(sum, cell, i, &value);
+        double area = 0.5 * fan_cross(cell, i);
+        cubature_value mean = {0, 0, 0, 0, 0, 0};
+        for (int k = 0; k < 7 && area > 0; k++) {
+            const double *node = rule[(k + 2) / 3]; /* the centroid once, the others three times */
+            int odd = (k + 2) % 3;
+            double n[3];
+            for (int c = 0; c < 3; c++) {
+                n[c] = node[odd == 0] * cell->normal[0][c] + node[odd == 1] * cell->normal[i][c] +
+                       node[odd == 2] * cell->normal[i + 1][c];
+            }
+            cubature_value at = node_value(sum, n);
+            at.weighted = (at.glint + at.diffuse) *
+                          (node[odd == 0] * cell->weight[0] + node[odd == 1] * cell->weight[i] +
+                           node[odd == 2] * cell->weight[i + 1]);
+            value_add(&mean, node[2], &at);
+        }
+        mean.rounding += 16 * LRCSI_U * (mean.glint + mean.diffuse);
+        value_add(&value, cell->unit * area, &mean);
+        value.rounding += cell->unit * fan_area_err(cell, i) * (mean.glint + mean.diffuse);
     }
     return value;
 }
@@ -198,9 +198,7 @@ static double cell_area(const cubature_cell *cell)
 {
     double area = 0;
     for (int i = 1; i + 1 < cell->count; i++) {
-        const double *u = cell->at[i];
-        const double *v = cell->at[i + 1];
-        area += 0.5 * (u[0] * v[1] - u[1] * v[0]);
+        area += 0.5 * fan_cross(cell, i);
     }
     return lrcsi_max(0, cell->unit * area);
 }
@@ -284,32 +282,6 @@ static void cell_trust(const lrcsi_cubature *sum, cubature_cell *cell)
     }
 }
 
-/* The two corners *from and *to whose unit normals are farthest apart, and the chord between these
-   normals, which is the direction in which normals turn most. */
-static void cell_chord(const cubature_cell *cell, int *from, int *to, double chord[3])
-{
-    double unit[CORNERS][3];
-    double longest = -1;
-    for (int i = 0; i < cell->count; i++) {
-        double length = sqrt(lrcsi_vec3_dot(cell->normal[i], cell->normal[i]));
-        for (int k = 0; k < 3; k++) {
-            unit[i][k] = length > 0 ? cell->normal[i][k] / length : 0;
-        }
-        for (int j = 0; j < i; j++) {
-            double apart[3] = {unit[i][0] - unit[j][0], unit[i][1] - unit[j][1],
-                               unit[i][2] - unit[j][2]};
-            if (lrcsi_vec3_dot(apart, apart) > longest) {
-                longest = lrcsi_vec3_dot(apart, apart);
-                *from = j;
-                *to = i;
-                for (int k = 0; k < 3; k++) {
-                    chord[k] = apart[k];
-                }
-            }
-        }
-    }
-}
-
 /* Adds a corner, unless there is no room for it. That does not happen with convex cells; a cell
    that rounding has left not quite convex may lose a sliver. */
 static void corner_add(cubature_cell *cell, const double normal[3], const double at[2],
@@ -318,12 +290,8 @@ static void corner_add(cubature_cell *cell, const double normal[3], const double
     if (cell->count == CORNERS) {
         return;
     }
-    for (int k = 0; k < 3; k++) {
-        cell->normal[cell->count][k] = normal[k];
-    }
-    for (int k = 0; k < 2; k++) {
-        cell->at[cell->count][k] = at[k];
-    }
+    memcpy(cell->normal[cell->count], normal, sizeof cell->normal[0]);
+    memcpy(cell->at[cell->count], at, sizeof cell->at[0]);
     cell->weight[cell->count++] = weight;
 }
 
@@ -364,23 +332,49 @@ static void cell_finish(cubature_cell *cell)
     cell_measure(cell);
 }
 
-/* The line that halves a cell, as the zero line of a linear function `level` of position, given by
-   its values at the corners. Returns 0 if no level is negative, for instance because all normals
-   are the same. The line is perpendicular to the direction in which normals turn most, and midway
-   between the corners *from and *to; if the cell has CORNERS corners, it is a diagonal. The
-   direction is the gradient g, up to a positive factor, of the component of the normals along their
-   longest chord, in the largest triangle of the fan. Because the levels depend on positions only,
-   the areas of the halves add up to that of the cell whatever the errors of normals are. */
-static int cell_levels(const cubature_cell *cell, double level[CORNERS])
+/* The chord between the two unit normals at corners that are farthest apart, which is the direction
+   in which normals turn most; and these corners. */
+static void cell_chord(const cubature_cell *cell, int *from, int *to, double chord[3])
 {
+    double unit[CORNERS][3];
+    double longest = -1;
+    for (int i = 0; i < cell->count; i++) {
+        double length = sqrt(lrcsi_vec3_dot(cell->normal[i], cell->normal[i]));
+        for (int k = 0; k < 3; k++) {
+            unit[i][k] = length > 0 ? cell->normal[i][k] / length : 0;
+        }
+        for (int j = 0; j < i; j++) {
+            const double apart[3] = {unit[i][0] - unit[j][0], unit[i][1] - unit[j][1],
+                                     unit[i][2] - unit[j][2]};
+            double square = lrcsi_vec3_dot(apart, apart);
+            if (square > longest) {
+                longest = square;
+                *from = j;
+                *to = i;
+                memcpy(chord, apart, sizeof apart);
+            }
+        }
+    }
+}
+
+/* Halves a cell by a line, which is the zero line of a linear function `level` of position, given
+   by its values at the corners. Because levels depend on positions only, the areas of the halves
+   add up to that of the cell whatever the errors of normals are.
+   1. The gradient g, up to a positive factor, of the component of the normals along their longest
+      chord, in the largest triangle of the fan.
+   2. The line perpendicular to g, midway between the ends of the chord; a diagonal if the cell has
+      CORNERS corners. If no level is negative, for instance because all normals are the same, the
+      first half is the whole cell, and the second one is empty.
+   3. The halves. The normals of half[1] are closer to the direction to the laser. */
+static void cell_halve(const cubature_cell *cell, cubature_cell half[2])
+{
+    double chord[3] = {0, 0, 0};
     int from = 0;
     int to = 0;
-    int below = 0;
-    double chord[3] = {0, 0, 0};
+    cell_chord(cell, &from, &to, chord);
     double g[2] = {0, 0};
     double largest = 0;
-    cell_chord(cell, &from, &to, chord);
-    for (int i = 1; i + 1 < cell->count; i++) {
+    for (int i = 1; i + 1 < cell->count; i++) { /* 1 */
         const double *u = cell->at[i];
         const double *v = cell->at[i + 1];
         double gu = 0;
@@ -389,14 +383,16 @@ static int cell_levels(const cubature_cell *cell, double level[CORNERS])
             gu += chord[k] * (cell->normal[i][k] - cell->normal[0][k]);
             gv += chord[k] * (cell->normal[i + 1][k] - cell->normal[0][k]);
         }
-        if (u[0] * v[1] - u[1] * v[0] > largest) {
-            largest = u[0] * v[1] - u[1] * v[0];
+        if (fan_cross(cell, i) > largest) {
+            largest = fan_cross(cell, i);
             g[0] = gu * v[1] - gv * u[1];
             g[1] = gv * u[0] - gu * v[0];
         }
     }
+    double level[CORNERS];
+    int below = 0;
     const double *p = cell->at[CORNERS / 2];
-    for (int i = 0; i < cell->count; i++) {
+    for (int i = 0; i < cell->count; i++) { /* 2 */
         const double *at = cell->at[i];
         level[i] = cell->count == CORNERS
                        ? p[0] * at[1] - p[1] * at[0]
@@ -404,20 +400,13 @@ static int cell_levels(const cubature_cell *cell, double level[CORNERS])
                              g[1] * (at[1] - 0.5 * (cell->at[from][1] + cell->at[to][1]));
         below |= level[i] < 0;
     }
-    return below;
-}
-
-/* Halves a cell. The normals of the second half are closer to the direction to the laser. */
-static void cell_halve(const cubature_cell *cell, cubature_cell half[2])
-{
-    double level[CORNERS];
-    int parts = cell_levels(cell, level);
-    for (int h = 0; h < 2; h++) {
-        half[h] =
-            (cubature_cell){.unit = cell->unit, .skipped = cell->skipped, .depth = cell->depth + 1};
-        half[h].trusted = cell->trusted;
-        half[h].rule_err = 1;
-        if (h == 0 || parts) {
+    for (int h = 0; h < 2; h++) { /* 3 */
+        half[h] = (cubature_cell){.unit = cell->unit,
+                                  .skipped = cell->skipped,
+                                  .depth = cell->depth + 1,
+                                  .trusted = cell->trusted,
+                                  .rule_err = 1};
+        if (h == 0 || below) {
             cell_cut(cell, level, h == 0 ? 1 : -1, &half[h]);
         }
         cell_finish(&half[h]);
@@ -426,19 +415,6 @@ static void cell_halve(const cubature_cell *cell, cubature_cell half[2])
         cubature_cell other = half[0];
         half[0] = half[1];
         half[1] = other;
-    }
-}
-
-/* Divides a cell into the halves of both halves, and evaluates the rule on each. */
-static void cell_quarter(const lrcsi_cubature *sum, const cubature_cell *cell,
-                         cubature_cell quarter[4])
-{
-    cubature_cell half[2];
-    cell_halve(cell, half);
-    cell_halve(&half[0], &quarter[0]);
-    cell_halve(&half[1], &quarter[2]);
-    for (int i = 0; i < 4; i++) {
-        quarter[i].value = rule_value(sum, &quarter[i]);
     }
 }
 
@@ -463,24 +439,18 @@ static double cell_shortest(const cubature_cell *cell)
     return shortest;
 }
 
-/* An upper bound of f_r cos over the cell. Its normals lie in a cone about their mean, and have
-   errors of at most position_err. */
-static double cell_upper_bound(const lrcsi_cubature *sum, const cubature_cell *cell)
+/* An upper bound both of the integral over a cell and of the value of the rule on it. Its normals
+   lie in a cone about their mean, and have errors of at most position_err. */
+static double cell_integral_bound(const lrcsi_cubature *sum, const cubature_cell *cell)
 {
     double err = 2 * sum->position_err / cell_shortest(cell);
     double turn = err <= 1 ? cell_turn(cell) + err : LRCS_PI;
     lrcsi_reflection bound = lrcsi_reflect_bound(sum->brdf, cell->theta, turn);
-    return bound.glint + bound.diffuse;
-}
-
-/* An upper bound both of the integral over a cell and of the value of the rule on it. */
-static double cell_integral_bound(const lrcsi_cubature *sum, const cubature_cell *cell)
-{
     double area_err = 0;
     for (int i = 1; i + 1 < cell->count; i++) {
         area_err += fan_area_err(cell, i);
     }
-    return (cell_area(cell) + cell->unit * area_err) * cell_upper_bound(sum, cell);
+    return (cell_area(cell) + cell->unit * area_err) * (bound.glint + bound.diffuse);
 }
 
 /* Adds the error of a cell that is not divided further although it is not accurate enough: its
@@ -494,16 +464,46 @@ static void sum_add_error(lrcsi_cubature *sum, double bound, double estimate)
     }
 }
 
-/* Adds four quarters to the sum if their values agree with that of the whole cell, or if `must`
-   is 1. Returns 0 if they are not added. */
-static int quarters_keep(lrcsi_cubature *sum, const cubature_cell *cell,
-                         const cubature_cell quarter[4], int must)
+/* Adds a cell to the sum, or divides it into `part`. Returns the number of parts.
+   1. A cell on which the rule is not trusted is halved. If it may not be divided, it counts with
+      the value of the rule, and its upper bound is the error.
+   2. A cell on which the estimated error of the rule is accepted counts without a comparison.
+   3. Any other cell is compared with its quarters, the halves of both halves. They count if their
+      values agree with that of the cell, or if it may not be divided; otherwise the quarters are
+      the parts. */
+static uint32_t cell_step(lrcsi_cubature *sum, cubature_cell *cell, int may_divide,
+                          cubature_cell part[4])
 {
-    cubature_value all = {0, 0, 0, 0, 0, 0};
-    for (int i = 0; i < 4; i++) {
-        value_add(&all, 1, &quarter[i].value);
+    if (!cell->trusted) {
+        cell_trust(sum, cell);
+    }
+    if (!cell->trusted) { /* 1 */
+        if (may_divide) {
+            cell_halve(cell, part);
+            return 2;
+        }
+        double bound = cell_integral_bound(sum, cell);
+        cell->value = rule_value(sum, cell);
+        sum_keep(sum, cell);
+        sum_add_error(sum, bound, bound);
+        return 0;
     }
     double area = cell_area(cell);
+    double value = cell->value.glint + cell->value.diffuse;
+    if (cell->rule_err * value <= sum->tolerance * value + accepted_error(sum) * area) { /* 2 */
+        sum_keep(sum, cell);
+        sum->estimate += cell->rule_err * value + cell->skipped * area;
+        return 0;
+    }
+    cubature_cell half[2]; /* 3 */
+    cubature_value all = {0, 0, 0, 0, 0, 0};
+    cell_halve(cell, half);
+    cell_halve(&half[0], &part[0]);
+    cell_halve(&half[1], &part[2]);
+    for (int i = 0; i < 4; i++) {
+        part[i].value = rule_value(sum, &part[i]);
+        value_add(&all, 1, &part[i].value);
+    }
     double difference =
         fabs(all.glint - cell->value.glint) + fabs(all.diffuse - cell->value.diffuse);
     if (sum->weight) { /* the weighted integral must agree too, relative to the largest weight */
@@ -515,8 +515,8 @@ static int quarters_keep(lrcsi_cubature *sum, const cubature_cell *cell,
     double sum_so_far = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
     double allowed = sum->tolerance * (all.glint + all.diffuse + sum_so_far * (area / sum->area));
     int agree = difference <= allowed + accepted_error(sum) * area;
-    if (!must && !agree) {
-        return 0;
+    if (may_divide && !agree) {
+        return 4;
     }
     double estimate = difference + cell->skipped * area;
     if (agree) {
@@ -525,38 +525,8 @@ static int quarters_keep(lrcsi_cubature *sum, const cubature_cell *cell,
         sum_add_error(sum, cell_integral_bound(sum, cell), estimate);
     }
     for (int i = 0; i < 4; i++) {
-        sum_keep(sum, &quarter[i]);
+        sum_keep(sum, &part[i]);
     }
-    return 1;
-}
-
-/* Adds a cell to the sum, or divides it into `part`. Returns the number of parts. */
-static uint32_t cell_step(lrcsi_cubature *sum, cubature_cell *cell, int may_divide,
-                          cubature_cell part[4])
-{
-    if (!cell->trusted) {
-        cell_trust(sum, cell);
-    }
-    double area = cell_area(cell);
-    double value = cell->value.glint + cell->value.diffuse;
-    if (cell->trusted &&
-        cell->rule_err * value <= sum->tolerance * value + accepted_error(sum) * area) {
-        sum_keep(sum, cell);
-        sum->estimate += cell->rule_err * value + cell->skipped * area;
-        return 0;
-    }
-    if (cell->trusted) {
-        cell_quarter(sum, cell, part);
-        return quarters_keep(sum, cell, part, !may_divide) ? 0 : 4;
-    }
-    if (may_divide) {
-        cell_halve(cell, part);
-        return 2;
-    }
-    double bound = cell_integral_bound(sum, cell);
-    cell->value = rule_value(sum, cell);
-    sum_keep(sum, cell);
-    sum_add_error(sum, bound, bound);
     return 0;
 }
 

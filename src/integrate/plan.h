@@ -8,8 +8,8 @@
 
 #include "view/clear.h"
 
-/* A term of the BRDF. */
-enum lrcsi_term {
+/* What a run does with a term of the BRDF. */
+enum lrcsi_term_use {
     LRCSI_TERM_OMITTED,  /* its amplitude counts as 0 */
     LRCSI_TERM_ASSIGNED, /* evaluated where its amplitude is not 0 */
     LRCSI_TERM_FORCED    /* evaluated even where its amplitude is 0 */
@@ -32,7 +32,7 @@ typedef struct lrcsi_plan {
                            bounded by a proximity band (visibility/proximity_band.h) */
     int patches;        /* facets of curved walls represent the true surface (integrate/patch.h) */
     double tolerance;   /* lrcs_run_options.tolerance */
-    int glint, diffuse; /* lrcsi_term */
+    int glint, diffuse; /* lrcsi_term_use */
 } lrcsi_plan;
 
 /* Decides whether back sides cast shadows and reflect, from the proofs about the scene and from the

@@ -220,23 +220,9 @@ static lrcsi_dd range_of(const lrcsi_view *view, const double x[3], double *err)
     return sum;
 }
 
-/* The bins that may contain a corner: two if its range cannot be distinguished from their common
-   edge. If the range is exact, so is bin_of. */
-static void corner_bins(const profile_run *run, lrcsi_dd range, double err, uint32_t *low,
-                        uint32_t *high)
-{
-    *low = *high = bin_of(run, lrcsi_dd_value(range));
-    double below = lrcsi_dd_value(lrcsi_dd_sub(range, (lrcsi_dd){edge_of(run, *low), 0}));
-    double above = lrcsi_dd_value(lrcsi_dd_sub(range, (lrcsi_dd){edge_of(run, *high + 1), 0}));
-    if (*low > 0 && below < 2 * err) {
-        *low -= 1;
-        *high -= below < -2 * err ? 1 : 0;
-    } else if (*high + 1 < run->count && err > 0 && above >= -2 * err) {
-        *high += 1;
-    }
-}
-
-/* Computes the ranges of a facet's corners, and finds the bins that it extends into. */
+/* Computes the ranges of a facet's corners, and finds the bins that it extends into. A corner whose
+   range cannot be distinguished from the edge between two bins extends into both. If the range is
+   exact, so is bin_of. */
 static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *f)
 {
     f->first = run->count;
@@ -245,13 +231,20 @@ static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *
     f->range_dd_err = 0;
     for (int k = 0; k < 3; k++) {
         double err;
-        uint32_t low;
-        uint32_t high;
         lrcsi_dd range = range_of(run->view, lrcsi_prepared_corner(run->prepared, facet, k), &err);
-        corner_bins(run, range, err, &low, &high);
         f->range[k] = lrcsi_dd_value(range);
         f->range_max = lrcsi_max(f->range_max, fabs(f->range[k]));
         f->range_dd_err = lrcsi_max(f->range_dd_err, err);
+        uint32_t low = bin_of(run, f->range[k]);
+        uint32_t high = low;
+        double below = lrcsi_dd_value(lrcsi_dd_sub(range, (lrcsi_dd){edge_of(run, low), 0}));
+        double above = lrcsi_dd_value(lrcsi_dd_sub(range, (lrcsi_dd){edge_of(run, low + 1), 0}));
+        if (low > 0 && below < 2 * err) {
+            low -= 1;
+            high -= below < -2 * err ? 1 : 0;
+        } else if (high + 1 < run->count && err > 0 && above >= -2 * err) {
+            high += 1;
+        }
         f->first = low < f->first ? low : f->first;
         f->last = high > f->last ? high : f->last;
     }
@@ -262,105 +255,125 @@ static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *
 
 /* --- one triangle ----------------------------------------------------------------------------- */
 
-/* A triangle of a piece: its area, the ranges of its corners in ascending order, and the normals at
-   them, or NULL for a flat facet. */
+/* The corners of a triangle in ascending order of their ranges. */
+static void corners_order(const double range[3], int order[3])
+{
+    static const int pair[3][2] = {{0, 1}, {1, 2}, {0, 1}};
+    order[0] = 0;
+    order[1] = 1;
+    order[2] = 2;
+    for (int i = 0; i < 3; i++) {
+        int a = order[pair[i][0]];
+        int b = order[pair[i][1]];
+        int swapped = range[b] < range[a];
+        order[pair[i][0]] = swapped ? b : a;
+        order[pair[i][1]] = swapped ? a : b;
+    }
+}
+
+/* A triangle of a piece: its area, and the ranges of its corners in ascending order; on a facet
+   with curved normals, also the normals at them. */
 typedef struct profile_triangle {
     double area, z[3];
-    const double *normal[3];
+    double normal[3][3];
 } profile_triangle;
 
-/* Swaps corners a and b if the range of b is smaller. */
-static void sort_corners(profile_triangle *t, int a, int b)
+/* The normal at the point of the side from corner a to corner b that has the range z. Given: the
+   normals at all corners, and their ranges in ascending order. */
+static void normal_at(const double corner[3][3], const double range[3], int a, int b, double z,
+                      double normal[3])
 {
-    if (t->z[b] < t->z[a]) {
-        double z = t->z[a];
-        const double *normal = t->normal[a];
-        t->z[a] = t->z[b];
-        t->normal[a] = t->normal[b];
-        t->z[b] = z;
-        t->normal[b] = normal;
-    }
-}
-
-static profile_triangle triangle_of(double area, const double range[3], const double (*normal)[3])
-{
-    profile_triangle t = {area, {range[0], range[1], range[2]}, {NULL, NULL, NULL}};
-    for (int k = 0; k < 3 && normal; k++) {
-        t.normal[k] = normal[k];
-    }
-    sort_corners(&t, 0, 1);
-    sort_corners(&t, 1, 2);
-    sort_corners(&t, 0, 1);
-    return t;
-}
-
-/* Adds the area, and its first moment about `centre`, of the part between two ranges on one side of
-   the middle corner. The density is linear there, from 0 at the outer corner to its maximum at the
-   middle one; `first` and `last` are fractions of this maximum at the two ranges. */
-static void part_add(const profile_triangle *t, double from, double to, double centre, double *area,
-                     double *moment)
-{
-    if (!(from < to)) {
-        return;
-    }
-    int rising = to <= t->z[1];
-    double length = rising ? t->z[1] - t->z[0] : t->z[2] - t->z[1];
-    double first = (rising ? from - t->z[0] : t->z[2] - from) / length;
-    double last = (rising ? to - t->z[0] : t->z[2] - to) / length;
-    double scale = t->area / (t->z[2] - t->z[0]) * (to - from);
-    double half = 0.5 * (to - from);
-    double part = scale * (first + last);
-    *area += part;
-    *moment +=
-        part * (0.5 * (from - centre) + 0.5 * (to - centre)) + scale * (last - first) * half / 3;
-}
-
-/* The normal at the point of the side between corners a and b that has the given range. */
-static void normal_at(const profile_triangle *t, int a, int b, double range, double normal[3])
-{
-    double fraction = t->z[a] < t->z[b] ? (range - t->z[a]) / (t->z[b] - t->z[a]) : 0;
+    double fraction = range[a] < range[b] ? (z - range[a]) / (range[b] - range[a]) : 0;
     for (int k = 0; k < 3; k++) {
-        normal[k] = (1 - fraction) * t->normal[a][k] + fraction * t->normal[b][k];
+        normal[k] = (1 - fraction) * corner[a][k] + fraction * corner[b][k];
     }
 }
 
-/* The same as part_add for curved normals. The part is a trapezium. Each of its parallel sides, at
-   `from` and at `to`, leads from a point of the long side of the triangle to a point of a short
-   side. A diagonal divides it into two triangles, whose areas are the two terms of the area in
-   part_add. */
-static void part_add_smooth(profile_run *run, const profile_facet *f, const profile_triangle *t,
-                            uint32_t bin, double from, double to)
+/* Adds the part of a triangle between two ranges, which lie on one side of its middle corner, to a
+   bin. The part is a trapezium: its parallel sides, at `from` and at `to`, lead from the long side
+   of the triangle to a short one, from corner a to corner b. A diagonal divides it into two
+   triangles, whose areas are the fractions `first` and `last` of the largest area per unit of
+   range, which is at the middle corner, times half the width. On a flat facet the area and its
+   first moment are added to *part and *moment; curved normals are integrated. */
+static void trapezium_add(profile_run *run, const profile_facet *f, uint32_t bin,
+                          const profile_triangle *t, double from, double to, double *part,
+                          double *moment)
 {
     if (!(from < to)) {
         return;
     }
-    int rising = to <= t->z[1];
-    int a = rising ? 0 : 1; /* the ends of the short side */
+    const double *z = t->z;
+    const double(*normal)[3] = (const double(*)[3])t->normal;
+    int rising = to <= z[1];
+    int a = rising ? 0 : 1;
     int b = rising ? 1 : 2;
-    double length = t->z[b] - t->z[a];
-    double scale = t->area / (t->z[2] - t->z[0]) * (to - from);
-    double first = (rising ? from - t->z[0] : t->z[2] - from) / length;
-    double last = (rising ? to - t->z[0] : t->z[2] - to) / length;
-    const double range[2][3] = {{from, from, to}, {from, to, to}};
-    double normal[4][3]; /* at `from` on the long side, on the short one; at `to` likewise */
-    normal_at(t, 0, 2, from, normal[0]);
-    normal_at(t, a, b, from, normal[1]);
-    normal_at(t, 0, 2, to, normal[2]);
-    normal_at(t, a, b, to, normal[3]);
-    bin_add_smooth(run, f, bin, scale * first, range[0], (const double(*)[3])normal);
-    bin_add_smooth(run, f, bin, scale * last, range[1], (const double(*)[3])(normal + 1));
+    double first = (rising ? from - z[0] : z[2] - from) / (z[b] - z[a]);
+    double last = (rising ? to - z[0] : z[2] - to) / (z[b] - z[a]);
+    double scale = t->area / (z[2] - z[0]) * (to - from);
+    if (f->curve) {
+        const double range[2][3] = {{from, from, to}, {from, to, to}};
+        double side[4][3]; /* at `from` on the long side, on the short one; at `to` likewise */
+        normal_at(normal, z, 0, 2, from, side[0]);
+        normal_at(normal, z, a, b, from, side[1]);
+        normal_at(normal, z, 0, 2, to, side[2]);
+        normal_at(normal, z, a, b, to, side[3]);
+        bin_add_smooth(run, f, bin, scale * first, range[0], (const double(*)[3])side);
+        bin_add_smooth(run, f, bin, scale * last, range[1], (const double(*)[3])(side + 1));
+        return;
+    }
+    double centre = centre_of(run, bin);
+    double trapezium = scale * (first + last);
+    *part += trapezium;
+    *moment += trapezium * (0.5 * (from - centre) + 0.5 * (to - centre)) +
+               scale * (last - first) * (0.5 * (to - from)) / 3;
 }
 
-/* Adds part (3) of the error: at each edge of a bin within range_err of the triangle, the fraction
-   of the triangle's area that may lie on the other side. */
-static void edges_add_error(profile_run *run, const profile_facet *f, const profile_triangle *t,
-                            double range_err)
+/* Adds a triangle to the bins. Given: its area; the ranges of its corners, with errors of at most
+   range_err; the normals at its corners, used if those of the facet are curved.
+   1. The corners are ordered by range.
+   2. A triangle in one bin is added to it.
+   3. Otherwise each bin receives the part between its edges, divided at the middle corner.
+   4. Part (3) of the error: at each edge of a bin within range_err of the triangle, the fraction of
+      its area that may lie on the other side. */
+static void triangle_add(profile_run *run, const profile_facet *f, double area,
+                         const double range[3], const double normal[3][3], double range_err)
 {
-    double extent = t->z[2] - t->z[0];
+    int order[3]; /* 1 */
+    profile_triangle t = {.area = area};
+    const double *z = t.z;
+    corners_order(range, order);
+    for (int k = 0; k < 3; k++) {
+        t.z[k] = range[order[k]];
+        for (int c = 0; c < 3 && f->curve; c++) {
+            t.normal[k][c] = normal[order[k]][c];
+        }
+    }
+    uint32_t begin = bin_within(run, f, z[0]);
+    uint32_t end = bin_within(run, f, z[2]);
+    if (begin == end && f->curve) { /* 2 */
+        bin_add_smooth(run, f, begin, area, z, (const double(*)[3])t.normal);
+    } else if (begin == end) {
+        double centre = centre_of(run, begin);
+        double mean = ((z[0] - centre) + (z[1] - centre) + (z[2] - centre)) / 3;
+        bin_add_flat(run, f, begin, area, area * mean);
+    }
+    for (uint32_t i = begin; begin < end && i <= end; i++) { /* 3 */
+        double from = i == begin ? z[0] : edge_of(run, i);
+        double to = i == end ? z[2] : edge_of(run, i + 1);
+        double middle = lrcsi_min(to, lrcsi_max(from, z[1]));
+        double part = 0;
+        double moment = 0;
+        trapezium_add(run, f, i, &t, from, middle, &part, &moment);
+        trapezium_add(run, f, i, &t, middle, to, &part, &moment);
+        if (!f->curve) {
+            bin_add_flat(run, f, i, part, moment);
+        }
+    }
+    double extent = z[2] - z[0]; /* 4 */
     double fraction = 4 * range_err < extent ? lrcsi_min(1, 4 * range_err / extent) : 1;
-    double error = f->upper_bound * t->area * fraction;
-    uint32_t begin = bin_within(run, f, t->z[0] - range_err);
-    uint32_t end = bin_within(run, f, t->z[2] + range_err);
+    double error = f->upper_bound * area * fraction;
+    begin = bin_within(run, f, z[0] - range_err);
+    end = bin_within(run, f, z[2] + range_err);
     for (uint32_t i = begin + 1; i <= end; i++) {
         run->bin[i - 1].bound += error;
         run->bin[i].bound += error;
@@ -369,79 +382,45 @@ static void edges_add_error(profile_run *run, const profile_facet *f, const prof
     run->range_err = lrcsi_max(run->range_err, lrcsi_min(range_err, f->extent));
 }
 
-/* Adds a triangle. Given: its area; the ranges of its corners, with errors of at most range_err;
-   the normals at its corners if they are curved, else NULL. */
-static void triangle_add(profile_run *run, const profile_facet *f, double area,
-                         const double range[3], const double (*normal)[3], double range_err)
-{
-    profile_triangle t = triangle_of(area, range, normal);
-    uint32_t begin = bin_within(run, f, t.z[0]);
-    uint32_t end = bin_within(run, f, t.z[2]);
-    if (begin == end && f->curve) {
-        double sorted[3][3];
-        for (int i = 0; i < 3; i++) {
-            memcpy(sorted[i], t.normal[i], sizeof sorted[i]);
-        }
-        bin_add_smooth(run, f, begin, t.area, t.z, (const double(*)[3])sorted);
-    } else if (begin == end) {
-        double centre = centre_of(run, begin);
-        double mean = ((t.z[0] - centre) + (t.z[1] - centre) + (t.z[2] - centre)) / 3;
-        bin_add_flat(run, f, begin, t.area, t.area * mean);
-    }
-    for (uint32_t i = begin; begin < end && i <= end; i++) {
-        double from = i == begin ? t.z[0] : edge_of(run, i);
-        double to = i == end ? t.z[2] : edge_of(run, i + 1);
-        double middle = lrcsi_min(to, lrcsi_max(from, t.z[1]));
-        double part = 0;
-        double moment = 0;
-        if (f->curve) {
-            part_add_smooth(run, f, &t, i, from, middle);
-            part_add_smooth(run, f, &t, i, middle, to);
-            continue;
-        }
-        part_add(&t, from, middle, centre_of(run, i), &part, &moment);
-        part_add(&t, middle, to, centre_of(run, i), &part, &moment);
-        bin_add_flat(run, f, i, part, moment);
-    }
-    edges_add_error(run, f, &t, range_err);
-}
-
 /* --- one facet -------------------------------------------------------------------------------- */
+
+/* The range, and on a facet with curved normals the normal, at a corner of a piece. */
+static void piece_corner(const profile_facet *f, const lrcsi_target *target, const double corner[2],
+                         double *range, double normal[3])
+{
+    double weight[3];
+    lrcsi_target_weights(target, corner, weight);
+    *range = weight[0] * f->range[0] + weight[1] * f->range[1] + weight[2] * f->range[2];
+    for (int k = 0; k < 3 && f->curve; k++) {
+        const double(*n)[3] = (const double(*)[3])f->curve->normal;
+        normal[k] = weight[0] * n[0][k] + weight[1] * n[1][k] + weight[2] * n[2][k];
+    }
+}
 
 /* Adds a convex piece as a fan of triangles from its first corner. Returns a bound on the error of
    its area. */
 static double fan_add(profile_run *run, const profile_facet *f, const lrcsi_target *target,
                       const lrcsi_clip_polygon *piece, double range_err)
 {
-    double range[3] = {0, 0, 0}; /* of corners 0, i - 1 and i */
-    double normal[3][3];         /* likewise */
+    double range[3]; /* of corners 0, i - 1 and i */
+    double normal[3][3] = {{0}};
     double area_err = 0;
+    const double *c = piece->corner[0];
     for (uint32_t i = 0; i < piece->count; i++) {
-        double weight[3];
-        lrcsi_target_weights(target, piece->corner[i], weight);
-        range[i < 2 ? i : 2] =
-            weight[0] * f->range[0] + weight[1] * f->range[1] + weight[2] * f->range[2];
-        for (int k = 0; k < 3 && f->curve; k++) {
-            const double(*n)[3] = (const double(*)[3])f->curve->normal;
-            normal[i < 2 ? i : 2][k] =
-                weight[0] * n[0][k] + weight[1] * n[1][k] + weight[2] * n[2][k];
-        }
+        uint32_t k = i < 2 ? i : 2;
+        piece_corner(f, target, piece->corner[i], &range[k], normal[k]);
         if (i < 2) {
             continue;
         }
-        const double *c = piece->corner[0];
         const double u[2] = {piece->corner[i - 1][0] - c[0], piece->corner[i - 1][1] - c[1]};
         const double v[2] = {piece->corner[i][0] - c[0], piece->corner[i][1] - c[1]};
         double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
         if (area > 0) {
-            triangle_add(run, f, area, range, f->curve ? (const double(*)[3])normal : NULL,
-                         range_err);
+            triangle_add(run, f, area, range, (const double(*)[3])normal, range_err);
         }
         area_err += lrcsi_max(0, -area) + 4 * LRCSI_U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
         range[1] = range[2];
-        for (int k = 0; k < 3 && f->curve; k++) {
-            normal[1][k] = normal[2][k];
-        }
+        memcpy(normal[1], normal[2], sizeof normal[1]);
     }
     return area_err;
 }
@@ -572,11 +551,13 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     const lrcs_part *part = &run->prepared->scene->part[run->prepared->scene->facet_part[facet]];
     double reach = ldexp(part->reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
                    8 * LRCSI_U * f.range_max + 1.01 * f.range_dd_err; /* with the corners' errors */
-    profile_triangle t = triangle_of(1, f.range, NULL);
+    int order[3];
+    corners_order(f.range, order);
+    const double z[3] = {f.range[order[0]], f.range[order[1]], f.range[order[2]]};
     double low =
-        lrcsi_min(t.z[0], lrcsi_min(other.range[0], lrcsi_min(other.range[1], other.range[2])));
+        lrcsi_min(z[0], lrcsi_min(other.range[0], lrcsi_min(other.range[1], other.range[2])));
     double high =
-        lrcsi_max(t.z[2], lrcsi_max(other.range[0], lrcsi_max(other.range[1], other.range[2])));
+        lrcsi_max(z[2], lrcsi_max(other.range[0], lrcsi_max(other.range[1], other.range[2])));
     uint32_t begin = bin_of(run, low - reach);
     uint32_t end = bin_of(run, high + reach);
     double whole = LRCS_FOUR_PI * parts.whole;
@@ -588,9 +569,9 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     for (uint32_t i = begin; i <= end; i++) {
         double from = edge_of(run, i);
         double to = edge_of(run, i + 1);
-        double fraction = fraction_between(t.z, from - reach, to + reach);
-        double shifted = fraction_between(t.z, from - reach, from + reach) +
-                         fraction_between(t.z, to - reach, to + reach) + parts.mismatch;
+        double fraction = fraction_between(z, from - reach, to + reach);
+        double shifted = fraction_between(z, from - reach, from + reach) +
+                         fraction_between(z, to - reach, to + reach) + parts.mismatch;
         double general = LRCS_FOUR_PI * (parts.deviation * fraction + parts.shift * shifted);
         double larger = parts.lit ? LRCS_FOUR_PI * parts.upper_bound * fraction : whole;
         general = parts.lit ? general : HUGE_VAL;

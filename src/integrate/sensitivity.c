@@ -36,51 +36,46 @@ static double glint_slope_s(double glint_u, double s)
     return glint_u > 0 ? 2 * (glint_u / s / s) / s : 0;
 }
 
-/* Adds a facet or a shape. */
-static void response_add(lrcsi_response *response, double glint, double glint_s, double diffuse,
-                         double diffuse_m)
+/* Adds a facet or a shape: `at`, times a weight. */
+static void response_sum(lrcsi_response *response, double weight, const lrcsi_unit_response *at)
 {
-    lrcsi_sum_add(&response->glint, glint);
-    lrcsi_sum_add(&response->glint_s, glint_s);
-    lrcsi_sum_add(&response->diffuse, diffuse);
-    lrcsi_sum_add(&response->diffuse_m, diffuse_m);
+    lrcsi_sum_add(&response->glint, weight * at->glint);
+    lrcsi_sum_add(&response->glint_s, weight * at->glint_s);
+    lrcsi_sum_add(&response->diffuse, weight * at->diffuse);
+    lrcsi_sum_add(&response->diffuse_m, weight * at->diffuse_m);
 }
 
-/* The response of one unit of area at amplitudes of 1, and its derivatives. */
-typedef struct unit_response {
-    double glint, glint_s;
-    double diffuse, diffuse_m;
-} unit_response;
-
-/* The response of a flat facet. Given: the BRDF with amplitudes of 1, and u, which is finite for
-   every facet that is not edge-on. */
-static unit_response flat_response(const lrcs_brdf *unit, double u)
+/* The response of a unit of area of a flat facet. Given: the BRDF with amplitudes of 1, and u,
+   which is finite for every facet that is not edge-on. */
+static lrcsi_unit_response flat_response(const lrcs_brdf *unit, double u)
 {
     const double s = unit->s;
     lrcsi_reflection at = lrcsi_reflect(unit, u, 0);
-    return (unit_response){at.glint, at.glint > 0 ? at.glint * (2 * (u / s / s) / s) : 0,
-                           at.diffuse, at.diffuse * (-0.5 * lrcsi_log1p(u).hi)};
+    return (lrcsi_unit_response){.glint = at.glint,
+                                 .diffuse = at.diffuse,
+                                 .glint_s = at.glint > 0 ? at.glint * (2 * (u / s / s) / s) : 0,
+                                 .diffuse_m = at.diffuse * (-0.5 * lrcsi_log1p(u).hi)};
 }
 
-/* The response of a facet, computed as the sum of Eq. 2 computes it: from the mean over its patch
-   or, if there is none, from the flat facet. Whether there is a mean depends on the amplitudes, so
-   the patch is made with those of the sum (`own`), and its terms are divided by them. A term of
-   amplitude 0 is taken from the patch at amplitudes of 1 (`unit`) or, if that has no mean, from the
-   flat facet. patch[0] and patch[1] hold the last patch for either BRDF. */
-static unit_response facet_response(const lrcsi_view *view, const lrcsi_plan *plan,
-                                    const lrcs_brdf *own, const lrcs_brdf *unit, uint32_t facet,
-                                    double u, lrcsi_patch patch[2])
+/* The response of a unit of area of a facet, computed as the sum of Eq. 2 computes it: from the
+   mean over its patch or, if there is none, from the flat facet. Whether there is a mean depends on
+   the amplitudes, so the patch is made with those of the sum (`own`), and its terms are divided by
+   them. A term of amplitude 0 is taken from the patch at amplitudes of 1 (`unit`) or, if that has
+   no mean, from the flat facet. patch[0] and patch[1] hold the last patch for either BRDF. */
+static lrcsi_unit_response facet_response(const lrcsi_view *view, const lrcsi_plan *plan,
+                                          const lrcs_brdf *own, const lrcs_brdf *unit,
+                                          uint32_t facet, double u, lrcsi_patch patch[2])
 {
     const double s = unit->s;
     if (!lrcsi_patch_make(view, plan, own, facet, &patch[0])) {
         return flat_response(unit, u);
     }
-    unit_response at = {0, 0, 0, 0};
+    lrcsi_unit_response at = {0, 0, 0, 0};
     if (!(own->A > 0 && own->B > 0)) {
         int known = lrcsi_patch_make(view, plan, unit, facet, &patch[1]);
         const lrcsi_patch *p = &patch[1];
-        at = known ? (unit_response){p->glint, glint_slope_s(p->glint_u, s), p->diffuse,
-                                     -0.5 * p->diffuse_log}
+        at = known ? (lrcsi_unit_response){p->glint, p->diffuse, glint_slope_s(p->glint_u, s),
+                                           -0.5 * p->diffuse_log}
                    : flat_response(unit, u);
     }
     if (own->A > 0) {
@@ -120,19 +115,19 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
         double weight = LRCS_FOUR_PI * 0.5 * p->normal[f].length * fraction;
         if (curved && lrcsi_curve_applies(view, f)) { /* curved normals */
             const lrcsi_curved *c = &curved[f];
-            response_add(to, c->glint, glint_slope_s(c->glint_u, s), c->diffuse,
-                         -0.5 * c->diffuse_log);
+            const lrcsi_unit_response at = {c->glint, c->diffuse, glint_slope_s(c->glint_u, s),
+                                            -0.5 * c->diffuse_log};
+            response_sum(to, 1, &at);
         } else if (fraction > 0) {
-            unit_response at = facet_response(view, plan, &own, &unit, f, u, patch);
-            response_add(to, weight * at.glint, weight * at.glint_s, weight * at.diffuse,
-                         weight * at.diffuse_m);
+            lrcsi_unit_response at = facet_response(view, plan, &own, &unit, f, u, patch);
+            response_sum(to, weight, &at);
         }
     }
     for (uint32_t i = 0; clear->count > 0 && i < scene->part_count; i++) { /* 2. clear shapes */
         if (clear->part[i]) {
             uint32_t material = scene->facet_material[scene->part[i].first_facet];
-            lrcsi_shape_response at = lrcsi_shape_response_make(view, i, &brdf[material]);
-            response_add(&response[material], at.glint, at.glint_s, at.diffuse, at.diffuse_m);
+            lrcsi_unit_response at = lrcsi_shape_response_make(view, i, &brdf[material]);
+            response_sum(&response[material], 1, &at);
         }
     }
     for (uint32_t i = 0; i < scene->material_count; i++) { /* 3. terms that the plan leaves out */

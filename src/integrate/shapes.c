@@ -132,8 +132,8 @@ static double shape_diffuse_m(const lrcs_shape *shape, const lrcsi_dd direction[
     return slope / h;
 }
 
-lrcsi_shape_response lrcsi_shape_response_make(const lrcsi_view *view, uint32_t part,
-                                               const lrcs_brdf *brdf)
+lrcsi_unit_response lrcsi_shape_response_make(const lrcsi_view *view, uint32_t part,
+                                              const lrcs_brdf *brdf)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcs_part *placed = &p->scene->part[part];
@@ -144,7 +144,7 @@ lrcsi_shape_response lrcsi_shape_response_make(const lrcsi_view *view, uint32_t 
     lrcsi_dd direction[3];
     shape_direction(view, placed, direction);
     unit_terms(&placed->shape, direction, s, brdf->m, term);
-    lrcsi_shape_response out = {scale * term[0], scale * term[1], 0, 0};
+    lrcsi_unit_response out = {scale * term[0], scale * term[1], 0, 0};
     if (term[0] > 0) {
         out.glint_s = scale * shape_glint_s(&placed->shape, direction, s, brdf->m, term[0]);
     }

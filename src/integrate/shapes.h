@@ -20,15 +20,16 @@ typedef struct lrcsi_shape_terms {
 lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t part, double slab);
 
-/* What it adds at amplitudes of 1, and the derivatives of that in s and m. */
-typedef struct lrcsi_shape_response {
+/* What a surface adds to sigma at amplitudes of 1, scaled, and the derivatives of that in s and m.
+ */
+typedef struct lrcsi_unit_response {
     double glint, diffuse, glint_s, diffuse_m;
-} lrcsi_shape_response;
+} lrcsi_unit_response;
 
 /* Given: a clear part; the s and m to use. The glint counts as 0 for slopes outside the domain of
    the closed forms, 2^-333 .. 2^333. The derivatives are difference quotients of order 8; their
    errors are about 1e-9, relative, plus 1e-11 of the term. */
-lrcsi_shape_response lrcsi_shape_response_make(const lrcsi_view *view, uint32_t part,
-                                               const lrcs_brdf *brdf);
+lrcsi_unit_response lrcsi_shape_response_make(const lrcsi_view *view, uint32_t part,
+                                              const lrcs_brdf *brdf);
 
 #endif

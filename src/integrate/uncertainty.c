@@ -48,9 +48,15 @@
 #define RESPONSE_MIN 1e-250
 #define DRAWS_MAX    (1u << 20)
 
-/* The responses of one material at a node, m2 per unit of amplitude, and their derivatives. */
+/* What a term of one material reflects at a node, m2 per unit of amplitude, and its derivative in
+   the parameter of that term. */
+typedef struct response {
+    double value, slope;
+} response;
+
+/* A node: the response of the glint, at its s, and that of the diffuse term, at its m. */
 typedef struct response_node {
-    double glint, diffuse, glint_s, diffuse_m;
+    response glint, diffuse;
 } response_node;
 
 lrcs_uncertainty_options lrcs_uncertainty_options_default(void)
@@ -72,47 +78,46 @@ static uint32_t node_count(const lrcs_prepared *prepared, const lrcs_uncertainty
     return options->draws == 0 || !nonlinear ? 1 : prepared->smooth ? NODES_CURVED : NODES;
 }
 
-/* The first and the last node of a parameter. */
-static double node_low(double value, double deviation, double minimum)
+/* The nodes of one parameter, s or m: `count` values from low to high. The middle one is the
+   material's own value; the steps from low to it are equal, and so are those from it to high. */
+typedef struct node_axis {
+    double low, own, high;
+    uint32_t count;
+} node_axis;
+
+static node_axis axis_of(double own, double deviation, double minimum, uint32_t count)
 {
-    return lrcsi_max(minimum, value - DEVIATIONS_MAX * deviation);
+    return (node_axis){lrcsi_max(minimum, own - DEVIATIONS_MAX * deviation), own,
+                       own + DEVIATIONS_MAX * deviation, count};
 }
 
-static double node_high(double value, double deviation)
+static node_axis axis_of_s(const lrcs_material *material, uint32_t count)
 {
-    return value + DEVIATIONS_MAX * deviation;
+    return axis_of(material->brdf.s, material->error.s, SLOPE_MIN * material->brdf.s, count);
 }
 
-/* Node k of `count`: the steps from the first node to the material's own value are equal, and so
-   are those from there to the last node. */
-static double node_at(double low, double value, double high, uint32_t k, uint32_t count)
+static node_axis axis_of_m(const lrcs_material *material, uint32_t count)
 {
-    uint32_t half = count / 2;
-    return k < half    ? low + (value - low) * k / half
-           : k == half ? value
-                       : value + (high - value) * (k - half) / half;
+    return axis_of(material->brdf.m, material->error.m, 0, count);
 }
 
-/* s and m of a material at node k of `count`. */
-static lrcs_brdf node_brdf(const lrcs_material *material, uint32_t k, uint32_t count)
+/* The value of the parameter at node k. */
+static double axis_value(const node_axis *axis, uint32_t k)
 {
-    lrcs_brdf at = material->brdf;
-    const lrcs_brdf_error *e = &material->error;
-    if (count > 1) {
-        at.s =
-            node_at(node_low(at.s, e->s, SLOPE_MIN * at.s), at.s, node_high(at.s, e->s), k, count);
-        at.m = node_at(node_low(at.m, e->m, 0), at.m, node_high(at.m, e->m), k, count);
-    }
-    return at;
+    uint32_t half = axis->count / 2;
+    return k < half    ? axis->low + (axis->own - axis->low) * k / half
+           : k == half ? axis->own
+                       : axis->own + (axis->high - axis->own) * (k - half) / half;
 }
 
 /* --- sources ---------------------------------------------------------------------------------- */
 
 /* A source: all materials whose parameters, and so their errors, have the same origin. */
 typedef struct source {
-    const lrcs_material *material; /* the first of them */
-    response_node *node;           /* [count]: the sums of their responses */
-    double root[4][4];             /* L, lower triangular */
+    const lrcs_material *material;         /* the first of them */
+    node_axis s, m;                        /* the nodes, the same for all of them */
+    response glint[NODES], diffuse[NODES]; /* at each node: the sum over them */
+    double root[4][4];                     /* L, lower triangular */
 } source;
 
 static void correlation_fill(const double c[6], double out[4][4])
@@ -134,11 +139,8 @@ static void correlation_root(const double c[6], double root[4][4])
         for (int k = 0; k < j; k++) {
             pivot -= root[j][k] * root[j][k];
         }
-        if (!(pivot > 1e-9)) {
-            continue;
-        }
-        root[j][j] = sqrt(pivot);
-        for (int i = j + 1; i < 4; i++) {
+        root[j][j] = pivot > 1e-9 ? sqrt(pivot) : 0;
+        for (int i = j + 1; i < 4 && root[j][j] > 0; i++) {
             double sum = a[i][j];
             for (int k = 0; k < j; k++) {
                 sum -= root[i][k] * root[j][k];
@@ -148,10 +150,16 @@ static void correlation_root(const double c[6], double root[4][4])
     }
 }
 
+static void response_add(response *to, const response *from)
+{
+    to->value += from->value;
+    to->slope += from->slope;
+}
+
 /* Lists the sources with errors, each with the sum of the responses of its materials. Returns their
    number. */
 static uint32_t sources_make(const lrcs_scene *scene, const response_node *node, uint32_t count,
-                             response_node *memory, source *list)
+                             source *list)
 {
     uint32_t sources = 0;
     for (uint32_t i = 0; i < scene->material_count; i++) {
@@ -165,19 +173,14 @@ static uint32_t sources_make(const lrcs_scene *scene, const response_node *node,
             continue;
         }
         if (at == sources) {
-            list[sources].material = m;
-            list[sources].node = memory + (size_t)sources * count;
-            memset(list[sources].node, 0, count * sizeof *memory);
-            correlation_root(m->error.correlation, list[sources].root);
-            sources++;
+            list[sources++] =
+                (source){.material = m, .s = axis_of_s(m, count), .m = axis_of_m(m, count)};
+            correlation_root(e->correlation, list[at].root);
         }
         for (uint32_t k = 0; k < count; k++) {
             const response_node *from = &node[(size_t)k * scene->material_count + i];
-            response_node *to = &list[at].node[k];
-            to->glint += from->glint;
-            to->diffuse += from->diffuse;
-            to->glint_s += from->glint_s;
-            to->diffuse_m += from->diffuse_m;
+            response_add(&list[at].glint[k], &from->glint);
+            response_add(&list[at].diffuse[k], &from->diffuse);
         }
     }
     return sources;
@@ -186,16 +189,17 @@ static uint32_t sources_make(const lrcs_scene *scene, const response_node *node,
 /* --- first order ------------------------------------------------------------------------------ */
 
 /* The variance v' C v of a source to first order. */
-static double source_variance(const source *one, uint32_t count)
+static double source_variance(const source *one)
 {
     const lrcs_brdf *brdf = &one->material->brdf;
     const lrcs_brdf_error *e = &one->material->error;
-    const response_node *own = &one->node[count / 2];
+    const response *glint = &one->glint[one->s.count / 2];
+    const response *diffuse = &one->diffuse[one->m.count / 2];
     double c[4][4];
     double sum = 0;
     correlation_fill(e->correlation, c);
-    const double v[4] = {own->glint * e->A, own->diffuse * e->B, brdf->A * own->glint_s * e->s,
-                         brdf->B * own->diffuse_m * e->m};
+    const double v[4] = {glint->value * e->A, diffuse->value * e->B, brdf->A * glint->slope * e->s,
+                         brdf->B * diffuse->slope * e->m};
     for (int i = 0; i < 4; i++) {
         for (int j = 0; j < 4; j++) {
             sum += v[i] * c[i][j] * v[j];
@@ -232,69 +236,45 @@ static void random_normal(uint64_t *state, double out[2])
     }
 }
 
-/* Cubic Hermite interpolation: f0 and f1 are values, g0 and g1 derivatives at the ends of an
-   interval of length `step`, and t in [0, 1] is the position in it. */
-static double hermite(double f0, double f1, double g0, double g1, double step, double t)
+/* The response at the value x of a parameter, or at the nearest end of the axis, by cubic Hermite
+   interpolation between the two nodes around x. The logarithm of the response is interpolated,
+   because on the flank of a glint it varies by orders of magnitude; near underflow the response
+   itself is interpolated. Given: the responses at the nodes of the axis. */
+static double response_at(const response *node, const node_axis *axis, double x)
 {
+    uint32_t half = axis->count / 2;
+    if (!(axis->count > 1 && axis->high > axis->low)) {
+        return node[half].value;
+    }
+    double from = x < axis->own ? axis->low : axis->own;
+    double apart = (x < axis->own ? axis->own - axis->low : axis->high - axis->own) / half;
+    double position = apart > 0 ? (x - from) / apart : 0;
+    uint32_t k = position > 0 ? (uint32_t)lrcsi_min(position, half - 1) : 0;
+    double t = lrcsi_min(1, lrcsi_max(0, position - k));
+    k += x < axis->own ? 0 : half;
+    double step = axis_value(axis, k + 1) - axis_value(axis, k);
+    double f0 = node[k].value;
+    double f1 = node[k + 1].value;
+    double g0 = node[k].slope;
+    double g1 = node[k + 1].slope;
+    int logarithmic = f0 > RESPONSE_MIN && f1 > RESPONSE_MIN;
+    if (logarithmic) {
+        g0 /= f0;
+        g1 /= f1;
+        f0 = lrcsi_log(f0).hi;
+        f1 = lrcsi_log(f1).hi;
+    }
     double a = step * g0 - (f1 - f0);
     double b = (f1 - f0) - step * g1;
-    return f0 + t * (f1 - f0) + t * (1 - t) * ((1 - t) * a + t * b);
-}
-
-/* A response between two nodes. Its logarithm is interpolated, because on the flank of a glint it
-   varies by orders of magnitude; near underflow the response itself is interpolated. */
-static double interpolate(double f0, double f1, double g0, double g1, double step, double t)
-{
-    if (!(f0 > RESPONSE_MIN) || !(f1 > RESPONSE_MIN)) {
-        return lrcsi_max(0, hermite(f0, f1, g0, g1, step, t));
-    }
-    double low = lrcsi_log(f0).hi;
-    double high = lrcsi_log(f1).hi;
-    return lrcsi_exp(hermite(low, high, g0 / f0, g1 / f1, step, t));
-}
-
-/* The interval between nodes that contains x, clamped to the nodes, and the position t of x in
-   it. */
-static uint32_t interval_find(double low, double value, double high, uint32_t count, double x,
-                              double *t)
-{
-    uint32_t half = count / 2;
-    double from = x < value ? low : value;
-    double step = (x < value ? value - low : high - value) / half;
-    double position = step > 0 ? (x - from) / step : 0;
-    uint32_t k = position > 0 ? (uint32_t)lrcsi_min(position, half - 1) : 0;
-    *t = lrcsi_min(1, lrcsi_max(0, position - k));
-    return (x < value ? 0 : half) + k;
+    double value = f0 + t * (f1 - f0) + t * (1 - t) * ((1 - t) * a + t * b);
+    return logarithmic ? lrcsi_exp(value) : lrcsi_max(0, value);
 }
 
 /* What the materials of a source reflect with the parameters `at`, m2. */
-static double source_sigma(const source *one, uint32_t count, const lrcs_brdf *at)
+static double source_sigma(const source *one, const lrcs_brdf *at)
 {
-    const lrcs_brdf *own = &one->material->brdf;
-    const lrcs_brdf_error *e = &one->material->error;
-    const response_node *node = one->node;
-    double glint = node[count / 2].glint;
-    double diffuse = node[count / 2].diffuse;
-    double t = 0;
-    if (count > 1 && e->s > 0) {
-        double low = node_low(own->s, e->s, SLOPE_MIN * own->s);
-        double high = node_high(own->s, e->s);
-        uint32_t k = interval_find(low, own->s, high, count, at->s, &t);
-        double step =
-            node_at(low, own->s, high, k + 1, count) - node_at(low, own->s, high, k, count);
-        glint = interpolate(node[k].glint, node[k + 1].glint, node[k].glint_s, node[k + 1].glint_s,
-                            step, t);
-    }
-    if (count > 1 && e->m > 0) {
-        double low = node_low(own->m, e->m, 0);
-        double high = node_high(own->m, e->m);
-        uint32_t k = interval_find(low, own->m, high, count, at->m, &t);
-        double step =
-            node_at(low, own->m, high, k + 1, count) - node_at(low, own->m, high, k, count);
-        diffuse = interpolate(node[k].diffuse, node[k + 1].diffuse, node[k].diffuse_m,
-                              node[k + 1].diffuse_m, step, t);
-    }
-    return at->A * glint + at->B * diffuse;
+    return at->A * response_at(one->glint, &one->s, at->s) +
+           at->B * response_at(one->diffuse, &one->m, at->m);
 }
 
 /* One draw of a source's parameters, clamped to their domain. */
@@ -328,45 +308,6 @@ static double quantile(const double *sorted, uint32_t count, double probability)
     return sorted[k] + (position - k) * (sorted[k + 1] - sorted[k]);
 }
 
-/* Draws the sample and computes its statistics. Given: sigma, and the part of it, `own`, that the
-   sources add with their own parameters. */
-static void sample_make(const source *list, uint32_t sources, uint32_t count, double sigma,
-                        double own, const lrcs_uncertainty_options *options, double *draw,
-                        lrcs_uncertainty *uncertainty)
-{
-    double fixed = lrcsi_max(0, sigma - own);
-    uint64_t state = options->seed;
-    lrcsi_sum sum = {0, 0};
-    lrcsi_sum square = {0, 0};
-    for (uint32_t i = 0; i < options->draws; i++) {
-        draw[i] = fixed;
-        for (uint32_t k = 0; k < sources; k++) {
-            lrcs_brdf at = source_draw(&list[k], &state);
-            draw[i] += source_sigma(&list[k], count, &at);
-        }
-        lrcsi_sum_add(&sum, draw[i]);
-    }
-    double mean = lrcsi_sum_value(&sum) / options->draws;
-    for (uint32_t i = 0; i < options->draws; i++) {
-        lrcsi_sum_add(&square, (draw[i] - mean) * (draw[i] - mean));
-    }
-    lrcsi_sort_ascending(draw, options->draws);
-    uncertainty->draws = options->draws;
-    uncertainty->sample_mean_m2 = mean;
-    uncertainty->sample_m2 = sqrt(lrcsi_sum_value(&square) / (options->draws - 1));
-    double chance = STANDARD_ERRORS / sqrt(options->draws);
-    double difference = fabs(uncertainty->sample_m2 - uncertainty->first_order_m2);
-    double bias = fabs(mean - sigma);
-    if (difference >
-            lrcsi_max(DEVIATION_DIFFERENCE_MAX, chance / sqrt(2.0)) * uncertainty->sample_m2 ||
-        bias > lrcsi_max(MEAN_DIFFERENCE_MAX, chance) * uncertainty->sample_m2) {
-        uncertainty->sampled = 1;
-        uncertainty->deviation_m2 = uncertainty->sample_m2;
-        uncertainty->low_m2 = quantile(draw, options->draws, QUANTILE_LOW);
-        uncertainty->high_m2 = quantile(draw, options->draws, QUANTILE_HIGH);
-    }
-}
-
 /* --- first order and the sample --------------------------------------------------------------- */
 
 /* Steps 4 to 6. Given: sigma, m2; node[count][material_count], in which the responses of terms that
@@ -376,26 +317,53 @@ static int estimate_make(const lrcs_scene *scene, double sigma, const response_n
                          lrcs_uncertainty *uncertainty)
 {
     source *list = lrcsi_work_take(work, scene->material_count, sizeof *list);
-    response_node *memory =
-        lrcsi_work_take(work, (size_t)scene->material_count * count, sizeof *memory);
     double *draw = lrcsi_work_take(work, options->draws, sizeof *draw);
     lrcs_uncertainty out = {0, 0, 0, 0, 0, 0, -1, 0, 0};
-    if (!list || !memory || !draw) {
+    if (!list || !draw) {
         return LRCS_E_MEMORY;
     }
-    uint32_t sources = sources_make(scene, node, count, memory, list);
-    double own = 0;
+    uint32_t sources = sources_make(scene, node, count, list); /* 4 */
+    double own = 0; /* the part of sigma that the sources add with their own parameters */
     double variance = 0;
-    for (uint32_t k = 0; k < sources; k++) {
-        own += source_sigma(&list[k], count, &list[k].material->brdf);
-        variance += source_variance(&list[k], count);
+    for (uint32_t k = 0; k < sources; k++) { /* 5 */
+        own += source_sigma(&list[k], &list[k].material->brdf);
+        variance += source_variance(&list[k]);
     }
     out.stated = sources > 0;
     out.deviation_m2 = out.first_order_m2 = sqrt(variance);
     out.low_m2 = lrcsi_max(0, sigma - out.deviation_m2);
     out.high_m2 = sigma + out.deviation_m2;
-    if (sources > 0 && options->draws > 0) {
-        sample_make(list, sources, count, sigma, own, options, draw, &out);
+    if (sources > 0 && options->draws > 0) { /* 6 */
+        double fixed = lrcsi_max(0, sigma - own);
+        uint64_t state = options->seed;
+        lrcsi_sum sum = {0, 0};
+        lrcsi_sum square = {0, 0};
+        for (uint32_t i = 0; i < options->draws; i++) {
+            draw[i] = fixed;
+            for (uint32_t k = 0; k < sources; k++) {
+                lrcs_brdf at = source_draw(&list[k], &state);
+                draw[i] += source_sigma(&list[k], &at);
+            }
+            lrcsi_sum_add(&sum, draw[i]);
+        }
+        double mean = lrcsi_sum_value(&sum) / options->draws;
+        for (uint32_t i = 0; i < options->draws; i++) {
+            lrcsi_sum_add(&square, (draw[i] - mean) * (draw[i] - mean));
+        }
+        lrcsi_sort_ascending(draw, options->draws);
+        out.draws = options->draws;
+        out.sample_mean_m2 = mean;
+        out.sample_m2 = sqrt(lrcsi_sum_value(&square) / (options->draws - 1));
+        double chance = STANDARD_ERRORS / sqrt(options->draws);
+        double difference = fabs(out.sample_m2 - out.first_order_m2);
+        double bias = fabs(mean - sigma);
+        if (difference > lrcsi_max(DEVIATION_DIFFERENCE_MAX, chance / sqrt(2.0)) * out.sample_m2 ||
+            bias > lrcsi_max(MEAN_DIFFERENCE_MAX, chance) * out.sample_m2) {
+            out.sampled = 1;
+            out.deviation_m2 = out.sample_m2;
+            out.low_m2 = quantile(draw, options->draws, QUANTILE_LOW);
+            out.high_m2 = quantile(draw, options->draws, QUANTILE_HIGH);
+        }
     }
     *uncertainty = out;
     return LRCS_OK;
@@ -422,19 +390,7 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
     need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(lrcs_material)));
     /* estimate_make */
     need = lrcsi_work_add(need, lrcsi_work_bytes(count, sizeof(source)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(count * NODES, sizeof(response_node)));
     return lrcsi_work_add(need, lrcsi_work_bytes(how->draws, sizeof(double)));
-}
-
-static int responses_take(lrcs_work *work, uint32_t nodes, uint32_t materials,
-                          response_memory *memory)
-{
-    memory->node = lrcsi_work_take(work, (size_t)nodes * materials, sizeof *memory->node);
-    memory->brdf = lrcsi_work_take(work, materials, sizeof *memory->brdf);
-    memory->response = lrcsi_work_take(work, materials, sizeof *memory->response);
-    memory->material = lrcsi_work_take(work, materials, sizeof *memory->material);
-    return memory->node && memory->brdf && memory->response && memory->material ? LRCS_OK
-                                                                                : LRCS_E_MEMORY;
 }
 
 /* Computes the responses at node k, over the visible areas of a finished run. */
@@ -448,10 +404,10 @@ static void node_fill(const lrcsi_sigma *run, const response_memory *memory, uin
     for (uint32_t i = 0; i < count; i++) {
         const lrcsi_response *at = &memory->response[i];
         memory->node[(size_t)k * count + i] =
-            (response_node){lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint)),
-                            lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse)),
-                            lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint_s)),
-                            lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse_m))};
+            (response_node){{lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint)),
+                             lrcsi_prepared_area(p, lrcsi_sum_value(&at->glint_s))},
+                            {lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse)),
+                             lrcsi_prepared_area(p, lrcsi_sum_value(&at->diffuse_m))}};
     }
 }
 
@@ -503,20 +459,8 @@ static int uncertainty_check(const lrcs_scene *scene, const lrcs_run_options *op
    of its own s and m. */
 static lrcs_sensitivity sensitivity_of(const lrcs_brdf *brdf, const response_node *own)
 {
-    return (lrcs_sensitivity){own->glint, own->diffuse, brdf->A * own->glint_s,
-                              brdf->B * own->diffuse_m};
-}
-
-/* Status: LRCS_OK; LRCS_E_NUMBER if a derivative is not finite. */
-static int sensitivity_check(const lrcs_scene *scene, const response_node *own)
-{
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        lrcs_sensitivity d = sensitivity_of(&scene->material[i].brdf, &own[i]);
-        if (!isfinite(d.dA + d.dB + d.ds + d.dm)) {
-            return LRCS_E_NUMBER;
-        }
-    }
-    return LRCS_OK;
+    return (lrcs_sensitivity){own->glint.value, own->diffuse.value, brdf->A * own->glint.slope,
+                              brdf->B * own->diffuse.slope};
 }
 
 int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
@@ -527,24 +471,34 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     const lrcs_scene *scene = prepared->scene;
     uint32_t nodes = node_count(prepared, how);
     size_t mark = work->used;
-    response_memory memory;
+    uint32_t materials = scene->material_count;
     lrcs_result answer;
     lrcs_uncertainty estimate;
     lrcsi_sigma run = {.options = options, .work = work, .last = LRCSI_SIGMA_SUM};
     int status = uncertainty_check(scene, options, how);
-    if (status == LRCS_OK) {
-        status = responses_take(work, nodes, scene->material_count, &memory);
-    }
     if (status != LRCS_OK) {
-        work->used = mark;
         return status;
+    }
+    response_memory memory;
+    memory.node = lrcsi_work_take(work, (size_t)nodes * materials, sizeof *memory.node);
+    memory.brdf = lrcsi_work_take(work, materials, sizeof *memory.brdf);
+    memory.response = lrcsi_work_take(work, materials, sizeof *memory.response);
+    memory.material = lrcsi_work_take(work, materials, sizeof *memory.material);
+    if (!memory.node || !memory.brdf || !memory.response || !memory.material) {
+        work->used = mark;
+        return LRCS_E_MEMORY;
     }
     size_t start = work->used;
     status = lrcsi_sigma_stages(&run, prepared, pose);
     status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
     for (uint32_t k = 0; k < nodes && status == LRCS_OK; k++) {
-        for (uint32_t i = 0; i < scene->material_count; i++) {
-            memory.brdf[i] = node_brdf(&scene->material[i], k, nodes);
+        for (uint32_t i = 0; i < materials; i++) {
+            const lrcs_material *m = &scene->material[i];
+            const node_axis s_axis = axis_of_s(m, nodes);
+            const node_axis m_axis = axis_of_m(m, nodes);
+            memory.brdf[i] = m->brdf;
+            memory.brdf[i].s = axis_value(&s_axis, k);
+            memory.brdf[i].m = axis_value(&m_axis, k);
         }
         if (prepared->smooth) {
             work->used = start; /* the run of the pose is no longer needed */
@@ -554,13 +508,16 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         }
     }
     work->used = status == LRCS_OK ? start : work->used;
-    const response_node *own = memory.node + (size_t)(nodes / 2) * scene->material_count;
-    status = status == LRCS_OK ? sensitivity_check(scene, own) : status;
+    const response_node *own = memory.node + (size_t)(nodes / 2) * materials;
+    for (uint32_t i = 0; i < materials && status == LRCS_OK; i++) {
+        lrcs_sensitivity d = sensitivity_of(&scene->material[i].brdf, &own[i]);
+        status = isfinite(d.dA + d.dB + d.ds + d.dm) ? LRCS_OK : LRCS_E_NUMBER;
+    }
     if (status == LRCS_OK) {
         status = estimate_make(scene, answer.sigma_m2, memory.node, nodes, how, work, &estimate);
     }
     if (status == LRCS_OK) {
-        for (uint32_t i = 0; i < scene->material_count; i++) {
+        for (uint32_t i = 0; i < materials; i++) {
             sensitivity[i] = sensitivity_of(&scene->material[i].brdf, &own[i]);
         }
         *result = answer;

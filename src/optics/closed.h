@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What the families of closed forms share: lengths and angles in double-double, F = f_r cos^2 at
-   such an angle, and sums of parts with their relative error. */
+   such an angle, and sums of terms with their relative error. */
 #ifndef LRCSI_CLOSED_H
 #define LRCSI_CLOSED_H
 
@@ -23,12 +23,12 @@ typedef struct lrcsi_light {
     double deg;
 } lrcsi_light;
 
-/* The parts of F. */
-enum lrcsi_part { LRCSI_GLINT, LRCSI_DIFFUSE, LRCSI_PARTS };
+/* The terms of F. */
+enum lrcsi_term { LRCSI_GLINT, LRCSI_DIFFUSE, LRCSI_TERMS };
 
-/* The integral of F over some surface, by part, with absolute bounds on the errors. */
+/* The integral of F over some surface, by term, with absolute bounds on the errors. */
 typedef struct lrcsi_amount {
-    double value[LRCSI_PARTS], error[LRCSI_PARTS];
+    double value[LRCSI_TERMS], error[LRCSI_TERMS];
 } lrcsi_amount;
 
 /* a / b: relative error at most 2^-98 for operands of that accuracy. */
@@ -52,11 +52,11 @@ double lrcsi_closed_radians(lrcsi_angle a);
 /* F per unit of surface at that angle to its normal; 0 if the cosine is not positive. */
 lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta);
 
-/* amount *= factor, by part; the factors have a relative error of `units` of 2^-53, or an absolute
+/* amount *= factor, by term; the factors have a relative error of `units` of 2^-53, or an absolute
    one of 2^-1070 if they are subnormal. A factor of 0 is exact: no area. */
-void lrcsi_closed_scale_parts(lrcsi_amount *amount, const double factor[LRCSI_PARTS], double units);
+void lrcsi_closed_scale_terms(lrcsi_amount *amount, const double factor[LRCSI_TERMS], double units);
 
-/* The same factor for both parts. */
+/* The same factor for both terms. */
 void lrcsi_closed_scale(lrcsi_amount *amount, double factor, double units);
 
 /* sum += amount. */

@@ -40,14 +40,14 @@ const double lrcsi_gauss_rule[LRCSI_GAUSS_PAIRS][2] = {
     {0x1.f30f9f0cbf876p-1, 0x1.d375514486f1dp-6}, {0x1.fd892de691982p-1, 0x1.9465bd3112202p-7},
 };
 
-lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int part, double cos_reference)
+lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int term, double cos_reference)
 {
     double slope = brdf->s * cos_reference;
-    lrcsi_arc_law law = {part, part == LRCSI_GLINT ? 1.0 / slope / slope : 0.0, brdf->m + 2.0};
+    lrcsi_arc_law law = {term, term == LRCSI_GLINT ? 1.0 / slope / slope : 0.0, brdf->m + 2.0};
     return law;
 }
 
-/* F of one part at a point: its value; the exponent by which it has fallen from its reference
+/* F of one term at a point: its value; the exponent by which it has fallen from its reference
    (infinity if it is 0); and whether it decreases monotonically with q from here on. */
 typedef struct arc_sample {
     double value, decay;
@@ -61,7 +61,7 @@ static arc_sample law_sample(const lrcsi_arc_law *law, const lrcsi_arc_point *at
     if (!(q > 0.0)) {
         return sample;
     }
-    if (law->part == LRCSI_GLINT) {
+    if (law->term == LRCSI_GLINT) {
         double decay = at->y * (2.0 - at->y) * law->gain / q / q;
         sample.falling = q * q <= 0.5 * law->gain; /* the peak of c^-4 exp(-1/(s c)^2) */
         if (decay < ARC_DARK) {
@@ -84,15 +84,15 @@ static lrcsi_arc_point arc_point(const lrcsi_arc *arc, int right, double d)
     return arc->is_cap ? lrcsi_cap_point(arc, right, d) : lrcsi_ring_point(arc, right, d);
 }
 
-/* sum[part] += width times F at that distance from an end. */
+/* sum[term] += width times F at that distance from an end. */
 static void arc_add_point(const lrcsi_arc *arc, int right, double d, double width, lrcsi_dd *sum)
 {
     lrcsi_arc_point at = arc_point(arc, right, d);
-    for (int part = 0; part < LRCSI_PARTS; part++) {
-        if (arc->requested[part]) {
-            double value = width * law_sample(&arc->law[part], &at).value;
-            lrcsi_dd next = lrcsi_dd_two_sum(sum[part].hi, value);
-            sum[part] = (lrcsi_dd){next.hi, sum[part].lo + next.lo};
+    for (int term = 0; term < LRCSI_TERMS; term++) {
+        if (arc->requested[term]) {
+            double value = width * law_sample(&arc->law[term], &at).value;
+            lrcsi_dd next = lrcsi_dd_two_sum(sum[term].hi, value);
+            sum[term] = (lrcsi_dd){next.hi, sum[term].lo + next.lo};
         }
     }
 }
@@ -121,20 +121,20 @@ static void arc_add_root(const lrcsi_arc *arc, double h, lrcsi_dd *sum)
     }
 }
 
-/* May [0, h] at an end be the last panel of a part, given `sum`, the integral outside it? Towards
+/* May [0, h] at an end be the last panel of a term, given `sum`, the integral outside it? Towards
    the left end F grows, so it must be within a factor e of its end value; towards the right end it
    must decrease monotonically or hardly change. */
-static int part_ends(const lrcsi_arc *arc, int part, int right, double h, double sum)
+static int term_ends(const lrcsi_arc *arc, int term, int right, double h, double sum)
 {
     double smooth = right ? arc->right_smooth : arc->left_smooth;
     lrcsi_arc_point point = arc_point(arc, right, h);
-    arc_sample at = law_sample(&arc->law[part], &point);
+    arc_sample at = law_sample(&arc->law[term], &point);
     if (!right) {
         return at.decay <= 1.0 &&
                (h <= smooth || (h <= arc->weight_scale && h * at.value <= ARC_SMALL * sum));
     }
     lrcsi_arc_point last = arc_point(arc, right, 0.0);
-    arc_sample end = law_sample(&arc->law[part], &last);
+    arc_sample end = law_sample(&arc->law[term], &last);
     int level = end.decay - at.decay <= 1.0 && last.q >= 0.5 * point.q;
     if (h <= smooth) {
         return level || (at.falling && h * at.value <= 0x1p-60 * sum);
@@ -144,8 +144,8 @@ static int part_ends(const lrcsi_arc *arc, int part, int right, double h, double
 
 static int arc_ends(const lrcsi_arc *arc, int right, double h, const lrcsi_dd *sum)
 {
-    for (int part = 0; part < LRCSI_PARTS; part++) {
-        if (arc->requested[part] && !part_ends(arc, part, right, h, sum[part].hi)) {
+    for (int term = 0; term < LRCSI_TERMS; term++) {
+        if (arc->requested[term] && !term_ends(arc, term, right, h, sum[term].hi)) {
             return 0;
         }
     }
@@ -166,14 +166,14 @@ static void arc_add_half(const lrcsi_arc *arc, int right, lrcsi_dd *sum)
     }
 }
 
-void lrcsi_arc_integral(const lrcsi_arc *arc, double integral[LRCSI_PARTS])
+void lrcsi_arc_integral(const lrcsi_arc *arc, double integral[LRCSI_TERMS])
 {
-    lrcsi_dd sum[LRCSI_PARTS] = {{0.0, 0.0}, {0.0, 0.0}};
+    lrcsi_dd sum[LRCSI_TERMS] = {{0.0, 0.0}, {0.0, 0.0}};
     if (arc->length > 0.0) {
         arc_add_half(arc, 0, sum);
         arc_add_half(arc, 1, sum);
     }
-    for (int part = 0; part < LRCSI_PARTS; part++) {
-        integral[part] = lrcsi_dd_value(sum[part]);
+    for (int term = 0; term < LRCSI_TERMS; term++) {
+        integral[term] = lrcsi_dd_value(sum[term]);
     }
 }

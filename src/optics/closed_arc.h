@@ -14,9 +14,9 @@ extern const double lrcsi_gauss_rule[LRCSI_GAUSS_PAIRS][2];
 /* F along an arc, relative to F at the reference angle theta_r, the angle from the light at the
    nearest point of the arc: with q = cos(theta)/cos(theta_r) and y = 1 - q (each without
    cancellation) the glint is q^-4 exp(-y (2 - y) gain / q^2), gain = 1/(cos(theta_r) s)^2, and the
-   diffuse part q^nu. */
+   diffuse term q^nu. */
 typedef struct lrcsi_arc_law {
-    int part; /* lrcsi_part */
+    int term; /* lrcsi_term */
     double gain, nu;
 } lrcsi_arc_law;
 
@@ -25,7 +25,7 @@ typedef struct lrcsi_arc_point {
     double y, q, weight;
 } lrcsi_arc_point;
 
-lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int part, double cos_reference);
+lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int term, double cos_reference);
 
 /* A ring of normals, at azimuths phi = 0 .. phi_1: q = 1 - k sin^2(phi/2). If q_pi = q(pi) = 1 - k
    is not negative, the ring is entirely lit and phi_1 = pi; else q(phi_1) = 0, and psi_1 = pi -
@@ -49,8 +49,8 @@ typedef struct lrcsi_cap {
 } lrcsi_cap;
 
 typedef struct lrcsi_arc {
-    lrcsi_arc_law law[LRCSI_PARTS];
-    int requested[LRCSI_PARTS]; /* 0: that part is not integrated */
+    lrcsi_arc_law law[LRCSI_TERMS];
+    int requested[LRCSI_TERMS]; /* 0: that term is not integrated */
     double length;
     int is_cap;
     lrcsi_ring ring;
@@ -67,9 +67,9 @@ typedef struct lrcsi_arc {
 lrcsi_arc_point lrcsi_ring_point(const lrcsi_arc *arc, int right, double d);
 lrcsi_arc_point lrcsi_cap_point(const lrcsi_arc *arc, int right, double d);
 
-/* The integrals of the requested parts over the arc, 0 for the others. Relative error at most
+/* The integrals of the requested terms over the arc, 0 for the others. Relative error at most
    LRCSI_ARC_UNITS of 2^-53. */
 #define LRCSI_ARC_UNITS 64.0
-void lrcsi_arc_integral(const lrcsi_arc *arc, double integral[LRCSI_PARTS]);
+void lrcsi_arc_integral(const lrcsi_arc *arc, double integral[LRCSI_TERMS]);
 
 #endif

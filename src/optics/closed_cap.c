@@ -37,11 +37,11 @@ lrcsi_amount lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
 {
     double s = brdf->s;
     double width = s > 0.0 ? 1.0 + 0.5 * sqrt(LRCS_PI) * s * lrcsi_special_erfcx(1.0 / s) : 0.0;
-    const double factor[LRCSI_PARTS] = {s * s * width, 2.0 / (brdf->m + 3.0)};
+    const double factor[LRCSI_TERMS] = {s * s * width, 2.0 / (brdf->m + 3.0)};
     lrcsi_amount amount = {{brdf->A, brdf->B}, {0.0, 0.0}};
     amount.error[LRCSI_GLINT] = LRCSI_U * brdf->A;
     amount.error[LRCSI_DIFFUSE] = LRCSI_U * brdf->B;
-    lrcsi_closed_scale_parts(&amount, factor, 22.0);
+    lrcsi_closed_scale_terms(&amount, factor, 22.0);
     lrcsi_closed_scale(&amount, LRCS_PI * shape->radius * shape->radius, 3.0);
     return amount;
 }
@@ -186,21 +186,21 @@ static void cap_add_piece(const lrcs_brdf *brdf, const cap_body *body, lrcsi_arc
                           lrcsi_angle theta_r, lrcsi_amount *sum)
 {
     lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta_r);
-    double factor[LRCSI_PARTS] = {body->area, body->area};
-    double integral[LRCSI_PARTS];
-    for (int part = 0; part < LRCSI_PARTS; part++) {
-        arc->requested[part] = amount.value[part] > 0.0;
-        arc->law[part] = lrcsi_arc_law_make(brdf, part, theta_r.cosine.hi);
+    double factor[LRCSI_TERMS] = {body->area, body->area};
+    double integral[LRCSI_TERMS];
+    for (int term = 0; term < LRCSI_TERMS; term++) {
+        arc->requested[term] = amount.value[term] > 0.0;
+        arc->law[term] = lrcsi_arc_law_make(brdf, term, theta_r.cosine.hi);
     }
     if (arc->requested[LRCSI_GLINT] || arc->requested[LRCSI_DIFFUSE]) {
         lrcsi_arc_integral(arc, integral);
     }
-    for (int part = 0; part < LRCSI_PARTS; part++) {
-        if (arc->requested[part]) {
-            factor[part] = integral[part] * body->scale * body->scale;
+    for (int term = 0; term < LRCSI_TERMS; term++) {
+        if (arc->requested[term]) {
+            factor[term] = integral[term] * body->scale * body->scale;
         }
     }
-    lrcsi_closed_scale_parts(&amount, factor, LRCSI_ARC_UNITS + 40.0);
+    lrcsi_closed_scale_terms(&amount, factor, LRCSI_ARC_UNITS + 40.0);
     lrcsi_closed_add(sum, &amount);
 }
 

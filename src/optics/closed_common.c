@@ -84,31 +84,31 @@ lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta)
     return out;
 }
 
-void lrcsi_closed_scale_parts(lrcsi_amount *amount, const double factor[LRCSI_PARTS], double units)
+void lrcsi_closed_scale_terms(lrcsi_amount *amount, const double factor[LRCSI_TERMS], double units)
 {
-    for (int part = 0; part < LRCSI_PARTS; part++) {
-        /* a part that is exactly 0 stays 0 for every factor */
-        if (amount->error[part] > 0.0) {
-            double before = amount->value[part];
-            double after = before * factor[part];
-            amount->value[part] = after;
-            amount->error[part] = amount->error[part] * factor[part] * (1.0 + 0x1p-40) +
+    for (int term = 0; term < LRCSI_TERMS; term++) {
+        /* a term that is exactly 0 stays 0 for every factor */
+        if (amount->error[term] > 0.0) {
+            double before = amount->value[term];
+            double after = before * factor[term];
+            amount->value[term] = after;
+            amount->error[term] = amount->error[term] * factor[term] * (1.0 + 0x1p-40) +
                                   (units + 1.0) * LRCSI_U * after;
-            amount->error[part] += factor[part] > 0.0 ? 0x1p-1070 * before : 0.0;
+            amount->error[term] += factor[term] > 0.0 ? 0x1p-1070 * before : 0.0;
         }
     }
 }
 
 void lrcsi_closed_scale(lrcsi_amount *amount, double factor, double units)
 {
-    const double both[LRCSI_PARTS] = {factor, factor};
-    lrcsi_closed_scale_parts(amount, both, units);
+    const double both[LRCSI_TERMS] = {factor, factor};
+    lrcsi_closed_scale_terms(amount, both, units);
 }
 
 void lrcsi_closed_add(lrcsi_amount *sum, const lrcsi_amount *amount)
 {
-    for (int part = 0; part < LRCSI_PARTS; part++) {
-        sum->value[part] += amount->value[part];
-        sum->error[part] += amount->error[part] + LRCSI_U * sum->value[part];
+    for (int term = 0; term < LRCSI_TERMS; term++) {
+        sum->value[term] += amount->value[term];
+        sum->error[term] += amount->error[term] + LRCSI_U * sum->value[term];
     }
 }

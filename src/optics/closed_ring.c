@@ -84,8 +84,8 @@ lrcsi_arc_point lrcsi_ring_point(const lrcsi_arc *arc, int right, double d)
 static lrcsi_arc ring_arc(const lrcs_brdf *brdf, double c_max, double c_min, double b)
 {
     lrcsi_arc arc = {0};
-    for (int part = 0; part < LRCSI_PARTS; part++) {
-        arc.law[part] = lrcsi_arc_law_make(brdf, part, c_max);
+    for (int term = 0; term < LRCSI_TERMS; term++) {
+        arc.law[term] = lrcsi_arc_law_make(brdf, term, c_max);
     }
     arc.ring.k = 2.0 * b / c_max;
     arc.ring.q_pi = c_min / c_max;
@@ -111,19 +111,19 @@ static lrcsi_amount ring_integral(const ring_wall *wall, const lrcs_brdf *brdf,
     lrcsi_angle theta = {sum.cosine, sum.sine}; /* cos(theta) = sin(alpha + beta) */
     lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta);
     double b = wall->beta.cosine.hi * light->aspect.sine.hi;
-    double factor[LRCSI_PARTS] = {1.0, 1.0};
+    double factor[LRCSI_TERMS] = {1.0, 1.0};
     if (b > 0.0 && (amount.value[LRCSI_GLINT] > 0.0 || amount.value[LRCSI_DIFFUSE] > 0.0)) {
-        double integral[LRCSI_PARTS];
+        double integral[LRCSI_TERMS];
         lrcsi_arc arc = ring_arc(brdf, sum.sine.hi, difference.sine.hi, b);
-        for (int part = 0; part < LRCSI_PARTS; part++) {
-            arc.requested[part] = amount.value[part] > 0.0;
+        for (int term = 0; term < LRCSI_TERMS; term++) {
+            arc.requested[term] = amount.value[term] > 0.0;
         }
         lrcsi_arc_integral(&arc, integral);
-        for (int part = 0; part < LRCSI_PARTS; part++) {
-            factor[part] = arc.requested[part] ? integral[part] / LRCS_PI : 1.0;
+        for (int term = 0; term < LRCSI_TERMS; term++) {
+            factor[term] = arc.requested[term] ? integral[term] / LRCS_PI : 1.0;
         }
     }
-    lrcsi_closed_scale_parts(&amount, factor, LRCSI_ARC_UNITS + 12.0);
+    lrcsi_closed_scale_terms(&amount, factor, LRCSI_ARC_UNITS + 12.0);
     lrcsi_closed_scale(&amount, wall->area, 6.0);
     return amount;
 }
@@ -154,9 +154,9 @@ lrcsi_amount lrcsi_closed_cylinder(const lrcs_shape *shape, const lrcs_brdf *brd
     lrcsi_angle theta = {light->aspect.cosine, light->aspect.sine};
     lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta);
     double w = brdf->s * light->aspect.sine.hi;
-    const double factor[LRCSI_PARTS] = {sqrt(LRCS_PI) * w * (1.0 + 0.5 * w * w),
+    const double factor[LRCSI_TERMS] = {sqrt(LRCS_PI) * w * (1.0 + 0.5 * w * w),
                                         lrcsi_special_cosine_power(brdf->m + 2.0)};
-    lrcsi_closed_scale_parts(&amount, factor, 50.0);
+    lrcsi_closed_scale_terms(&amount, factor, 50.0);
     lrcsi_closed_scale(&amount, shape->radius * shape->length, 1.0);
     return amount;
 }

@@ -196,13 +196,13 @@ static deviation_suprema diffuse_suprema(double m, int front, tan2_point *at_fac
     return sup;
 }
 
-static void suprema_add(deviation_suprema *sum, double amplitude, const deviation_suprema *part)
+static void suprema_add(deviation_suprema *sum, double amplitude, const deviation_suprema *term)
 {
-    sum->value += times(amplitude, part->value);
-    sum->slope += times(amplitude, part->slope);
-    sum->value_max += times(amplitude, part->value_max);
-    sum->slope_max += times(amplitude, part->slope_max);
-    sum->second += times(amplitude, part->second);
+    sum->value += times(amplitude, term->value);
+    sum->slope += times(amplitude, term->slope);
+    sum->value_max += times(amplitude, term->value_max);
+    sum->slope_max += times(amplitude, term->slope_max);
+    sum->second += times(amplitude, term->second);
 }
 
 /* tan^2 over the angles within `turn` of theta that face the laser; 0 if none does. */

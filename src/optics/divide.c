@@ -109,8 +109,13 @@ static plan_value plan_circle(const facet_plan *plan, double psi, double alpha)
 }
 
 /* The largest ratio over a set of aspects of a straight wall: every 15 deg, and near the glint. */
-static double plan_straight(const facet_plan *plan, double psi)
+static double plan_straight(const facet_plan *plan, const lrcs_shape *shape)
 {
+    double psi = shape->kind == LRCS_SHAPE_CYLINDER ? 0.0 /* elevation of the wall's normal */
+                 : shape->kind == LRCS_SHAPE_FRUSTUM
+                     ? atan2(shape->radius2 - shape->radius, shape->length)
+                 : shape->half_angle_deg > 0.0 ? shape->half_angle_deg * (LRCS_PI / 180.0)
+                                               : atan2(shape->radius, shape->length);
     double mean = plan_round(plan).sigma;
     double glint = 0.5 * LRCS_PI - psi;
     double step = fmin(plan->brdf->s, 0.2);
@@ -126,19 +131,6 @@ static double plan_straight(const facet_plan *plan, double psi)
     return worst;
 }
 
-/* Elevation of a straight wall's normal. */
-static double plan_elevation(const lrcs_shape *shape)
-{
-    if (shape->kind == LRCS_SHAPE_CYLINDER) {
-        return 0.0;
-    }
-    if (shape->kind == LRCS_SHAPE_FRUSTUM) {
-        return atan2(shape->radius2 - shape->radius, shape->length);
-    }
-    return shape->half_angle_deg > 0.0 ? shape->half_angle_deg * (LRCS_PI / 180.0)
-                                       : atan2(shape->radius, shape->length);
-}
-
 /* Polar angle of the normal at the rim. */
 static double plan_rim(const lrcs_shape *shape)
 {
@@ -146,43 +138,36 @@ static double plan_rim(const lrcs_shape *shape)
                                                 : 0.5 * LRCS_PI;
 }
 
-/* Error and sigma of a cap of normals at aspect alpha; *size: its area. Nodes are
-   denser near alpha, on both sides of it. */
-static plan_value plan_cap(const facet_plan *plan, const lrcs_shape *shape, double alpha,
-                           double *size)
-{
-    plan_value sum = {0.0, 0.0};
-    double rim = plan_rim(shape);
-    double middle = fmin(alpha, rim);
-    *size = 0.0;
-    for (int k = 0; k < 2 * PLAN_NODES; k++) {
-        double end = k < PLAN_NODES ? middle : rim - middle;
-        double weight = 0.0;
-        double offset = plan_node(k % PLAN_NODES, plan_near(plan, end), end, &weight);
-        double theta = k < PLAN_NODES ? middle - offset : middle + offset;
-        double c = cos(theta); /* c^-4: a paraboloid's area per solid angle of normals */
-        weight *= sin(theta) * (shape->kind == LRCS_SHAPE_PARABOLOID ? 1.0 / (c * c * c * c) : 1.0);
-        plan_value value = plan_circle(plan, 0.5 * LRCS_PI - theta, alpha);
-        sum.sigma += weight * value.sigma;
-        sum.deviation += weight * value.deviation;
-        *size += weight;
-    }
-    return sum;
-}
-
-/* The largest ratio of a cap of normals over aspects: up to the rim, and near it. */
+/* The largest ratio of a cap of normals over aspects: up to the rim, and near it. At each aspect
+   alpha the error and sigma are integrals over the cap, with nodes that are denser near alpha, on
+   both sides of it; `size` is the area of the cap. */
 static double plan_caps(const facet_plan *plan, const lrcs_shape *shape)
 {
     double mean = plan_round(plan).sigma;
     double rim = plan_rim(shape);
     double step = fmin(plan->brdf->s, 0.2);
     double worst = 0.0;
-    for (int k = 0; k < 8; k++) {
+    for (int i = 0; i < 8; i++) {
+        double alpha = fmax(0.0, i < 4 ? 0.25 * i * rim : rim + (i - 6) * step);
+        double middle = fmin(alpha, rim);
         double size = 0.0;
-        double alpha = fmax(0.0, k < 4 ? 0.25 * k * rim : rim + (k - 6) * step);
-        plan_value value = plan_cap(plan, shape, alpha, &size);
-        double base = fmax(value.sigma, size * mean);
-        worst = fmax(worst, base > 0.0 ? value.deviation / base : 0.0);
+        plan_value sum = {0.0, 0.0};
+        for (int k = 0; k < 2 * PLAN_NODES; k++) {
+            double end = k < PLAN_NODES ? middle : rim - middle;
+            double weight = 0.0;
+            double offset = plan_node(k % PLAN_NODES, plan_near(plan, end), end, &weight);
+            double theta = k < PLAN_NODES ? middle - offset : middle + offset;
+            double c = cos(theta);
+            double stretch = /* a paraboloid's area per solid angle of normals */
+                shape->kind == LRCS_SHAPE_PARABOLOID ? 1.0 / (c * c * c * c) : 1.0;
+            weight *= sin(theta) * stretch;
+            plan_value value = plan_circle(plan, 0.5 * LRCS_PI - theta, alpha);
+            sum.sigma += weight * value.sigma;
+            sum.deviation += weight * value.deviation;
+            size += weight;
+        }
+        double base = fmax(sum.sigma, size * mean);
+        worst = fmax(worst, base > 0.0 ? sum.deviation / base : 0.0);
     }
     return worst;
 }
@@ -211,7 +196,7 @@ static double plan_error(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_
     lrcs_divisions divisions = plan_divisions(shape, around);
     facet_plan plan = {brdf, lrcsi_tessellate_curvature(shape, &divisions)};
     if (!plan_is_round(shape)) {
-        return plan_straight(&plan, plan_elevation(shape));
+        return plan_straight(&plan, shape);
     }
     plan_value value = plan_round(&plan);
     return value.sigma > 0.0 ? value.deviation / value.sigma : 0.0;
@@ -287,7 +272,7 @@ static double plan_factor(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32
 }
 
 /* If even `around_max` leaves an error as large as sigma itself, more facets do not help: the glint
-   is ignored, and the diffuse part (or a matt surface, if there is none) determines the count. */
+   is ignored, and the diffuse term (or a matt surface, if there is none) determines the count. */
 static uint32_t plan_curved(const lrcs_shape *shape, const lrcs_fineness *fineness,
                             uint32_t around_max)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* f_r cos^2 from u = tan^2(theta), with its rounding bound. It decides in which form each part is
+/* f_r cos^2 from u = tan^2(theta), with its rounding bound. It decides in which form each term is
    evaluated; the caller gives u and its error.
 
    Glint: A q^2 with q = (1 + u) exp(-x/2), x = u / s^2: no cancellation between a growing and a
@@ -36,10 +36,10 @@
 #define REFLECT_X_FAR  1400.0
 #define REFLECT_X_NONE 3000.0
 
-/* One part; a bound on its relative error; and a bound on |d log(part) / d log(u)|. */
-typedef struct reflect_part {
+/* One term; a bound on its relative error; and a bound on |d log(term) / d log(u)|. */
+typedef struct reflect_term {
     double value, relative, log_slope;
-} reflect_part;
+} reflect_term;
 
 /* u / s^2 = hi + lo. With s^2 = S + S' exactly, the remainder u - hi S is exact, and lo has a
    relative error of a few units if products neither overflow nor underflow noticeably: s in
@@ -61,20 +61,20 @@ static lrcsi_dd glint_exponent(double u, double s)
     return (lrcsi_dd){x, (((v - p.hi) - p.lo) - x * square.lo) / square.hi};
 }
 
-static reflect_part reflect_glint(const lrcs_brdf *brdf, double u)
+static reflect_term reflect_glint(const lrcs_brdf *brdf, double u)
 {
     lrcsi_dd x = glint_exponent(u, brdf->s);
-    reflect_part part = {0.0, REFLECT_GLINT_UNITS * LRCSI_U, 2.0 * lrcsi_min(u, 1.0) + x.hi};
+    reflect_term term = {0.0, REFLECT_GLINT_UNITS * LRCSI_U, 2.0 * lrcsi_min(u, 1.0) + x.hi};
     double q = 0.0;
     if (x.hi < REFLECT_X_FAR) {
         q = (1.0 + u) * (lrcsi_exp(-0.5 * x.hi) * (1.0 - 0.5 * x.lo));
-        part.relative += x.lo == 0.0 ? 4.0 * LRCSI_U * x.hi : 0.0;
+        term.relative += x.lo == 0.0 ? 4.0 * LRCSI_U * x.hi : 0.0;
     } else {
         q = x.hi < REFLECT_X_NONE ? lrcsi_exp(lrcsi_log1p(u).hi - 0.5 * x.hi) : 0.0;
-        part.relative += 16.0 * LRCSI_U * x.hi;
+        term.relative += 16.0 * LRCSI_U * x.hi;
     }
-    part.value = brdf->A * q * q;
-    return part;
+    term.value = brdf->A * q * q;
+    return term;
 }
 
 /* w^(m/2) by roots for m = 0, 1/2, 1, 2; else 0. */
@@ -83,23 +83,23 @@ static double diffuse_root(double w, double m)
     return m == 0.5 ? sqrt(sqrt(w)) : m == 1.0 ? sqrt(w) : m == 2.0 ? w : m == 0.0 ? 1.0 : 0.0;
 }
 
-static reflect_part reflect_diffuse(const lrcs_brdf *brdf, double u)
+static reflect_term reflect_diffuse(const lrcs_brdf *brdf, double u)
 {
-    reflect_part part;
-    part.log_slope = (0.5 * brdf->m + 1.0) * lrcsi_min(u, 1.0);
+    reflect_term term;
+    term.log_slope = (0.5 * brdf->m + 1.0) * lrcsi_min(u, 1.0);
     double root = diffuse_root(1.0 + u, brdf->m);
     if (root > 0.0) {
-        part.value = brdf->B / root / (1.0 + u);
-        part.relative = LRCSI_U * REFLECT_ROOT_UNITS;
-        return part;
+        term.value = brdf->B / root / (1.0 + u);
+        term.relative = LRCSI_U * REFLECT_ROOT_UNITS;
+        return term;
     }
     lrcsi_dd log = lrcsi_log1p(u);
     double y = 0.25 * brdf->m * log.hi;
     double r = lrcsi_power(log, -0.25 * brdf->m);
-    part.value = brdf->B * r * r / (1.0 + u);
-    part.relative = LRCSI_U * (REFLECT_DIFFUSE_UNITS + 2.0 * LRCSI_LOG_ERROR * y +
+    term.value = brdf->B * r * r / (1.0 + u);
+    term.relative = LRCSI_U * (REFLECT_DIFFUSE_UNITS + 2.0 * LRCSI_LOG_ERROR * y +
                                lrcsi_min(2.0 * y, 0.5 * brdf->m * LRCSI_U));
-    return part;
+    return term;
 }
 
 /* A bound on the glint for every u in [low, high]: (1 + u)^2 grows and the exponential falls; and
@@ -114,20 +114,20 @@ static double glint_bound(const lrcs_brdf *brdf, double low, double high)
     return brdf->A * q * q;
 }
 
-/* Is the first-order error valid? If not (the error of u is large, or the part is so small that one
-   of its factors may have underflowed), a bound on the part itself replaces it. */
-static int first_order_holds(const reflect_part *part, double e)
+/* Is the first-order error valid? If not (the error of u is large, or the term is so small that one
+   of its factors may have underflowed), a bound on the term itself replaces it. */
+static int first_order_holds(const reflect_term *term, double e)
 {
-    return e <= 0.25 && part->relative + 2.0 * e * part->log_slope <= 0.25 &&
-           part->value > 0x1p-900;
+    return e <= 0.25 && term->relative + 2.0 * e * term->log_slope <= 0.25 &&
+           term->value > 0x1p-900;
 }
 
 /* The true u lies in [u / (1 + e), u / (1 - e)]. For e <= 1/4, log(u) has an error of at most 1.16
-   e, and log_slope grows by at most a factor of 4/3. So the error of log(part) is at most delta. */
-static double part_error(const reflect_part *part, double e)
+   e, and log_slope grows by at most a factor of 4/3. So the error of log(term) is at most delta. */
+static double term_error(const reflect_term *term, double e)
 {
-    double delta = part->relative + 2.0 * e * part->log_slope;
-    return part->value * delta * (1.0 + delta);
+    double delta = term->relative + 2.0 * e * term->log_slope;
+    return term->value * delta * (1.0 + delta);
 }
 
 /* Does a glint whose first-order error is not valid bound its own error? If tan^2 is exact, only
@@ -135,53 +135,53 @@ static double part_error(const reflect_part *part, double e)
    errors of 2^-1074 q and 2^-1074, and a q below 2^-1022, which is accurate to 2^-1074, causes an
    error of 2^-1071. `relative` is above 1 only if both the true and the computed value are
    negligible. All of this is below 2^-1000. */
-static int glint_bounds_own_error(const lrcs_brdf *brdf, const reflect_part *glint, double e)
+static int glint_bounds_own_error(const lrcs_brdf *brdf, const reflect_term *glint, double e)
 {
     return e == 0.0 && glint->value <= 0x1p-900 && brdf->A >= 0x1p-500;
 }
 
-/* A bound on the error from a bound on the part itself: twice that covers underflow and rounding.
+/* A bound on the error from a bound on the term itself: twice that covers underflow and rounding.
  */
-static double part_error_bound(const reflect_part *part, double part_bound)
+static double term_error_bound(const reflect_term *term, double term_bound)
 {
-    return 2.0 * fmax(part->value, part_bound) + 0x1p-1000;
+    return 2.0 * fmax(term->value, term_bound) + 0x1p-1000;
 }
 
 /* tan^2 is in [tan2 / (1 + e), tan2 / (1 - e)] if e <= 1/4; else it may have any value. */
-static double glint_error(const lrcs_brdf *brdf, const reflect_part *glint, double tan2, double e)
+static double glint_error(const lrcs_brdf *brdf, const reflect_term *glint, double tan2, double e)
 {
     if (first_order_holds(glint, e)) {
-        return part_error(glint, e);
+        return term_error(glint, e);
     }
     if (glint_bounds_own_error(brdf, glint, e)) {
-        return part_error_bound(glint, glint->value);
+        return term_error_bound(glint, glint->value);
     }
     double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
     double high = e <= 0.25 ? tan2 / (1.0 - e) : HUGE_VAL;
-    return part_error_bound(glint, glint_bound(brdf, low, high));
+    return term_error_bound(glint, glint_bound(brdf, low, high));
 }
 
-/* The diffuse part decreases with u. */
-static double diffuse_error(const lrcs_brdf *brdf, const reflect_part *diffuse, double tan2,
+/* The diffuse term decreases with u. */
+static double diffuse_error(const lrcs_brdf *brdf, const reflect_term *diffuse, double tan2,
                             double e)
 {
     if (first_order_holds(diffuse, e)) {
-        return part_error(diffuse, e);
+        return term_error(diffuse, e);
     }
     double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
-    return part_error_bound(diffuse, reflect_diffuse(brdf, low).value);
+    return term_error_bound(diffuse, reflect_diffuse(brdf, low).value);
 }
 
 lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error)
 {
     lrcsi_reflection out = {0.0, 0.0, 0.0};
     if (brdf->A > 0.0 && isfinite(tan2)) {
-        reflect_part glint = reflect_glint(brdf, tan2);
+        reflect_term glint = reflect_glint(brdf, tan2);
         out.glint = lrcsi_min(glint.value, DBL_MAX);
         out.error = glint_error(brdf, &glint, tan2, tan2_error);
     }
     if (brdf->B > 0.0 && isfinite(tan2)) {
-        reflect_part diffuse = reflect_diffuse(brdf, tan2);
+        reflect_term diffuse = reflect_diffuse(brdf, tan2);
         out.diffuse = diffuse.value;
         out.error += diffuse_error(brdf, &diffuse, tan2, tan2_error);
     }

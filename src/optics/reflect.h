@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* f_r cos^2, the integrand of Eq. 2 per unit of surface, with separate glint and diffuse parts,
+/* f_r cos^2, the integrand of Eq. 2 per unit of surface, with separate glint and diffuse terms,
    from tan^2(theta); and bounds of its deviation over a cone of normals. */
 #ifndef LRCSI_REFLECT_H
 #define LRCSI_REFLECT_H
@@ -13,11 +13,11 @@ typedef struct lrcsi_reflection {
                               from the relative error of the given tan2 */
 } lrcsi_reflection;
 
-/* Given: tan2 = tan^2(theta) >= 0 (infinity allowed: edge-on, both parts 0) with relative error
+/* Given: tan2 = tan^2(theta) >= 0 (infinity allowed: edge-on, both terms 0) with relative error
    at most tan2_error. Parts are finite and not NaN for every brdf in its domain; if the glint
    exceeds the largest double it is that double, and error is infinite.
    Notes: 1. The only libm function called is sqrt: the same bits on every machine.
-   2. Cost: one exponential, and one power except for m = 0, 1/2, 1 and 2; a part of amplitude 0
+   2. Cost: one exponential, and one power except for m = 0, 1/2, 1 and 2; a term of amplitude 0
    costs nothing. */
 lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error);
 

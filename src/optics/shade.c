@@ -34,7 +34,7 @@
    x/q and x <= 700 make it at most (2.02/r + 7) (1400/c) u < 2^-23; otherwise c is almost 1, and s
    >= 2^-20 makes it at most (2.02 r + 7 q) 2^41 u < 2^-22.
 
-   A part with an exponent beyond 700 counts as 0: it is below 4 pi A c^-5 e^-699, or 4 pi B e^-699.
+   A term with an exponent beyond 700 counts as 0: it is below 4 pi A c^-5 e^-699, or 4 pi B e^-699.
    Underflow of intermediate results causes an error of at most 2^-1075. */
 #include "optics/shade.h"
 

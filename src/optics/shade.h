@@ -16,12 +16,12 @@ typedef struct lrcsi_lobes {
     double A, B; /* 4 pi times those of the material */
     double inverse_s2;
     double m;
-    double cutoff;    /* bound on a part that is set to 0, in units of u */
+    double cutoff;    /* bound on a term that is set to 0, in units of u */
     double low, high; /* the range of cosines for which blocks may be used; empty if low >= high */
     int glint, diffuse;
 } lrcsi_lobes;
 
-/* Given: the material; whether its glint and its diffuse part are to be evaluated. */
+/* Given: the material; whether its glint and its diffuse term are to be evaluated. */
 lrcsi_lobes lrcsi_lobes_make(const lrcs_brdf *brdf, int glint, int diffuse);
 
 typedef struct lrcsi_shades {
