@@ -10,12 +10,9 @@
 #include "visibility/preview.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/range.h"
 #include "base/work.h"
-#include "visibility/grid.h"
-#include "visibility/sample.h"
 
 /* A border between the samples of two owners, followed along a row or column of pixels. */
 typedef struct preview_border {
@@ -23,8 +20,8 @@ typedef struct preview_border {
     uint32_t last, length; /* its last pixel, and for how many pixels it has continued */
 } preview_border;
 
-/* The samples of a facet, and the borders of its visible region. Borders to adjacent facets of the
-   mesh do not count. */
+/* The borders of a facet's visible region, and its fraction. Borders to adjacent facets of the mesh
+   do not count. */
 typedef struct preview_counts {
     uint32_t borders;  /* pixels on borders beyond which the facet continues, hidden by others */
     uint32_t longest;  /* pixels on the longest of these along one row or column */

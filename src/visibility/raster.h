@@ -24,7 +24,7 @@ typedef struct lrcsi_raster {
     uint32_t tiles;        /* along each side */
     unsigned char *active; /* tiles * tiles: 1 if the samples of the tile are drawn */
     uint32_t *owner;       /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
-    float *depth;          /* N * N: height of an ordinary owner's plane (visibility/raster.c);
+    float *depth;          /* N * N: height of an ordinary owner's plane (visibility/raster_draw.c);
                               -HUGE_VALF: no owner; HUGE_VALF: the owner is known to be visible */
     float *occluder;   /* N * N: a height; what is lower is hidden in the whole pixel by one facet.
                           -HUGE_VALF: none known; HUGE_VALF: a facet known to be visible covers
@@ -56,6 +56,17 @@ int lrcsi_raster_make_undecided(const lrcsi_view *view, uint32_t size, const uns
 
 /* Sets size, pixel, scale, sample_err and radius only: a raster without samples. */
 void lrcsi_raster_layout(const lrcsi_view *view, uint32_t size, lrcsi_raster *raster);
+
+/* The pixels along one axis whose centres lie within low .. high, coordinates with errors up to
+   `err`: pixels *from <= pixel < *to; none if *from >= *to. */
+static inline void lrcsi_raster_centres(const lrcsi_raster *r, double low, double high, double err,
+                                        uint32_t *from, uint32_t *to)
+{
+    double first = lrcsi_min(lrcsi_max(low - 0.5 - err, 0), r->size);
+    *from = (uint32_t)first;
+    *from += *from < first;
+    *to = (uint32_t)lrcsi_min(lrcsi_max(high + 0.5 + err, 0), r->size);
+}
 
 /* The centre of a pixel as a point of the scene. */
 void lrcsi_raster_sample(const lrcsi_raster *raster, uint32_t x, uint32_t y, double point[3]);

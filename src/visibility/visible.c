@@ -26,12 +26,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/constant.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/clip.h"
 #include "visibility/query.h"
-#include "visibility/sample.h"
 #include "visibility/sampling_error.h"
 #include "visibility/visible_fraction.h"
 
