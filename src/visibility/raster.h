@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The z-buffer: N x N samples at pixel centres over the view's window. The owner of a sample is the
    facet that covers it nearest the laser. Coverage and depth order are exact (visibility/sample.h);
-   nearly always doubles decide them, because their error bound suffices.
+   nearly always floats or doubles decide them, because their error bounds suffice.
 
    Samples are divided into tiles. If only some facets matter, only the tiles around these are
    active: nothing else is cleared, drawn or read, and its memory is never touched. */
@@ -24,8 +24,9 @@ typedef struct lrcsi_raster {
     uint32_t tiles;        /* along each side */
     unsigned char *active; /* tiles * tiles: 1 if the samples of the tile are drawn */
     uint32_t *owner;       /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
-    float *depth;          /* N * N: height of an ordinary owner's plane (visibility/raster_draw.c);
-                              -HUGE_VALF: no owner; HUGE_VALF: the owner is known to be visible */
+    float *depth;          /* N * N: height of an ordinary owner's plane (visibility/raster_draw.c),
+                              0 for other owners; -HUGE_VALF: no owner; HUGE_VALF: the owner is
+                              known to be visible */
     float *occluder;   /* N * N: a height; what is lower is hidden in the whole pixel by one facet.
                           -HUGE_VALF: none known; HUGE_VALF: a facet known to be visible covers
                           the pixel, and all others are hidden. NULL: not needed */

@@ -196,7 +196,7 @@ static void draw_sample(const lrcsi_raster *r, raster_facet *f, uint32_t x, uint
     if (r->owner[i] == LRCS_NONE ||
         (r->depth[i] < HUGE_VALF && facet_nearer(r, f, r->owner[i], x, y))) {
         r->owner[i] = f->facet;
-        r->depth[i] = (float)plane_height(&f->plane, x, y);
+        r->depth[i] = f->ordinary ? (float)plane_height(&f->plane, x, y) : 0;
     }
 }
 

@@ -250,19 +250,6 @@ static double occluder_area(const lrcsi_raster *raster, uint32_t facet, const ui
     return area;
 }
 
-/* For a facet that owns some of its samples, but not all. */
-static lrcsi_sampling_error error_partial(const sampled_facet *f, const uint32_t *crossing,
-                                          uint32_t crossings)
-{
-    lrcsi_sampling_error error = {PARTIAL, 0};
-    for (uint32_t i = 0; i < crossings; i++) {
-        add_edge_error(f, crossing[i], &error);
-    }
-    add_contact_errors(f, &error);
-    add_side_errors(f, &error);
-    return error;
-}
-
 lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
                                                 const lrcsi_raster *raster, uint32_t facet,
                                                 const uint32_t *crossing, uint32_t crossings)
@@ -281,7 +268,12 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
         error.square = lrcsi_min(error.square, lrcsi_min(ALL, OCCLUDERS * occluders * occluders));
     } else {
         f.fraction = (double)owned / covered;
-        error = error_partial(&f, crossing, crossings);
+        error.square = PARTIAL;
+        for (uint32_t i = 0; i < crossings; i++) {
+            add_edge_error(&f, crossing[i], &error);
+        }
+        add_contact_errors(&f, &error);
+        add_side_errors(&f, &error);
         error.square = lrcsi_min(error.square, SMALL * area * area);
     }
     return error;

@@ -319,6 +319,25 @@ static void owners_on_a_crossing_and_of_steep_facets_are_those_of_exact_samples(
     assert_true(owned > 100000);
 }
 
+/* Two facets so close to edge-on that floats cannot hold the slopes of their planes. */
+static void facets_all_but_edge_on_own_what_they_cover(void **state)
+{
+    (void)state;
+    unsigned owned = 0;
+    for (int order = 0; order < 2; order++) {
+        for (uint32_t size = 1; size < 20; size += 2) {
+            scene_start(&scene);
+            for (int i = 0; i < 2; i++) {
+                double low = (i == order) ? -4 : -3;
+                scene_plate(&scene, (const double[3]){0, -1, low},
+                            (const double[3]){0x1p-140, 0, 8}, (const double[3]){0, 1, 0});
+            }
+            owned += check_owners((const double[3]){0, 0, 1}, size);
+        }
+    }
+    assert_true(owned > 50);
+}
+
 /* Heights of owners' planes against long double, within their error bounds, and the depths that are
    stored as floats. */
 static void heights_lie_within_their_error_bounds(void **state)
@@ -417,6 +436,7 @@ int main(void)
         cmocka_unit_test(owners_do_not_depend_on_the_order_of_facets),
         cmocka_unit_test(owners_are_those_of_exact_samples),
         cmocka_unit_test(owners_on_a_crossing_and_of_steep_facets_are_those_of_exact_samples),
+        cmocka_unit_test(facets_all_but_edge_on_own_what_they_cover),
         cmocka_unit_test(heights_lie_within_their_error_bounds),
         cmocka_unit_test(planes_intersect_in_a_line_through_the_box),
     };
