@@ -83,8 +83,10 @@ typedef struct drawn_facet {
     double high; /* upper bound of its heights */
 } drawn_facet;
 
-static drawn_facet drawn_facet_make(const lrcsi_raster *r, uint32_t facet)
+/* Makes a facet the current one: finds what it covers. */
+static drawn_facet drawn_facet_make(const visible_job *job, uint32_t facet)
 {
+    const lrcsi_raster *r = job->raster;
     const uint32_t *corner = r->view->prepared->scene->facet[facet].corner;
     drawn_facet f = {
         .facet = facet, .edges = lrcsi_raster_edge_functions(r, facet), .high = -HUGE_VAL};
@@ -95,6 +97,12 @@ static drawn_facet drawn_facet_make(const lrcsi_raster *r, uint32_t facet)
     }
     f.plane = lrcsi_raster_plane(r, facet);
     f.rise = 0.5 * (fabs(f.plane.dx) + fabs(f.plane.dy)) + lrcsi_raster_height_err(r, facet);
+    for (uint32_t y = f.edges.bottom; y < f.edges.top; y++) {
+        visible_row *row = &job->row[y];
+        row->touched = lrcsi_span_touched(&f.edges, y);
+        row->certain = lrcsi_span_samples(&f.edges, y).certain;
+        row->full = lrcsi_span_full(&f.edges, y, row->certain);
+    }
     return f;
 }
 
@@ -174,18 +182,14 @@ static const uint32_t *known_crossings(const lrcsi_known *k, uint32_t facet, uin
     return k->classification->crossing;
 }
 
-/* Finds the spans of a facet, and marks the pixels that are mixed for it. */
+/* Marks the pixels that are mixed for a facet. */
 static void mark_mixed(const visible_job *job, const drawn_facet *f)
 {
     const lrcsi_view *view = job->raster->view;
     const lrcs_prepared *p = view->prepared;
     for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
-        visible_row *row = &job->row[y];
-        row->touched = lrcsi_span_touched(&f->edges, y);
-        row->certain = lrcsi_span_samples(&f->edges, y).certain;
-        row->full = lrcsi_span_full(&f->edges, y, row->certain);
-        memset(job->mixed + pixel_index(job, row->touched.x0, y), 0,
-               row->touched.x1 - row->touched.x0);
+        const lrcsi_pixel_span touched = job->row[y].touched;
+        memset(job->mixed + pixel_index(job, touched.x0, y), 0, touched.x1 - touched.x0);
     }
     uint32_t crossings;
     const uint32_t *crossing = known_crossings(job->known, f->facet, &crossings);
@@ -341,7 +345,7 @@ static pixel_sums sum_pixels(const visible_job *job, const drawn_facet *f)
 static int pixels_hide_facet(const visible_job *job, const drawn_facet *f)
 {
     for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
-        const lrcsi_pixel_span touched = lrcsi_span_touched(&f->edges, y);
+        const lrcsi_pixel_span touched = job->row[y].touched;
         for (uint32_t x = touched.x0; x < touched.x1; x++) {
             if (!pixel_hidden(job, f, x, y)) {
                 return 0;
@@ -460,7 +464,7 @@ static void find_areas(const visible_job *job, const lrcsi_sample_pool *pool,
         }
         pixel_sums sums = {0, 0, 0, 0};
         if (!raster->undecided[f]) {
-            const drawn_facet drawn = drawn_facet_make(raster, f);
+            const drawn_facet drawn = drawn_facet_make(job, f);
             if (raster->owned[f] == 0 && pixels_hide_facet(job, &drawn)) {
                 sums.hidden = HUGE_VAL;
             } else {
