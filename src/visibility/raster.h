@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The z-buffer: N x N samples at pixel centres over the view's window. The owner of a sample is the
    facet that covers it nearest the laser. Coverage and depth order are exact (visibility/sample.h);
-   nearly always doubles decide them, because their error bound suffices.
+   nearly always floats or doubles decide them, because their error bounds suffice.
 
    Samples are divided into tiles. If only some facets matter, only the tiles around these are
    active: nothing else is cleared, drawn or read, and its memory is never touched. */
@@ -24,14 +24,14 @@ typedef struct lrcsi_raster {
     uint32_t tiles;        /* along each side */
     unsigned char *active; /* tiles * tiles: 1 if the samples of the tile are drawn */
     uint32_t *owner;       /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
-    double *depth;         /* N * N: height of the owner's plane, if its facet was drawn */
-    unsigned char *full;   /* N * N: 1 if the owner covers the whole pixel and is visible in all of
-                              it; set only by lrcsi_raster_fill */
-    float *occluder;       /* N * N: a height; everything lower is hidden in the whole pixel by one
-                              drawn facet. -HUGE_VALF: none known. NULL: not needed */
-    double *height_err;    /* facet: error bound of its heights if drawn; -1 if filled */
-    uint32_t *covered;     /* facet: if drawn, the samples that it covers; else 0 */
-    uint32_t *owned;       /* facet: if drawn, the samples that it owns; else 0 */
+    float *depth;          /* N * N: height of an ordinary owner's plane (visibility/raster_draw.c),
+                              0 for other owners; -HUGE_VALF: no owner; HUGE_VALF: the owner is
+                              known to be visible */
+    float *occluder;   /* N * N: a height; what is lower is hidden in the whole pixel by one facet.
+                          -HUGE_VALF: none known; HUGE_VALF: a facet known to be visible covers
+                          the pixel, and all others are hidden. NULL: not needed */
+    uint32_t *covered; /* facet: if drawn with a depth test, the samples that it covers; else 0 */
+    uint32_t *owned;   /* facet: the samples of active tiles that it owns, if counted; else 0 */
     unsigned char *undecided; /* facet: 1 if the order of it and another could not be decided */
 } lrcsi_raster;
 
@@ -40,35 +40,34 @@ typedef struct lrcsi_plane {
     double c, dx, dy;
 } lrcsi_plane;
 
-/* Bytes for lrcsi_raster_start or lrcsi_raster_make. */
+/* Draws all of the view. Back sides are drawn if they cast shadows (view->backs.cast). Samples that
+   facets own are not counted.
+   Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area, at most `need` bytes. */
 size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size);
-
-/* Draws all of the view. Back sides are drawn if they cast shadows (view->backs.cast).
-   Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area. */
 int lrcsi_raster_make(const lrcsi_view *view, uint32_t size, lrcs_work *work, lrcsi_raster *raster);
 
-/* The same in steps: start; activate the tiles of facets; clear; fill; draw.
-   Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area; none of its tiles is active.
- */
-int lrcsi_raster_start(const lrcsi_view *view, uint32_t size, lrcs_work *work,
-                       lrcsi_raster *raster);
-
-/* Activates the tiles of all pixels that the facet may touch, and of two pixels around them. */
-void lrcsi_raster_activate(lrcsi_raster *raster, uint32_t facet);
-
-/* Initializes the samples of active tiles: they have no owner. */
-void lrcsi_raster_clear(lrcsi_raster *raster);
-
-/* Makes a facet that is known to be entirely visible the owner of all active samples that it
-   covers, without comparing depths. */
-void lrcsi_raster_fill(lrcsi_raster *raster, uint32_t facet);
-
-/* Draws a facet whose tiles are all active: it becomes the owner of the samples at which it is
-   nearer than the owner so far. Raises `occluder` in the pixels that it covers entirely. */
-void lrcsi_raster_draw(lrcsi_raster *raster, uint32_t facet);
+/* Draws only the tiles around undecided facets: all pixels that these may touch, and two pixels
+   around them. Given: answer[facet], a lrcsi_query_answer. Facets known to be visible own all
+   active samples that they cover, without a depth test; facets known to be hidden own none and are
+   not drawn. Finds occluder heights, and counts the samples that facets own.
+   Status: as above. */
+size_t lrcsi_raster_undecided_need(const lrcs_prepared *prepared, uint32_t size);
+int lrcsi_raster_make_undecided(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
+                                lrcs_work *work, lrcsi_raster *raster);
 
 /* Sets size, pixel, scale, sample_err and radius only: a raster without samples. */
 void lrcsi_raster_layout(const lrcsi_view *view, uint32_t size, lrcsi_raster *raster);
+
+/* The pixels along one axis whose centres lie within low .. high, coordinates with errors up to
+   `err`: pixels *from <= pixel < *to; none if *from >= *to. */
+static inline void lrcsi_raster_centres(const lrcsi_raster *r, double low, double high, double err,
+                                        uint32_t *from, uint32_t *to)
+{
+    double first = lrcsi_min(lrcsi_max(low - 0.5 - err, 0), r->size);
+    *from = (uint32_t)first;
+    *from += *from < first;
+    *to = (uint32_t)lrcsi_min(lrcsi_max(high + 0.5 + err, 0), r->size);
+}
 
 /* The centre of a pixel as a point of the scene. */
 void lrcsi_raster_sample(const lrcsi_raster *raster, uint32_t x, uint32_t y, double point[3]);
@@ -80,6 +79,16 @@ lrcsi_edge_functions lrcsi_raster_edge_functions(const lrcsi_raster *raster, uin
    HUGE_VAL if it is too close to edge-on. */
 lrcsi_plane lrcsi_raster_plane(const lrcsi_raster *raster, uint32_t facet);
 double lrcsi_raster_height_err(const lrcsi_raster *raster, uint32_t facet);
+
+/* The line in which the planes of two facets intersect, in pixels, as far as it may pass through
+   pixels that `facet` touches. Given: box, its edge functions. Returned: the ends a and b, and
+   *err: a point at which the facets meet in such a pixel is at most that far from the segment a b,
+   if *err is at most 1/8; otherwise nothing is known about where they meet. *err includes the
+   errors of the ends, and exceeds 32 u of their coordinates. Returns 0 if the line passes through
+   none of these pixels, under the same condition. */
+int lrcsi_raster_intersection(const lrcsi_raster *raster, const lrcsi_edge_functions *box,
+                              uint32_t facet, uint32_t other, double a[2], double b[2],
+                              double *err);
 
 /* A vertex in pixel coordinates. Returns the error bound of each, including that of samples. */
 double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2]);

@@ -124,26 +124,6 @@ static double side_weight_error(const sampled_facet *f, int axis, double along, 
     return (owns - f->fraction) * offset;
 }
 
-/* Clips the segment a b to the facet: from a + t[0] (b - a) to a + t[1] (b - a). Returns 0 if
-   nothing remains. */
-static int segment_clip(const lrcsi_edge_functions *e, const double a[2], const double b[2],
-                        double t[2])
-{
-    for (int k = 0; k < 3; k++) {
-        double p = e->c[k] + e->dx[k] * a[0] + e->dy[k] * a[1] + e->value_err;
-        double q = e->c[k] + e->dx[k] * b[0] + e->dy[k] * b[1] + e->value_err;
-        if (p < 0 && q < 0) {
-            return 0;
-        }
-        if (p < 0) {
-            t[0] = lrcsi_max(t[0], p / (p - q));
-        } else if (q < 0) {
-            t[1] = lrcsi_min(t[1], p / (p - q));
-        }
-    }
-    return t[0] < t[1];
-}
-
 /* Sums over the part of the segment a b that lies within the facet. side: 1 or -1 if the segment is
    a side of the facet and the facet lies above or below it; otherwise 0. */
 static offset_sum offset_sum_along(const sampled_facet *f, const double a[2], const double b[2],
@@ -153,7 +133,7 @@ static offset_sum offset_sum_along(const sampled_facet *f, const double a[2], co
     double t[2] = {0, 1};
     int axis = fabs(b[1] - a[1]) > fabs(b[0] - a[0]);
     double run = b[axis] - a[axis];
-    if (run == 0 || !segment_clip(&f->edges, a, b, t)) {
+    if (run == 0 || !lrcsi_span_clip(&f->edges, a, b, 0, t)) {
         return s;
     }
     double slope = (b[!axis] - a[!axis]) / run;
@@ -192,28 +172,16 @@ static void add_edge_error(const sampled_facet *f, uint32_t edge, lrcsi_sampling
     add_line_error(f, a, b, error);
 }
 
-/* Adds the line in which the planes of two facets intersect, if it may cross the facet's box. */
+/* Adds the line in which the planes of two facets intersect. */
 static void add_intersection_error(const sampled_facet *f, uint32_t other,
                                    lrcsi_sampling_error *error)
 {
-    const lrcsi_edge_functions *box = &f->edges;
-    lrcsi_plane p = lrcsi_raster_plane(f->raster, f->facet);
-    lrcsi_plane q = lrcsi_raster_plane(f->raster, other);
-    double dx = p.dx - q.dx;
-    double dy = p.dy - q.dy;
-    double gradient = sqrt(dx * dx + dy * dy);
-    double x = 0.5 * ((double)box->x0 + box->x1);
-    double y = 0.5 * ((double)box->y0 + box->y1);
-    double extent = 2.0 + box->x1 - box->x0 + box->y1 - box->y0;
-    double distance = (p.c - q.c + dx * x + dy * y) / gradient; /* of the box's centre */
-    if (!(fabs(distance) < extent)) {
-        return;
+    double a[2];
+    double b[2];
+    double err;
+    if (lrcsi_raster_intersection(f->raster, &f->edges, f->facet, other, a, b, &err)) {
+        add_line_error(f, a, b, error);
     }
-    dx /= gradient;
-    dy /= gradient;
-    const double a[2] = {x - dx * distance - dy * extent, y - dy * distance + dx * extent};
-    const double b[2] = {x - dx * distance + dy * extent, y - dy * distance - dx * extent};
-    add_line_error(f, a, b, error);
 }
 
 static void add_contact_errors(const sampled_facet *f, lrcsi_sampling_error *error)
@@ -282,19 +250,6 @@ static double occluder_area(const lrcsi_raster *raster, uint32_t facet, const ui
     return area;
 }
 
-/* For a facet that owns some of its samples, but not all. */
-static lrcsi_sampling_error error_partial(const sampled_facet *f, const uint32_t *crossing,
-                                          uint32_t crossings)
-{
-    lrcsi_sampling_error error = {PARTIAL, 0};
-    for (uint32_t i = 0; i < crossings; i++) {
-        add_edge_error(f, crossing[i], &error);
-    }
-    add_contact_errors(f, &error);
-    add_side_errors(f, &error);
-    return error;
-}
-
 lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
                                                 const lrcsi_raster *raster, uint32_t facet,
                                                 const uint32_t *crossing, uint32_t crossings)
@@ -313,7 +268,12 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
         error.square = lrcsi_min(error.square, lrcsi_min(ALL, OCCLUDERS * occluders * occluders));
     } else {
         f.fraction = (double)owned / covered;
-        error = error_partial(&f, crossing, crossings);
+        error.square = PARTIAL;
+        for (uint32_t i = 0; i < crossings; i++) {
+            add_edge_error(&f, crossing[i], &error);
+        }
+        add_contact_errors(&f, &error);
+        add_side_errors(&f, &error);
         error.square = lrcsi_min(error.square, SMALL * area * area);
     }
     return error;

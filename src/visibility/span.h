@@ -13,16 +13,13 @@
    facet: value = c + dx x + dy y. */
 typedef struct lrcsi_edge_functions {
     double c[3], dx[3], dy[3];
-    double inv_dx[3]; /* 1 / dx; 0 if the side is parallel to the rows */
-    /* Half a pixel plus the distance of a pixel's centre, along a row, from the point where side k
-       crosses the row, beyond which the sign is certain: at the centre (sample_margin), in the
-       whole pixel (pixel_margin). */
-    double sample_margin[3], pixel_margin[3];
     /* Where the sides cross the rows: at the height of the centres of row y, side i is at x =
        cross_x[i] + cross_dx[i] y. Sides 0 and 1 bound the facet on the left, 2 and 3 on the right;
-       a side that does not exist is at infinity. The margins are those of that side. */
-    double cross_x[4], cross_dx[4], cross_sample_margin[4], cross_pixel_margin[4];
-    int horizontal;          /* 1 if a side is parallel to the rows */
+       a side that does not exist is at infinity. The margins are half a pixel plus the distance of
+       a pixel's centre from the crossing beyond which the sign is certain: at the centre
+       (sample_margin), in the whole pixel (pixel_margin). */
+    double cross_x[4], cross_dx[4], sample_margin[4], pixel_margin[4];
+    int parallel;            /* bit k: side k is parallel to the rows */
     double position_err;     /* error bound of the pixel coordinates of corners and samples */
     double value_err;        /* 8/5 of the error bound of a value in touched pixels */
     uint32_t x0, x1, y0, y1; /* pixels whose centres may be covered: x0 <= x < x1 */
@@ -39,19 +36,10 @@ static inline int lrcsi_span_has(lrcsi_pixel_span span, uint32_t x)
     return x >= span.x0 && x < span.x1;
 }
 
-/* The coverage of a row of pixels by a facet. `full` lies within `certain`, and `certain` within
-   `possible`. */
-typedef struct lrcsi_row_spans {
-    lrcsi_pixel_span touched;  /* pixels that the facet may touch */
-    lrcsi_pixel_span possible; /* pixels whose centre it may cover */
-    lrcsi_pixel_span certain;  /* pixels whose centre it certainly covers */
-    lrcsi_pixel_span full; /* pixels that it certainly covers entirely; one that it does cover is
-                        missing only if an edge function in it is smaller than its error */
-} lrcsi_row_spans;
-
-/* The coverage of the pixel centres of a row. */
+/* The coverage of the pixel centres of a row: `certain` lies within `possible`. */
 typedef struct lrcsi_sample_spans {
-    lrcsi_pixel_span possible, certain; /* as in lrcsi_row_spans */
+    lrcsi_pixel_span possible; /* pixels whose centre the facet may cover */
+    lrcsi_pixel_span certain;  /* pixels whose centre it certainly covers */
 } lrcsi_sample_spans;
 
 /* A line segment that is followed from row to row. In row y its x lies between from + slope y and
@@ -73,21 +61,25 @@ static inline void lrcsi_span_follow(const lrcsi_segment *s, uint32_t y, uint32_
     *x1 = to < *x1 ? (uint32_t)lrcsi_max(to + 1, 0) : *x1;
 }
 
-/* Completes edge functions: computes inv_dx, the margins, the crossings and `horizontal` from the
-   other members. */
+/* Clips the segment a b to within `err` of a facet: from a + t[0] (b - a) to a + t[1] (b - a); no
+   point that near is lost. Its ends may be as far outside the window as those of
+   lrcsi_raster_intersection. Given: t[0] and t[1], 0 and 1. Returns 0 if nothing remains. */
+int lrcsi_span_clip(const lrcsi_edge_functions *e, const double a[2], const double b[2], double err,
+                    double t[2]);
+
+/* Completes edge functions: computes the crossings, the margins and `parallel` from the other
+   members. */
 void lrcsi_span_prepare(lrcsi_edge_functions *e);
 
-/* All four spans of a row. */
-lrcsi_row_spans lrcsi_span_row(const lrcsi_edge_functions *e, uint32_t y);
-
-/* Only the spans of samples, at half the cost. */
+/* The spans of the samples of a row. */
 lrcsi_sample_spans lrcsi_span_samples(const lrcsi_edge_functions *e, uint32_t y);
 
-/* Of the pixels whose centres are certainly covered, those that are certainly covered entirely. */
+/* Of the pixels whose centres are certainly covered, those that are certainly covered entirely: one
+   that is missing is covered only if an edge function in it is smaller than its error. */
 lrcsi_pixel_span lrcsi_span_full(const lrcsi_edge_functions *e, uint32_t y,
                                  lrcsi_pixel_span certain);
 
-/* Only the touched pixels of a row, at a third of the cost. */
+/* The pixels of a row that the facet may touch. */
 lrcsi_pixel_span lrcsi_span_touched(const lrcsi_edge_functions *e, uint32_t y);
 
 /* A range of columns that contains all pixels touched in rows y0 <= y <= y1, and possibly more. */

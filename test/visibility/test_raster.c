@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* The raster: shared edges leave no crack and no overlap, wherever they fall; the nearest facet
-   owns its samples, in whatever order facets come. */
+   owns its samples, as exact tests of each sample say, in whatever order facets come. */
 #include "visibility/raster.h"
 
 #include "scenes.h"
+#include "visibility/sample.h"
 
 static test_scene scene;
 static lrcs_work work;
@@ -166,7 +167,6 @@ static void highest_plate_owns_each_sample(void **state)
     for (int i = 0; i < 8; i++) {
         assert_int_equal(raster.covered[2 * i] + raster.covered[2 * i + 1],
                          N * N * (8 - order[i]) / 8);
-        assert_int_equal(raster.owned[2 * i] + raster.owned[2 * i + 1], N * N / 8);
         assert_false(raster.undecided[2 * i]);
     }
 }
@@ -203,8 +203,144 @@ static void owners_do_not_depend_on_the_order_of_facets(void **state)
     }
 }
 
-/* Heights of owners' planes against long double, within their error bounds. */
-static void depths_lie_within_their_error_bounds(void **state)
+/* The facet nearest the laser at a sample, by exact tests of all facets. */
+static uint32_t exact_owner(const lrcsi_raster *raster, uint32_t x, uint32_t y)
+{
+    const lrcsi_view *view = raster->view;
+    double point[3];
+    uint32_t owner = LRCS_NONE;
+    lrcsi_raster_sample(raster, x, y, point);
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        if (lrcsi_view_casts(view, f) && lrcsi_sample_covers(view, f, point) &&
+            (owner == LRCS_NONE || lrcsi_sample_nearer(view, f, owner, point, 1) > 0)) {
+            owner = f;
+        }
+    }
+    return owner;
+}
+
+static unsigned check_owners(const double direction[3], uint32_t size)
+{
+    unsigned owned = 0;
+    lrcsi_view view = seen_from(direction);
+    view.backs.cast = 1;
+    lrcsi_raster raster = drawn(&view, size);
+    for (uint32_t y = 0; y < size; y++) {
+        for (uint32_t x = 0; x < size; x++) {
+            uint32_t owner = exact_owner(&raster, x, y);
+            assert_int_equal(raster.owner[y * size + x], owner);
+            owned += owner != LRCS_NONE;
+        }
+    }
+    return owned;
+}
+
+/* Bodies before, behind and through one another, a plate stored twice, and two plates 2^-40 apart
+   that are seen all but edge-on along (0, 0, 1). */
+static void crowd(void)
+{
+    scene_start(&scene);
+    scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 8);
+    scene_box(&scene, (const double[3]){-2, -0.5, -0.5}, (const double[3]){2, 0.25, 0.75});
+    scene_sphere(&scene, (const double[3]){0.5, 2.25, 3}, 0.75, 6);
+    for (int i = 0; i < 2; i++) {
+        scene_plate(&scene, (const double[3]){-3, 1 + 0.25 * i, -1 + 0.125 * i},
+                    (const double[3]){3, 0.125, 0.5}, (const double[3]){0.25, 0.5, 3});
+        scene_plate(&scene, (const double[3]){2.5 + i * 0x1p-40, -1, -4},
+                    (const double[3]){0x1p-26, 0, 8}, (const double[3]){0, 1, 0});
+        scene_triangle(&scene, (const double[3]){-3, -3, 2}, (const double[3]){-1, -3, 2},
+                       (const double[3]){-3, -1, 2.5});
+    }
+}
+
+/* Large triangles of all slopes, each through all others. */
+static void tangle(uint64_t seed)
+{
+    scene_start(&scene);
+    for (int i = 0; i < 12; i++) {
+        double corner[3][3];
+        for (int k = 0; k < 3; k++) {
+            double angle = 2 * (double)SCENE_PI * (k + random_below(&seed, 64) / 192.0) / 3;
+            corner[k][0] = 2 * cos(angle);
+            corner[k][1] = 2 * sin(angle);
+            corner[k][2] = random_below(&seed, 256) / 64.0 - 2;
+        }
+        scene_triangle(&scene, corner[0], corner[1], corner[2]);
+    }
+}
+
+static void owners_are_those_of_exact_samples(void **state)
+{
+    (void)state;
+    static const double direction[][3] = {{0, 0, 1},     {1, 0, 1}, {0.3, -0.4, 0.5},
+                                          {-1, -2, 0.1}, {1, 1, 1}, {-0.7, 0.2, -0.9}};
+    static const uint32_t size[] = {1, 2, 7, 33, 50};
+    unsigned owned = 0;
+    for (int s = 0; s < 6; s++) {
+        for (int i = 0; i < 6; i++) {
+            for (int k = 0; k < 5; k++) {
+                if (s == 0) {
+                    crowd();
+                } else {
+                    tangle((uint64_t)s);
+                }
+                owned += check_owners(direction[i], size[k]);
+            }
+        }
+    }
+    assert_true(owned > 50000);
+}
+
+/* Plates through each other, along a line that meets samples exactly; beside them, and behind one
+   of them, plates so steep that no float holds their heights. */
+static void owners_on_a_crossing_and_of_steep_facets_are_those_of_exact_samples(void **state)
+{
+    (void)state;
+    unsigned owned = 0;
+    for (int steep = 0; steep < 4; steep++) {
+        for (uint32_t size = 1; size < 70; size++) {
+            double rise = ldexp(1, 18 + 2 * steep);
+            scene_start(&scene);
+            scene_plate(&scene, (const double[3]){-1, -1, 0}, (const double[3]){2, 0, 0},
+                        (const double[3]){0, 2, 0});
+            scene_plate(&scene, (const double[3]){-1, -1, -1}, (const double[3]){2, 0, 2},
+                        (const double[3]){0, 2, 0});
+            scene_plate(&scene, (const double[3]){-1, -1, 2}, (const double[3]){1, 0, 0},
+                        (const double[3]){0, 1, -2});
+            if (steep > 0) {
+                scene_plate(&scene, (const double[3]){1, -1, -rise}, (const double[3]){1, 0, rise},
+                            (const double[3]){0, 2, 0});
+                scene_plate(&scene, (const double[3]){-2, -1, rise},
+                            (const double[3]){1.5, 0, -rise}, (const double[3]){0, 2, -2 * rise});
+            }
+            owned += check_owners((const double[3]){0, 0, 1}, size);
+        }
+    }
+    assert_true(owned > 100000);
+}
+
+/* Two facets so close to edge-on that floats cannot hold the slopes of their planes. */
+static void facets_all_but_edge_on_own_what_they_cover(void **state)
+{
+    (void)state;
+    unsigned owned = 0;
+    for (int order = 0; order < 2; order++) {
+        for (uint32_t size = 1; size < 20; size += 2) {
+            scene_start(&scene);
+            for (int i = 0; i < 2; i++) {
+                double low = (i == order) ? -4 : -3;
+                scene_plate(&scene, (const double[3]){0, -1, low},
+                            (const double[3]){0x1p-140, 0, 8}, (const double[3]){0, 1, 0});
+            }
+            owned += check_owners((const double[3]){0, 0, 1}, size);
+        }
+    }
+    assert_true(owned > 50);
+}
+
+/* Heights of owners' planes against long double, within their error bounds, and the depths that are
+   stored as floats. */
+static void heights_lie_within_their_error_bounds(void **state)
 {
     (void)state;
     enum { N = 40 };
@@ -230,10 +366,64 @@ static void depths_lie_within_their_error_bounds(void **state)
             bottom += (long double)p->normal[f].high[i] * view.direction[i];
             base += ((long double)point[i] - p->centre[i]) * view.direction[i];
         }
-        long double want = top / bottom * view.length + base / view.length;
-        check_abs(raster.depth[k], (double)want, raster.height_err[f]);
-        check_most(raster.height_err[f], 1e-10);
+        double want = (double)(top / bottom * view.length + base / view.length);
+        lrcsi_plane plane = lrcsi_raster_plane(&raster, f);
+        double height = plane.c + plane.dx * (k % N + 0.5) + plane.dy * (k / N + 0.5);
+        check_abs(height, want, lrcsi_raster_height_err(&raster, f));
+        check_most(lrcsi_raster_height_err(&raster, f), 1e-10);
+        check_abs((double)raster.depth[k], want, 0x1p-20 * view.side);
     }
+}
+
+/* The line in which two plates intersect, and how far it may be from where they meet. */
+static void planes_intersect_in_a_line_through_the_box(void **state)
+{
+    (void)state;
+    double a[2];
+    double b[2];
+    double err;
+    unsigned lines = 0;
+    uint64_t seed = 3;
+    for (int i = 0; i < 200; i++) {
+        double rise[2] = {random_below(&seed, 17) / 8.0 - 1, random_below(&seed, 17) / 8.0 - 1};
+        double shift = random_below(&seed, 65) / 32.0 - 1;
+        scene_start(&scene);
+        scene_plate(&scene, (const double[3]){0, 0, 0}, (const double[3]){8, 0, 0},
+                    (const double[3]){0, 8, 0});
+        scene_plate(&scene, (const double[3]){0, 0, shift}, (const double[3]){8, 0, 8 * rise[0]},
+                    (const double[3]){0, 8, 8 * rise[1]});
+        lrcsi_view view = seen_from((const double[3]){0, 0, 1});
+        lrcsi_raster raster;
+        lrcsi_raster_layout(&view, 64, &raster);
+        lrcsi_edge_functions box = lrcsi_raster_edge_functions(&raster, 0);
+        int crosses = lrcsi_raster_intersection(&raster, &box, 0, 2, a, b, &err);
+        if (rise[0] == 0 && rise[1] == 0) {
+            assert_false(err <= 0.125); /* parallel */
+            continue;
+        }
+        check_most(err, 1e-6);
+        unsigned met = 0; /* points of the window, an eighth of a pixel apart, at which they meet */
+        for (uint32_t k = 0; k <= 512; k++) {
+            double along = k / 8.0;
+            int axis = fabs(rise[1]) > fabs(rise[0]); /* the coordinate that follows from `along` */
+            double across = -(8 * shift + rise[!axis] * along) / rise[axis];
+            if (!(across >= 0 && across <= 64)) {
+                continue;
+            }
+            const double at[2] = {axis == 0 ? across : along, axis == 0 ? along : across};
+            met++;
+            assert_true(crosses);
+            double dx = b[0] - a[0];
+            double dy = b[1] - a[1];
+            double length = sqrt(dx * dx + dy * dy);
+            double t = ((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / length;
+            double off = ((at[0] - a[0]) * dy - (at[1] - a[1]) * dx) / length;
+            assert_true(t > 0 && t < length);
+            check_most(fabs(off), err + 1e-13);
+        }
+        lines += met > 0;
+    }
+    assert_true(lines > 100);
 }
 
 int main(void)
@@ -244,7 +434,11 @@ int main(void)
         cmocka_unit_test(fan_covers_every_sample_once),
         cmocka_unit_test(highest_plate_owns_each_sample),
         cmocka_unit_test(owners_do_not_depend_on_the_order_of_facets),
-        cmocka_unit_test(depths_lie_within_their_error_bounds),
+        cmocka_unit_test(owners_are_those_of_exact_samples),
+        cmocka_unit_test(owners_on_a_crossing_and_of_steep_facets_are_those_of_exact_samples),
+        cmocka_unit_test(facets_all_but_edge_on_own_what_they_cover),
+        cmocka_unit_test(heights_lie_within_their_error_bounds),
+        cmocka_unit_test(planes_intersect_in_a_line_through_the_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,30 +74,23 @@ static unsigned check_row(const int corner[3][2], int y, int x0, int x1)
     e.x1 = (uint32_t)x1;
     e.left = (uint32_t)(x0 > 0 ? x0 - 1 : 0);
     e.right = (uint32_t)(x1 < N ? x1 + 1 : N);
-    lrcsi_row_spans row = lrcsi_span_row(&e, (uint32_t)y);
     lrcsi_pixel_span touched = lrcsi_span_touched(&e, (uint32_t)y);
     lrcsi_sample_spans samples = lrcsi_span_samples(&e, (uint32_t)y);
-    assert_memory_equal(&samples.possible, &row.possible, sizeof row.possible);
-    assert_memory_equal(&samples.certain, &row.certain, sizeof row.certain);
     lrcsi_pixel_span full = lrcsi_span_full(&e, (uint32_t)y, samples.certain);
-    assert_int_equal(full.x1 - full.x0, row.full.x1 - row.full.x0);
-    assert_true(full.x0 == full.x1 || full.x0 == row.full.x0);
-    assert_int_equal(touched.x0, row.touched.x0);
-    assert_int_equal(touched.x1, row.touched.x1);
     for (uint32_t x = 0; x < N; x++) {
         int among = x >= e.x0 && x < e.x1;
         int about = x >= e.left && x < e.right;
-        assert_int_equal(lrcsi_span_has(row.touched, x),
+        assert_int_equal(lrcsi_span_has(touched, x),
                          about && least_of(corner, 1, 1, (int)x, y) >= 0);
-        assert_int_equal(lrcsi_span_has(row.possible, x),
+        assert_int_equal(lrcsi_span_has(samples.possible, x),
                          among && least_of(corner, 0, 1, (int)x, y) >= 0);
-        assert_int_equal(lrcsi_span_has(row.certain, x),
+        assert_int_equal(lrcsi_span_has(samples.certain, x),
                          among && least_of(corner, 0, -1, (int)x, y) > 0);
-        assert_int_equal(lrcsi_span_has(row.full, x),
-                         among && least_of(corner, 1, -1, (int)x, y) > 0);
+        assert_int_equal(lrcsi_span_has(full, x), among && least_of(corner, 1, -1, (int)x, y) > 0);
     }
-    assert_true(row.possible.x0 <= row.certain.x0 && row.certain.x1 <= row.possible.x1);
-    return row.touched.x1 - row.touched.x0;
+    assert_true(samples.possible.x0 <= samples.certain.x0 &&
+                samples.certain.x1 <= samples.possible.x1);
+    return touched.x1 - touched.x0;
 }
 
 /* It may be wider than they need, since sides may meet between the rows; often it is not. */
@@ -170,11 +163,11 @@ static void what_is_within_the_error_is_not_sure(void **state)
     lrcsi_edge_functions e = edges_of(corner);
     e.x1 = e.right = N;
     for (uint32_t y = 10; y < 50; y++) {
-        lrcsi_row_spans row = lrcsi_span_row(&e, y);
-        assert_int_equal(row.possible.x0, 10);
-        assert_int_equal(row.certain.x0, 11);
-        assert_int_equal(row.touched.x0, 10);
-        assert_int_equal(row.full.x0, 11);
+        lrcsi_sample_spans samples = lrcsi_span_samples(&e, y);
+        assert_int_equal(samples.possible.x0, 10);
+        assert_int_equal(samples.certain.x0, 11);
+        assert_int_equal(lrcsi_span_touched(&e, y).x0, 10);
+        assert_int_equal(lrcsi_span_full(&e, y, samples.certain).x0, 11);
     }
 }
 
@@ -245,6 +238,46 @@ static void segments_are_followed_through_the_pixels_they_meet(void **state)
     assert_true(met > 50000);
 }
 
+/* A segment clipped to a triangle keeps all points inside it, and hardly more; at a distance of err
+   it keeps those as near. */
+static void clipped_segments_keep_what_lies_in_the_triangle(void **state)
+{
+    (void)state;
+    uint64_t seed = 21;
+    unsigned inside = 0;
+    unsigned nothing = 0;
+    for (int i = 0; i < 4000; i++) {
+        int corner[3][2];
+        double a[2];
+        double b[2];
+        double t[2] = {0, 1};
+        triangle_of(&seed, i % 2, corner);
+        for (int k = 0; k < 2; k++) {
+            a[k] = (int)random_below(&seed, 16 * N) / 8.0 - N / 2.0;
+            b[k] = (int)random_below(&seed, 16 * N) / 8.0 - N / 2.0;
+        }
+        const double err = i % 4 < 2 ? 0 : 0.125;
+        const lrcsi_edge_functions e = edges_of((const int(*)[2])corner);
+        int remains = lrcsi_span_clip(&e, a, b, err, t);
+        nothing += remains == 0;
+        for (int n = 0; n <= 64; n++) {
+            double part = n / 64.0;
+            double least = HUGE_VAL; /* the least value, plus what `err` allows */
+            for (int k = 0; k < 3; k++) {
+                double value = e.c[k] + e.dx[k] * (a[0] + part * (b[0] - a[0])) +
+                               e.dy[k] * (a[1] + part * (b[1] - a[1])) +
+                               err * (fabs(e.dx[k]) + fabs(e.dy[k]));
+                least = value < least ? value : least;
+            }
+            int kept = remains && part >= t[0] - 1e-12 && part <= t[1] + 1e-12;
+            assert_true(kept || least < 1e-9);
+            assert_true(!kept || least > -1e-9);
+            inside += kept ? 1 : 0;
+        }
+    }
+    assert_true(inside > 4000 && nothing > 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -253,6 +286,7 @@ int main(void)
         cmocka_unit_test(sides_along_the_rows_are_decided_for_the_whole_row),
         cmocka_unit_test(what_is_within_the_error_is_not_sure),
         cmocka_unit_test(segments_are_followed_through_the_pixels_they_meet),
+        cmocka_unit_test(clipped_segments_keep_what_lies_in_the_triangle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include "visibility/visible.h"
 
 #include "scenes.h"
+#include "visibility/occlude.h"
 #include "visibility/query.h"
 
 enum { N = 72, FINE = 8 };
@@ -66,6 +67,11 @@ static void active_tiles_hold_what_the_whole_picture_holds(void **state)
         lrcsi_raster raster = sampled(&view, &classification, &known, visible);
         assert_int_equal(lrcsi_raster_make(&view, N, &work, &whole), LRCS_OK);
         for (uint32_t k = 0; k < N * N; k++) {
+            if (whole.owner[k] != LRCS_NONE) {
+                whole.owned[whole.owner[k]]++;
+            }
+        }
+        for (uint32_t k = 0; k < N * N; k++) {
             uint32_t tile = k / N / LRCSI_RASTER_TILE * raster.tiles + k % N / LRCSI_RASTER_TILE;
             uint32_t owner = lrcsi_raster_owner(&raster, k % N, k / N);
             if (raster.active[tile]) {
@@ -75,7 +81,8 @@ static void active_tiles_hold_what_the_whole_picture_holds(void **state)
                 left++;
                 assert_int_equal(owner, LRCS_NONE);
                 assert_int_equal(raster.owner[k], 0xa5a5a5a5);
-                assert_int_equal(raster.full[k], untouched);
+                assert_memory_equal(&raster.depth[k], &raster.owner[k], sizeof raster.depth[k]);
+                assert_memory_equal(&raster.occluder[k], &raster.owner[k], sizeof raster.depth[k]);
             }
         }
         for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
@@ -139,48 +146,89 @@ static void tangle(uint64_t seed)
     }
 }
 
-/* A full pixel shows its owner in every part: so says a picture eight times as fine. Adds up the
-   samples of uniform and undecided owners. */
-static void check_full(int direction, unsigned full[2])
-{
-    static lrcsi_visible visible[SCENE_FACETS];
-    lrcsi_view view = seen_from(direction);
-    lrcsi_classification classification;
-    lrcsi_known known;
-    lrcsi_raster fine;
-    lrcsi_raster raster = sampled(&view, &classification, &known, visible);
-    assert_int_equal(lrcsi_raster_make(&view, N * FINE, &work, &fine), LRCS_OK);
-    for (uint32_t k = 0; k < N * N * FINE * FINE; k++) {
-        uint32_t x = k % (N * FINE) / FINE;
-        uint32_t y = k / (N * FINE) / FINE;
-        uint32_t owner = lrcsi_raster_owner(&raster, x, y);
-        if (owner != LRCS_NONE && raster.full[y * N + x]) {
-            assert_int_equal(fine.owner[k], owner);
-            full[classification.undecided[owner]]++;
-        }
-    }
-}
-
-static void full_pixels_show_their_owner_in_every_part(void **state)
+/* A pixel that a facet known to be visible covers shows that facet in every part: so says a picture
+   eight times as fine. */
+static void pixels_covered_by_visible_facets_show_these_in_every_part(void **state)
 {
     (void)state;
-    unsigned full[2] = {0, 0};
+    static lrcsi_visible visible[SCENE_FACETS];
+    unsigned full = 0;
     for (int i = 0; i < 4; i++) {
         crowd();
-        check_full(i, full);
+        lrcsi_view view = seen_from(i);
+        lrcsi_classification classification;
+        lrcsi_known known;
+        lrcsi_raster fine;
+        lrcsi_raster raster = sampled(&view, &classification, &known, visible);
+        assert_int_equal(lrcsi_raster_make(&view, N * FINE, &work, &fine), LRCS_OK);
+        for (uint32_t k = 0; k < N * N * FINE * FINE; k++) {
+            uint32_t x = k % (N * FINE) / FINE;
+            uint32_t y = k / (N * FINE) / FINE;
+            uint32_t owner = lrcsi_raster_owner(&raster, x, y);
+            if (owner != LRCS_NONE && raster.occluder[y * N + x] >= HUGE_VALF) {
+                assert_int_equal(known.answer[owner], LRCSI_QUERY_VISIBLE);
+                assert_int_equal(fine.owner[k], owner);
+                full++;
+            }
+        }
     }
-    assert_true(full[0] > 1000 && full[1] > 1000);
+    assert_true(full > 1000);
 }
 
-static void pixels_where_facets_pierce_each_other_are_not_full(void **state)
+/* The exact area of each facet, from clipping, is within the bounds from samples. Returns the sum
+   of the widths of the bounds, in relation to all that is visible. */
+static double check_bounds(const lrcsi_view *view, uint32_t size, unsigned *parted)
+{
+    static lrcsi_visible visible[SCENE_FACETS];
+    static lrcsi_visible exact[SCENE_FACETS];
+    lrcsi_classification classification;
+    lrcsi_known known;
+    lrcsi_raster raster;
+    double width = 0;
+    double all = 0;
+    assert_int_equal(lrcsi_classify_make(view, NULL, &work, &classification), LRCS_OK);
+    size_t mark = work.used;
+    assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, exact), LRCS_OK);
+    work.used = mark;
+    assert_int_equal(lrcsi_visible_known(&classification, &work, &known), LRCS_OK);
+    assert_int_equal(lrcsi_visible_sampled(&known, size, &work, &raster, visible), LRCS_OK);
+    for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        const lrcsi_visible *v = &visible[f];
+        double rounding = 1e-14 * view->side * view->side;
+        check_most(v->low, exact[f].high + rounding);
+        check_most(exact[f].low, v->high + rounding);
+        check_most(v->low, v->area + rounding);
+        check_most(v->area, v->high + rounding);
+        *parted += v->low > 0 && v->low < v->high && v->high < lrcsi_view_projected(view, f);
+        width += v->high - v->low;
+        all += exact[f].area;
+    }
+    return width / all;
+}
+
+static void bounds_hold_the_exact_area_of_each_facet(void **state)
 {
     (void)state;
-    unsigned full[2] = {0, 0};
-    for (int i = 0; i < 12; i++) {
-        tangle((uint64_t)i + 1);
-        check_full(i % 4, full);
+    static const uint32_t size[] = {1, 3, 16, 50, 128, 333};
+    unsigned parted = 0;
+    for (int i = 0; i < 24; i++) {
+        double before = HUGE_VAL;
+        for (int k = 0; k < 6; k++) {
+            if (i < 4) {
+                crowd();
+            } else {
+                tangle((uint64_t)i);
+            }
+            lrcsi_view view = seen_from(i % 4);
+            double width = check_bounds(&view, size[k], &parted);
+            if (size[k] >= 50) { /* they shrink with the size of pixels */
+                check_most(width, 0.5 * before);
+                before = width;
+            }
+        }
+        check_most(before, 0.25);
     }
-    assert_true(full[0] == 0 && full[1] > 50000);
+    assert_true(parted > 500);
 }
 
 /* Symptom: where no facet was known to be seen whole, the areas of none were computed, from
@@ -201,31 +249,34 @@ static void facets_that_pierce_each_other_are_seen_as_clipping_sees_them(void **
     check_most(raster.bound_m2, 0.1 * exact.sigma_m2);
 }
 
-/* Draws all facets that cast, asking for occluder heights; returns how many pixels have one. What
-   is visible in any part of a pixel, says a picture eight times as fine, lies no lower. */
+/* Draws all facets that cast, as if undecided; returns how many pixels have an occluder height.
+   What is visible in any part of a pixel, says a picture eight times as fine, lies no lower. */
 static unsigned check_occluders(int direction)
 {
-    static float occluder[N * N];
+    static unsigned char answer[SCENE_FACETS];
     lrcsi_view view = seen_from(direction);
     lrcsi_raster raster;
     lrcsi_raster fine;
     unsigned count = 0;
-    assert_int_equal(lrcsi_raster_start(&view, N, &work, &raster), LRCS_OK);
-    raster.occluder = occluder;
-    memset(raster.active, 1, (size_t)raster.tiles * raster.tiles);
-    lrcsi_raster_clear(&raster);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        if (lrcsi_view_casts(&view, f)) {
-            lrcsi_raster_draw(&raster, f);
-        }
+        answer[f] = lrcsi_view_casts(&view, f) ? LRCSI_QUERY_UNDECIDED : LRCSI_QUERY_HIDDEN;
     }
+    assert_int_equal(lrcsi_raster_make_undecided(&view, N, answer, &work, &raster), LRCS_OK);
     assert_int_equal(lrcsi_raster_make(&view, N * FINE, &work, &fine), LRCS_OK);
-    for (uint32_t k = 0; k < N * N * FINE * FINE; k++) {
-        uint32_t pixel = k / (N * FINE) / FINE * N + k % (N * FINE) / FINE;
-        if (occluder[pixel] > -HUGE_VALF) {
-            count += k % FINE == 0 && k / (N * FINE) % FINE == 0;
-            assert_true(fine.owner[k] != LRCS_NONE);
-            assert_true(fine.depth[k] + fine.height_err[fine.owner[k]] >= (double)occluder[pixel]);
+    for (uint32_t y = 0; y < N * FINE; y++) {
+        for (uint32_t x = 0; x < N * FINE; x++) {
+            uint32_t pixel = y / FINE * N + x / FINE;
+            if (!(lrcsi_raster_owner(&raster, x / FINE, y / FINE) != LRCS_NONE &&
+                  raster.occluder[pixel] > -HUGE_VALF)) {
+                continue;
+            }
+            uint32_t owner = fine.owner[y * N * FINE + x];
+            count += x % FINE == 0 && y % FINE == 0;
+            assert_true(owner != LRCS_NONE);
+            lrcsi_plane plane = lrcsi_raster_plane(&fine, owner);
+            double height = plane.c + plane.dx * (x + 0.5) + plane.dy * (y + 0.5);
+            assert_true(height + lrcsi_raster_height_err(&fine, owner) >=
+                        (double)raster.occluder[pixel]);
         }
     }
     return count;
@@ -277,8 +328,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(active_tiles_hold_what_the_whole_picture_holds),
         cmocka_unit_test(tiles_about_undecided_facets_are_active),
-        cmocka_unit_test(full_pixels_show_their_owner_in_every_part),
-        cmocka_unit_test(pixels_where_facets_pierce_each_other_are_not_full),
+        cmocka_unit_test(pixels_covered_by_visible_facets_show_these_in_every_part),
+        cmocka_unit_test(bounds_hold_the_exact_area_of_each_facet),
         cmocka_unit_test(nothing_is_visible_below_the_occluded_height_of_a_pixel),
         cmocka_unit_test(what_one_of_several_covers_is_hidden_in_mixed_pixels_too),
         cmocka_unit_test(facets_that_pierce_each_other_are_seen_as_clipping_sees_them),
