@@ -12,7 +12,7 @@
    2. lrcsi_cells_filter_segments removes segments from a cell's list that do not meet the cell.
    3. lrcsi_cells_nearest takes a sample at a point P of the cell: it finds the facet nearest to the
       laser there. lrcsi_cells_component finds the component of that facet: it follows the surface
-      across edges that are not events, within the cell (proof: visibility/cells_cover.c).
+      across edges that are not events (proof: visibility/cells_cover.c).
    4. If no event edge of the component crosses the cell, the component covers it: lrcsi_cells_cull
       removes the facets and events behind it from the lists, for this cell and all that are cut
       from it. If an event edge or a contact of the component crosses the cell, lrcsi_cells_divide
@@ -167,8 +167,12 @@ static int cover_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
                       const cell_sample *sample, double *uncertainty,
                       const lrcsi_cells_segment **cut)
 {
-    int covers = lrcsi_cells_component(c, cell, s, sample->nearest);
-    *cut = covers ? NULL : choose_cut(c, cell, s, CHOOSE_COMPONENT);
+    int covers = 0;
+    *cut = NULL;
+    for (int within = 0; within < 2 && !covers && !*cut; within++) {
+        covers = lrcsi_cells_component(c, cell, s, sample->nearest, within);
+        *cut = covers ? NULL : choose_cut(c, cell, s, CHOOSE_COMPONENT);
+    }
     if (!covers && !lrcsi_cells_find_occluder(c, cell, s, sample->at)) {
         return 0;
     }
