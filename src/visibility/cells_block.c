@@ -225,10 +225,18 @@ lrcsi_cells_segment *lrcsi_cells_segment_new(lrcsi_cells_work *c)
     if (c->segment_count == c->segment_room) {
         return NULL;
     }
-    c->segments[c->segment_count] = c->segment_count;
     lrcsi_cells_segment *e = &c->segment[c->segment_count++];
     *e = (lrcsi_cells_segment){.owner = {LRCS_NONE, LRCS_NONE}, .edge = LRCS_NONE};
     return e;
+}
+
+void lrcsi_cells_list_segments(const lrcsi_cells_work *c, lrcsi_cells_cell *cell)
+{
+    cell->segment = c->segments;
+    cell->segments = c->segment_count;
+    for (uint32_t i = 0; i < cell->segments; i++) {
+        cell->segment[i] = i;
+    }
 }
 
 lrcsi_cells_segment *lrcsi_cells_edge(lrcsi_cells_work *c, uint32_t edge)
@@ -368,7 +376,7 @@ static void list_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cel
                 }
                 c->kind[index] |= LRCSI_CELLS_NEIGHBOURS_FOUND;
             }
-            c->facets[cell->facets++] = index;
+            cell->facet[cell->facets++] = index;
             c->listed[index] = c->stamp;
             c->facet_err = lrcsi_max(c->facet_err, f->err);
         }
@@ -380,7 +388,7 @@ static int list_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *ce
 {
     const lrcsi_cells_lists *b = &c->grid.events;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        if (!add_contacts(c, c->facets[i]) || !add_cell_events(c, c->facets[i])) {
+        if (!add_contacts(c, cell->facet[i]) || !add_cell_events(c, cell->facet[i])) {
             return 0;
         }
     }
@@ -392,7 +400,7 @@ static int list_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *ce
             return 0;
         }
     }
-    cell->segments = c->segment_count;
+    lrcsi_cells_list_segments(c, cell);
     return 1;
 }
 
@@ -418,6 +426,7 @@ int lrcsi_cells_begin(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     c->segment_count = 0;
     c->facet_err = 0;
+    cell->facet = c->facets;
     list_facets(c, block, cell);
     return list_segments(c, block, cell);
 }

@@ -61,7 +61,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     c->hits = 0;
     *best = LRCS_NONE;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t index = c->facets[i];
+        uint32_t index = cell->facet[i];
         const lrcsi_cells_facet *f = &c->facet[index];
         double w = f->err + s->tolerance;
         c->listed[index] = c->stamp;
@@ -151,7 +151,7 @@ static int contacts_only(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     int only = 1;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        const lrcsi_cells_segment *e = &c->segment[cell->segment[i]];
         if (lrcsi_cells_of_component(c, e)) {
             only &= e->contact != 0;
             c->contacts[e->owner[0]] = c->stamp;
@@ -387,25 +387,25 @@ void lrcsi_cells_cull(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
     }
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t f = c->facets[i];
+        uint32_t f = cell->facet[i];
         if (c->in_component[f] != c->stamp &&
             ((c->covers[f] == 2 * c->stamp + 1 && c->contacts[f] != c->stamp &&
               behind_at(c, s, at, f)) ||
-             lrcsi_cells_facet_z_bound(&c->facet[f], s, 1) < low)) {
+             c->facet[f].z_high < low || lrcsi_cells_facet_z_bound(&c->facet[f], s, 1) < low)) {
             c->listed[f] = 0;
             c->state[f] |= LRCSI_CELLS_HIDDEN;
             c->area[f].uncertainty += c->wanted[f] ? cell->uncertainty + uncertainty : 0;
             continue;
         }
-        lrcsi_cells_swap(c->facets, i, kept++);
+        cell->facet[kept++] = f;
     }
     cell->facets = kept;
     kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        const lrcsi_cells_segment *e = &c->segment[cell->segment[i]];
         if (!segment_is_unlisted(c, e) &&
             (e->contact || !segment_behind(c, cell, s, e, e->err + s->tolerance, low))) {
-            lrcsi_cells_swap(c->segments, i, kept++);
+            cell->segment[kept++] = cell->segment[i];
         }
     }
     cell->segments = kept;

@@ -212,6 +212,11 @@ int lrcsi_cells_facet_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon 
         return 0;
     }
     for (int k = 0; k < 3; k++) {
+        if (f->x[k] > low[0] && f->x[k] < high[0] && f->y[k] > low[1] && f->y[k] < high[1]) {
+            return 1;
+        }
+    }
+    for (int k = 0; k < 3; k++) {
         double range[2];
         lrcsi_box_range(low, high, f->side[k], range);
         if (range[1] > -w && range[0] + range[1] < 0) {

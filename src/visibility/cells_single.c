@@ -321,7 +321,7 @@ static int list_single_segments(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
             return 0;
         }
     }
-    cell->segments = c->segment_count;
+    lrcsi_cells_list_segments(c, cell);
     return lrcsi_meter_take(c->meter, (uint64_t)a->count + cell->segments);
 }
 
@@ -351,6 +351,8 @@ static int make_first_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
     }
     a->border_area = frame->perimeter * (err + 16 * LRCSI_U * c->extent);
     a->negligible = MIN_HALVED * lrcsi_clip_area(&cell->shape);
+    cell->facet = c->facets;
+    cell->facet[0] = 0;
     cell->facets = 1;
     return lrcsi_clip_area(&cell->shape) > 8 * err * frame->diameter;
 }
@@ -363,14 +365,14 @@ void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
     a->uncertainty[0] = a->uncertainty[1] = a->border_area = a->piece_err = 0;
     a->hidden = 0;
     a->wanted = 1;
-    a->number = 0;
     lrcsi_target_make(c->view, facet, &a->target);
     lrcsi_target_refine(&a->target, &a->needle, &a->frame);
     a->area = (lrcsi_cells_found){.visible = 0};
     c->facet = &a->shape;
     c->area = &a->area;
     c->wanted = &a->wanted;
-    c->facets = &a->number;
+    c->facets = a->number;
+    c->facets_room = sizeof a->number / sizeof *a->number;
     c->segment_count = c->top = 0;
     c->stamp++;
     if (!make_first_cell(a, &cell) || !list_candidates(a) || !list_single_segments(a, &cell)) {
@@ -405,7 +407,7 @@ static uint32_t choose_segment(const lrcsi_cells_single *a, const lrcsi_cells_ce
     double nearest = HUGE_VAL;
     *best = NULL;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &a->cells.segment[a->cells.segments[i]];
+        const lrcsi_cells_segment *e = &a->cells.segment[cell->segment[i]];
         if (component == LRCS_NONE || component_ends(a, e, component)) {
             double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
             count++;
@@ -724,7 +726,7 @@ int lrcsi_cells_single_next(lrcsi_cells_single *a)
 {
     lrcsi_cells_work *c = &a->cells;
     while (c->top > 0) {
-        lrcsi_cells_cell cell = lrcsi_cells_pop(c);
+        lrcsi_cells_cell cell = c->stack[--c->top];
         uint64_t steps = (uint64_t)1 + a->count + cell.segments;
         if (a->cells_left == 0 || !lrcsi_meter_take(c->meter, steps)) {
             leave_area_undecided(a, lrcsi_clip_area(&cell.shape));
@@ -780,7 +782,8 @@ size_t lrcsi_cells_single_need(const lrcs_prepared *p)
     size_t segments = max_segments(p, p->topology.edge_count);
     size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_cells_single_side));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(uint32_t)));
+    need = lrcsi_work_add(need,
+                          lrcsi_work_bytes(segments, LRCSI_CELLS_SEGMENT_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_STACK, sizeof(lrcsi_cells_cell)));
 }
@@ -798,7 +801,8 @@ int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *m
     a->listed = lrcsi_work_take_zero(work, count, sizeof *a->listed);
     a->order = lrcsi_work_take(work, count, sizeof *a->order);
     a->candidate = lrcsi_work_take(work, count, sizeof *a->candidate);
-    c.segments = lrcsi_work_take(work, c.segment_room, sizeof *c.segments);
+    c.segments_room = LRCSI_CELLS_SEGMENT_LISTS * (size_t)c.segment_room;
+    c.segments = lrcsi_work_take(work, c.segments_room, sizeof *c.segments);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
     c.stack = lrcsi_work_take(work, LRCSI_CELLS_STACK, sizeof *c.stack);
     if (!a->side || !a->listed || !a->order || !a->candidate || !c.segments || !c.segment ||
