@@ -356,30 +356,24 @@ static int add_contacts(lrcsi_cells_work *c, uint32_t facet)
     return 1;
 }
 
-/* Lists the facets of a block that may meet its cell, and makes their records. The neighbours of a
-   facet are the same in all blocks, and found once. */
+/* Lists the facets of a block, and makes their records. The neighbours of a facet are the same in
+   all blocks, and found once. */
 static void list_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     const lrcsi_cells_lists *b = &c->grid.facets;
-    double g = 16 * LRCSI_U * c->extent;
     for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
         uint32_t index = b->item[i];
         lrcsi_cells_facet *f = &c->facet[index];
         lrcsi_cells_facet_make(&c->frame, index, f);
         c->state[index] |= f->sliver ? LRCSI_CELLS_UNDECIDED : 0;
-        if (lrcsi_cells_facet_near(f, &cell->shape, cell->shape.corner[0], cell->shape.corner[2],
-                                   g)) {
-            if ((c->kind[index] & LRCSI_CELLS_NEIGHBOURS_FOUND) == 0) {
-                for (int k = 0; k < 3; k++) {
-                    f->neighbour[k] = lrcsi_cells_connected(
-                        c->view, c->kind, index, lrcsi_cells_side_number(c->view, index, k));
-                }
-                c->kind[index] |= LRCSI_CELLS_NEIGHBOURS_FOUND;
-            }
-            cell->facet[cell->facets++] = index;
-            c->listed[index] = c->stamp;
-            c->facet_err = lrcsi_max(c->facet_err, f->err);
+        for (int k = 0; k < 3 && (c->kind[index] & LRCSI_CELLS_NEIGHBOURS_FOUND) == 0; k++) {
+            f->neighbour[k] = lrcsi_cells_connected(c->view, c->kind, index,
+                                                    lrcsi_cells_side_number(c->view, index, k));
         }
+        c->kind[index] |= LRCSI_CELLS_NEIGHBOURS_FOUND;
+        cell->facet[cell->facets++] = index;
+        c->listed[index] = c->stamp;
+        c->facet_err = lrcsi_max(c->facet_err, f->err);
     }
 }
 

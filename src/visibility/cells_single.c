@@ -485,60 +485,48 @@ static int sample_is_beyond(const lrcsi_cells_single *a, const single_sample *sa
     return beyond;
 }
 
-/* Does a facet cover the point of a needle with these barycentric coordinates? 1 certainly, -1
-   certainly not, 0 the point is too near a side. The point has the frame's position error. Lines in
-   plain doubles nearly always suffice; they are kept as far as there is room. */
-static int needle_covered(const lrcsi_cells_single *a, const single_sample *sample,
-                          uint32_t candidate)
+/* The sides of a needle's candidate. */
+static void needle_sides_make(const lrcsi_cells_single *a, uint32_t other,
+                              lrcsi_cells_single_side side[3])
 {
-    const lrcsi_view *view = a->cells.view;
-    uint32_t other = a->candidate[candidate];
-    int kept = candidate < a->side_room;
-    int made = kept && a->side[candidate][0].err >= 0;
-    int guess = sample->test == TEST_GUESSED;
-    int inside = 1;
-    for (int k = 0; k < 3 && kept && !made; k++) {
-        lrcsi_cells_single_side *side = &a->side[candidate][k];
-        side->err = lrcsi_needle_line(a->frame.needle, lrcsi_target_corner(view, other, k),
-                                      lrcsi_target_corner(view, other, (k + 1) % 3), side->line);
-    }
     for (int k = 0; k < 3; k++) {
-        const lrcsi_cells_single_side *side = &a->side[kept ? candidate : 0][k];
-        double left = kept ? lrcsi_line_at(side->line, sample->at[0], sample->at[1]) : 0;
-        if (!kept || !(fabs(left) > side->err)) {
-            left =
-                lrcsi_needle_side(a->frame.needle, lrcsi_target_corner(view, other, k),
-                                  lrcsi_target_corner(view, other, (k + 1) % 3), sample->at, guess);
-        }
-        if (left < 0) {
-            return -1;
-        }
-        inside &= left > 0;
+        side[k].err =
+            lrcsi_needle_line(a->frame.needle, lrcsi_target_corner(a->cells.view, other, k),
+                              lrcsi_target_corner(a->cells.view, other, (k + 1) % 3), side[k].line);
     }
-    return inside || !guess ? inside : -1;
 }
 
-/* The same in a frame that is not a needle's. The sides are computed when they are first needed,
-   and kept as far as there is room. */
+/* Does a candidate cover the sample? 1 certainly, -1 certainly not, 0 the sample is too near a
+   side. The sides are computed when they are first needed, and kept as far as there is room. In a
+   needle, whose points have the frame's position error, lines in plain doubles nearly always
+   suffice. */
 static int sides_cover(lrcsi_cells_single *a, const single_sample *sample, uint32_t candidate,
                        double tolerance)
 {
-    const double *at = sample->at;
+    const lrcsi_needle *needle = a->frame.needle;
+    const lrcsi_view *view = a->cells.view;
     uint32_t other = a->candidate[candidate];
-    if (sample->test == TEST_EXACT) {
-        return lrcsi_sample_covers(a->cells.view, other, sample->point) ? 1 : -1;
+    if (!needle && sample->test == TEST_EXACT) {
+        return lrcsi_sample_covers(view, other, sample->point) ? 1 : -1;
     }
     lrcsi_cells_single_side made[3] = {{.err = -1}};
     lrcsi_cells_single_side *sides = candidate < a->side_room ? a->side[candidate] : made;
-    if (sides[0].err < 0) {
+    if (sides[0].err < 0 && needle) {
+        needle_sides_make(a, other, sides);
+    } else if (sides[0].err < 0) {
         sides_make(a, other, sides);
     }
     int inside = 1;
     int guess = sample->test == TEST_GUESSED;
     for (int k = 0; k < 3; k++) {
-        const lrcsi_cells_single_side *side = &sides[k];
-        double left = lrcsi_line_at(side->line, at[0], at[1]);
-        double err = guess ? 0 : side->err + tolerance;
+        double left = lrcsi_line_at(sides[k].line, sample->at[0], sample->at[1]);
+        double err = needle ? sides[k].err : guess ? 0 : sides[k].err + tolerance;
+        if (needle && !(fabs(left) > err)) {
+            left =
+                lrcsi_needle_side(needle, lrcsi_target_corner(view, other, k),
+                                  lrcsi_target_corner(view, other, (k + 1) % 3), sample->at, guess);
+            err = 0;
+        }
         if (left < -err) {
             return -1;
         }
@@ -559,12 +547,8 @@ static int candidate_covers(lrcsi_cells_single *a, const single_sample *sample, 
         lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&a->grid.boxes, other))) {
         return -1;
     }
-    int covered = -1;
-    if (!a->frame.needle) {
-        covered = sides_cover(a, sample, candidate, tolerance);
-    } else if (!sample_is_beyond(a, sample, other)) {
-        covered = needle_covered(a, sample, candidate);
-    }
+    int beyond = a->frame.needle && sample_is_beyond(a, sample, other);
+    int covered = beyond ? -1 : sides_cover(a, sample, candidate, tolerance);
     if (covered >= 0 && *order == ORDER_NOT_COMPUTED) {
         *order = order_of(a, other);
     }
