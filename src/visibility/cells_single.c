@@ -371,8 +371,6 @@ void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
     c->facet = &a->shape;
     c->area = &a->area;
     c->wanted = &a->wanted;
-    c->facets = a->number;
-    c->facets_room = sizeof a->number / sizeof *a->number;
     c->segment_count = c->top = 0;
     c->stamp++;
     if (!make_first_cell(a, &cell) || !list_candidates(a) || !list_single_segments(a, &cell)) {
@@ -744,6 +742,9 @@ lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
 
 /* Room for the sides of so many candidates. */
 #define MAX_SIDES 65536u
+/* Room for the lists of facets of all cells: of f alone, in each on the stack and twice in the
+ * last. */
+#define FACET_LISTS (LRCSI_CELLS_STACK + 2)
 
 static uint32_t sides_room(const lrcs_prepared *p)
 {
@@ -769,6 +770,7 @@ size_t lrcsi_cells_single_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need,
                           lrcsi_work_bytes(segments, LRCSI_CELLS_SEGMENT_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(FACET_LISTS, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_STACK, sizeof(lrcsi_cells_cell)));
 }
 
@@ -785,12 +787,14 @@ int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *m
     a->listed = lrcsi_work_take_zero(work, count, sizeof *a->listed);
     a->order = lrcsi_work_take(work, count, sizeof *a->order);
     a->candidate = lrcsi_work_take(work, count, sizeof *a->candidate);
+    c.facets_room = FACET_LISTS;
+    c.facets = lrcsi_work_take(work, c.facets_room, sizeof *c.facets);
     c.segments_room = LRCSI_CELLS_SEGMENT_LISTS * (size_t)c.segment_room;
     c.segments = lrcsi_work_take(work, c.segments_room, sizeof *c.segments);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
     c.stack = lrcsi_work_take(work, LRCSI_CELLS_STACK, sizeof *c.stack);
-    if (!a->side || !a->listed || !a->order || !a->candidate || !c.segments || !c.segment ||
-        !c.stack) {
+    if (!a->side || !a->listed || !a->order || !a->candidate || !c.facets || !c.segments ||
+        !c.segment || !c.stack) {
         return LRCS_E_MEMORY;
     }
     a->cells = c;

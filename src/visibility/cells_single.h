@@ -15,15 +15,14 @@ typedef struct lrcsi_cells_single_side {
 
 typedef struct lrcsi_cells_single {
     lrcsi_classification *classification;
-    lrcsi_grid grid;         /* of facets */
-    lrcsi_cells_work cells;  /* data that cells share, here with f as the only facet */
-    lrcsi_cells_facet shape; /* f in its frame */
-    lrcsi_cells_found area;  /* the areas of f found so far */
-    unsigned char wanted;    /* cells.wanted: 1 */
-    uint32_t number[LRCSI_CELLS_STACK + 2]; /* cells.facets: 0, the number of f there */
-    uint32_t *candidate;                    /* facets that may hide f */
-    uint32_t count;                         /* of candidates */
-    lrcsi_cells_single_side (*side)[3];     /* sides of the first side_room candidates */
+    lrcsi_grid grid;                    /* of facets */
+    lrcsi_cells_work cells;             /* data that cells share, here with f as the only facet */
+    lrcsi_cells_facet shape;            /* f in its frame */
+    lrcsi_cells_found area;             /* the areas of f found so far */
+    unsigned char wanted;               /* cells.wanted: 1 */
+    uint32_t *candidate;                /* facets that may hide f */
+    uint32_t count;                     /* of candidates */
+    lrcsi_cells_single_side (*side)[3]; /* sides of the first side_room candidates */
     uint32_t side_room;
     uint32_t *listed; /* facet: the search that last listed it */
     uint32_t *order;  /* facet that was listed: its depth order against f (cells_single.c) */
