@@ -11,23 +11,23 @@
    is no event edge, and joins two facets of K. Then K covers x as many times as it covers P: along
    the path this number cannot change, because where one facet of K ends the next begins. So if
    exactly one facet of K certainly covers P, and the others certainly do not, K covers the cell
-   once. It does not matter how K was found: first it takes all listed neighbours of its facets, so
-   that few edges need to be compared with the cell. Parts of the surface that are connected outside
-   the cell only can then spoil the property, or cover P too; if they do, and there is no segment of
-   K to cut along, K is found again and continues only across edges that may cross the cell. (2) Let
-   K cover the cell once, and let G be a facet that is behind K at one point of the cell. If no
-   contact between G and a facet of K crosses the cell, G is behind K wherever it is in the cell,
-   because the two do not meet there and what G has in the cell is connected. So G can be removed,
-   even if K meets other facets. The same is true of an event edge that is behind K at one point of
-   the cell, and has a facet that no contact in the cell joins with K: K does not cross that edge.
-   (3) Let K cover the cell once and be nearest at P, and let no contact between a facet of K and
-   another facet cross the cell. If no event edge is left in the list, all of K is visible in the
-   cell, and nothing else is. For let y be the first point of the path at which K is no longer the
-   nearest of all facets. The facet H that is nearest just beyond y is listed. It begins at y at an
-   edge, or passes through K there at a contact; the latter is excluded. The edge is an event edge,
-   since a facet that ended there would have been in front of K before y. It is in front of K at y,
-   and H has been listed all the time, so the edge has not been removed from the list. (4) If no
-   facet covers P, and no event edge crosses the cell, no facet is visible in it.
+   once. It does not matter how K was found. At first K takes all listed neighbours of its facets,
+   so that few edges need to be compared with the cell. Facets that are connected with it outside
+   the cell only may then end in the cell, or cover P too. If so, and if there is no segment of K to
+   cut along, K is found again, across edges that may cross the cell only. (2) Let K cover the cell
+   once, and let G be a facet that is behind K at one point of the cell. If no contact between G and
+   a facet of K crosses the cell, G is behind K wherever it is in the cell, because the two do not
+   meet there and what G has in the cell is connected. So G can be removed, even if K meets other
+   facets. The same is true of an event edge that is behind K at one point of the cell, and has a
+   facet that no contact in the cell joins with K: K does not cross that edge. (3) Let K cover the
+   cell once and be nearest at P, and let no contact between a facet of K and another facet cross
+   the cell. If no event edge is left in the list, all of K is visible in the cell, and nothing else
+   is. For let y be the first point of the path at which K is no longer the nearest of all facets.
+   The facet H that is nearest just beyond y is listed. It begins at y at an edge, or passes through
+   K there at a contact; the latter is excluded. The edge is an event edge, since a facet that ended
+   there would have been in front of K before y. It is in front of K at y, and H has been listed all
+   the time, so the edge has not been removed from the list. (4) If no facet covers P, and no event
+   edge crosses the cell, no facet is visible in it.
 
    A contact is where two facets meet in space other than along a common edge or in a point: along a
    segment in the interior of one (mesh/intersection.h), along parts of edges of both (the facets

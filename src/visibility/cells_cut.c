@@ -233,8 +233,8 @@ int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
    line or that of the cut separates them. */
 static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment *e, double w)
 {
-    if (!(cell->cut_side * lrcsi_line_at(cell->cut_line, e->end[0][0], e->end[0][1]) > w) &&
-        !(cell->cut_side * lrcsi_line_at(cell->cut_line, e->end[1][0], e->end[1][1]) > w)) {
+    if (!(lrcsi_line_at(cell->cut_line, e->end[0][0], e->end[0][1]) > w) &&
+        !(lrcsi_line_at(cell->cut_line, e->end[1][0], e->end[1][1]) > w)) {
         return 0;
     }
     int left = 0;
@@ -339,7 +339,8 @@ static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const 
 
 /* The same for its segments, except for the one along which it is cut. */
 static void cut_segments(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                         uint32_t removed_segment, lrcsi_cells_cell *left, lrcsi_cells_cell *right)
+                         const lrcsi_cells_segment *along, lrcsi_cells_cell *left,
+                         lrcsi_cells_cell *right)
 {
     double g = lrcsi_cells_tolerance(c, left);
     uint32_t *of_left = cell->segment + cell->segments;
@@ -351,9 +352,9 @@ static void cut_segments(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell
         double from = lrcsi_line_at(left->cut_line, e->end[0][0], e->end[0][1]);
         double to = lrcsi_line_at(left->cut_line, e->end[1][0], e->end[1][1]);
         of_left[left->segments] = index;
-        left->segments += index != removed_segment && lrcsi_max(from, to) > -w;
+        left->segments += e != along && lrcsi_max(from, to) > -w;
         right->segment[right->segments] = index;
-        right->segments += index != removed_segment && lrcsi_min(from, to) < w;
+        right->segments += e != along && lrcsi_min(from, to) < w;
     }
     left->segment = right->segment + right->segments;
     memmove(left->segment, of_left, left->segments * sizeof *of_left);
@@ -367,16 +368,14 @@ static int has_list_room(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell
     return facets <= c->facets_room && segments <= c->segments_room;
 }
 
-/* Divides a cell along a line: that of a segment, which is removed from the list, or (LRCS_NONE)
-   any line. 0 if there is no room. */
+/* Divides a cell along a line: that of a segment, which is removed from the list, or (NULL) any
+   line. 0 if there is no room. */
 static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                    const double line[3], uint32_t removed_segment)
+                    const double line[3], const lrcsi_cells_segment *along)
 {
-    cut_strip strip = {NULL, 0, 0, 0, s->tolerance};
-    if (removed_segment != LRCS_NONE) {
-        const lrcsi_cells_segment *along = &c->segment[removed_segment];
+    cut_strip strip = {along, 0, 0, 0, s->tolerance};
+    if (along) {
         lrcsi_cells_part part = {0, 1, 0};
-        strip.along = along;
         strip.width = along->line_err + cell->shape_err + 12 * LRCSI_U * c->extent;
         lrcsi_cells_locate(&cell->shape, s, along->end[0], along->end[1], along->line,
                            along->err + s->tolerance, along->err + s->tolerance, &part);
@@ -387,24 +386,25 @@ static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
         c->top + 2 > LRCSI_CELLS_STACK || !has_list_room(c, cell)) {
         return 0;
     }
-    lrcsi_cells_cell left = *cell;
-    lrcsi_cells_cell right = *cell;
-    double divide_err = lrcsi_clip_divide(&cell->shape, line, &left.shape, &right.shape);
-    if (left.shape.count < 3 || right.shape.count < 3) {
+    lrcsi_cells_cell *right = &c->stack[c->top];
+    lrcsi_cells_cell *left = right + 1;
+    *right = *cell;
+    right->cuts++;
+    right->removed += along != NULL;
+    right->widest_strip = lrcsi_max(cell->widest_strip, 2 * strip.width);
+    *left = *right;
+    double divide_err = lrcsi_clip_divide(&cell->shape, line, &left->shape, &right->shape);
+    if (left->shape.count < 3 || right->shape.count < 3) {
         return 0;
     }
-    memcpy(left.cut_line, line, sizeof left.cut_line);
-    memcpy(right.cut_line, line, sizeof right.cut_line);
-    left.cut_side = 1;
-    right.cut_side = -1;
-    left.cuts = right.cuts = cell->cuts + 1;
-    left.removed = right.removed = cell->removed + (removed_segment != LRCS_NONE);
-    left.widest_strip = right.widest_strip = lrcsi_max(cell->widest_strip, 2 * strip.width);
-    left.shape_err = right.shape_err = cell->shape_err + divide_err;
-    cut_facets(c, cell, &strip, &left, &right);
-    cut_segments(c, cell, removed_segment, &left, &right);
-    c->stack[c->top++] = right;
-    c->stack[c->top++] = left;
+    for (int k = 0; k < 3; k++) {
+        left->cut_line[k] = line[k];
+        right->cut_line[k] = -line[k];
+    }
+    left->shape_err = right->shape_err = cell->shape_err + divide_err;
+    cut_facets(c, cell, &strip, left, right);
+    cut_segments(c, cell, along, left, right);
+    c->top += 2;
     return 1;
 }
 
@@ -421,7 +421,7 @@ int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const l
 {
     double line[3];
     middle_line(s, line);
-    return cut_cell(c, cell, s, line, LRCS_NONE);
+    return cut_cell(c, cell, s, line, NULL);
 }
 
 /* Do the halves of a cell with many segments have few in common? At most an eighth of them if
@@ -451,5 +451,5 @@ int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 {
     return cell->shape.count > MAX_CORNERS || halving_separates(c, cell, s)
                ? lrcsi_cells_halve(c, cell, s)
-               : cut_cell(c, cell, s, along->line, (uint32_t)(along - c->segment));
+               : cut_cell(c, cell, s, along->line, along);
 }

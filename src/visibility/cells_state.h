@@ -49,8 +49,7 @@ typedef struct lrcsi_cells_cell {
     double shape_err;    /* the distance from the cell of a point that belongs to it, at most */
     double uncertainty;  /* area not charged yet, by which that of any facet may be wrong */
     double widest_strip; /* of a segment removed from the list */
-    double cut_line[3];  /* of the last cut */
-    double cut_side;     /* the cell's side of that line: 1 left, -1 right */
+    double cut_line[3];  /* of the last cut; positive in the cell */
 } lrcsi_cells_cell;
 
 /* Areas of a facet. */
