@@ -205,6 +205,31 @@ int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     return 1;
 }
 
+/* Where side k of a facet of the component lies: a lrcsi_cells_location. Given: is the facet across
+   it removed from the list? Returned, unless it is outside: the side and its part near the cell. */
+static int locate_side(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                       const lrcsi_cells_facet *f, int k, int removed, lrcsi_cells_border *side)
+{
+    int n = k == 2 ? 0 : k + 1;
+    const double p[2] = {f->x[k], f->y[k]};
+    const double q[2] = {f->x[n], f->y[n]};
+    double w = f->err + s->tolerance;
+    double line_w = (f->sliver ? f->err : f->line_err) + s->tolerance;
+    if (lrcsi_cells_box_outside(s, p, q, w)) {
+        return LRCSI_CELLS_OUTSIDE;
+    }
+    *side = (lrcsi_cells_border){
+        {f->side[k][0], f->side[k][1], f->side[k][2]}, {p[0], p[1]}, f->length[k], {0, 1, 0}};
+    if (f->sliver) {
+        lrcsi_line_through(p, q, side->line);
+    }
+    int place = lrcsi_cells_locate_near(&cell->shape, s, p, q, side->line, w, line_w, &side->part);
+    return place == LRCSI_CELLS_CROSSES && removed
+               ? lrcsi_cells_locate_near(&cell->shape, s, p, q, side->line, w + cell->widest_strip,
+                                         line_w + cell->widest_strip, &side->part)
+               : place;
+}
+
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                           const lrcsi_cells_sides *s, uint32_t best, int within)
 {
@@ -212,7 +237,6 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     for (uint32_t i = 0; within && i < c->components; i++) {
         c->in_component[c->component[i]] = 0;
     }
-
     c->borders = 0;
     c->component[0] = best;
     c->components = 1;
@@ -220,57 +244,30 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     for (uint32_t i = 0; i < c->components; i++) {
         uint32_t facet = c->component[i];
         const lrcsi_cells_facet *f = &c->facet[facet];
-        double w = f->err + s->tolerance;
-        double line_w = (f->sliver ? f->err : f->line_err) + s->tolerance;
         covers &= (c->kind[facet] & LRCSI_CELLS_UNKNOWN_CONTACT) == 0 &&
                   (facet == best || (c->covers[facet] >> 1) != c->stamp);
         for (int k = 0; k < 3; k++) {
-            lrcsi_cells_part part;
+            lrcsi_cells_border side;
             uint32_t next = f->neighbour[k];
             if (next != LRCS_NONE && c->in_component[next] == c->stamp) {
                 continue;
             }
-            if (!within && next != LRCS_NONE && c->listed[next] == c->stamp) {
+            int listed = next != LRCS_NONE && c->listed[next] == c->stamp;
+            int place = listed && !within
+                            ? LRCSI_CELLS_CROSSES
+                            : locate_side(cell, s, f, k, next != LRCS_NONE && !listed, &side);
+            if (place == LRCSI_CELLS_CROSSES && listed) {
                 c->in_component[next] = c->stamp;
                 c->component[c->components++] = next;
-                continue;
-            }
-            int n = k == 2 ? 0 : k + 1;
-            const double p[2] = {f->x[k], f->y[k]};
-            const double q[2] = {f->x[n], f->y[n]};
-            if (lrcsi_cells_box_outside(s, p, q, w)) {
-                continue;
-            }
-            double thin_line[3];
-            const double *line = f->side[k];
-            if (f->sliver) {
-                lrcsi_line_through(p, q, thin_line);
-                line = thin_line;
-            }
-            int place = lrcsi_cells_locate_near(&cell->shape, s, p, q, line, w, line_w, &part);
-            if (place == LRCSI_CELLS_OUTSIDE) {
-                continue;
-            }
-            if (place == LRCSI_CELLS_CROSSES && next != LRCS_NONE && c->listed[next] != c->stamp) {
-                place = lrcsi_cells_locate_near(&cell->shape, s, p, q, line, w + cell->widest_strip,
-                                                line_w + cell->widest_strip, &part);
-            }
-            if (place == LRCSI_CELLS_BORDER && next != LRCS_NONE) {
+            } else if (place == LRCSI_CELLS_CROSSES && c->components > SMALL_COMPONENT) {
+                return 0;
+            } else if (place == LRCSI_CELLS_CROSSES) {
+                covers = 0;
+            } else if (place == LRCSI_CELLS_BORDER && next != LRCS_NONE) {
                 covers &= c->borders < LRCSI_CELLS_MAX_BORDERS;
                 if (covers) {
-                    c->border[c->borders++] = (lrcsi_cells_border){
-                        {line[0], line[1], line[2]}, {p[0], p[1]}, f->length[k], part};
+                    c->border[c->borders++] = side;
                 }
-            } else if (place == LRCSI_CELLS_BORDER) {
-                continue;
-            } else if (next == LRCS_NONE || c->listed[next] != c->stamp) {
-                if (c->components > SMALL_COMPONENT) {
-                    return 0;
-                }
-                covers = 0;
-            } else {
-                c->in_component[next] = c->stamp;
-                c->component[c->components++] = next;
             }
         }
     }

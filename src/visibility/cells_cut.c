@@ -368,14 +368,26 @@ static int has_list_room(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell
     return facets <= c->facets_room && segments <= c->segments_room;
 }
 
-/* Divides a cell along a line: that of a segment, which is removed from the list, or (NULL) any
-   line. 0 if there is no room. */
-static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                    const double line[3], const lrcsi_cells_segment *along)
+/* The line across the middle of a cell's box, at right angles to its longer side. */
+static void middle_line(const lrcsi_cells_sides *s, double line[3])
 {
+    int wide = s->high[0] - s->low[0] > s->high[1] - s->low[1];
+    line[0] = wide;
+    line[1] = !wide;
+    line[2] = wide ? -0.5 * (s->low[0] + s->high[0]) : -0.5 * (s->low[1] + s->high[1]);
+}
+
+/* Divides a cell along a segment, which is removed from the list, or (NULL) across its middle. 0 if
+   there is no room. */
+static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                    const lrcsi_cells_segment *along)
+{
+    double line[3];
+    middle_line(s, line);
     cut_strip strip = {along, 0, 0, 0, s->tolerance};
     if (along) {
         lrcsi_cells_part part = {0, 1, 0};
+        memcpy(line, along->line, sizeof line);
         strip.width = along->line_err + cell->shape_err + 12 * LRCSI_U * c->extent;
         lrcsi_cells_locate(&cell->shape, s, along->end[0], along->end[1], along->line,
                            along->err + s->tolerance, along->err + s->tolerance, &part);
@@ -408,20 +420,9 @@ static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     return 1;
 }
 
-/* The line across the middle of a cell's box, at right angles to its longer side. */
-static void middle_line(const lrcsi_cells_sides *s, double line[3])
-{
-    int wide = s->high[0] - s->low[0] > s->high[1] - s->low[1];
-    line[0] = wide;
-    line[1] = !wide;
-    line[2] = wide ? -0.5 * (s->low[0] + s->high[0]) : -0.5 * (s->low[1] + s->high[1]);
-}
-
 int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
 {
-    double line[3];
-    middle_line(s, line);
-    return cut_cell(c, cell, s, line, NULL);
+    return cut_cell(c, cell, s, NULL);
 }
 
 /* Do the halves of a cell with many segments have few in common? At most an eighth of them if
@@ -451,5 +452,5 @@ int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 {
     return cell->shape.count > MAX_CORNERS || halving_separates(c, cell, s)
                ? lrcsi_cells_halve(c, cell, s)
-               : cut_cell(c, cell, s, along->line, along);
+               : cut_cell(c, cell, s, along);
 }
