@@ -12,7 +12,7 @@
    2. lrcsi_cells_filter_segments removes segments from a cell's list that do not meet the cell.
    3. lrcsi_cells_nearest takes a sample at a point P of the cell: it finds the facet nearest to the
       laser there. lrcsi_cells_component finds the component of that facet: it follows the surface
-      across edges that are not events, within the cell (proof: visibility/cells_cover.c).
+      across edges that are not events (proof: visibility/cells_cover.c).
    4. If no event edge of the component crosses the cell, the component covers it: lrcsi_cells_cull
       removes the facets and events behind it from the lists, for this cell and all that are cut
       from it. If an event edge or a contact of the component crosses the cell, lrcsi_cells_divide
@@ -61,7 +61,7 @@
 static int cell_is_wanted(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t f = c->facets[i];
+        uint32_t f = cell->facet[i];
         if (c->wanted[f] && (c->state[f] & LRCSI_CELLS_UNDECIDED) == 0) {
             return 1;
         }
@@ -108,7 +108,7 @@ static void decide_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                         const lrcsi_cells_sides *s, double uncertainty)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t f = c->facets[i];
+        uint32_t f = cell->facet[i];
         if (!c->wanted[f]) {
             continue;
         }
@@ -134,7 +134,7 @@ static const lrcsi_cells_segment *choose_cut(const lrcsi_cells_work *c,
     const lrcsi_cells_segment *best = NULL;
     double best_score = -HUGE_VAL;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        const lrcsi_cells_segment *e = &c->segment[cell->segment[i]];
         if (which == CHOOSE_ANY || (which == CHOOSE_EDGES && !e->contact) ||
             (which == CHOOSE_COMPONENT && lrcsi_cells_of_component(c, e))) {
             double range[2];
@@ -167,8 +167,12 @@ static int cover_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
                       const cell_sample *sample, double *uncertainty,
                       const lrcsi_cells_segment **cut)
 {
-    int covers = lrcsi_cells_component(c, cell, s, sample->nearest);
-    *cut = covers ? NULL : choose_cut(c, cell, s, CHOOSE_COMPONENT);
+    int covers = 0;
+    *cut = NULL;
+    for (int within = 0; within < 2 && !covers && !*cut; within++) {
+        covers = lrcsi_cells_component(c, cell, s, sample->nearest, within);
+        *cut = covers ? NULL : choose_cut(c, cell, s, CHOOSE_COMPONENT);
+    }
     if (!covers && !lrcsi_cells_find_occluder(c, cell, s, sample->at)) {
         return 0;
     }
@@ -219,7 +223,7 @@ static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     }
     if (!cut || !lrcsi_cells_divide(c, cell, &s, cut)) {
         for (uint32_t i = 0; i < cell->facets; i++) {
-            c->state[c->facets[i]] |= LRCSI_CELLS_UNDECIDED;
+            c->state[cell->facet[i]] |= LRCSI_CELLS_UNDECIDED;
         }
     }
     return 0;
@@ -264,7 +268,7 @@ static void process_block(lrcsi_cells_work *c, uint32_t x, uint32_t y)
     c->stack[0] = cell;
     c->top = 1;
     while (c->top > 0) {
-        cell = lrcsi_cells_pop(c);
+        cell = c->stack[--c->top];
         uint64_t steps = (uint64_t)1 + cell.facets + cell.segments;
         if (steps > steps_left || !lrcsi_meter_take(c->meter, steps)) {
             leave_block_undecided(c, block);
@@ -348,8 +352,11 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_found)));
     need = lrcsi_work_add(
         need, lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcsi_cells_point)));
-    need = lrcsi_work_add(need, 7 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, 6 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need =
+        lrcsi_work_add(need, lrcsi_work_bytes(facets, LRCSI_CELLS_FACET_LISTS * sizeof(uint32_t)));
+    need = lrcsi_work_add(need,
+                          lrcsi_work_bytes(segments, LRCSI_CELLS_SEGMENT_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
     need =
         lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_MAX_BORDERS, sizeof(lrcsi_cells_border)));
@@ -374,7 +381,8 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
     c->frame.point = lrcsi_work_take_zero(work, p->scene->vertex_count, sizeof *c->frame.point);
     c->component = lrcsi_work_take(work, count, sizeof *c->component);
     c->hit = lrcsi_work_take(work, count, sizeof *c->hit);
-    c->facets = lrcsi_work_take(work, count, sizeof *c->facets);
+    c->facets_room = LRCSI_CELLS_FACET_LISTS * (size_t)count;
+    c->facets = lrcsi_work_take(work, c->facets_room, sizeof *c->facets);
     c->border = lrcsi_work_take(work, LRCSI_CELLS_MAX_BORDERS, sizeof *c->border);
     c->stack = lrcsi_work_take(work, LRCSI_CELLS_STACK, sizeof *c->stack);
     if (!c->state || !c->kind || !c->facet || !c->area || !c->listed || !c->covers ||
@@ -390,7 +398,8 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
     }
     size_t segments = lrcsi_cells_max_segments(c);
     c->segment_room = (uint32_t)segments;
-    c->segments = lrcsi_work_take(work, segments, sizeof *c->segments);
+    c->segments_room = LRCSI_CELLS_SEGMENT_LISTS * segments;
+    c->segments = lrcsi_work_take(work, c->segments_room, sizeof *c->segments);
     c->segment = lrcsi_work_take(work, segments, sizeof *c->segment);
     lrcsi_cells_frame_make(&c->frame);
     return segments < LRCS_NONE && c->segments && c->segment;

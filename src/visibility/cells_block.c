@@ -225,10 +225,18 @@ lrcsi_cells_segment *lrcsi_cells_segment_new(lrcsi_cells_work *c)
     if (c->segment_count == c->segment_room) {
         return NULL;
     }
-    c->segments[c->segment_count] = c->segment_count;
     lrcsi_cells_segment *e = &c->segment[c->segment_count++];
     *e = (lrcsi_cells_segment){.owner = {LRCS_NONE, LRCS_NONE}, .edge = LRCS_NONE};
     return e;
+}
+
+void lrcsi_cells_list_segments(const lrcsi_cells_work *c, lrcsi_cells_cell *cell)
+{
+    cell->segment = c->segments;
+    cell->segments = c->segment_count;
+    for (uint32_t i = 0; i < cell->segments; i++) {
+        cell->segment[i] = i;
+    }
 }
 
 lrcsi_cells_segment *lrcsi_cells_edge(lrcsi_cells_work *c, uint32_t edge)
@@ -348,30 +356,24 @@ static int add_contacts(lrcsi_cells_work *c, uint32_t facet)
     return 1;
 }
 
-/* Lists the facets of a block that may meet its cell, and makes their records. The neighbours of a
-   facet are the same in all blocks, and found once. */
+/* Lists the facets of a block, and makes their records. The neighbours of a facet are the same in
+   all blocks, and found once. */
 static void list_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     const lrcsi_cells_lists *b = &c->grid.facets;
-    double g = 16 * LRCSI_U * c->extent;
     for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
         uint32_t index = b->item[i];
         lrcsi_cells_facet *f = &c->facet[index];
         lrcsi_cells_facet_make(&c->frame, index, f);
         c->state[index] |= f->sliver ? LRCSI_CELLS_UNDECIDED : 0;
-        if (lrcsi_cells_facet_near(f, &cell->shape, cell->shape.corner[0], cell->shape.corner[2],
-                                   g)) {
-            if ((c->kind[index] & LRCSI_CELLS_NEIGHBOURS_FOUND) == 0) {
-                for (int k = 0; k < 3; k++) {
-                    f->neighbour[k] = lrcsi_cells_connected(
-                        c->view, c->kind, index, lrcsi_cells_side_number(c->view, index, k));
-                }
-                c->kind[index] |= LRCSI_CELLS_NEIGHBOURS_FOUND;
-            }
-            c->facets[cell->facets++] = index;
-            c->listed[index] = c->stamp;
-            c->facet_err = lrcsi_max(c->facet_err, f->err);
+        for (int k = 0; k < 3 && (c->kind[index] & LRCSI_CELLS_NEIGHBOURS_FOUND) == 0; k++) {
+            f->neighbour[k] = lrcsi_cells_connected(c->view, c->kind, index,
+                                                    lrcsi_cells_side_number(c->view, index, k));
         }
+        c->kind[index] |= LRCSI_CELLS_NEIGHBOURS_FOUND;
+        cell->facet[cell->facets++] = index;
+        c->listed[index] = c->stamp;
+        c->facet_err = lrcsi_max(c->facet_err, f->err);
     }
 }
 
@@ -380,7 +382,7 @@ static int list_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *ce
 {
     const lrcsi_cells_lists *b = &c->grid.events;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        if (!add_contacts(c, c->facets[i]) || !add_cell_events(c, c->facets[i])) {
+        if (!add_contacts(c, cell->facet[i]) || !add_cell_events(c, cell->facet[i])) {
             return 0;
         }
     }
@@ -392,7 +394,7 @@ static int list_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *ce
             return 0;
         }
     }
-    cell->segments = c->segment_count;
+    lrcsi_cells_list_segments(c, cell);
     return 1;
 }
 
@@ -418,6 +420,7 @@ int lrcsi_cells_begin(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
     c->segment_count = 0;
     c->facet_err = 0;
+    cell->facet = c->facets;
     list_facets(c, block, cell);
     return list_segments(c, block, cell);
 }

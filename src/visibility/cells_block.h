@@ -24,6 +24,9 @@ double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y
 lrcsi_cells_segment *lrcsi_cells_segment_new(lrcsi_cells_work *c);
 lrcsi_cells_segment *lrcsi_cells_edge(lrcsi_cells_work *c, uint32_t edge);
 
+/* Lists all segments in a cell, the first. */
+void lrcsi_cells_list_segments(const lrcsi_cells_work *c, lrcsi_cells_cell *cell);
+
 /* The largest number of segments of a block, at most. Given: c->view, grid, kind. */
 size_t lrcsi_cells_max_segments(const lrcsi_cells_work *c);
 

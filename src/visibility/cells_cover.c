@@ -11,20 +11,23 @@
    is no event edge, and joins two facets of K. Then K covers x as many times as it covers P: along
    the path this number cannot change, because where one facet of K ends the next begins. So if
    exactly one facet of K certainly covers P, and the others certainly do not, K covers the cell
-   once. It does not matter how K was found. (2) Let K cover the cell once, and let G be a facet
-   that is behind K at one point of the cell. If no contact between G and a facet of K crosses the
-   cell, G is behind K wherever it is in the cell, because the two do not meet there and what G has
-   in the cell is connected. So G can be removed, even if K meets other facets. The same is true of
-   an event edge that is behind K at one point of the cell, and has a facet that no contact in the
-   cell joins with K: K does not cross that edge. (3) Let K cover the cell once and be nearest at P,
-   and let no contact between a facet of K and another facet cross the cell. If no event edge is
-   left in the list, all of K is visible in the cell, and nothing else is. For let y be the first
-   point of the path at which K is no longer the nearest of all facets. The facet H that is nearest
-   just beyond y is listed. It begins at y at an edge, or passes through K there at a contact; the
-   latter is excluded. The edge is an event edge, since a facet that ended there would have been in
-   front of K before y. It is in front of K at y, and H has been listed all the time, so the edge
-   has not been removed from the list. (4) If no facet covers P, and no event edge crosses the cell,
-   no facet is visible in it.
+   once. It does not matter how K was found. At first K takes all listed neighbours of its facets,
+   so that few edges need to be compared with the cell. Facets that are connected with it outside
+   the cell only may then end in the cell, or cover P too. If so, and if there is no segment of K to
+   cut along, K is found again, across edges that may cross the cell only. (2) Let K cover the cell
+   once, and let G be a facet that is behind K at one point of the cell. If no contact between G and
+   a facet of K crosses the cell, G is behind K wherever it is in the cell, because the two do not
+   meet there and what G has in the cell is connected. So G can be removed, even if K meets other
+   facets. The same is true of an event edge that is behind K at one point of the cell, and has a
+   facet that no contact in the cell joins with K: K does not cross that edge. (3) Let K cover the
+   cell once and be nearest at P, and let no contact between a facet of K and another facet cross
+   the cell. If no event edge is left in the list, all of K is visible in the cell, and nothing else
+   is. For let y be the first point of the path at which K is no longer the nearest of all facets.
+   The facet H that is nearest just beyond y is listed. It begins at y at an edge, or passes through
+   K there at a contact; the latter is excluded. The edge is an event edge, since a facet that ended
+   there would have been in front of K before y. It is in front of K at y, and H has been listed all
+   the time, so the edge has not been removed from the list. (4) If no facet covers P, and no event
+   edge crosses the cell, no facet is visible in it.
 
    A contact is where two facets meet in space other than along a common edge or in a point: along a
    segment in the interior of one (mesh/intersection.h), along parts of edges of both (the facets
@@ -58,7 +61,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     c->hits = 0;
     *best = LRCS_NONE;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t index = c->facets[i];
+        uint32_t index = cell->facet[i];
         const lrcsi_cells_facet *f = &c->facet[index];
         double w = f->err + s->tolerance;
         c->listed[index] = c->stamp;
@@ -148,7 +151,7 @@ static int contacts_only(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
     int only = 1;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        const lrcsi_cells_segment *e = &c->segment[cell->segment[i]];
         if (lrcsi_cells_of_component(c, e)) {
             only &= e->contact != 0;
             c->contacts[e->owner[0]] = c->stamp;
@@ -202,10 +205,38 @@ int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     return 1;
 }
 
+/* Where side k of a facet of the component lies: a lrcsi_cells_location. Given: is the facet across
+   it removed from the list? Returned, unless it is outside: the side and its part near the cell. */
+static int locate_side(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                       const lrcsi_cells_facet *f, int k, int removed, lrcsi_cells_border *side)
+{
+    int n = k == 2 ? 0 : k + 1;
+    const double p[2] = {f->x[k], f->y[k]};
+    const double q[2] = {f->x[n], f->y[n]};
+    double w = f->err + s->tolerance;
+    double line_w = (f->sliver ? f->err : f->line_err) + s->tolerance;
+    if (lrcsi_cells_box_outside(s, p, q, w)) {
+        return LRCSI_CELLS_OUTSIDE;
+    }
+    *side = (lrcsi_cells_border){
+        {f->side[k][0], f->side[k][1], f->side[k][2]}, {p[0], p[1]}, f->length[k], {0, 1, 0}};
+    if (f->sliver) {
+        lrcsi_line_through(p, q, side->line);
+    }
+    int place = lrcsi_cells_locate_near(&cell->shape, s, p, q, side->line, w, line_w, &side->part);
+    return place == LRCSI_CELLS_CROSSES && removed
+               ? lrcsi_cells_locate_near(&cell->shape, s, p, q, side->line, w + cell->widest_strip,
+                                         line_w + cell->widest_strip, &side->part)
+               : place;
+}
+
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                          const lrcsi_cells_sides *s, uint32_t best)
+                          const lrcsi_cells_sides *s, uint32_t best, int within)
 {
     int covers = 1;
+    for (uint32_t i = 0; within && i < c->components; i++) {
+        c->in_component[c->component[i]] = 0;
+    }
     c->borders = 0;
     c->component[0] = best;
     c->components = 1;
@@ -213,52 +244,30 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     for (uint32_t i = 0; i < c->components; i++) {
         uint32_t facet = c->component[i];
         const lrcsi_cells_facet *f = &c->facet[facet];
-        double w = f->err + s->tolerance;
-        double line_w = (f->sliver ? f->err : f->line_err) + s->tolerance;
         covers &= (c->kind[facet] & LRCSI_CELLS_UNKNOWN_CONTACT) == 0 &&
                   (facet == best || (c->covers[facet] >> 1) != c->stamp);
         for (int k = 0; k < 3; k++) {
-            lrcsi_cells_part part;
+            lrcsi_cells_border side;
             uint32_t next = f->neighbour[k];
             if (next != LRCS_NONE && c->in_component[next] == c->stamp) {
                 continue;
             }
-            int n = k == 2 ? 0 : k + 1;
-            const double p[2] = {f->x[k], f->y[k]};
-            const double q[2] = {f->x[n], f->y[n]};
-            if (lrcsi_cells_box_outside(s, p, q, w)) {
-                continue;
-            }
-            double thin_line[3];
-            const double *line = f->side[k];
-            if (f->sliver) {
-                lrcsi_line_through(p, q, thin_line);
-                line = thin_line;
-            }
-            int place = lrcsi_cells_locate_near(&cell->shape, s, p, q, line, w, line_w, &part);
-            if (place == LRCSI_CELLS_OUTSIDE) {
-                continue;
-            }
-            if (place == LRCSI_CELLS_CROSSES && next != LRCS_NONE && c->listed[next] != c->stamp) {
-                place = lrcsi_cells_locate_near(&cell->shape, s, p, q, line, w + cell->widest_strip,
-                                                line_w + cell->widest_strip, &part);
-            }
-            if (place == LRCSI_CELLS_BORDER && next != LRCS_NONE) {
-                covers &= c->borders < LRCSI_CELLS_MAX_BORDERS;
-                if (covers) {
-                    c->border[c->borders++] = (lrcsi_cells_border){
-                        {line[0], line[1], line[2]}, {p[0], p[1]}, f->length[k], part};
-                }
-            } else if (place == LRCSI_CELLS_BORDER) {
-                continue;
-            } else if (next == LRCS_NONE || c->listed[next] != c->stamp) {
-                if (c->components > SMALL_COMPONENT) {
-                    return 0;
-                }
-                covers = 0;
-            } else {
+            int listed = next != LRCS_NONE && c->listed[next] == c->stamp;
+            int place = listed && !within
+                            ? LRCSI_CELLS_CROSSES
+                            : locate_side(cell, s, f, k, next != LRCS_NONE && !listed, &side);
+            if (place == LRCSI_CELLS_CROSSES && listed) {
                 c->in_component[next] = c->stamp;
                 c->component[c->components++] = next;
+            } else if (place == LRCSI_CELLS_CROSSES && c->components > SMALL_COMPONENT) {
+                return 0;
+            } else if (place == LRCSI_CELLS_CROSSES) {
+                covers = 0;
+            } else if (place == LRCSI_CELLS_BORDER && next != LRCS_NONE) {
+                covers &= c->borders < LRCSI_CELLS_MAX_BORDERS;
+                if (covers) {
+                    c->border[c->borders++] = side;
+                }
             }
         }
     }
@@ -375,25 +384,25 @@ void lrcsi_cells_cull(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
     }
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t f = c->facets[i];
+        uint32_t f = cell->facet[i];
         if (c->in_component[f] != c->stamp &&
             ((c->covers[f] == 2 * c->stamp + 1 && c->contacts[f] != c->stamp &&
               behind_at(c, s, at, f)) ||
-             lrcsi_cells_facet_z_bound(&c->facet[f], s, 1) < low)) {
+             c->facet[f].z_high < low || lrcsi_cells_facet_z_bound(&c->facet[f], s, 1) < low)) {
             c->listed[f] = 0;
             c->state[f] |= LRCSI_CELLS_HIDDEN;
             c->area[f].uncertainty += c->wanted[f] ? cell->uncertainty + uncertainty : 0;
             continue;
         }
-        lrcsi_cells_swap(c->facets, i, kept++);
+        cell->facet[kept++] = f;
     }
     cell->facets = kept;
     kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        const lrcsi_cells_segment *e = &c->segment[cell->segment[i]];
         if (!segment_is_unlisted(c, e) &&
             (e->contact || !segment_behind(c, cell, s, e, e->err + s->tolerance, low))) {
-            lrcsi_cells_swap(c->segments, i, kept++);
+            cell->segment[kept++] = cell->segment[i];
         }
     }
     cell->segments = kept;

@@ -18,11 +18,13 @@ enum { LRCSI_CELLS_UNSURE, LRCSI_CELLS_NONE, LRCSI_CELLS_FOUND };
 int lrcsi_cells_nearest(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                         const lrcsi_cells_sides *s, uint32_t *best, double at[2], double *clear);
 
-/* Finds the component around a facet within the cell. 1 if it covers the cell once and no event
-   edge of it is left in the list; its edges at the border of the cell are then recorded, and the
-   facets that it meets at a contact of the list are marked. */
+/* Finds the component around the facet nearest at the sample: within 0, all listed facets that are
+   connected with it; within 1, to be called after that, only those that are connected across edges
+   that may cross the cell. Returns 1 if it covers the cell once and no event edge of it is left in
+   the list; its edges at the border of the cell are then recorded, and the facets that it meets at
+   a contact of the list are marked. */
 int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                          const lrcsi_cells_sides *s, uint32_t best);
+                          const lrcsi_cells_sides *s, uint32_t best, int within);
 
 /* Is any facet of an edge, or of a contact, marked with this value? */
 int lrcsi_cells_segment_has(const lrcs_prepared *prepared, const lrcsi_cells_segment *e,

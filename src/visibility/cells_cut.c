@@ -139,7 +139,7 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
         box[1][k] = lrcsi_min(s->high[k], lrcsi_max(e->start[k], to));
     }
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t facet = c->facets[i];
+        uint32_t facet = cell->facet[i];
         const lrcsi_cells_facet *f = &c->facet[facet];
         if (!c->wanted[facet]) {
             continue;
@@ -217,7 +217,7 @@ int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         return 0;
     }
     for (uint32_t i = 0; i < cell->facets; i++) {
-        uint32_t facet = c->facets[i];
+        uint32_t facet = cell->facet[i];
         c->state[facet] |= LRCSI_CELLS_CHARGED;
         if (c->wanted[facet]) {
             c->area[facet].uncertainty += cell->uncertainty + area;
@@ -233,8 +233,8 @@ int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
    line or that of the cut separates them. */
 static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment *e, double w)
 {
-    if (!(cell->cut_side * lrcsi_line_at(cell->cut_line, e->end[0][0], e->end[0][1]) > w) &&
-        !(cell->cut_side * lrcsi_line_at(cell->cut_line, e->end[1][0], e->end[1][1]) > w)) {
+    if (!(lrcsi_line_at(cell->cut_line, e->end[0][0], e->end[0][1]) > w) &&
+        !(lrcsi_line_at(cell->cut_line, e->end[1][0], e->end[1][1]) > w)) {
         return 0;
     }
     int left = 0;
@@ -253,17 +253,17 @@ void lrcsi_cells_filter_segments(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        const lrcsi_cells_segment *e = &c->segment[cell->segment[i]];
         double w = e->err + s->tolerance;
         if (cell->cuts > 0 && segment_stays(cell, e, w)) {
-            lrcsi_cells_swap(c->segments, i, kept++);
+            cell->segment[kept++] = cell->segment[i];
             continue;
         }
         lrcsi_cells_part part;
         int place = lrcsi_cells_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w,
                                        e->line_err + s->tolerance, &part);
         if (place == LRCSI_CELLS_CROSSES) {
-            lrcsi_cells_swap(c->segments, i, kept++);
+            cell->segment[kept++] = cell->segment[i];
         } else if (place == LRCSI_CELLS_BORDER) {
             cell->removed++;
             cell->widest_strip = lrcsi_max(cell->widest_strip, part.strip_width);
@@ -305,16 +305,16 @@ static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *sh
     return 1;
 }
 
-/* Divides the facets of a cell: first those that may be near the left part, last those that are
-   near the right part only. */
+/* Lists the facets of a cell that may be near its right part, and those that may be near its left
+   part. What is near neither is not in the cell. */
 static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const cut_strip *strip,
                        lrcsi_cells_cell *left, lrcsi_cells_cell *right)
 {
     double g = lrcsi_cells_tolerance(c, left);
-    uint32_t i = 0;
-    uint32_t end = cell->facets;
-    while (i < end) {
-        uint32_t index = c->facets[i];
+    uint32_t *of_left = cell->facet + cell->facets;
+    left->facets = right->facets = 0;
+    for (uint32_t i = 0; i < cell->facets; i++) {
+        uint32_t index = cell->facet[i];
         const lrcsi_cells_facet *f = &c->facet[index];
         double w = f->err + g + strip->width;
         double range[2];
@@ -326,120 +326,46 @@ static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const 
                 charge_cut(c, index, range[0], range[1], strip);
             }
             on_left = !facet_beyond(f, &left->shape, f->err + g);
+            on_right = !facet_beyond(f, &right->shape, f->err + g);
         }
-        if (on_left) {
-            lrcsi_cells_swap(c->facets, i++, left->facets++);
-        } else { /* what is not on the left is on the right */
-            lrcsi_cells_swap(c->facets, i, --end);
-        }
+        of_left[left->facets] = index;
+        left->facets += on_left != 0;
+        right->facet[right->facets] = index;
+        right->facets += on_right != 0;
     }
-    right->maybe[0] = end;
+    left->facet = right->facet + right->facets;
+    memmove(left->facet, of_left, left->facets * sizeof *of_left);
 }
 
-/* Divides its segments in the same way, except for the one along which it is cut. */
-static void cut_segments(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                         uint32_t removed_segment, lrcsi_cells_cell *left, lrcsi_cells_cell *right)
+/* The same for its segments, except for the one along which it is cut. */
+static void cut_segments(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
+                         const lrcsi_cells_segment *along, lrcsi_cells_cell *left,
+                         lrcsi_cells_cell *right)
 {
     double g = lrcsi_cells_tolerance(c, left);
-    uint32_t i = 0;
-    uint32_t end = cell->segments;
-    while (i < end) {
-        uint32_t index = c->segments[i];
+    uint32_t *of_left = cell->segment + cell->segments;
+    left->segments = right->segments = 0;
+    for (uint32_t i = 0; i < cell->segments; i++) {
+        uint32_t index = cell->segment[i];
         const lrcsi_cells_segment *e = &c->segment[index];
         double w = e->err + g;
-        if (index == removed_segment) { /* it goes to the very end */
-            end--;
-            right->segments--;
-            lrcsi_cells_swap(c->segments, i, end);
-            lrcsi_cells_swap(c->segments, end, right->segments);
-        } else if (lrcsi_line_at(left->cut_line, e->end[0][0], e->end[0][1]) > -w ||
-                   lrcsi_line_at(left->cut_line, e->end[1][0], e->end[1][1]) > -w) {
-            lrcsi_cells_swap(c->segments, i++, left->segments++);
-        } else {
-            lrcsi_cells_swap(c->segments, i, --end);
-        }
+        double from = lrcsi_line_at(left->cut_line, e->end[0][0], e->end[0][1]);
+        double to = lrcsi_line_at(left->cut_line, e->end[1][0], e->end[1][1]);
+        of_left[left->segments] = index;
+        left->segments += e != along && lrcsi_max(from, to) > -w;
+        right->segment[right->segments] = index;
+        right->segments += e != along && lrcsi_min(from, to) < w;
     }
-    right->maybe[1] = end;
+    left->segment = right->segment + right->segments;
+    memmove(left->segment, of_left, left->segments * sizeof *of_left);
 }
 
-/* Selects the entries of a cell that has waited. */
-static void select_entries(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
+/* Is there room for the lists of both parts of a cell? */
+static int has_list_room(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 {
-    double g = lrcsi_cells_tolerance(c, cell);
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < cell->facets; i++) {
-        const lrcsi_cells_facet *f = &c->facet[c->facets[i]];
-        double range[2];
-        facet_range(f, cell->cut_line, range);
-        if (i >= cell->maybe[0] || (range[0] < f->err + g + cell->cut_strip &&
-                                    !facet_beyond(f, &cell->shape, f->err + g))) {
-            lrcsi_cells_swap(c->facets, i, kept++);
-        }
-    }
-    cell->facets = kept;
-    kept = 0;
-    for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
-        double w = e->err + g;
-        if (i >= cell->maybe[1] || lrcsi_line_at(cell->cut_line, e->end[0][0], e->end[0][1]) < w ||
-            lrcsi_line_at(cell->cut_line, e->end[1][0], e->end[1][1]) < w) {
-            lrcsi_cells_swap(c->segments, i, kept++);
-        }
-    }
-    cell->segments = kept;
-    cell->maybe[0] = cell->maybe[1] = 0;
-}
-
-lrcsi_cells_cell lrcsi_cells_pop(lrcsi_cells_work *c)
-{
-    lrcsi_cells_cell cell = c->stack[--c->top];
-    if (cell.maybe[0] > 0 || cell.maybe[1] > 0) {
-        select_entries(c, &cell);
-    }
-    return cell;
-}
-
-/* Divides a cell along a line: that of a segment, which is removed from the list, or (LRCS_NONE)
-   any line. 0 if there is no room. */
-static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                    const double line[3], uint32_t removed_segment)
-{
-    cut_strip strip = {NULL, 0, 0, 0, s->tolerance};
-    if (removed_segment != LRCS_NONE) {
-        const lrcsi_cells_segment *along = &c->segment[removed_segment];
-        lrcsi_cells_part part = {0, 1, 0};
-        strip.along = along;
-        strip.width = along->line_err + cell->shape_err + 12 * LRCSI_U * c->extent;
-        lrcsi_cells_locate(&cell->shape, s, along->end[0], along->end[1], along->line,
-                           along->err + s->tolerance, along->err + s->tolerance, &part);
-        strip.from = part.from * along->length;
-        strip.to = part.to * along->length;
-    }
-    if (cell->cuts >= LRCSI_CELLS_MAX_CUTS || cell->shape.count + 2 > LRCSI_CLIP_SIDES ||
-        c->top + 2 > LRCSI_CELLS_STACK) {
-        return 0;
-    }
-    lrcsi_cells_cell left = *cell;
-    lrcsi_cells_cell right = *cell;
-    double divide_err = lrcsi_clip_divide(&cell->shape, line, &left.shape, &right.shape);
-    if (left.shape.count < 3 || right.shape.count < 3) {
-        return 0;
-    }
-    memcpy(left.cut_line, line, sizeof left.cut_line);
-    memcpy(right.cut_line, line, sizeof right.cut_line);
-    left.cut_side = 1;
-    right.cut_side = -1;
-    left.cuts = right.cuts = cell->cuts + 1;
-    left.removed = right.removed = cell->removed + (removed_segment != LRCS_NONE);
-    left.widest_strip = right.widest_strip = lrcsi_max(cell->widest_strip, 2 * strip.width);
-    left.shape_err = right.shape_err = cell->shape_err + divide_err;
-    left.cut_strip = right.cut_strip = strip.width;
-    left.facets = left.segments = 0;
-    cut_facets(c, cell, &strip, &left, &right);
-    cut_segments(c, cell, removed_segment, &left, &right);
-    c->stack[c->top++] = right;
-    c->stack[c->top++] = left;
-    return 1;
+    size_t facets = (size_t)(cell->facet - c->facets) + 2 * (size_t)cell->facets;
+    size_t segments = (size_t)(cell->segment - c->segments) + 2 * (size_t)cell->segments;
+    return facets <= c->facets_room && segments <= c->segments_room;
 }
 
 /* The line across the middle of a cell's box, at right angles to its longer side. */
@@ -451,11 +377,52 @@ static void middle_line(const lrcsi_cells_sides *s, double line[3])
     line[2] = wide ? -0.5 * (s->low[0] + s->high[0]) : -0.5 * (s->low[1] + s->high[1]);
 }
 
-int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
+/* Divides a cell along a segment, which is removed from the list, or (NULL) across its middle. 0 if
+   there is no room. */
+static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+                    const lrcsi_cells_segment *along)
 {
     double line[3];
     middle_line(s, line);
-    return cut_cell(c, cell, s, line, LRCS_NONE);
+    cut_strip strip = {along, 0, 0, 0, s->tolerance};
+    if (along) {
+        lrcsi_cells_part part = {0, 1, 0};
+        memcpy(line, along->line, sizeof line);
+        strip.width = along->line_err + cell->shape_err + 12 * LRCSI_U * c->extent;
+        lrcsi_cells_locate(&cell->shape, s, along->end[0], along->end[1], along->line,
+                           along->err + s->tolerance, along->err + s->tolerance, &part);
+        strip.from = part.from * along->length;
+        strip.to = part.to * along->length;
+    }
+    if (cell->cuts >= LRCSI_CELLS_MAX_CUTS || cell->shape.count + 2 > LRCSI_CLIP_SIDES ||
+        c->top + 2 > LRCSI_CELLS_STACK || !has_list_room(c, cell)) {
+        return 0;
+    }
+    lrcsi_cells_cell *right = &c->stack[c->top];
+    lrcsi_cells_cell *left = right + 1;
+    *right = *cell;
+    right->cuts++;
+    right->removed += along != NULL;
+    right->widest_strip = lrcsi_max(cell->widest_strip, 2 * strip.width);
+    *left = *right;
+    double divide_err = lrcsi_clip_divide(&cell->shape, line, &left->shape, &right->shape);
+    if (left->shape.count < 3 || right->shape.count < 3) {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        left->cut_line[k] = line[k];
+        right->cut_line[k] = -line[k];
+    }
+    left->shape_err = right->shape_err = cell->shape_err + divide_err;
+    cut_facets(c, cell, &strip, left, right);
+    cut_segments(c, cell, along, left, right);
+    c->top += 2;
+    return 1;
+}
+
+int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
+{
+    return cut_cell(c, cell, s, NULL);
 }
 
 /* Do the halves of a cell with many segments have few in common? At most an eighth of them if
@@ -467,7 +434,7 @@ static int halving_separates(const lrcsi_cells_work *c, const lrcsi_cells_cell *
     uint32_t side[2] = {0, 0};
     middle_line(s, line);
     for (uint32_t i = 0; cell->segments > MAX_SEGMENTS && i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[c->segments[i]];
+        const lrcsi_cells_segment *e = &c->segment[cell->segment[i]];
         double a = lrcsi_line_at(line, e->end[0][0], e->end[0][1]);
         double b = lrcsi_line_at(line, e->end[1][0], e->end[1][1]);
         side[0] += a > 0 || b > 0;
@@ -485,5 +452,5 @@ int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 {
     return cell->shape.count > MAX_CORNERS || halving_separates(c, cell, s)
                ? lrcsi_cells_halve(c, cell, s)
-               : cut_cell(c, cell, s, along->line, (uint32_t)(along - c->segment));
+               : cut_cell(c, cell, s, along);
 }

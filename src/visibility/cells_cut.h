@@ -21,9 +21,6 @@ int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                       const lrcsi_cells_sides *s);
 
-/* Takes the next cell from the stack. If it has waited, selects the entries of its lists. */
-lrcsi_cells_cell lrcsi_cells_pop(lrcsi_cells_work *c);
-
 /* Charges the strip of a segment at the border of a cell to the facets near it. */
 void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
                                const lrcsi_cells_sides *s, const lrcsi_cells_border *e);

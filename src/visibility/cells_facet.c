@@ -203,27 +203,6 @@ void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_fa
     }
 }
 
-int lrcsi_cells_facet_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape,
-                           const double low[2], const double high[2], double tolerance)
-{
-    double w = f->err + tolerance;
-    if (f->low[0] > high[0] + w || f->high[0] < low[0] - w || f->low[1] > high[1] + w ||
-        f->high[1] < low[1] - w) {
-        return 0;
-    }
-    for (int k = 0; k < 3; k++) {
-        double range[2];
-        lrcsi_box_range(low, high, f->side[k], range);
-        if (range[1] > -w && range[0] + range[1] < 0) {
-            lrcsi_line_range(shape, f->side[k], range);
-        }
-        if (range[1] < -w) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 void lrcsi_cells_facet_z(const lrcsi_cells_facet *f, const double at[2], double tolerance,
                          double range[2])
 {

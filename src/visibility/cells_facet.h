@@ -76,10 +76,6 @@ double lrcsi_cells_line(const lrcsi_cells_point *p, const lrcsi_cells_point *q, 
 /* Makes the record of a facet for the current block; its neighbours are not set. */
 void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_facet *f);
 
-/* May the facet meet a cell with this box? */
-int lrcsi_cells_facet_near(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *shape,
-                           const double low[2], const double high[2], double tolerance);
-
 /* Bounds of a facet's z at a point that it may cover. */
 void lrcsi_cells_facet_z(const lrcsi_cells_facet *f, const double at[2], double tolerance,
                          double range[2]);

@@ -321,7 +321,7 @@ static int list_single_segments(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
             return 0;
         }
     }
-    cell->segments = c->segment_count;
+    lrcsi_cells_list_segments(c, cell);
     return lrcsi_meter_take(c->meter, (uint64_t)a->count + cell->segments);
 }
 
@@ -351,6 +351,8 @@ static int make_first_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
     }
     a->border_area = frame->perimeter * (err + 16 * LRCSI_U * c->extent);
     a->negligible = MIN_HALVED * lrcsi_clip_area(&cell->shape);
+    cell->facet = c->facets;
+    cell->facet[0] = 0;
     cell->facets = 1;
     return lrcsi_clip_area(&cell->shape) > 8 * err * frame->diameter;
 }
@@ -363,14 +365,12 @@ void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
     a->uncertainty[0] = a->uncertainty[1] = a->border_area = a->piece_err = 0;
     a->hidden = 0;
     a->wanted = 1;
-    a->number = 0;
     lrcsi_target_make(c->view, facet, &a->target);
     lrcsi_target_refine(&a->target, &a->needle, &a->frame);
     a->area = (lrcsi_cells_found){.visible = 0};
     c->facet = &a->shape;
     c->area = &a->area;
     c->wanted = &a->wanted;
-    c->facets = &a->number;
     c->segment_count = c->top = 0;
     c->stamp++;
     if (!make_first_cell(a, &cell) || !list_candidates(a) || !list_single_segments(a, &cell)) {
@@ -405,7 +405,7 @@ static uint32_t choose_segment(const lrcsi_cells_single *a, const lrcsi_cells_ce
     double nearest = HUGE_VAL;
     *best = NULL;
     for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &a->cells.segment[a->cells.segments[i]];
+        const lrcsi_cells_segment *e = &a->cells.segment[cell->segment[i]];
         if (component == LRCS_NONE || component_ends(a, e, component)) {
             double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
             count++;
@@ -483,60 +483,48 @@ static int sample_is_beyond(const lrcsi_cells_single *a, const single_sample *sa
     return beyond;
 }
 
-/* Does a facet cover the point of a needle with these barycentric coordinates? 1 certainly, -1
-   certainly not, 0 the point is too near a side. The point has the frame's position error. Lines in
-   plain doubles nearly always suffice; they are kept as far as there is room. */
-static int needle_covered(const lrcsi_cells_single *a, const single_sample *sample,
-                          uint32_t candidate)
+/* The sides of a needle's candidate. */
+static void needle_sides_make(const lrcsi_cells_single *a, uint32_t other,
+                              lrcsi_cells_single_side side[3])
 {
-    const lrcsi_view *view = a->cells.view;
-    uint32_t other = a->candidate[candidate];
-    int kept = candidate < a->side_room;
-    int made = kept && a->side[candidate][0].err >= 0;
-    int guess = sample->test == TEST_GUESSED;
-    int inside = 1;
-    for (int k = 0; k < 3 && kept && !made; k++) {
-        lrcsi_cells_single_side *side = &a->side[candidate][k];
-        side->err = lrcsi_needle_line(a->frame.needle, lrcsi_target_corner(view, other, k),
-                                      lrcsi_target_corner(view, other, (k + 1) % 3), side->line);
-    }
     for (int k = 0; k < 3; k++) {
-        const lrcsi_cells_single_side *side = &a->side[kept ? candidate : 0][k];
-        double left = kept ? lrcsi_line_at(side->line, sample->at[0], sample->at[1]) : 0;
-        if (!kept || !(fabs(left) > side->err)) {
-            left =
-                lrcsi_needle_side(a->frame.needle, lrcsi_target_corner(view, other, k),
-                                  lrcsi_target_corner(view, other, (k + 1) % 3), sample->at, guess);
-        }
-        if (left < 0) {
-            return -1;
-        }
-        inside &= left > 0;
+        side[k].err =
+            lrcsi_needle_line(a->frame.needle, lrcsi_target_corner(a->cells.view, other, k),
+                              lrcsi_target_corner(a->cells.view, other, (k + 1) % 3), side[k].line);
     }
-    return inside || !guess ? inside : -1;
 }
 
-/* The same in a frame that is not a needle's. The sides are computed when they are first needed,
-   and kept as far as there is room. */
+/* Does a candidate cover the sample? 1 certainly, -1 certainly not, 0 the sample is too near a
+   side. The sides are computed when they are first needed, and kept as far as there is room. In a
+   needle, whose points have the frame's position error, lines in plain doubles nearly always
+   suffice. */
 static int sides_cover(lrcsi_cells_single *a, const single_sample *sample, uint32_t candidate,
                        double tolerance)
 {
-    const double *at = sample->at;
+    const lrcsi_needle *needle = a->frame.needle;
+    const lrcsi_view *view = a->cells.view;
     uint32_t other = a->candidate[candidate];
-    if (sample->test == TEST_EXACT) {
-        return lrcsi_sample_covers(a->cells.view, other, sample->point) ? 1 : -1;
+    if (!needle && sample->test == TEST_EXACT) {
+        return lrcsi_sample_covers(view, other, sample->point) ? 1 : -1;
     }
     lrcsi_cells_single_side made[3] = {{.err = -1}};
     lrcsi_cells_single_side *sides = candidate < a->side_room ? a->side[candidate] : made;
-    if (sides[0].err < 0) {
+    if (sides[0].err < 0 && needle) {
+        needle_sides_make(a, other, sides);
+    } else if (sides[0].err < 0) {
         sides_make(a, other, sides);
     }
     int inside = 1;
     int guess = sample->test == TEST_GUESSED;
     for (int k = 0; k < 3; k++) {
-        const lrcsi_cells_single_side *side = &sides[k];
-        double left = lrcsi_line_at(side->line, at[0], at[1]);
-        double err = guess ? 0 : side->err + tolerance;
+        double left = lrcsi_line_at(sides[k].line, sample->at[0], sample->at[1]);
+        double err = needle ? sides[k].err : guess ? 0 : sides[k].err + tolerance;
+        if (needle && !(fabs(left) > err)) {
+            left =
+                lrcsi_needle_side(needle, lrcsi_target_corner(view, other, k),
+                                  lrcsi_target_corner(view, other, (k + 1) % 3), sample->at, guess);
+            err = 0;
+        }
         if (left < -err) {
             return -1;
         }
@@ -557,12 +545,8 @@ static int candidate_covers(lrcsi_cells_single *a, const single_sample *sample, 
         lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&a->grid.boxes, other))) {
         return -1;
     }
-    int covered = -1;
-    if (!a->frame.needle) {
-        covered = sides_cover(a, sample, candidate, tolerance);
-    } else if (!sample_is_beyond(a, sample, other)) {
-        covered = needle_covered(a, sample, candidate);
-    }
+    int beyond = a->frame.needle && sample_is_beyond(a, sample, other);
+    int covered = beyond ? -1 : sides_cover(a, sample, candidate, tolerance);
     if (covered >= 0 && *order == ORDER_NOT_COMPUTED) {
         *order = order_of(a, other);
     }
@@ -724,7 +708,7 @@ int lrcsi_cells_single_next(lrcsi_cells_single *a)
 {
     lrcsi_cells_work *c = &a->cells;
     while (c->top > 0) {
-        lrcsi_cells_cell cell = lrcsi_cells_pop(c);
+        lrcsi_cells_cell cell = c->stack[--c->top];
         uint64_t steps = (uint64_t)1 + a->count + cell.segments;
         if (a->cells_left == 0 || !lrcsi_meter_take(c->meter, steps)) {
             leave_area_undecided(a, lrcsi_clip_area(&cell.shape));
@@ -758,6 +742,9 @@ lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
 
 /* Room for the sides of so many candidates. */
 #define MAX_SIDES 65536u
+/* Room for the lists of facets of all cells: of f alone, in each on the stack and twice in the
+ * last. */
+#define FACET_LISTS (LRCSI_CELLS_STACK + 2)
 
 static uint32_t sides_room(const lrcs_prepared *p)
 {
@@ -780,8 +767,10 @@ size_t lrcsi_cells_single_need(const lrcs_prepared *p)
     size_t segments = max_segments(p, p->topology.edge_count);
     size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_cells_single_side));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(uint32_t)));
+    need = lrcsi_work_add(need,
+                          lrcsi_work_bytes(segments, LRCSI_CELLS_SEGMENT_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(FACET_LISTS, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_STACK, sizeof(lrcsi_cells_cell)));
 }
 
@@ -798,11 +787,14 @@ int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *m
     a->listed = lrcsi_work_take_zero(work, count, sizeof *a->listed);
     a->order = lrcsi_work_take(work, count, sizeof *a->order);
     a->candidate = lrcsi_work_take(work, count, sizeof *a->candidate);
-    c.segments = lrcsi_work_take(work, c.segment_room, sizeof *c.segments);
+    c.facets_room = FACET_LISTS;
+    c.facets = lrcsi_work_take(work, c.facets_room, sizeof *c.facets);
+    c.segments_room = LRCSI_CELLS_SEGMENT_LISTS * (size_t)c.segment_room;
+    c.segments = lrcsi_work_take(work, c.segments_room, sizeof *c.segments);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
     c.stack = lrcsi_work_take(work, LRCSI_CELLS_STACK, sizeof *c.stack);
-    if (!a->side || !a->listed || !a->order || !a->candidate || !c.segments || !c.segment ||
-        !c.stack) {
+    if (!a->side || !a->listed || !a->order || !a->candidate || !c.facets || !c.segments ||
+        !c.segment || !c.stack) {
         return LRCS_E_MEMORY;
     }
     a->cells = c;

@@ -20,7 +20,6 @@ typedef struct lrcsi_cells_single {
     lrcsi_cells_facet shape;            /* f in its frame */
     lrcsi_cells_found area;             /* the areas of f found so far */
     unsigned char wanted;               /* cells.wanted: 1 */
-    uint32_t number;                    /* cells.facets: 0, the number of f there */
     uint32_t *candidate;                /* facets that may hide f */
     uint32_t count;                     /* of candidates */
     lrcsi_cells_single_side (*side)[3]; /* sides of the first side_room candidates */

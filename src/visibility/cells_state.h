@@ -27,28 +27,29 @@ typedef struct lrcsi_cells_grid {
 
 /* The largest number of cuts from a block to a cell, of cells on the stack, and of a component's
    edges at the border of a cell. */
-#define LRCSI_CELLS_MAX_CUTS    200u
-#define LRCSI_CELLS_STACK       (LRCSI_CELLS_MAX_CUTS + 2)
-#define LRCSI_CELLS_MAX_BORDERS 128u
+#define LRCSI_CELLS_MAX_CUTS 200u
+#define LRCSI_CELLS_STACK    (LRCSI_CELLS_MAX_CUTS + 2)
+/* Room for the lists of all cells on the stack: so many times all facets, and all segments of a
+   block. Ordinary scenes take twice those of a block, a stack of 800 plates 9 times its facets and
+   6 times its segments. A cell for whose parts there is no room is left undecided. */
+#define LRCSI_CELLS_FACET_LISTS   16u
+#define LRCSI_CELLS_SEGMENT_LISTS 8u
+#define LRCSI_CELLS_MAX_BORDERS   128u
 
-/* A part of the view plane that is not decided yet. Its facets are the first `facets` of the list
-   of facets, its segments the first `segments` of the list of segments. A cut makes two cells: the
-   left one is processed first, with all that are cut from it, while the right one waits on the
-   stack. The left one only reorders entries that the cell before the cut had. So the right one
-   later finds its own among the same first entries, and selects them (visibility/cells_cut.h). */
+/* A part of the view plane that is not decided yet, with lists of its facets and segments. A cut
+   makes two cells: the left one is processed first, with all that are cut from it, while the right
+   one waits on the stack. The lists of the right one take the place of those of the cell that was
+   cut; behind them follow those of the left one. */
 typedef struct lrcsi_cells_cell {
     lrcsi_clip_polygon shape;
+    uint32_t *facet, *segment; /* in the work's lists */
     uint32_t facets, segments;
     uint32_t cuts;       /* since the block */
     uint32_t removed;    /* segments removed from the list since the block */
     double shape_err;    /* the distance from the cell of a point that belongs to it, at most */
     double uncertainty;  /* area not charged yet, by which that of any facet may be wrong */
     double widest_strip; /* of a segment removed from the list */
-    double cut_line[3];  /* of the last cut */
-    double cut_side;     /* the cell's side of that line: 1 left, -1 right */
-    double cut_strip;    /* the width of the strip charged there */
-    uint32_t maybe[2];   /* on the stack: entries before these (facets, segments) may be the cell's;
-                            later ones are */
+    double cut_line[3];  /* of the last cut; positive in the cell */
 } lrcsi_cells_cell;
 
 /* Areas of a facet. */
@@ -94,8 +95,8 @@ typedef struct lrcsi_cells_work {
     uint32_t *hit, hits;             /* facets that may cover the sample */
     lrcsi_cells_border *border;      /* edges of the component at the border of the cell */
     uint32_t borders;
-    uint32_t *facets;   /* the list of facets */
-    uint32_t *segments; /* the list of segments */
+    uint32_t *facets, *segments; /* the lists of facets and segments of all waiting cells */
+    size_t facets_room, segments_room;
     lrcsi_cells_segment *segment;
     uint32_t segment_count, segment_room;
     lrcsi_cells_cell *stack;
@@ -104,14 +105,6 @@ typedef struct lrcsi_cells_work {
     double facet_err;  /* the largest position error of its facets */
     double negligible; /* undecided area that is charged without computing it more closely */
 } lrcsi_cells_work;
-
-/* Exchanges two items of a list. */
-static inline void lrcsi_cells_swap(uint32_t *list, uint32_t i, uint32_t j)
-{
-    uint32_t item = list[i];
-    list[i] = list[j];
-    list[j] = item;
-}
 
 /* Statements about a cell hold for all points within this distance of it, as computed: its shape
    error, and 16 u of the largest coordinate for distances from lines. */

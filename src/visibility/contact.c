@@ -45,12 +45,12 @@ static lrcsi_dd height_dd(const lrcsi_target *t, const double *x, double *err)
 
 /* The heights in double-double if that suffices, otherwise from the exact determinant. For a needle
    always the latter, because other facets may be 2^88 times as long as the needle is wide. */
-static contact_heights heights_of(const lrcsi_target *t, uint32_t other)
+static contact_heights heights_of(const lrcsi_target *t, const double *const corner[3])
 {
     const lrcs_prepared *p = t->view->prepared;
     contact_heights h;
     for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_frame_corner(t->view, other, k);
+        const double *x = corner[k];
         int accurate = 0;
         if (!t->needle) {
             h.fine[k] = height_dd(t, x, &h.err[k]);
@@ -278,13 +278,16 @@ static int find_segment_dd(const contact_heights *h, contact_dd *f, lrcsi_contac
 
 int lrcsi_contact_find(const lrcsi_target *t, uint32_t other, lrcsi_contact *c)
 {
-    contact_heights h = heights_of(t, other);
+    const double *const corner[3] = {lrcsi_target_frame_corner(t->view, other, 0),
+                                     lrcsi_target_frame_corner(t->view, other, 1),
+                                     lrcsi_target_frame_corner(t->view, other, 2)};
+    contact_heights h = heights_of(t, corner);
     contact_dd f = {0};
     int above = 0;
     int below = 0;
     *c = (lrcsi_contact){.position_err = 0};
     for (int k = 0; k < 3; k++) {
-        const double *x = lrcsi_target_frame_corner(t->view, other, k);
+        const double *x = corner[k];
         above += h.above[k] > 0;
         below += h.above[k] < 0;
         if (!t->needle) {

@@ -122,7 +122,7 @@ static void cuts_outline(ref_cuts *cuts, uint32_t other, const lrcsi_contact *c)
     const lrcsi_target *t = cuts->target;
     for (int k = 0; k < 3; k++) {
         int next = (k + 1) % 3;
-        const double away[2] = {c->away[k], c->away[next]};
+        const double away[2] = {c->distance[k], c->distance[next]};
         double end[2][2];
         double width = 0;
         memcpy(end[0], c->corner[k], sizeof end[0]);
