@@ -73,16 +73,6 @@ void cli_number_put(FILE *out, const char *before, double value)
     fprintf(out, "%s%s", before, text);
 }
 
-void cli_csv_text(FILE *out, const char *before, const char *text, const char *special)
-{
-    const char *quote = strpbrk(text, special) ? "\"" : "";
-    fprintf(out, "%s%s", before, quote);
-    for (; *text; text++) {
-        fputs(*text == '"' ? "\"\"" : (char[]){*text, '\0'}, out);
-    }
-    fputs(quote, out);
-}
-
 void cli_append(char *text, size_t size, const char *format, ...)
 {
     size_t used = strlen(text);

@@ -227,7 +227,7 @@ compare_case *cli_compare_find(const compare_kit *kit, const compare_table *tabl
     }
     for (uint32_t i = 0; i < kit->scenes && !scene; i++) {
         scene = strcmp(kit->scene[i].name, name) == 0 ? &kit->scene[i] : NULL;
-        best = cli_nearest(name, best, kit->scene[i].name);
+        best = lrcs_host_name_nearer(name, best, kit->scene[i].name);
         tiers = kit->scene[i].tier > tiers ? kit->scene[i].tier : tiers;
     }
     if (!scene) {
@@ -244,7 +244,7 @@ compare_case *cli_compare_find(const compare_kit *kit, const compare_table *tabl
         if (strcmp(kit->list[i].attitude, name) == 0) {
             return &kit->list[i];
         }
-        best = cli_nearest(name, best, kit->list[i].attitude);
+        best = lrcs_host_name_nearer(name, best, kit->list[i].attitude);
     }
     cli_table_refuse(table, 1, "an attitude of %s (the nearest is %s)", scene->name,
                      best ? best : "none");

@@ -112,9 +112,9 @@ static void peak_row(FILE *out, const report_job *job, uint32_t i)
 {
     const report_sweep *map = &job->sweep[REPORT_MAP];
     const cli_shares *shares = &job->peak_shares[i];
-    double value[SWEEP_COLUMNS];
+    double value[LRCS_HOST_PLAN_COLUMNS];
     double glint = 0.0;
-    cli_plan_values(&map->plan, job->peak[i], value);
+    lrcs_host_plan_values(&map->plan, job->peak[i], value);
     for (uint32_t k = 0; k < shares->parts; k++) {
         glint += shares->part[k].glint_m2;
     }

@@ -30,7 +30,7 @@ typedef struct report_sweep {
     char az[40], el[40];
     cli_given given[6];
     cli_args args;
-    sweep_plan plan;
+    lrcs_host_plan plan;
     sweep_plot plot;
     double (*row)[2];  /* sigma and bound, m2 */
     double (*band)[2]; /* the interval of the material uncertainty, m2; NULL if none is stated */

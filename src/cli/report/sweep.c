@@ -102,7 +102,7 @@ static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
     memcpy(sweep->given, given, sizeof given);
     sweep->args = (cli_args){&cli_sweep_command, job->args->operand, sweep->given,
                              kind == REPORT_MAP ? 4 : 5};
-    int code = cli_plan_read(&sweep->args, NULL, &sweep->plan);
+    int code = cli_plan_read(&sweep->args, &sweep->plan);
     code = code ? code : cli_plot_read(&sweep->args, &sweep->plan, &sweep->plot);
     sweep->plot.title = cli_report_title(job);
     sweep->plot.open = cli_materials_open(&job->scene.scene);
@@ -120,7 +120,7 @@ typedef struct sweep_walk {
 
 /* The first row of the same direction: a full turn ends where it began, and at a pole all azimuths
    are the same direction. */
-static uint64_t row_first(const sweep_plan *plan, uint64_t row)
+static uint64_t row_first(const lrcs_host_plan *plan, uint64_t row)
 {
     uint64_t els = plan->axis[1].range.count;
     uint64_t az = row / els;
@@ -135,7 +135,7 @@ static uint64_t row_first(const sweep_plan *plan, uint64_t row)
 static int walk_pose(void *context, uint64_t index, lrcs_pose *pose)
 {
     const sweep_walk *walk = context;
-    return cli_plan_pose(&walk->sweep->plan, walk->list[index], pose);
+    return lrcs_host_plan_pose(&walk->sweep->plan, walk->list[index], pose);
 }
 
 static int walk_take(void *context, uint64_t index, const lrcs_pose *pose,
@@ -161,7 +161,7 @@ static int walk_take(void *context, uint64_t index, const lrcs_pose *pose,
 /* Runs each direction once, and gives its result to all its rows. */
 static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *walk)
 {
-    const sweep_plan *plan = &walk->sweep->plan;
+    const lrcs_host_plan *plan = &walk->sweep->plan;
     const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
     lrcs_host_error error;
     double(*row)[2] = calloc(plan->rows, sizeof *row);
@@ -283,9 +283,9 @@ int cli_report_sweeps(report_job *job)
     cli_progress_clear(&progress);
     cli_watch_stage("peaks", NULL);
     const report_sweep *map = &job->sweep[REPORT_MAP];
-    job->peaks =
-        code ? 0
-             : cli_peaks_find(&map->plan, (const double(*)[2])map->row, REPORT_PEAKS, job->peak);
+    job->peaks = code ? 0
+                      : lrcs_host_plan_peaks(&map->plan, (const double(*)[2])map->row, REPORT_PEAKS,
+                                             job->peak);
     for (uint32_t i = 0; i < job->peaks && code == 0; i++) {
         code = cli_row_shares(&map->plan, job->peak[i], scene, &job->sweep_options,
                               &job->sweep_load.build, &job->peak_shares[i]);
