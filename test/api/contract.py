@@ -22,6 +22,7 @@ NEVER = {
     "lrcs_host_plan_make": {"LRCS_E_NAME", "LRCS_E_NUMBER", "LRCS_E_SYNTAX"},
     "lrcs_host_plan_check": {"LRCS_E_NUMBER"},
     "lrcs_host_pose_read": {"LRCS_E_NUMBER", "LRCS_E_SYNTAX"},
+    "lrcs_host_kit_read": {"LRCS_E_ARGUMENT"},
     # a fault of a row is one of its line; rows that were read are checked
     "lrcs_host_rows_next": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
     "lrcs_host_sweep_map_open": {"LRCS_E_LIMIT", "LRCS_E_SYSTEM"},
