@@ -29,14 +29,9 @@ static int ascending(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-void cli_sort(double *value, size_t count)
-{
-    qsort(value, count, sizeof *value, ascending);
-}
-
 double cli_median(double *value, size_t count)
 {
-    cli_sort(value, count);
+    qsort(value, count, sizeof *value, ascending);
     return count > 0 ? 0.5 * (value[(count - 1) / 2] + value[count / 2]) : 0.0;
 }
 

@@ -25,11 +25,9 @@ typedef struct report_bytes {
     size_t size;
 } report_bytes;
 
-/* A sweep as its command line specifies it. */
+/* A sweep. */
 typedef struct report_sweep {
-    char az[40], el[40];
-    cli_given given[6];
-    cli_args args;
+    char az[40], el[40]; /* what varies, as lrcs sweep takes it */
     lrcs_host_plan plan;
     sweep_plot plot;
     double (*row)[2];  /* sigma and bound, m2 */

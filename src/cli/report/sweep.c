@@ -80,7 +80,7 @@ static int steps_choose(report_job *job, const lrcs_host_scene *scene)
 
 /* ---- one sweep ---- */
 
-/* Makes the plan of a sweep from its command line, which it writes. */
+/* Makes the plan of a sweep from what varies, which a command line repeats. */
 static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
 {
     unsigned long step = kind == REPORT_MAP ? job->map_step : job->cut_step;
@@ -94,20 +94,15 @@ static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
         snprintf(sweep->el, sizeof sweep->el, kind == REPORT_MAP ? "-90:90:%lu" : "0:360:%lu",
                  step);
     }
-    const cli_given given[] = {{"az", sweep->az},
-                               {"el", sweep->el},
-                               {"dbsm", NULL},
-                               {"plot", kind == REPORT_MAP ? "map.svg" : "cut.svg"},
-                               {"polar", NULL}}; /* not of a map */
-    memcpy(sweep->given, given, sizeof given);
-    sweep->args = (cli_args){&cli_sweep_command, job->args->operand, sweep->given,
-                             kind == REPORT_MAP ? 4 : 5};
-    int code = cli_plan_read(&sweep->args, &sweep->plan);
-    code = code ? code : cli_plot_read(&sweep->args, &sweep->plan, &sweep->plot);
+    lrcs_host_error error;
+    const lrcs_host_plan_text given[] = {{"az", sweep->az}, {"el", sweep->el}};
+    int status = lrcs_host_plan_make(given, 2, NULL, &sweep->plan, &error);
+    sweep->plot = (sweep_plot){.dbsm = 1, .polar = kind != REPORT_MAP, .plan = &sweep->plan};
+    cli_plot_choose(&sweep->plot);
     sweep->plot.title = cli_report_title(job);
     sweep->plot.open = cli_materials_open(&job->scene.scene);
     sweep->plot.map = kind == REPORT_MAP; /* even if it has few rows */
-    return code;
+    return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
 typedef struct sweep_walk {

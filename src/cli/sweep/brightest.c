@@ -9,8 +9,7 @@
 
 #define BRIGHTEST_MOST 1000.0
 #define BRIGHTEST_ROWS ((uint64_t)1 << 28)
-#define NAMED_MOST     3u   /* number of parts, materials or facets named in a line */
-#define NAMED_ENOUGH   0.95 /* naming stops when the named ones make this share of sigma */
+#define NAMED_MOST     3u /* facets named in a line */
 #define VALUE_WIDTH    12
 
 /* ---- options ---- */
@@ -105,16 +104,12 @@ static void numbers_print(const lrcs_host_plan *plan, uint32_t rank, uint64_t ro
 static void rows_print(const cli_shares *shares, const char *what, const shares_row *row,
                        uint32_t count, const char *nameless)
 {
-    double share = 0.0;
-    uint32_t named = 0;
+    uint32_t named = cli_shares_named(shares, row, count);
     printf("     %-10s", what);
-    while (named < count && named < NAMED_MOST && share < NAMED_ENOUGH &&
-           row[named].sigma_m2 > 0.0) {
-        const shares_row *one = &row[named];
-        share += cli_share_of(shares, one->sigma_m2);
-        fputs(named++ == 0 ? "" : ", ", stdout);
-        cli_column(one->name[0] ? one->name : nameless, 0);
-        printf(" %.1f %%", 100.0 * cli_share_of(shares, one->sigma_m2));
+    for (uint32_t i = 0; i < named; i++) {
+        fputs(i == 0 ? "" : ", ", stdout);
+        cli_column(row[i].name[0] ? row[i].name : nameless, 0);
+        printf(" %.1f %%", 100.0 * cli_share_of(shares, row[i].sigma_m2));
     }
     shares_row others = cli_shares_others(row, named, count);
     if (others.sigma_m2 > 0.0) {

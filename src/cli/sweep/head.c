@@ -5,16 +5,26 @@
 
 #include <string.h>
 
-/* Adds the options of these names as they were given. 0 or CLI_USAGE. */
-static int head_given(const cli_args *args, const char *const *name, lrcs_host_rows_head *head)
+/* 1 if an option changes the scene that is read. */
+static int is_of_scene(const char *name)
+{
+    static const cli_option option[] = {CLI_SCENE_OPTIONS};
+    int found = 0;
+    for (size_t i = 0; i < sizeof option / sizeof option[0]; i++) {
+        found |= strcmp(option[i].name, name) == 0;
+    }
+    return found;
+}
+
+/* Adds the options that are `meant`, as they were given. 0 or CLI_USAGE. */
+static int head_given(const cli_args *args, int (*meant)(const char *name),
+                      lrcs_host_rows_head *head)
 {
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *given = &args->given[i];
-        for (size_t k = 0; name[k]; k++) {
-            if (strcmp(given->name, name[k]) == 0 &&
-                !lrcs_host_rows_head_add(head, name[k], given->value ? given->value : "yes")) {
-                return cli_usage(args->command, "--%s: too long", name[k]);
-            }
+        if (meant(given->name) &&
+            !lrcs_host_rows_head_add(head, given->name, given->value ? given->value : "yes")) {
+            return cli_usage(args->command, "--%s: too long", given->name);
         }
     }
     return 0;
@@ -25,11 +35,8 @@ static int head_given(const cli_args *args, const char *const *name, lrcs_host_r
 static int head_options(const cli_args *args, const lrcs_host_plan *plan,
                         const lrcs_run_options *options, lrcs_host_rows_head *head)
 {
-    static const char *const varied[] = {"az",    "el",         "rotate",    "sphere",
-                                         "joint", "vary",       "direction", "azel",
-                                         "euler", "quaternion", NULL};
     char text[64];
-    int code = head_given(args, varied, head);
+    int code = head_given(args, lrcs_host_plan_takes, head);
     if (plan->kind == LRCS_HOST_PLAN_TRACK) {
         snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)plan->track.hash);
         lrcs_host_rows_head_add(head, "poses", text);
@@ -52,7 +59,6 @@ static int head_options(const cli_args *args, const lrcs_host_plan *plan,
    depend on where the files are stored; and the command-line options that changed it. */
 static int head_scene(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_rows_head *head)
 {
-    static const char *const names[] = {"unit", "material", "two-sided", "keep-transparent", NULL};
     char text[CLI_FILE_TEXT];
     lrcs_host_rows_head_add(head, "normals", lrcs_normals_text(scene->scene.normals));
     lrcs_host_rows_head_add(head, "title", cli_base_name(cli_scene_title(args, scene)));
@@ -65,7 +71,7 @@ static int head_scene(const cli_args *args, const lrcs_host_scene *scene, lrcs_h
             break; /* the scene's hash stands for all of them */
         }
     }
-    return head_given(args, names, head);
+    return head_given(args, is_of_scene, head);
 }
 
 int cli_head_make(const cli_args *args, const lrcs_host_plan *plan, const lrcs_run_options *options,

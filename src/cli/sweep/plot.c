@@ -135,10 +135,21 @@ static int mollweide_fits(const lrcs_host_plan *plan, const sweep_plot *plot)
     return 1;
 }
 
-static int plot_check(const cli_args *args, const lrcs_host_plan *plan, sweep_plot *plot)
+uint32_t cli_plot_choose(sweep_plot *plot)
 {
     plot_axis axis[LRCS_HOST_PLAN_AXES + 1];
-    uint32_t count = varying_list(plan, axis);
+    uint32_t count = varying_list(plot->plan, axis);
+    if (plot->plan->kind == LRCS_HOST_PLAN_SPHERE) {
+        sphere_choose(plot->plan, plot);
+    } else if (count > 0) {
+        plot_choose(axis, count, plot);
+    }
+    return count;
+}
+
+static int plot_check(const cli_args *args, const lrcs_host_plan *plan, sweep_plot *plot)
+{
+    uint32_t count = cli_plot_choose(plot);
     int sphere = plan->kind == LRCS_HOST_PLAN_SPHERE;
     if (sphere && (count > 0 || plot->polar)) {
         return cli_usage(args->command,
@@ -154,11 +165,6 @@ static int plot_check(const cli_args *args, const lrcs_host_plan *plan, sweep_pl
     if (plan->rows > PLOT_ROWS) {
         return cli_usage(args->command, "--plot: at most 2^28 rows, found %llu",
                          (unsigned long long)plan->rows);
-    }
-    if (sphere) {
-        sphere_choose(plan, plot);
-    } else {
-        plot_choose(axis, count, plot);
     }
     if (plot->polar && plot->y.count > PLOT_CURVES) {
         return cli_usage(args->command, "--polar draws at most %u curves, found %llu", PLOT_CURVES,

@@ -100,6 +100,8 @@ typedef struct sweep_plot {
    replaces a file; 0 or CLI_USAGE. Then draws one sweep, or the curves of several along the same
    axis; 0 or CLI_FAILED. Also one drawing as SVG. The caller sets title and row. */
 int cli_plot_read(const cli_args *args, const lrcs_host_plan *plan, sweep_plot *plot);
+uint32_t
+cli_plot_choose(sweep_plot *plot); /* x and y, by plan, polar and mollweide; how many vary */
 int cli_plot_write(const cli_args *args, const sweep_plot *plot, uint32_t count);
 int cli_plot_svg(FILE *out, const sweep_plot *plot);
 
