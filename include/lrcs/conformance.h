@@ -75,9 +75,9 @@ int lrcs_host_kit_pose(const double quaternion[4], const double direction[3], lr
 /* The length of a facet's outline in the view plane, m. */
 double lrcs_host_kit_outline(const lrcs_scene *scene, uint32_t facet, const lrcs_pose *pose);
 
-/* Reads FOLDER/scenes/NAME.obj, assigns materials by these bindings, and prepares it. Returned:
-   scene, to be freed in any case. Status: LRCS_OK; as lrcs_host_scene_read and
-   lrcs_host_scene_prepare. */
+/* Reads FOLDER/scenes/NAME.obj, assigns materials by these bindings, and prepares it.
+   Returned: scene, to be freed in any case.
+   Status: as lrcs_host_scene_read and lrcs_host_scene_prepare. */
 int lrcs_host_kit_scene_read(const char *folder, const char *name, const lrcs_binding *binding,
                              uint32_t count, lrcs_host_scene *scene, lrcs_host_error *error);
 
@@ -157,9 +157,9 @@ typedef struct lrcs_host_judgement {
 } lrcs_host_judgement;
 
 /* Reads a table of answers (columns scene, attitude, and sigma_m2 or sigma_dbsm) and assigns every
-   case to its class; then finds the causes of the failures. Status: LRCS_OK; LRCS_E_SYSTEM;
-   LRCS_E_LIMIT; LRCS_E_SYNTAX, LRCS_E_NUMBER, LRCS_E_NAME: the sentence names the line; as
-   lrcs_host_kit_scene_read and lrcs_host_scene_run. */
+   case to its class; then finds the causes of the failures.
+   Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_LIMIT; LRCS_E_SYNTAX, LRCS_E_NUMBER, LRCS_E_NAME: the
+   sentence names the line; as lrcs_host_kit_scene_read and lrcs_host_scene_run. */
 int lrcs_host_judge(lrcs_host_judgement *judgement, const char *path, lrcs_host_error *error);
 int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *error);
 

@@ -30,9 +30,10 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
 
 /* Of a scene built with flat normals, the curved parts of models whose facets are too coarse for
    their glint, or with `all` every curved part of models: those that lrcs_host_glint_check finds
-   with the normals in its files. None of a scene with curved normals. Given: base, which was read;
-   build, with which it was built. Returned: list, an array that the caller frees. Status: LRCS_OK;
-   LRCS_E_SYSTEM; as lrcs_host_scene_vary. */
+   with the normals in its files. None of a scene with curved normals.
+   Given: base, which was read; build, with which it was built.
+   Returned: list, an array that the caller frees.
+   Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_host_scene_vary. */
 int lrcs_host_glint_coarse(const lrcs_host_scene *base, const lrcs_build_options *build, int all,
                            lrcs_host_glint **list, uint32_t *count, lrcs_host_error *error);
 

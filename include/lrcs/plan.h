@@ -73,11 +73,11 @@ int lrcs_host_plan_takes(const char *key);
 
 /* Makes a plan. `joint` and `vary` may be repeated; of the others that give poses only one is
    taken: az and el, else rotate, else sphere, else a track, else euler, else the pose.
-   Given: given[count], whose keys must outlive the plan; others than those above are ignored, and
-   so are those whose text is NULL. A track, or NULL: with it the plan owns its memory. Returned:
-   plan, to be freed in any case. Status: LRCS_OK; LRCS_E_ARGUMENT: the sentence begins with the key
-   of the text that is faulty; LRCS_E_LIMIT (too many axes or rows); LRCS_E_EMPTY (nothing varies).
- */
+   Given: given[count], whose keys must outlive the plan; other keys than those above and texts that
+   are NULL are ignored; a track, or NULL: the plan takes over its memory.
+   Returned: plan, to be freed in any case.
+   Status: LRCS_OK; LRCS_E_ARGUMENT: the sentence begins with the key of the faulty text;
+   LRCS_E_LIMIT (too many axes or rows); LRCS_E_EMPTY (nothing varies). */
 int lrcs_host_plan_make(const lrcs_host_plan_text *given, int count, const lrcs_host_track *track,
                         lrcs_host_plan *plan, lrcs_host_error *error);
 void lrcs_host_plan_free(lrcs_host_plan *plan);
@@ -124,9 +124,9 @@ double lrcs_host_plan_weight(const lrcs_host_plan *plan, uint64_t row);
 /* Finds the peaks: rows with sigma > 0 that are brighter than all their neighbours, of equal rows
    the first. Neighbours are one step away along the axes, diagonals included; a range of a full
    turn is closed, and at a pole of azimuth and elevation all azimuths are one direction. On a
-   sphere they are the next points around, on a track the rows before and after. Given: sigma and
-   bound of every row; most > 0. Returned: the brightest of them, at most `most`, the brightest
-   first; how many. */
+   sphere they are the next points around, on a track the rows before and after.
+   Given: sigma and bound of every row; most > 0.
+   Returned: the brightest of them, at most `most`, the brightest first; how many. */
 uint32_t lrcs_host_plan_peaks(const lrcs_host_plan *plan, const double (*row)[2], uint32_t most,
                               uint64_t *peak);
 

@@ -73,9 +73,9 @@ int lrcs_host_sweep_part_read(const char *path, const lrcs_host_sweep_part *othe
 void lrcs_host_sweep_part_free(lrcs_host_sweep_part *part);
 
 /* Joins parts, which are sorted by their rows, into the file that one sweep would have written,
-   byte for byte: a map, or a text in the format of the parts ("-": standard output). Status:
-   LRCS_OK; LRCS_E_INDEX: not every row is present exactly once; LRCS_E_SYSTEM; LRCS_E_LIMIT (a map
-   above 16 GiB). */
+   byte for byte: a map, or a text in the format of the parts ("-": standard output); count > 0.
+   Status: LRCS_OK; LRCS_E_INDEX: not every row is present exactly once; LRCS_E_SYSTEM;
+   LRCS_E_LIMIT (a map above 16 GiB). */
 int lrcs_host_sweep_join(lrcs_host_sweep_part *part, uint32_t count, const char *path, int map,
                          lrcs_host_error *error);
 
