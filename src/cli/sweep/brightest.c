@@ -106,7 +106,7 @@ static void rows_print(const cli_shares *shares, const char *what, const shares_
 {
     uint32_t named = cli_shares_named(shares, row, count);
     printf("     %-10s", what);
-    for (uint32_t i = 0; i < named; i++) {
+    for (uint32_t i = 0; i < count && i < named; i++) {
         fputs(i == 0 ? "" : ", ", stdout);
         cli_column(row[i].name[0] ? row[i].name : nameless, 0);
         printf(" %.1f %%", 100.0 * cli_share_of(shares, row[i].sigma_m2));
