@@ -30,11 +30,19 @@ void lrcs_host_number_text(double value, char text[LRCS_HOST_NUMBER_SIZE]);
    Status: LRCS_OK; LRCS_E_SYNTAX; LRCS_E_NUMBER (beyond double range). */
 int lrcs_host_number_read(const char *text, size_t size, double *value);
 
+/* Reads a text that consists of exactly `count` such numbers, separated by commas.
+   Status: LRCS_OK; LRCS_E_SYNTAX; LRCS_E_NUMBER. */
+int lrcs_host_numbers_read(const char *text, double *value, int count);
+
 /* ---- names ---- */
 
 /* How far a name is from what was typed: 0 if it begins with the text, else the number of edits
    (letters added, dropped, replaced, neighbours swapped) in the first 64 bytes. */
 unsigned lrcs_host_name_distance(const char *text, const char *name);
+
+/* Of two names the one that is nearer by that measure to what was typed; `best` if they are alike,
+   or the candidate if `best` is NULL. */
+const char *lrcs_host_name_nearer(const char *text, const char *best, const char *candidate);
 
 /* The names most like what was typed, best first, each once: those that contain the text or are
    contained in it, then those with the fewest edits, ignoring case.
@@ -53,6 +61,10 @@ typedef struct lrcs_host_file {
 /* A whole file in memory. Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_LIMIT (above 16 GiB). */
 int lrcs_host_file_read(const char *path, lrcs_host_file *file, lrcs_host_error *error);
 void lrcs_host_file_free(lrcs_host_file *file);
+
+/* FNV-1a, 64 bit, a fingerprint: the hash of no bytes; the hash after `size` more bytes. */
+#define LRCS_HOST_HASH_START UINT64_C(0xcbf29ce484222325)
+uint64_t lrcs_host_hash(uint64_t hash, const void *bytes, size_t size);
 
 /* A file being written. It appears under its name only when it is complete: until then it is a
    temporary file in the same folder. "-" is standard output; a device or pipe is written

@@ -3,7 +3,7 @@
 #ifndef LRCS_GLINT_H
 #define LRCS_GLINT_H
 
-#include <lrcs/file.h>
+#include <lrcs/load.h>
 
 /* Whether the mesh of a curved body is fine enough for the glint of its material. An ESTIMATE. The
    turn is the median angle between neighbouring facets that share a smoothing group; in a scene
@@ -28,6 +28,15 @@ typedef struct lrcs_host_glint {
 int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint32_t *count,
                           lrcs_host_error *error);
 
+/* Of a scene built with flat normals, the curved parts of models whose facets are too coarse for
+   their glint, or with `all` every curved part of models: those that lrcs_host_glint_check finds
+   with the normals in its files. None of a scene with curved normals.
+   Given: base, which was read; build, with which it was built.
+   Returned: list, an array that the caller frees.
+   Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_host_scene_vary. */
+int lrcs_host_glint_coarse(const lrcs_host_scene *base, const lrcs_build_options *build, int all,
+                           lrcs_host_glint **list, uint32_t *count, lrcs_host_error *error);
+
 /* The glint of one pose that comes from facets too coarse for it. */
 typedef struct lrcs_host_glint_sum {
     double glint_m2; /* of all these facets together */
@@ -43,5 +52,9 @@ typedef struct lrcs_host_glint_sum {
 void lrcs_host_glint_sum_make(const lrcs_scene *scene, const lrcs_facet_record *records,
                               const lrcs_host_glint *list, uint32_t count,
                               lrcs_host_glint_sum *sum);
+
+/* 1 if the glint of that flat face makes more than half of sigma: its normal is the mesh's, not the
+   surface's. */
+int lrcs_host_glint_dominates(const lrcs_host_glint_sum *sum, double sigma_m2);
 
 #endif

@@ -54,4 +54,17 @@ int lrcs_host_field_read(const lrcs_host_table *table, uint32_t column, const ch
 int lrcs_host_field_refuse(const lrcs_host_table *table, int status, uint32_t column,
                            const char *expected, lrcs_host_error *error);
 
+/* ---- lines of keys ---- */
+
+/* A line "WORDS; key=text; key=text", whose texts may contain "; " too: each ends where the next
+   "; key=" begins. The place of the next "; key=", or NULL; the text of a key, cut at the size: 1,
+   or 0 if the key is missing; its number, or NAN. */
+char *lrcs_host_key_next(const char *line);
+int lrcs_host_key_text(const char *line, const char *key, char *text, size_t size);
+double lrcs_host_key_number(const char *line, const char *key);
+
+/* Ends a JSON text, which begins at `at` after its quote, at its closing quote, each escaped
+   character (a quote or a backslash) by itself. Returns what follows. */
+char *lrcs_host_json_unquote(char *at);
+
 #endif

@@ -11,6 +11,9 @@ void lrcs_host_facets_write(FILE *out, const lrcs_scene *scene, const lrcs_facet
 /* The table of visible polygons: a header and one row per point; rings are counted from 0. */
 void lrcs_host_polygons_write(FILE *out, const lrcs_polygons *polygons);
 
+/* A text as a field of CSV: in quotes if it contains one of the special characters. */
+void lrcs_host_csv_text(FILE *out, const char *text, const char *special);
+
 /* A JSON writer: containers nest; commas and escapes are written automatically. */
 enum lrcs_host_json_kind {
     LRCS_HOST_OBJECT, /* one item per line */

@@ -61,13 +61,6 @@ int cli_finish(int code)
     return code;
 }
 
-const char *cli_nearest(const char *text, const char *best, const char *candidate)
-{
-    return !best || lrcs_host_name_distance(text, candidate) < lrcs_host_name_distance(text, best)
-               ? candidate
-               : best;
-}
-
 int cli_is_near(const char *text, const char *name)
 {
     return lrcs_host_name_distance(text, name) <= strlen(text) / 2;
@@ -85,7 +78,7 @@ static int unknown_option(const cli_command *command, const char *word, size_t s
     const char *best = NULL;
     snprintf(name, sizeof name, "%.*s", (int)(size > dashes ? size - dashes : 0), word + dashes);
     for (const cli_option *option = command->option; option->name; option++) {
-        best = cli_nearest(name, best, option->name);
+        best = lrcs_host_name_nearer(name, best, option->name);
     }
     if (!best || !cli_is_near(name, best)) {
         return cli_usage(command, "unknown option '%.*s'", (int)size, word);
@@ -219,17 +212,4 @@ int cli_choice(const cli_args *args, const char *name, const char *words, int *p
         at += strncmp(at, "or ", 3) == 0 ? 3 : 0;
     }
     return text ? cli_expected(args, name, words) : 0;
-}
-
-int cli_list(const char *text, double *value, int count)
-{
-    for (int i = 0; i < count; i++) {
-        size_t size = strcspn(text, ",");
-        int last = text[size] == '\0';
-        if (lrcs_host_number_read(text, size, &value[i]) != LRCS_OK || last != (i == count - 1)) {
-            return -1;
-        }
-        text += size + 1;
-    }
-    return 0;
 }

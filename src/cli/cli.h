@@ -129,13 +129,6 @@ int cli_whole(const cli_args *args, const char *name, double least, double most,
    option was not given. 0 or CLI_USAGE. */
 int cli_choice(const cli_args *args, const char *name, const char *words, int *place);
 
-/* Reads exactly `count` numbers separated by commas; 0, or -1. */
-int cli_list(const char *text, double *value, int count);
-
-/* The known name nearest to `text`: one that begins with `text`, or else the nearest by edit
-   distance. */
-const char *cli_nearest(const char *text, const char *best, const char *candidate);
-
 /* 1 if a name is near enough to `text` to be suggested in its place: at most half of the letters
    differ. */
 int cli_is_near(const char *text, const char *name);
@@ -242,16 +235,6 @@ void cli_line_put(FILE *out, const char *before, const char *text);
 #define CLI_FILE_TEXT 384
 void cli_file_text(const lrcs_host_input *input, char text[CLI_FILE_TEXT]);
 
-/* Such a line read back. The place of the next "; key=" in a line, or NULL; the text of a key, cut
-   at the size: 1, or 0 if the key is missing; its number, or NAN. */
-char *cli_key_next(const char *line);
-int cli_key_text(const char *line, const char *key, char *text, size_t size);
-double cli_key_number(const char *line, const char *key);
-
-/* Ends a JSON text, which begins at `at` after its quote, at its closing quote, each escaped
-   character (a quote or a backslash) by itself; returns what follows. */
-char *cli_json_unquote(char *at);
-
 /* What a writer writes, as a text that the caller frees; NULL without memory. */
 typedef void cli_text_writer(FILE *out, const void *context);
 char *cli_text_of(cli_text_writer *write, const void *context);
@@ -281,10 +264,6 @@ char *cli_beside_name(const char *path); /* NULL without memory; the caller free
 int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
                           const lrcs_pose *pose, const char *about);
 
-/* FNV-1a: the sum of no bytes, and of more bytes. */
-#define CLI_SUM_BEGIN 0xcbf29ce484222325u
-uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size);
-
 /* The name of a scene's material as it is printed: "(default)" if it has none. */
 const char *cli_material_name(const lrcs_material *material);
 
@@ -295,10 +274,9 @@ typedef struct cli_sum {
 void cli_sum_add(cli_sum *sum, double value);
 double cli_sum_value(const cli_sum *sum);
 
-/* Sorts numbers in ascending order. Their median: of an even number the mean of the middle two; 0
-   of none. */
-void cli_sort(double *value, size_t count);
-double cli_median(double *value, size_t count); /* sorts them */
+/* Sorts numbers in ascending order. Returns their median: of an even number the mean of the middle
+   two; 0 of none. */
+double cli_median(double *value, size_t count);
 
 /* A value >= 0 as it is, or NAN, which no output shows as a number, for one that is not known. */
 double cli_known(double value);
@@ -315,9 +293,6 @@ void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
 
 /* A number after some text, with all digits needed to read it back. */
 void cli_number_put(FILE *out, const char *before, double value);
-
-/* The same for a text as a field of CSV: in quotes if it contains one of the special characters. */
-void cli_csv_text(FILE *out, const char *before, const char *text, const char *special);
 
 /* Appends to a text, truncated to its size. */
 __attribute__((format(printf, 3, 4))) void cli_append(char *text, size_t size, const char *format,

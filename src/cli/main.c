@@ -61,7 +61,7 @@ static int unknown_command(const char *name)
 {
     const char *best = NULL;
     for (size_t i = 0; i < MAIN_COMMANDS; i++) {
-        best = cli_nearest(name, best, main_commands[i]->name);
+        best = lrcs_host_name_nearer(name, best, main_commands[i]->name);
     }
     return cli_is_near(name, best)
                ? cli_usage(NULL, "unknown command '%s'; the nearest is %s", name, best)

@@ -70,7 +70,7 @@ int cli_brdf_error_read(const cli_command *command, const char *text, const char
                              option, text);
         }
         for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
-            best = cli_nearest(text, best, entry->name);
+            best = lrcs_host_name_nearer(text, best, entry->name);
         }
         return cli_usage(command,
                          "%s: expected A,B,s,m (four finite numbers) or a library material, found "

@@ -3,6 +3,8 @@
    the laser is on +z), and the accuracy and method of a run. */
 #include "cli/cli.h"
 
+#include <lrcs/plan.h>
+
 #include <math.h>
 #include <string.h>
 
@@ -10,65 +12,24 @@
 
 /* ---- the pose ---- */
 
-/* The options that give a pose: how many numbers they have, what a message expects of their form,
-   and of numbers of that form. */
-enum { POSE_DIRECTION, POSE_AZEL, POSE_EULER, POSE_QUATERNION, POSE_WAYS };
-static const struct {
-    const char *name;
-    int numbers;
-    const char *form, *value;
-} pose_way[POSE_WAYS] = {
-    {"direction", 3, "x,y,z (to the laser, body frame)", "a vector that is not zero"},
-    {"azel", 2, "AZ,EL in degrees", "AZ,EL in degrees"},
-    {"euler", 3, "SEQ:a,b,c with SEQ three letters and a, b, c in degrees (XYZ:10,20,30)", NULL},
-    {"quaternion", 4, "w,x,y,z (body to observation)", "one that is not zero"}};
-
-static int pose_make(const cli_args *args, int way, const char *text, lrcs_pose *pose)
-{
-    double v[4];
-    char sequence[4] = "";
-    const char *numbers = text;
-    if (way == POSE_EULER) {
-        const char *colon = strchr(text, ':');
-        int three = colon && colon - text == 3;
-        memcpy(sequence, three ? text : "", three ? 3 : 0);
-        numbers = three ? colon + 1 : "";
-    }
-    if (cli_list(numbers, v, pose_way[way].numbers) != 0) {
-        return cli_expected(args, pose_way[way].name, pose_way[way].form);
-    }
-    int status = way == POSE_DIRECTION ? lrcs_pose_from_direction(v, pose)
-                 : way == POSE_AZEL    ? lrcs_pose_from_azel(v[0], v[1], pose)
-                 : way == POSE_EULER   ? lrcs_pose_from_euler(sequence, v, pose)
-                                       : lrcs_pose_from_quaternion(v, pose);
-    if (way == POSE_EULER && status == LRCS_E_NAME) {
-        return cli_usage(args->command,
-                         "--euler: expected three of XYZ (intrinsic) or of xyz (extrinsic), "
-                         "neighbours different, found '%s'",
-                         sequence);
-    }
-    if (way == POSE_EULER && status != LRCS_OK) {
-        return cli_usage(args->command, "--euler: %s", lrcs_status_text(status));
-    }
-    return status == LRCS_OK ? 0 : cli_expected(args, pose_way[way].name, pose_way[way].value);
-}
-
 int cli_pose_read(const cli_args *args, lrcs_pose *pose)
 {
+    static const char *const way[] = {"direction", "azel", "euler", "quaternion"};
+    lrcs_host_error error;
     const char *first = NULL;
-    int code = 0;
     *pose = lrcs_pose_default();
-    for (int way = 0; way < POSE_WAYS && code == 0; way++) {
-        const char *name = pose_way[way].name;
-        const char *text = cli_value(args, name);
+    for (size_t i = 0; i < sizeof way / sizeof way[0]; i++) {
+        const char *text = cli_value(args, way[i]);
         if (text && first) {
             return cli_usage(args->command, "--%s and --%s both give the pose: give one", first,
-                             name);
+                             way[i]);
         }
-        first = text ? name : first;
-        code = text ? pose_make(args, way, text, pose) : 0;
+        first = text ? way[i] : first;
+        if (text && lrcs_host_pose_read(way[i], text, pose, &error) != LRCS_OK) {
+            return cli_usage(args->command, "--%s", error.text);
+        }
     }
-    return code;
+    return 0;
 }
 
 void cli_pose_unit(const lrcs_pose *pose, double s_hat[3])

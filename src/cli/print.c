@@ -29,14 +29,9 @@ static int ascending(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-void cli_sort(double *value, size_t count)
-{
-    qsort(value, count, sizeof *value, ascending);
-}
-
 double cli_median(double *value, size_t count)
 {
-    cli_sort(value, count);
+    qsort(value, count, sizeof *value, ascending);
     return count > 0 ? 0.5 * (value[(count - 1) / 2] + value[count / 2]) : 0.0;
 }
 
@@ -71,16 +66,6 @@ void cli_number_put(FILE *out, const char *before, double value)
     char text[LRCS_HOST_NUMBER_SIZE];
     lrcs_host_number_text(value, text);
     fprintf(out, "%s%s", before, text);
-}
-
-void cli_csv_text(FILE *out, const char *before, const char *text, const char *special)
-{
-    const char *quote = strpbrk(text, special) ? "\"" : "";
-    fprintf(out, "%s%s", before, quote);
-    for (; *text; text++) {
-        fputs(*text == '"' ? "\"\"" : (char[]){*text, '\0'}, out);
-    }
-    fputs(quote, out);
 }
 
 void cli_append(char *text, size_t size, const char *format, ...)

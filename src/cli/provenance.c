@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What a result was made from, as outputs state it: the scene's title, its files with their hashes,
-   the unit, the assigned materials and the origin of their numbers, the options given. Also the
-   first line of a table, "lrcs VERSION COMMAND; key=text; ..", read back. */
+   the unit, the assigned materials and the origin of their numbers, the options given. */
 #include "cli/cli.h"
 
 #include <math.h>
@@ -67,22 +66,13 @@ const char *cli_base_name(const char *path)
     return slash && slash[1] ? slash + 1 : path;
 }
 
-uint64_t cli_sum_more(uint64_t sum, const void *bytes, size_t size)
-{
-    const unsigned char *at = bytes;
-    for (size_t i = 0; i < size; i++) {
-        sum = (sum ^ at[i]) * 0x100000001b3u;
-    }
-    return sum;
-}
-
 /* The hash of a file; that of no bytes if it cannot be read. */
 static uint64_t file_hash(const char *path)
 {
     lrcs_host_file file;
-    uint64_t hash = CLI_SUM_BEGIN;
+    uint64_t hash = LRCS_HOST_HASH_START;
     if (lrcs_host_file_read(path, &file, NULL) == LRCS_OK) {
-        hash = cli_sum_more(hash, file.bytes, file.size);
+        hash = lrcs_host_hash(hash, file.bytes, file.size);
         lrcs_host_file_free(&file);
     }
     return hash;
@@ -355,58 +345,4 @@ char *cli_text_of(cli_text_writer *write, const void *context)
         }
     }
     return text;
-}
-
-/* ---- read back ---- */
-
-/* A text may contain "; " too: it ends where the next "; key=" begins. */
-char *cli_key_next(const char *line)
-{
-    char *at = strstr(line, "; ");
-    for (; at; at = strstr(at + 1, "; ")) {
-        size_t size = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz0123456789_-");
-        if (size > 0 && at[2 + size] == '=') {
-            break;
-        }
-    }
-    return at;
-}
-
-int cli_key_text(const char *line, const char *key, char *text, size_t size)
-{
-    size_t length = strlen(key);
-    for (const char *at = cli_key_next(line); at; at = cli_key_next(at + 2)) {
-        if (strncmp(at + 2, key, length) == 0 && at[2 + length] == '=') {
-            const char *begin = at + 3 + length;
-            const char *end = cli_key_next(begin);
-            int whole = (int)(end ? end - begin : (ptrdiff_t)strlen(begin));
-            snprintf(text, size, "%.*s", whole, begin);
-            return 1;
-        }
-    }
-    return 0;
-}
-
-double cli_key_number(const char *line, const char *key)
-{
-    char text[64];
-    double value;
-    return cli_key_text(line, key, text, sizeof text) &&
-                   lrcs_host_number_read(text, strlen(text), &value) == LRCS_OK
-               ? value
-               : (double)NAN;
-}
-
-char *cli_json_unquote(char *at)
-{
-    char *to = at;
-    for (; *at && *at != '"'; at++) {
-        if (*at == '\\' && at[1]) {
-            at++;
-        }
-        *to++ = *at;
-    }
-    char *next = *at ? at + 1 : at;
-    *to = '\0';
-    return next;
 }

@@ -110,7 +110,8 @@ static int aspect_read(const cli_args *args, const shape_form *form, lrcs_aspect
     if (direction) {
         double *v = aspect->direction;
         aspect->by_direction = 1;
-        if (cli_list(direction, v, 3) != 0 || (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0)) {
+        if (lrcs_host_numbers_read(direction, v, 3) != LRCS_OK ||
+            (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0)) {
             return cli_expected(args, "direction", "x,y,z, not all zero");
         }
         return 0;
@@ -129,7 +130,7 @@ static int shape_read(const cli_args *args, lrcs_shape *shape, lrcs_aspect *aspe
     if (shape->kind < 0) {
         const char *best = NULL;
         for (int i = 0; i < LRCS_SHAPE_KINDS; i++) {
-            best = cli_nearest(args->operand, best, lrcs_shape_text(i));
+            best = lrcs_host_name_nearer(args->operand, best, lrcs_shape_text(i));
         }
         return cli_usage(args->command, "unknown KIND '%s'; the nearest is %s", args->operand,
                          best);
@@ -138,8 +139,8 @@ static int shape_read(const cli_args *args, lrcs_shape *shape, lrcs_aspect *aspe
     const double *size = shape->size;
     int code = 0;
     if (is_given(args, "size", form->sizes, form->sizes == 2 ? " a,b" : " a,b,c", &code) &&
-        (cli_list(cli_value(args, "size"), shape->size, form->sizes) != 0 || size[0] < 0.0 ||
-         size[1] < 0.0 || size[2] < 0.0)) {
+        (lrcs_host_numbers_read(cli_value(args, "size"), shape->size, form->sizes) != LRCS_OK ||
+         size[0] < 0.0 || size[1] < 0.0 || size[2] < 0.0)) {
         return cli_expected(args, "size",
                             form->sizes == 2 ? "a,b (metres, >= 0)" : "a,b,c (metres, >= 0)");
     }

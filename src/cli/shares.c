@@ -28,6 +28,16 @@ uint32_t cli_shares_shown(const shares_row *row, uint32_t count)
     return shown;
 }
 
+uint32_t cli_shares_named(const cli_shares *shares, const shares_row *row, uint32_t count)
+{
+    double share = 0.0;
+    uint32_t named = 0;
+    while (named < count && named < 3 && share < 0.95 && row[named].sigma_m2 > 0.0) {
+        share += cli_share_of(shares, row[named++].sigma_m2);
+    }
+    return named;
+}
+
 shares_row cli_shares_others(const shares_row *row, uint32_t from, uint32_t count)
 {
     cli_sum sum[3] = {{0.0, 0.0}};

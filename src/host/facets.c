@@ -5,21 +5,17 @@
 
 #include <string.h>
 
-/* A text field, quoted only where it must be. */
-static void csv_text(FILE *out, const char *text)
+void lrcs_host_csv_text(FILE *out, const char *text, const char *special)
 {
-    if (!strpbrk(text, ",\"\r\n")) {
-        fputs(text, out);
-        return;
-    }
-    putc('"', out);
+    const char *quote = strpbrk(text, special) ? "\"" : "";
+    fputs(quote, out);
     for (; *text; text++) {
         if (*text == '"') {
             putc('"', out);
         }
         putc(*text, out);
     }
-    putc('"', out);
+    fputs(quote, out);
 }
 
 /* The rest of a row. */
@@ -40,7 +36,7 @@ void lrcs_host_facets_write(FILE *out, const lrcs_scene *scene, const lrcs_facet
         const double value[4] = {records[i].area_m2, records[i].cos_theta,
                                  records[i].visible_area_m2, records[i].sigma_m2};
         fprintf(out, "%lu,", (unsigned long)i);
-        csv_text(out, scene->material[scene->facet_material[i]].name);
+        lrcs_host_csv_text(out, scene->material[scene->facet_material[i]].name, ",\"\r\n");
         numbers_write(out, value, 4);
     }
 }

@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/fnv.h"
+
 /* Far above the size of any sensible mesh of 2^32 facets; a guard against /dev/zero. */
 #define FILE_SIZE_MAX ((size_t)1 << 34)
 
@@ -175,4 +177,13 @@ int lrcs_host_output_close(lrcs_host_output *output, int keep, lrcs_host_error *
     free(output->temporary);
     *output = (lrcs_host_output){NULL, NULL, NULL};
     return status;
+}
+
+uint64_t lrcs_host_hash(uint64_t hash, const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes;
+    for (size_t i = 0; i < size; i++) {
+        hash = lrcsi_fnv_byte(hash, at[i]);
+    }
+    return hash;
 }

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/constant.h"
 #include "base/vec3.h"
@@ -261,4 +262,44 @@ void lrcs_host_glint_sum_make(const lrcs_scene *scene, const lrcs_facet_record *
         }
     }
     sum->most_m2 = sum->facet == LRCS_NONE ? 0.0 : face_glint(scene, records, sum->facet);
+}
+
+int lrcs_host_glint_dominates(const lrcs_host_glint_sum *sum, double sigma_m2)
+{
+    return sum->most_m2 > 0.5 * sigma_m2;
+}
+
+int lrcs_host_glint_coarse(const lrcs_host_scene *base, const lrcs_build_options *build, int all,
+                           lrcs_host_glint **list, uint32_t *count, lrcs_host_error *error)
+{
+    lrcs_host_scene smooth;
+    lrcs_host_glint *entry = NULL;
+    lrcs_build_options options = *build;
+    uint32_t found = 0;
+    uint32_t used = 0;
+    *list = NULL;
+    *count = 0;
+    if (base->scene.normals != LRCS_NORMALS_FLAT) {
+        return LRCS_OK;
+    }
+    memset(&smooth, 0, sizeof smooth);
+    options.normals = LRCS_NORMALS_SMOOTH;
+    int status = lrcs_host_scene_vary(base, &base->recipe, &options, &smooth, error);
+    if (status == LRCS_OK) {
+        status = lrcs_host_glint_check(&smooth.scene, &entry, &found, error);
+    }
+    for (uint32_t i = 0; status == LRCS_OK && i < found; i++) {
+        int model = base->scene.part[entry[i].part].kind < 0; /* shapes meet the tolerance */
+        if (model && (all || entry[i].error > LRCS_HOST_GLINT_COARSE)) {
+            entry[used++] = entry[i];
+        }
+    }
+    lrcs_host_scene_free(&smooth);
+    if (status != LRCS_OK) {
+        free(entry);
+        return status;
+    }
+    *list = entry;
+    *count = used;
+    return LRCS_OK;
 }

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/fnv.h"
 #include "host/file.h"
 
 const char *lrcsi_host_basename(const char *path)
@@ -36,10 +35,7 @@ int lrcsi_host_input_read(lrcs_host_scene *scene, const char *path, lrcs_host_fi
         lrcs_host_file_free(file);
         return lrcsi_host_fail_memory(error, sizeof *input);
     }
-    uint64_t hash = LRCSI_FNV_START;
-    for (size_t i = 0; i < file->size; i++) {
-        hash = lrcsi_fnv_byte(hash, file->bytes[i]);
-    }
+    uint64_t hash = lrcs_host_hash(LRCS_HOST_HASH_START, file->bytes, file->size);
     *input = (lrcs_host_input){name, hash, about.st_dev, about.st_ino, 0.0, scene->input};
     scene->input = input;
     return LRCS_OK;

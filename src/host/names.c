@@ -111,6 +111,13 @@ unsigned lrcs_host_name_distance(const char *text, const char *name)
     return text[0] && strncmp(text, name, strlen(text)) == 0 ? 0 : edit_distance(text, name, 0);
 }
 
+const char *lrcs_host_name_nearer(const char *text, const char *best, const char *candidate)
+{
+    return !best || lrcs_host_name_distance(text, candidate) < lrcs_host_name_distance(text, best)
+               ? candidate
+               : best;
+}
+
 /* 1 if one contains the other, ignoring case; the empty text contains nothing. */
 static int contains(const char *whole, const char *part)
 {

@@ -47,3 +47,17 @@ int lrcs_host_number_read(const char *text, size_t size, double *value)
     *value = number;
     return LRCS_OK;
 }
+
+int lrcs_host_numbers_read(const char *text, double *value, int count)
+{
+    for (int i = 0; i < count; i++) {
+        size_t size = strcspn(text, ",");
+        int last = text[size] == '\0';
+        int status = lrcs_host_number_read(text, size, &value[i]);
+        if (status != LRCS_OK || last != (i == count - 1)) {
+            return status != LRCS_OK ? status : LRCS_E_SYNTAX;
+        }
+        text += size + 1;
+    }
+    return LRCS_OK;
+}

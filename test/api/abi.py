@@ -44,8 +44,10 @@ def answers(compiler, statements):
     with tempfile.TemporaryDirectory() as folder:
         source, program = os.path.join(folder, "abi.c"), os.path.join(folder, "abi")
         with open(source, "w", encoding="utf-8") as file:
-            file.write("#define _XOPEN_SOURCE 700\n#include <lrcs/picture.h>\n#include <lrcs/quadric.h>\n#include <lrcs/shares.h>\n#include <lrcs/sweep.h>\n#include <lrcs/table.h>\n"
-                       "#include <stddef.h>\n#include <stdio.h>\nint main(void)\n{\n")
+            file.write("#define _XOPEN_SOURCE 700\n")
+            for path in sorted(glob.glob("include/lrcs/*.h")):
+                file.write(f"#include <lrcs/{os.path.basename(path)}>\n")
+            file.write("#include <stddef.h>\n#include <stdio.h>\nint main(void)\n{\n")
             file.write("\n".join(statements) + "\n}\n")
         subprocess.run([compiler, "-std=c11", "-Iinclude", source, "-o", program], check=True)
         return subprocess.run([program], check=True, stdout=subprocess.PIPE, text=True).stdout

@@ -18,6 +18,17 @@ NEVER = {
     "lrcs_host_scene_refine": {"LRCS_E_ARGUMENT", "LRCS_E_INDEX", "LRCS_E_LIMIT", "LRCS_E_MEMORY", "LRCS_E_NAME",
                                "LRCS_E_NUMBER", "LRCS_E_SYSTEM", "LRCS_E_UNSUPPORTED"},
     "lrcs_host_sweep_run": {"LRCS_E_NAME"},
+    # every fault of a text is one of its plan
+    "lrcs_host_plan_make": {"LRCS_E_NAME", "LRCS_E_NUMBER", "LRCS_E_SYNTAX"},
+    "lrcs_host_plan_check": {"LRCS_E_NUMBER"},
+    "lrcs_host_pose_read": {"LRCS_E_NUMBER", "LRCS_E_SYNTAX"},
+    "lrcs_host_kit_read": {"LRCS_E_ARGUMENT"},
+    # a fault of a row is one of its line; rows that were read are checked
+    "lrcs_host_rows_next": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
+    "lrcs_host_sweep_map_open": {"LRCS_E_LIMIT", "LRCS_E_SYSTEM"},
+    "lrcs_host_sweep_read": {"LRCS_E_NAME", "LRCS_E_NUMBER"},
+    "lrcs_host_sweep_part_read": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
+    "lrcs_host_sweep_join": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER", "LRCS_E_SYNTAX"},
     # a direction made of a sine and a cosine, or a rotation, is never zero
     "lrcs_pose_from_azel": {"LRCS_E_ARGUMENT"},
     "lrcs_pose_from_euler": {"LRCS_E_ARGUMENT"},

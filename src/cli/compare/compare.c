@@ -65,14 +65,15 @@ static int options_read(compare_job *job, const char **folder)
     }
     *folder = name[0];
     job->theirs = name[1];
-    job->tier = KIT_TIERS;
-    job->pixels = PIXELS;
-    job->grade = COMPARE_RASTER;
+    lrcs_host_judgement *judgement = &job->judgement;
+    judgement->tier = LRCS_HOST_KIT_TIERS;
+    judgement->pixels = PIXELS;
+    judgement->grade = LRCS_HOST_GRADE_RASTER;
     job->facets = cli_value(args, "facets");
     job->items = cli_value(args, "items");
-    int code = cli_whole(args, "tier", 1.0, KIT_TIERS, &job->tier);
-    code = code ? code : cli_whole(args, "pixels", 2.0, PIXELS_MOST, &job->pixels);
-    code = code ? code : cli_choice(args, "class", "exact, float or raster", &job->grade);
+    int code = cli_whole(args, "tier", 1.0, LRCS_HOST_KIT_TIERS, &judgement->tier);
+    code = code ? code : cli_whole(args, "pixels", 2.0, PIXELS_MOST, &judgement->pixels);
+    code = code ? code : cli_choice(args, "class", "exact, float or raster", &judgement->grade);
     const char *const input[] = {job->theirs, job->facets};
     for (int i = 0; i < 4 && code == 0; i++) {
         const char *path = cli_value(args, option[i % 2]);
@@ -88,18 +89,24 @@ static int options_read(compare_job *job, const char **folder)
 
 static int compare_make(compare_job *job, const char *folder)
 {
+    lrcs_host_error error;
+    lrcs_host_judgement *judgement = &job->judgement;
     cli_watch_stage("the kit", NULL);
-    int code = cli_compare_kit(folder, &job->kit);
+    int status = lrcs_host_kit_read(folder, &judgement->kit, &error);
     cli_watch_stage("verdicts", NULL);
-    code = code ? code : cli_compare_judge(job);
+    status = status == LRCS_OK ? lrcs_host_judge(judgement, job->theirs, &error) : status;
     cli_watch_stage("causes", NULL);
-    code = code ? code : cli_compare_explain(job);
-    cli_watch_stage("facets", NULL);
-    code = code ? code : cli_compare_facets(job);
-    cli_watch_stage("item buffers", NULL);
-    code = code ? code : cli_compare_items(job);
+    status = status == LRCS_OK ? lrcs_host_judge_explain(judgement, &error) : status;
+    if (status == LRCS_OK && job->facets) {
+        cli_watch_stage("facets", NULL);
+        status = lrcs_host_judge_facets(judgement, job->facets, &error);
+    }
+    if (status == LRCS_OK && job->items) {
+        cli_watch_stage("item buffers", NULL);
+        status = lrcs_host_judge_items(judgement, job->items, &error);
+    }
     cli_watch_end();
-    return code;
+    return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
 static int compare_command(const cli_args *args)
@@ -117,8 +124,8 @@ static int compare_command(const cli_args *args)
     if (code == 0 && !(json && strcmp(json, "-") == 0) && !(junit && strcmp(junit, "-") == 0)) {
         cli_compare_table(&job);
     }
-    code = code ? code : cli_compare_passed(&job) ? CLI_DONE : CLI_FAILED;
-    cli_compare_kit_free(&job.kit);
+    code = code ? code : lrcs_host_judge_passed(&job.judgement) ? CLI_DONE : CLI_FAILED;
+    lrcs_host_kit_free(&job.judgement.kit);
     return code;
 }
 

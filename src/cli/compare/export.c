@@ -12,40 +12,40 @@ static void way_json(lrcs_host_json *json, const char *text, uint32_t count)
     }
 }
 
-static void facets_json(lrcs_host_json *json, const compare_job *job)
+static void facets_json(lrcs_host_json *json, const lrcs_host_judgement *job)
 {
-    const compare_facets *facets = &job->by_facet;
+    const lrcs_host_kit_facets *facets = &job->by_facet;
     cli_json(json, "facets={\ncases=%u differ=[\n", facets->cases);
-    for (int way = 0; way < FACET_WAYS; way++) {
-        way_json(json, cli_compare_facet_way(way), facets->way[way]);
+    for (int way = 0; way < LRCS_HOST_FACET_WAYS; way++) {
+        way_json(json, lrcs_host_facet_way_text(way), facets->way[way]);
     }
-    cli_json(json, "] cos_theta=%s cos_theta_off=%g worst=[\n", cli_compare_cosines(facets),
+    cli_json(json, "] cos_theta=%s cos_theta_off=%g worst=[\n", lrcs_host_cosines_text(facets),
              facets->cosines > 0 ? facets->cosine_most : (double)NAN);
     for (uint32_t i = 0; i < facets->worsts; i++) {
-        const compare_facet *off = &facets->worst[i];
+        const lrcs_host_kit_facet *off = &facets->worst[i];
         cli_json(json, "{scene=%s attitude=%s facet=%u way=%s",
                  job->kit.scene[off->one->scene].name, off->one->attitude, off->facet,
-                 cli_compare_facet_way(off->way));
+                 lrcs_host_facet_way_text(off->way));
         cli_json(json, "visible_area_m2=%g theirs_m2=%g sigma_m2=%g}", off->truth_m2,
                  off->theirs_m2, off->sigma_m2);
     }
     cli_json(json, "]}");
 }
 
-static void items_json(lrcs_host_json *json, const compare_job *job)
+static void items_json(lrcs_host_json *json, const lrcs_host_judgement *job)
 {
-    const compare_items *items = &job->by_item;
+    const lrcs_host_kit_items *items = &job->by_item;
     cli_json(json, "items={\nasked=%u given=%u differ=%u ways=[\n", items->images, items->handed,
              items->differ);
-    for (size_t way = 0; way < COMPARE_IMAGE_WAYS; way++) {
-        way_json(json, cli_compare_image_way(way), items->way[way]);
+    for (int way = 0; way < (int)LRCS_HOST_IMAGE_WAYS; way++) {
+        way_json(json, lrcs_host_image_way_text(way), items->way[way]);
     }
     cli_json(json, "] worst=[\n");
     for (uint32_t i = 0; i < items->named; i++) {
-        const compare_image *image = &items->image[i];
+        const lrcs_host_kit_image *image = &items->image[i];
         cli_json(json, "{scene=%s attitude=%s agree=%g lost=[\n",
                  job->kit.scene[image->one->scene].name, image->one->attitude, image->agree);
-        for (uint32_t n = 0; n < COMPARE_TOP && image->lost[n] > 0; n++) {
+        for (uint32_t n = 0; n < LRCS_HOST_KIT_TOP && image->lost[n] > 0; n++) {
             cli_json(json, "{facet=%u pixels=%u}", image->facet[n], image->lost[n]);
         }
         cli_json(json, "]}");
@@ -55,39 +55,40 @@ static void items_json(lrcs_host_json *json, const compare_job *job)
 
 void cli_compare_json(FILE *out, const void *context)
 {
-    const compare_job *job = context;
+    const compare_job *asked = context;
+    const lrcs_host_judgement *job = &asked->judgement;
     lrcs_host_json json = lrcs_host_json_make(out);
     cli_json(&json, "{\n");
     cli_version_json(&json);
     cli_json(&json, "passed=%d tier=%u class=%s pixels=%u asked=%u given=%u failed=%u",
-             cli_compare_passed(job), job->tier, cli_compare_grade(job->grade), job->pixels,
+             lrcs_host_judge_passed(job), job->tier, lrcs_host_grade_text(job->grade), job->pixels,
              job->asked, job->given, job->failed);
     cli_json(&json, "not_numbers=%u negatives=%u unexplained=%u findings=[\n", job->not_numbers,
              job->negatives, job->unexplained);
     for (uint32_t i = 0; i < job->findings; i++) {
-        const compare_finding *finding = &job->finding[i];
+        const lrcs_host_finding *finding = &job->finding[i];
         cli_json(&json, "{name=%s text=%s factor=%g explains=%u leaves=%g}", finding->name,
                  finding->text, finding->factor, finding->explained, finding->rest);
     }
     cli_json(&json, "]");
-    if (job->facets) {
+    if (asked->facets) {
         facets_json(&json, job);
     }
-    if (job->items) {
+    if (asked->items) {
         items_json(&json, job);
     }
     cli_json(&json, "cases=[\n");
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         const compare_case *one = &job->kit.list[i];
-        if (!cli_compare_asked(job, one)) {
+        if (!lrcs_host_judge_asked(job, one)) {
             continue;
         }
         cli_json(&json, "{scene=%s attitude=%s tier=%u sigma_m2=%g theirs_m2=%g allowed_m2=%g",
                  job->kit.scene[one->scene].name, one->attitude, one->tier, one->sigma_m2,
                  one->given ? one->theirs_m2 : (double)NAN,
-                 cli_compare_allowed(one, job->grade, job->pixels));
-        cli_json(&json, "class=%s passed=%d finding=%s}", cli_compare_grade(one->grade),
-                 !cli_compare_failed(job, one),
+                 lrcs_host_judge_allowed(one, job->grade, job->pixels));
+        cli_json(&json, "class=%s passed=%d finding=%s}", lrcs_host_grade_text(one->grade),
+                 !lrcs_host_judge_failed(job, one),
                  one->explained ? job->finding[one->explained - 1].name : NULL);
     }
     cli_json(&json, "]}");
@@ -106,14 +107,14 @@ static void xml_text(FILE *out, const char *text)
     }
 }
 
-static void tier_junit(FILE *out, const compare_job *job, int tier)
+static void tier_junit(FILE *out, const lrcs_host_judgement *job, int tier)
 {
     unsigned long cases = 0;
     unsigned long failed = 0;
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         const compare_case *one = &job->kit.list[i];
         cases += one->tier == tier;
-        failed += one->tier == tier && cli_compare_failed(job, one);
+        failed += one->tier == tier && lrcs_host_judge_failed(job, one);
     }
     fprintf(out, "<testsuite name=\"tier %d\" tests=\"%lu\" failures=\"%lu\">\n", tier, cases,
             failed);
@@ -124,13 +125,13 @@ static void tier_junit(FILE *out, const compare_job *job, int tier)
         }
         fprintf(out, "<testcase classname=\"%s\" name=\"%s\">", job->kit.scene[one->scene].name,
                 one->attitude);
-        if (cli_compare_failed(job, one) && one->given) {
+        if (lrcs_host_judge_failed(job, one) && one->given) {
             cli_number_put(out, "<failure message=\"expected ", one->sigma_m2);
             cli_number_put(out, " m2, found ", one->theirs_m2);
             fputs("; ", out);
             xml_text(out, one->explained ? job->finding[one->explained - 1].text : "unexplained");
             fputs("\"/>", out);
-        } else if (cli_compare_failed(job, one)) {
+        } else if (lrcs_host_judge_failed(job, one)) {
             fputs("<failure message=\"not handed in\"/>", out);
         }
         fputs("</testcase>\n", out);
@@ -140,7 +141,7 @@ static void tier_junit(FILE *out, const compare_job *job, int tier)
 
 void cli_compare_junit(FILE *out, const void *context)
 {
-    const compare_job *job = context;
+    const lrcs_host_judgement *job = &((const compare_job *)context)->judgement;
     fprintf(out,
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"%lu\" "
             "failures=\"%lu\">\n",

@@ -9,15 +9,15 @@
 
 /* A line of the table: how many cases of a scene are in each class, and the case with the largest
    difference as a share of what it is allowed, with that difference as a share of sigma. */
-static void scene_print(const compare_job *job, const compare_scene *scene)
+static void scene_print(const lrcs_host_judgement *job, const lrcs_host_kit_scene *scene)
 {
-    uint32_t count[COMPARE_MISSING + 1] = {0};
+    uint32_t count[LRCS_HOST_GRADE_MISSING + 1] = {0};
     const compare_case *worst = NULL;
     double most = -1.0;
     for (uint32_t i = scene->first; i < scene->first + scene->count; i++) {
         const compare_case *one = &job->kit.list[i];
         double off = fabs(one->theirs_m2 - one->sigma_m2);
-        double allowed = cli_compare_allowed(one, job->grade, job->pixels);
+        double allowed = lrcs_host_judge_allowed(one, job->grade, job->pixels);
         double share = off == 0.0 ? 0.0 : allowed > 0.0 && isfinite(off) ? off / allowed : HUGE_VAL;
         count[one->grade]++;
         if (one->given && share > most) {
@@ -27,7 +27,7 @@ static void scene_print(const compare_job *job, const compare_scene *scene)
     }
     printf("%4d  ", scene->tier);
     cli_column(scene->name, 16);
-    for (int k = COMPARE_EXACT; k <= COMPARE_MISSING; k++) {
+    for (int k = LRCS_HOST_GRADE_EXACT; k <= LRCS_HOST_GRADE_MISSING; k++) {
         if (count[k] > 0) {
             printf(" %6lu", (unsigned long)count[k]);
         } else {
@@ -44,12 +44,12 @@ static void scene_print(const compare_job *job, const compare_scene *scene)
 }
 
 /* The tiers that a finding concerns: " in tiers 1 2". */
-static void finding_tiers(const compare_job *job, int mark)
+static void finding_tiers(const lrcs_host_judgement *job, int mark)
 {
-    for (int tier = 1; tier <= KIT_TIERS; tier++) {
+    for (int tier = 1; tier <= LRCS_HOST_KIT_TIERS; tier++) {
         for (uint32_t i = 0; i < job->kit.cases; i++) {
             const compare_case *one = &job->kit.list[i];
-            if (one->tier == tier && one->explained == mark && cli_compare_failed(job, one)) {
+            if (one->tier == tier && one->explained == mark && lrcs_host_judge_failed(job, one)) {
                 printf(" %d", tier);
                 break;
             }
@@ -62,10 +62,10 @@ static const char *plural(uint32_t count)
     return count == 1 ? "" : "s";
 }
 
-static void findings_print(const compare_job *job)
+static void findings_print(const lrcs_host_judgement *job)
 {
     for (uint32_t i = 0; i < job->findings; i++) {
-        const compare_finding *finding = &job->finding[i];
+        const lrcs_host_finding *finding = &job->finding[i];
         uint32_t failed = job->failed - (job->asked - job->given) - job->not_numbers;
         printf("why          %s\n", finding->text);
         if (finding->explained == 0) {
@@ -82,7 +82,7 @@ static void findings_print(const compare_job *job)
 }
 
 /* Prints how many cases have a fault, and the first of them: "box nose, box a, ..". */
-static void lack_print(const compare_job *job, int lack, uint32_t count, const char *title,
+static void lack_print(const lrcs_host_judgement *job, int lack, uint32_t count, const char *title,
                        const char *what)
 {
     uint32_t named = 0;
@@ -92,7 +92,7 @@ static void lack_print(const compare_job *job, int lack, uint32_t count, const c
     printf("%-12s %lu %s: ", title, (unsigned long)count, what);
     for (uint32_t i = 0; i < job->kit.cases && named <= NAMES_MOST; i++) {
         const compare_case *one = &job->kit.list[i];
-        if (cli_compare_lack(job, one) == lack && named++ < NAMES_MOST) {
+        if (lrcs_host_judge_lack(job, one) == lack && named++ < NAMES_MOST) {
             printf("%s%s %s", named > 1 ? ", " : "", job->kit.scene[one->scene].name,
                    one->attitude);
         }
@@ -100,7 +100,7 @@ static void lack_print(const compare_job *job, int lack, uint32_t count, const c
     puts(named > NAMES_MOST ? ", .." : "");
 }
 
-static void unexplained_print(const compare_job *job)
+static void unexplained_print(const lrcs_host_judgement *job)
 {
     uint32_t named = 0;
     if (job->unexplained == 0) {
@@ -110,7 +110,7 @@ static void unexplained_print(const compare_job *job)
            plural(job->unexplained));
     for (uint32_t i = 0; i < job->kit.cases && named < NAMES_MOST; i++) {
         const compare_case *one = &job->kit.list[i];
-        if (cli_compare_lack(job, one) != LACK_REASON) {
+        if (lrcs_host_judge_lack(job, one) != LRCS_HOST_LACK_REASON) {
             continue;
         }
         printf("             %s %s: %.4g m2, truth %.4g", job->kit.scene[one->scene].name,
@@ -118,7 +118,7 @@ static void unexplained_print(const compare_job *job)
         if (one->sigma_m2 > 0.0) {
             printf(" (%.3g of it)", one->theirs_m2 / one->sigma_m2);
         }
-        printf(", allowed %.2g\n", cli_compare_allowed(one, job->grade, job->pixels));
+        printf(", allowed %.2g\n", lrcs_host_judge_allowed(one, job->grade, job->pixels));
         named++;
     }
     if (named < job->unexplained) {
@@ -128,21 +128,22 @@ static void unexplained_print(const compare_job *job)
 
 /* ---- facets and images ---- */
 
-static const char *material_of(const compare_job *job, const compare_case *one, uint32_t facet)
+static const char *material_of(const lrcs_host_judgement *job, const compare_case *one,
+                               uint32_t facet)
 {
     const lrcs_scene *scene = &job->kit.scene[one->scene].host.scene;
     return scene->material[scene->facet_material[facet]].name;
 }
 
-static void facets_print(const compare_job *job, const compare_facets *facets)
+static void facets_print(const lrcs_host_judgement *job, const lrcs_host_kit_facets *facets)
 {
-    const char *cosines = cli_compare_cosines(facets);
+    const char *cosines = lrcs_host_cosines_text(facets);
     printf("facets       of %lu case%s%s\n", (unsigned long)facets->cases, plural(facets->cases),
            facets->worsts == 0 ? ": none differs by more than it is allowed" : "");
-    for (int way = 0; way < FACET_WAYS; way++) {
+    for (int way = 0; way < LRCS_HOST_FACET_WAYS; way++) {
         if (facets->way[way] > 0) {
             printf("             %lu facet%s %s\n", (unsigned long)facets->way[way],
-                   plural(facets->way[way]), cli_compare_facet_way(way));
+                   plural(facets->way[way]), lrcs_host_facet_way_text(way));
         }
     }
     if (cosines) {
@@ -150,7 +151,7 @@ static void facets_print(const compare_job *job, const compare_facets *facets)
                facets->cosine_most);
     }
     for (uint32_t i = 0; i < facets->worsts; i++) {
-        const compare_facet *off = &facets->worst[i];
+        const lrcs_host_kit_facet *off = &facets->worst[i];
         printf("             %s %s, facet %lu (%s%s): %.6g m2, in truth %.6g m2; %.3g m2 of "
                "sigma\n",
                job->kit.scene[off->one->scene].name, off->one->attitude, (unsigned long)off->facet,
@@ -160,22 +161,23 @@ static void facets_print(const compare_job *job, const compare_facets *facets)
     }
 }
 
-static void items_print(const compare_job *job, const compare_items *items)
+static void items_print(const lrcs_host_judgement *job, const lrcs_host_kit_items *items,
+                        const char *folder)
 {
-    printf("items        in %s: %lu of %lu images handed in; %lu differ\n", job->items,
+    printf("items        in %s: %lu of %lu images handed in; %lu differ\n", folder,
            (unsigned long)items->handed, (unsigned long)items->images,
            (unsigned long)items->differ);
-    for (size_t way = 0; way < COMPARE_IMAGE_WAYS; way++) {
+    for (int way = 0; way < (int)LRCS_HOST_IMAGE_WAYS; way++) {
         if (items->way[way] > 0) {
             printf("             %lu %s\n", (unsigned long)items->way[way],
-                   cli_compare_image_way(way));
+                   lrcs_host_image_way_text(way));
         }
     }
     for (uint32_t i = 0; i < items->named; i++) {
-        const compare_image *image = &items->image[i];
+        const lrcs_host_kit_image *image = &items->image[i];
         printf("             %s %s: %.1f %% of the pixels agree\n",
                job->kit.scene[image->one->scene].name, image->one->attitude, 100.0 * image->agree);
-        for (uint32_t n = 0; n < COMPARE_TOP && image->lost[n] > 0; n++) {
+        for (uint32_t n = 0; n < LRCS_HOST_KIT_TOP && image->lost[n] > 0; n++) {
             printf("             facet %lu (%s): %lu of its pixels show something else\n",
                    (unsigned long)image->facet[n], material_of(job, image->one, image->facet[n]),
                    (unsigned long)image->lost[n]);
@@ -185,14 +187,16 @@ static void items_print(const compare_job *job, const compare_items *items)
 
 /* ---- all of it ---- */
 
-void cli_compare_table(const compare_job *job)
+void cli_compare_table(const compare_job *asked)
 {
+    const lrcs_host_judgement *job = &asked->judgement;
     printf("kit          %s: %lu scenes, %lu cases\n", job->kit.folder,
            (unsigned long)job->kit.scenes, (unsigned long)job->kit.cases);
-    printf("answers      %s: %lu of %lu cases of tiers 1 .. %lu\n", job->theirs,
+    printf("answers      %s: %lu of %lu cases of tiers 1 .. %lu\n", asked->theirs,
            (unsigned long)job->given, (unsigned long)job->asked, (unsigned long)job->tier);
     printf("asked        class %s or better; a raster of %lu x %lu pixels\n\n",
-           cli_compare_grade(job->grade), (unsigned long)job->pixels, (unsigned long)job->pixels);
+           lrcs_host_grade_text(job->grade), (unsigned long)job->pixels,
+           (unsigned long)job->pixels);
     printf("tier  scene             exact  float raster   fail missing   worst of sigma\n");
     for (uint32_t i = 0; i < job->kit.scenes; i++) {
         if ((uint32_t)job->kit.scene[i].tier <= job->tier) {
@@ -206,7 +210,7 @@ void cli_compare_table(const compare_job *job)
         for (uint32_t i = 0; i < job->kit.cases; i++) {
             const compare_case *one = &job->kit.list[i];
             cases += (uint32_t)one->tier == tier;
-            failed += (uint32_t)one->tier == tier && cli_compare_failed(job, one);
+            failed += (uint32_t)one->tier == tier && lrcs_host_judge_failed(job, one);
         }
         if (cases > 0 && failed == 0) {
             printf("tier %lu       passed, %lu cases\n", (unsigned long)tier, cases);
@@ -215,18 +219,18 @@ void cli_compare_table(const compare_job *job)
         }
     }
     uint32_t missing = job->asked - job->given;
-    lack_print(job, LACK_ANSWER, missing, "missing", missing == 1 ? "case" : "cases");
-    lack_print(job, LACK_NUMBER, job->not_numbers, "why",
+    lack_print(job, LRCS_HOST_LACK_ANSWER, missing, "missing", missing == 1 ? "case" : "cases");
+    lack_print(job, LRCS_HOST_LACK_NUMBER, job->not_numbers, "why",
                job->not_numbers == 1 ? "answer is not numbers" : "answers are not numbers");
-    lack_print(job, LACK_SIGN, job->negatives, "why",
+    lack_print(job, LRCS_HOST_LACK_SIGN, job->negatives, "why",
                job->negatives == 1 ? "answer is negative" : "answers are negative");
     findings_print(job);
     unexplained_print(job);
-    if (job->facets) {
+    if (asked->facets) {
         facets_print(job, &job->by_facet);
     }
-    if (job->items) {
-        items_print(job, &job->by_item);
+    if (asked->items) {
+        items_print(job, &job->by_item, asked->items);
     }
-    printf("verdict      %s\n", cli_compare_passed(job) ? "passed" : "FAILED");
+    printf("verdict      %s\n", lrcs_host_judge_passed(job) ? "passed" : "FAILED");
 }

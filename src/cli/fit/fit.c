@@ -195,7 +195,7 @@ static int materials_make(fit_job *job)
         return cli_out_of_memory();
     }
     for (uint32_t i = 0; i < readings->name_count && code == 0; i++) {
-        best = asked ? cli_nearest(asked, best, readings->name[i]) : NULL;
+        best = asked ? lrcs_host_name_nearer(asked, best, readings->name[i]) : NULL;
         if (!asked || strcmp(asked, readings->name[i]) == 0) {
             fit_material *material = &job->material[job->materials++];
             material->name = readings->name[i];

@@ -216,7 +216,7 @@ void cli_fit_csv(FILE *out, const void *context)
             const lrcs_fit_point *point = &material->point[k];
             const double value[] = {reading->angle_deg, reading->value, point->fitted,
                                     point->residual, point->standard};
-            cli_csv_text(out, "", material->name, ",;\"\r\n");
+            lrcs_host_csv_text(out, material->name, ",;\"\r\n");
             fprintf(out, ",%lu", (unsigned long)material->line[k]);
             for (size_t c = 0; c < sizeof value / sizeof value[0]; c++) {
                 cli_number_put(out, ",", value[c]);

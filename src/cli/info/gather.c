@@ -7,9 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From this share of sigma on, the glint of a single facet is said to dominate. */
-#define GLINT_DOMINATES 0.5
-
 double cli_facet_area(const lrcs_scene *scene, uint32_t facet)
 {
     const uint32_t *corner = scene->facet[facet].corner;
@@ -73,47 +70,6 @@ int cli_info_make(const cli_args *args, const lrcs_host_scene *base,
     return lrcs_host_scene_vary(base, &base->recipe, &smooth, &info->scene, &error) == LRCS_OK
                ? info_look(args->operand, base, info)
                : cli_failed(&error);
-}
-
-int cli_coarse_glint(const lrcs_host_scene *base, const lrcs_build_options *build, int all,
-                     lrcs_host_glint **list, uint32_t *count)
-{
-    lrcs_host_error error;
-    lrcs_host_scene smooth;
-    lrcs_host_glint *entry = NULL;
-    lrcs_build_options options = *build;
-    uint32_t found = 0;
-    uint32_t used = 0;
-    *list = NULL;
-    *count = 0;
-    if (base->scene.normals != LRCS_NORMALS_FLAT) {
-        return 0;
-    }
-    memset(&smooth, 0, sizeof smooth);
-    options.normals = LRCS_NORMALS_SMOOTH;
-    int status = lrcs_host_scene_vary(base, &base->recipe, &options, &smooth, &error);
-    if (status == LRCS_OK) {
-        status = lrcs_host_glint_check(&smooth.scene, &entry, &found, &error);
-    }
-    for (uint32_t i = 0; status == LRCS_OK && i < found; i++) {
-        int model = base->scene.part[entry[i].part].kind < 0; /* shapes meet the tolerance */
-        if (model && (all || entry[i].error > LRCS_HOST_GLINT_COARSE)) {
-            entry[used++] = entry[i];
-        }
-    }
-    lrcs_host_scene_free(&smooth);
-    if (status != LRCS_OK) {
-        free(entry);
-        return cli_failed(&error);
-    }
-    *list = entry;
-    *count = used;
-    return 0;
-}
-
-int cli_glint_dominates(const lrcs_host_glint_sum *sum, double sigma_m2)
-{
-    return sum->most_m2 > GLINT_DOMINATES * sigma_m2;
 }
 
 void cli_info_free(cli_info *info)

@@ -32,16 +32,6 @@ int cli_info_make(const cli_args *args, const lrcs_host_scene *base,
                   const lrcs_build_options *build, cli_info *info);
 void cli_info_free(cli_info *info);
 
-/* The curved parts of models whose flat facets are too coarse for their glint, as info finds them,
-   or with `all` every curved part of models; none if normals are curved. The caller frees the list.
-   0 or CLI_FAILED. */
-int cli_coarse_glint(const lrcs_host_scene *base, const lrcs_build_options *build, int all,
-                     lrcs_host_glint **list, uint32_t *count);
-
-/* 1 if the glint of one flat face of a curved part makes most of sigma: its normal is the mesh's,
-   not the surface's. */
-int cli_glint_dominates(const lrcs_host_glint_sum *sum, double sigma_m2);
-
 /* The area of a facet, m2. */
 double cli_facet_area(const lrcs_scene *scene, uint32_t facet);
 

@@ -49,21 +49,26 @@ static const cli_option plot_options[] = {{"o", CLI_CHART, 1}, {"dbsm", 0, 0},
                                           {"stats", 0, 0},     {"stats-file", CLI_FILE, 1},
                                           {"help", 0, 0},      {NULL, 0, 0}};
 
+typedef struct plot_file {
+    const char *path;
+    lrcs_host_sweep_data data;
+} plot_file;
+
 typedef struct plot_job {
     const cli_args *args;
     uint32_t count;
-    sweep_data *data;
+    plot_file *file;
     sweep_plot *plot;
     int stats;
 } plot_job;
 
 /* Appends to the list the options of `head` that `other` lacks, or, if `values`, has otherwise. */
-static void differences_list(const sweep_head *head, const sweep_head *other, int values,
-                             char *list, size_t size)
+static void differences_list(const lrcs_host_rows_head *head, const lrcs_host_rows_head *other,
+                             int values, char *list, size_t size)
 {
-    for (uint32_t i = 0; i < head->options && i < SWEEP_OPTIONS; i++) {
+    for (uint32_t i = 0; i < head->options && i < LRCS_HOST_HEAD_OPTIONS; i++) {
         const char *key = head->option[i].key;
-        const char *text = cli_head_text(other, key);
+        const char *text = lrcs_host_rows_head_text(other, key);
         if (!text || (values && strcmp(text, head->option[i].text) != 0)) {
             cli_append(list, size, "%s%s", list[0] ? ", " : "", key);
         }
@@ -73,16 +78,17 @@ static void differences_list(const sweep_head *head, const sweep_head *other, in
 /* Reports how a file differs from the first. */
 static void differences_say(const plot_job *job, uint32_t k)
 {
-    const sweep_data *first = &job->data[0];
-    const sweep_data *other = &job->data[k];
+    const lrcs_host_rows_head *first = &job->file[0].data.head;
+    const lrcs_host_rows_head *other = &job->file[k].data.head;
     char list[800] = "";
-    if (first->head.scene_hash != other->head.scene_hash) {
+    if (first->scene_hash != other->scene_hash) {
         snprintf(list, sizeof list, "scene");
     }
-    differences_list(&first->head, &other->head, 1, list, sizeof list);
-    differences_list(&other->head, &first->head, 0, list, sizeof list);
+    differences_list(first, other, 1, list, sizeof list);
+    differences_list(other, first, 0, list, sizeof list);
     if (list[0] != '\0') {
-        fprintf(stderr, "notice: %s differs from %s in %s\n", other->path, first->path, list);
+        fprintf(stderr, "notice: %s differs from %s in %s\n", job->file[k].path, job->file[0].path,
+                list);
     }
 }
 
@@ -97,13 +103,13 @@ static int overlay_check(const plot_job *job)
         const sweep_plot *plot = &job->plot[k];
         if (plot->map) {
             return cli_usage(args->command, "%s is a map: maps are drawn one by one",
-                             job->data[k].path);
+                             job->file[k].path);
         }
         if (strcmp(plot->x.name, first->x.name) != 0) {
             return cli_usage(args->command,
                              "%s runs along '%s' and %s along '%s': they do not fit "
                              "in one chart",
-                             job->data[0].path, first->x.name, job->data[k].path, plot->x.name);
+                             job->file[0].path, first->x.name, job->file[k].path, plot->x.name);
         }
         curves += plot->y.count;
     }
@@ -121,15 +127,19 @@ static int job_read(plot_job *job)
         if (args->given[i].name[0] != '\0') {
             continue;
         }
-        sweep_data *data = &job->data[job->count];
+        lrcs_host_error error;
+        plot_file *file = &job->file[job->count];
+        lrcs_host_sweep_data *data = &file->data;
         sweep_plot *plot = &job->plot[job->count++];
-        cli_watch_stage(args->given[i].value, NULL);
-        code = cli_data_read(args->given[i].value, args->command, data);
-        code = code ? code : cli_plot_read(args, &data->plan, plot);
-        const char *title = cli_head_text(&data->head, "title");
-        plot->title = title ? title : cli_base_name(data->path);
-        plot->accept = cli_head_text(&data->head, "accept");
-        plot->open = cli_head_text(&data->head, "materials") != NULL;
+        file->path = args->given[i].value;
+        cli_watch_stage(file->path, NULL);
+        int status = lrcs_host_sweep_read(file->path, data, &error);
+        code = status == LRCS_OK ? cli_plot_read(args, &data->plan, plot)
+                                 : cli_plan_failed(args->command, status, &error);
+        const char *title = lrcs_host_rows_head_text(&data->head, "title");
+        plot->title = title ? title : cli_base_name(file->path);
+        plot->accept = lrcs_host_rows_head_text(&data->head, "accept");
+        plot->open = lrcs_host_rows_head_text(&data->head, "materials") != NULL;
         plot->row = data->row;
         plot->band = data->band;
         plot->head = &data->head;
@@ -146,7 +156,7 @@ static int job_run(plot_job *job)
         const cli_given *given = &args->given[i];
         int written = cli_is_output(args->command, given->name);
         for (uint32_t k = 0; k < job->count && written && code == 0; k++) {
-            if (lrcs_host_output_same(given->value, job->data[k].path)) {
+            if (lrcs_host_output_same(given->value, job->file[k].path)) {
                 code = cli_usage(args->command, "%s%s %s: would overwrite what is read",
                                  cli_dashes(given->name), given->name, given->value);
             }
@@ -168,7 +178,7 @@ static int job_run(plot_job *job)
             }
         }
         for (uint32_t k = 0; k < job->count && job->count > 1 && code == 0; k++) {
-            job->plot[k].name = differ ? job->plot[k].title : cli_base_name(job->data[k].path);
+            job->plot[k].name = differ ? job->plot[k].title : cli_base_name(job->file[k].path);
             if (k > 0) {
                 differences_say(job, k);
             }
@@ -176,12 +186,9 @@ static int job_run(plot_job *job)
         code = code ? code : cli_plot_write(args, job->plot, job->count);
     }
     if (code == 0 && job->stats) {
-        sweep_stats stats;
-        code =
-            cli_stats_make(&job->data->plan, &job->data->head, (const double(*)[2])job->data->row,
-                           (const double(*)[2])job->data->band, &stats);
-        code = code ? code : cli_stats_write(args, stdout, &stats);
-        cli_stats_free(&stats);
+        const lrcs_host_sweep_data *data = &job->file->data;
+        code = cli_stats_write(args, stdout, &data->plan, &data->head,
+                               (const double(*)[2])data->row, (const double(*)[2])data->band);
     }
     return code;
 }
@@ -227,12 +234,12 @@ static int plot_command(const cli_args *args)
         }
     }
     size_t room = (size_t)args->given_count + 1;
-    plot_job job = {args, 0, calloc(room, sizeof *job.data), calloc(room, sizeof *job.plot), 0};
-    int code = job.data && job.plot ? job_run(&job) : cli_out_of_memory();
+    plot_job job = {args, 0, calloc(room, sizeof *job.file), calloc(room, sizeof *job.plot), 0};
+    int code = job.file && job.plot ? job_run(&job) : cli_out_of_memory();
     for (uint32_t k = 0; k < job.count; k++) {
-        cli_data_free(&job.data[k]);
+        lrcs_host_sweep_data_free(&job.file[k].data);
     }
-    free(job.data);
+    free(job.file);
     free(job.plot);
     return code;
 }

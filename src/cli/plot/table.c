@@ -82,14 +82,15 @@ static int about_of_json(table_job *job, lrcs_host_error *error)
     if (!job->text) {
         return job_refuse(job, "out of memory", error);
     }
-    snprintf(hash, sizeof hash, "\"hash\": \"fnv1a:%016llx\"",
-             (unsigned long long)cli_sum_more(CLI_SUM_BEGIN, job->file.bytes, job->file.size));
+    snprintf(
+        hash, sizeof hash, "\"hash\": \"fnv1a:%016llx\"",
+        (unsigned long long)lrcs_host_hash(LRCS_HOST_HASH_START, job->file.bytes, job->file.size));
     char *at = strstr(job->text, key);
     if (!at || !strstr(job->text, hash)) {
         return job_refuse(job, "is not the table that its FILE" CLI_BESIDE " describes", error);
     }
     job->about = at + strlen(key);
-    cli_json_unquote(job->about);
+    lrcs_host_json_unquote(job->about);
     return LRCS_OK;
 }
 
@@ -119,9 +120,10 @@ static int profile_read(table_job *job, lrcs_host_error *error)
     column[4] = lrcs_host_table_column(&job->table, "pulse_m");
     profile->title = job->title;
     profile->about = job->about;
-    profile->open = cli_key_text(job->about, "materials", text, sizeof text);
-    profile->profile.list.sigma_diffuse_m2 = cli_key_number(job->about, "sigma_m2");
-    profile->fwhm_m = column[4] != LRCS_NONE ? cli_key_number(job->about, "pulse_fwhm_m") : 0.0;
+    profile->open = lrcs_host_key_text(job->about, "materials", text, sizeof text);
+    profile->profile.list.sigma_diffuse_m2 = lrcs_host_key_number(job->about, "sigma_m2");
+    profile->fwhm_m =
+        column[4] != LRCS_NONE ? lrcs_host_key_number(job->about, "pulse_fwhm_m") : 0.0;
     int more = status == LRCS_OK ? lrcs_host_table_read(&job->table, error) : status;
     for (; more > 0; more = lrcs_host_table_read(&job->table, error)) {
         double value[5] = {0.0}; /* near, far, glint, diffuse, pulse */
@@ -244,15 +246,16 @@ static int converge_read(table_job *job, lrcs_host_error *error)
     int status = columns_find(job, name, ROWS, column, error);
     converge->title = job->title;
     converge->about = job->about;
-    truth->sigma_m2 = cli_key_number(job->about, "truth_m2");
-    truth->bound_m2 = cli_key_number(job->about, "truth_bound_m2");
-    truth->whole =
-        cli_key_text(job->about, "truth_of", text, sizeof text) && strcmp(text, "shapes") == 0;
-    cli_key_text(job->about, "truth", truth->text, sizeof truth->text);
+    truth->sigma_m2 = lrcs_host_key_number(job->about, "truth_m2");
+    truth->bound_m2 = lrcs_host_key_number(job->about, "truth_bound_m2");
+    truth->whole = lrcs_host_key_text(job->about, "truth_of", text, sizeof text) &&
+                   strcmp(text, "shapes") == 0;
+    lrcs_host_key_text(job->about, "truth", truth->text, sizeof truth->text);
     converge->pose = lrcs_pose_default();
-    if (status == LRCS_OK && (!(truth->sigma_m2 >= 0.0) || !(truth->bound_m2 >= 0.0) ||
-                              !cli_key_text(job->about, "direction", text, sizeof text) ||
-                              cli_list(text, converge->pose.direction, 3) != 0)) {
+    if (status == LRCS_OK &&
+        (!(truth->sigma_m2 >= 0.0) || !(truth->bound_m2 >= 0.0) ||
+         !lrcs_host_key_text(job->about, "direction", text, sizeof text) ||
+         lrcs_host_numbers_read(text, converge->pose.direction, 3) != LRCS_OK)) {
         status = job_refuse(job, "its " CLI_BESIDE " file states no truth or direction", error);
     }
     while (status == LRCS_OK && (more = lrcs_host_table_read(&job->table, error)) != 0) {
@@ -291,7 +294,7 @@ static int job_read(table_job *job, lrcs_host_error *error)
         job->about = job->text + 2;
     }
     job->table = lrcs_host_table_make(job->path, &job->file);
-    if (!cli_key_text(job->about, "title", job->title, sizeof job->title)) {
+    if (!lrcs_host_key_text(job->about, "title", job->title, sizeof job->title)) {
         snprintf(job->title, sizeof job->title, "%.200s", cli_base_name(job->path));
     }
     int named = lrcs_host_table_read(&job->table, error);

@@ -23,15 +23,15 @@ static void word_quote(FILE *out, const char *word)
 }
 
 /* Adds those of the options in a list that were given. */
-static void given_add(FILE *out, const cli_args *args, const char *const *list)
+static void given_add(FILE *out, const cli_args *args, const cli_option *list)
 {
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *one = &args->given[i];
-        int k = 0;
-        while (list[k] && strcmp(list[k], one->name) != 0) {
-            k++;
+        const cli_option *option = list;
+        while (option->name && strcmp(option->name, one->name) != 0) {
+            option++;
         }
-        if (list[k]) {
+        if (option->name) {
             fprintf(out, " %s%s", cli_dashes(one->name), one->name);
             if (one->value) {
                 word_quote(out, one->value);
@@ -40,23 +40,24 @@ static void given_add(FILE *out, const cli_args *args, const char *const *list)
     }
 }
 
-static const char *const again_pose[] = {"direction", "azel", "euler", "quaternion", NULL};
-static const char *const again_scene[] = {"unit", "material", "two-sided", "keep-transparent",
-                                          NULL};
-static const char *const again_accuracy[] = {"tolerance",  "accept",  "method",
-                                             "resolution", "normals", NULL};
-static const char *const again_sweep[] = {"accept", "method", "resolution", "normals", NULL};
-static const char *const again_report[] = {"o", "seconds", NULL};
+static const cli_option again_pose[] = {CLI_POSE_OPTIONS, {NULL, 0, 0}};
+static const cli_option again_scene[] = {CLI_SCENE_OPTIONS, {NULL, 0, 0}};
+static const cli_option again_accuracy[] = {CLI_ACCURACY_OPTIONS, {NULL, 0, 0}};
+static const cli_option *const again_sweep = again_accuracy + 1; /* without the tolerance */
+static const cli_option again_report[] = {{"o", 1, 0}, {"seconds", 1, 0}, {NULL, 0, 0}};
 
 /* "lrcs COMMAND SCENE" with the options of pose, accuracy and scene that were given. */
 static void line_begin(FILE *out, const report_job *job, const char *command, int pose,
                        int accuracy)
 {
-    static const char *const none[] = {NULL};
     fprintf(out, "lrcs %s", command);
     word_quote(out, job->args->operand);
-    given_add(out, job->args, pose ? again_pose : none);
-    given_add(out, job->args, accuracy ? again_accuracy : none);
+    if (pose) {
+        given_add(out, job->args, again_pose);
+    }
+    if (accuracy) {
+        given_add(out, job->args, again_accuracy);
+    }
     given_add(out, job->args, again_scene);
 }
 

@@ -6,9 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#define NAMED_MOST   3u   /* number of parts or materials named for a peak */
-#define NAMED_ENOUGH 0.95 /* naming stops when the named ones make this share of sigma */
-
 /* ---- what is drawn ---- */
 
 static const double polar_box[4] = {LRCS_HOST_CHART_POLAR_LEFT, LRCS_HOST_CHART_TITLE,
@@ -89,20 +86,16 @@ static void cuts_section(FILE *out, const report_job *job)
 static void most_cell(FILE *out, const cli_shares *shares, const shares_row *row, uint32_t count,
                       const char *nameless)
 {
-    double named_share = 0.0;
-    uint32_t i = 0;
+    uint32_t named = cli_shares_named(shares, row, count);
     fputs("<td class=\"why\">", out);
-    for (; i < count && i < NAMED_MOST && named_share < NAMED_ENOUGH && row[i].sigma_m2 > 0.0;
-         i++) {
-        double share = cli_share_of(shares, row[i].sigma_m2);
+    for (uint32_t i = 0; i < named; i++) {
         fputs(i > 0 ? ", " : "", out);
         cli_page_name(out, row[i].name, nameless);
-        cli_page(out, "\xc2\xa0%f", share);
-        named_share += share;
+        cli_page(out, "\xc2\xa0%f", cli_share_of(shares, row[i].sigma_m2));
     }
-    shares_row others = cli_shares_others(row, i, count);
+    shares_row others = cli_shares_others(row, named, count);
     if (others.sigma_m2 > 0.0) {
-        cli_page(out, ", %u other%s\xc2\xa0%f", count - i, count - i > 1 ? "s" : "",
+        cli_page(out, ", %u other%s\xc2\xa0%f", count - named, count - named > 1 ? "s" : "",
                  cli_share_of(shares, others.sigma_m2));
     }
     fputs("</td>", out);
@@ -112,9 +105,9 @@ static void peak_row(FILE *out, const report_job *job, uint32_t i)
 {
     const report_sweep *map = &job->sweep[REPORT_MAP];
     const cli_shares *shares = &job->peak_shares[i];
-    double value[SWEEP_COLUMNS];
+    double value[LRCS_HOST_PLAN_COLUMNS];
     double glint = 0.0;
-    cli_plan_values(&map->plan, job->peak[i], value);
+    lrcs_host_plan_values(&map->plan, job->peak[i], value);
     for (uint32_t k = 0; k < shares->parts; k++) {
         glint += shares->part[k].glint_m2;
     }

@@ -25,12 +25,10 @@ typedef struct report_bytes {
     size_t size;
 } report_bytes;
 
-/* A sweep as its command line specifies it. */
+/* A sweep. */
 typedef struct report_sweep {
-    char az[40], el[40];
-    cli_given given[6];
-    cli_args args;
-    sweep_plan plan;
+    char az[40], el[40]; /* what varies, as lrcs sweep takes it */
+    lrcs_host_plan plan;
     sweep_plot plot;
     double (*row)[2];  /* sigma and bound, m2 */
     double (*band)[2]; /* the interval of the material uncertainty, m2; NULL if none is stated */

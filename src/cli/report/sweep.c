@@ -80,7 +80,7 @@ static int steps_choose(report_job *job, const lrcs_host_scene *scene)
 
 /* ---- one sweep ---- */
 
-/* Makes the plan of a sweep from its command line, which it writes. */
+/* Makes the plan of a sweep from what varies, which a command line repeats. */
 static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
 {
     unsigned long step = kind == REPORT_MAP ? job->map_step : job->cut_step;
@@ -94,20 +94,15 @@ static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
         snprintf(sweep->el, sizeof sweep->el, kind == REPORT_MAP ? "-90:90:%lu" : "0:360:%lu",
                  step);
     }
-    const cli_given given[] = {{"az", sweep->az},
-                               {"el", sweep->el},
-                               {"dbsm", NULL},
-                               {"plot", kind == REPORT_MAP ? "map.svg" : "cut.svg"},
-                               {"polar", NULL}}; /* not of a map */
-    memcpy(sweep->given, given, sizeof given);
-    sweep->args = (cli_args){&cli_sweep_command, job->args->operand, sweep->given,
-                             kind == REPORT_MAP ? 4 : 5};
-    int code = cli_plan_read(&sweep->args, NULL, &sweep->plan);
-    code = code ? code : cli_plot_read(&sweep->args, &sweep->plan, &sweep->plot);
+    lrcs_host_error error;
+    const lrcs_host_plan_text given[] = {{"az", sweep->az}, {"el", sweep->el}};
+    int status = lrcs_host_plan_make(given, 2, NULL, &sweep->plan, &error);
+    sweep->plot = (sweep_plot){.dbsm = 1, .polar = kind != REPORT_MAP, .plan = &sweep->plan};
+    cli_plot_choose(&sweep->plot);
     sweep->plot.title = cli_report_title(job);
     sweep->plot.open = cli_materials_open(&job->scene.scene);
     sweep->plot.map = kind == REPORT_MAP; /* even if it has few rows */
-    return code;
+    return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
 typedef struct sweep_walk {
@@ -120,7 +115,7 @@ typedef struct sweep_walk {
 
 /* The first row of the same direction: a full turn ends where it began, and at a pole all azimuths
    are the same direction. */
-static uint64_t row_first(const sweep_plan *plan, uint64_t row)
+static uint64_t row_first(const lrcs_host_plan *plan, uint64_t row)
 {
     uint64_t els = plan->axis[1].range.count;
     uint64_t az = row / els;
@@ -135,7 +130,7 @@ static uint64_t row_first(const sweep_plan *plan, uint64_t row)
 static int walk_pose(void *context, uint64_t index, lrcs_pose *pose)
 {
     const sweep_walk *walk = context;
-    return cli_plan_pose(&walk->sweep->plan, walk->list[index], pose);
+    return lrcs_host_plan_pose(&walk->sweep->plan, walk->list[index], pose);
 }
 
 static int walk_take(void *context, uint64_t index, const lrcs_pose *pose,
@@ -161,7 +156,7 @@ static int walk_take(void *context, uint64_t index, const lrcs_pose *pose,
 /* Runs each direction once, and gives its result to all its rows. */
 static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *walk)
 {
-    const sweep_plan *plan = &walk->sweep->plan;
+    const lrcs_host_plan *plan = &walk->sweep->plan;
     const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
     lrcs_host_error error;
     double(*row)[2] = calloc(plan->rows, sizeof *row);
@@ -283,9 +278,9 @@ int cli_report_sweeps(report_job *job)
     cli_progress_clear(&progress);
     cli_watch_stage("peaks", NULL);
     const report_sweep *map = &job->sweep[REPORT_MAP];
-    job->peaks =
-        code ? 0
-             : cli_peaks_find(&map->plan, (const double(*)[2])map->row, REPORT_PEAKS, job->peak);
+    job->peaks = code ? 0
+                      : lrcs_host_plan_peaks(&map->plan, (const double(*)[2])map->row, REPORT_PEAKS,
+                                             job->peak);
     for (uint32_t i = 0; i < job->peaks && code == 0; i++) {
         code = cli_row_shares(&map->plan, job->peak[i], scene, &job->sweep_options,
                               &job->sweep_load.build, &job->peak_shares[i]);

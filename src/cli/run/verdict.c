@@ -2,7 +2,6 @@
 /* What a run's bound does not include: the unit that was assumed, back sides that reflect nothing,
    glints of facets that are too coarse for them, the origin of the materials. Computed from the
    records of the facets; printed as the last lines of a run, and as JSON. */
-#include "cli/info/info.h"
 #include "cli/run/run.h"
 
 #include <math.h>
@@ -38,7 +37,9 @@ int cli_run_open(run_job *job)
     lrcs_host_glint *list = NULL;
     memset(open, 0, sizeof *open);
     backs_find(job, open);
-    int code = cli_coarse_glint(&job->scene, &job->load.build, 0, &list, &open->coarse);
+    lrcs_host_error error;
+    int status =
+        lrcs_host_glint_coarse(&job->scene, &job->load.build, 0, &list, &open->coarse, &error);
     open->glint.facet = LRCS_NONE;
     if (job->records) {
         lrcs_host_glint_sum_make(&job->scene.scene, job->records, list, open->coarse, &open->glint);
@@ -46,7 +47,7 @@ int cli_run_open(run_job *job)
         open->glint.glint_m2 = open->glint.error_m2 = (double)NAN; /* not known */
     }
     free(list);
-    return code;
+    return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
 /* ---- as JSON ---- */
@@ -61,7 +62,7 @@ void cli_run_open_json(const run_job *job, lrcs_host_json *json)
              open->glint.glint_m2, open->glint.error_m2);
     if (job->records || open->coarse == 0) {
         cli_json(json, "one_facet_dominates=%d}",
-                 cli_glint_dominates(&open->glint, job->result.sigma_m2));
+                 lrcs_host_glint_dominates(&open->glint, job->result.sigma_m2));
     } else {
         cli_json(json, "one_facet_dominates=null}"); /* not known */
     }
@@ -121,7 +122,7 @@ static void glint_say(const run_job *job, FILE *out)
             "%.2g %%\n             (an estimate): --normals auto\n",
             cli_percent(open->glint.glint_m2, job->result.sigma_m2),
             cli_percent(open->glint.error_m2, job->result.sigma_m2));
-    if (cli_glint_dominates(&open->glint, job->result.sigma_m2)) {
+    if (lrcs_host_glint_dominates(&open->glint, job->result.sigma_m2)) {
         fprintf(out,
                 "             facet %lu and what lies in its plane make %.3g %% of sigma: its "
                 "normal is "

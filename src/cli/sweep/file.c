@@ -89,7 +89,7 @@ int cli_file_read(const cli_args *args, sweep_file *file)
     int lines = cli_value(args, "json") != NULL;
     memset(file, 0, sizeof *file);
     file->descriptor = file->lock = -1;
-    file->format = lines ? SWEEP_JSONL : SWEEP_CSV;
+    file->format = lines ? LRCS_HOST_ROWS_JSONL : LRCS_HOST_ROWS_CSV;
     if (!path || strcmp(path, "-") == 0) {
         return cli_value(args, "resume")
                    ? cli_usage(args->command, "--resume needs -o FILE: it goes on with that file")
@@ -105,8 +105,8 @@ int cli_file_read(const cli_args *args, sweep_file *file)
     if (found < 0) {
         return cli_expected(args, "o", "FILE.csv, FILE.jsonl or FILE.npy");
     }
-    file->npy = found == SWEEP_NPY;
-    file->format = found == SWEEP_JSONL ? SWEEP_JSONL : SWEEP_CSV;
+    file->npy = found == 2;
+    file->format = found == LRCS_HOST_ROWS_JSONL ? LRCS_HOST_ROWS_JSONL : LRCS_HOST_ROWS_CSV;
     char *real = realpath(path, NULL); /* a symbolic link is kept */
     size_t room = strlen(real ? real : path) + sizeof ".partial";
     file->path = real ? real : strdup(path);
@@ -139,16 +139,17 @@ void cli_file_free(sweep_file *file)
     file->descriptor = file->lock = -1;
 }
 
-void cli_file_take(sweep_file *file, const sweep_row *row)
+/* Adds a row that is in the file, now or from before, to the statistics. */
+static void file_take(sweep_file *file, const lrcs_host_row *row)
 {
-    cli_tally_add(&file->tally, row);
+    lrcs_host_tally_add(&file->tally, row);
     if (file->row) {
-        file->row[row->index][0] = row->field[FIELD_SIGMA];
-        file->row[row->index][1] = row->field[FIELD_BOUND];
+        file->row[row->index][0] = row->field[LRCS_HOST_ROW_SIGMA];
+        file->row[row->index][1] = row->field[LRCS_HOST_ROW_BOUND];
     }
     if (file->band) {
-        file->band[row->index][0] = row->field[FIELD_LOW];
-        file->band[row->index][1] = row->field[FIELD_HIGH];
+        file->band[row->index][0] = row->field[LRCS_HOST_ROW_LOW];
+        file->band[row->index][1] = row->field[LRCS_HOST_ROW_HIGH];
     }
     file->next++;
 }
@@ -187,9 +188,9 @@ static int waiting_flush(sweep_file *file, int last, lrcs_host_error *error)
 {
     fflush(file->stream);
     size_t rows = file->waiting_size;
-    file->sum = cli_sum_more(file->sum, file->waiting, rows);
+    file->sum = lrcs_host_hash(file->sum, file->waiting, rows);
     if (file->path || last) {
-        cli_rows_sum(file->stream, file->format, file->sum);
+        lrcs_host_rows_sum_write(file->stream, file->format, file->sum);
     }
     int good = !ferror(file->stream) && fclose(file->stream) == 0;
     file->stream = NULL;
@@ -220,50 +221,47 @@ enum { OTHER_SWEEP = -1 }; /* differs from every exit code: no message has been 
    checksum or in a truncated line; file->size and file->sum are then set to match; OTHER_SWEEP,
    without a message, if the file is not of this sweep and shard; CLI_FAILED, with a message, if a
    row is damaged. */
-static int rows_recover(sweep_file *file, const char *path, const sweep_plan *plan,
-                        const lrcs_host_file *there, const char *head, size_t head_size,
-                        int *summed)
+static int rows_recover(sweep_file *file, const char *path, const lrcs_host_file *there,
+                        const char *head, size_t head_size, int *summed)
 {
-    sweep_text text;
-    sweep_row row;
-    const char *line;
-    size_t size;
+    lrcs_host_rows rows;
+    lrcs_host_row row;
+    lrcs_host_error error;
     const char *bytes = (const char *)there->bytes;
     if (there->size < head_size || memcmp(bytes, head, head_size) != 0 ||
-        cli_text_open(bytes, there->size, &text) != 0) {
+        lrcs_host_rows_open(bytes, there->size, &rows) != LRCS_OK) {
         return OTHER_SWEEP;
     }
-    const char *good = text.at;
+    const char *good = rows.at;
     int more;
-    while ((more = cli_text_next(&text, plan, &row, &line, &size)) == 1) {
-        if (row.index >= plan->end || (row.index != file->next && good == text.head + head_size)) {
+    while ((more = lrcs_host_rows_next(&rows, file->plan, &row, &error)) == 1) {
+        if (row.index >= file->end || (row.index != file->next && good == bytes + head_size)) {
             return OTHER_SWEEP; /* or of another shard */
         }
         if (row.index != file->next) {
             return cli_fail("%s: line %llu: found row %llu, expected row %llu", path,
-                            (unsigned long long)text.line - 1, (unsigned long long)row.index,
+                            (unsigned long long)rows.number - 1, (unsigned long long)row.index,
                             (unsigned long long)file->next);
         }
-        cli_file_take(file, &row);
-        good = line + size;
+        file_take(file, &row);
+        good = rows.at;
     }
-    int end = more == 0 ? cli_text_end(&text) : -1;
+    int end = more == 0 ? lrcs_host_rows_end(&rows, &error) : more;
     if (end < 0) {
         fprintf(stderr,
                 "lrcs: %s: is damaged: %s; remove the file, or what is wrong in it and all that "
                 "follows\n",
-                path, text.fault);
+                path, error.text);
         return CLI_FAILED;
     }
     *summed = end;
     file->size = (uint64_t)(good - bytes);
-    file->sum = cli_sum_more(CLI_SUM_BEGIN, bytes, (size_t)(good - bytes));
+    file->sum = lrcs_host_hash(LRCS_HOST_HASH_START, bytes, (size_t)(good - bytes));
     return 0;
 }
 
 /* Continues FILE.partial: whatever follows the last complete row is overwritten. */
-static int partial_continue(sweep_file *file, const sweep_plan *plan, const char *head,
-                            size_t head_size)
+static int partial_continue(sweep_file *file, const char *head, size_t head_size)
 {
     lrcs_host_error error;
     lrcs_host_file there = {NULL, 0};
@@ -272,7 +270,7 @@ static int partial_continue(sweep_file *file, const sweep_plan *plan, const char
         return cli_failed(&error);
     }
     int torn = there.size < head_size && memcmp(there.bytes, head, there.size) == 0;
-    int code = torn ? 0 : rows_recover(file, file->partial, plan, &there, head, head_size, &summed);
+    int code = torn ? 0 : rows_recover(file, file->partial, &there, head, head_size, &summed);
     lrcs_host_file_free(&there);
     if (code == OTHER_SWEEP) {
         return cli_fail("%s: is of another sweep (scene, options, shard or version): remove it, or "
@@ -292,23 +290,42 @@ static int partial_continue(sweep_file *file, const sweep_plan *plan, const char
     return 0;
 }
 
+/* Adds the rows of FILE.npy if FILE.npy.head begins with one of these heads and has the map's
+   checksum. 0, or OTHER_SWEEP with nothing added. */
+static int map_recover(sweep_file *file, const char *const head[2], const size_t size[2])
+{
+    lrcs_host_sweep_map map;
+    int same = lrcs_host_sweep_map_open(file->path, &map) == LRCS_OK;
+    /* the rows of a merged map may have had either format */
+    same = same && map.rows.head_size == size[map.rows.format] &&
+           memcmp(map.rows.head, head[map.rows.format], map.rows.head_size) == 0;
+    for (uint64_t i = 0; same && i < file->plan->rows; i++) {
+        lrcs_host_row row;
+        lrcs_host_sweep_map_row(&map, i, &row);
+        file_take(file, &row);
+    }
+    if (same) {
+        memcpy(file->tally.count, map.tally.count, sizeof map.tally.count);
+    }
+    lrcs_host_sweep_map_close(&map);
+    return same ? 0 : OTHER_SWEEP;
+}
+
 /* FILE exists, and --resume never replaces it: 0 if it is complete and belongs to this very sweep,
    with its rows recovered; else CLI_FAILED. */
-static int whole_recover(sweep_file *file, const sweep_plan *plan, const char *const head[2],
-                         const size_t size[2])
+static int whole_recover(sweep_file *file, const char *const head[2], const size_t size[2])
 {
     lrcs_host_error error;
     lrcs_host_file there;
-    int summed = 0;
+    int summed = file->npy;
     int code;
     if (file->npy) {
-        code = cli_map_recover(file, plan, head, size) == 0 ? 0 : OTHER_SWEEP;
-        summed = 1;
+        code = map_recover(file, head, size);
     } else if (lrcs_host_file_read(file->path, &there, &error) != LRCS_OK) {
         return cli_failed(&error);
     } else {
-        int format = file->format == SWEEP_JSONL;
-        code = rows_recover(file, file->path, plan, &there, head[format], size[format], &summed);
+        code =
+            rows_recover(file, file->path, &there, head[file->format], size[file->format], &summed);
         lrcs_host_file_free(&there);
     }
     if (code == OTHER_SWEEP) {
@@ -316,48 +333,46 @@ static int whole_recover(sweep_file *file, const sweep_plan *plan, const char *c
                         "replaces no whole file: remove it, or give another name",
                         file->path, file->npy ? ", or is not what its .head says" : "");
     }
-    if (code == 0 && (!summed || file->next != plan->end)) {
+    if (code == 0 && (!summed || file->next != file->end)) {
         return cli_fail("%s: is damaged: it holds %llu of %llu rows%s: remove it", file->path,
-                        (unsigned long long)(file->next - plan->first),
-                        (unsigned long long)(plan->end - plan->first),
+                        (unsigned long long)(file->next - file->first),
+                        (unsigned long long)(file->end - file->first),
                         summed ? "" : " and no checksum");
     }
     return code;
 }
 
-int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head,
-                  const sweep_plan *plan)
+int cli_file_open(const cli_args *args, sweep_file *file)
 {
     struct stat about;
     char *text[2] = {NULL, NULL};
     size_t size[2] = {0, 0};
     int resume = cli_value(args, "resume") != NULL;
-    file->next = plan->first;
-    file->sum = CLI_SUM_BEGIN;
+    file->next = file->first;
+    file->sum = LRCS_HOST_HASH_START;
     int code = waiting_begin(file);
     if (code == 0 && !file->path) {
-        cli_rows_head(file->stream, file->format, head, plan);
+        lrcs_host_rows_head_write(file->stream, file->format, file->head, file->plan);
         return 0;
     }
     code = code ? code : lock_take(file);
-    for (int i = 0; i < 2 && code == 0; i++) {
+    for (int i = 0; i < 2 && code == 0; i++) { /* by format */
         FILE *out = open_memstream(&text[i], &size[i]);
         if (out) {
-            cli_rows_head(out, i == 1 ? SWEEP_JSONL : SWEEP_CSV, head, plan);
+            lrcs_host_rows_head_write(out, i, file->head, file->plan);
         }
         code = out && fclose(out) == 0 ? 0 : cli_out_of_memory();
     }
-    int format = file->format == SWEEP_JSONL;
     if (code != 0 || !text[0] || !text[1]) {
         code = CLI_FAILED; /* already reported */
     } else if (resume && stat(file->path, &about) == 0) {
-        code = whole_recover(file, plan, (const char *const *)text, size);
+        code = whole_recover(file, (const char *const *)text, size);
     } else if (resume && stat(file->partial, &about) == 0) {
-        code = partial_continue(file, plan, text[format], size[format]);
+        code = partial_continue(file, text[file->format], size[file->format]);
     } else { /* an existing FILE.partial is never overwritten: it may contain hours of work */
         file->descriptor = open(file->partial, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file->descriptor >= 0) {
-            fwrite(text[format], 1, size[format], file->stream);
+            fwrite(text[file->format], 1, size[file->format], file->stream);
         } else if (errno == EEXIST) {
             code = cli_fail("%s: is there from a sweep that was stopped: --resume goes on with "
                             "it; or remove it",
@@ -373,11 +388,10 @@ int cli_file_open(const cli_args *args, sweep_file *file, const sweep_head *head
 
 /* ---- rows, and the end ---- */
 
-int cli_file_put(sweep_file *file, const sweep_plan *plan, const sweep_row *row,
-                 lrcs_host_error *error)
+int cli_file_put(sweep_file *file, const lrcs_host_row *row, lrcs_host_error *error)
 {
-    cli_rows_put(file->stream, file->format, plan, row);
-    cli_file_take(file, row);
+    lrcs_host_row_write(file->stream, file->format, &file->head->fields, file->plan, row);
+    file_take(file, row);
     double now = cli_seconds();
     if (now - file->flushed < FILE_PERIOD) {
         return LRCS_OK;
@@ -388,43 +402,47 @@ int cli_file_put(sweep_file *file, const sweep_plan *plan, const sweep_row *row,
 
 /* Reads the rows of FILE.npy.partial once more. */
 typedef struct map_rows {
-    const sweep_plan *plan;
-    sweep_text text;
+    const lrcs_host_plan *plan;
+    lrcs_host_rows rows;
 } map_rows;
 
-static int map_next(void *context, sweep_row *row)
+static int map_next(void *context, lrcs_host_row *row, lrcs_host_error *error)
 {
-    map_rows *rows = context;
-    const char *line;
-    size_t size;
-    int more = cli_text_next(&rows->text, rows->plan, row, &line, &size);
-    if (more == 0 && cli_text_end(&rows->text) != 1) {
-        more = -1;
-    }
-    if (more < 0) {
-        cli_fail("the rows of the map were changed: %s", rows->text.fault);
+    map_rows *from = context;
+    lrcs_host_error fault = {"no checksum"};
+    int more = lrcs_host_rows_next(&from->rows, from->plan, row, &fault);
+    if (more < 0 || (more == 0 && lrcs_host_rows_end(&from->rows, &fault) != 1)) {
+        snprintf(error->text, sizeof error->text, "the rows of the map were changed: %.900s",
+                 fault.text);
+        return LRCS_E_SYNTAX;
     }
     return more;
 }
 
-static int map_make(const sweep_file *file, const sweep_plan *plan)
+static int map_make(const sweep_file *file)
 {
     lrcs_host_error error;
     lrcs_host_file bytes;
-    map_rows rows = {.plan = plan};
-    if (lrcs_host_file_read(file->partial, &bytes, &error) != LRCS_OK) {
+    map_rows from = {.plan = file->plan};
+    int status = lrcs_host_file_read(file->partial, &bytes, &error);
+    if (status != LRCS_OK) {
         return cli_failed(&error);
     }
-    int code = CLI_FAILED;
-    if (cli_text_open((const char *)bytes.bytes, bytes.size, &rows.text) == 0) {
-        const sweep_text head = rows.text;
-        code = cli_map_write(file->path, &head, map_next, &rows);
+    status = lrcs_host_rows_open((const char *)bytes.bytes, bytes.size, &from.rows);
+    if (status == LRCS_OK) {
+        const lrcs_host_rows head = from.rows;
+        status = lrcs_host_sweep_map_write(file->path, &head, map_next, &from, &error);
+    } else {
+        snprintf(error.text, sizeof error.text, "%.900s: %s", file->partial,
+                 lrcs_status_text(status));
     }
     lrcs_host_file_free(&bytes);
-    return code ? code : remove(file->partial) == 0 ? 0 : path_refuse(file->partial, "remove");
+    return status != LRCS_OK            ? cli_failed(&error)
+           : remove(file->partial) == 0 ? 0
+                                        : path_refuse(file->partial, "remove");
 }
 
-int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
+int cli_file_close(sweep_file *file, int all)
 {
     lrcs_host_error error;
     struct stat held;
@@ -432,8 +450,8 @@ int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
     if (!file->stream || whole) {
         return 0;
     }
-    if (all && cli_plan_has_mean(plan) && file->tally.rows == plan->rows) {
-        cli_rows_mean(file->stream, file->format, &file->tally);
+    if (all && lrcs_host_plan_is_sphere(file->plan) && file->tally.rows == file->plan->rows) {
+        lrcs_host_rows_mean_write(file->stream, file->format, &file->tally);
     }
     if (waiting_flush(file, all, &error) != LRCS_OK) {
         return file->path ? cli_failed(&error) : 0; /* cli_finish checks standard output */
@@ -441,7 +459,7 @@ int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
     if (!file->path) {
         return 0;
     }
-    if (!all && file->next == plan->first) {
+    if (!all && file->next == file->first) {
         return remove(file->partial) == 0 ? 0 : path_refuse(file->partial, "remove");
     }
     /* FILE.partial must still be the file that this process wrote, with a size that fits */
@@ -458,7 +476,7 @@ int cli_file_close(sweep_file *file, const sweep_plan *plan, int all)
                         file->partial, file->path);
     }
     if (all && file->npy) {
-        return map_make(file, plan);
+        return map_make(file);
     }
     return !all || rename(file->partial, file->path) == 0 ? 0 : path_refuse(file->path, "write");
 }

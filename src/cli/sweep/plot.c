@@ -65,7 +65,7 @@ static int is_angle(const plot_axis *axis)
 /* ---- what varies ---- */
 
 /* Lists everything with more than one value: the axes, and the time of a track. */
-static uint32_t varying_list(const sweep_plan *plan, plot_axis axis[SWEEP_AXES + 1])
+static uint32_t varying_list(const lrcs_host_plan *plan, plot_axis axis[LRCS_HOST_PLAN_AXES + 1])
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < plan->axes; i++) {
@@ -73,7 +73,7 @@ static uint32_t varying_list(const sweep_plan *plan, plot_axis axis[SWEEP_AXES +
             axis[count++] = (plot_axis){i, plan->axis[i].range.count, plan->column[i]};
         }
     }
-    if (plan->kind == SWEEP_TRACK) {
+    if (plan->kind == LRCS_HOST_PLAN_TRACK) {
         axis[count++] = (plot_axis){plan->axes, plan->track.count, "time"};
     }
     return count;
@@ -101,7 +101,7 @@ static void plot_choose(const plot_axis *axis, uint32_t count, sweep_plot *plot)
 
 /* Directions of the whole sphere, as a map over azimuth and elevation whose step is a third of the
    distance between them. */
-static void sphere_choose(const sweep_plan *plan, sweep_plot *plot)
+static void sphere_choose(const lrcs_host_plan *plan, sweep_plot *plot)
 {
     static const uint32_t step[] = {1, 2, 3, 5};
     double apart = CLI_DEGREES * sqrt(4.0 * (180.0 / CLI_DEGREES) / (double)plan->rows);
@@ -115,18 +115,18 @@ static void sphere_choose(const sweep_plan *plan, sweep_plot *plot)
 }
 
 /* 1 if azimuth spans at most a full turn and elevation at most pole to pole. */
-static int mollweide_fits(const sweep_plan *plan, const sweep_plot *plot)
+static int mollweide_fits(const lrcs_host_plan *plan, const sweep_plot *plot)
 {
     static const double most[2] = {360.0, 90.0};
-    for (int k = 0; k < 2 && plan->kind != SWEEP_SPHERE; k++) {
+    for (int k = 0; k < 2 && plan->kind != LRCS_HOST_PLAN_SPHERE; k++) {
         const plot_axis *axis = k == 0 ? &plot->x : &plot->y;
-        if (plan->kind != SWEEP_AZEL || axis->count < 2 || axis->column >= plan->axes ||
+        if (plan->kind != LRCS_HOST_PLAN_AZEL || axis->count < 2 || axis->column >= plan->axes ||
             strcmp(axis->name, k == 0 ? "az_deg" : "el_deg") != 0) {
             return 0;
         }
-        const sweep_range *range = &plan->axis[axis->column].range;
-        double first = cli_range_at(range, 0);
-        double last = cli_range_at(range, range->count - 1);
+        const lrcs_host_range *range = &plan->axis[axis->column].range;
+        double first = lrcs_host_range_at(range, 0);
+        double last = lrcs_host_range_at(range, range->count - 1);
         if (!(k == 0 ? fabs(last - first) <= most[0]
                      : fabs(first) <= most[1] && fabs(last) <= most[1])) {
             return 0;
@@ -135,11 +135,22 @@ static int mollweide_fits(const sweep_plan *plan, const sweep_plot *plot)
     return 1;
 }
 
-static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *plot)
+uint32_t cli_plot_choose(sweep_plot *plot)
 {
-    plot_axis axis[SWEEP_AXES + 1];
-    uint32_t count = varying_list(plan, axis);
-    int sphere = plan->kind == SWEEP_SPHERE;
+    plot_axis axis[LRCS_HOST_PLAN_AXES + 1];
+    uint32_t count = varying_list(plot->plan, axis);
+    if (plot->plan->kind == LRCS_HOST_PLAN_SPHERE) {
+        sphere_choose(plot->plan, plot);
+    } else if (count > 0) {
+        plot_choose(axis, count, plot);
+    }
+    return count;
+}
+
+static int plot_check(const cli_args *args, const lrcs_host_plan *plan, sweep_plot *plot)
+{
+    uint32_t count = cli_plot_choose(plot);
+    int sphere = plan->kind == LRCS_HOST_PLAN_SPHERE;
     if (sphere && (count > 0 || plot->polar)) {
         return cli_usage(args->command,
                          "--plot draws the directions of --sphere as a map, of one scene");
@@ -155,11 +166,6 @@ static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *
         return cli_usage(args->command, "--plot: at most 2^28 rows, found %llu",
                          (unsigned long long)plan->rows);
     }
-    if (sphere) {
-        sphere_choose(plan, plot);
-    } else {
-        plot_choose(axis, count, plot);
-    }
     if (plot->polar && plot->y.count > PLOT_CURVES) {
         return cli_usage(args->command, "--polar draws at most %u curves, found %llu", PLOT_CURVES,
                          (unsigned long long)plot->y.count);
@@ -169,7 +175,7 @@ static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *
                          plot->x.name);
     }
     int ascends = 1; /* the axes of a map must ascend; ranges do so, or are reversed */
-    for (uint64_t i = 1; plan->kind == SWEEP_TRACK && i < plan->track.count; i++) {
+    for (uint64_t i = 1; plan->kind == LRCS_HOST_PLAN_TRACK && i < plan->track.count; i++) {
         ascends &= plan->track.row[i][0] > plan->track.row[i - 1][0];
     }
     if (plot->map && !ascends) {
@@ -184,7 +190,7 @@ static int plot_check(const cli_args *args, const sweep_plan *plan, sweep_plot *
 }
 /* ---- options ---- */
 
-int cli_plot_read(const cli_args *args, const sweep_plan *plan, sweep_plot *plot)
+int cli_plot_read(const cli_args *args, const lrcs_host_plan *plan, sweep_plot *plot)
 {
     *plot = (sweep_plot){.option = args->command == &cli_sweep_command ? "plot" : "o",
                          .dbsm = cli_value(args, "dbsm") != NULL,
@@ -229,7 +235,7 @@ int cli_plot_uncertainty(const sweep_plot *plot, double part[2])
 /* The text below the title: the fixed values, and how accurate sigma is. 0 or CLI_FAILED. */
 static int plot_note(const sweep_plot *plots, uint32_t count, char note[512])
 {
-    const sweep_plan *plan = plots->plan;
+    const lrcs_host_plan *plan = plots->plan;
     const char *accept = NULL;
     char bound[CLI_BOUND_SIZE];
     double worst = 0.0;
@@ -241,7 +247,7 @@ static int plot_note(const sweep_plot *plots, uint32_t count, char note[512])
     for (uint32_t i = 0; i < plan->axes && strlen(note) < 300 && count == 1; i++) {
         if (plan->axis[i].range.count == 1) {
             char text[192];
-            value_text(plan->column[i], cli_range_at(&plan->axis[i].range, 0), text);
+            value_text(plan->column[i], lrcs_host_range_at(&plan->axis[i].range, 0), text);
             cli_append(note, 512, "%s; ", text);
         }
     }
@@ -270,7 +276,8 @@ static int plot_note(const sweep_plot *plots, uint32_t count, char note[512])
                !dark        ? ""
                : plots->map ? "; grey: sigma is 0"
                             : "; gaps: sigma is 0",
-               plan->kind == SWEEP_SPHERE ? "; each place shows the nearest direction" : "");
+               plan->kind == LRCS_HOST_PLAN_SPHERE ? "; each place shows the nearest direction"
+                                                   : "");
     return code;
 }
 
@@ -279,7 +286,7 @@ static int plot_note(const sweep_plot *plots, uint32_t count, char note[512])
 /* The direction of a Fibonacci lattice nearest to an azimuth and elevation: rows descend in z, and
    only those within a chord of 4 / sqrt(N) of its z can be nearest (the lattice leaves no gap of
    that radius). */
-static uint64_t sphere_nearest(const sweep_plan *plan, double az, double el)
+static uint64_t sphere_nearest(const lrcs_host_plan *plan, double az, double el)
 {
     lrcs_pose pose = lrcs_pose_default();
     double n = (double)plan->rows;
@@ -291,8 +298,8 @@ static uint64_t sphere_nearest(const sweep_plan *plan, double az, double el)
     uint64_t first = (uint64_t)fmax(0.0, floor(0.5 * n * (1.0 - z - reach)));
     uint64_t end = (uint64_t)fmin(n, ceil(0.5 * n * (1.0 - z + reach)) + 1.0);
     for (uint64_t i = first; i < end; i++) {
-        double direction[SWEEP_COLUMNS];
-        cli_plan_values(plan, i, direction);
+        double direction[LRCS_HOST_PLAN_COLUMNS];
+        lrcs_host_plan_values(plan, i, direction);
         double dot = direction[0] * pose.direction[0] + direction[1] * pose.direction[1] +
                      direction[2] * pose.direction[2];
         if (dot > most) {
@@ -306,7 +313,7 @@ static uint64_t sphere_nearest(const sweep_plan *plan, double az, double el)
 /* The row at a place along both axes. */
 static uint64_t plot_row(const sweep_plot *plot, uint64_t x, uint64_t y)
 {
-    if (plot->plan->kind == SWEEP_SPHERE) {
+    if (plot->plan->kind == LRCS_HOST_PLAN_SPHERE) {
         double step = 360.0 / (double)(plot->x.count - 1);
         return sphere_nearest(plot->plan, (double)x * step - 180.0, (double)y * step - 90.0);
     }
@@ -321,20 +328,20 @@ static double plot_shown(const sweep_plot *plot, double sigma)
 /* The value of an axis at one of its places. */
 static double axis_value(const sweep_plot *plot, const plot_axis *axis, uint64_t place)
 {
-    const sweep_plan *plan = plot->plan;
-    if (plan->kind == SWEEP_SPHERE) {
+    const lrcs_host_plan *plan = plot->plan;
+    if (plan->kind == LRCS_HOST_PLAN_SPHERE) {
         double first = axis == &plot->x ? -180.0 : -90.0;
         return first * (1.0 - 2.0 * (double)place / (double)(axis->count - 1));
     }
     return axis->column == plan->axes ? plan->track.row[place][0]
-                                      : cli_range_at(&plan->axis[axis->column].range, place);
+                                      : lrcs_host_range_at(&plan->axis[axis->column].range, place);
 }
 
 /* The title of an axis; for the time of a track with its unit and its epoch. */
 static void time_title(const sweep_plot *plot, const plot_axis *axis, char text[192])
 {
-    const sweep_plan *plan = plot->plan;
-    if (plan->kind != SWEEP_TRACK || axis->column != plan->axes ||
+    const lrcs_host_plan *plan = plot->plan;
+    if (plan->kind != LRCS_HOST_PLAN_TRACK || axis->column != plan->axes ||
         strcmp(axis->name, "time") != 0) {
         axis_words words = words_of(axis->name);
         snprintf(text, 192, words.unit ? "%s (%s)" : "%s", words.text, words.unit);
@@ -405,7 +412,8 @@ static int sheet_curves(FILE *out, const void *context, int png, lrcs_host_error
                                    .x_name = sheet->x_name,
                                    .y_name = plot->dbsm ? "sigma (dBsm)" : "sigma (m2)",
                                    .x_deg = is_angle(&plot->x),
-                                   .y_from_0 = !plot->dbsm && plot->plan->kind != SWEEP_TRACK,
+                                   .y_from_0 =
+                                       !plot->dbsm && plot->plan->kind != LRCS_HOST_PLAN_TRACK,
                                    .polar = plot->polar,
                                    .about = sheet->about,
                                    .series = series,
@@ -459,7 +467,7 @@ static int sheet_map(FILE *out, const void *context, int png, lrcs_host_error *e
                          .y_deg = is_angle(&plot->y),
                          .mollweide = plot->mollweide,
                          .about = sheet->about,
-                         .cells = plot->plan->kind == SWEEP_SPHERE};
+                         .cells = plot->plan->kind == LRCS_HOST_PLAN_SPHERE};
     int status = LRCS_OK;
     double *closed = ring_close(&map);
     if (png) {
@@ -522,7 +530,7 @@ static void about_put(FILE *out, const void *context)
     fprintf(out, "lrcs %s sweep", lrcs_version());
     for (uint32_t k = 0; k < sheet->count; k++) {
         fprintf(out, "; scene_hash=%016llx", (unsigned long long)sheet->plot[k].head->scene_hash);
-        cli_head_put(out, sheet->plot[k].head);
+        lrcs_host_rows_options_write(out, sheet->plot[k].head);
     }
 }
 

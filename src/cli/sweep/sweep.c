@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* lrcs sweep: sigma over attitudes and over the quantities of a scene that can vary. */
 #include "cli/sweep/sweep.h"
-#include "cli/info/info.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,8 +85,8 @@ static const cli_option sweep_options[] = {CLI_POSE_OPTIONS,     CLI_ACCURACY_OP
 
 typedef struct sweep_job {
     const cli_args *args;
-    sweep_plan plan;
-    sweep_head head;
+    lrcs_host_plan plan;
+    lrcs_host_rows_head head;
     sweep_file file;
     cli_progress progress;
     sweep_plot plot;
@@ -150,7 +149,8 @@ static int job_read(sweep_job *job)
     code = code ? code : cli_accuracy_read(args, &job->options);
     code = code ? code : cli_scene_options_read(args, &job->load);
     code = code ? code : cli_normals_read(args, &job->load);
-    code = code ? code : cli_plan_read(args, NULL, &job->plan);
+    code = code ? code : cli_plan_read(args, &job->plan);
+    code = code ? code : cli_shard_read(args, &job->plan, &job->file.first, &job->file.end);
     code = code ? code : cli_plot_read(args, &job->plan, &job->plot);
     code = code ? code : cli_brightest_read(args, &job->plan, &job->file, &job->brightest);
     code = code ? code : cli_stats_read(args, &job->stats);
@@ -197,7 +197,7 @@ static int job_files_check(const sweep_job *job)
 static int job_pose(void *context, uint64_t index, lrcs_pose *pose)
 {
     const sweep_job *job = context;
-    return cli_plan_pose(&job->plan, index, pose);
+    return lrcs_host_plan_pose(&job->plan, index, pose);
 }
 
 static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const lrcs_result *result,
@@ -206,35 +206,35 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
 {
     sweep_job *job = context;
     (void)pose;
-    sweep_row row = {.index = index,
-                     .field[FIELD_SIGMA] = result->sigma_m2,
-                     .field[FIELD_DBSM] =
-                         result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN,
-                     .field[FIELD_BOUND] = result->bound_m2,
-                     .field[FIELD_GLINT] = result->sigma_glint_m2,
-                     .field[FIELD_DIFFUSE] = result->sigma_diffuse_m2,
-                     .flags = cli_flags_in_force(job->args, &job->options, result->flags)};
-    cli_plan_values(&job->plan, index, row.value);
+    lrcs_host_row row = {.index = index,
+                         .field[LRCS_HOST_ROW_SIGMA] = result->sigma_m2,
+                         .field[LRCS_HOST_ROW_DBSM] =
+                             result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN,
+                         .field[LRCS_HOST_ROW_BOUND] = result->bound_m2,
+                         .field[LRCS_HOST_ROW_GLINT] = result->sigma_glint_m2,
+                         .field[LRCS_HOST_ROW_DIFFUSE] = result->sigma_diffuse_m2,
+                         .flags = cli_flags_in_force(job->args, &job->options, result->flags)};
+    lrcs_host_plan_values(&job->plan, index, row.value);
     if (uncertainty) {
-        row.field[FIELD_DEVIATION] = uncertainty->deviation_m2;
-        row.field[FIELD_LOW] = uncertainty->low_m2;
-        row.field[FIELD_HIGH] = uncertainty->high_m2;
-        row.field[FIELD_SAMPLED] = uncertainty->sampled;
+        row.field[LRCS_HOST_ROW_DEVIATION] = uncertainty->deviation_m2;
+        row.field[LRCS_HOST_ROW_LOW] = uncertainty->low_m2;
+        row.field[LRCS_HOST_ROW_HIGH] = uncertainty->high_m2;
+        row.field[LRCS_HOST_ROW_SAMPLED] = uncertainty->sampled;
     }
     if (glint) {
-        row.field[FIELD_GLINT_ERROR] = glint->error_m2;
-        row.field[FIELD_DOMINATED] = cli_glint_dominates(glint, result->sigma_m2);
+        row.field[LRCS_HOST_ROW_GLINT_ERROR] = glint->error_m2;
+        row.field[LRCS_HOST_ROW_DOMINATED] = lrcs_host_glint_dominates(glint, result->sigma_m2);
     }
     job->notices |= result->notices;
-    int status = cli_file_put(&job->file, &job->plan, &row, error);
-    cli_progress_show(&job->progress, job->file.next - job->plan.first);
+    int status = cli_file_put(&job->file, &row, error);
+    cli_progress_show(&job->progress, job->file.next - job->file.first);
     return status;
 }
 
 static int job_scene(void *context, uint64_t index, lrcs_host_scene *scene, lrcs_host_error *error)
 {
     const sweep_job *job = context;
-    return cli_scene_of_row(&job->plan, index, &job->scene, &job->load.build, scene, error);
+    return lrcs_host_plan_scene(&job->plan, index, &job->scene, &job->load.build, scene, error);
 }
 
 /* Computes the rows up to `end`: all of one scene, or, if it is NULL, each of its own scene. */
@@ -249,8 +249,8 @@ static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
                              .scene = scene ? NULL : job_scene,
                              .take = job_take,
                              .refine = 1,
-                             .uncertainty = job->plan.fields.materials ? &how : NULL,
-                             .glint = job->plan.fields.glint ? job->coarse : NULL,
+                             .uncertainty = job->head.fields.materials ? &how : NULL,
+                             .glint = job->head.fields.glint ? job->coarse : NULL,
                              .glint_count = job->coarse_count,
                              .context = job,
                              .cancel = &sweep_stop};
@@ -266,26 +266,26 @@ static int job_run(sweep_job *job)
     lrcs_host_error error;
     lrcs_host_scene scene;
     int code = 0;
-    const uint64_t done = job->file.next - job->plan.first;
-    const uint64_t all = job->plan.end - job->plan.first;
-    if (job->plan.scene_axes > 0 || job->plan.track.joints > 0) {
+    const uint64_t done = job->file.next - job->file.first;
+    const uint64_t all = job->file.end - job->file.first;
+    if (lrcs_host_plan_varies_scene(&job->plan)) {
         job->progress = cli_progress_make(done, all);
         int apart = job->plan.poses == 1 || job->plan.track.joints > 0; /* each row has a scene */
-        code = apart ? rows_run(job, NULL, job->plan.end) : 0;
-        while (!apart && code == 0 && job->file.next < job->plan.end) {
+        code = apart ? rows_run(job, NULL, job->file.end) : 0;
+        while (!apart && code == 0 && job->file.next < job->file.end) {
             uint64_t end = (job->file.next / job->plan.poses + 1) * job->plan.poses;
             memset(&scene, 0, sizeof scene);
             if (job_scene(job, job->file.next, &scene, &error) != LRCS_OK) {
                 return cli_failed(&error);
             }
-            code = rows_run(job, &scene, end < job->plan.end ? end : job->plan.end);
+            code = rows_run(job, &scene, end < job->file.end ? end : job->file.end);
             lrcs_host_scene_free(&scene);
         }
-    } else if (job->file.next < job->plan.end) {
+    } else if (job->file.next < job->file.end) {
         cli_watch_stage("preparing", &job->scene);
         code = cli_scene_prepare(&job->scene);
         job->progress = cli_progress_make(done, all);
-        code = code ? code : rows_run(job, &job->scene, job->plan.end);
+        code = code ? code : rows_run(job, &job->scene, job->file.end);
     }
     cli_progress_clear(&job->progress);
     return code;
@@ -296,14 +296,14 @@ static int job_run(sweep_job *job)
 /* Prints a summary for people; the rows contain all of it too. */
 static void job_say(const sweep_job *job)
 {
-    const sweep_tally *tally = &job->file.tally;
+    const lrcs_host_tally *tally = &job->file.tally;
     for (uint32_t bits = job->notices; bits != 0; bits &= bits - 1) {
         fprintf(stderr, "notice: %s\n", lrcs_notice_text(CLI_LOWEST(bits)));
     }
-    if (cli_plan_has_mean(&job->plan) && tally->rows == job->plan.rows) {
+    if (lrcs_host_plan_is_sphere(&job->plan) && tally->rows == job->plan.rows) {
         char spread[40] = "not known from one direction";
         if (tally->rows > 1) {
-            snprintf(spread, sizeof spread, "%.3g m2", cli_tally_error(tally));
+            snprintf(spread, sizeof spread, "%.3g m2", lrcs_host_tally_error(tally));
         }
         fprintf(stderr, "mean of sigma %.10g m2, standard error %s, mean bound %.3g m2\n",
                 tally->mean, spread, tally->bound / (double)tally->rows);
@@ -317,13 +317,13 @@ static void job_say(const sweep_job *job)
         int count;
         const char *in, *what;
     } said[] = {
-        {TALLY_MISSED, "", missed},
-        {TALLY_ESTIMATED, "", estimated},
-        {TALLY_UNJUDGED, "", "are accepted whatever their error"},
-        {TALLY_DOMINATED, "in ",
+        {LRCS_HOST_TALLY_MISSED, "", missed},
+        {LRCS_HOST_TALLY_ESTIMATED, "", estimated},
+        {LRCS_HOST_TALLY_UNJUDGED, "", "are accepted whatever their error"},
+        {LRCS_HOST_TALLY_DOMINATED, "in ",
          "the glint of one flat face of a curved part makes most of sigma: its normal is the "
          "mesh's, not the surface's"},
-        {TALLY_STARVED, "", "were short of memory"}};
+        {LRCS_HOST_TALLY_STARVED, "", "were short of memory"}};
     for (size_t i = 0; i < sizeof said / sizeof said[0]; i++) {
         if (tally->count[said[i].count] > 0) {
             fprintf(stderr, "lrcs: %s%llu of %llu rows %s\n", said[i].in,
@@ -335,12 +335,12 @@ static void job_say(const sweep_job *job)
 
 static int job_rows(sweep_job *job)
 {
-    const sweep_tally *tally = &job->file.tally;
+    const lrcs_host_tally *tally = &job->file.tally;
     const cli_args *args = job->args;
     signals_watch(); /* before the existing rows are read, which may take seconds */
     cli_watch_stage("rows that are there", NULL);
     if (job->plot.asked || job->brightest > 0 || job->stats) { /* what depends on all rows */
-        int banded = (job->plot.asked || job->stats) && job->plan.fields.materials;
+        int banded = (job->plot.asked || job->stats) && job->head.fields.materials;
         job->file.row = job->plot.row = job->row = calloc(job->plan.rows, sizeof *job->row);
         job->band = banded ? calloc(job->plan.rows, sizeof *job->band) : NULL;
         job->file.band = job->plot.band = job->band;
@@ -348,25 +348,23 @@ static int job_rows(sweep_job *job)
             return cli_out_of_memory();
         }
     }
-    int code = cli_file_open(args, &job->file, &job->head, &job->plan);
+    int code = cli_file_open(args, &job->file);
     if (code != 0) {
         return code;
     }
     code = job_run(job);
-    int closed = cli_file_close(&job->file, &job->plan, code == 0);
-    if (code != 0 && job->file.next > job->plan.first && job->file.path && closed == 0) {
+    int closed = cli_file_close(&job->file, code == 0);
+    if (code != 0 && job->file.next > job->file.first && job->file.path && closed == 0) {
         fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume goes on with them\n",
-                job->file.partial, (unsigned long long)(job->file.next - job->plan.first),
-                (unsigned long long)(job->plan.end - job->plan.first));
+                job->file.partial, (unsigned long long)(job->file.next - job->file.first),
+                (unsigned long long)(job->file.end - job->file.first));
     }
     code = code ? code : closed;
     const double(*row)[2] = (const double(*)[2])job->row;
     code = code == 0 && job->plot.asked ? cli_plot_write(args, &job->plot, 1) : code;
     if (code == 0 && job->stats) { /* stdout is for the rows if no file is given */
-        sweep_stats stats;
-        code = cli_stats_make(&job->plan, &job->head, row, (const double(*)[2])job->band, &stats);
-        code = code ? code : cli_stats_write(args, job->file.path ? stdout : stderr, &stats);
-        cli_stats_free(&stats);
+        code = cli_stats_write(args, job->file.path ? stdout : stderr, &job->plan, &job->head, row,
+                               (const double(*)[2])job->band);
     }
     if (code == 0 && job->brightest > 0) {
         code = cli_brightest_print(&job->plan, row, job->brightest, &job->scene, &job->options,
@@ -376,8 +374,9 @@ static int job_rows(sweep_job *job)
         return code;
     }
     job_say(job);
-    return tally->count[TALLY_MISSED] > 0 || tally->count[TALLY_STARVED] > 0 ? CLI_DEGRADED
-                                                                             : CLI_DONE;
+    return tally->count[LRCS_HOST_TALLY_MISSED] > 0 || tally->count[LRCS_HOST_TALLY_STARVED] > 0
+               ? CLI_DEGRADED
+               : CLI_DONE;
 }
 
 /* Prints where the error of the glint may exceed the bound; completes the plan, and computes and
@@ -399,11 +398,13 @@ static int scene_sweep(sweep_job *job)
             "auto)\n",
             (unsigned long)coarse, coarse == 1 ? " is" : "s are", 100.0 * worst);
     }
-    job->plan.fields = cli_fields_make(cli_errors_stated(&job->scene.scene), job->coarse_count > 0);
+    job->file.plan = &job->plan;
+    job->file.head = &job->head;
     job->plot.head = &job->head;
     job->plot.open = cli_materials_open(&job->scene.scene);
     job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));
-    int code = cli_head_make(args, &job->plan, &job->options, &job->scene, &job->head);
+    int code = cli_head_make(args, &job->plan, &job->options, &job->scene, job->coarse_count > 0,
+                             &job->head);
     return code ? code : job_rows(job);
 }
 
@@ -417,20 +418,23 @@ static int sweep_command(const cli_args *args)
     int code = job_read(job);
     cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job->load, &job->scene);
-    code = code ? code : cli_scene_axes_check(args, &job->plan, &job->scene);
+    code = code ? code : cli_plan_check(args, &job->plan, &job->scene);
     code = code ? code : job_files_check(job);
     if (code == 0) {
         cli_notices_print(stderr, &job->scene.notices);
         /* if a slope is varied, parts that are fine now may be too coarse in some rows */
-        code = cli_coarse_glint(&job->scene, &job->load.build, cli_value(args, "vary") != NULL,
-                                &job->coarse, &job->coarse_count);
+        lrcs_host_error error;
+        if (lrcs_host_glint_coarse(&job->scene, &job->load.build, cli_value(args, "vary") != NULL,
+                                   &job->coarse, &job->coarse_count, &error) != LRCS_OK) {
+            code = cli_failed(&error);
+        }
     }
     code = code ? code : scene_sweep(job);
     free(job->row);
     free(job->band);
     free(job->coarse);
     cli_file_free(&job->file);
-    cli_plan_free(&job->plan);
+    lrcs_host_plan_free(&job->plan);
     lrcs_host_scene_free(&job->scene);
     cli_scene_options_free(&job->load);
     free(job);

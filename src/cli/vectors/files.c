@@ -3,6 +3,8 @@
    order in each, with all digits of the numbers. STL has no materials; JSON contains everything. */
 #include "cli/vectors/vectors.h"
 
+#include <stdarg.h>
+
 typedef struct files_scene {
     const vectors_scene *scene;
     const vectors_mesh *mesh;
@@ -33,6 +35,18 @@ static void obj_write(FILE *out, const void *context)
         }
         fprintf(out, "f %lu %lu %lu\n", v[0] + 1UL, v[1] + 1UL, v[2] + 1UL);
     }
+}
+
+int cli_kit_path(char path[KIT_PATH], const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    int size = vsnprintf(path, KIT_PATH, format, list);
+    va_end(list);
+    if (size < 0 || (unsigned)size >= KIT_PATH) {
+        return cli_fail("a path of more than %u bytes", KIT_PATH);
+    }
+    return 0;
 }
 
 int cli_vectors_write(const char *prefix, const vectors_file *file, int count, const void *context)

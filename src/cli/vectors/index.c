@@ -10,7 +10,7 @@ static const char readme_text[] = {
 #include "readme.inc"
 };
 
-static const char *const tier_text[KIT_TIERS] = {
+static const char *const tier_text[LRCS_HOST_KIT_TIERS] = {
     "one plate: the angle, 4 pi, the cosines, the BRDF",
     "convex bodies: frames, handedness, materials, back faces", "bodies that shadow themselves",
     "satellites: many facets, narrow glints",
@@ -90,9 +90,9 @@ static void kit_write(FILE *out, const void *context)
 {
     const vectors_job *job = context;
     lrcs_host_json json = lrcs_host_json_make(out);
-    cli_json(&json, "{\nschema=%u kit=%u lrcs=%s tiers=[\n", CLI_SCHEMA, KIT_VERSION,
+    cli_json(&json, "{\nschema=%u kit=%u lrcs=%s tiers=[\n", CLI_SCHEMA, LRCS_HOST_KIT_VERSION,
              lrcs_version());
-    for (int i = 0; i < KIT_TIERS; i++) {
+    for (int i = 0; i < LRCS_HOST_KIT_TIERS; i++) {
         cli_json(&json, "{tier=%u about=%s}", i + 1, tier_text[i]);
     }
     cli_json(&json, "] materials=[\n");
@@ -130,7 +130,7 @@ static void readme_write(FILE *out, const void *context)
     fwrite(readme_text, 1, sizeof readme_text, out);
     fprintf(out,
             "## Scenes (kit %d, %lu cases)\n\n| tier | scene | what it tries |\n|---|---|---|\n",
-            KIT_VERSION, (unsigned long)job->cases);
+            LRCS_HOST_KIT_VERSION, (unsigned long)job->cases);
     for (uint32_t i = 0; i < job->cases; i++) {
         const vectors_scene *scene = job->list[i].scene;
         if (i == 0 || scene != job->list[i - 1].scene) {
@@ -141,8 +141,8 @@ static void readme_write(FILE *out, const void *context)
 
 int cli_vectors_index(const vectors_job *job)
 {
-    static const vectors_file file[] = {{KIT_MATERIALS_FILE, materials_write, NULL},
-                                        {KIT_CASES_FILE, cases_write, NULL},
+    static const vectors_file file[] = {{LRCS_HOST_KIT_MATERIALS_TEXT, materials_write, NULL},
+                                        {LRCS_HOST_KIT_CASES_TEXT, cases_write, NULL},
                                         {"README.md", readme_write, NULL},
                                         {"kit.json", kit_write, NULL}};
     char prefix[KIT_PATH];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The kit's materials, attitudes and scenes, as tables. This file decides what is tested; mesh.c
-   makes facets from a row. A change here requires a new KIT_VERSION. */
+   makes facets from a row. A change here requires a new LRCS_HOST_KIT_VERSION. */
 #include "cli/vectors/vectors.h"
 
 #include <stddef.h>

@@ -58,7 +58,7 @@ static double facet_edge(const lrcs_scene *scene, const lrcs_facet_record *recor
         return 0.0;
     }
     double pixels = record->visible_area_m2 < PARTLY_SEEN * whole ? 1.0 : 0.5;
-    return pixels * cli_kit_outline(scene, facet, pose) * record->sigma_m2 /
+    return pixels * lrcs_host_kit_outline(scene, facet, pose) * record->sigma_m2 /
            record->visible_area_m2;
 }
 
@@ -123,7 +123,10 @@ static int truth_file(truth_run *run, vectors_job *job, const vectors_scene *sce
 int cli_vectors_truth(vectors_job *job, const vectors_scene *scene)
 {
     truth_run run = {.job = job};
-    int code = cli_kit_scene(job->folder, scene->name, job->binding, job->bindings, &run.host);
+    lrcs_host_error error;
+    int status = lrcs_host_kit_scene_read(job->folder, scene->name, job->binding, job->bindings,
+                                          &run.host, &error);
+    int code = status == LRCS_OK ? 0 : cli_failed(&error);
     if (code == 0) {
         uint32_t side = job->resolution > 0 ? job->resolution : 1;
         run.image.size = side;

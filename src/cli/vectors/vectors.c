@@ -86,7 +86,8 @@ static int case_make(const vectors_scene *scene, const vectors_attitude *attitud
     const double *s = one->direction;
     one->azel_deg[0] = CLI_DEGREES * atan2(s[1], s[0]);
     one->azel_deg[1] = CLI_DEGREES * atan2(s[2], hypot(s[0], s[1]));
-    return cli_kit_pose(one->quaternion, one->direction, &one->pose) == LRCS_OK ? 0 : CLI_FAILED;
+    return lrcs_host_kit_pose(one->quaternion, one->direction, &one->pose) == LRCS_OK ? 0
+                                                                                      : CLI_FAILED;
 }
 
 /* Adds every attitude of the scene's sets; the first one, if possible off all axes, has
@@ -158,7 +159,8 @@ static int vectors_make(vectors_job *job, uint32_t tier)
     cli_watch_end();
     if (code == 0) {
         printf("%s: kit %d, %lu scenes, %lu cases; begin with %s/README.md\n", job->folder,
-               KIT_VERSION, (unsigned long)scenes, (unsigned long)job->cases, job->folder);
+               LRCS_HOST_KIT_VERSION, (unsigned long)scenes, (unsigned long)job->cases,
+               job->folder);
     }
     return code;
 }
@@ -166,9 +168,9 @@ static int vectors_make(vectors_job *job, uint32_t tier)
 static int vectors_command(const cli_args *args)
 {
     vectors_job job = {.folder = args->operand, .resolution = RESOLUTION};
-    uint32_t tier = KIT_TIERS;
+    uint32_t tier = LRCS_HOST_KIT_TIERS;
     int code = cli_whole(args, "resolution", 0.0, RESOLUTION_MOST, &job.resolution);
-    code = code ? code : cli_whole(args, "tier", 1.0, KIT_TIERS, &tier);
+    code = code ? code : cli_whole(args, "tier", 1.0, LRCS_HOST_KIT_TIERS, &tier);
     code = code ? code : vectors_make(&job, tier);
     free(job.list);
     free(job.binding);

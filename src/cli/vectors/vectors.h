@@ -4,7 +4,15 @@
 #ifndef LRCS_CLI_VECTORS_H
 #define LRCS_CLI_VECTORS_H
 
-#include "cli/kit.h"
+#include "cli/cli.h"
+
+#include <lrcs/conformance.h>
+
+#define KIT_PATH 4096u /* size of a path */
+
+/* Writes "DIR/a/b" to path. 0, or CLI_FAILED with the message printed if it does not fit. */
+__attribute__((format(printf, 2, 3))) int cli_kit_path(char path[KIT_PATH], const char *format,
+                                                       ...);
 
 typedef struct vectors_material {
     const char *name;

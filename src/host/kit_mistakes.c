@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /* The catalogue of mistakes (in the shading of a facet, in the area that is summed, in the pose),
    and the answer that a code with a mistake would produce for a case: the sum of Eq. 2 over the
-   truth's facets, with the mistake applied. explain.c decides which of them explains the submitted
-   answers. */
-#include "cli/compare/compare.h"
+   truth's facets, with the mistake applied. kit_explain.c decides which of them explains the
+   submitted answers. */
+#include "host/kit_search.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define TWINS_MOST 256u /* scenes with more facets are not searched for coincident facets */
+#include "base/constant.h"
+#include "host/fail.h"
+
+#define DEGREES_PER_RADIAN (180.0 / LRCS_PI)
+#define TWINS_MOST         256u /* scenes with more facets are not searched for coincident facets */
 
 /* The point at which a facet is shaded. */
 typedef struct mistake_point {
@@ -20,7 +24,7 @@ typedef struct mistake_point {
 
 /* A case with a mistake: the pose and the records that are used. */
 typedef struct mistake_view {
-    const compare_scene *scene;
+    const lrcs_host_kit_scene *scene;
     const lrcs_facet_record *records;
     const double *direction; /* unit */
 } mistake_view;
@@ -87,7 +91,7 @@ static double shade_as(lrcs_brdf brdf, double cosine, double c)
 }
 
 /* f_r cos. */
-static double mistake_shade(const compare_mistake *mistake, const mistake_point *point)
+static double mistake_shade(const lrcsi_mistake *mistake, const mistake_point *point)
 {
     double at = mistake->at;
     double c = point->c;
@@ -102,11 +106,11 @@ static double mistake_shade(const compare_mistake *mistake, const mistake_point 
     case SHADE_COSINE:
         return lrcs_brdf_eval(point->brdf, c) * pow(c, at);
     case SHADE_DEGREES:
-        wrong = cos(theta * CLI_DEGREES);
+        wrong = cos(theta * DEGREES_PER_RADIAN);
         wrong = at > 0.0 ? fabs(wrong) : wrong;
         return wrong > 0.0 ? shade_as(brdf, wrong, c) : 0.0;
     case SHADE_TAN_DEGREES:
-        wrong = tan(theta * CLI_DEGREES) / s;
+        wrong = tan(theta * DEGREES_PER_RADIAN) / s;
         return shade_terms(point, 6.0, wrong * wrong);
     case SHADE_POWER:
         return shade_terms(point, at, tan2 / (s * s));
@@ -124,13 +128,14 @@ static double mistake_shade(const compare_mistake *mistake, const mistake_point 
         brdf.B *= 1.0 - at;
         return shade_as(brdf, c, c);
     case SHADE_LINES:
-        wrong = theta * CLI_DEGREES / at; /* f_r from a table in steps of `at` deg, interpolated */
-        from = lrcs_brdf_eval(&brdf, cos(at * floor(wrong) / CLI_DEGREES));
-        to = lrcs_brdf_eval(&brdf, cos((at * floor(wrong) + at) / CLI_DEGREES));
-        return (from + (theta * CLI_DEGREES - at * floor(wrong)) / at * (to - from)) * c;
+        wrong = theta * DEGREES_PER_RADIAN /
+                at; /* f_r from a table in steps of `at` deg, interpolated */
+        from = lrcs_brdf_eval(&brdf, cos(at * floor(wrong) / DEGREES_PER_RADIAN));
+        to = lrcs_brdf_eval(&brdf, cos((at * floor(wrong) + at) / DEGREES_PER_RADIAN));
+        return (from + (theta * DEGREES_PER_RADIAN - at * floor(wrong)) / at * (to - from)) * c;
     case SHADE_STEPS:
-        wrong = at * floor(theta * CLI_DEGREES / at + 0.5);
-        return shade_as(brdf, cos(wrong / CLI_DEGREES), c);
+        wrong = at * floor(theta * DEGREES_PER_RADIAN / at + 0.5);
+        return shade_as(brdf, cos(wrong / DEGREES_PER_RADIAN), c);
     case SHADE_BITS:
         wrong = white > 0.0 ? fmin(right / white, 1.0) : 0.0;
         return white * floor(255.0 * wrong + 0.5) / 255.0;
@@ -174,7 +179,7 @@ static uint32_t facet_last(const lrcs_scene *scene, uint32_t facet)
 
 /* The projected area of a facet, for the value at a corner (0 .. 2) if that counts. Also sets how
    it is shaded; 0 if the facet does not contribute. */
-static double mistake_area(const compare_mistake *mistake, const mistake_view *view, uint32_t facet,
+static double mistake_area(const lrcsi_mistake *mistake, const mistake_view *view, uint32_t facet,
                            int corner, mistake_point *point)
 {
     const lrcs_scene *scene = &view->scene->host.scene;
@@ -229,7 +234,8 @@ static int pose_at(double az, double el, lrcs_pose *pose)
 }
 
 /* The pose that is used. Status: as lrcs_pose_from_quaternion. */
-static int mistake_turn(const compare_mistake *mistake, const compare_case *one, lrcs_pose *pose)
+static int mistake_turn(const lrcsi_mistake *mistake, const lrcs_host_kit_case *one,
+                        lrcs_pose *pose)
 {
     const double *q = one->quaternion;
     const double scalar_last[4] = {q[3], q[0], q[1], q[2]};
@@ -251,9 +257,9 @@ static int mistake_turn(const compare_mistake *mistake, const compare_case *one,
     case TURN_RADIANS:
         return pose_at(az, el, pose);
     case TURN_POLAR:
-        return pose_at(az / CLI_DEGREES, 0.5 * LRCS_PI - el / CLI_DEGREES, pose);
+        return pose_at(az / DEGREES_PER_RADIAN, 0.5 * LRCS_PI - el / DEGREES_PER_RADIAN, pose);
     case TURN_EXCHANGED:
-        return pose_at(el / CLI_DEGREES, az / CLI_DEGREES, pose);
+        return pose_at(el / DEGREES_PER_RADIAN, az / DEGREES_PER_RADIAN, pose);
     default:
         break;
     }
@@ -264,7 +270,7 @@ static int mistake_turn(const compare_mistake *mistake, const compare_case *one,
 
 #define CULLED (1u << LRCS_EFFECT_BACK_FACE_CASTERS)
 
-const compare_mistake cli_compare_mistakes[] = {
+const lrcsi_mistake lrcsi_mistakes[] = {
     {.name = "none", .text = "as it should be"},
     {"no-shadows", "missing shadows: facets count whole, though others hide them",
      .area = AREA_UNSHADOWED},
@@ -384,7 +390,7 @@ const compare_mistake cli_compare_mistakes[] = {
 
 /* Moves every facet towards the laser by a share of the distance: backs by all of it, fronts by up
    to half, later ones by more. Corners are no longer shared. */
-static void facets_move(const compare_case *one, const lrcs_scene *from, lrcs_scene *scene)
+static void facets_move(const lrcs_host_kit_case *one, const lrcs_scene *from, lrcs_scene *scene)
 {
     double size = 0.0;
     for (uint32_t i = 0; i < from->vertex_count; i++) {
@@ -410,9 +416,9 @@ static void facets_move(const compare_case *one, const lrcs_scene *from, lrcs_sc
 
 /* The records of a case if of coplanar facets the wrong one is seen: backs before fronts, then the
    last before the first. Depths of one plane that differ by rounding make this mistake in some
-   pixels. The true records must be there already. 0 or CLI_FAILED with the message printed. */
-static int run_wrong_coplanar(const compare_kit *kit, const compare_case *one,
-                              lrcs_facet_record *records)
+   pixels. The true records must be there already. */
+static int run_wrong_coplanar(const lrcs_host_kit *kit, const lrcs_host_kit_case *one,
+                              lrcs_facet_record *records, lrcs_host_error *error)
 {
     const lrcs_scene *from = &kit->scene[one->scene].host.scene;
     lrcs_point *vertex = malloc(((size_t)3 * from->facet_count + 1) * sizeof *vertex);
@@ -420,73 +426,74 @@ static int run_wrong_coplanar(const compare_kit *kit, const compare_case *one,
     if (!vertex || !facet) {
         free(vertex);
         free(facet);
-        return cli_out_of_memory();
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
     }
     lrcs_host_scene moved = {.scene = *from};
     moved.scene.vertex = vertex;
     moved.scene.facet = facet;
     facets_move(one, from, &moved.scene);
-    int code = cli_scene_prepare(&moved);
-    code = code ? code : cli_compare_run(&moved, &one->pose, 0, records);
+    int status = lrcs_host_scene_prepare(&moved, error);
+    status = status == LRCS_OK ? lrcsi_kit_run(&moved, &one->pose, 0, records, error) : status;
     lrcs_host_scene_free(&moved);
     free(vertex);
     free(facet);
-    return code;
+    return status;
 }
 
 /* ---- the answer ---- */
 
-/* The records of a case with a mistake: the truth's, or those of another run. 0 or CLI_FAILED. */
-static int view_make(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
-                     mistake_view *view, lrcs_facet_record **own)
+/* The records of a case with a mistake: the truth's, or those of another run. */
+static int mistake_view_make(const lrcs_host_kit *kit, lrcs_host_kit_case *one,
+                             const lrcsi_mistake *mistake, mistake_view *view,
+                             lrcs_facet_record **own, lrcs_host_error *error)
 {
     lrcs_pose pose = one->pose;
     double peak = 0.0; /* the largest f_r cos of the case */
-    int code = cli_compare_records(kit, one);
+    int status = lrcsi_kit_records(kit, one, error);
     view->scene = &kit->scene[one->scene];
     view->direction = one->direction;
     view->records = one->records;
     uint32_t facets = view->scene->host.scene.facet_count;
-    for (uint32_t i = 0; code == 0 && one->peak == 0.0 && i < facets; i++) {
+    for (uint32_t i = 0; status == LRCS_OK && one->peak == 0.0 && i < facets; i++) {
         mistake_point point = {.peak = 0.0};
-        if (mistake_area(cli_compare_mistakes, view, i, 0, &point) > 0.0) {
-            peak = fmax(peak, mistake_shade(cli_compare_mistakes, &point));
+        if (mistake_area(lrcsi_mistakes, view, i, 0, &point) > 0.0) {
+            peak = fmax(peak, mistake_shade(lrcsi_mistakes, &point));
         }
     }
     one->peak = fmax(one->peak, peak);
-    if (code != 0 || (!mistake->turn && !mistake->without && !mistake->wrong_coplanar)) {
-        return code;
+    if (status != LRCS_OK || (!mistake->turn && !mistake->without && !mistake->wrong_coplanar)) {
+        return status;
     }
     *own = calloc((size_t)facets + 1, sizeof **own);
     if (!*own) {
-        return cli_out_of_memory();
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
     }
     view->records = *own;
     if (mistake->wrong_coplanar) {
-        return run_wrong_coplanar(kit, one, *own);
+        return run_wrong_coplanar(kit, one, *own, error);
     }
     if (mistake->turn && mistake_turn(mistake, one, &pose) != LRCS_OK) {
         pose = one->pose;
     }
-    return cli_compare_run(&view->scene->host, &pose, mistake->without, *own);
+    return lrcsi_kit_run(&view->scene->host, &pose, mistake->without, *own, error);
 }
 
-int cli_compare_answer(const compare_kit *kit, compare_case *one, const compare_mistake *mistake,
-                       double *sigma_m2)
+int lrcsi_mistake_answer(const lrcs_host_kit *kit, lrcs_host_kit_case *one,
+                         const lrcsi_mistake *mistake, double *sigma_m2, lrcs_host_error *error)
 {
     mistake_view view;
     lrcs_facet_record *own = NULL;
-    int code = view_make(kit, one, mistake, &view, &own);
+    int status = mistake_view_make(kit, one, mistake, &view, &own, error);
     int corners = mistake->corners > 0 ? mistake->corners : 1;
     double sum = 0.0; /* sigma / 4 pi */
-    for (uint32_t i = 0; code == 0 && i < view.scene->host.scene.facet_count; i++) {
+    for (uint32_t i = 0; status == LRCS_OK && i < view.scene->host.scene.facet_count; i++) {
         for (int corner = 0; corner < corners; corner++) {
             mistake_point point = {.peak = one->peak};
             double area = mistake_area(mistake, &view, i, corner, &point);
             sum += area > 0.0 ? area * mistake_shade(mistake, &point) / corners : 0.0;
         }
     }
-    *sigma_m2 = code == 0 ? LRCS_FOUR_PI * sum : *sigma_m2;
+    *sigma_m2 = status == LRCS_OK ? LRCS_FOUR_PI * sum : *sigma_m2;
     free(own);
-    return code;
+    return status;
 }

@@ -2,7 +2,7 @@
 /* Compares the submitted item images with the truth's, pixel by pixel: which are rotated or
    mirrored, number facets from another base, lose facets or show hidden ones. This only explains;
    the verdict depends on sigma alone. */
-#include "cli/compare/compare.h"
+#include "host/kit.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "host/fail.h"
 
 #define AGREE 0.98 /* share of the non-empty pixels; the others are outlines */
 
@@ -32,7 +34,7 @@ typedef struct items_way {
     uint32_t add;                /* added to the truth's facet to get the submitted one */
 } items_way;
 
-static const items_way item_ways[COMPARE_IMAGE_WAYS] = {
+static const items_way item_ways[LRCS_HOST_IMAGE_WAYS] = {
     {"agree with the truth", 0, 0, 0, 0},
     {"are upside down: row 0 is at the bottom", 0, 1, 0, 0},
     {"are mirrored left to right: a left-handed view", 0, 0, 1, 0},
@@ -68,20 +70,20 @@ static double images_agree(const items_image *truth, const items_image *theirs,
 }
 
 /* The facets that lose most pixels, with the number of the truth's pixels that show something else.
-   0 or CLI_FAILED. */
+ */
 static int facets_lost(const lrcs_scene *scene, const items_image *truth, const items_image *theirs,
-                       compare_image *image)
+                       lrcs_host_kit_image *image, lrcs_host_error *error)
 {
     uint32_t *lost = calloc((size_t)scene->facet_count + 1, sizeof *lost);
     if (!lost) {
-        return cli_out_of_memory();
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
     }
     for (uint32_t i = 0; i < truth->side * truth->side; i++) {
         uint32_t a = item_at(truth, i / truth->side, i % truth->side);
         uint32_t b = item_at(theirs, i / truth->side, i % truth->side);
         lost[a < scene->facet_count ? a : scene->facet_count] += a != b;
     }
-    for (uint32_t n = 0; n < COMPARE_TOP; n++) {
+    for (uint32_t n = 0; n < LRCS_HOST_KIT_TOP; n++) {
         uint32_t best = 0;
         for (uint32_t i = 1; i < scene->facet_count; i++) {
             best = lost[i] > lost[best] ? i : best;
@@ -91,40 +93,41 @@ static int facets_lost(const lrcs_scene *scene, const items_image *truth, const 
         lost[best] = 0;
     }
     free(lost);
-    return 0;
+    return LRCS_OK;
 }
 
-/* Reads an image: 1 if it exists, 0 if not, -1 with the message printed. */
-static int image_read(const char *path, uint32_t side, items_image *image)
+/* Reads an image: 1 if it exists, 0 if not. */
+static int item_image_read(const char *path, uint32_t side, items_image *image,
+                           lrcs_host_error *error)
 {
-    lrcs_host_error error;
     size_t size = 4 * (size_t)side * side;
     *image = (items_image){.side = side};
     if (access(path, F_OK) != 0) {
         return 0;
     }
-    if (lrcs_host_file_read(path, &image->file, &error) != LRCS_OK) {
-        cli_failed(&error);
-        return -1;
+    int status = lrcs_host_file_read(path, &image->file, error);
+    if (status != LRCS_OK) {
+        return status;
     }
     image->bytes = image->file.bytes;
     if (image->file.size != size) {
-        cli_fail("%s: expected %lu x %lu pixels of 4 bytes, found %zu bytes", path,
-                 (unsigned long)side, (unsigned long)side, image->file.size);
+        status = lrcsi_host_fail(error, LRCS_E_SYNTAX,
+                                 "%s: expected %lu x %lu pixels of 4 bytes, found %zu bytes", path,
+                                 (unsigned long)side, (unsigned long)side, image->file.size);
         lrcs_host_file_free(&image->file);
-        return -1;
+        return status;
     }
     return 1;
 }
 
-static int image_judge(compare_job *job, const compare_case *one, const items_image *truth,
-                       const items_image *theirs)
+static int image_judge(lrcs_host_judgement *job, const lrcs_host_kit_case *one,
+                       const items_image *truth, const items_image *theirs, lrcs_host_error *error)
 {
-    compare_items *found = &job->by_item;
+    lrcs_host_kit_items *found = &job->by_item;
     double first = 0.0;
     double most = 0.0;
     size_t best = 0;
-    for (size_t i = 0; i < COMPARE_IMAGE_WAYS; i++) {
+    for (size_t i = 0; i < LRCS_HOST_IMAGE_WAYS; i++) {
         double agree = images_agree(truth, theirs, &item_ways[i]);
         first = i == 0 ? agree : first;
         best = agree > most ? i : best;
@@ -134,67 +137,70 @@ static int image_judge(compare_job *job, const compare_case *one, const items_im
         found->way[first >= AGREE ? 0 : best]++;
         return 0;
     }
-    if (found->differ++ >= COMPARE_NAMED) {
+    if (found->differ++ >= LRCS_HOST_KIT_NAMED) {
         return 0;
     }
-    compare_image *image = &found->image[found->named++];
-    *image = (compare_image){.one = one, .agree = first};
-    return facets_lost(&job->kit.scene[one->scene].host.scene, truth, theirs, image);
+    lrcs_host_kit_image *image = &found->image[found->named++];
+    *image = (lrcs_host_kit_image){.one = one, .agree = first};
+    return facets_lost(&job->kit.scene[one->scene].host.scene, truth, theirs, image, error);
 }
 
-/* 1 if an image was submitted, 0 if not, -1 on failure. */
-static int case_judge(compare_job *job, const compare_case *one)
+/* 1 if there is an image of a case, 0 if not. */
+static int item_case_judge(lrcs_host_judgement *job, const char *theirs,
+                           const lrcs_host_kit_case *one, lrcs_host_error *error)
 {
-    char path[2][KIT_PATH];
-    const char *const folder[2] = {job->kit.folder, job->items};
+    char path[2][LRCSI_KIT_PATH];
+    const char *const folder[2] = {job->kit.folder, theirs};
     const char *const inside[2] = {"truth/", ""};
     const char *name = job->kit.scene[one->scene].name;
     items_image image[2];
     for (int i = 0; i < 2; i++) {
-        if (cli_kit_path(path[i], "%s/%s%s.%s.item.u32", folder[i], inside[i], name,
-                         one->attitude) != 0) {
-            return -1;
+        int status = lrcsi_kit_path(path[i], error, "%s/%s%s.%s.item.u32", folder[i], inside[i],
+                                    name, one->attitude);
+        if (status != LRCS_OK) {
+            return status;
         }
     }
-    int found = image_read(path[1], one->image, &image[1]);
+    int found = item_image_read(path[1], one->image, &image[1], error);
     if (found <= 0) {
         return found;
     }
-    found = image_read(path[0], one->image, &image[0]);
-    if (found == 0) {
-        cli_fail("%s: not there", path[0]);
+    int status = item_image_read(path[0], one->image, &image[0], error);
+    if (status == 0) {
+        lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: not there", path[0]);
+        status = LRCS_E_SYSTEM;
     }
-    int good = found > 0 && cli_compare_scene(&job->kit, &job->kit.scene[one->scene]) == 0;
-    good = good && image_judge(job, one, &image[0], &image[1]) == 0;
+    status = status > 0 ? lrcsi_kit_scene(&job->kit, &job->kit.scene[one->scene], error) : status;
+    status = status == LRCS_OK ? image_judge(job, one, &image[0], &image[1], error) : status;
     lrcs_host_file_free(&image[0].file);
     lrcs_host_file_free(&image[1].file);
-    return good ? 1 : -1;
+    return status == LRCS_OK ? 1 : status;
 }
 
-int cli_compare_items(compare_job *job)
+int lrcs_host_judge_items(lrcs_host_judgement *judgement, const char *folder,
+                          lrcs_host_error *error)
 {
-    DIR *folder = job->items ? opendir(job->items) : NULL;
-    if (job->items && !folder) {
-        return cli_fail("%s: cannot open folder: %s", job->items, strerror(errno));
+    DIR *opened = opendir(folder);
+    if (!opened) {
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: cannot open folder: %s", folder,
+                               strerror(errno));
     }
-    if (folder) {
-        closedir(folder);
-    }
-    for (uint32_t i = 0; job->items && i < job->kit.cases; i++) {
-        const compare_case *one = &job->kit.list[i];
-        if (one->image > 0 && cli_compare_asked(job, one)) {
-            int judged = case_judge(job, one);
+    closedir(opened);
+    for (uint32_t i = 0; i < judgement->kit.cases; i++) {
+        const lrcs_host_kit_case *one = &judgement->kit.list[i];
+        if (one->image > 0 && lrcs_host_judge_asked(judgement, one)) {
+            int judged = item_case_judge(judgement, folder, one, error);
             if (judged < 0) {
-                return CLI_FAILED;
+                return judged;
             }
-            job->by_item.handed += (uint32_t)judged;
-            job->by_item.images++;
+            judgement->by_item.handed += (uint32_t)judged;
+            judgement->by_item.images++;
         }
     }
-    return 0;
+    return LRCS_OK;
 }
 
-const char *cli_compare_image_way(size_t way)
+const char *lrcs_host_image_way_text(int way)
 {
     return item_ways[way].text;
 }

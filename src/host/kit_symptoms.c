@@ -3,7 +3,7 @@
    zeros, another unit than the column states, rows shifted by one, too few digits. Others follow
    from which cases fail, and by how much: depths that are too coarse, single precision, a raster,
    or a factor that all answers share. */
-#include "cli/compare/compare.h"
+#include "host/kit_search.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -38,7 +38,7 @@ static const struct symptom_reading {
 /* ---- findings ---- */
 
 /* 1 if a case's answer, read in another way, is within what the case is allowed. */
-static int reading_matches(const compare_job *job, const compare_case *one,
+static int reading_matches(const lrcs_host_judgement *job, const lrcs_host_kit_case *one,
                            const struct symptom_reading *reading)
 {
     double sigma_m2 =
@@ -46,33 +46,33 @@ static int reading_matches(const compare_job *job, const compare_case *one,
     if (reading->lines != 0) {
         double line = (double)(one - job->kit.list) + reading->lines;
         int inside = line >= 0.0 && line < job->kit.cases;
-        const compare_case *other = inside ? &job->kit.list[(uint32_t)line] : NULL;
+        const lrcs_host_kit_case *other = inside ? &job->kit.list[(uint32_t)line] : NULL;
         sigma_m2 = other && other->given ? other->theirs_m2 : (double)NAN;
     }
-    return fabs(sigma_m2 - one->sigma_m2) <= cli_compare_allowed(one, job->grade, job->pixels);
+    return fabs(sigma_m2 - one->sigma_m2) <= lrcs_host_judge_allowed(one, job->grade, job->pixels);
 }
 
 /* 1 if the current cause explains most of the failures. */
-static int holds_most(const compare_search *search)
+static int holds_most(const lrcsi_search *search)
 {
-    uint32_t right = cli_search_holds(search);
+    uint32_t right = lrcsi_search_holds(search);
     return right >= LEAST && right >= MOST * search->failings;
 }
 
 /* Makes a finding if most answers are right when read in another way. Answers that are no numbers
    may become numbers then. */
-static void reading_try(compare_search *search, const struct symptom_reading *reading)
+static void reading_try(lrcsi_search *search, const struct symptom_reading *reading)
 {
-    compare_job *job = search->job;
+    lrcs_host_judgement *job = search->job;
     for (uint32_t i = 0; i < search->failings; i++) {
         search->holds[i] = (unsigned char)reading_matches(job, search->failing[i], reading);
     }
-    compare_finding *finding =
-        holds_most(search) ? cli_search_find(search, reading->name, "%s", reading->text) : NULL;
+    lrcs_host_finding *finding =
+        holds_most(search) ? lrcsi_search_find(search, reading->name, "%s", reading->text) : NULL;
     for (uint32_t i = 0; finding && i < job->kit.cases; i++) {
-        compare_case *one = &job->kit.list[i];
+        lrcs_host_kit_case *one = &job->kit.list[i];
         if (one->given && !isfinite(one->theirs_m2) && one->explained == 0 &&
-            cli_compare_failed(job, one) && reading_matches(job, one, reading)) {
+            lrcs_host_judge_failed(job, one) && reading_matches(job, one, reading)) {
             one->explained = (int)job->findings;
             finding->explained++;
         }
@@ -90,10 +90,10 @@ static double digit_step(double value, int digits, int significant)
 }
 
 /* 1 if no answer has more digits than these. */
-static int digits_all(const compare_job *job, int digits, int significant)
+static int digits_all(const lrcs_host_judgement *job, int digits, int significant)
 {
     for (uint32_t i = 0; i < job->kit.cases; i++) {
-        const compare_case *one = &job->kit.list[i];
+        const lrcs_host_kit_case *one = &job->kit.list[i];
         double value = one->given ? one->printed : 0.0;
         double step = digit_step(value, digits, significant);
         double steps = floor(value / step + 0.5);
@@ -107,47 +107,47 @@ static int digits_all(const compare_job *job, int digits, int significant)
 /* Finds the smallest number of digits, of decimals or significant ones, that suffices for all
    answers. Makes a finding if rounding, by half a unit of the last digit, explains most failures.
  */
-static void digits_try(compare_search *search)
+static void digits_try(lrcsi_search *search)
 {
-    const compare_job *job = search->job;
+    const lrcs_host_judgement *job = search->job;
     for (int significant = 0; significant < 2; significant++) {
         int digits = significant;
         while (digits < DIGITS && !digits_all(job, digits, significant)) {
             digits++;
         }
         for (uint32_t i = 0; i < search->failings; i++) {
-            const compare_case *one = search->failing[i];
+            const lrcs_host_kit_case *one = search->failing[i];
             double value = job->decibels ? 10.0 * log10(one->sigma_m2) : one->sigma_m2;
             double half = 0.5 * digit_step(value, digits, significant);
             double room = job->decibels ? one->sigma_m2 * (pow(10.0, half / 10.0) - 1.0) : half;
             search->holds[i] = fabs(one->theirs_m2 - one->sigma_m2) <=
-                               room + cli_compare_allowed(one, job->grade, job->pixels);
+                               room + lrcs_host_judge_allowed(one, job->grade, job->pixels);
         }
         if (digits < DIGITS && holds_most(search) &&
-            cli_search_find(search, "few-digits",
-                            "few digits: every answer is rounded to %d %s%s: print %%.9g or more",
-                            digits, significant ? "digit" : "decimal", digits == 1 ? "" : "s")) {
+            lrcsi_search_find(search, "few-digits",
+                              "few digits: every answer is rounded to %d %s%s: print %%.9g or more",
+                              digits, significant ? "digit" : "decimal", digits == 1 ? "" : "s")) {
             return;
         }
     }
 }
 
-void cli_compare_format(compare_search *search)
+void lrcsi_symptoms_format(lrcsi_search *search)
 {
-    const compare_job *job = search->job;
+    const lrcs_host_judgement *job = search->job;
     uint32_t given = 0;
     int blank = search->failings > 0;
     for (uint32_t i = 0; i < job->kit.cases; i++) {
-        const compare_case *one = &job->kit.list[i];
-        int counts = one->given && cli_compare_asked(job, one);
+        const lrcs_host_kit_case *one = &job->kit.list[i];
+        int counts = one->given && lrcs_host_judge_asked(job, one);
         given += (uint32_t)counts;
         blank &= !counts || one->theirs_m2 == 0.0;
     }
     if (given > 0 && blank) {
         memset(search->holds, 1, search->failings);
-        cli_search_find(search, "blank",
-                        "every answer is 0: nothing drawn, everything culled or outside the "
-                        "window, or the buffer never read back");
+        lrcsi_search_find(search, "blank",
+                          "every answer is 0: nothing drawn, everything culled or outside the "
+                          "window, or the buffer never read back");
         return;
     }
     for (size_t i = 0; i < sizeof symptom_readings / sizeof symptom_readings[0]; i++) {
@@ -161,37 +161,39 @@ void cli_compare_format(compare_search *search)
 /* ---- a coarser raster ---- */
 
 /* The pixels per side at which a case is within what a raster is allowed; 0 if it never is. */
-static double case_pixels(const compare_case *one)
+static double case_pixels(const lrcs_host_kit_case *one)
 {
     double off = fabs(one->theirs_m2 - one->sigma_m2);
-    double rest = off - cli_compare_allowed(one, COMPARE_FLOAT, 1);
+    double rest = off - lrcs_host_judge_allowed(one, LRCS_HOST_GRADE_FLOAT, 1);
     return rest > 0.0 ? one->edge_m2 / rest : HUGE_VAL;
 }
 
 /* Makes a finding if all failing cases would pass with fewer pixels, and the other cases are
    consistent with that: the median share of what such a raster is allowed, over the answers that
    are no better than a raster's and have no other cause, is one that rasters usually need. */
-static void coarse_try(compare_search *search)
+static void coarse_try(lrcsi_search *search)
 {
-    const compare_job *job = search->job;
-    double pixels = job->grade == COMPARE_RASTER && search->failings > 0 ? job->pixels : 0.0;
+    const lrcs_host_judgement *job = search->job;
+    double pixels =
+        job->grade == LRCS_HOST_GRADE_RASTER && search->failings > 0 ? job->pixels : 0.0;
     uint32_t count = 0;
     for (uint32_t i = 0; i < search->failings; i++) {
         pixels = fmin(pixels, floor(case_pixels(search->failing[i])));
     }
     for (uint32_t i = 0; i < job->kit.cases && pixels >= COARSEST; i++) {
-        const compare_case *one = &job->kit.list[i];
-        if (one->given && cli_compare_asked(job, one) && one->grade >= COMPARE_RASTER &&
+        const lrcs_host_kit_case *one = &job->kit.list[i];
+        if (one->given && lrcs_host_judge_asked(job, one) && one->grade >= LRCS_HOST_GRADE_RASTER &&
             one->explained == 0 && isfinite(one->theirs_m2)) {
             search->room[count++] = pixels / case_pixels(one);
         }
     }
-    if (2 * count > job->given && cli_search_median(search->room, count) >= COARSE_SHARE) {
+    if (2 * count > job->given && lrcsi_search_median(search->room, count) >= COARSE_SHARE) {
         memset(search->holds, 1, search->failings);
-        cli_search_find(search, "coarse-raster",
-                        "a raster of fewer than %lu x %lu pixels: all these pass as one of %.0f x "
-                        "%.0f or fewer: give --pixels N, or render finer",
-                        (unsigned long)job->pixels, (unsigned long)job->pixels, pixels, pixels);
+        lrcsi_search_find(
+            search, "coarse-raster",
+            "a raster of fewer than %lu x %lu pixels: all these pass as one of %.0f x "
+            "%.0f or fewer: give --pixels N, or render finer",
+            (unsigned long)job->pixels, (unsigned long)job->pixels, pixels, pixels);
     }
 }
 
@@ -199,7 +201,7 @@ static void coarse_try(compare_search *search)
 
 /* Skins 2^-K m apart in a scene 8 m deep are named skins-K, coincident ones have other names; 0 for
    scenes without skins. */
-static int skins_of(const compare_job *job, const compare_case *one)
+static int skins_of(const lrcs_host_judgement *job, const lrcs_host_kit_case *one)
 {
     const char *name = job->kit.scene[one->scene].name;
     int coincident = strcmp(name, "twins") == 0 || strcmp(name, "two-faced") == 0;
@@ -208,7 +210,7 @@ static int skins_of(const compare_job *job, const compare_case *one)
 }
 
 /* If most of the failing cases are skins close to each other, the depths are too coarse. */
-static void depth_try(compare_search *search)
+static void depth_try(lrcsi_search *search)
 {
     int coarsest = SKINS_TOUCH;
     for (uint32_t i = 0; i < search->failings; i++) {
@@ -216,54 +218,57 @@ static void depth_try(compare_search *search)
         coarsest = skins > 0 && skins < coarsest ? skins : coarsest;
         search->holds[i] = skins > 0;
     }
-    if (coarsest < SKINS_TOUCH && 2 * cli_search_holds(search) > search->failings) {
-        cli_search_find(search, "depth-precision",
-                        "depth precision: skins 2^-%d m apart in a scene 8 m deep are not told "
-                        "apart: a depth of some %d bits or fewer",
-                        coarsest, coarsest + 3);
+    if (coarsest < SKINS_TOUCH && 2 * lrcsi_search_holds(search) > search->failings) {
+        lrcsi_search_find(search, "depth-precision",
+                          "depth precision: skins 2^-%d m apart in a scene 8 m deep are not told "
+                          "apart: a depth of some %d bits or fewer",
+                          coarsest, coarsest + 3);
     }
 }
 
 /* ---- facets in one plane ---- */
 
 /* Decides whether an answer lies between the truth and the answer in which the wrong one of
-   coplanar facets is seen: 1, 0, or -1 on failure. */
-static int case_fights(const compare_search *search, compare_case *one)
+   coplanar facets is seen: 1 or 0. */
+static int case_fights(const lrcsi_search *search, lrcs_host_kit_case *one)
 {
-    static const compare_mistake wrong = {.name = "skins", .text = "", .wrong_coplanar = 1};
-    const compare_job *job = search->job;
-    double allowed = cli_compare_allowed(one, job->grade, job->pixels);
+    static const lrcsi_mistake wrong = {.name = "skins", .text = "", .wrong_coplanar = 1};
+    const lrcs_host_judgement *job = search->job;
+    double allowed = lrcs_host_judge_allowed(one, job->grade, job->pixels);
     double other = 0.0;
-    if (cli_compare_records(&job->kit, one) != 0) {
-        return -1;
+    int status = lrcsi_kit_records(&job->kit, one, search->error);
+    if (status != LRCS_OK) {
+        return status;
     }
     if (job->kit.scene[one->scene].host.scene.facet_count > FIGHTS_MOST) {
         return 0;
     }
-    if (cli_compare_answer(&job->kit, one, &wrong, &other) != 0) {
-        return -1;
+    status = lrcsi_mistake_answer(&job->kit, one, &wrong, &other, search->error);
+    if (status != LRCS_OK) {
+        return status;
     }
     double theirs = one->theirs_m2 - one->sigma_m2;
     double most = other - one->sigma_m2;
     return fabs(most) > allowed && theirs / most > 0.0 && fabs(theirs) <= fabs(most) + allowed;
 }
 
-/* Makes a finding of such cases. 0, or -1 on failure. */
-static int fights_try(compare_search *search)
+/* Makes a finding of such cases. */
+static int fights_try(lrcsi_search *search)
 {
-    for (uint32_t i = 0; i < search->failings && search->job->findings < (uint32_t)COMPARE_FINDINGS;
-         i++) {
+    for (uint32_t i = 0;
+         i < search->failings && search->job->findings < (uint32_t)LRCS_HOST_FINDINGS; i++) {
         int fights = case_fights(search, search->failing[i]);
         if (fights < 0) {
-            return -1;
+            return fights;
         }
         search->holds[i] = (unsigned char)fights;
     }
-    if (cli_search_holds(search) > 0) {
-        cli_search_find(search, "coincident-skins",
-                        "coincident skins, decided by rounding or by order (z-fighting): of facets "
-                        "in one plane a front beats a back, then the lower index wins; push backs "
-                        "away by some roundings of the scene's size");
+    if (lrcsi_search_holds(search) > 0) {
+        lrcsi_search_find(
+            search, "coincident-skins",
+            "coincident skins, decided by rounding or by order (z-fighting): of facets "
+            "in one plane a front beats a back, then the lower index wins; push backs "
+            "away by some roundings of the scene's size");
     }
     return 0;
 }
@@ -273,20 +278,20 @@ static int fights_try(compare_search *search)
 /* Finds a factor that all answers share although each of them is within its class: the median ratio
    of the answers that are not exact. Most ratios must lie nearer to it than to 1, more of them than
    could be due to chance. */
-static void bias_try(compare_search *search)
+static void bias_try(lrcsi_search *search)
 {
-    compare_job *job = search->job;
+    lrcs_host_judgement *job = search->job;
     double *ratio = search->room;
     uint32_t count = 0;
     uint32_t nearer = 0;
     for (uint32_t i = 0; i < job->kit.cases; i++) {
-        const compare_case *one = &job->kit.list[i];
-        if (one->given && cli_compare_asked(job, one) && one->sigma_m2 > 0.0 &&
-            one->grade > COMPARE_EXACT && isfinite(one->theirs_m2)) {
+        const lrcs_host_kit_case *one = &job->kit.list[i];
+        if (one->given && lrcs_host_judge_asked(job, one) && one->sigma_m2 > 0.0 &&
+            one->grade > LRCS_HOST_GRADE_EXACT && isfinite(one->theirs_m2)) {
             ratio[count++] = one->theirs_m2 / one->sigma_m2;
         }
     }
-    double median = cli_search_median(ratio, count);
+    double median = lrcsi_search_median(ratio, count);
     for (uint32_t i = 0; i < count; i++) {
         nearer += fabs(ratio[i] - median) < fabs(ratio[i] - 1.0);
     }
@@ -295,44 +300,46 @@ static void bias_try(compare_search *search)
         return;
     }
     for (uint32_t i = 0; i < search->failings; i++) {
-        const compare_case *one = search->failing[i];
-        search->holds[i] = (unsigned char)cli_search_explained(search, one, median * one->sigma_m2);
+        const lrcs_host_kit_case *one = search->failing[i];
+        search->holds[i] =
+            (unsigned char)lrcsi_search_explained(search, one, median * one->sigma_m2);
     }
-    compare_finding *finding = cli_search_find(
-        search, cli_factor_name(median),
+    lrcs_host_finding *finding = lrcsi_search_find(
+        search, lrcsi_factor_name(median),
         "all answers are %.6g times the truth: most are within their allowance, but %.0f %% lean "
         "the same way, which errors of a raster do not: %s",
-        median, 100.0 * nearer / count, cli_factor_text(job, median));
+        median, 100.0 * nearer / count, lrcsi_factor_text(job, median));
     if (finding) {
         job->biased = 1;
         finding->factor = median;
     }
 }
 
-int cli_compare_symptoms(compare_search *search)
+int lrcsi_symptoms_rest(lrcsi_search *search)
 {
     static const struct {
         int grade;
         const char *name, *text;
-    } class[] = {{COMPARE_FLOAT, "single-precision",
+    } class[] = {{LRCS_HOST_GRADE_FLOAT, "single-precision",
                   "single precision: off by no more than some of its roundings"},
-                 {COMPARE_RASTER, "raster",
+                 {LRCS_HOST_GRADE_RASTER, "raster",
                   "a raster's pixels: off by no more than half a pixel along the outlines"}};
     if (search->job->findings == 0) {
         bias_try(search);
     }
     coarse_try(search);
     depth_try(search);
-    if (fights_try(search) != 0) {
-        return -1;
+    int status = fights_try(search);
+    if (status != LRCS_OK) {
+        return status;
     }
     coarse_try(search);
     for (int k = 0; k < 2; k++) {
         for (uint32_t i = 0; i < search->failings; i++) {
             search->holds[i] = search->failing[i]->grade == class[k].grade;
         }
-        if (cli_search_holds(search) > 0) {
-            cli_search_find(search, class[k].name, "%s", class[k].text);
+        if (lrcsi_search_holds(search) > 0) {
+            lrcsi_search_find(search, class[k].name, "%s", class[k].text);
         }
     }
     return 0;

@@ -4,12 +4,16 @@
    differences is a finding, described in a sentence; the remaining differences are examined again.
    An explanation is not a proof: the report states how many cases it explains, and which cases
    remain unexplained. */
-#include "cli/compare/compare.h"
+#include "host/kit_search.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/constant.h"
+#include "base/sort.h"
+#include "host/fail.h"
 
 #define REMOVED        0.1  /* share of a difference that may remain if it is explained */
 #define REMOVED_RASTER 0.5  /* the same, if the class of the case allows that much in any case */
@@ -59,13 +63,13 @@ static const factor_entry *factor_find(double factor)
     return NULL;
 }
 
-const char *cli_factor_name(double factor)
+const char *lrcsi_factor_name(double factor)
 {
     const factor_entry *entry = factor_find(factor);
     return entry ? entry->name : "pixel-area";
 }
 
-const char *cli_factor_text(const compare_job *job, double factor)
+const char *lrcsi_factor_text(const lrcs_host_judgement *job, double factor)
 {
     const factor_entry *entry = factor_find(factor);
     double n = job->pixels;
@@ -79,13 +83,13 @@ const char *cli_factor_text(const compare_job *job, double factor)
 /* ---- how well a mistake explains ---- */
 
 /* Shuffles a list, in the same way every time, so that its beginning is a representative sample. */
-static void list_shuffle(compare_case **list, uint32_t count)
+static void list_shuffle(lrcs_host_kit_case **list, uint32_t count)
 {
     uint32_t state = 1;
     for (uint32_t i = count; i > 1; i--) {
         state = state * 1664525u + 1013904223u; /* Numerical Recipes */
         uint32_t k = (state >> 8) % i;
-        compare_case *kept = list[i - 1];
+        lrcs_host_kit_case *kept = list[i - 1];
         list[i - 1] = list[k];
         list[k] = kept;
     }
@@ -93,17 +97,17 @@ static void list_shuffle(compare_case **list, uint32_t count)
 
 /* Divides the cases asked for into those that fail without explanation so far, and a sample of
    those that pass. */
-static void search_part(compare_search *search)
+static void search_part(lrcsi_search *search)
 {
-    compare_job *job = search->job;
+    lrcs_host_judgement *job = search->job;
     search->failings = search->passings = 0;
     search->telling = 0;
     for (uint32_t i = 0; i < job->kit.cases; i++) {
-        compare_case *one = &job->kit.list[i];
-        if (!one->given || !isfinite(one->theirs_m2) || !cli_compare_asked(job, one)) {
+        lrcs_host_kit_case *one = &job->kit.list[i];
+        if (!one->given || !isfinite(one->theirs_m2) || !lrcs_host_judge_asked(job, one)) {
             continue;
         }
-        if (!cli_compare_failed(job, one)) {
+        if (!lrcs_host_judge_failed(job, one)) {
             search->passing[search->passings++] = one;
         } else if (one->explained == 0) {
             search->failing[search->failings++] = one;
@@ -117,20 +121,21 @@ static void search_part(compare_search *search)
     search->passings = witnesses;
 }
 
-double cli_search_median(double *value, uint32_t count)
+double lrcsi_search_median(double *value, uint32_t count)
 {
-    cli_sort(value, count);
+    lrcsi_sort_ascending(value, count);
     return count > 0 ? value[count / 2] : 0.0;
 }
 
 /* The allowed error of a case, larger in proportion if the expected answer is. */
-static double case_room(const compare_search *search, const compare_case *one, double expected)
+static double case_room(const lrcsi_search *search, const lrcs_host_kit_case *one, double expected)
 {
-    double allowed = cli_compare_allowed(one, search->job->grade, search->job->pixels);
+    double allowed = lrcs_host_judge_allowed(one, search->job->grade, search->job->pixels);
     return allowed * (one->sigma_m2 > 0.0 ? fmax(1.0, expected / one->sigma_m2) : 1.0);
 }
 
-int cli_search_explained(const compare_search *search, const compare_case *one, double expected)
+int lrcsi_search_explained(const lrcsi_search *search, const lrcs_host_kit_case *one,
+                           double expected)
 {
     double left = fabs(one->theirs_m2 - expected);
     double off = fabs(one->theirs_m2 - one->sigma_m2);
@@ -139,14 +144,14 @@ int cli_search_explained(const compare_search *search, const compare_case *one, 
 }
 
 /* 1 if the mistake changes the case at all. */
-static int case_touched(const compare_search *search, const compare_case *one, double expected)
+static int case_touched(const lrcsi_search *search, const lrcs_host_kit_case *one, double expected)
 {
     return fabs(expected - one->sigma_m2) > case_room(search, one, expected);
 }
 
 /* How well a mistake explains the submitted answers. */
 typedef struct search_score {
-    const compare_mistake *first, *second; /* second: NULL, or a second mistake made in addition */
+    const lrcsi_mistake *first, *second; /* second: NULL, or a second mistake made in addition */
     double factor;
     double score; /* share of the differences that it removes in the cases that it explains */
     double price; /* for what it assumes; subtracted from the score */
@@ -154,17 +159,17 @@ typedef struct search_score {
 } search_score;
 
 /* How well a mistake's answers, times a factor, explain the submitted ones. */
-static search_score mistake_score(const compare_search *search, double factor)
+static search_score mistake_score(const lrcsi_search *search, double factor)
 {
     search_score score = {.factor = factor};
     double touched = 0.0;
     double removed = 0.0;
     uint32_t mute = 0;
     for (uint32_t i = 0; i < search->failings; i++) {
-        const compare_case *one = search->failing[i];
+        const lrcs_host_kit_case *one = search->failing[i];
         double expected = factor * search->answer[i];
         double left = fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
-        int right = cli_search_explained(search, one, expected);
+        int right = lrcsi_search_explained(search, one, expected);
         score.explained += (uint32_t)right;
         if (right && search->telling && one->theirs_m2 == 0.0) {
             mute++; /* no evidence if others are not 0: many mistakes make facets vanish */
@@ -188,7 +193,7 @@ static search_score mistake_score(const compare_search *search, double factor)
 
 /* The median ratio of submitted answers to those of the mistake, over the first failing cases; if
    it is near a known number, that number. */
-static double factor_median(const compare_search *search, uint32_t failings, int *known)
+static double factor_median(const lrcsi_search *search, uint32_t failings, int *known)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < failings; i++) {
@@ -196,7 +201,7 @@ static double factor_median(const compare_search *search, uint32_t failings, int
             search->room[count++] = search->failing[i]->theirs_m2 / search->answer[i];
         }
     }
-    double median = cli_search_median(search->room, count);
+    double median = lrcsi_search_median(search->room, count);
     const factor_entry *entry = factor_find(median);
     *known = entry != NULL;
     return entry ? entry->value : median;
@@ -204,33 +209,34 @@ static double factor_median(const compare_search *search, uint32_t failings, int
 
 /* ---- the answers of a mistake ---- */
 
-static uint32_t explained_count(const compare_search *search, uint32_t failings, double factor)
+static uint32_t explained_count(const lrcsi_search *search, uint32_t failings, double factor)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < failings; i++) {
-        count +=
-            (uint32_t)cli_search_explained(search, search->failing[i], factor * search->answer[i]);
+        count += (uint32_t)lrcsi_search_explained(search, search->failing[i],
+                                                  factor * search->answer[i]);
     }
     return count;
 }
 
 /* Computes the answer of a mistake to one of the failing cases or, counted after them, of the
-   passing ones. 0 or -1. */
-static int answer_make(const compare_search *search, const compare_mistake *mistake, uint32_t i)
+   passing ones. */
+static int answer_make(const lrcsi_search *search, const lrcsi_mistake *mistake, uint32_t i)
 {
     uint32_t failings = search->failings;
-    compare_case *one = i < failings ? search->failing[i] : search->passing[i - failings];
-    return cli_compare_answer(&search->job->kit, one, mistake, &search->answer[i]) == 0 ? 0 : -1;
+    lrcs_host_kit_case *one = i < failings ? search->failing[i] : search->passing[i - failings];
+    return lrcsi_mistake_answer(&search->job->kit, one, mistake, &search->answer[i], search->error);
 }
 
-/* Computes all answers of a mistake, or gives up after a few if they explain hardly anything: 1, 0
-   if it gave up, -1 with the message printed. */
-static int answers_make(const compare_search *search, const compare_mistake *mistake, int give_up)
+/* Computes all answers of a mistake, or gives up after a few if they explain hardly anything: 1, or
+   0 if it gave up. */
+static int answers_make(const lrcsi_search *search, const lrcsi_mistake *mistake, int give_up)
 {
     uint32_t probe = search->failings < PROBE ? search->failings : PROBE;
     for (uint32_t i = 0; i < search->failings + search->passings; i++) {
-        if (answer_make(search, mistake, i) != 0) {
-            return -1;
+        int status = answer_make(search, mistake, i);
+        if (status != LRCS_OK) {
+            return status;
         }
         int known;
         double least = fmax(1.0, HOPELESS * probe);
@@ -244,18 +250,29 @@ static int answers_make(const compare_search *search, const compare_mistake *mis
 
 /* ---- a finding in words ---- */
 
-/* The next finding, empty; NULL if there is no room for one. */
-static compare_finding *finding_add(compare_job *job, const char *name)
+/* Adds to the sentence of a finding, cut at its size. */
+__attribute__((format(printf, 2, 3))) static void finding_append(lrcs_host_finding *finding,
+                                                                 const char *format, ...)
 {
-    if (job->findings == COMPARE_FINDINGS) {
+    size_t used = strlen(finding->text);
+    va_list list;
+    va_start(list, format);
+    vsnprintf(finding->text + used, sizeof finding->text - used, format, list);
+    va_end(list);
+}
+
+/* The next finding, empty; NULL if there is no room for one. */
+static lrcs_host_finding *finding_add(lrcs_host_judgement *job, const char *name)
+{
+    if (job->findings == LRCS_HOST_FINDINGS) {
         return NULL;
     }
-    compare_finding *finding = &job->finding[job->findings++];
-    *finding = (compare_finding){.name = name, .factor = 1.0, .rest = 1.0};
+    lrcs_host_finding *finding = &job->finding[job->findings++];
+    *finding = (lrcs_host_finding){.name = name, .factor = 1.0, .rest = 1.0};
     return finding;
 }
 
-uint32_t cli_search_holds(const compare_search *search)
+uint32_t lrcsi_search_holds(const lrcsi_search *search)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < search->failings; i++) {
@@ -264,10 +281,11 @@ uint32_t cli_search_holds(const compare_search *search)
     return count;
 }
 
-compare_finding *cli_search_find(compare_search *search, const char *name, const char *format, ...)
+lrcs_host_finding *lrcsi_search_find(lrcsi_search *search, const char *name, const char *format,
+                                     ...)
 {
     va_list list;
-    compare_finding *finding = finding_add(search->job, name);
+    lrcs_host_finding *finding = finding_add(search->job, name);
     if (!finding) {
         return NULL;
     }
@@ -279,15 +297,15 @@ compare_finding *cli_search_find(compare_search *search, const char *name, const
             search->failing[i]->explained = (int)search->job->findings;
         }
     }
-    finding->explained = cli_search_holds(search);
+    finding->explained = lrcsi_search_holds(search);
     search_part(search);
     return finding;
 }
 
 /* A mistake combined with the shading of another one; the second may be NULL. */
-static compare_mistake mistake_both(const compare_mistake *first, const compare_mistake *second)
+static lrcsi_mistake mistake_both(const lrcsi_mistake *first, const lrcsi_mistake *second)
 {
-    compare_mistake both = *first;
+    lrcsi_mistake both = *first;
     if (second) {
         both.shade = second->shade;
         both.at = second->at;
@@ -297,53 +315,53 @@ static compare_mistake mistake_both(const compare_mistake *first, const compare_
 
 /* The median share of the differences that remains in the cases that it explains; also marks these
    cases. */
-static double finding_rest(const compare_search *search, const search_score *best, int mark)
+static double finding_rest(const lrcsi_search *search, const search_score *best, int mark)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < search->failings; i++) {
-        compare_case *one = search->failing[i];
+        lrcs_host_kit_case *one = search->failing[i];
         double expected = best->factor * search->answer[i];
-        if (cli_search_explained(search, one, expected)) {
+        if (lrcsi_search_explained(search, one, expected)) {
             search->room[count++] =
                 fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
             one->explained = mark;
         }
     }
-    return cli_search_median(search->room, count);
+    return lrcsi_search_median(search->room, count);
 }
 
-static void finding_say(const compare_job *job, const search_score *best, compare_finding *finding)
+static void finding_say(const lrcs_host_judgement *job, const search_score *best,
+                        lrcs_host_finding *finding)
 {
-    char *text = finding->text;
-    size_t size = sizeof finding->text;
     finding->factor = best->factor;
-    if (best->first == cli_compare_mistakes) {
-        finding->name = cli_factor_name(best->factor);
-        cli_append(text, size, "%.6g times the truth everywhere: %s", best->factor,
-                   cli_factor_text(job, best->factor));
+    if (best->first == lrcsi_mistakes) {
+        finding->name = lrcsi_factor_name(best->factor);
+        finding_append(finding, "%.6g times the truth everywhere: %s", best->factor,
+                       lrcsi_factor_text(job, best->factor));
         return;
     }
-    cli_append(text, size, "%s", best->first->text);
+    finding_append(finding, "%s", best->first->text);
     if (best->second) {
-        cli_append(text, size, "; and %s", best->second->text);
+        finding_append(finding, "; and %s", best->second->text);
     }
     if (best->factor != 1.0) {
-        cli_append(text, size, "; and %.6g times that: %s", best->factor,
-                   cli_factor_text(job, best->factor));
+        finding_append(finding, "; and %.6g times that: %s", best->factor,
+                       lrcsi_factor_text(job, best->factor));
     }
 }
 
 /* Computes the answers of a mistake as long as it explains exactly the failing cases of a finding:
-   1 if it explains these and no others, 0 if not, -1 with the message printed. */
-static int mistake_fits(const compare_search *search, const compare_mistake *mistake, double factor,
+   1 if it explains these and no others, 0 if not. */
+static int mistake_fits(const lrcsi_search *search, const lrcsi_mistake *mistake, double factor,
                         int mark)
 {
     for (uint32_t i = 0; i < search->failings + search->passings; i++) {
-        if (answer_make(search, mistake, i) != 0) {
-            return -1;
+        int status = answer_make(search, mistake, i);
+        if (status != LRCS_OK) {
+            return status;
         }
         if (i < search->failings &&
-            cli_search_explained(search, search->failing[i], factor * search->answer[i]) !=
+            lrcsi_search_explained(search, search->failing[i], factor * search->answer[i]) !=
                 (search->failing[i]->explained == mark)) {
             return 0;
         }
@@ -351,27 +369,26 @@ static int mistake_fits(const compare_search *search, const compare_mistake *mis
     return 1;
 }
 
-/* Names the other mistakes that explain the same cases equally well. 0 or -1. */
-static int ties_say(const compare_search *search, const search_score *best,
-                    compare_finding *finding)
+/* Names the other mistakes that explain the same cases equally well. */
+static int ties_say(const lrcsi_search *search, const search_score *best,
+                    lrcs_host_finding *finding)
 {
     uint32_t ties = 0;
-    if (best->first == cli_compare_mistakes) {
+    if (best->first == lrcsi_mistakes) {
         return 0;
     }
-    for (const compare_mistake *a = cli_compare_mistakes + 1; a->name && ties < TIES_MOST; a++) {
-        compare_mistake both = mistake_both(a, best->second);
+    for (const lrcsi_mistake *a = lrcsi_mistakes + 1; a->name && ties < TIES_MOST; a++) {
+        lrcsi_mistake both = mistake_both(a, best->second);
         int fits = 0;
         if (a != best->first && a != best->second) {
             fits = mistake_fits(search, &both, best->factor, (int)search->job->findings);
         }
         if (fits < 0) {
-            return -1;
+            return fits;
         }
         double score = fits ? mistake_score(search, best->factor).score - best->price : 0.0;
         if (fits && fabs(score - best->score) <= TIED) {
-            cli_append(finding->text, sizeof finding->text, "%s%s",
-                       ties++ > 0 ? "; " : "; or, equally well: ", a->text);
+            finding_append(finding, "%s%s", ties++ > 0 ? "; " : "; or, equally well: ", a->text);
         }
     }
     return 0;
@@ -379,14 +396,14 @@ static int ties_say(const compare_search *search, const search_score *best,
 
 /* If the frame is wrong, the kit's square no longer contains the scene: most of the remaining cases
    show less than they should, because part of the scene is outside. */
-static void clipped_say(const compare_search *search, const search_score *best,
-                        compare_finding *finding)
+static void clipped_say(const lrcsi_search *search, const search_score *best,
+                        lrcs_host_finding *finding)
 {
     int mark = (int)search->job->findings;
     uint32_t left = 0;
     uint32_t less = 0;
     for (uint32_t i = 0; i < search->failings; i++) {
-        const compare_case *one = search->failing[i];
+        const lrcs_host_kit_case *one = search->failing[i];
         left += one->explained != mark;
         less += one->explained != mark && one->theirs_m2 < best->factor * search->answer[i];
     }
@@ -394,47 +411,49 @@ static void clipped_say(const compare_search *search, const search_score *best,
         return;
     }
     for (uint32_t i = 0; i < search->failings; i++) {
-        compare_case *one = search->failing[i];
+        lrcs_host_kit_case *one = search->failing[i];
         int cut = one->explained == 0 && one->theirs_m2 < best->factor * search->answer[i];
         one->explained = cut ? mark : one->explained;
     }
     finding->explained += less;
-    cli_append(finding->text, sizeof finding->text,
-               "; in %lu cases less than that: part of the scene is outside the window",
-               (unsigned long)less);
+    finding_append(finding,
+                   "; in %lu cases less than that: part of the scene is outside the window",
+                   (unsigned long)less);
 }
 
-/* Makes the best explanation a finding and marks its cases. 0, or -1 with the message printed. */
-static int finding_make(compare_search *search, const search_score *best)
+/* Makes the best explanation a finding and marks its cases. */
+static int finding_make(lrcsi_search *search, const search_score *best)
 {
-    compare_mistake both = mistake_both(best->first, best->second);
-    if (answers_make(search, &both, 0) < 0) {
-        return -1;
+    lrcsi_mistake both = mistake_both(best->first, best->second);
+    int made = answers_make(search, &both, 0);
+    if (made < 0) {
+        return made;
     }
-    compare_finding *finding = finding_add(search->job, best->first->name);
+    lrcs_host_finding *finding = finding_add(search->job, best->first->name);
     if (!finding) {
         return 0;
     }
     finding->explained = best->explained;
     finding_say(search->job, best, finding);
     finding->rest = finding_rest(search, best, (int)search->job->findings);
-    int code = ties_say(search, best, finding);
-    if (code == 0 && best->first->turn) {
-        code = answers_make(search, &both, 0) < 0 ? -1 : 0;
-        if (code == 0) {
-            clipped_say(search, best, finding);
+    int status = ties_say(search, best, finding);
+    if (status == LRCS_OK && best->first->turn) {
+        made = answers_make(search, &both, 0);
+        if (made < 0) {
+            return made;
         }
+        clipped_say(search, best, finding);
     }
-    return code;
+    return status;
 }
 
 /* ---- the best explanation ---- */
 
-/* Keeps the mistake if it explains more than the best one so far. 0, or -1 on failure. */
-static int mistake_try(const compare_search *search, const compare_mistake *first,
-                       const compare_mistake *second, search_score *best)
+/* Keeps the mistake if it explains more than the best one so far. */
+static int mistake_try(const lrcsi_search *search, const lrcsi_mistake *first,
+                       const lrcsi_mistake *second, search_score *best)
 {
-    compare_mistake both = mistake_both(first, second);
+    lrcsi_mistake both = mistake_both(first, second);
     int worth = answers_make(search, &both, 1);
     int known;
     if (worth <= 0) {
@@ -459,78 +478,80 @@ static int mistake_try(const compare_search *search, const compare_mistake *firs
 }
 
 /* Finds the best explanation of the remaining failures and makes it a finding; 1 if there is one, 0
-   if not, -1 on failure.
+   if not.
    1. Single mistakes, until one is certain.
    2. If the best of them explains too little: pairs of a mistake in the areas and one in the
       shading. Mistakes that need a run of their own for each case are left out. */
-static int finding_next(compare_search *search)
+static int finding_next(lrcsi_search *search)
 {
-    compare_job *job = search->job;
-    const compare_mistake *list = cli_compare_mistakes;
+    lrcs_host_judgement *job = search->job;
+    const lrcsi_mistake *list = lrcsi_mistakes;
     search_score best = {.first = list};
-    int code = 0;
-    for (const compare_mistake *a = list; a->name && best.score < SURE && code == 0; a++) {
-        code = mistake_try(search, a, NULL, &best);
+    int status = LRCS_OK;
+    for (const lrcsi_mistake *a = list; a->name && best.score < SURE && status == LRCS_OK; a++) {
+        status = mistake_try(search, a, NULL, &best);
     }
-    int pairs = code == 0 && best.score < PAIRS_BELOW;
-    for (const compare_mistake *a = list + 1; pairs && a->name && code == 0; a++) {
-        for (const compare_mistake *b = list + 1; b->name && code == 0; b++) {
-            code = a->area && !a->turn && b->shade ? mistake_try(search, a, b, &best) : 0;
+    int pairs = status == LRCS_OK && best.score < PAIRS_BELOW;
+    for (const lrcsi_mistake *a = list + 1; pairs && a->name && status == LRCS_OK; a++) {
+        for (const lrcsi_mistake *b = list + 1; b->name && status == LRCS_OK; b++) {
+            status = a->area && !a->turn && b->shade ? mistake_try(search, a, b, &best) : LRCS_OK;
         }
     }
-    if (code != 0) {
-        return -1;
+    if (status != LRCS_OK) {
+        return status;
     }
     /* if only a few cases remain, some are explained by chance */
     int chance = job->findings > 0 && best.explained < LATER * job->failed;
-    if (chance || best.score <= 0.0 || job->findings == COMPARE_FINDINGS) {
+    if (chance || best.score <= 0.0 || job->findings == LRCS_HOST_FINDINGS) {
         return 0;
     }
-    return finding_make(search, &best) == 0 ? 1 : -1;
+    status = finding_make(search, &best);
+    return status == LRCS_OK ? 1 : status;
 }
 
 /* ---- the search ---- */
 
 /* 1. Causes visible in the table. 2. Mistakes of the catalogue, one after the other, as long as one
    explains something. 3. Other causes. 4. Counts of what is left. */
-static int findings_make(compare_search *search)
+static int findings_make(lrcsi_search *search)
 {
-    compare_job *job = search->job;
+    lrcs_host_judgement *job = search->job;
     int more = 1;
     search_part(search);
-    cli_compare_format(search);
+    lrcsi_symptoms_format(search);
     while (more > 0 && search->failings > 0) {
         more = finding_next(search);
         search_part(search);
     }
-    if (more < 0 || cli_compare_symptoms(search) != 0) {
-        return CLI_FAILED;
+    int status = more < 0 ? more : lrcsi_symptoms_rest(search);
+    if (status != LRCS_OK) {
+        return status;
     }
     for (uint32_t i = 0; i < job->kit.cases; i++) {
-        int lack = cli_compare_lack(job, &job->kit.list[i]);
-        job->not_numbers += lack == LACK_NUMBER;
-        job->negatives += lack == LACK_SIGN;
-        job->unexplained += lack == LACK_REASON;
+        int lack = lrcs_host_judge_lack(job, &job->kit.list[i]);
+        job->not_numbers += lack == LRCS_HOST_LACK_NUMBER;
+        job->negatives += lack == LRCS_HOST_LACK_SIGN;
+        job->unexplained += lack == LRCS_HOST_LACK_REASON;
     }
-    return 0;
+    return LRCS_OK;
 }
 
-int cli_compare_explain(compare_job *job)
+int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *error)
 {
-    size_t count = (size_t)job->kit.cases + 1;
-    compare_search search = {.job = job};
-    search.failing = malloc(count * sizeof(compare_case *));
-    search.passing = malloc(count * sizeof(compare_case *));
+    size_t count = (size_t)judgement->kit.cases + 1;
+    lrcsi_search search = {.job = judgement, .error = error};
+    search.failing = malloc(count * sizeof(lrcs_host_kit_case *));
+    search.passing = malloc(count * sizeof(lrcs_host_kit_case *));
     search.answer = calloc(count, sizeof(double));
     search.room = calloc(count, sizeof(double));
     search.holds = calloc(count, 1);
-    int code = search.failing && search.passing && search.answer && search.room && search.holds
-                   ? findings_make(&search)
-                   : cli_out_of_memory();
+    int status = search.failing && search.passing && search.answer && search.room && search.holds
+                     ? findings_make(&search)
+                     : lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
     free(search.failing);
     free(search.passing);
     free(search.answer);
     free(search.room);
     free(search.holds);
-    return code;
+    return status;
 }

@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: MIT */
+/* Conformance kits: scenes, attitudes and the truth of each case in a folder, as lrcs vectors
+   writes them; and the judgement of another implementation's answers: the class of each case, and
+   why those fail that do. An explanation is not a proof: it says how many cases it explains. */
+#ifndef LRCS_CONFORMANCE_H
+#define LRCS_CONFORMANCE_H
+
+#include <lrcs/load.h>
+
+/* ---- kits ---- */
+
+#define LRCS_HOST_KIT_VERSION        1 /* changes whenever a scene, an attitude or a column does */
+#define LRCS_HOST_KIT_TIERS          5 /* from a plate to hard cases */
+#define LRCS_HOST_KIT_NAME           32u /* size of the name of a scene, an attitude or a material */
+#define LRCS_HOST_KIT_MATERIALS_TEXT "materials.csv"
+#define LRCS_HOST_KIT_CASES_TEXT     "cases.csv"
+
+/* The classes of answers, the strictest first. */
+enum lrcs_host_grade {
+    LRCS_HOST_GRADE_EXACT,
+    LRCS_HOST_GRADE_FLOAT,  /* what single precision may be off by */
+    LRCS_HOST_GRADE_RASTER, /* what a raster of so many pixels may be off by */
+    LRCS_HOST_GRADE_FAIL,
+    LRCS_HOST_GRADE_MISSING,
+    LRCS_HOST_GRADES
+};
+
+/* A case: a scene from an attitude, its truth, and the answer to it. */
+typedef struct lrcs_host_kit_case {
+    char attitude[LRCS_HOST_KIT_NAME];
+    uint32_t scene; /* index in the kit */
+    int tier;
+    double quaternion[4], direction[3], azel_deg[2];
+    double sigma_m2, bound_m2, float_m2, edge_m2;
+    double side_m;    /* of the square that is shown */
+    uint32_t image;   /* side of its pictures in pixels, 0 for none */
+    double theirs_m2; /* may be NAN */
+    double printed;   /* the same number as in the table of answers */
+    int given;        /* 1 if there is an answer */
+    int grade;        /* lrcs_host_grade */
+    int explained;    /* the finding that explains it, from 1; 0 for none */
+    lrcs_pose pose;
+    lrcs_facet_record *records; /* the truth's; NULL until they are needed */
+    double peak;                /* their largest f_r cos */
+} lrcs_host_kit_case;
+
+typedef struct lrcs_host_kit_scene {
+    char name[LRCS_HOST_KIT_NAME];
+    int tier, loaded;
+    uint32_t first, count; /* cases */
+    lrcs_host_scene host;  /* prepared once it is needed */
+    lrcs_point *normal;    /* of vertices: sums of the normals of adjacent facets */
+} lrcs_host_kit_scene;
+
+typedef struct lrcs_host_kit {
+    const char *folder;
+    lrcs_binding *binding;
+    char (*material)[LRCS_HOST_KIT_NAME];
+    uint32_t bindings, cases, scenes;
+    lrcs_host_kit_case *list;
+    lrcs_host_kit_scene *scene;
+} lrcs_host_kit;
+
+/* Reads the tables of a kit. Nothing of it is taken from this program, so that an older kit gives
+   the same judgement as before. Returned: kit, to be freed in any case; folder must outlive it.
+   Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_LIMIT; LRCS_E_SYNTAX, LRCS_E_NUMBER, LRCS_E_NAME: the
+   sentence names the line. */
+int lrcs_host_kit_read(const char *folder, lrcs_host_kit *kit, lrcs_host_error *error);
+void lrcs_host_kit_free(lrcs_host_kit *kit);
+
+/* A pose of a kit: the direction is that of the truth, bit for bit; the quaternion adds the roll.
+   Status: as lrcs_pose_from_quaternion and lrcs_pose_from_direction. */
+int lrcs_host_kit_pose(const double quaternion[4], const double direction[3], lrcs_pose *pose);
+
+/* The length of a facet's outline in the view plane, m. */
+double lrcs_host_kit_outline(const lrcs_scene *scene, uint32_t facet, const lrcs_pose *pose);
+
+/* Reads FOLDER/scenes/NAME.obj, assigns materials by these bindings, and prepares it.
+   Returned: scene, to be freed in any case.
+   Status: as lrcs_host_scene_read and lrcs_host_scene_prepare. */
+int lrcs_host_kit_scene_read(const char *folder, const char *name, const lrcs_binding *binding,
+                             uint32_t count, lrcs_host_scene *scene, lrcs_host_error *error);
+
+/* ---- the judgement ---- */
+
+/* A cause of failures, described in a sentence. */
+#define LRCS_HOST_FINDINGS 6
+typedef struct lrcs_host_finding {
+    const char *name; /* "no-shadows" */
+    char text[1024];
+    double factor;      /* a constant factor in addition; 1 for none */
+    uint32_t explained; /* number of failing cases that it explains */
+    double rest;        /* median share of their differences that remains */
+} lrcs_host_finding;
+
+/* How the visible area of a facet differs. */
+enum lrcs_host_facet_way {
+    LRCS_HOST_FACET_SHOWN,
+    LRCS_HOST_FACET_LOST,
+    LRCS_HOST_FACET_WHOLE,
+    LRCS_HOST_FACET_PART,
+    LRCS_HOST_FACET_LARGER,
+    LRCS_HOST_FACET_ELSEWHERE,
+    LRCS_HOST_FACET_WAYS
+};
+#define LRCS_HOST_KIT_NAMED  8u  /* number of facets, and of images, that are named */
+#define LRCS_HOST_KIT_TOP    3u  /* number of facets named for each image */
+#define LRCS_HOST_IMAGE_WAYS 10u /* in which images agree, the first one being right */
+
+typedef struct lrcs_host_kit_facet {
+    const lrcs_host_kit_case *one;
+    uint32_t facet;
+    double theirs_m2, truth_m2;
+    double sigma_m2; /* the change of sigma */
+    double weight;   /* the same, as a share of what the case is allowed */
+    int failed;      /* 1 if its case fails */
+    int way;         /* lrcs_host_facet_way */
+} lrcs_host_kit_facet;
+
+typedef struct lrcs_host_kit_facets {
+    uint32_t cases;                     /* that have facets */
+    uint32_t way[LRCS_HOST_FACET_WAYS]; /* number of facets that differ in each way */
+    uint32_t cosines, turned;           /* number of cosines; of those, with the opposite sign */
+    double cosine_most;                 /* largest |difference|, without those of opposite sign */
+    uint32_t worsts;
+    lrcs_host_kit_facet worst[LRCS_HOST_KIT_NAMED]; /* of failing cases first, then by the change of
+                                                       sigma, the largest first */
+} lrcs_host_kit_facets;
+
+/* An image that does not agree with the truth in any way. */
+typedef struct lrcs_host_kit_image {
+    const lrcs_host_kit_case *one;
+    double agree;                      /* share of the non-empty pixels that agree */
+    uint32_t facet[LRCS_HOST_KIT_TOP]; /* the facets that lose most pixels */
+    uint32_t lost[LRCS_HOST_KIT_TOP];  /* number of lost pixels; 0: no such facet */
+} lrcs_host_kit_image;
+
+typedef struct lrcs_host_kit_items {
+    uint32_t images, handed, differ;
+    uint32_t way[LRCS_HOST_IMAGE_WAYS]; /* number of images that agree in each way */
+    uint32_t named;
+    lrcs_host_kit_image image[LRCS_HOST_KIT_NAMED];
+} lrcs_host_kit_items;
+
+typedef struct lrcs_host_judgement {
+    uint32_t pixels, tier; /* given: the side of their raster; tiers 1 .. tier are asked for */
+    int grade;             /* given: the lowest class that passes, up to RASTER */
+    lrcs_host_kit kit;     /* given */
+    int decibels;          /* 1 if the answers are in dBsm */
+    uint32_t asked, given, failed;   /* cases of the tiers asked for; failed: also missing ones */
+    uint32_t not_numbers, negatives; /* failing cases that no finding explains */
+    lrcs_host_finding finding[LRCS_HOST_FINDINGS];
+    uint32_t findings, unexplained;
+    int biased; /* 1 if all answers share a factor although each is within its class */
+    lrcs_host_kit_facets by_facet;
+    lrcs_host_kit_items by_item;
+} lrcs_host_judgement;
+
+/* Reads a table of answers (columns scene, attitude, and sigma_m2 or sigma_dbsm) and assigns every
+   case to its class; then finds the causes of the failures.
+   Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_LIMIT; LRCS_E_SYNTAX, LRCS_E_NUMBER, LRCS_E_NAME: the
+   sentence names the line; as lrcs_host_kit_scene_read and lrcs_host_scene_run. */
+int lrcs_host_judge(lrcs_host_judgement *judgement, const char *path, lrcs_host_error *error);
+int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *error);
+
+/* Compares their visible areas with the truth's, of a table with columns scene, attitude, facet,
+   visible_area_m2 and perhaps cos_theta; and the item images NAME.ATTITUDE.item.u32 in a folder.
+   These only explain: the verdict is by sigma alone. Status: as lrcs_host_judge. */
+int lrcs_host_judge_facets(lrcs_host_judgement *judgement, const char *path,
+                           lrcs_host_error *error);
+int lrcs_host_judge_items(lrcs_host_judgement *judgement, const char *folder,
+                          lrcs_host_error *error);
+
+/* The allowed error of a case in a class, m2; 1 if the answers passed; 1 if a case belongs to the
+   tiers asked for; 1 if it fails, which one that was not asked for does not. */
+double lrcs_host_judge_allowed(const lrcs_host_kit_case *one, int grade, uint32_t pixels);
+int lrcs_host_judge_passed(const lrcs_host_judgement *judgement);
+int lrcs_host_judge_asked(const lrcs_host_judgement *judgement, const lrcs_host_kit_case *one);
+int lrcs_host_judge_failed(const lrcs_host_judgement *judgement, const lrcs_host_kit_case *one);
+
+/* What a failing case that no finding explains lacks. */
+enum lrcs_host_lack {
+    LRCS_HOST_LACK_NONE,
+    LRCS_HOST_LACK_ANSWER,
+    LRCS_HOST_LACK_NUMBER,
+    LRCS_HOST_LACK_SIGN,
+    LRCS_HOST_LACK_REASON
+};
+int lrcs_host_judge_lack(const lrcs_host_judgement *judgement, const lrcs_host_kit_case *one);
+
+/* A class, and the ways in words; a verdict on the cosines, NULL if there were none. */
+const char *lrcs_host_grade_text(int grade);
+const char *lrcs_host_facet_way_text(int way);
+const char *lrcs_host_image_way_text(int way);
+const char *lrcs_host_cosines_text(const lrcs_host_kit_facets *facets);
+
+#endif
