@@ -436,7 +436,7 @@ static int run_clear(lrcsi_classification *c, uint32_t run, lrcsi_meter *meter)
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         const lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
         const uint32_t listed = items.to - items.from;
-        if (1 + listed > steps || !lrcsi_meter_take(meter, listed)) {
+        if (1 + listed > steps) {
             return 0;
         }
         steps -= 1 + listed;
@@ -450,9 +450,13 @@ static int run_clear(lrcsi_classification *c, uint32_t run, lrcsi_meter *meter)
                 run_gather(c, run, &corners);
             }
             if (!event_beside_run(c->view, &corners, event->edge)) {
+                (void)lrcsi_meter_take(meter, 1 + i - items.from);
                 return 0;
             }
             event->last_search = search;
+        }
+        if (!lrcsi_meter_take(meter, listed)) {
+            return 0;
         }
     }
     return 1;

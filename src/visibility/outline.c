@@ -179,7 +179,7 @@ typedef struct outline_point {
     double t, depth, slope;
 } outline_point;
 
-static outline_point point_at(const edge_frame *edge, double angle)
+static outline_point outline_point_at(const edge_frame *edge, double angle)
 {
     double c = cos(angle);
     double s = sin(angle);
@@ -198,13 +198,13 @@ static double angle_until(const edge_frame *edge, int side, double until)
 {
     double low = 0;
     double high = RIGHT_ANGLE;
-    if (side * point_at(edge, 0).t >= side * until) {
+    if (side * outline_point_at(edge, 0).t >= side * until) {
         return 0;
     }
     for (int i = 0; i < BISECTIONS; i++) {
         /* angles of all magnitudes: the mean of logarithms first */
         double middle = i < 8 ? sqrt(lrcsi_max(low, 1e-6) * high) : 0.5 * (low + high);
-        if (side * point_at(edge, side * middle).t >= side * until) {
+        if (side * outline_point_at(edge, side * middle).t >= side * until) {
             high = middle;
         } else {
             low = middle;
@@ -272,14 +272,14 @@ lrcsi_lens lrcsi_outline_lens(const lrcsi_outline *o, const double a[3], const d
     double before = angle_until(&edge, -1, -2 * o->k);
     double after = angle_until(&edge, 1, edge.length + 2 * o->k);
     lrcsi_lens lens = {0, 0, 0};
-    outline_point last = point_at(&edge, -before);
+    outline_point last = outline_point_at(&edge, -before);
     if (last.t > -2 * o->k) { /* the end of K */
         return unknown;
     }
     for (int i = 1; i < POINTS; i++) {
         double angle = i <= POINTS_SIDE ? before * ((double)i / POINTS_SIDE - 1)
                                         : after * ((double)i / POINTS_SIDE - 1);
-        outline_point next = point_at(&edge, angle);
+        outline_point next = outline_point_at(&edge, angle);
         if (!lens_add(&edge, &last, &next, &lens)) {
             return unknown;
         }
