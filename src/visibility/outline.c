@@ -14,7 +14,7 @@
 /* The number of support points on either side of the one in the direction of the edge's normal. */
 #define POINTS_SIDE 4
 #define POINTS      (2 * POINTS_SIDE + 1)
-/* Steps of the bisection for the largest angle. */
+/* Steps of the bisection for the largest slope. */
 #define BISECTIONS 20
 /* An edge that is shorter than this many Hausdorff distances is not used. */
 #define LENGTH_MIN 8.0
@@ -179,30 +179,30 @@ typedef struct outline_point {
     double t, depth, slope;
 } outline_point;
 
-static outline_point outline_point_at(const edge_frame *edge, double angle)
+/* The support point in the direction outward + slope along; the slope of its tangent is the same.
+ */
+static outline_point outline_point_at(const edge_frame *edge, double slope)
 {
-    double c = cos(angle);
-    double s = sin(angle);
-    const double w[2] = {c * edge->outward[0] + s * edge->along[0],
-                         c * edge->outward[1] + s * edge->along[1]};
+    const double w[2] = {edge->outward[0] + slope * edge->along[0],
+                         edge->outward[1] + slope * edge->along[1]};
     double q[2];
     support_point(edge->outline, w, q);
     const double off[2] = {q[0] - edge->a[0], q[1] - edge->a[1]};
     return (outline_point){edge->along[0] * off[0] + edge->along[1] * off[1],
-                           -(edge->outward[0] * off[0] + edge->outward[1] * off[1]), s / c};
+                           -(edge->outward[0] * off[0] + edge->outward[1] * off[1]), slope};
 }
 
-/* The angle, 0 .. a right angle to the given side (1: towards b), at which the support point is as
-   far as `until`; a right angle if none is. */
-static double angle_until(const edge_frame *edge, int side, double until)
+/* The slope, 0 .. 1 towards the given side (1: towards b), at which the support point is as far as
+   `until`; 1 if it is not that far for any of these. */
+static double slope_until(const edge_frame *edge, int side, double until)
 {
     double low = 0;
-    double high = RIGHT_ANGLE;
+    double high = 1;
     if (side * outline_point_at(edge, 0).t >= side * until) {
         return 0;
     }
     for (int i = 0; i < BISECTIONS; i++) {
-        /* angles of all magnitudes: the mean of logarithms first */
+        /* slopes of all magnitudes: the mean of logarithms first */
         double middle = i < 8 ? sqrt(lrcsi_max(low, 1e-6) * high) : 0.5 * (low + high);
         if (side * outline_point_at(edge, side * middle).t >= side * until) {
             high = middle;
@@ -269,17 +269,16 @@ lrcsi_lens lrcsi_outline_lens(const lrcsi_outline *o, const double a[3], const d
     edge.along[1] = ab[1] / edge.length;
     edge.outward[0] = side * edge.along[1];
     edge.outward[1] = -side * edge.along[0];
-    double before = angle_until(&edge, -1, -2 * o->k);
-    double after = angle_until(&edge, 1, edge.length + 2 * o->k);
+    double before = slope_until(&edge, -1, -2 * o->k);
+    double after = slope_until(&edge, 1, edge.length + 2 * o->k);
     lrcsi_lens lens = {0, 0, 0};
     outline_point last = outline_point_at(&edge, -before);
-    if (last.t > -2 * o->k) { /* the end of K */
+    if (last.t > -2 * o->k) { /* the end of K, or too steep */
         return unknown;
     }
     for (int i = 1; i < POINTS; i++) {
-        double angle = i <= POINTS_SIDE ? before * ((double)i / POINTS_SIDE - 1)
-                                        : after * ((double)i / POINTS_SIDE - 1);
-        outline_point next = outline_point_at(&edge, angle);
+        double steps = (double)i / POINTS_SIDE - 1; /* -1 .. 1 */
+        outline_point next = outline_point_at(&edge, steps * (steps < 0 ? before : after));
         if (!lens_add(&edge, &last, &next, &lens)) {
             return unknown;
         }
