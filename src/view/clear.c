@@ -27,6 +27,7 @@
 #include "base/constant.h"
 #include "base/vec3.h"
 #include "base/work.h"
+#include "mesh/support.h"
 #include "optics/closed.h"
 
 /* With a larger slope s the slab is not known: slab_surface. */
@@ -46,7 +47,8 @@ typedef struct clear_body {
     const lrcsi_extent *extent;
     int curved; /* 1: support of the closed form with these scaled dimensions; 0: of the facets
                    or of the box around the part */
-    double radius, radius2, length, origin[3];
+    lrcsi_support solid;
+    double origin[3];
     double centre[3]; /* of its box */
     double err;       /* bound on the error of a support along a unit vector */
 } clear_body;
@@ -65,44 +67,29 @@ static clear_body body_make(const lrcs_prepared *p, uint32_t index)
     if (body.curved) {
         double size = 0;
         double unit = ldexp(part->unit, -p->exponent);
-        body.radius = unit * part->shape.radius;
-        body.radius2 = unit * part->shape.radius2;
-        body.length = unit * lrcsi_closed_length(&part->shape);
+        body.solid =
+            (lrcsi_support){part->kind, unit * part->shape.radius, unit * part->shape.radius2,
+                            unit * lrcsi_closed_length(&part->shape)};
         for (int k = 0; k < 3; k++) {
             body.origin[k] = ldexp(part->origin[k], -p->exponent);
             size += fabs(body.origin[k]);
         }
-        size += body.radius + body.radius2 + body.length;
+        size += body.solid.radius + body.solid.radius2 + body.solid.length;
         body.err = 64 * LRCSI_U * size + ldexp(part->misplaced, -p->exponent);
     }
     return body;
 }
 
-/* The largest n . x over the true shape; r is the component of n across the axis, z that along it.
- */
+/* The largest n . x over the true shape. */
 static double support_curved(const clear_body *body, const double n[3])
 {
-    double x = lrcsi_vec3_dot(body->part->axis[0], n);
-    double y = lrcsi_vec3_dot(body->part->axis[1], n);
-    double z = lrcsi_vec3_dot(body->part->axis[2], n);
-    double r = sqrt(x * x + y * y);
-    double at = lrcsi_vec3_dot(body->origin, n);
-    double rim = body->radius * r;
-    double rise = body->length * z;
-    switch (body->part->kind) {
-    case LRCS_SHAPE_SPHERE:
-        return at + body->radius * sqrt(r * r + z * z);
-    case LRCS_SHAPE_DOME:
-        return at + (z > 0 ? body->radius * sqrt(r * r + z * z) : rim);
-    case LRCS_SHAPE_CYLINDER:
-        return at + rim + lrcsi_max(0, rise);
-    case LRCS_SHAPE_CONE:
-        return at + lrcsi_max(rim, rise);
-    case LRCS_SHAPE_FRUSTUM:
-        return at + lrcsi_max(body->radius2 * r, rim + rise);
-    default: /* paraboloid: rho r + z H (1 - rho^2/R^2) is largest at rho = R r / (2 H z) R */
-        return at + (2 * rise > rim ? rise + 0.25 * rim * (rim / rise) : rim);
+    double along[3];
+    double point[3];
+    for (int k = 0; k < 3; k++) {
+        along[k] = lrcsi_vec3_dot(body->part->axis[k], n);
     }
+    lrcsi_support_point(&body->solid, along, point);
+    return lrcsi_vec3_dot(body->origin, n) + lrcsi_vec3_dot(point, along);
 }
 
 /* The same over the facets, or over the box around them and the true shape. */
@@ -137,13 +124,14 @@ static double support(const clear_body *body, const double n[3])
 static double slab_surface(const clear_body *body, double height)
 {
     const double two_pi = 6.2832; /* rounded up */
-    double radius = lrcsi_max(body->radius, body->radius2);
+    double radius = lrcsi_max(body->solid.radius, body->solid.radius2);
     double slant = 1;
     if (body->part->kind == LRCS_SHAPE_CONE || body->part->kind == LRCS_SHAPE_FRUSTUM) {
-        double rise = (body->part->kind == LRCS_SHAPE_CONE ? 0 : body->radius2) - body->radius;
-        slant += fabs(rise) / body->length;
+        double rise =
+            (body->part->kind == LRCS_SHAPE_CONE ? 0 : body->solid.radius2) - body->solid.radius;
+        slant += fabs(rise) / body->solid.length;
     } else if (body->part->kind == LRCS_SHAPE_PARABOLOID) {
-        slant += 0.5 * radius / body->length;
+        slant += 0.5 * radius / body->solid.length;
     }
     return 1.001 * two_pi * radius * slant * height + 32 * LRCSI_U * radius * radius;
 }

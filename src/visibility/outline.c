@@ -39,9 +39,8 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
     double far = 0;
     o.known = 1;
     o.vertex_ratio = profile.vertex_ratio;
-    o.radius = unit * part->shape.radius;
-    o.radius2 = unit * part->shape.radius2;
-    o.length = unit * lrcsi_closed_length(&part->shape);
+    o.solid = (lrcsi_support){part->kind, unit * part->shape.radius, unit * part->shape.radius2,
+                              unit * lrcsi_closed_length(&part->shape)};
     for (int k = 0; k < 3; k++) {
         o.origin[k] = ldexp(part->origin[k], -p->exponent);
         far += fabs(o.origin[k] - p->origin[k]) + fabs(o.origin[k]);
@@ -54,33 +53,10 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
             o.axis[k][i] = lrcsi_vec3_dot(view->R[i], part->axis[k]);
         }
     }
-    o.size = 2 * o.vertex_ratio * lrcsi_max(o.radius, o.radius2) + o.length;
+    o.size = 2 * o.vertex_ratio * lrcsi_max(o.solid.radius, o.solid.radius2) + o.solid.length;
     o.k = p->proximity.hausdorff[index];
     o.err = 64 * LRCSI_U * (far + o.size) + ldexp(part->misplaced, -p->exponent);
     return o;
-}
-
-/* The largest x . n over the true solid, from its origin, n given by its components along the axes;
-   r is the one across the axis of revolution. */
-static double solid_support(const lrcsi_outline *o, double x, double y, double z)
-{
-    double r = sqrt(x * x + y * y);
-    double rim = o->radius * r;
-    double rise = o->length * z;
-    switch (o->part->kind) {
-    case LRCS_SHAPE_SPHERE:
-        return o->radius * sqrt(r * r + z * z);
-    case LRCS_SHAPE_DOME:
-        return z > 0 ? o->radius * sqrt(r * r + z * z) : rim;
-    case LRCS_SHAPE_CYLINDER:
-        return rim + lrcsi_max(0, rise);
-    case LRCS_SHAPE_CONE:
-        return lrcsi_max(rim, rise);
-    case LRCS_SHAPE_FRUSTUM:
-        return lrcsi_max(o->radius2 * r, rim + rise);
-    default: /* paraboloid: rho r + z H (1 - rho^2/R^2) is largest at rho = R r / (2 H z) R */
-        return 2 * rise > rim ? rise + 0.25 * rim * (rim / rise) : rim;
-    }
 }
 
 /* The vertices of a solid of facets are those of the true one, stretched across the axis by
@@ -98,19 +74,27 @@ int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint3
         n[k] = normal->high[k] / normal->length;
     }
     lrcsi_vec3_between(lrcsi_prepared_corner(p, facet, 0), o->origin, from);
-    double x = lrcsi_vec3_dot(o->part->axis[0], n);
-    double y = lrcsi_vec3_dot(o->part->axis[1], n);
-    double z = lrcsi_vec3_dot(o->part->axis[2], n);
+    double up[3];
+    double down[3];
+    for (int k = 0; k < 3; k++) {
+        up[k] = lrcsi_vec3_dot(o->part->axis[k], n);
+        down[k] = -up[k];
+    }
     double at = lrcsi_vec3_dot(from, n);
     double far = fabs(from[0]) + fabs(from[1]) + fabs(from[2]) + o->size;
     double e = 2 * o->err + 64 * LRCSI_U * far;
     if (own->reach > 0) {
         e += own->tilted * far + 2 * ldexp(own->misplaced, -p->exponent);
     }
-    double ratio = o->vertex_ratio;
-    double behind =
-        lrcsi_max(solid_support(o, -x, -y, -z), solid_support(o, -ratio * x, -ratio * y, -z)) - at;
-    double height = at + solid_support(o, x, y, z) - e;
+    double lowest[3];
+    double highest[3];
+    lrcsi_support_point(&o->solid, up, highest);
+    lrcsi_support_point(&o->solid, down, lowest);
+    double behind = lrcsi_vec3_dot(lowest, down);
+    const double wider[3] = {o->vertex_ratio * down[0], o->vertex_ratio * down[1], down[2]};
+    lrcsi_support_point(&o->solid, wider, lowest);
+    behind = lrcsi_max(behind, lrcsi_vec3_dot(lowest, wider)) - at;
+    double height = at + lrcsi_vec3_dot(highest, up) - e;
     *err = height > 0 ? 2 * e * (1 + o->size / height) : HUGE_VAL;
     return view->facing[facet] > 0 && behind <= e && *err <= 0.5 * o->k;
 }
@@ -122,48 +106,18 @@ int lrcsi_outline_inside(const lrcsi_outline *o, const lrcsi_view *view, int fac
     return (facing > 0 && cosine > OPENING_COS_MIN) || (facing < 0 && cosine < -OPENING_COS_MIN);
 }
 
-/* The point of the true solid that is farthest in a direction of the view plane. */
+/* The point of the true solid that is farthest in a direction of the view plane, in projection. */
 static void support_point(const lrcsi_outline *o, const double w[2], double point[2])
 {
-    double x = o->axis[0][0] * w[0] + o->axis[0][1] * w[1];
-    double y = o->axis[1][0] * w[0] + o->axis[1][1] * w[1];
-    double z = o->axis[2][0] * w[0] + o->axis[2][1] * w[1];
-    double r = sqrt(x * x + y * y);
-    double c = r > 0 ? x / r : 1;
-    double s = r > 0 ? y / r : 0;
-    double rho = o->radius;
-    double height = 0;
-    double length = sqrt(r * r + z * z);
-    switch (o->part->kind) {
-    case LRCS_SHAPE_SPHERE:
-        rho = o->radius * (r / length);
-        height = o->radius * (z / length);
-        break;
-    case LRCS_SHAPE_DOME:
-        rho = z > 0 ? o->radius * (r / length) : o->radius;
-        height = z > 0 ? o->radius * (z / length) : 0;
-        break;
-    case LRCS_SHAPE_CYLINDER:
-        height = z > 0 ? o->length : 0;
-        break;
-    case LRCS_SHAPE_CONE:
-        rho = o->length * z > o->radius * r ? 0 : o->radius;
-        height = o->length * z > o->radius * r ? o->length : 0;
-        break;
-    case LRCS_SHAPE_FRUSTUM:
-        height = o->radius * r + o->length * z > o->radius2 * r ? o->length : 0;
-        rho = height > 0 ? o->radius : o->radius2;
-        break;
-    default:
-        if (2 * o->length * z > o->radius * r) {
-            double fraction = o->radius * r / (2 * o->length * z);
-            rho = o->radius * fraction;
-            height = o->length * (1 - fraction) * (1 + fraction);
-        }
+    double n[3];
+    double x[3];
+    for (int k = 0; k < 3; k++) {
+        n[k] = o->axis[k][0] * w[0] + o->axis[k][1] * w[1];
     }
+    lrcsi_support_point(&o->solid, n, x);
     for (int i = 0; i < 2; i++) {
         point[i] =
-            o->centre[i] + rho * (c * o->axis[0][i] + s * o->axis[1][i]) + height * o->axis[2][i];
+            o->centre[i] + x[0] * o->axis[0][i] + x[1] * o->axis[1][i] + x[2] * o->axis[2][i];
     }
 }
 

@@ -40,16 +40,18 @@
 #ifndef LRCSI_OUTLINE_H
 #define LRCSI_OUTLINE_H
 
+#include "mesh/support.h"
 #include "view/view.h"
 
 /* A part's true solid, its opening closed. */
 typedef struct lrcsi_outline {
     const lrcs_part *part;
-    int known; /* 0: the part has no outline here; the other fields are not set */
-    double radius, radius2, length, vertex_ratio; /* scaled; vertex radius / true radius */
-    double origin[3];                             /* scaled */
-    double centre[2], axis[3][2];                 /* its origin and axes in view coordinates */
-    double size;                                  /* at least the solid's diameter */
+    int known;           /* 0: the part has no outline here; the other fields are not set */
+    lrcsi_support solid; /* scaled */
+    double vertex_ratio; /* vertex radius / true radius */
+    double origin[3];    /* scaled */
+    double centre[2], axis[3][2]; /* its origin and axes in view coordinates */
+    double size;                  /* at least the solid's diameter */
     double k;
     double err; /* bound on the errors of points of the solid */
 } lrcsi_outline;
