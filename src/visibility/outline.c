@@ -61,7 +61,9 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
 
 /* The vertices of a solid of facets are those of the true one, stretched across the axis by
    vertex_ratio: so is its support. If the facet belongs to a curved part, the plane of its true
-   surface differs from its own by the rounding of its corners. */
+   surface differs from its own by the rounding of its corners. Both the true solid and that of the
+   facets leave open a distance of e size / height; the first of the two changes x, the second y
+   and the depth of y. */
 int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint32_t facet,
                            double *err)
 {
@@ -95,7 +97,7 @@ int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint3
     lrcsi_support_point(&o->solid, wider, lowest);
     behind = lrcsi_max(behind, lrcsi_vec3_dot(lowest, wider)) - at;
     double height = at + lrcsi_vec3_dot(highest, up) - e;
-    *err = height > 0 ? 2 * e * (1 + o->size / height) : HUGE_VAL;
+    *err = height > 0 ? 4 * e * (1 + o->size / height) : HUGE_VAL;
     return view->facing[facet] > 0 && behind <= e && *err <= 0.5 * o->k;
 }
 

@@ -61,9 +61,9 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t part);
 /* Is a rim edge of the part, beside a facet with the given facing, surely inside K'? */
 int lrcsi_outline_inside(const lrcsi_outline *outline, const lrcsi_view *view, int facing);
 
-/* Is the solid in front of the plane of a flat facet that faces the laser? If so, *err is the
-   distance in projection within which this leaves open whether it hides a point of that plane, at
-   most k / 2. */
+/* Is the solid in front of the plane of a flat facet that faces the laser? If so, *err bounds what
+   1 leaves open, for B and S^ together: a distance in projection, at most k / 2, to be added to
+   delta. */
 int lrcsi_outline_in_front(const lrcsi_outline *outline, const lrcsi_view *view, uint32_t facet,
                            double *err);
 
