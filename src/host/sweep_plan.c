@@ -139,12 +139,12 @@ static int rotate_axes(const lrcs_host_plan_text *given, int count, lrcs_host_pl
 static int sphere_read(const char *text, lrcs_host_plan *plan, lrcs_host_error *error)
 {
     double points;
-    char expected[80];
     plan->kind = LRCS_HOST_PLAN_SPHERE;
     if (lrcs_host_number_read(text, strlen(text), &points) != LRCS_OK) {
         return lrcsi_text_refuse(error, "sphere", "a finite number", text);
     }
     if (!(points >= 1.0 && points <= SPHERE_MOST) || points != floor(points)) {
+        char expected[80];
         snprintf(expected, sizeof expected, "a whole number 1 .. %.0f", SPHERE_MOST);
         return lrcsi_text_refuse(error, "sphere", expected, text);
     }

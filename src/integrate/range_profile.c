@@ -303,7 +303,6 @@ static void trapezium_add(profile_run *run, const profile_facet *f, uint32_t bin
         return;
     }
     const double *z = t->z;
-    const double(*normal)[3] = (const double(*)[3])t->normal;
     int rising = to <= z[1];
     int a = rising ? 0 : 1;
     int b = rising ? 1 : 2;
@@ -312,6 +311,7 @@ static void trapezium_add(profile_run *run, const profile_facet *f, uint32_t bin
     double scale = t->area / (z[2] - z[0]) * (to - from);
     if (f->curve) {
         const double range[2][3] = {{from, from, to}, {from, to, to}};
+        const double(*normal)[3] = (const double(*)[3])t->normal;
         double side[4][3]; /* at `from` on the long side, on the short one; at `to` likewise */
         normal_at(normal, z, 0, 2, from, side[0]);
         normal_at(normal, z, a, b, from, side[1]);

@@ -110,8 +110,8 @@
    the row, what other parts hide changes only where (1) or (2) holds, and what its own part hides,
    seen from inside, only at a rim as in 4. For the true shapes: by 1, at each of its points.
 
-   9. Flat facets behind a Q with at most one opening. If Q is in front of the plane of a facet, x and y lie in that
-   plane, and whether Q and its facets hide them depends only on their outlines
+   9. Flat facets behind a Q with at most one opening. If Q is in front of the plane of a facet, x
+   and y lie in that plane, and whether Q and its facets hide them depends only on their outlines
    (visibility/outline.h): (1) need not be considered. y is gained or lost along the event edge of
    (2) that is nearest to it, and there only within the region of outline.h, 2, where delta is the
    distance in projection of x from y and the error of outline.h, 1. So along each edge the smaller
