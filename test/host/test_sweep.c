@@ -8,8 +8,8 @@
 
 #include "check.h"
 
-#define POSES 128u /* more than the results that seven threads may keep waiting (host/workers.c)   \
-                    */
+/* More than the results that seven threads may keep waiting (host/workers.c). */
+#define POSES 128u
 
 static const uint32_t threads_tried[] = {1, 2, 3, 7};
 #define THREADS_TRIED (sizeof threads_tried / sizeof threads_tried[0])
