@@ -20,7 +20,6 @@
 #define LENGTH_MIN 8.0
 /* Cosines larger than this have the sign that they seem to have. */
 #define OPENING_COS_MIN 1e-6
-#define RIGHT_ANGLE     1.57079632679489661923
 
 lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
 {
@@ -183,7 +182,7 @@ static double integral_positive(double t0, double t1, double v0, double v1)
 }
 
 /* Adds the areas between the edge and the polygon, or the tangents, from point p to point q.
-   Returns 0 if either is too steep. */
+   Returns 0 if the polygon is too steep. */
 static int lens_add(const edge_frame *edge, const outline_point *p, const outline_point *q,
                     lrcsi_lens *lens)
 {
@@ -194,7 +193,7 @@ static int lens_add(const edge_frame *edge, const outline_point *p, const outlin
         return 1;
     }
     double chord = (q->depth - p->depth) / (q->t - p->t);
-    if (!(fabs(chord) <= 1 && fabs(p->slope) <= 1 && fabs(q->slope) <= 1)) {
+    if (!(fabs(chord) <= 1)) { /* all tangents are less steep */
         return 0;
     }
     double t0 = lrcsi_max(p->t, 0);

@@ -415,7 +415,7 @@ static int part_in_front(const band_job *job, uint32_t facet, uint32_t part, dou
     const lrcs_prepared *p = job->view->prepared;
     int is_flat =
         p->scene->facet_smooth[facet] == 0 || p->proximity.reach[band_part(job, facet)] == 0;
-    return is_flat && job->outline[part].known &&
+    return is_flat && job->view->facing[facet] > 0 && job->outline[part].known &&
            lrcsi_outline_in_front(&job->outline[part], job->view, facet, err);
 }
 
@@ -476,11 +476,11 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
         search->lateral = lrcsi_proximity_lateral(p, facet, job->view->unit);
     }
     double slack = event_slack(job, facet, event, search->lateral);
-    double err = 0;
-    int in_front = !is_own && part_in_front(job, facet, job->part[event], &err);
     if (!(slack > 0)) {
         return;
     }
+    double err = 0;
+    int in_front = !is_own && part_in_front(job, facet, job->part[event], &err);
     slack += in_front ? err : 0;
     edge_box box = edge_box_make(job, facet, edge, slack);
     lrcsi_slice slice = edge_slice(job, facet, &box);
