@@ -12,6 +12,7 @@
 #include "base/work.h"
 #include "mesh/slice.h"
 #include "scene/proximity.h"
+#include "visibility/behind.h"
 #include "visibility/outline.h"
 
 /* Errors of positions computed here, as a multiple of the error of view coordinates. */
@@ -23,6 +24,15 @@
 /* The number of cells of the grid for each event edge: the many short edges of a rim lie in few
    cells. */
 #define EVENT_CELLS 4u
+/* Pairs of parts of which it is remembered whether one is behind the other. Facets are searched
+   part by part, so that few pairs are needed at a time. */
+#define BEHIND_PAIRS 64u
+
+/* A pair of parts, `back` perhaps behind `front`; front == back: none yet. */
+typedef struct band_pair {
+    uint32_t front, back;
+    lrcsi_behind behind;
+} band_pair;
 
 /* Bounds in view coordinates. */
 typedef struct band_box {
@@ -46,6 +56,8 @@ typedef struct band_job {
     lrcsi_grid grid;
     band_box *box;          /* part: that of its facets in the view */
     lrcsi_outline *outline; /* part */
+    lrcsi_body *body;       /* part; NULL: no shape has a closed form, and pairs are not tried */
+    band_pair *pair;        /* BEHIND_PAIRS of them */
     band_box curved;        /* of all facets of curved parts */
 } band_job;
 
@@ -392,6 +404,28 @@ static void add_both(band_job *job, uint32_t facet, double fraction, lrcsi_part_
     job->loss[facet] += fraction;
 }
 
+/* Is a part behind a plane of the facet's own part, or its own (visibility/behind.h)? If so, what
+   it may hide of the facet after all, by rounding, is added here. */
+static int part_is_behind(band_job *job, uint32_t facet, uint32_t other)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    uint32_t own = band_part(job, facet);
+    if (!job->body) {
+        return 0;
+    }
+    band_pair *pair = &job->pair[(own + 7 * other) % BEHIND_PAIRS];
+    if (pair->front != own || pair->back != other) {
+        *pair = (band_pair){own, other,
+                            lrcsi_behind_make(&job->body[own], &job->body[other], job->view->unit)};
+    }
+    double fraction = pair->behind.known ? lrcsi_behind_fraction(&pair->behind, p, facet) : 0;
+    if (fraction > 0) {
+        add_both(job, facet, fraction, lrcsi_part_set_of(other));
+        job->rows[facet] += fraction;
+    }
+    return pair->behind.known;
+}
+
 /* Is gain possible only on the inner side of a part's event edges? It is for parts without openings
    or without reach, and for parts with one opening if their boxes do not contain points of the
    facet's patch. */
@@ -469,7 +503,8 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
     int is_own = job->part[event] == band_part(job, facet);
     int side = is_own ? 0 : job->side[event];
     if ((is_own && !search->inside) ||
-        search_excludes(search, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
+        search_excludes(search, job->view->point[edge->low].x, job->view->point[edge->high].x) ||
+        (!is_own && part_is_behind(job, facet, job->part[event]))) {
         return;
     }
     if (search->lateral < 0) {
@@ -587,7 +622,8 @@ static void add_pairs(band_job *job)
         int shut = p->solid || lrcsi_proximity_closed(p, band_part(job, pair->other));
         double err;
         if ((facing > 0 || (facing < 0 && !shut)) &&
-            !part_in_front(job, pair->facet, band_part(job, pair->other), &err)) {
+            !part_in_front(job, pair->facet, band_part(job, pair->other), &err) &&
+            !part_is_behind(job, pair->facet, band_part(job, pair->other))) {
             add_both(job, pair->facet, (double)pair->area_fraction,
                      lrcsi_part_set_of(band_part(job, pair->other)));
             job->rows[pair->facet] += (double)pair->row_fraction;
@@ -775,6 +811,8 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_lens)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(band_box)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_outline)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_body)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(BEHIND_PAIRS, sizeof(band_pair)));
     return lrcsi_work_add(need, lrcsi_grid_need(EVENT_CELLS * edges, 8 * edges));
 }
 
@@ -785,11 +823,18 @@ static int all_fractions(band_job *job, lrcs_work *work)
     uint32_t parts = job->view->prepared->scene->part_count;
     job->box = lrcsi_work_take(work, parts, sizeof *job->box);
     job->outline = lrcsi_work_take(work, parts, sizeof *job->outline);
-    int status = job->box && job->outline ? band_events(job, work) : LRCS_E_MEMORY;
+    job->body = lrcsi_work_take(work, parts, sizeof *job->body);
+    job->pair = lrcsi_work_take_zero(work, BEHIND_PAIRS, sizeof *job->pair);
+    int status =
+        job->box && job->outline && job->body && job->pair ? band_events(job, work) : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
         for (uint32_t i = 0; i < parts; i++) {
             job->outline[i] = lrcsi_outline_make(job->view, i);
         }
+        for (uint32_t i = 0; job->view->prepared->extent && i < parts; i++) {
+            job->body[i] = lrcsi_body_make(job->view->prepared, i);
+        }
+        job->body = job->view->prepared->extent ? job->body : NULL;
         add_pairs(job);
         band_boxes(job);
         for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {

@@ -115,7 +115,13 @@
    (visibility/outline.h): (1) need not be considered. y is gained or lost along the event edge of
    (2) that is nearest to it, and there only within the region of outline.h, 2, where delta is the
    distance in projection of x from y and the error of outline.h, 1. So along each edge the smaller
-   of two areas counts: that of the rectangle and that of the region. */
+   of two areas counts: that of the rectangle and that of the region.
+
+   10. A part behind another. If a plane that does not face away from the laser has P in front of it
+   and Q behind it, true surfaces and facets of both, then Q hides neither x nor y
+   (visibility/behind.h), and its facets and event edges need not be considered. Where both touch
+   the plane to within rounding, the fraction of the facet and of its patch that lies within rounding
+   of it counts instead. */
 #ifndef LRCSI_PROXIMITY_BAND_H
 #define LRCSI_PROXIMITY_BAND_H
 
