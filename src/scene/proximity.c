@@ -65,30 +65,48 @@ static double sine_of(double cosine)
     return sqrt(lrcsi_max(0, (1 - cosine) * (1 + cosine))) + 1e-6;
 }
 
-double lrcsi_proximity_lateral(const lrcs_prepared *p, uint32_t facet, const double unit[3])
+lrcsi_displacement lrcsi_proximity_displacement(const lrcs_prepared *p, uint32_t facet)
 {
     uint32_t index = p->scene->facet_part[facet];
     const lrcs_part *part = &p->scene->part[index];
-    double reach = p->proximity.reach[index];
+    lrcsi_displacement d = {.reach = p->proximity.reach[index]};
     lrcsi_wall_patch patch;
-    if (!part->rigid || reach == 0 || p->scene->facet_smooth[facet] == 0 ||
+    if (!part->rigid || d.reach == 0 || p->scene->facet_smooth[facet] == 0 ||
         !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet,
                                 &patch)) {
-        return reach;
+        return d;
     }
     double sine;
     double cosine;
     lrcsi_degrees_sincos((2.0 * patch.sector + 1.0) * 180.0 / part->divisions.around, &sine,
                          &cosine);
-    double along[3]; /* cosines of the angles between the line of sight and the shape's axes */
+    d.known = 1;
     for (int k = 0; k < 3; k++) {
-        along[k] =
-            part->axis[k][0] * unit[0] + part->axis[k][1] * unit[1] + part->axis[k][2] * unit[2];
+        d.bound[k] = ldexp(part->displaced[k], -p->exponent) * (1 + 1e-9);
+        d.direction[0][k] = part->axis[0][k] * cosine + part->axis[1][k] * sine;
+        d.direction[1][k] = part->axis[2][k];
+        d.direction[2][k] = part->axis[1][k] * cosine - part->axis[0][k] * sine;
     }
-    double radial = along[0] * cosine + along[1] * sine;
-    double lateral = part->displaced[0] * sine_of(radial) + part->displaced[1] * sine_of(along[2]) +
-                     part->displaced[2];
-    return lrcsi_min(reach, ldexp(lateral, -p->exponent) * (1 + 1e-9));
+    return d;
+}
+
+double lrcsi_displacement_along(const lrcsi_displacement *d, const double unit[3])
+{
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        sum += d->bound[i] * (fabs(lrcsi_vec3_dot(d->direction[i], unit)) + 1e-12);
+    }
+    return d->known ? lrcsi_min(d->reach, sum) : d->reach;
+}
+
+/* The tangential direction counts as perpendicular to any vector. */
+double lrcsi_displacement_across(const lrcsi_displacement *d, const double unit[3])
+{
+    double sum = d->bound[2];
+    for (int i = 0; i < 2; i++) {
+        sum += d->bound[i] * sine_of(lrcsi_vec3_dot(d->direction[i], unit));
+    }
+    return d->known ? lrcsi_min(d->reach, sum) : d->reach;
 }
 
 /* --- one pair --------------------------------------------------------------------------------- */

@@ -22,9 +22,19 @@ double lrcsi_proximity_slack(const lrcs_prepared *prepared, uint32_t part, uint3
 double lrcsi_proximity_slack_across(const lrcs_prepared *prepared, uint32_t part, uint32_t other,
                                     double lateral);
 
-/* A bound on that displacement for a facet of a curved wall, which is less than the part's reach;
-   for any other facet, the reach. Given: the unit vector to the laser. */
-double lrcsi_proximity_lateral(const lrcs_prepared *prepared, uint32_t facet, const double unit[3]);
+/* How far points of the true surface may be from their images on a facet: by at most `bound[i]`
+   along each of three perpendicular directions in the body frame; and by at most `reach`. On the
+   curved wall of a shape that is placed without distortion the directions are radial, axial and
+   tangential; of any other facet only the reach is known. */
+typedef struct lrcsi_displacement {
+    int known; /* 0: only the reach */
+    double reach, bound[3], direction[3][3];
+} lrcsi_displacement;
+lrcsi_displacement lrcsi_proximity_displacement(const lrcs_prepared *prepared, uint32_t facet);
+
+/* Bounds on the components parallel and perpendicular to a unit vector. */
+double lrcsi_displacement_along(const lrcsi_displacement *displacement, const double unit[3]);
+double lrcsi_displacement_across(const lrcsi_displacement *displacement, const double unit[3]);
 
 /* 1 if a part is a closed outward solid by construction: its back sides hide nothing that its front
    sides do not hide. */

@@ -151,57 +151,15 @@ static double facet_err(const band_job *job, uint32_t facet)
 }
 
 /* A rectangle about an edge in projection that contains all points of a facet within some distance
-   of the edge. It extends by `half_width` to either side and before a, and by `end` beyond b. */
+   of the edge. It extends by `half_width` to either side, by `before` before a, and by `end` beyond
+   b. */
 typedef struct edge_box {
     const double *a, *b;
     double along[3];
-    double half_width, end;
+    double half_width, before, end;
     double err;  /* a bound on the error of distances from the edge's line, within the rectangle */
     int reverse; /* a is the edge's end `high` */
 } edge_box;
-
-/* The error of the edge's position at parameter t (0 .. 1) is linear in t. A point of the edge near
-   the facet is no farther from a than the facet's farthest corner plus the half-width: t length is
-   at most far + half_width. So the error of end b is multiplied by t. */
-static edge_box edge_box_make(const band_job *job, uint32_t facet, const lrcsi_edge *edge,
-                              double slack)
-{
-    const lrcsi_view *view = job->view;
-    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    edge_box box = {.a = view->point[edge->low].x, .b = view->point[edge->high].x};
-    if (lrcsi_view_point_err(box.a) > lrcsi_view_point_err(box.b)) {
-        box.a = view->point[edge->high].x;
-        box.b = view->point[edge->low].x;
-        box.reverse = 1;
-    }
-    box.along[0] = box.b[0] - box.a[0];
-    box.along[1] = box.b[1] - box.a[1];
-    double length = sqrt(box.along[0] * box.along[0] + box.along[1] * box.along[1]);
-    double first = ERR_MARGIN * lrcsi_view_point_err(box.a);
-    double last = ERR_MARGIN * lrcsi_view_point_err(box.b);
-    double far = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *x = view->point[corner[k]].x;
-        far = lrcsi_max(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
-    }
-    box.err = facet_err(job, facet) + first;
-    box.half_width = slack + box.err;
-    box.end = box.half_width + last;
-    if (length > 2 * (first + last)) {
-        box.along[0] /= length;
-        box.along[1] /= length;
-        last *= lrcsi_min(1, 2 * (far + box.half_width) / length);
-        box.half_width += last;
-        box.err += last;
-    } else { /* no length: a square about it, without sides */
-        box.along[0] = 1;
-        box.along[1] = 0;
-        box.end += length;
-        box.half_width = box.end;
-        box.err = box.end;
-    }
-    return box;
-}
 
 /* Do all corners of a facet lie beyond one side of the rectangle about an edge? */
 static int edge_box_apart(const band_job *job, uint32_t facet, const edge_box *box)
@@ -218,7 +176,7 @@ static int edge_box_apart(const band_job *job, uint32_t facet, const edge_box *b
         double across = box->along[0] * from_a[1] - box->along[1] * from_a[0];
         left += across > box->half_width;
         right += across < -box->half_width;
-        before += box->along[0] * from_a[0] + box->along[1] * from_a[1] < -box->half_width;
+        before += box->along[0] * from_a[0] + box->along[1] * from_a[1] < -box->before;
         beyond += box->along[0] * from_b[0] + box->along[1] * from_b[1] > box->end;
     }
     return left == 3 || right == 3 || before == 3 || beyond == 3;
@@ -242,7 +200,7 @@ static lrcsi_slice edge_slice(const band_job *job, uint32_t facet, const edge_bo
     lrcsi_slice_cut(&slice, left, box->a, box->half_width);
     lrcsi_slice_cut(&slice, right, box->a, box->half_width);
     lrcsi_slice_cut(&slice, along, box->b, box->end);
-    lrcsi_slice_cut(&slice, back, box->a, box->half_width);
+    lrcsi_slice_cut(&slice, back, box->a, box->before);
     return slice;
 }
 
@@ -325,9 +283,11 @@ typedef struct edge_search {
     double low[3], high[3];
     lrcsi_strip_segment side[3];
     double outward[3][2], limit[3];
-    int first;      /* the side to try first: the one that excluded the last edge */
-    int inside;     /* the laser may see the facet through an opening of its own part */
-    double lateral; /* lrcsi_proximity_lateral; negative: not computed yet */
+    int first;  /* the side to try first: the one that excluded the last edge */
+    int inside; /* the laser may see the facet through an opening of its own part */
+    lrcsi_displacement displacement;
+    double
+        lateral; /* lrcsi_displacement_across the line of sight; negative: neither is known yet */
 } edge_search;
 
 /* outward . x of a point, with `err` times its position's error added. */
@@ -495,6 +455,61 @@ static void outline_fractions(const band_job *job, uint32_t facet, uint32_t even
     *loss = (lens->loss + lens->width * delta) / projected * (1 + COS_MARGIN);
 }
 
+/* The rectangle about an event edge near a facet. slack: event_slack of the displacement across the
+   line of sight, `wider` included, which counts at the ends of the edge. To its sides only the
+   component perpendicular to the edge counts.
+
+   The error of the edge's position at parameter t (0 .. 1) is linear in t. A point of the edge near
+   the facet is no farther from a than the facet's farthest corner plus the slack and the errors:
+   t length is at most that. So the error of end b is multiplied by t. The errors of both ends turn
+   the edge by at most an angle of 2 (first + last) / length. */
+static edge_box edge_box_make(const band_job *job, uint32_t facet, uint32_t event,
+                              const edge_search *search, double slack, double wider)
+{
+    const lrcsi_view *view = job->view;
+    const lrcsi_edge *edge = &view->prepared->topology.edge[job->edge[event]];
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    edge_box box = {.a = view->point[edge->low].x, .b = view->point[edge->high].x};
+    if (lrcsi_view_point_err(box.a) > lrcsi_view_point_err(box.b)) {
+        box.a = view->point[edge->high].x;
+        box.b = view->point[edge->low].x;
+        box.reverse = 1;
+    }
+    box.along[0] = box.b[0] - box.a[0];
+    box.along[1] = box.b[1] - box.a[1];
+    double length = sqrt(box.along[0] * box.along[0] + box.along[1] * box.along[1]);
+    double first = ERR_MARGIN * lrcsi_view_point_err(box.a);
+    double last = ERR_MARGIN * lrcsi_view_point_err(box.b);
+    double far = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *x = view->point[corner[k]].x;
+        far = lrcsi_max(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
+    }
+    box.err = facet_err(job, facet) + first;
+    box.before = slack + box.err;
+    box.end = box.before + last;
+    if (length > 2 * (first + last)) {
+        double normal[3];
+        box.along[0] /= length;
+        box.along[1] /= length;
+        for (int k = 0; k < 3; k++) {
+            normal[k] = box.along[0] * view->R[1][k] - box.along[1] * view->R[0][k];
+        }
+        double across = lrcsi_displacement_along(&search->displacement, normal) +
+                        2 * (first + last) / length * search->lateral;
+        across = event_slack(job, facet, event, lrcsi_min(across, search->lateral)) + wider;
+        box.err += last * lrcsi_min(1, 2 * (far + box.before) / length);
+        box.half_width = lrcsi_min(across, slack) + box.err;
+    } else { /* no length: a square about it, without sides */
+        box.along[0] = 1;
+        box.along[1] = 0;
+        box.end += length;
+        box.half_width = box.before = box.end;
+        box.err = box.end;
+    }
+    return box;
+}
+
 /* Adds the fractions of area and of rows near an event edge. */
 static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search *search)
 {
@@ -508,7 +523,8 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
         return;
     }
     if (search->lateral < 0) {
-        search->lateral = lrcsi_proximity_lateral(p, facet, job->view->unit);
+        search->displacement = lrcsi_proximity_displacement(p, facet);
+        search->lateral = lrcsi_displacement_across(&search->displacement, job->view->unit);
     }
     double slack = event_slack(job, facet, event, search->lateral);
     if (!(slack > 0)) {
@@ -517,7 +533,7 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
     double err = 0;
     int in_front = !is_own && part_in_front(job, facet, job->part[event], &err);
     slack += in_front ? err : 0;
-    edge_box box = edge_box_make(job, facet, edge, slack);
+    edge_box box = edge_box_make(job, facet, event, search, slack, in_front ? err : 0);
     lrcsi_slice slice = edge_slice(job, facet, &box);
     if (slice.count == 0 || (!is_own && edge_behind(job, facet, edge,
                                                     lrcsi_proximity_slack(p, band_part(job, facet),

@@ -64,7 +64,10 @@
    perpendicular to d may replace e_P, unless Q is open and k_Q > 0. On the curved wall of a shape
    that is placed without distortion, the map moves points by known distances from or towards the
    axis, along it, and tangentially (lrcs_part.displaced). The bound is the sum of the three, of
-   which the first two are multiplied by the sines of the angles between these directions and d.
+   which the first two are multiplied by the sines of the angles between these directions and d. To
+   the sides of an event edge only the component of x - y perpendicular to the edge counts, since
+   the paths below cross the line of the edge only if that component and k_Q together reach it; at
+   the ends of the edge the whole bound counts.
    Proof: it suffices to take for z the points x + v, |v| <= k_Q, and the straight paths from y to
    them. In b, the point s hides one of these z. In c, x is one of them. In d, if S hides all of
    them, the ball of radius k_Q about x lies within k_Q of V; so x lies in V, and Q, without
