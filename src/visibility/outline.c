@@ -213,7 +213,7 @@ static int lens_add(const edge_frame *edge, const outline_point *p, const outlin
 lrcsi_lens lrcsi_outline_lens(const lrcsi_outline *o, const double a[3], const double b[3],
                               int side)
 {
-    const lrcsi_lens unknown = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    const lrcsi_lens unknown = {HUGE_VAL, HUGE_VAL, 0};
     edge_frame edge = {.outline = o, .a = a};
     const double ab[2] = {b[0] - a[0], b[1] - a[1]};
     edge.length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);

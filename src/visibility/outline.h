@@ -68,7 +68,7 @@ int lrcsi_outline_in_front(const lrcsi_outline *outline, const lrcsi_view *view,
                            double *err);
 
 /* Upper bounds of the areas of 2, in projection: gain and loss, to which `width` times delta is to
-   be added. All are infinite if nothing is known. */
+   be added. If nothing is known, gain and loss are infinite, and width is 0. */
 typedef struct lrcsi_lens {
     double gain, loss, width;
 } lrcsi_lens;

@@ -364,26 +364,37 @@ static void add_both(band_job *job, uint32_t facet, double fraction, lrcsi_part_
     job->loss[facet] += fraction;
 }
 
-/* Is a part behind a plane of the facet's own part, or its own (visibility/behind.h)? If so, what
-   it may hide of the facet after all, by rounding, is added here. */
-static int part_is_behind(band_job *job, uint32_t facet, uint32_t other)
+/* What a plane between two parts proves. */
+static const lrcsi_behind *behind_of(band_job *job, uint32_t front, uint32_t back)
 {
-    const lrcs_prepared *p = job->view->prepared;
-    uint32_t own = band_part(job, facet);
-    if (!job->body) {
-        return 0;
+    band_pair *pair = &job->pair[(front + 7 * back) % BEHIND_PAIRS];
+    if (pair->front != front || pair->back != back) {
+        *pair = (band_pair){
+            front, back, lrcsi_behind_make(&job->body[front], &job->body[back], job->view->unit)};
     }
-    band_pair *pair = &job->pair[(own + 7 * other) % BEHIND_PAIRS];
-    if (pair->front != own || pair->back != other) {
-        *pair = (band_pair){own, other,
-                            lrcsi_behind_make(&job->body[own], &job->body[other], job->view->unit)};
-    }
-    double fraction = pair->behind.known ? lrcsi_behind_fraction(&pair->behind, p, facet) : 0;
+    return &pair->behind;
+}
+
+/* Is something proved of the facet's part, and another one? If so, the fraction of the facet for
+   which it does not hold is added here. */
+static int proof_holds(band_job *job, uint32_t facet, uint32_t other,
+                       const lrcsi_behind_proof *proof)
+{
+    double fraction = proof->known ? lrcsi_behind_fraction(proof, job->view->prepared, facet) : 0;
     if (fraction > 0) {
         add_both(job, facet, fraction, lrcsi_part_set_of(other));
         job->rows[facet] += fraction;
     }
-    return pair->behind.known;
+    return proof->known;
+}
+
+/* Is a part behind the facet's own part (visibility/behind.h)? */
+static int part_is_behind(band_job *job, uint32_t facet, uint32_t other)
+{
+    if (!job->body) {
+        return 0;
+    }
+    return proof_holds(job, facet, other, &behind_of(job, band_part(job, facet), other)->front);
 }
 
 /* Is gain possible only on the inner side of a part's event edges? It is for parts without openings
@@ -401,16 +412,27 @@ static int gain_is_inside(const band_job *job, const edge_search *search, uint32
     return openings == 0 || (openings == 1 && apart);
 }
 
-/* --- flat facets behind a shape --------------------------------------------------------------- */
+/* --- facets behind a shape ---------------------------------------------------------------------
+ */
 
-/* Is a facet flat, and a part in front of its plane? *err: as for lrcsi_outline_in_front. */
-static int part_in_front(const band_job *job, uint32_t facet, uint32_t part, double *err)
+/* Is the outline of a part known, and the part in front of a facet: because the facet is flat, and
+   the part in front of its plane (*err: as for lrcsi_outline_in_front); or because a plane
+   separates it from the facet's own part? */
+static int part_in_front(band_job *job, uint32_t facet, uint32_t part, double *err)
 {
     const lrcs_prepared *p = job->view->prepared;
-    int is_flat =
-        p->scene->facet_smooth[facet] == 0 || p->proximity.reach[band_part(job, facet)] == 0;
-    return is_flat && job->view->facing[facet] > 0 && job->outline[part].known &&
-           lrcsi_outline_in_front(&job->outline[part], job->view, facet, err);
+    uint32_t own = band_part(job, facet);
+    int is_flat = p->scene->facet_smooth[facet] == 0 || p->proximity.reach[own] == 0;
+    *err = 0;
+    if (!job->outline[part].known) {
+        return 0;
+    }
+    if (is_flat && job->view->facing[facet] > 0 &&
+        lrcsi_outline_in_front(&job->outline[part], job->view, facet, err)) {
+        return 1;
+    }
+    *err = 0;
+    return job->body && proof_holds(job, facet, part, &behind_of(job, part, own)->back);
 }
 
 /* Is an event edge a rim inside the outline of its part? */

@@ -122,9 +122,12 @@
 
    10. A part behind another. If a plane that does not face away from the laser has P in front of it
    and Q behind it, true surfaces and facets of both, then Q hides neither x nor y
-   (visibility/behind.h), and its facets and event edges need not be considered. Where both touch
-   the plane to within rounding, the fraction of the facet and of its patch that lies within rounding
-   of it counts instead. */
+   (visibility/behind.h), and its facets and event edges need not be considered. If it has Q in
+   front of it and P behind it, and Q has at most one opening, Q hides x if and only if the
+   projection of x lies in that of B, and likewise for y and the facets: so (1) need not be
+   considered, and what 9 says of event edges holds, delta being the distance in projection of x
+   from y. Where both parts touch the plane to within rounding, the fraction of the facet and of its
+   patch that lies within rounding of it counts as gained and lost. */
 #ifndef LRCSI_PROXIMITY_BAND_H
 #define LRCSI_PROXIMITY_BAND_H
 
