@@ -54,13 +54,19 @@ def answers(compiler, statements):
 
 
 def main():
+    texts = {}
     for path in sorted(glob.glob("include/lrcs/*.h")):
         with open(path, encoding="utf-8") as file:
-            text = file.read()
-        print(f"== {os.path.basename(path)}")
-        for _, _, words in declarations(text):
+            texts[f"== {os.path.basename(path)}\n"] = file.read()
+    statements = []  # one program answers for all headers
+    for head, text in texts.items():
+        statements += [f'printf("{head.strip()}\\n");', *questions(text)]
+    said = re.split(r"^(== .*\n)", answers(sys.argv[1], statements), flags=re.M)
+    for head, lines in zip(said[1::2], said[2::2]):
+        print(head, end="")
+        for _, _, words in declarations(texts[head]):
             print(words)
-        print(answers(sys.argv[1], questions(text)), end="")
+        print(lines, end="")
 
 
 if __name__ == "__main__":

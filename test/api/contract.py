@@ -70,29 +70,24 @@ def bodies(text):
 
 
 def sources():
+    """name: (functions that its body calls, statuses that it mentions other than to compare with them)."""
     body = {}
     for path in sorted(glob.glob("src/*/*.c") + glob.glob("src/*/*.h")):
         if not path.startswith("src/cli/"):
             with open(path, encoding="utf-8") as file:
                 body.update(bodies(file.read()))
-    return body
-
-
-def reachable(name, body):
-    seen, front = set(), [name]
-    while front:
-        at = front.pop()
-        if at not in seen and at in body:
-            seen.add(at)
-            front += re.findall(r"\b\w+\b", body[at])
-    return seen
+    return {name: (set(re.findall(r"\b\w+\b", text)) & body.keys(),
+                   set(CODE.findall(re.sub(r"[!=]= *LRCS_E_[A-Z]+|case LRCS_E_[A-Z]+", "", text))))
+            for name, text in body.items()}
 
 
 def can_return(name, body):
-    codes = set()
-    for at in reachable(name, body):
-        text = re.sub(r"[!=]= *LRCS_E_[A-Z]+|case LRCS_E_[A-Z]+", "", body[at])
-        codes |= set(CODE.findall(text))
+    seen, front, codes = {name}, [name], set()
+    while front:
+        calls, mentioned = body.get(front.pop(), (set(), set()))
+        codes |= mentioned
+        front += calls - seen
+        seen |= calls
     return codes
 
 

@@ -80,7 +80,7 @@ static void check_method(int method, const double *tolerance, int count)
     for (size_t i = 0; i < ROWS; i++) {
         lrcs_host_scene scene = {0};
         lrcs_pose pose;
-        scene_make(&row[i], 4096, &scene);
+        scene_make(&row[i], 2048, &scene);
         assert_int_equal(lrcs_pose_from_direction(row[i].direction, &pose), LRCS_OK);
         for (int t = 0; t < count; t++) {
             lrcs_run_options options = lrcs_run_options_default();

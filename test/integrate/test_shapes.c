@@ -17,7 +17,7 @@ static unsigned char scene_area[1u << 25];
 static unsigned char run_area[1u << 27];
 
 /* Given more scenes on the command line (make shadows), a run takes longer. */
-static uint32_t scenes = 100;
+static uint32_t scenes = 50;
 static uint64_t seed = 1;
 
 static const lrcs_shape bodies[] = {
@@ -186,8 +186,8 @@ static void a_shape_placed_is_its_closed_form_seen_from_its_frame(void **state)
 {
     (void)state;
     need_wide_long_double();
-    for (int i = 0; i < 300; i++) {
-        const lrcs_shape *body = &bodies[(size_t)i % ROWS(bodies)];
+    for (uint32_t i = 0; i < 3 * scenes; i++) {
+        const lrcs_shape *body = &bodies[i % ROWS(bodies)];
         shapes_scene s = scene_of((lrcs_brdf){1, 0.25, i % 2 ? 0.2 : 0.01, 0.5}, 0);
         lrcs_recipe_part *part = add(&s, *body);
         const double deg[3] = {360 * random_unit(&seed), 360 * random_unit(&seed),
@@ -318,10 +318,10 @@ static void patches_on_the_limb_of_a_two_sided_shell_count_from_both_sides(void 
         {.kind = LRCS_SHAPE_CONE, .parts = LRCS_SHAPE_WALL, .radius = 0.25, .length = 0.75},
         {.kind = LRCS_SHAPE_PARABOLOID, .parts = LRCS_SHAPE_WALL, .radius = 0.25, .length = 1},
         {.kind = LRCS_SHAPE_DOME, .parts = LRCS_SHAPE_WALL, .radius = 0.5}};
-    for (int i = 0; i < 3 * 64; i++) {
+    for (int i = 0; i < 3 * 24; i++) {
         shapes_scene s = scene_of(diffuse, 1);
         double turn =
-            0.001 + i / 3 * (3.14159 / 1024); /* two sectors of a cone of 512 facets, and more */
+            0.001 + i / 3 * (3.14159 / 384); /* two sectors of a cone of 512 facets, and more */
         const double d[3] = {cos(turn), sin(turn), 0.01};
         lrcs_aspect aspect = {.by_direction = 1, .direction = {d[0], d[1], d[2]}};
         lrcs_closed truth;
