@@ -200,11 +200,11 @@ static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1,
 void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
                       lrcsi_strip_segment *side)
 {
-    const lrcs_point *point = grid->view->point;
+    const lrcsi_view_vertex *point = grid->view->point;
     double rounding = 0x1p-23 * (fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side);
     rounding += near * grid->view->scale;
     for (int k = 0; k < (count == 2 ? 1 : count); k++) {
-        side[k] = lrcsi_strip_segment_make(point[corner[k]].x, point[corner[(k + 1) % count]].x,
+        side[k] = lrcsi_strip_segment_make(&point[corner[k]], &point[corner[(k + 1) % count]],
                                            grid->view->scale, rounding);
     }
 }

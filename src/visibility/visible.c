@@ -92,8 +92,8 @@ static drawn_facet drawn_facet_make(const visible_job *job, uint32_t facet)
         .facet = facet, .edges = lrcsi_raster_edge_functions(r, facet), .high = -HUGE_VAL};
     for (int k = 0; k < 3; k++) {
         lrcsi_raster_point(r, corner[r->view->facing[facet] > 0 ? k : 2 - k], f.corner[k]);
-        const double *x = r->view->point[corner[k]].x;
-        f.high = lrcsi_max(f.high, x[2] + lrcsi_view_point_err(x));
+        const lrcsi_view_vertex *at = &r->view->point[corner[k]];
+        f.high = lrcsi_max(f.high, at->x[2] + at->err);
     }
     f.plane = lrcsi_raster_plane(r, facet);
     f.rise = 0.5 * (fabs(f.plane.dx) + fabs(f.plane.dy)) + lrcsi_raster_height_err(r, facet);
