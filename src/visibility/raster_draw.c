@@ -18,6 +18,7 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/grid.h"
 #include "visibility/query.h"
 #include "visibility/raster.h"
 #include "visibility/sample.h"
@@ -373,6 +374,23 @@ static void fill_facet(const lrcsi_raster *r, uint32_t facet)
     }
 }
 
+/* The same for all such facets of a run; most runs reach no active tile. */
+static void fill_run(const lrcsi_raster *r, uint32_t run, const unsigned char *answer)
+{
+    const lrcs_prepared *p = r->view->prepared;
+    const uint32_t end = lrcsi_run_end(run * LRCSI_RUN, p->scene->facet_count);
+    double low[3];
+    double high[3];
+    lrcsi_boxes_run_bounds(r->view, &p->runs.run[run], low, high);
+    if (bounds_drawn(r, low, high)) {
+        for (uint32_t f = run * LRCSI_RUN; f < end; f++) {
+            if (answer[f] == LRCSI_QUERY_VISIBLE) {
+                fill_facet(r, f);
+            }
+        }
+    }
+}
+
 /* Adds up the samples of active tiles that each facet owns. */
 static void count_owned(const lrcsi_raster *r)
 {
@@ -455,10 +473,8 @@ static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned cha
         }
     }
     clear_tiles(&r);
-    for (uint32_t f = 0; answer && f < count; f++) {
-        if (answer[f] == LRCSI_QUERY_VISIBLE) {
-            fill_facet(&r, f);
-        }
+    for (uint32_t run = 0; answer && run < view->prepared->runs.count; run++) {
+        fill_run(&r, run, answer);
     }
     uint32_t others = count; /* facets that may not be ordinary */
     for (int ordinary = 1; ordinary >= 0 && others > 0; ordinary--) {
