@@ -17,6 +17,12 @@ static inline void lrcsi_vec3_cross(const double a[3], const double b[3], double
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+/* a x b in the plane. */
+static inline double lrcsi_vec2_cross(const double a[2], const double b[2])
+{
+    return a[0] * b[1] - a[1] * b[0];
+}
+
 /* out = b - a, the vector from a to b. */
 static inline void lrcsi_vec3_between(const double a[3], const double b[3], double out[3])
 {

@@ -10,6 +10,7 @@
 #include "integrate/sigma.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/range.h"
 #include "base/work.h"
@@ -299,8 +300,8 @@ static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
         run->size = size;
     }
     if (status == LRCS_OK) {
-        for (uint32_t f = 0; known && f < run->view.prepared->scene->facet_count; f++) {
-            undecided |= raster.undecided[f];
+        if (known) {
+            undecided = memchr(raster.undecided, 1, run->view.prepared->scene->facet_count) != NULL;
         }
         run->flags |= undecided ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
         run_sum(run, 1);

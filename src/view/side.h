@@ -23,9 +23,9 @@ static inline lrcsi_view_side lrcsi_view_side_of(const lrcsi_view *view, uint32_
 {
     const double *p = view->point[a].x;
     const double *q = view->point[b].x;
-    double err = lrcsi_view_point_err(p);
+    double err = view->point[a].err;
     lrcsi_view_side side = {
-        {p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}, 0, err, err + lrcsi_view_point_err(q)};
+        {p[0], p[1]}, {q[0] - p[0], q[1] - p[1]}, 0, err, err + view->point[b].err};
     side.length = fabs(side.to[0]) + fabs(side.to[1]);
     return side;
 }

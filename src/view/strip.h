@@ -15,20 +15,21 @@ typedef struct lrcsi_strip_segment {
     double err, err_growth;
 } lrcsi_strip_segment;
 
-/* The segment between two points of the view, in units of 1 / scale. It begins at the point with
+/* The segment between two vertices of the view, in units of 1 / scale. It begins at the point with
    the smaller error. Errors are multiplied by four, and `rounding` is added: together these must
    cover the rounding of everything that is computed from the segment. */
-static inline lrcsi_strip_segment lrcsi_strip_segment_make(const double a[3], const double b[3],
-                                                           double scale, double rounding)
+static inline lrcsi_strip_segment lrcsi_strip_segment_make(const lrcsi_view_vertex *a,
+                                                           const lrcsi_view_vertex *b, double scale,
+                                                           double rounding)
 {
-    int ordered = lrcsi_view_point_err(a) <= lrcsi_view_point_err(b);
-    const double *near = ordered ? a : b;
-    const double *far = ordered ? b : a;
-    double err = 4 * lrcsi_view_point_err(near);
-    return (lrcsi_strip_segment){{near[0] * scale, near[1] * scale},
-                                 {(far[0] - near[0]) * scale, (far[1] - near[1]) * scale},
-                                 err * scale + rounding,
-                                 (4 * lrcsi_view_point_err(far) - err) * scale};
+    const lrcsi_view_vertex *near = a->err <= b->err ? a : b;
+    const lrcsi_view_vertex *far = a->err <= b->err ? b : a;
+    double err = 4 * near->err;
+    return (lrcsi_strip_segment){
+        {near->x[0] * scale, near->x[1] * scale},
+        {(far->x[0] - near->x[0]) * scale, (far->x[1] - near->x[1]) * scale},
+        err * scale + rounding,
+        (4 * far->err - err) * scale};
 }
 
 /* Narrows the range of t to where value + t slope is not negative. */

@@ -295,14 +295,15 @@ int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
     for (uint32_t i = 0; i < p->scene->vertex_count; i++) {
-        double x[3];
-        point_place(view, p->vertex[i].x, x);
-        memcpy(view->point[i].x, x, sizeof x);
+        lrcsi_view_vertex at;
+        point_place(view, p->vertex[i].x, at.x);
+        at.err = lrcsi_view_point_err(at.x);
+        view->point[i] = at;
         if (p->referenced[i]) {
-            low[0] = lrcsi_min(low[0], x[0]);
-            low[1] = lrcsi_min(low[1], x[1]);
-            high[0] = lrcsi_max(high[0], x[0]);
-            high[1] = lrcsi_max(high[1], x[1]);
+            low[0] = lrcsi_min(low[0], at.x[0]);
+            low[1] = lrcsi_min(low[1], at.x[1]);
+            high[0] = lrcsi_max(high[0], at.x[0]);
+            high[1] = lrcsi_max(high[1], at.x[1]);
         }
     }
     if (p->live > 0) {
@@ -317,8 +318,9 @@ int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
 
 size_t lrcsi_view_need(const lrcs_prepared *prepared)
 {
-    return lrcsi_work_add(lrcsi_view_face_need(prepared),
-                          lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcs_point)));
+    return lrcsi_work_add(
+        lrcsi_view_face_need(prepared),
+        lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcsi_view_vertex)));
 }
 
 int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_work *work,

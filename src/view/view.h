@@ -32,6 +32,12 @@ typedef struct lrcsi_view_backs {
     int reflect; /* 1: they reflect if their material is two-sided */
 } lrcsi_view_backs;
 
+/* A vertex in the view. */
+typedef struct lrcsi_view_vertex {
+    double x[3]; /* coordinates about prepared->origin: x right, y up, z to the laser */
+    double err;  /* bound on the error of each: lrcsi_view_point_err */
+} lrcsi_view_vertex;
+
 typedef struct lrcsi_view {
     const lrcs_prepared *prepared;
     double direction[3]; /* to the laser, exact, not normalised */
@@ -39,13 +45,12 @@ typedef struct lrcsi_view {
     double length;  /* |direction| */
     double unit[3]; /* direction / length, rounded; and with unit_low to 2^-100 */
     double unit_low[3];
-    signed char *facing; /* facet: 1 front, -1 back, 0 edge-on or skipped; exact */
-    lrcs_point *point;   /* vertex, view coordinates about prepared->origin: x right, y up, z to the
-                            laser; lrcsi_view_point_err bounds the error of each */
-    double scale;        /* a power of two; coordinates of the bulk of the scene times scale are
-                            below 1 */
-    double low[2], side; /* the square window around the projection of the live facets */
-    uint32_t front, back; /* live facets facing either way */
+    signed char *facing;      /* facet: 1 front, -1 back, 0 edge-on or skipped; exact */
+    lrcsi_view_vertex *point; /* vertex */
+    double scale;             /* a power of two; coordinates of the bulk of the scene times scale
+                                 are below 1 */
+    double low[2], side;      /* the square window around the projection of the live facets */
+    uint32_t front, back;     /* live facets facing either way */
     lrcsi_view_backs backs;
     lrcs_progress *progress; /* where a run reports its progress; may be NULL */
 } lrcsi_view;
@@ -94,7 +99,7 @@ static inline void lrcsi_view_bounds(const lrcsi_view *view, const uint32_t *ver
     high[0] = high[1] = high[2] = -HUGE_VAL;
     for (int i = 0; i < count; i++) {
         const double *x = view->point[vertex[i]].x;
-        double err = lrcsi_view_point_err(x);
+        double err = view->point[vertex[i]].err;
         low[0] = lrcsi_min(low[0], x[0] - err);
         low[1] = lrcsi_min(low[1], x[1] - err);
         low[2] = lrcsi_min(low[2], x[2] - err);

@@ -80,8 +80,8 @@ static void block_range(const lrcsi_cells_grid *c, double low, double high, int 
 /* Counts or lists a polygon of at most three corners in the blocks that it may meet, row by row.
    Its range of x in a row is that of its sides in the row. What is computed from a side has an
    error below 8 u of a coordinate between the side's and the window's. */
-static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *const corner[3],
-                       int corners, uint32_t item)
+static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b,
+                       const lrcsi_view_vertex *const corner[3], int corners, uint32_t item)
 {
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
@@ -89,10 +89,10 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b, const double *
     uint32_t x[2];
     uint32_t y[2];
     for (int i = 0; i < corners; i++) {
-        double err = 4 * lrcsi_view_point_err(corner[i]);
+        double err = 4 * corner[i]->err;
         for (int k = 0; k < 2; k++) {
-            low[k] = lrcsi_min(low[k], corner[i][k] - err);
-            high[k] = lrcsi_max(high[k], corner[i][k] + err);
+            low[k] = lrcsi_min(low[k], corner[i]->x[k] - err);
+            high[k] = lrcsi_max(high[k], corner[i]->x[k] + err);
         }
     }
     for (int k = 0; k < 2; k++) {
@@ -142,13 +142,14 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
         for (uint32_t i = 0; i < items; i++) {
             if (events) {
                 const lrcsi_edge *e = &p->topology.edge[classification->events.edge[i]];
-                const double *const end[3] = {view->point[e->low].x, view->point[e->high].x, NULL};
+                const lrcsi_view_vertex *const end[3] = {&view->point[e->low],
+                                                         &view->point[e->high], NULL};
                 blocks_put(c, b, end, 2, i);
             } else if (lrcsi_view_casts(view, i) && !(c->answer && !classification->undecided[i] &&
                                                       c->answer[i] == LRCSI_QUERY_HIDDEN)) {
                 const uint32_t *vertex = p->scene->facet[i].corner;
-                const double *const corner[3] = {view->point[vertex[0]].x, view->point[vertex[1]].x,
-                                                 view->point[vertex[2]].x};
+                const lrcsi_view_vertex *const corner[3] = {
+                    &view->point[vertex[0]], &view->point[vertex[1]], &view->point[vertex[2]]};
                 blocks_put(c, b, corner, 3, i);
             }
         }

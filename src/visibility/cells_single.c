@@ -160,10 +160,8 @@ static int facet_apart(const lrcsi_cells_single *a, const lrcsi_view_side own[3]
     for (int k = 0; k < 3 && !apart; k++) {
         apart = 1;
         for (int i = 0; i < 3 && apart; i++) {
-            const double *x = view->point[its[i]].x;
-            apart = view->facing[a->facet] *
-                        lrcsi_view_side_turn(&own[k], x, lrcsi_view_point_err(x)) ==
-                    -1;
+            const lrcsi_view_vertex *at = &view->point[its[i]];
+            apart = view->facing[a->facet] * lrcsi_view_side_turn(&own[k], at->x, at->err) == -1;
         }
     }
     return apart;

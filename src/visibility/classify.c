@@ -8,6 +8,7 @@
 
 #include "base/exact.h"
 #include "base/sort.h"
+#include "base/vec3.h"
 #include "base/work.h"
 #include "view/side.h"
 #include "visibility/sample.h"
@@ -28,14 +29,6 @@
 
 /* --- crossings -------------------------------------------------------------------------------- */
 
-/* A facet that is tested against event edges. */
-typedef struct tested_facet {
-    uint32_t facet;
-    int facing;
-    const uint32_t *corner;
-    lrcsi_view_side side[3]; /* from corner k to k + 1 */
-} tested_facet;
-
 /* The orientation of vertices a, b, c in the view: 1 counter-clockwise, -1 clockwise, 0 collinear.
    From view coordinates if their error allows it, otherwise exactly. The vertex with the largest
    error is never the origin of both differences, whose errors it would enlarge. The error bound is
@@ -45,8 +38,7 @@ static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t 
     if (c == a || c == b) {
         return 0;
     }
-    double err[3] = {lrcsi_view_point_err(view->point[a].x), lrcsi_view_point_err(view->point[b].x),
-                     lrcsi_view_point_err(view->point[c].x)};
+    double err[3] = {view->point[a].err, view->point[b].err, view->point[c].err};
     if (err[0] > err[1] + err[2]) {
         uint32_t far = a;
         double far_err = err[0];
@@ -71,38 +63,76 @@ static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t 
     return lrcsi_exact_turn(v[a].x, v[b].x, v[c].x, view->direction);
 }
 
-/* Does the segment p q cross the interior of the facet in projection? Two convex figures of the
-   plane are disjoint if and only if a line along a side of one of them separates them. *along is
-   set if the segment lies on the line of a side that separates them. */
-static int segment_crosses(const lrcsi_view *view, const tested_facet *tested, uint32_t p,
-                           uint32_t q, int *along)
+/* Does the segment p q cross the interior of the facet in projection? From view coordinates: 1 yes,
+   0 no, or LRCSI_VIEW_UNDECIDED. Two convex figures of the plane are disjoint if and only if a line
+   along a side of one of them separates them.
+
+   Let a, b, c and s be the vectors from p to the corners and to q; if the facet faces away, the
+   plane is reflected, so that the corners are counter-clockwise. Corner a lies to the left of p q
+   by s x a, p to the left of side a b by a x b, and q by (b - a) x (s - a) = a x b + s x a - s x b.
+   Each vector has an error of at most e in each coordinate (lrcsi_view_point_err). Let `size` be
+   the sum of their 1-norms. A product v x w has an error of e (|v| + |w|) + 2 e^2, and by rounding
+   of 2 u |v| |w|, which is below e |w| / 5, because e is at least 10 u |v|. So a sum of three has
+   an error of 2.4 e size + 6 e^2, and adding them costs 2 u of their sum, below 0.4 e size. */
+static int segment_crosses_plainly(const lrcsi_view *view, uint32_t facet, uint32_t p, uint32_t q)
 {
-    const double *x = view->point[p].x;
-    const double *y = view->point[q].x;
-    double x_err = lrcsi_view_point_err(x);
-    double y_err = lrcsi_view_point_err(y);
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    const double mirror = view->facing[facet];
+    const lrcsi_view_vertex *from = &view->point[p];
+    const lrcsi_view_vertex *to = &view->point[q];
+    const lrcsi_view_vertex *i = &view->point[corner[0]];
+    const lrcsi_view_vertex *j = &view->point[corner[1]];
+    const lrcsi_view_vertex *k = &view->point[corner[2]];
+    const double a[2] = {i->x[0] - from->x[0], mirror * (i->x[1] - from->x[1])};
+    const double b[2] = {j->x[0] - from->x[0], mirror * (j->x[1] - from->x[1])};
+    const double c[2] = {k->x[0] - from->x[0], mirror * (k->x[1] - from->x[1])};
+    const double s[2] = {to->x[0] - from->x[0], mirror * (to->x[1] - from->x[1])};
+    const double size = fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]) + fabs(c[0]) +
+                        fabs(c[1]) + fabs(s[0]) + fabs(s[1]);
+    const double err = from->err + lrcsi_max(lrcsi_max(i->err, j->err), lrcsi_max(k->err, to->err));
+    const double turn_err = 4 * err * (size + 2 * err);
+    const double sa = lrcsi_vec2_cross(s, a);
+    const double sb = lrcsi_vec2_cross(s, b);
+    const double sc = lrcsi_vec2_cross(s, c);
+    const double ab = lrcsi_vec2_cross(a, b);
+    const double bc = lrcsi_vec2_cross(b, c);
+    const double ca = lrcsi_vec2_cross(c, a);
+    /* How far to the left of each side p or q lies, whichever is farther; the least of these. */
+    const double inside =
+        lrcsi_min(lrcsi_max(ab, ab + (sa - sb)),
+                  lrcsi_min(lrcsi_max(bc, bc + (sb - sc)), lrcsi_max(ca, ca + (sc - sa))));
+    const double most = lrcsi_max(sa, lrcsi_max(sb, sc));
+    const double least = lrcsi_min(sa, lrcsi_min(sb, sc));
+    if (inside < -turn_err || most < -turn_err || least > turn_err) {
+        return 0;
+    }
+    return inside > turn_err && most > turn_err && least < -turn_err ? 1 : LRCSI_VIEW_UNDECIDED;
+}
+
+/* The same, decided exactly. *along is set if the segment lies on the line of a side that separates
+   them, and no line separates them clearly. */
+static int segment_crosses(const lrcsi_view *view, uint32_t facet, uint32_t p, uint32_t q,
+                           int *along)
+{
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    int crosses = segment_crosses_plainly(view, facet, p, q);
+    if (crosses != LRCSI_VIEW_UNDECIDED) {
+        return crosses;
+    }
     for (int k = 0; k < 3; k++) {
-        uint32_t a = tested->corner[k];
-        uint32_t b = tested->corner[(k + 1) % 3];
-        int of_p = tested->facing * lrcsi_view_side_turn(&tested->side[k], x, x_err);
-        int of_q = tested->facing * lrcsi_view_side_turn(&tested->side[k], y, y_err);
-        if (of_p == 1 || of_q == 1) {
-            continue;
-        }
-        of_p = of_p == -1 ? -1 : tested->facing * vertex_turn(view, a, b, p);
-        of_q = of_q == -1 ? -1 : tested->facing * vertex_turn(view, a, b, q);
+        uint32_t a = corner[k];
+        uint32_t b = corner[k == 2 ? 0 : k + 1];
+        int of_p = view->facing[facet] * vertex_turn(view, a, b, p);
+        int of_q = of_p == 1 ? 1 : view->facing[facet] * vertex_turn(view, a, b, q);
         if (of_p <= 0 && of_q <= 0) {
             *along |= of_p == 0 && of_q == 0;
             return 0;
         }
     }
-    const lrcsi_view_side line = lrcsi_view_side_of(view, p, q);
     int left = 0;
     int right = 0;
     for (int k = 0; k < 3; k++) {
-        const double *corner = view->point[tested->corner[k]].x;
-        int side = lrcsi_view_side_turn(&line, corner, tested->side[k].at_err);
-        side = side != LRCSI_VIEW_UNDECIDED ? side : vertex_turn(view, p, q, tested->corner[k]);
+        int side = vertex_turn(view, p, q, corner[k]);
         left |= side > 0;
         right |= side < 0;
     }
@@ -110,40 +140,29 @@ static int segment_crosses(const lrcsi_view *view, const tested_facet *tested, u
 }
 
 /* Is a vertex nearer to the laser than the facet's plane? The facet's own vertices are not. */
-static int vertex_nearer(const lrcsi_view *view, const tested_facet *tested, uint32_t vertex)
+static int vertex_nearer(const lrcsi_view *view, uint32_t facet, uint32_t vertex)
 {
-    return vertex != tested->corner[0] && vertex != tested->corner[1] &&
-           vertex != tested->corner[2] &&
-           lrcsi_sample_above(view, tested->facet, view->prepared->vertex[vertex].x) > 0;
+    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    return vertex != corner[0] && vertex != corner[1] && vertex != corner[2] &&
+           lrcsi_sample_above(view, facet, view->prepared->vertex[vertex].x) > 0;
 }
 
-static int edge_crosses(const lrcsi_view *view, const tested_facet *tested, uint32_t edge,
-                        int *along)
+static int edge_crosses(const lrcsi_view *view, uint32_t facet, uint32_t edge, int *along)
 {
     const lrcs_prepared *p = view->prepared;
-    const uint32_t *own = p->topology.facet_edge[tested->facet].corner;
+    const uint32_t *own = p->topology.facet_edge[facet].corner;
     const lrcsi_edge *e = &p->topology.edge[edge];
     if (edge == own[0] || edge == own[1] || edge == own[2]) {
         return 0;
     }
     int beside = 0; /* it lies on the line of a side that separates it from the facet */
-    int crosses = segment_crosses(view, tested, e->low, e->high, &beside);
+    int crosses = segment_crosses(view, facet, e->low, e->high, &beside);
     if (!(crosses || beside) ||
-        !(vertex_nearer(view, tested, e->low) || vertex_nearer(view, tested, e->high))) {
+        !(vertex_nearer(view, facet, e->low) || vertex_nearer(view, facet, e->high))) {
         return 0;
     }
     *along |= beside;
     return crosses;
-}
-
-static tested_facet tested_facet_of(const lrcsi_view *view, uint32_t facet)
-{
-    tested_facet tested = {.facet = facet, .facing = view->facing[facet]};
-    tested.corner = view->prepared->scene->facet[facet].corner;
-    for (int k = 0; k < 3; k++) {
-        tested.side[k] = lrcsi_view_side_of(view, tested.corner[k], tested.corner[(k + 1) % 3]);
-    }
-    return tested;
 }
 
 /* The number of steps, of those wanted, that the meter allows. */
@@ -190,7 +209,6 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
 {
     const lrcsi_view *view = classification->view;
     const lrcsi_grid *grid = &classification->grid;
-    tested_facet tested = {.corner = NULL}; /* made when it is first needed */
     const lrcsi_view_box box = *lrcsi_boxes_facet(&classification->boxes, facet);
     facet_cells cells;
     const uint32_t allowed = steps_allowed(meter, *steps);
@@ -230,10 +248,7 @@ static uint32_t crossings_find(lrcsi_classification *classification, uint32_t fa
                               !component_has_edge(classification, event->edge, component))) {
                     continue;
                 }
-                if (!tested.corner) {
-                    tested = tested_facet_of(view, facet);
-                }
-                if (edge_crosses(view, &tested, event->edge, &classification->event_along_side)) {
+                if (edge_crosses(view, facet, event->edge, &classification->event_along_side)) {
                     classification->crossing[count++] = event->edge;
                 }
             }
@@ -330,9 +345,9 @@ static int events_sort(lrcsi_classification *c, lrcs_work *work)
     }
     for (uint32_t i = 0; i < count; i++) {
         const lrcsi_edge *edge = &view->prepared->topology.edge[c->events.edge[i]];
-        const double *p = view->point[edge->low].x;
-        const double *q = view->point[edge->high].x;
-        double high = lrcsi_max(p[2] + lrcsi_view_point_err(p), q[2] + lrcsi_view_point_err(q));
+        const lrcsi_view_vertex *p = &view->point[edge->low];
+        const lrcsi_view_vertex *q = &view->point[edge->high];
+        double high = lrcsi_max(p->x[2] + p->err, q->x[2] + q->err);
         key[i] = depth_key(lrcsi_view_box_float(high * view->scale)); /* as in their boxes */
     }
     lrcsi_sort_pairs(key, c->events.edge, key_spare, spare, count);
@@ -383,10 +398,10 @@ static void run_gather(const lrcsi_classification *c, uint32_t run, run_corners 
         }
         for (int k = 0; k < 3; k++) {
             const uint32_t v = scene->facet[f].corner[k];
-            const double *x = c->view->point[v].x;
-            corners->x[count] = x[0];
-            corners->y[count] = x[1];
-            corners->err = lrcsi_max(corners->err, lrcsi_view_point_err(x));
+            const lrcsi_view_vertex *at = &c->view->point[v];
+            corners->x[count] = at->x[0];
+            corners->y[count] = at->x[1];
+            corners->err = lrcsi_max(corners->err, at->err);
             count += v != before[0] && v != before[1] && v != before[2];
         }
         memcpy(before, scene->facet[f].corner, sizeof before);

@@ -30,13 +30,12 @@ size_t lrcsi_boxes_need(const lrcs_prepared *prepared)
 /* A point of the box is m + d, with |d_k| <= h_k. The position of m in the view has an error of at
    most lrcsi_view_point_err, which includes a sum; a row of the axes has an error of 4 u. So d
    contributes at most sum (|R_k| + 4 u) h_k, computed with a relative error of 4 u. */
-static lrcsi_view_box run_box(const lrcsi_view *view, const lrcsi_run *run)
+void lrcsi_boxes_run_bounds(const lrcsi_view *view, const lrcsi_run *run, double low[3],
+                            double high[3])
 {
     double middle[3];
     double half[3];
     double x[3];
-    double low[3];
-    double high[3];
     for (int k = 0; k < 3; k++) {
         middle[k] = 0.5 * (run->low[k] + run->high[k]);
         half[k] = (1 + 2 * LRCSI_U) * lrcsi_max(run->high[k] - middle[k], middle[k] - run->low[k]);
@@ -50,7 +49,6 @@ static lrcsi_view_box run_box(const lrcsi_view *view, const lrcsi_run *run)
         low[k] = x[k] - wide;
         high[k] = x[k] + wide;
     }
-    return lrcsi_view_box_round(view, low, high);
 }
 
 int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
@@ -70,7 +68,10 @@ int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work 
     *boxes->opened = 0;
     for (uint32_t r = 0; r < p->runs.count; r++) {
         if (cast[(size_t)r * LRCSI_RUN] != 0 || !lrcsi_run_alike(cast, r)) {
-            boxes->run[r] = run_box(view, &p->runs.run[r]);
+            double low[3];
+            double high[3];
+            lrcsi_boxes_run_bounds(view, &p->runs.run[r], low, high);
+            boxes->run[r] = lrcsi_view_box_round(view, low, high);
             boxes->state[r] = LRCSI_BOXES_RUN;
         }
     }
@@ -200,11 +201,11 @@ static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1,
 void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
                       lrcsi_strip_segment *side)
 {
-    const lrcs_point *point = grid->view->point;
+    const lrcsi_view_vertex *point = grid->view->point;
     double rounding = 0x1p-23 * (fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side);
     rounding += near * grid->view->scale;
     for (int k = 0; k < (count == 2 ? 1 : count); k++) {
-        side[k] = lrcsi_strip_segment_make(point[corner[k]].x, point[corner[(k + 1) % count]].x,
+        side[k] = lrcsi_strip_segment_make(&point[corner[k]], &point[corner[(k + 1) % count]],
                                            grid->view->scale, rounding);
     }
 }

@@ -45,6 +45,10 @@ size_t lrcsi_boxes_need(const lrcs_prepared *prepared);
 int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
                      lrcsi_boxes *boxes);
 
+/* Bounds of the view coordinates of all facets of a run. */
+void lrcsi_boxes_run_bounds(const lrcsi_view *view, const lrcsi_run *run, double low[3],
+                            double high[3]);
+
 /* Makes the boxes of a run's facets, unless they exist or none can hide anything. */
 void lrcsi_boxes_open(const lrcsi_boxes *boxes, uint32_t run);
 

@@ -145,7 +145,7 @@ static double facet_err(const band_job *job, uint32_t facet)
     const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
     double err = 0;
     for (int k = 0; k < 3; k++) {
-        err = lrcsi_max(err, lrcsi_view_point_err(job->view->point[corner[k]].x));
+        err = lrcsi_max(err, job->view->point[corner[k]].err);
     }
     return ERR_MARGIN * err;
 }
@@ -229,7 +229,7 @@ static int edge_behind(const band_job *job, uint32_t facet, const lrcsi_edge *ed
         for (int k = 0; k < 3; k++) {
             height += job->view->facing[facet] * n->high[k] * (p->vertex[end[i]].x[k] - a[k]);
         }
-        double end_err = ERR_MARGIN * lrcsi_view_point_err(job->view->point[end[i]].x);
+        double end_err = ERR_MARGIN * job->view->point[end[i]].err;
         behind = height < -(3 * slack + err + end_err) * n->length;
     }
     return behind;

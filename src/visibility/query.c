@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "view/side.h"
+#include "base/vec3.h"
 #include "visibility/sample.h"
 
 /* A point whose line of sight passes through the interior of the facet; the point lies on the facet
@@ -86,22 +86,30 @@ static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet
     return 1;
 }
 
-/* Does the line meet a facet? Nearly always plain doubles decide: it does not if it lies on the
-   outer side of one of the facet's sides. */
+/* Does the line meet a facet? Nearly always plain doubles decide. Let a, b and c be the vectors
+   from the line to the corners, `size` the sum of their 1-norms, and e the error of their
+   coordinates. The line lies to the left of side a b by a x b, with an error of e (|a| + |b|) + 2
+   e^2, and by rounding of 2 u |a| |b|, which is below e |a| / 5, because e is at least 10 u |b|. */
 static int line_meets(const query_line *line, uint32_t facet)
 {
     const lrcsi_view *view = line->grid->view;
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    int inside = 1; /* proved in plain doubles */
-    for (int k = 0; k < 3; k++) {
-        lrcsi_view_side side = lrcsi_view_side_of(view, corner[k], corner[(k + 1) % 3]);
-        int turn = view->facing[facet] * lrcsi_view_side_turn(&side, line->x, line->x_err);
-        if (turn == -1) {
-            return 0;
-        }
-        inside &= turn == 1;
-    }
-    return inside || lrcsi_sample_covers_towards(view, facet, line->point, line->sense);
+    const lrcsi_view_vertex *i = &view->point[corner[0]];
+    const lrcsi_view_vertex *j = &view->point[corner[1]];
+    const lrcsi_view_vertex *k = &view->point[corner[2]];
+    const double a[2] = {i->x[0] - line->x[0], i->x[1] - line->x[1]};
+    const double b[2] = {j->x[0] - line->x[0], j->x[1] - line->x[1]};
+    const double c[2] = {k->x[0] - line->x[0], k->x[1] - line->x[1]};
+    const double size = fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]) + fabs(c[0]) + fabs(c[1]);
+    const double err = line->x_err + lrcsi_max(i->err, lrcsi_max(j->err, k->err));
+    const double turn_err = 1.5 * err * (size + 2 * err);
+    const double facing = view->facing[facet];
+    const double inside =
+        lrcsi_min(facing * lrcsi_vec2_cross(a, b),
+                  lrcsi_min(facing * lrcsi_vec2_cross(b, c), facing * lrcsi_vec2_cross(c, a)));
+    return inside > turn_err ||
+           (!(inside < -turn_err) &&
+            lrcsi_sample_covers_towards(view, facet, line->point, line->sense));
 }
 
 /* The next other facet that the line meets and that is not entirely behind the line's own, or

@@ -3,6 +3,8 @@
 #ifndef LRCSI_QUERY_H
 #define LRCSI_QUERY_H
 
+#include <string.h>
+
 #include "visibility/classify.h"
 
 enum lrcsi_query_answer {
@@ -11,6 +13,14 @@ enum lrcsi_query_answer {
     LRCSI_QUERY_UNDECIDED = 2 /* no point inside the facet was found, the depths are too close,
                                  or the meter is spent */
 };
+
+/* The first facet from `facet` on that is marked with a value, or `count` if there is none. */
+static inline uint32_t lrcsi_query_next(const unsigned char *mark, uint32_t facet, uint32_t count,
+                                        int value)
+{
+    const unsigned char *at = facet < count ? memchr(mark + facet, value, count - facet) : NULL;
+    return at ? (uint32_t)(at - mark) : count;
+}
 
 /* All queries take their steps from a meter; NULL: no limit. */
 

@@ -30,10 +30,10 @@ void lrcsi_raster_sample(const lrcsi_raster *raster, uint32_t x, uint32_t y, dou
 
 double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2])
 {
-    const double *p = raster->view->point[vertex].x;
-    xy[0] = (p[0] - raster->view->low[0]) * raster->scale;
-    xy[1] = (p[1] - raster->view->low[1]) * raster->scale;
-    return lrcsi_view_point_err(p) * raster->scale + raster->sample_err;
+    const lrcsi_view_vertex *at = &raster->view->point[vertex];
+    xy[0] = (at->x[0] - raster->view->low[0]) * raster->scale;
+    xy[1] = (at->x[1] - raster->view->low[1]) * raster->scale;
+    return at->err * raster->scale + raster->sample_err;
 }
 
 /* Error of a value in a touched pixel. Corners have errors of position_err, and so has the sample.

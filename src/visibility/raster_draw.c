@@ -18,6 +18,7 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/grid.h"
 #include "visibility/query.h"
 #include "visibility/raster.h"
 #include "visibility/sample.h"
@@ -373,6 +374,23 @@ static void fill_facet(const lrcsi_raster *r, uint32_t facet)
     }
 }
 
+/* The same for all such facets of a run; most runs reach no active tile. */
+static void fill_run(const lrcsi_raster *r, uint32_t run, const unsigned char *answer)
+{
+    const lrcs_prepared *p = r->view->prepared;
+    const uint32_t end = lrcsi_run_end(run * LRCSI_RUN, p->scene->facet_count);
+    double low[3];
+    double high[3];
+    lrcsi_boxes_run_bounds(r->view, &p->runs.run[run], low, high);
+    if (bounds_drawn(r, low, high)) {
+        for (uint32_t f = run * LRCSI_RUN; f < end; f++) {
+            if (answer[f] == LRCSI_QUERY_VISIBLE) {
+                fill_facet(r, f);
+            }
+        }
+    }
+}
+
 /* Adds up the samples of active tiles that each facet owns. */
 static void count_owned(const lrcsi_raster *r)
 {
@@ -423,6 +441,20 @@ size_t lrcsi_raster_undecided_need(const lrcs_prepared *prepared, uint32_t size)
                           lrcsi_work_bytes(sample_room(size), sizeof(float)));
 }
 
+/* The first facet from `facet` on that is drawn with a depth test: of all that can hide others, or
+   of undecided ones; the number of facets if there is none. */
+static uint32_t next_drawn(const lrcsi_raster *r, const unsigned char *answer, uint32_t facet)
+{
+    const uint32_t count = r->view->prepared->scene->facet_count;
+    if (answer) {
+        return lrcsi_query_next(answer, facet, count, LRCSI_QUERY_UNDECIDED);
+    }
+    while (facet < count && !lrcsi_view_casts(r->view, facet)) {
+        facet++;
+    }
+    return facet;
+}
+
 /* Makes a raster of all facets that can hide others, or, if answer is not NULL, of those that are
    known to be visible and of undecided ones, in the tiles around the latter. */
 static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
@@ -449,25 +481,19 @@ static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned cha
     memset(r.covered, 0, count * sizeof *r.covered);
     memset(r.owned, 0, count * sizeof *r.owned);
     memset(r.undecided, 0, count);
-    for (uint32_t f = 0; answer && f < count; f++) {
-        if (answer[f] == LRCSI_QUERY_UNDECIDED) {
-            activate_tiles(&r, f);
-        }
+    for (uint32_t f = 0; answer && (f = next_drawn(&r, answer, f)) < count; f++) {
+        activate_tiles(&r, f);
     }
     clear_tiles(&r);
-    for (uint32_t f = 0; answer && f < count; f++) {
-        if (answer[f] == LRCSI_QUERY_VISIBLE) {
-            fill_facet(&r, f);
-        }
+    for (uint32_t run = 0; answer && run < view->prepared->runs.count; run++) {
+        fill_run(&r, run, answer);
     }
     uint32_t others = count; /* facets that may not be ordinary */
     for (int ordinary = 1; ordinary >= 0 && others > 0; ordinary--) {
         others = 0;
-        for (uint32_t f = 0; f < count; f++) {
-            if (answer ? answer[f] == LRCSI_QUERY_UNDECIDED : lrcsi_view_casts(view, f)) {
-                lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, f, count);
-                others += !draw_facet(&r, f, ordinary);
-            }
+        for (uint32_t f = 0; (f = next_drawn(&r, answer, f)) < count; f++) {
+            lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, f, count);
+            others += !draw_facet(&r, f, ordinary);
         }
     }
     *raster = r;

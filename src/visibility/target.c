@@ -72,12 +72,12 @@ static double frame_point(const lrcsi_view *view, const double *origin, const do
 static int corner_first(const lrcsi_view *view, uint32_t facet)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    double first = lrcsi_view_point_err(view->point[corner[0]].x);
+    double first = view->point[corner[0]].err;
     if (first * view->scale <= FAR_POINT * 10 * LRCSI_U) {
         return 0;
     }
-    double second = lrcsi_view_point_err(view->point[corner[1]].x);
-    double third = lrcsi_view_point_err(view->point[corner[2]].x);
+    double second = view->point[corner[1]].err;
+    double third = view->point[corner[2]].err;
     return first <= FAR_POINT * lrcsi_min(second, third) ? 0 : second <= third ? 1 : 2;
 }
 

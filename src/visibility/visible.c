@@ -92,8 +92,8 @@ static drawn_facet drawn_facet_make(const visible_job *job, uint32_t facet)
         .facet = facet, .edges = lrcsi_raster_edge_functions(r, facet), .high = -HUGE_VAL};
     for (int k = 0; k < 3; k++) {
         lrcsi_raster_point(r, corner[r->view->facing[facet] > 0 ? k : 2 - k], f.corner[k]);
-        const double *x = r->view->point[corner[k]].x;
-        f.high = lrcsi_max(f.high, x[2] + lrcsi_view_point_err(x));
+        const lrcsi_view_vertex *at = &r->view->point[corner[k]];
+        f.high = lrcsi_max(f.high, at->x[2] + at->err);
     }
     f.plane = lrcsi_raster_plane(r, facet);
     f.rise = 0.5 * (fabs(f.plane.dx) + fabs(f.plane.dy)) + lrcsi_raster_height_err(r, facet);
@@ -175,8 +175,8 @@ static void mark_intersection(const visible_job *job, const drawn_facet *f, uint
 static const uint32_t *known_crossings(const lrcsi_known *k, uint32_t facet, uint32_t *count)
 {
     if (facet < k->listed) {
-        *count = k->first[facet + 1] - k->first[facet];
-        return k->crossing + k->first[facet];
+        *count = k->list[facet].count;
+        return k->crossing + k->list[facet].first;
     }
     *count = lrcsi_classify_crossings(k->classification, facet, NULL);
     return k->classification->crossing;
@@ -394,7 +394,7 @@ size_t lrcsi_visible_known_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
     size_t need = lrcsi_work_bytes(facets, 1);
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets + 1, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_known_list)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(known_room(prepared), sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
 }
@@ -408,28 +408,30 @@ int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, l
     uint32_t count = p->scene->facet_count;
     lrcsi_known k = {.classification = classification};
     k.answer = lrcsi_work_take(work, count, 1);
-    k.first = lrcsi_work_take(work, (size_t)count + 1, sizeof *k.first);
+    k.list = lrcsi_work_take(work, count, sizeof *k.list);
     k.crossing = lrcsi_work_take(work, known_room(p), sizeof *k.crossing);
-    int status = k.answer && k.first && k.crossing
+    int status = k.answer && k.list && k.crossing
                      ? lrcsi_query_uniform(classification, NULL, work, &k.facets, k.answer)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    k.first[0] = 0;
-    for (uint32_t f = 0; f < count; f++) {
-        uint32_t crossings = 0;
-        if (classification->undecided[f] &&
-            !lrcsi_query_screened(classification, &k.facets, f, NULL)) {
-            k.answer[f] = LRCSI_QUERY_UNDECIDED;
-            crossings = k.listed == f ? lrcsi_classify_crossings(classification, f, NULL) : 0;
+    const unsigned char *undecided = classification->undecided;
+    uint32_t used = 0; /* of crossing[] */
+    k.listed = count;
+    for (uint32_t f = 0; (f = lrcsi_query_next(undecided, f, count, 1)) < count; f++) {
+        if (lrcsi_query_screened(classification, &k.facets, f, NULL)) {
+            continue;
         }
-        if (k.listed == f && crossings <= known_room(p) - k.first[f]) {
-            memcpy(k.crossing + k.first[f], classification->crossing,
-                   crossings * sizeof *k.crossing);
-            k.first[f + 1] = k.first[f] + crossings;
-            k.listed++;
+        k.answer[f] = LRCSI_QUERY_UNDECIDED;
+        uint32_t crossings = f < k.listed ? lrcsi_classify_crossings(classification, f, NULL) : 0;
+        if (crossings > known_room(p) - used) {
+            k.listed = f;
+        } else if (f < k.listed) {
+            memcpy(k.crossing + used, classification->crossing, crossings * sizeof *k.crossing);
+            k.list[f] = (lrcsi_known_list){used, crossings};
+            used += crossings;
         }
     }
     *known = k;
@@ -452,10 +454,8 @@ static void find_areas(const visible_job *job, const lrcsi_sample_pool *pool,
     const lrcsi_known *known = job->known;
     const lrcsi_raster *raster = job->raster;
     const uint32_t count = raster->view->prepared->scene->facet_count;
-    for (uint32_t f = 0; f < count; f++) {
-        if (known->answer[f] != LRCSI_QUERY_UNDECIDED) {
-            continue;
-        }
+    for (uint32_t f = 0;
+         (f = lrcsi_query_next(known->answer, f, count, LRCSI_QUERY_UNDECIDED)) < count; f++) {
         if (!known->classification->undecided[f]) { /* uniform, but its query gave no answer */
             double area = lrcsi_view_projected(raster->view, f);
             raster->undecided[f] = 1;

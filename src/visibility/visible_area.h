@@ -14,16 +14,20 @@ typedef struct lrcsi_visible {
     double bias; /* the part of that error that has a sign: positive if the area is too large */
 } lrcsi_visible;
 
+/* Items first .. first + count - 1 of a list. */
+typedef struct lrcsi_known_list {
+    uint32_t first, count;
+} lrcsi_known_list;
+
 /* What exact queries decide about facets before samples are taken. */
 typedef struct lrcsi_known {
     lrcsi_classification *classification;
     lrcsi_grid facets;
-    unsigned char *answer; /* facet: a lrcsi_query_answer; hidden if it casts no shadow; undecided
-                              if samples have to decide */
-    /* The event edges that cross facet f < listed, if its answer is undecided:
-       crossing[first[f] .. first[f + 1]). */
-    uint32_t listed;
-    uint32_t *first, *crossing;
+    unsigned char *answer;  /* facet: a lrcsi_query_answer; hidden if it casts no shadow; undecided
+                               if samples have to decide */
+    uint32_t listed;        /* facets below this have lists */
+    lrcsi_known_list *list; /* facet, if its answer is undecided: the event edges that cross it */
+    uint32_t *crossing;
 } lrcsi_known;
 
 #endif

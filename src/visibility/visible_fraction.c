@@ -46,10 +46,9 @@ int lrcsi_visible_fraction_make(const lrcsi_known *known, const lrcsi_raster *ra
     if (!pool->sum) {
         return LRCS_E_MEMORY;
     }
-    for (uint32_t f = 0; f < facets; f++) { /* only for undecided facets: they are few */
-        if (classification->undecided[f]) {
-            pool->sum[classification->component[f]] = (lrcsi_component_sum){0, 0, 0, 0, 0, 0};
-        }
+    const unsigned char *undecided = classification->undecided; /* they are few */
+    for (uint32_t f = 0; (f = lrcsi_query_next(undecided, f, facets, 1)) < facets; f++) {
+        pool->sum[classification->component[f]] = (lrcsi_component_sum){0, 0, 0, 0, 0, 0};
     }
     return LRCS_OK;
 }
@@ -207,10 +206,9 @@ static double area_corrected(const lrcsi_component_sum *component, const lrcsi_v
 void lrcsi_visible_fraction_correct(const lrcsi_sample_pool *pool, lrcsi_visible *visible)
 {
     const lrcsi_classification *classification = pool->known->classification;
-    for (uint32_t f = 0; f < classification->view->prepared->scene->facet_count; f++) {
-        if (!classification->undecided[f]) {
-            continue;
-        }
+    const unsigned char *undecided = classification->undecided;
+    const uint32_t facets = classification->view->prepared->scene->facet_count;
+    for (uint32_t f = 0; (f = lrcsi_query_next(undecided, f, facets, 1)) < facets; f++) {
         const lrcsi_component_sum *component = &pool->sum[classification->component[f]];
         lrcsi_visible *v = &visible[f];
         double samples[2];
