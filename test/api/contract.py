@@ -56,6 +56,7 @@ def declarations(text):
             depth += (token == "{") - (token == "}")
             words += token
             if token == ";" and depth == 0:
+                words = re.sub(r"__attribute__\(\(format\(.*?\)\)\)", "", words)
                 found = re.match(r"(?!typedef|enum|struct)[^(]*?\b(lrcs_\w+)\(", words.lstrip())
                 if found:
                     yield found.group(1), comment, " ".join(words.split())
@@ -71,7 +72,7 @@ def bodies(text):
 
 def sources():
     body = {}
-    for path in sorted(glob.glob("src/*/*.c") + glob.glob("src/*/*.h")):
+    for path in sorted(glob.glob("src/**/*.[ch]", recursive=True)):
         if not path.startswith("src/cli/"):
             with open(path, encoding="utf-8") as file:
                 body.update(bodies(file.read()))

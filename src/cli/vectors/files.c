@@ -13,7 +13,7 @@ typedef struct files_scene {
 static void point_print(FILE *out, const lrcs_point *point)
 {
     for (int k = 0; k < 3; k++) {
-        cli_number_put(out, " ", point->x[k]);
+        lrcs_host_number_put(out, " ", point->x[k]);
     }
     putc('\n', out);
 }
@@ -80,7 +80,7 @@ static void mtl_write(FILE *out, const void *context)
         if (mesh_uses(file->mesh, i)) {
             fprintf(out, "newmtl %s\nKd", material->name);
             for (int k = 0; k < 3; k++) {
-                cli_number_put(out, " ", material->rgb[k] / 255.0);
+                lrcs_host_number_put(out, " ", material->rgb[k] / 255.0);
             }
             putc('\n', out);
         }
@@ -108,27 +108,27 @@ static void json_write(FILE *out, const void *context)
     const files_scene *file = context;
     const vectors_mesh *mesh = file->mesh;
     lrcs_host_json json = lrcs_host_json_make(out);
-    cli_json(&json, "{\nschema=%u name=%s tier=%u about=%s materials=[\n", CLI_SCHEMA,
-             file->scene->name, file->scene->tier, file->scene->about);
+    lrcs_host_json_put(&json, "{\nschema=%u name=%s tier=%u about=%s materials=[\n", CLI_SCHEMA,
+                       file->scene->name, file->scene->tier, file->scene->about);
     for (const vectors_material *one = cli_vectors_materials; one->name; one++) {
-        cli_json(&json, "{name=%s", one->name);
+        lrcs_host_json_put(&json, "{name=%s", one->name);
         cli_brdf_json(&one->brdf, &json);
-        cli_json(&json, "two_sided=%d}", one->two_sided);
+        lrcs_host_json_put(&json, "two_sided=%d}", one->two_sided);
     }
-    cli_json(&json, "] vertices_m=[\n");
+    lrcs_host_json_put(&json, "] vertices_m=[\n");
     for (uint32_t i = 0; i < mesh->vertices; i++) {
-        cli_numbers_json(&json, NULL, mesh->vertex[i].x, 3);
+        lrcs_host_json_numbers(&json, NULL, mesh->vertex[i].x, 3);
     }
-    cli_json(&json, "] facets=[\n");
+    lrcs_host_json_put(&json, "] facets=[\n");
     for (uint32_t i = 0; i < mesh->facets; i++) {
         const uint32_t *v = mesh->facet[i].corner;
-        cli_json(&json, "[%u %u %u]", v[0], v[1], v[2]);
+        lrcs_host_json_put(&json, "[%u %u %u]", v[0], v[1], v[2]);
     }
-    cli_json(&json, "] facet_material=[");
+    lrcs_host_json_put(&json, "] facet_material=[");
     for (uint32_t i = 0; i < mesh->facets; i++) {
         lrcs_host_json_count(&json, NULL, mesh->material[i]);
     }
-    cli_json(&json, "]}");
+    lrcs_host_json_put(&json, "]}");
 }
 
 int cli_vectors_files(const vectors_job *job, const vectors_scene *scene, const vectors_mesh *mesh)

@@ -19,7 +19,7 @@ static const char *const tier_text[LRCS_HOST_KIT_TIERS] = {
 static void numbers_print(FILE *out, const double *value, int count)
 {
     for (int i = 0; i < count; i++) {
-        cli_number_put(out, ",", value[i]);
+        lrcs_host_number_put(out, ",", value[i]);
     }
 }
 
@@ -90,38 +90,38 @@ static void kit_write(FILE *out, const void *context)
 {
     const vectors_job *job = context;
     lrcs_host_json json = lrcs_host_json_make(out);
-    cli_json(&json, "{\nschema=%u kit=%u lrcs=%s tiers=[\n", CLI_SCHEMA, LRCS_HOST_KIT_VERSION,
-             lrcs_version());
+    lrcs_host_json_put(&json, "{\nschema=%u kit=%u lrcs=%s tiers=[\n", CLI_SCHEMA,
+                       LRCS_HOST_KIT_VERSION, lrcs_version());
     for (int i = 0; i < LRCS_HOST_KIT_TIERS; i++) {
-        cli_json(&json, "{tier=%u about=%s}", i + 1, tier_text[i]);
+        lrcs_host_json_put(&json, "{tier=%u about=%s}", i + 1, tier_text[i]);
     }
-    cli_json(&json, "] materials=[\n");
+    lrcs_host_json_put(&json, "] materials=[\n");
     for (const vectors_material *one = cli_vectors_materials; one->name; one++) {
-        cli_json(&json, "{name=%s A_B_s_m=[%g %g %g %g] two_sided=%d}", one->name, one->brdf.A,
-                 one->brdf.B, one->brdf.s, one->brdf.m, one->two_sided);
+        lrcs_host_json_put(&json, "{name=%s A_B_s_m=[%g %g %g %g] two_sided=%d}", one->name,
+                           one->brdf.A, one->brdf.B, one->brdf.s, one->brdf.m, one->two_sided);
     }
-    cli_json(&json, "] scenes=[\n");
+    lrcs_host_json_put(&json, "] scenes=[\n");
     for (const vectors_scene *one = cli_vectors_scenes; one->name; one++) {
-        cli_json(&json, "{name=%s tier=%u about=%s}", one->name, one->tier, one->about);
+        lrcs_host_json_put(&json, "{name=%s tier=%u about=%s}", one->name, one->tier, one->about);
     }
-    cli_json(&json, "] cases=[\n");
+    lrcs_host_json_put(&json, "] cases=[\n");
     for (uint32_t i = 0; i < job->cases; i++) {
         const vectors_case *one = &job->list[i];
         const double *value[CASE_NUMBERS];
         case_values(one, value);
-        cli_json(&json, "{scene=%s attitude=%s tier=%u", one->scene->name, one->attitude->name,
-                 one->scene->tier);
+        lrcs_host_json_put(&json, "{scene=%s attitude=%s tier=%u", one->scene->name,
+                           one->attitude->name, one->scene->tier);
         for (int k = 0; k < CASE_NUMBERS; k++) {
             if (case_numbers[k].count == 1) {
                 lrcs_host_json_number(&json, case_numbers[k].key, *value[k]);
             } else {
-                cli_numbers_json(&json, case_numbers[k].key, value[k],
-                                 (uint32_t)case_numbers[k].count);
+                lrcs_host_json_numbers(&json, case_numbers[k].key, value[k],
+                                       (uint32_t)case_numbers[k].count);
             }
         }
-        cli_json(&json, "image=%u}", one->image ? job->resolution : 0);
+        lrcs_host_json_put(&json, "image=%u}", one->image ? job->resolution : 0);
     }
-    cli_json(&json, "]}");
+    lrcs_host_json_put(&json, "]}");
 }
 
 static void readme_write(FILE *out, const void *context)

@@ -87,9 +87,9 @@ static int case_run(truth_run *run, vectors_case *one)
         one->float_m2 += facet_float(record, &scene->material[scene->facet_material[i]].brdf);
         square += edge * edge;
         fprintf(run->out, "%s,%s,%lu", one->scene->name, one->attitude->name, (unsigned long)i);
-        cli_number_put(run->out, ",", record->cos_theta);
-        cli_number_put(run->out, ",", record->visible_area_m2);
-        cli_number_put(run->out, ",", record->sigma_m2);
+        lrcs_host_number_put(run->out, ",", record->cos_theta);
+        lrcs_host_number_put(run->out, ",", record->visible_area_m2);
+        lrcs_host_number_put(run->out, ",", record->sigma_m2);
         putc('\n', run->out);
     }
     one->edge_m2 = sqrt(square) * one->window[2];
