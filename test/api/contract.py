@@ -27,6 +27,8 @@ NEVER = {
     "lrcs_host_rows_next": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
     "lrcs_host_sweep_map_open": {"LRCS_E_LIMIT", "LRCS_E_SYSTEM"},
     "lrcs_host_sweep_read": {"LRCS_E_NAME", "LRCS_E_NUMBER"},
+    "lrcs_host_sweep_output_open": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
+    "lrcs_host_sweep_output_close": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
     "lrcs_host_sweep_part_read": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
     "lrcs_host_sweep_join": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER", "LRCS_E_SYNTAX"},
     # a direction made of a sine and a cosine, or a rotation, is never zero
