@@ -42,7 +42,7 @@ NOTHING  =
 CORE     = base mesh optics scene view visibility integrate
 CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
 ABOVE_SRC = $(sort $(wildcard src/analysis/*.c))
-HOST_SRC = $(sort $(wildcard src/host/*.c))
+HOST_SRC = $(sort $(wildcard src/host/*.c src/host/*/*.c))
 CLI_SRC  = $(sort $(wildcard src/cli/*.c src/cli/*/*.c))
 TEST_SRC = $(sort $(wildcard test/*/test_*.c))
 SH_TESTS = $(sort $(wildcard test/*/test_*.sh))
@@ -383,7 +383,7 @@ $(BUILD)/explore.inc: src/cli/report/explore.js
 $(BUILD)/explore_style.inc: src/cli/report/explore.css
 $(BUILD)/explore_controls.inc: src/cli/report/explore.html
 $(BUILD)/style.inc: src/cli/report/style.css
-$(BUILD)/readme.inc: src/cli/vectors/readme.md
+$(BUILD)/readme.inc: src/host/kit/readme.md
 $(INCLUDED):
 	$(call say,gen )
 	$(Q)od -An -v -td1 $< | sed 's/-*[0-9][0-9]*/&,/g' >$@
@@ -394,7 +394,7 @@ $(CORE_OBJ) $(ABOVE_OBJ) $(HOST_OBJ): Makefile
 $(BUILD)/src/host/demo.o: $(BUILD)/demo.inc
 $(BUILD)/src/cli/report/explore.o: $(BUILD)/explore.inc $(BUILD)/explore_style.inc $(BUILD)/explore_controls.inc
 $(BUILD)/src/cli/report/page.o: $(BUILD)/style.inc
-$(BUILD)/src/cli/vectors/index.o: $(BUILD)/readme.inc
+$(BUILD)/src/host/kit/files.o: $(BUILD)/readme.inc
 
 $(BUILD)/src/%.o: src/%.c
 	$(call say,cc  )

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Conformance kits: scenes, attitudes and the truth of each case in a folder, as lrcs vectors
-   writes them; and the judgement of another implementation's answers: the class of each case, and
+/* Conformance kits: scenes, attitudes and the truth of each case in a folder, as lrcs/kit.h writes
+   them; and the judgement of another implementation's answers: the class of each case, and
    why those fail that do. An explanation is not a proof: it says how many cases it explains. */
 #ifndef LRCS_CONFORMANCE_H
 #define LRCS_CONFORMANCE_H
@@ -9,8 +9,7 @@
 
 /* ---- kits ---- */
 
-#define LRCS_HOST_KIT_VERSION        1 /* changes whenever a scene, an attitude or a column does */
-#define LRCS_HOST_KIT_TIERS          5 /* from a plate to hard cases */
+#define LRCS_HOST_KIT_TIERS          5   /* from a plate to hard cases */
 #define LRCS_HOST_KIT_NAME           32u /* size of the name of a scene, an attitude or a material */
 #define LRCS_HOST_KIT_MATERIALS_TEXT "materials.csv"
 #define LRCS_HOST_KIT_CASES_TEXT     "cases.csv"
@@ -67,19 +66,6 @@ typedef struct lrcs_host_kit {
    sentence names the line. */
 int lrcs_host_kit_read(const char *folder, lrcs_host_kit *kit, lrcs_host_error *error);
 void lrcs_host_kit_free(lrcs_host_kit *kit);
-
-/* A pose of a kit: the direction is that of the truth, bit for bit; the quaternion adds the roll.
-   Status: as lrcs_pose_from_quaternion and lrcs_pose_from_direction. */
-int lrcs_host_kit_pose(const double quaternion[4], const double direction[3], lrcs_pose *pose);
-
-/* The length of a facet's outline in the view plane, m. */
-double lrcs_host_kit_outline(const lrcs_scene *scene, uint32_t facet, const lrcs_pose *pose);
-
-/* Reads FOLDER/scenes/NAME.obj, assigns materials by these bindings, and prepares it.
-   Returned: scene, to be freed in any case.
-   Status: as lrcs_host_scene_read and lrcs_host_scene_prepare. */
-int lrcs_host_kit_scene_read(const char *folder, const char *name, const lrcs_binding *binding,
-                             uint32_t count, lrcs_host_scene *scene, lrcs_host_error *error);
 
 /* ---- the judgement ---- */
 
@@ -159,7 +145,8 @@ typedef struct lrcs_host_judgement {
 /* Reads a table of answers (columns scene, attitude, and sigma_m2 or sigma_dbsm) and assigns every
    case to its class; then finds the causes of the failures.
    Status: LRCS_OK; LRCS_E_SYSTEM; LRCS_E_LIMIT; LRCS_E_SYNTAX, LRCS_E_NUMBER, LRCS_E_NAME: the
-   sentence names the line; as lrcs_host_kit_scene_read and lrcs_host_scene_run. */
+   sentence names the line; as lrcs_host_scene_read, lrcs_host_scene_prepare and
+   lrcs_host_scene_run. */
 int lrcs_host_judge(lrcs_host_judgement *judgement, const char *path, lrcs_host_error *error);
 int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *error);
 

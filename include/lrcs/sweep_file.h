@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Whole sweeps in files: read back with their plan, written as maps, joined from parts. The lines
-   of a file are those of lrcs/rows.h. */
+/* Whole sweeps in files: written row by row and continued, read back with their plan, written as
+   maps, joined from parts. The lines of a file are those of lrcs/rows.h. */
 #ifndef LRCS_SWEEP_FILE_H
 #define LRCS_SWEEP_FILE_H
 
@@ -34,6 +34,54 @@ typedef struct lrcs_host_sweep_map {
 int lrcs_host_sweep_map_open(const char *path, lrcs_host_sweep_map *map);
 void lrcs_host_sweep_map_row(const lrcs_host_sweep_map *map, uint64_t index, lrcs_host_row *row);
 void lrcs_host_sweep_map_close(lrcs_host_sweep_map *map);
+
+/* ---- a sweep being computed ---- */
+
+/* The destination of rows: standard output; or FILE.partial, which becomes FILE when it is complete
+   and is valid after every line before that. */
+typedef struct lrcs_host_sweep_output {
+    /* given before it is opened, and when rows are put */
+    const lrcs_host_plan *plan;
+    const lrcs_host_rows_head *head;
+    uint64_t first, end; /* the rows of this part: first .. end - 1 */
+    double (*row)[2];    /* sigma and bound of every row are stored here; NULL: not wanted */
+    double (*band)[2];   /* the interval of its material uncertainty, likewise */
+    /* what it has */
+    int format;                       /* of the rows, lrcs_host_rows_format */
+    int npy;                          /* 1: the rows become a map at the end */
+    char *path, *partial, *lock_path; /* NULL: standard output */
+    int lock, descriptor;             /* of FILE.lock and FILE.partial; -1: not open */
+    FILE *stream;                     /* rows not yet written, in memory */
+    char *waiting;                    /* those bytes */
+    size_t waiting_size;
+    uint64_t size, sum; /* of FILE.partial without its checksum: bytes, and that checksum */
+    uint64_t next;      /* the next row to be written */
+    double flushed;     /* time of the last write, s */
+    lrcs_host_tally tally;
+} lrcs_host_sweep_output;
+
+/* Makes an output: path is FILE, or NULL for standard output. Nothing is written yet; the caller
+   frees it in any case. Status: LRCS_OK; LRCS_E_SYSTEM (memory). */
+int lrcs_host_sweep_output_make(const char *path, int format, int npy,
+                                lrcs_host_sweep_output *output, lrcs_host_error *error);
+
+/* Locks the file, by FILE.lock; then begins, or, with `resume`, goes on with the rows that are
+   there if they begin with the same head: output->next is the first row that is missing. A second
+   process is refused with a sentence that names the holder of the lock. Status: LRCS_OK;
+   LRCS_E_SYSTEM (a file, its lock, memory; or rows are there and are not resumed); LRCS_E_LIMIT (a
+   file above 16 GiB); LRCS_E_SYNTAX: the rows that are there are damaged, or of another sweep;
+   LRCS_E_TRUNCATED: FILE is not complete. */
+int lrcs_host_sweep_output_open(lrcs_host_sweep_output *output, int resume, lrcs_host_error *error);
+
+/* Writes row number output->next. Status: LRCS_OK; LRCS_E_SYSTEM. */
+int lrcs_host_sweep_output_put(lrcs_host_sweep_output *output, const lrcs_host_row *row,
+                               lrcs_host_error *error);
+
+/* Ends the output: with `all` rows FILE.partial becomes FILE; with some it is kept, with none it is
+   removed. Status: LRCS_OK; LRCS_E_SYSTEM; of a map LRCS_E_SYNTAX (its rows were changed meanwhile)
+   and LRCS_E_LIMIT (above 16 GiB). */
+int lrcs_host_sweep_output_close(lrcs_host_sweep_output *output, int all, lrcs_host_error *error);
+void lrcs_host_sweep_output_free(lrcs_host_sweep_output *output);
 
 /* ---- a sweep read back ---- */
 

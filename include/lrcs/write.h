@@ -6,6 +6,9 @@
 
 #include <lrcs/file.h>
 
+/* A number after some text, with all digits needed to read it back. */
+void lrcs_host_number_put(FILE *out, const char *before, double value);
+
 /* The per-facet table of a run: a header and one row per facet. */
 void lrcs_host_facets_write(FILE *out, const lrcs_scene *scene, const lrcs_facet_record *records);
 /* The table of visible polygons: a header and one row per point; rings are counted from 0. */
@@ -39,6 +42,16 @@ void lrcs_host_json_number(lrcs_host_json *json, const char *key,
                            double value); /* not finite: null */
 void lrcs_host_json_count(lrcs_host_json *json, const char *key, uint64_t value);
 void lrcs_host_json_bool(lrcs_host_json *json, const char *key, int value);
+/* An array of numbers in one line. */
+void lrcs_host_json_numbers(lrcs_host_json *json, const char *key, const double *value,
+                            uint32_t count);
+
+/* Writes several items. The format is a sketch of them: blanks separate items, each is a value or
+   key=value. A value is %s (a text; NULL: null), %g (a number; not finite: null), %u or %llu (a
+   count), %d (a condition: true or false), null, or one of { } [ ], which open and close objects
+   and arrays, also across calls. "{\n" and "[\n" open those with an item on each line. */
+__attribute__((format(printf, 2, 3))) void lrcs_host_json_put(lrcs_host_json *json,
+                                                              const char *format, ...);
 
 /* Writes a PNG, 8 bits per channel; channels: 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha.
    about: what the picture was made from, a tEXt chunk named Comment (other characters than ASCII

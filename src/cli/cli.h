@@ -291,9 +291,6 @@ double cli_dbsm(double sigma_m2);
 #define CLI_BOUND_SIZE 40
 void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
 
-/* A number after some text, with all digits needed to read it back. */
-void cli_number_put(FILE *out, const char *before, double value);
-
 /* Appends to a text, truncated to its size. */
 __attribute__((format(printf, 3, 4))) void cli_append(char *text, size_t size, const char *format,
                                                       ...);
@@ -336,22 +333,12 @@ void cli_progress_clear(const cli_progress *progress);
 void cli_notices_print(FILE *out, const lrcs_host_notices *notices);
 void cli_notices_json(const lrcs_host_notices *notices, lrcs_host_json *json);
 
-/* Writes several items of JSON. The format is a sketch of them: blanks separate items, each is a
-   value or key=value. A value is %s (a text; NULL: null), %g (a number; not finite: null), %u or
-   %llu (a count), %d (a condition: true or false), null, or one of { } [ ], which open and close
-   objects and arrays, also across calls. "{\n" and "[\n" open those with an item on each line.
-   The compiler checks the arguments as those of printf. */
-__attribute__((format(printf, 2, 3))) void cli_json(lrcs_host_json *json, const char *format, ...);
-
 /* The lowest of some flags, as lrcs_flag_text and lrcs_notice_text take it; bits &= bits - 1 leaves
    the others. */
 #define CLI_LOWEST(bits) ((int)((bits) & ~((bits)-1u)))
 
 /* The flags of a result as the array "flags". */
 void cli_flags_json(lrcs_host_json *json, uint32_t flags);
-
-/* Writes an array of numbers in one line. */
-void cli_numbers_json(lrcs_host_json *json, const char *key, const double *value, uint32_t count);
 
 /* 1 if a path ends with the extension, in upper or lower case, and has a character before it. */
 int cli_extension(const char *path, const char *extension);

@@ -22,7 +22,8 @@ static const char merge_help[] =
 
 static const cli_option merge_options[] = {{"o", CLI_FILE, 0}, {"help", 0, 0}, {NULL, 0, 0}};
 
-static int merge_shards(const cli_args *args, const sweep_file *file, lrcs_host_sweep_part *part)
+static int merge_shards(const cli_args *args, const lrcs_host_sweep_output *file,
+                        lrcs_host_sweep_part *part)
 {
     static const char *const name[] = {"CSV", "JSON lines"};
     lrcs_host_error error;
@@ -55,11 +56,11 @@ static int merge_shards(const cli_args *args, const sweep_file *file, lrcs_host_
 
 static int merge_command(const cli_args *args)
 {
-    sweep_file file;
+    lrcs_host_sweep_output file;
     if (!cli_value(args, "o")) {
         return cli_usage(args->command, "-o OUT is missing");
     }
-    int code = cli_file_read(args, &file);
+    int code = cli_rows_output_read(args, &file);
     lrcs_host_sweep_part *part = calloc((size_t)args->given_count + 1, sizeof *part);
     if (code == 0) {
         code = part ? merge_shards(args, &file, part) : cli_out_of_memory();
@@ -68,7 +69,7 @@ static int merge_command(const cli_args *args)
         lrcs_host_sweep_part_free(&part[i]);
     }
     free(part);
-    cli_file_free(&file);
+    lrcs_host_sweep_output_free(&file);
     return code;
 }
 

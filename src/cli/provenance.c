@@ -134,13 +134,13 @@ void cli_table_head(FILE *out, const cli_args *args, const char *title,
     fprintf(out, "lrcs %s %s", lrcs_version(), args->command->name);
     source_put(out, args, title, scene);
     for (int k = 0; k < 3; k++) {
-        cli_number_put(out, k == 0 ? "; direction=" : ",", direction[k]);
+        lrcs_host_number_put(out, k == 0 ? "; direction=" : ",", direction[k]);
     }
 }
 
 void cli_version_json(lrcs_host_json *json)
 {
-    cli_json(json, "schema=%u version=%s", CLI_SCHEMA, lrcs_version());
+    lrcs_host_json_put(json, "schema=%u version=%s", CLI_SCHEMA, lrcs_version());
 }
 
 void cli_hash_json(uint64_t hash, lrcs_host_json *json)
@@ -155,7 +155,7 @@ static void file_json(const char *name, uint64_t hash, lrcs_host_json *json)
 {
     char text[32];
     snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)hash);
-    cli_json(json, "name=%s hash=%s", name, text);
+    lrcs_host_json_put(json, "name=%s hash=%s", name, text);
 }
 
 static void input_json(const lrcs_host_input *input, lrcs_host_json *json)
@@ -163,64 +163,64 @@ static void input_json(const lrcs_host_input *input, lrcs_host_json *json)
     char words[CLI_UNIT_TEXT];
     lrcs_host_json_begin(json, NULL, LRCS_HOST_ROW_OBJECT);
     file_json(input->path, input->hash, json);
-    cli_json(json, "unit=%s}", cli_unit_text(input->unit_m, words));
+    lrcs_host_json_put(json, "unit=%s}", cli_unit_text(input->unit_m, words));
 }
 
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json)
 {
-    cli_json(json, "files=[\n");
+    lrcs_host_json_put(json, "files=[\n");
     for (const lrcs_host_input *input = scene->input; input; input = input->next) {
         input_json(input, json);
     }
-    cli_json(json, "]");
+    lrcs_host_json_put(json, "]");
 }
 
 void cli_operand_json(const cli_args *args, lrcs_host_json *json)
 {
     const lrcs_host_input input = operand_input(args);
-    cli_json(json, "files=[\n");
+    lrcs_host_json_put(json, "files=[\n");
     input_json(&input, json);
-    cli_json(json, "]");
+    lrcs_host_json_put(json, "]");
 }
 
 void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json)
 {
     double s_hat[3];
     cli_pose_unit(pose, s_hat);
-    cli_numbers_json(json, "direction", s_hat, 3);
+    lrcs_host_json_numbers(json, "direction", s_hat, 3);
 }
 
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json)
 {
-    cli_json(json, "A=%g B=%g s=%g m=%g", brdf->A, brdf->B, brdf->s, brdf->m);
+    lrcs_host_json_put(json, "A=%g B=%g s=%g m=%g", brdf->A, brdf->B, brdf->s, brdf->m);
 }
 
 void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json)
 {
     if (error_stated(error)) {
-        cli_json(json, "A_error=%g B_error=%g s_error=%g m_error=%g", error->A, error->B, error->s,
-                 error->m);
-        cli_numbers_json(json, "correlation", error->correlation, 6);
+        lrcs_host_json_put(json, "A_error=%g B_error=%g s_error=%g m_error=%g", error->A, error->B,
+                           error->s, error->m);
+        lrcs_host_json_numbers(json, "correlation", error->correlation, 6);
     }
 }
 
 void cli_options_json(const cli_args *args, lrcs_host_json *json)
 {
     char word[1200];
-    cli_json(json, "options=[");
+    lrcs_host_json_put(json, "options=[");
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *given = &args->given[i];
         snprintf(word, sizeof word, "%s%s%s%s", cli_dashes(given->name), given->name,
                  given->value ? "=" : "", given->value ? given->value : "");
         lrcs_host_json_text(json, NULL, word);
     }
-    cli_json(json, "]");
+    lrcs_host_json_put(json, "]");
 }
 
 void cli_provenance_json(const cli_args *args, const lrcs_host_scene *host, lrcs_host_json *json)
 {
     const lrcs_scene *scene = &host->scene;
-    cli_json(json, "title=%s materials=[\n", cli_scene_title(args, host));
+    lrcs_host_json_put(json, "title=%s materials=[\n", cli_scene_title(args, host));
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *material = &scene->material[i];
         uint32_t facets = 0;
@@ -228,14 +228,14 @@ void cli_provenance_json(const cli_args *args, const lrcs_host_scene *host, lrcs
             facets += scene->facet_material[f] == i;
         }
         if (facets > 0 && !material->omitted) {
-            cli_json(json, "{name=%s", material->name);
+            lrcs_host_json_put(json, "{name=%s", material->name);
             cli_brdf_json(&material->brdf, json);
             cli_brdf_error_json(&material->error, json);
-            cli_json(json, "two_sided=%d source=%s facets=%u}", material->two_sided,
-                     cli_material_source(material), facets);
+            lrcs_host_json_put(json, "two_sided=%d source=%s facets=%u}", material->two_sided,
+                               cli_material_source(material), facets);
         }
     }
-    cli_json(json, "]");
+    lrcs_host_json_put(json, "]");
     cli_options_json(args, json);
 }
 
@@ -253,18 +253,18 @@ static void beside_write(FILE *out, const void *context)
 {
     const beside *from = context;
     lrcs_host_json json = lrcs_host_json_make(out);
-    cli_json(&json, "{\nlrcs=%s", from->args->command->name);
+    lrcs_host_json_put(&json, "{\nlrcs=%s", from->args->command->name);
     cli_version_json(&json);
     lrcs_host_json_begin(&json, "file", LRCS_HOST_ROW_OBJECT);
     file_json(cli_base_name(from->path), file_hash(from->path), &json);
-    cli_json(&json, "}");
+    lrcs_host_json_put(&json, "}");
     if (from->about) {
-        cli_json(&json, CLI_ABOUT "=%s", from->about);
+        lrcs_host_json_put(&json, CLI_ABOUT "=%s", from->about);
     }
     if (from->scene) {
         cli_hash_json(lrcs_scene_hash(&from->scene->scene), &json);
         cli_files_json(from->scene, &json);
-        cli_json(&json, "unit=%s", cli_scene_unit(from->args, from->scene));
+        lrcs_host_json_put(&json, "unit=%s", cli_scene_unit(from->args, from->scene));
     } else {
         cli_operand_json(from->args, &json);
     }
@@ -276,7 +276,7 @@ static void beside_write(FILE *out, const void *context)
     } else {
         cli_options_json(from->args, &json);
     }
-    cli_json(&json, "}");
+    lrcs_host_json_put(&json, "}");
 }
 
 char *cli_beside_name(const char *path)

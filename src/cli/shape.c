@@ -160,13 +160,14 @@ static void shape_print(const cli_args *args, const lrcs_closed *closed)
     char bound[CLI_BOUND_SIZE];
     if (cli_value(args, "json")) {
         lrcs_host_json json = lrcs_host_json_make(stdout);
-        cli_json(&json, "{\n");
+        lrcs_host_json_put(&json, "{\n");
         cli_version_json(&json);
-        cli_json(&json, "sigma_m2=%g sigma_glint_m2=%g sigma_diffuse_m2=%g bound_m2=%g shape=%s",
-                 closed->sigma_m2, closed->sigma_glint_m2, closed->sigma_diffuse_m2,
-                 closed->bound_m2, args->operand);
+        lrcs_host_json_put(&json,
+                           "sigma_m2=%g sigma_glint_m2=%g sigma_diffuse_m2=%g bound_m2=%g shape=%s",
+                           closed->sigma_m2, closed->sigma_glint_m2, closed->sigma_diffuse_m2,
+                           closed->bound_m2, args->operand);
         cli_options_json(args, &json);
-        cli_json(&json, "}");
+        lrcs_host_json_put(&json, "}");
         return;
     }
     printf("sigma      %.15g m2", closed->sigma_m2);

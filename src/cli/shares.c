@@ -128,28 +128,28 @@ static void rows_json(const cli_shares *shares, const char *key, const shares_ro
 {
     lrcs_host_json_begin(json, key, LRCS_HOST_ARRAY);
     for (uint32_t i = 0; i < count; i++) {
-        cli_json(json,
-                 "{name=%s sigma_m2=%g share=%g sigma_glint_m2=%g sigma_diffuse_m2=%g facets=%u}",
-                 row[i].name, row[i].sigma_m2, cli_share_of(shares, row[i].sigma_m2),
-                 row[i].glint_m2, row[i].diffuse_m2, row[i].facets);
+        lrcs_host_json_put(
+            json, "{name=%s sigma_m2=%g share=%g sigma_glint_m2=%g sigma_diffuse_m2=%g facets=%u}",
+            row[i].name, row[i].sigma_m2, cli_share_of(shares, row[i].sigma_m2), row[i].glint_m2,
+            row[i].diffuse_m2, row[i].facets);
     }
-    cli_json(json, "]");
+    lrcs_host_json_put(json, "]");
 }
 
 void cli_shares_json(const cli_shares *shares, lrcs_host_json *json)
 {
-    cli_json(json, "shares={\n");
+    lrcs_host_json_put(json, "shares={\n");
     rows_json(shares, "parts", shares->part, shares->parts, json);
     rows_json(shares, "materials", shares->material, shares->materials, json);
-    cli_json(json, "facets=[\n");
+    lrcs_host_json_put(json, "facets=[\n");
     for (uint32_t i = 0; i < shares->facets; i++) {
         const shares_facet *facet = &shares->facet[i];
-        cli_json(json,
-                 "{facet=%u part=%s material=%s theta_deg=%g visible_area_m2=%g sigma_m2=%g "
-                 "sigma_glint_m2=%g share=%g}",
-                 facet->facet, facet->part, facet->material, facet->theta_deg,
-                 facet->visible_area_m2, facet->sigma_m2, facet->glint_m2,
-                 cli_share_of(shares, facet->sigma_m2));
+        lrcs_host_json_put(
+            json,
+            "{facet=%u part=%s material=%s theta_deg=%g visible_area_m2=%g sigma_m2=%g "
+            "sigma_glint_m2=%g share=%g}",
+            facet->facet, facet->part, facet->material, facet->theta_deg, facet->visible_area_m2,
+            facet->sigma_m2, facet->glint_m2, cli_share_of(shares, facet->sigma_m2));
     }
-    cli_json(json, "]}");
+    lrcs_host_json_put(json, "]}");
 }

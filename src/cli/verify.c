@@ -62,11 +62,12 @@ static void case_print(const verify_case *one, lrcs_host_json *json)
     double relative = one->closed != 0.0 ? error / one->closed : (double)NAN;
     char text[64];
     if (json) {
-        cli_json(json, "{shape=%s aspect_deg=%g material={", one->shape, one->aspect_deg);
+        lrcs_host_json_put(json, "{shape=%s aspect_deg=%g material={", one->shape, one->aspect_deg);
         cli_brdf_json(one->brdf, json);
-        cli_json(json,
-                 "} engine_m2=%g closed_form_m2=%g relative_error=%g bound_m2=%g seconds=%g ok=%d}",
-                 one->engine, one->closed, relative, one->bound, one->seconds, one->good);
+        lrcs_host_json_put(
+            json,
+            "} engine_m2=%g closed_form_m2=%g relative_error=%g bound_m2=%g seconds=%g ok=%d}",
+            one->engine, one->closed, relative, one->bound, one->seconds, one->good);
         return;
     }
     snprintf(text, sizeof text, "%g,%g,%g,%g", one->brdf->A, one->brdf->B, one->brdf->s,
@@ -155,9 +156,9 @@ static int verify_command(const cli_args *args)
     /* rows already show the progress */
     cli_watch_stage(isatty(STDOUT_FILENO) ? NULL : "cases", NULL);
     if (json) {
-        cli_json(json, "{\n");
+        lrcs_host_json_put(json, "{\n");
         cli_version_json(json);
-        cli_json(json, "cases=[\n");
+        lrcs_host_json_put(json, "cases=[\n");
     } else {
         printf("%-10s %6s  %-14s %15s %15s %10s %9s %9s\n", "shape", "aspect", "A,B,s,m",
                "engine m2", "closed form m2", "rel error", "bound m2", "time ms");
@@ -174,8 +175,8 @@ static int verify_command(const cli_args *args)
     }
     cli_watch_end();
     if (json) {
-        cli_json(json, "] count=%u failed=%u worst_error_over_bound=%g}", tally.count, tally.failed,
-                 tally.worst);
+        lrcs_host_json_put(json, "] count=%u failed=%u worst_error_over_bound=%g}", tally.count,
+                           tally.failed, tally.worst);
     } else {
         printf("%u of %u cases within their bound; the worst error is %.2g of its bound; %.3g s\n",
                tally.count - tally.failed, tally.count, tally.worst, tally.seconds);

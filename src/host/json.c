@@ -6,6 +6,8 @@
 #include "base/text.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <string.h>
 
 static void json_quote(FILE *out, const char *text)
 {
@@ -112,4 +114,70 @@ void lrcs_host_json_bool(lrcs_host_json *json, const char *key, int value)
 {
     json_lead(json, key);
     fputs(value ? "true" : "false", json->out);
+}
+
+void lrcs_host_json_numbers(lrcs_host_json *json, const char *key, const double *value,
+                            uint32_t count)
+{
+    lrcs_host_json_begin(json, key, LRCS_HOST_ROW_ARRAY);
+    for (uint32_t i = 0; i < count; i++) {
+        lrcs_host_json_number(json, NULL, value[i]);
+    }
+    lrcs_host_json_end(json);
+}
+
+/* One value of lrcs_host_json_put, of the conversion after its '%'. Returns the length of the
+ * conversion. */
+static size_t json_conversion(lrcs_host_json *json, const char *key, const char *conversion,
+                              va_list *list)
+{
+    size_t size = strspn(conversion, "l") + 1;
+    switch (conversion[size - 1]) {
+    case 's':
+        lrcs_host_json_text(json, key, va_arg(*list, const char *));
+        break;
+    case 'g':
+        lrcs_host_json_number(json, key, va_arg(*list, double));
+        break;
+    case 'd':
+        lrcs_host_json_bool(json, key, va_arg(*list, int));
+        break;
+    default:
+        lrcs_host_json_count(
+            json, key, size > 1 ? va_arg(*list, unsigned long long) : va_arg(*list, unsigned));
+        break;
+    }
+    return size;
+}
+
+void lrcs_host_json_put(lrcs_host_json *json, const char *format, ...)
+{
+    char name[40];
+    va_list list;
+    va_start(list, format);
+    for (const char *at = format; *at;) {
+        size_t size =
+            strspn(at, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-");
+        const char *key = NULL;
+        if (at[size] == '=') {
+            snprintf(name, sizeof name, "%.*s", (int)size, at);
+            key = name;
+            at += size + 1;
+        }
+        int lines = at[0] != '\0' && at[1] == '\n';
+        if (*at == '{') {
+            lrcs_host_json_begin(json, key, lines ? LRCS_HOST_OBJECT : LRCS_HOST_ROW_OBJECT);
+        } else if (*at == '[') {
+            lrcs_host_json_begin(json, key, lines ? LRCS_HOST_ARRAY : LRCS_HOST_ROW_ARRAY);
+        } else if (*at == '}' || *at == ']') {
+            lrcs_host_json_end(json);
+        } else if (*at == '%') {
+            at += json_conversion(json, key, at + 1, &list);
+        } else if (*at == 'n') {
+            lrcs_host_json_text(json, key, NULL);
+            at += strlen("null") - 1;
+        }
+        at++;
+    }
+    va_end(list);
 }

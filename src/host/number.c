@@ -61,3 +61,10 @@ int lrcs_host_numbers_read(const char *text, double *value, int count)
     }
     return LRCS_OK;
 }
+
+void lrcs_host_number_put(FILE *out, const char *before, double value)
+{
+    char text[LRCS_HOST_NUMBER_SIZE];
+    lrcs_host_number_text(value, text);
+    fprintf(out, "%s%s", before, text);
+}

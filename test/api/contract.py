@@ -27,6 +27,8 @@ NEVER = {
     "lrcs_host_rows_next": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
     "lrcs_host_sweep_map_open": {"LRCS_E_LIMIT", "LRCS_E_SYSTEM"},
     "lrcs_host_sweep_read": {"LRCS_E_NAME", "LRCS_E_NUMBER"},
+    "lrcs_host_sweep_output_open": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
+    "lrcs_host_sweep_output_close": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
     "lrcs_host_sweep_part_read": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
     "lrcs_host_sweep_join": {"LRCS_E_ARGUMENT", "LRCS_E_NAME", "LRCS_E_NUMBER", "LRCS_E_SYNTAX"},
     # a direction made of a sine and a cosine, or a rotation, is never zero
@@ -56,6 +58,7 @@ def declarations(text):
             depth += (token == "{") - (token == "}")
             words += token
             if token == ";" and depth == 0:
+                words = re.sub(r"__attribute__\(\(format\(.*?\)\)\)", "", words)
                 found = re.match(r"(?!typedef|enum|struct)[^(]*?\b(lrcs_\w+)\(", words.lstrip())
                 if found:
                     yield found.group(1), comment, " ".join(words.split())
@@ -72,7 +75,7 @@ def bodies(text):
 def sources():
     """name: (functions that its body calls, statuses that it mentions other than to compare with them)."""
     body = {}
-    for path in sorted(glob.glob("src/*/*.c") + glob.glob("src/*/*.h")):
+    for path in sorted(glob.glob("src/**/*.[ch]", recursive=True)):
         if not path.startswith("src/cli/"):
             with open(path, encoding="utf-8") as file:
                 body.update(bodies(file.read()))

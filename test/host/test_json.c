@@ -3,6 +3,7 @@
 #include <lrcs/host.h>
 
 #include <locale.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,6 +39,27 @@ static void bytes_that_are_not_utf8_become_the_replacement_character(void **stat
     check_quoted("\xed\xa0\x80", "\"\\ufffd\\ufffd\\ufffd\""); /* surrogate */
     check_quoted("\xe2\x82", "\"\\ufffd\\ufffd\"");            /* cut short */
     check_quoted("\xf5\x80\x80\x80", "\"\\ufffd\\ufffd\\ufffd\\ufffd\"");
+}
+
+static void a_sketch_writes_several_items(void **state)
+{
+    (void)state;
+    FILE *file = tmpfile();
+    const char *volatile none = NULL; /* which the compiler does not see */
+    const double three[] = {0.5, -1.0, (double)INFINITY};
+    lrcs_host_json json = lrcs_host_json_make(file);
+    lrcs_host_json_put(&json, "{\nname=%s n=%u large=%llu x=%g on=%d none=null row={a=%d b=[%u %u]",
+                       "a \"b\"", 3u, 1ull << 40, 0.25, 1, 0, 1u, 2u);
+    lrcs_host_json_put(&json, "} missing=%s lost=%g", none, (double)NAN);
+    lrcs_host_json_numbers(&json, "three", three, 3);
+    lrcs_host_json_put(&json, "}");
+    char *got = written(file);
+    assert_string_equal(got, "{\n  \"name\": \"a \\\"b\\\"\",\n  \"n\": 3,\n"
+                             "  \"large\": 1099511627776,\n  \"x\": 0.25,\n  \"on\": true,\n"
+                             "  \"none\": null,\n  \"row\": {\"a\": false, \"b\": [1, 2]},\n"
+                             "  \"missing\": null,\n  \"lost\": null,\n"
+                             "  \"three\": [0.5, -1, null]\n}\n");
+    free(got);
 }
 
 static void containers_nest_with_commas_where_they_belong(void **state)
@@ -137,6 +159,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strings_are_escaped),
         cmocka_unit_test(bytes_that_are_not_utf8_become_the_replacement_character),
+        cmocka_unit_test(a_sketch_writes_several_items),
         cmocka_unit_test(containers_nest_with_commas_where_they_belong),
         cmocka_unit_test(numbers_have_17_digits_and_come_back),
         cmocka_unit_test(what_is_not_finite_is_null),

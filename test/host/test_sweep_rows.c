@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Rows of sweeps: what is written is read back to the bit, in both formats and as a map; every
-   changed byte of a row is seen, and parts join to the file of the whole. */
+   changed byte of a row is seen, parts join to the file of the whole, and a file that was cut while
+   it was written goes on. */
 #include <lrcs/sweep_file.h>
 
 #include <stdlib.h>
@@ -267,6 +268,103 @@ static void parts_join_to_the_file_of_the_whole(void **state)
     assert_int_equal(remove("all.npy.head"), 0);
 }
 
+/* ---- files of sweeps that are being computed ---- */
+
+static lrcs_host_sweep_output output_make(const char *path, int npy)
+{
+    lrcs_host_sweep_output output;
+    assert_int_equal(lrcs_host_sweep_output_make(path, LRCS_HOST_ROWS_CSV, npy, &output, &error),
+                     LRCS_OK);
+    output.plan = &plan;
+    output.head = &head;
+    output.end = ROWS;
+    return output;
+}
+
+/* Writes the rows that are missing, up to `end`, and closes the output. */
+static void output_run(lrcs_host_sweep_output *output, uint64_t end)
+{
+    while (output->next < end) {
+        assert_int_equal(lrcs_host_sweep_output_put(output, &row[output->next], &error), LRCS_OK);
+    }
+    assert_int_equal(lrcs_host_sweep_output_close(output, end == ROWS, &error), LRCS_OK);
+    lrcs_host_sweep_output_free(output);
+}
+
+/* A process may end at any moment: FILE.partial, cut at every place, leads to the same file. */
+static void an_output_that_was_cut_anywhere_goes_on(void **state)
+{
+    (void)state;
+    size_t size;
+    char *text = text_make(LRCS_HOST_ROWS_CSV, 0, ROWS, &size);
+    for (size_t at = 0; at <= size; at += at + 1 < size ? 7 : 1) {
+        lrcs_host_file whole;
+        file_write("out.csv.partial", text, at);
+        lrcs_host_sweep_output output = output_make("out.csv", 0);
+        assert_int_equal(lrcs_host_sweep_output_open(&output, 1, &error), LRCS_OK);
+        output_run(&output, ROWS);
+        assert_int_equal(access("out.csv.partial", F_OK), -1);
+        assert_int_equal(access("out.csv.lock", F_OK), -1);
+        assert_int_equal(lrcs_host_file_read("out.csv", &whole, &error), LRCS_OK);
+        assert_int_equal(whole.size, size);
+        assert_memory_equal(whole.bytes, text, size);
+        lrcs_host_file_free(&whole);
+        remove("out.csv");
+    }
+    free(text);
+}
+
+static void rows_that_are_there_are_neither_lost_nor_mixed(void **state)
+{
+    (void)state;
+    double value[ROWS][2];
+    lrcs_host_sweep_output output = output_make("out.csv", 0);
+    assert_int_equal(lrcs_host_sweep_output_open(&output, 0, &error), LRCS_OK);
+    output_run(&output, 5);
+    assert_int_equal(access("out.csv", F_OK), -1);
+    output = output_make("out.csv", 0); /* not without being asked to go on */
+    assert_int_equal(lrcs_host_sweep_output_open(&output, 0, &error), LRCS_E_SYSTEM);
+    lrcs_host_sweep_output_free(&output);
+    head.scene_hash++; /* nor with another sweep */
+    output = output_make("out.csv", 0);
+    assert_int_equal(lrcs_host_sweep_output_open(&output, 1, &error), LRCS_E_SYNTAX);
+    lrcs_host_sweep_output_free(&output);
+    head.scene_hash--;
+    output = output_make("out.csv", 0);
+    output.row = value;
+    assert_int_equal(lrcs_host_sweep_output_open(&output, 1, &error), LRCS_OK);
+    assert_int_equal(output.next, 5);
+    output_run(&output, ROWS);
+    for (uint32_t i = 0; i < ROWS; i++) {
+        assert_true(value[i][0] == row[i].field[LRCS_HOST_ROW_SIGMA]);
+        assert_true(value[i][1] == row[i].field[LRCS_HOST_ROW_BOUND]);
+    }
+    output = output_make("out.csv", 0); /* complete: nothing is left to do */
+    assert_int_equal(lrcs_host_sweep_output_open(&output, 1, &error), LRCS_OK);
+    assert_int_equal(output.next, ROWS);
+    output_run(&output, ROWS);
+    remove("out.csv");
+}
+
+static void of_no_rows_nothing_is_left_and_a_map_replaces_its_rows(void **state)
+{
+    (void)state;
+    lrcs_host_sweep_map map;
+    lrcs_host_sweep_output output = output_make("out.npy", 1);
+    assert_int_equal(lrcs_host_sweep_output_open(&output, 0, &error), LRCS_OK);
+    output_run(&output, 0);
+    assert_int_equal(access("out.npy.partial", F_OK), -1);
+    output = output_make("out.npy", 1);
+    assert_int_equal(lrcs_host_sweep_output_open(&output, 0, &error), LRCS_OK);
+    output_run(&output, ROWS);
+    assert_int_equal(access("out.npy.partial", F_OK), -1);
+    assert_int_equal(lrcs_host_sweep_map_open("out.npy", &map), LRCS_OK);
+    assert_int_equal(map.tally.count[LRCS_HOST_TALLY_MISSED], ROWS / 3);
+    lrcs_host_sweep_map_close(&map);
+    remove("out.npy");
+    remove("out.npy.head");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -276,6 +374,9 @@ int main(void)
         cmocka_unit_test(rows_of_another_plan_are_refused),
         cmocka_unit_test(whole_sweeps_come_back_with_their_plan),
         cmocka_unit_test(parts_join_to_the_file_of_the_whole),
+        cmocka_unit_test(an_output_that_was_cut_anywhere_goes_on),
+        cmocka_unit_test(rows_that_are_there_are_neither_lost_nor_mixed),
+        cmocka_unit_test(of_no_rows_nothing_is_left_and_a_map_replaces_its_rows),
     };
     return cmocka_run_group_tests(tests, sweep_make, sweep_free);
 }

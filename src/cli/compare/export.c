@@ -8,49 +8,51 @@
 static void way_json(lrcs_host_json *json, const char *text, uint32_t count)
 {
     if (count > 0) {
-        cli_json(json, "{text=%s count=%u}", text, count);
+        lrcs_host_json_put(json, "{text=%s count=%u}", text, count);
     }
 }
 
 static void facets_json(lrcs_host_json *json, const lrcs_host_judgement *job)
 {
     const lrcs_host_kit_facets *facets = &job->by_facet;
-    cli_json(json, "facets={\ncases=%u differ=[\n", facets->cases);
+    lrcs_host_json_put(json, "facets={\ncases=%u differ=[\n", facets->cases);
     for (int way = 0; way < LRCS_HOST_FACET_WAYS; way++) {
         way_json(json, lrcs_host_facet_way_text(way), facets->way[way]);
     }
-    cli_json(json, "] cos_theta=%s cos_theta_off=%g worst=[\n", lrcs_host_cosines_text(facets),
-             facets->cosines > 0 ? facets->cosine_most : (double)NAN);
+    lrcs_host_json_put(json, "] cos_theta=%s cos_theta_off=%g worst=[\n",
+                       lrcs_host_cosines_text(facets),
+                       facets->cosines > 0 ? facets->cosine_most : (double)NAN);
     for (uint32_t i = 0; i < facets->worsts; i++) {
         const lrcs_host_kit_facet *off = &facets->worst[i];
-        cli_json(json, "{scene=%s attitude=%s facet=%u way=%s",
-                 job->kit.scene[off->one->scene].name, off->one->attitude, off->facet,
-                 lrcs_host_facet_way_text(off->way));
-        cli_json(json, "visible_area_m2=%g theirs_m2=%g sigma_m2=%g}", off->truth_m2,
-                 off->theirs_m2, off->sigma_m2);
+        lrcs_host_json_put(json, "{scene=%s attitude=%s facet=%u way=%s",
+                           job->kit.scene[off->one->scene].name, off->one->attitude, off->facet,
+                           lrcs_host_facet_way_text(off->way));
+        lrcs_host_json_put(json, "visible_area_m2=%g theirs_m2=%g sigma_m2=%g}", off->truth_m2,
+                           off->theirs_m2, off->sigma_m2);
     }
-    cli_json(json, "]}");
+    lrcs_host_json_put(json, "]}");
 }
 
 static void items_json(lrcs_host_json *json, const lrcs_host_judgement *job)
 {
     const lrcs_host_kit_items *items = &job->by_item;
-    cli_json(json, "items={\nasked=%u given=%u differ=%u ways=[\n", items->images, items->handed,
-             items->differ);
+    lrcs_host_json_put(json, "items={\nasked=%u given=%u differ=%u ways=[\n", items->images,
+                       items->handed, items->differ);
     for (int way = 0; way < (int)LRCS_HOST_IMAGE_WAYS; way++) {
         way_json(json, lrcs_host_image_way_text(way), items->way[way]);
     }
-    cli_json(json, "] worst=[\n");
+    lrcs_host_json_put(json, "] worst=[\n");
     for (uint32_t i = 0; i < items->named; i++) {
         const lrcs_host_kit_image *image = &items->image[i];
-        cli_json(json, "{scene=%s attitude=%s agree=%g lost=[\n",
-                 job->kit.scene[image->one->scene].name, image->one->attitude, image->agree);
+        lrcs_host_json_put(json, "{scene=%s attitude=%s agree=%g lost=[\n",
+                           job->kit.scene[image->one->scene].name, image->one->attitude,
+                           image->agree);
         for (uint32_t n = 0; n < LRCS_HOST_KIT_TOP && image->lost[n] > 0; n++) {
-            cli_json(json, "{facet=%u pixels=%u}", image->facet[n], image->lost[n]);
+            lrcs_host_json_put(json, "{facet=%u pixels=%u}", image->facet[n], image->lost[n]);
         }
-        cli_json(json, "]}");
+        lrcs_host_json_put(json, "]}");
     }
-    cli_json(json, "]}");
+    lrcs_host_json_put(json, "]}");
 }
 
 void cli_compare_json(FILE *out, const void *context)
@@ -58,40 +60,42 @@ void cli_compare_json(FILE *out, const void *context)
     const compare_job *asked = context;
     const lrcs_host_judgement *job = &asked->judgement;
     lrcs_host_json json = lrcs_host_json_make(out);
-    cli_json(&json, "{\n");
+    lrcs_host_json_put(&json, "{\n");
     cli_version_json(&json);
-    cli_json(&json, "passed=%d tier=%u class=%s pixels=%u asked=%u given=%u failed=%u",
-             lrcs_host_judge_passed(job), job->tier, lrcs_host_grade_text(job->grade), job->pixels,
-             job->asked, job->given, job->failed);
-    cli_json(&json, "not_numbers=%u negatives=%u unexplained=%u findings=[\n", job->not_numbers,
-             job->negatives, job->unexplained);
+    lrcs_host_json_put(&json, "passed=%d tier=%u class=%s pixels=%u asked=%u given=%u failed=%u",
+                       lrcs_host_judge_passed(job), job->tier, lrcs_host_grade_text(job->grade),
+                       job->pixels, job->asked, job->given, job->failed);
+    lrcs_host_json_put(&json, "not_numbers=%u negatives=%u unexplained=%u findings=[\n",
+                       job->not_numbers, job->negatives, job->unexplained);
     for (uint32_t i = 0; i < job->findings; i++) {
         const lrcs_host_finding *finding = &job->finding[i];
-        cli_json(&json, "{name=%s text=%s factor=%g explains=%u leaves=%g}", finding->name,
-                 finding->text, finding->factor, finding->explained, finding->rest);
+        lrcs_host_json_put(&json, "{name=%s text=%s factor=%g explains=%u leaves=%g}",
+                           finding->name, finding->text, finding->factor, finding->explained,
+                           finding->rest);
     }
-    cli_json(&json, "]");
+    lrcs_host_json_put(&json, "]");
     if (asked->facets) {
         facets_json(&json, job);
     }
     if (asked->items) {
         items_json(&json, job);
     }
-    cli_json(&json, "cases=[\n");
+    lrcs_host_json_put(&json, "cases=[\n");
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         const compare_case *one = &job->kit.list[i];
         if (!lrcs_host_judge_asked(job, one)) {
             continue;
         }
-        cli_json(&json, "{scene=%s attitude=%s tier=%u sigma_m2=%g theirs_m2=%g allowed_m2=%g",
-                 job->kit.scene[one->scene].name, one->attitude, one->tier, one->sigma_m2,
-                 one->given ? one->theirs_m2 : (double)NAN,
-                 lrcs_host_judge_allowed(one, job->grade, job->pixels));
-        cli_json(&json, "class=%s passed=%d finding=%s}", lrcs_host_grade_text(one->grade),
-                 !lrcs_host_judge_failed(job, one),
-                 one->explained ? job->finding[one->explained - 1].name : NULL);
+        lrcs_host_json_put(&json,
+                           "{scene=%s attitude=%s tier=%u sigma_m2=%g theirs_m2=%g allowed_m2=%g",
+                           job->kit.scene[one->scene].name, one->attitude, one->tier, one->sigma_m2,
+                           one->given ? one->theirs_m2 : (double)NAN,
+                           lrcs_host_judge_allowed(one, job->grade, job->pixels));
+        lrcs_host_json_put(&json, "class=%s passed=%d finding=%s}",
+                           lrcs_host_grade_text(one->grade), !lrcs_host_judge_failed(job, one),
+                           one->explained ? job->finding[one->explained - 1].name : NULL);
     }
-    cli_json(&json, "]}");
+    lrcs_host_json_put(&json, "]}");
 }
 
 /* Text inside an attribute. It needs no escapes: names of a kit are letters, digits and '-', and
@@ -126,8 +130,8 @@ static void tier_junit(FILE *out, const lrcs_host_judgement *job, int tier)
         fprintf(out, "<testcase classname=\"%s\" name=\"%s\">", job->kit.scene[one->scene].name,
                 one->attitude);
         if (lrcs_host_judge_failed(job, one) && one->given) {
-            cli_number_put(out, "<failure message=\"expected ", one->sigma_m2);
-            cli_number_put(out, " m2, found ", one->theirs_m2);
+            lrcs_host_number_put(out, "<failure message=\"expected ", one->sigma_m2);
+            lrcs_host_number_put(out, " m2, found ", one->theirs_m2);
             fputs("; ", out);
             xml_text(out, one->explained ? job->finding[one->explained - 1].text : "unexplained");
             fputs("\"/>", out);

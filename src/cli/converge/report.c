@@ -183,8 +183,8 @@ void cli_converge_about(FILE *out, const void *context)
     double s_hat[3];
     cli_pose_unit(&job->pose, s_hat);
     cli_table_head(out, job->args, job->title, &cli_converge_finest(job)->scene, s_hat);
-    cli_number_put(out, "; truth_m2=", job->truth.sigma_m2);
-    cli_number_put(out, "; truth_bound_m2=", job->truth.bound_m2);
+    lrcs_host_number_put(out, "; truth_m2=", job->truth.sigma_m2);
+    lrcs_host_number_put(out, "; truth_bound_m2=", job->truth.bound_m2);
     fprintf(out, "; truth_of=%s; truth=%s", job->truth.whole ? "shapes" : "facets",
             job->truth.text);
 }
@@ -208,7 +208,7 @@ void cli_converge_csv(FILE *out, const void *context)
             } else if (k == NUMBER_MESH) {
                 fprintf(out, ",1e-%d", job->mesh[one->mesh].digits);
             } else {
-                cli_number_put(out, ",", number[k]);
+                lrcs_host_number_put(out, ",", number[k]);
             }
         }
         fprintf(out, ",%s\n", one->accepted_by ? one->accepted_by : "");
@@ -220,8 +220,8 @@ void cli_converge_csv(FILE *out, const void *context)
 /* The setting, in an open object, which it ends. */
 static void cheapest_json(const converge_setting *one, lrcs_host_json *json)
 {
-    cli_json(json, "setting=%s pose_ms=%g bound_m2=%g}", one ? one->name : NULL,
-             one ? 1e3 * one->pose_s : (double)NAN, one ? one->bound_m2 : (double)NAN);
+    lrcs_host_json_put(json, "setting=%s pose_ms=%g bound_m2=%g}", one ? one->name : NULL,
+                       one ? 1e3 * one->pose_s : (double)NAN, one ? one->bound_m2 : (double)NAN);
 }
 
 void cli_converge_json(const converge_job *job)
@@ -229,44 +229,46 @@ void cli_converge_json(const converge_job *job)
     const lrcs_host_scene *scene = &cli_converge_finest(job)->scene;
     lrcs_host_json json = lrcs_host_json_make(stdout);
     converge_sentence sentence = cli_converge_sentence(job);
-    cli_json(&json, "{\n");
+    lrcs_host_json_put(&json, "{\n");
     cli_version_json(&json);
     cli_hash_json(lrcs_scene_hash(&scene->scene), &json);
     cli_files_json(scene, &json);
-    cli_json(&json, "unit=%s", cli_scene_unit(job->args, scene));
+    lrcs_host_json_put(&json, "unit=%s", cli_scene_unit(job->args, scene));
     cli_direction_json(&job->pose, &json);
-    cli_json(&json, "truth={from=%s sigma_m2=%g bound_m2=%g of_facets=%d} settings=[\n",
-             job->truth.text, job->truth.sigma_m2, job->truth.bound_m2, !job->truth.whole);
+    lrcs_host_json_put(&json, "truth={from=%s sigma_m2=%g bound_m2=%g of_facets=%d} settings=[\n",
+                       job->truth.text, job->truth.sigma_m2, job->truth.bound_m2,
+                       !job->truth.whole);
     for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
         double number[NUMBERS];
         numbers_make(job, one, number);
-        cli_json(&json, "{setting=%s method=%s", one->name, lrcs_method_text(one->method));
+        lrcs_host_json_put(&json, "{setting=%s method=%s", one->name,
+                           lrcs_method_text(one->method));
         for (int k = 0; k < NUMBERS; k++) {
             lrcs_host_json_number(&json, number_name[k], number[k]);
         }
         if (one->digits > 0) {
-            cli_json(&json, "tolerance=%g accepted_by=%s", pow(10.0, -one->digits),
-                     one->accepted_by);
+            lrcs_host_json_put(&json, "tolerance=%g accepted_by=%s", pow(10.0, -one->digits),
+                               one->accepted_by);
         }
-        cli_json(&json, "}");
+        lrcs_host_json_put(&json, "}");
     }
-    cli_json(&json, "] cheapest=[\n");
+    lrcs_host_json_put(&json, "] cheapest=[\n");
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {
-        cli_json(&json, "{tolerance=%g", report_tolerance[i].value);
+        lrcs_host_json_put(&json, "{tolerance=%g", report_tolerance[i].value);
         cheapest_json(setting_cheapest(job, report_tolerance[i].value), &json);
     }
-    cli_json(&json, "] best={");
+    lrcs_host_json_put(&json, "] best={");
     cheapest_json(setting_best(job), &json);
-    cli_json(&json, "notices=[\n");
+    lrcs_host_json_put(&json, "notices=[\n");
     cli_notices_json(&scene->notices, &json);
     if (job->left_out[0]) {
-        cli_json(&json, "%s", job->left_out);
+        lrcs_host_json_put(&json, "%s", job->left_out);
     }
     if (job->busy[0]) {
-        cli_json(&json, "%s", job->busy);
+        lrcs_host_json_put(&json, "%s", job->busy);
     }
-    cli_json(&json, "] sentence=%s", sentence.text);
+    lrcs_host_json_put(&json, "] sentence=%s", sentence.text);
     cli_provenance_json(job->args, scene, &json);
-    cli_json(&json, "}");
+    lrcs_host_json_put(&json, "}");
 }

@@ -219,7 +219,7 @@ void cli_fit_csv(FILE *out, const void *context)
             lrcs_host_csv_text(out, material->name, ",;\"\r\n");
             fprintf(out, ",%lu", (unsigned long)material->line[k]);
             for (size_t c = 0; c < sizeof value / sizeof value[0]; c++) {
-                cli_number_put(out, ",", value[c]);
+                lrcs_host_number_put(out, ",", value[c]);
             }
             fprintf(out, ",%d\n", point->outlier);
         }
@@ -233,43 +233,45 @@ static void material_json(const fit_material *material, lrcs_host_json *json)
     const lrcs_fit *fit = &material->fit;
     static const char *const noise[] = {"absolute", "relative", "given", "weighted"};
     int given = material->noise == LRCS_FIT_GIVEN;
-    cli_json(json, "{\nmaterial=%s parameters={\n", material->name);
+    lrcs_host_json_put(json, "{\nmaterial=%s parameters={\n", material->name);
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         const lrcs_fit_parameter *one = &fit->parameter[p];
         report_statement statement = statement_make(fit, p);
         lrcs_host_json_begin(json, report_name[p], LRCS_HOST_ROW_OBJECT);
-        cli_json(json, "value=%g std_error=%g low=%g high=%g determined=%d statement=%s}",
-                 one->value, one->error, one->low, one->high, one->verdict == LRCS_FIT_DETERMINED,
-                 statement.text);
+        lrcs_host_json_put(json, "value=%g std_error=%g low=%g high=%g determined=%d statement=%s}",
+                           one->value, one->error, one->low, one->high,
+                           one->verdict == LRCS_FIT_DETERMINED, statement.text);
     }
-    cli_json(json, "} all_determined=%d correlation=[\n", cli_fit_open(fit) == 0);
+    lrcs_host_json_put(json, "} all_determined=%d correlation=[\n", cli_fit_open(fit) == 0);
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
-        cli_numbers_json(json, NULL, fit->correlation[p], LRCS_FIT_PARAMETERS);
+        lrcs_host_json_numbers(json, NULL, fit->correlation[p], LRCS_FIT_PARAMETERS);
     }
-    cli_json(json, "] readings=%u kept=%u outlier_lines=[", material->count, fit->kept);
+    lrcs_host_json_put(json, "] readings=%u kept=%u outlier_lines=[", material->count, fit->kept);
     for (uint32_t i = 0; i < material->count; i++) {
         if (material->point[i].outlier) {
             lrcs_host_json_count(json, NULL, material->line[i]);
         }
     }
-    cli_json(json, "] least_deg=%g most_deg=%g rms_per_sr=%g errors=%s noise=%g reduced_chi2=%g}",
-             fit->least_deg, fit->most_deg, fit->rms, noise[material->noise], fit->noise,
-             given ? fit->noise * fit->noise : (double)NAN);
+    lrcs_host_json_put(
+        json, "] least_deg=%g most_deg=%g rms_per_sr=%g errors=%s noise=%g reduced_chi2=%g}",
+        fit->least_deg, fit->most_deg, fit->rms, noise[material->noise], fit->noise,
+        given ? fit->noise * fit->noise : (double)NAN);
 }
 
 void cli_fit_json(const fit_job *job)
 {
     lrcs_host_json json = lrcs_host_json_make(stdout);
-    cli_json(&json, "{\n");
+    lrcs_host_json_put(&json, "{\n");
     cli_version_json(&json);
     cli_operand_json(job->args, &json);
-    cli_json(&json, "unit_per_sr=%g cosine=%d fits=[\n", job->options.unit, job->options.cosine);
+    lrcs_host_json_put(&json, "unit_per_sr=%g cosine=%d fits=[\n", job->options.unit,
+                       job->options.cosine);
     for (uint32_t i = 0; i < job->materials; i++) {
         material_json(&job->material[i], &json);
     }
-    cli_json(&json, "] notices=[\n");
+    lrcs_host_json_put(&json, "] notices=[\n");
     cli_notices_json(&job->readings.notices, &json);
-    cli_json(&json, "]");
+    lrcs_host_json_put(&json, "]");
     cli_options_json(job->args, &json);
-    cli_json(&json, "}");
+    lrcs_host_json_put(&json, "}");
 }

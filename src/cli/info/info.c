@@ -39,44 +39,45 @@ static void info_json(const cli_args *args, const cli_info *info, const cli_surf
     const lrcs_mesh_report *report = &info->report;
     char text[INFO_NOTICE_SIZE], colour[CLI_COLOUR_TEXT];
     lrcs_host_json json = lrcs_host_json_make(stdout);
-    cli_json(&json, "{\n");
+    lrcs_host_json_put(&json, "{\n");
     cli_version_json(&json);
     cli_files_json(&info->scene, &json);
-    cli_json(&json, "unit=%s parts=%u vertices=%u facets=%u area_m2=%g volume_m3=%g",
-             cli_scene_unit(args, &info->scene), info->parts, scene->vertex_count,
-             scene->facet_count, report->area, report->volume);
-    cli_numbers_json(&json, "box_min_m", report->box_min, 3);
-    cli_numbers_json(&json, "box_max_m", report->box_max, 3);
-    cli_json(&json, "closed=%d convex=%d", report->closed, report->convex);
-    cli_json(&json, "materials=[\n");
+    lrcs_host_json_put(&json, "unit=%s parts=%u vertices=%u facets=%u area_m2=%g volume_m3=%g",
+                       cli_scene_unit(args, &info->scene), info->parts, scene->vertex_count,
+                       scene->facet_count, report->area, report->volume);
+    lrcs_host_json_numbers(&json, "box_min_m", report->box_min, 3);
+    lrcs_host_json_numbers(&json, "box_max_m", report->box_max, 3);
+    lrcs_host_json_put(&json, "closed=%d convex=%d", report->closed, report->convex);
+    lrcs_host_json_put(&json, "materials=[\n");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *material = &scene->material[i];
         if (!cli_info_shows(info, i)) {
             continue;
         }
         cli_colour_text(material->rgb, colour);
-        cli_json(&json, "{name=%s colour=%s facets=%u area_m2=%g brdf={", material->name,
-                 material->has_colour ? colour : NULL, info->material[i].facets,
-                 cli_sum_value(&info->material[i].area));
+        lrcs_host_json_put(&json, "{name=%s colour=%s facets=%u area_m2=%g brdf={", material->name,
+                           material->has_colour ? colour : NULL, info->material[i].facets,
+                           cli_sum_value(&info->material[i].area));
         cli_brdf_json(&material->brdf, &json);
-        cli_json(&json, "}}");
+        lrcs_host_json_put(&json, "}}");
     }
-    cli_json(&json,
-             "] defects={degenerate=%u duplicate=%u opposite_pairs=%u boundary_edges=%u "
-             "nonmanifold_edges=%u} glint=[\n",
-             report->degenerate, report->duplicate, report->opposite_pairs, report->boundary_edges,
-             report->nonmanifold_edges);
+    lrcs_host_json_put(&json,
+                       "] defects={degenerate=%u duplicate=%u opposite_pairs=%u boundary_edges=%u "
+                       "nonmanifold_edges=%u} glint=[\n",
+                       report->degenerate, report->duplicate, report->opposite_pairs,
+                       report->boundary_edges, report->nonmanifold_edges);
     for (uint32_t i = 0; i < info->glint_count; i++) {
         const lrcs_host_glint *glint = &info->glint[i];
-        cli_json(&json, "{part=%s material=%s s=%g turn_estimate_deg=%g relative_error_estimate=%g",
-                 scene->part[glint->part].name, scene->material[glint->material].name, glint->s,
-                 glint->turn * CLI_DEGREES, glint->error);
-        cli_json(&json, "facets_around_for_1e-2=%g facets_around_for_1e-3=%g}",
-                 glint->around_1_percent, glint->around_01_percent);
+        lrcs_host_json_put(
+            &json, "{part=%s material=%s s=%g turn_estimate_deg=%g relative_error_estimate=%g",
+            scene->part[glint->part].name, scene->material[glint->material].name, glint->s,
+            glint->turn * CLI_DEGREES, glint->error);
+        lrcs_host_json_put(&json, "facets_around_for_1e-2=%g facets_around_for_1e-3=%g}",
+                           glint->around_1_percent, glint->around_01_percent);
     }
-    cli_json(&json, "]");
+    lrcs_host_json_put(&json, "]");
     cli_surfaces_json(surfaces, scene, &json);
-    cli_json(&json, "notices=[\n");
+    lrcs_host_json_put(&json, "notices=[\n");
     cli_notices_json(&info->scene.notices, &json);
     for (int i = 0; i < INFO_NOTICES; i++) {
         const char *notice = cli_info_notice(info, i, text);
@@ -84,9 +85,9 @@ static void info_json(const cli_args *args, const cli_info *info, const cli_surf
             lrcs_host_json_text(&json, NULL, notice);
         }
     }
-    cli_json(&json, "] title=%s", cli_scene_title(args, &info->scene));
+    lrcs_host_json_put(&json, "] title=%s", cli_scene_title(args, &info->scene));
     cli_options_json(args, &json);
-    cli_json(&json, "}");
+    lrcs_host_json_put(&json, "}");
 }
 
 /* ---- the table ---- */

@@ -113,31 +113,31 @@ void cli_surfaces_json(const cli_surfaces *surfaces, const lrcs_scene *scene, lr
     for (uint32_t i = 0; i < surfaces->count; i++) {
         const lrcs_quadric_region *region = &surfaces->region[i];
         const lrcs_quadric *surface = &region->surface;
-        cli_json(json, "{surface=%s part=%s material=%s", kind_text[surface->kind],
-                 scene->part[region->part].name, scene->material[region->material].name);
-        cli_numbers_json(json, "point_m", surface->point, 3);
+        lrcs_host_json_put(json, "{surface=%s part=%s material=%s", kind_text[surface->kind],
+                           scene->part[region->part].name, scene->material[region->material].name);
+        lrcs_host_json_numbers(json, "point_m", surface->point, 3);
         if (surface->kind != LRCS_QUADRIC_SPHERE) {
-            cli_numbers_json(json, "axis", surface->axis, 3);
+            lrcs_host_json_numbers(json, "axis", surface->axis, 3);
         } else {
-            cli_json(json, "axis=null");
+            lrcs_host_json_put(json, "axis=null");
         }
         if (surface->kind == LRCS_QUADRIC_CYLINDER || surface->kind == LRCS_QUADRIC_SPHERE) {
-            cli_json(json, "radius_m=%g", surface->radius);
+            lrcs_host_json_put(json, "radius_m=%g", surface->radius);
         } else {
-            cli_json(json, "radius_m=null");
+            lrcs_host_json_put(json, "radius_m=null");
         }
         if (surface->kind == LRCS_QUADRIC_CONE) {
-            cli_json(json, "half_angle_deg=%g half_angle_tangent=%g",
-                     atan(surface->slope) * CLI_DEGREES, surface->slope);
+            lrcs_host_json_put(json, "half_angle_deg=%g half_angle_tangent=%g",
+                               atan(surface->slope) * CLI_DEGREES, surface->slope);
         } else {
-            cli_json(json, "half_angle_deg=null half_angle_tangent=null");
+            lrcs_host_json_put(json, "half_angle_deg=null half_angle_tangent=null");
         }
-        cli_json(json,
-                 "inside=%d facets=%u first_facet=%u area_m2=%g displacement_bound_m=%g "
-                 "normal_angle_bound_deg=%g glint_error_estimate=%g}",
-                 region->bound.inside, region->facet_count, region->first_facet, region->area,
-                 region->bound.displacement, region->bound.normal_angle * CLI_DEGREES,
-                 region->glint_error);
+        lrcs_host_json_put(json,
+                           "inside=%d facets=%u first_facet=%u area_m2=%g displacement_bound_m=%g "
+                           "normal_angle_bound_deg=%g glint_error_estimate=%g}",
+                           region->bound.inside, region->facet_count, region->first_facet,
+                           region->area, region->bound.displacement,
+                           region->bound.normal_angle * CLI_DEGREES, region->glint_error);
     }
     lrcs_host_json_end(json);
 }

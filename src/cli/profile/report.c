@@ -71,11 +71,11 @@ void cli_profile_about(FILE *out, const void *context)
     double s_hat[3];
     cli_pose_unit(&job->pose, s_hat);
     cli_table_head(out, job->args, job->title, &job->scene, s_hat);
-    cli_number_put(out, "; sigma_m2=", total_sigma(job));
+    lrcs_host_number_put(out, "; sigma_m2=", total_sigma(job));
     if (job->fwhm_m > 0.0) {
-        cli_number_put(out, "; pulse_fwhm_m=", job->fwhm_m);
+        lrcs_host_number_put(out, "; pulse_fwhm_m=", job->fwhm_m);
     }
-    cli_number_put(out, "; bound_of_the_sum_m2=", job->profile.list.bound_m2);
+    lrcs_host_number_put(out, "; bound_of_the_sum_m2=", job->profile.list.bound_m2);
     fputs(job->open ? "; materials=illustrative or assumed" : "", out);
 }
 
@@ -96,7 +96,7 @@ void cli_profile_csv(FILE *out, const void *context)
         row_values(job, &job->row[i], value);
         for (int k = 0; k < ROW_FIELDS; k++) {
             if (field_holds(job, k)) {
-                cli_number_put(out, k > 0 ? "," : "", value[k]);
+                lrcs_host_number_put(out, k > 0 ? "," : "", value[k]);
             }
         }
         putc('\n', out);
@@ -111,9 +111,9 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
     cli_version_json(json);
     cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
-    cli_json(json, "unit=%s", cli_scene_unit(job->args, &job->scene));
+    lrcs_host_json_put(json, "unit=%s", cli_scene_unit(job->args, &job->scene));
     cli_direction_json(&job->pose, json);
-    cli_json(
+    lrcs_host_json_put(
         json,
         "bin_m=%g pulse_fwhm_m=%g sigma_m2=%g sigma_glint_m2=%g sigma_diffuse_m2=%g bound_m2=%g "
         "normals=%s curvature_estimate_m2=%g bound_refers_to=%s",
@@ -124,35 +124,35 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
         p->tessellation_known ? "the facets of models, and true curved shapes"
                               : "the facets, also those that stand for curved shapes");
     if (job->asked > 0.0) {
-        cli_json(json, "tolerance={asked=%g met=%d}", job->asked, job->met);
+        lrcs_host_json_put(json, "tolerance={asked=%g met=%d}", job->asked, job->met);
     } else {
-        cli_json(json, "tolerance={asked=null met=null}");
+        lrcs_host_json_put(json, "tolerance={asked=null met=null}");
     }
-    cli_json(json, "notices=[\n");
+    lrcs_host_json_put(json, "notices=[\n");
     cli_notices_json(&job->scene.notices, json);
-    cli_json(json, "]");
+    lrcs_host_json_put(json, "]");
 }
 
 void cli_profile_json(const profile_job *job)
 {
     lrcs_host_json json = lrcs_host_json_make(stdout);
-    cli_json(&json, "{\n");
+    lrcs_host_json_put(&json, "{\n");
     json_head(job, &json);
     cli_provenance_json(job->args, &job->scene, &json);
-    cli_json(&json, "bins=[\n");
+    lrcs_host_json_put(&json, "bins=[\n");
     for (uint32_t i = 0; i < job->rows; i++) {
         double value[ROW_FIELDS];
         row_values(job, &job->row[i], value);
-        cli_json(&json, "{");
+        lrcs_host_json_put(&json, "{");
         for (int k = 0; k < ROW_FIELDS; k++) {
             int field = row_field[k].json;
             if (field_holds(job, field)) {
                 lrcs_host_json_number(&json, row_field[field].name, value[field]);
             }
         }
-        cli_json(&json, "}");
+        lrcs_host_json_put(&json, "}");
     }
-    cli_json(&json, "]}");
+    lrcs_host_json_put(&json, "]}");
 }
 
 /* ---- the table ---- */

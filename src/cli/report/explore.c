@@ -215,12 +215,12 @@ static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
         }
     }
     fputs("<script type=\"application/json\" id=\"data\">{", out);
-    cli_number_put(out, "\"start\":[", atan2(d[1], d[0]) * CLI_DEGREES);
-    cli_number_put(out, ",", atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES);
-    cli_number_put(out, "],\n\"radius\":", radius > 0.0 ? radius : 1.0);
-    cli_number_put(out, ",\n\"centre\":[", 0.5 * (least[0] + most[0]));
-    cli_number_put(out, ",", 0.5 * (least[1] + most[1]));
-    cli_number_put(out, ",", 0.5 * (least[2] + most[2]));
+    lrcs_host_number_put(out, "\"start\":[", atan2(d[1], d[0]) * CLI_DEGREES);
+    lrcs_host_number_put(out, ",", atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES);
+    lrcs_host_number_put(out, "],\n\"radius\":", radius > 0.0 ? radius : 1.0);
+    lrcs_host_number_put(out, ",\n\"centre\":[", 0.5 * (least[0] + most[0]));
+    lrcs_host_number_put(out, ",", 0.5 * (least[1] + most[1]));
+    lrcs_host_number_put(out, ",", 0.5 * (least[2] + most[2]));
     fputs("]", out);
     axis_put(out, "az", 0.0, job->map_step, map->plan.axis[0].range.count);
     axis_put(out, "el", -90.0, job->map_step, map->plan.axis[1].range.count);

@@ -142,13 +142,14 @@ void cli_run_emulation_json(const run_job *job, lrcs_host_json *json)
     double sampled = e->sampled.sigma_m2;
     double deep = e->deep.sigma_m2;
     double sigma = e->answer.sigma_m2;
-    cli_json(json,
-             "emulation={precision=%s depth_bits=%u reference_m2=%g reference_bound_m2=%g "
-             "sigma_double_m2=%g off_m2=%g sampling_m2=%g precision_m2=%g depth_m2=%g "
-             "running_sum_m2=%g}",
-             lrcs_precision_text(e->options.precision), e->options.depth_bits, e->reference_m2,
-             e->reference_bound_m2, sampled, sigma - e->reference_m2, sampled - e->reference_m2,
-             deep - sampled, sigma - deep, e->answer.running_m2 - sigma);
+    lrcs_host_json_put(
+        json,
+        "emulation={precision=%s depth_bits=%u reference_m2=%g reference_bound_m2=%g "
+        "sigma_double_m2=%g off_m2=%g sampling_m2=%g precision_m2=%g depth_m2=%g "
+        "running_sum_m2=%g}",
+        lrcs_precision_text(e->options.precision), e->options.depth_bits, e->reference_m2,
+        e->reference_bound_m2, sampled, sigma - e->reference_m2, sampled - e->reference_m2,
+        deep - sampled, sigma - deep, e->answer.running_m2 - sigma);
 }
 
 /* Prints a difference, in square metres and as a share of the reference. */

@@ -177,22 +177,23 @@ static double where_switched(int effect, double value)
 void cli_run_explain_json(const run_job *job, int effect, lrcs_host_json *json)
 {
     const run_explained_effect *e = &job->explained.effect[effect];
-    cli_json(json, "seconds=%g share=%g sigma_m2_flipped=%g", where_switched(effect, e->seconds),
-             where_switched(effect, e->seconds / job->explained.pose),
-             where_switched(effect, e->sigma_m2));
+    lrcs_host_json_put(json, "seconds=%g share=%g sigma_m2_flipped=%g",
+                       where_switched(effect, e->seconds),
+                       where_switched(effect, e->seconds / job->explained.pose),
+                       where_switched(effect, e->sigma_m2));
 }
 
 void cli_run_explain_stages_json(const run_job *job, lrcs_host_json *json)
 {
-    cli_json(json, "prepare_stages={");
+    lrcs_host_json_put(json, "prepare_stages={");
     for (int i = 0; i < LRCS_HOST_PREPARE_STAGES; i++) {
         lrcs_host_json_number(json, prepare_stage[i], job->scene.seconds_stage[i]);
     }
-    cli_json(json, "} pose_stages={");
+    lrcs_host_json_put(json, "} pose_stages={");
     for (int i = 0; i < LRCS_HOST_POSE_STAGES; i++) {
         lrcs_host_json_number(json, pose_stage[i], job->explained.stage[i]);
     }
-    cli_json(json, "}");
+    lrcs_host_json_put(json, "}");
 }
 
 /* ---- the table ---- */

@@ -62,22 +62,22 @@ static int is_assigned(const lrcs_scene *scene, uint32_t material)
 static void sensitivity_json(const run_job *job, lrcs_host_json *json)
 {
     const lrcs_scene *scene = &job->scene.scene;
-    cli_json(json, "sensitivity={\nmaterials=[\n");
+    lrcs_host_json_put(json, "sensitivity={\nmaterials=[\n");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_sensitivity *d = &job->sensitivity[i];
         if (is_assigned(scene, i)) {
-            cli_json(json, "{name=%s dA_m2_sr=%g dB_m2_sr=%g ds_m2=%g dm_m2=%g}",
-                     scene->material[i].name, d->dA, d->dB, d->ds, d->dm);
+            lrcs_host_json_put(json, "{name=%s dA_m2_sr=%g dB_m2_sr=%g ds_m2=%g dm_m2=%g}",
+                               scene->material[i].name, d->dA, d->dB, d->ds, d->dm);
         }
     }
-    cli_json(json, "] attitude={\n");
+    lrcs_host_json_put(json, "] attitude={\n");
     for (int i = 0; i < 2; i++) {
         lrcs_host_json_begin(json, i == 0 ? "about_x" : "about_y", LRCS_HOST_ROW_OBJECT);
-        cli_json(json, "m2_per_deg=%g bound_m2_per_deg=%g estimate_m2_per_deg=%g}",
-                 job->attitude.per_deg_m2[i], job->attitude.bound_m2[i],
-                 job->attitude.estimate_m2[i]);
+        lrcs_host_json_put(json, "m2_per_deg=%g bound_m2_per_deg=%g estimate_m2_per_deg=%g}",
+                           job->attitude.per_deg_m2[i], job->attitude.bound_m2[i],
+                           job->attitude.estimate_m2[i]);
     }
-    cli_json(json, "}}");
+    lrcs_host_json_put(json, "}}");
 }
 
 void cli_run_materials_json(const run_job *job, lrcs_host_json *json)
@@ -85,14 +85,16 @@ void cli_run_materials_json(const run_job *job, lrcs_host_json *json)
     const lrcs_uncertainty *u = &job->uncertainty;
     if (u->stated) {
         double none = (double)NAN;
-        cli_json(json, "material_uncertainty={deviation_m2=%g low_m2=%g high_m2=%g by=%s",
-                 u->deviation_m2, u->low_m2, u->high_m2, u->sampled ? "sample" : "first_order");
-        cli_json(json, "first_order_m2=%g sample_m2=%g sample_mean_m2=%g draws=%u seed=%llu}",
-                 u->first_order_m2, u->draws > 0 ? u->sample_m2 : none,
-                 u->draws > 0 ? u->sample_mean_m2 : none, u->draws,
-                 (unsigned long long)job->sampling.seed);
+        lrcs_host_json_put(json, "material_uncertainty={deviation_m2=%g low_m2=%g high_m2=%g by=%s",
+                           u->deviation_m2, u->low_m2, u->high_m2,
+                           u->sampled ? "sample" : "first_order");
+        lrcs_host_json_put(json,
+                           "first_order_m2=%g sample_m2=%g sample_mean_m2=%g draws=%u seed=%llu}",
+                           u->first_order_m2, u->draws > 0 ? u->sample_m2 : none,
+                           u->draws > 0 ? u->sample_mean_m2 : none, u->draws,
+                           (unsigned long long)job->sampling.seed);
     } else {
-        cli_json(json, "material_uncertainty=null");
+        lrcs_host_json_put(json, "material_uncertainty=null");
     }
     if (job->sensitivity_asked) {
         sensitivity_json(job, json);

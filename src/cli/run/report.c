@@ -33,66 +33,68 @@ static void json_head(const run_job *job, lrcs_host_json *json)
     cli_version_json(json);
     cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
     cli_files_json(&job->scene, json);
-    cli_json(json, "unit=%s sigma_m2=%g sigma_dbsm=%g tolerance={",
-             cli_scene_unit(job->args, &job->scene), result->sigma_m2,
-             result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN);
+    lrcs_host_json_put(json, "unit=%s sigma_m2=%g sigma_dbsm=%g tolerance={",
+                       cli_scene_unit(job->args, &job->scene), result->sigma_m2,
+                       result->sigma_m2 > 0.0 ? cli_dbsm(result->sigma_m2) : (double)NAN);
     if (!(job->asked > 0.0)) {
-        cli_json(json, "asked=null met=null accepted_by=null}");
+        lrcs_host_json_put(json, "asked=null met=null accepted_by=null}");
     } else if (result->flags & LRCS_FLAG_ACCEPTED_UNJUDGED) {
-        cli_json(json, "asked=%g met=null accepted_by=%s}", job->asked,
-                 cli_accepted_by(result->flags));
+        lrcs_host_json_put(json, "asked=%g met=null accepted_by=%s}", job->asked,
+                           cli_accepted_by(result->flags));
     } else {
-        cli_json(json, "asked=%g met=%d accepted_by=%s}", job->asked, job->met,
-                 cli_accepted_by(result->flags));
+        lrcs_host_json_put(json, "asked=%g met=%d accepted_by=%s}", job->asked, job->met,
+                           cli_accepted_by(result->flags));
     }
     if (job->budget.asked_ms > 0.0) {
-        cli_json(json, "time_budget={asked_ms=%g spent_ms=%g same_as=%s}", job->budget.asked_ms,
-                 job->budget.spent_ms, job->budget.same);
+        lrcs_host_json_put(json, "time_budget={asked_ms=%g spent_ms=%g same_as=%s}",
+                           job->budget.asked_ms, job->budget.spent_ms, job->budget.same);
     }
     if (job->options.steps != 0) {
-        cli_json(json, "steps={asked=%llu taken=%llu}", (unsigned long long)job->options.steps,
-                 (unsigned long long)result->steps);
+        lrcs_host_json_put(json, "steps={asked=%llu taken=%llu}",
+                           (unsigned long long)job->options.steps,
+                           (unsigned long long)result->steps);
     }
     if (job->emulation.asked) {
         cli_run_emulation_json(job, json);
     }
-    cli_json(json, result->resolution != 0 ? "resolution=%u" : "resolution=null",
-             result->resolution);
-    cli_json(json, "normals=%s estimate_m2=%g curvature_estimate_m2=%g notices=[\n",
-             lrcs_normals_text(job->scene.scene.normals), cli_known(result->estimate_m2),
-             cli_known(result->curvature_estimate_m2));
+    lrcs_host_json_put(json, result->resolution != 0 ? "resolution=%u" : "resolution=null",
+                       result->resolution);
+    lrcs_host_json_put(json, "normals=%s estimate_m2=%g curvature_estimate_m2=%g notices=[\n",
+                       lrcs_normals_text(job->scene.scene.normals), cli_known(result->estimate_m2),
+                       cli_known(result->curvature_estimate_m2));
     cli_run_notices(job, json);
-    cli_json(json, "]");
+    lrcs_host_json_put(json, "]");
 }
 
 static void json_effects(const run_job *job, lrcs_host_json *json)
 {
     const lrcs_result *result = &job->result;
-    cli_json(json, "effects=[\n");
+    lrcs_host_json_put(json, "effects=[\n");
     for (int i = 0; i < LRCS_EFFECTS; i++) {
-        cli_json(json, "{name=%s on=%d reason=%s", lrcs_effect_text(i), result->effect[i].on,
-                 result->effect[i].reason);
+        lrcs_host_json_put(json, "{name=%s on=%d reason=%s", lrcs_effect_text(i),
+                           result->effect[i].on, result->effect[i].reason);
         if (job->explain) {
             cli_run_explain_json(job, i, json);
         }
-        cli_json(json, "}");
+        lrcs_host_json_put(json, "}");
     }
-    cli_json(json, "]");
+    lrcs_host_json_put(json, "]");
     cli_flags_json(json, result->flags);
 }
 
 static void json_tail(const run_job *job, lrcs_host_json *json)
 {
     const lrcs_result *result = &job->result;
-    cli_json(json, "facets={total=%u front=%u hidden=%u partial=%u}", result->facets_total,
-             result->facets_front, result->facets_hidden, result->facets_partial);
+    lrcs_host_json_put(json, "facets={total=%u front=%u hidden=%u partial=%u}",
+                       result->facets_total, result->facets_front, result->facets_hidden,
+                       result->facets_partial);
     cli_direction_json(&job->pose, json);
-    cli_json(json, "seconds={load=%g prepare=%g pose=%g", job->scene.seconds_load,
-             job->scene.seconds_prepare, job->seconds);
+    lrcs_host_json_put(json, "seconds={load=%g prepare=%g pose=%g", job->scene.seconds_load,
+                       job->scene.seconds_prepare, job->seconds);
     if (job->explain) {
         cli_run_explain_stages_json(job, json);
     }
-    cli_json(json, "}");
+    lrcs_host_json_put(json, "}");
 }
 
 static void table_bound(const char *label, double bound)
@@ -157,27 +159,28 @@ void cli_run_json(const run_job *job)
     const lrcs_result *result = &job->result;
     lrcs_host_json json = lrcs_host_json_make(stdout);
     double box[2][3];
-    cli_json(&json, "{\n");
+    lrcs_host_json_put(&json, "{\n");
     json_head(job, &json);
-    cli_json(&json, "sigma_glint_m2=%g sigma_diffuse_m2=%g bound_m2=%g", result->sigma_glint_m2,
-             result->sigma_diffuse_m2, result->bound_m2);
-    cli_json(&json, "budget_m2={visibility=%g tessellation=%g rounding=%g}",
-             result->budget.visibility_m2, cli_known(result->budget.tessellation_m2),
-             result->budget.rounding_m2);
+    lrcs_host_json_put(&json, "sigma_glint_m2=%g sigma_diffuse_m2=%g bound_m2=%g",
+                       result->sigma_glint_m2, result->sigma_diffuse_m2, result->bound_m2);
+    lrcs_host_json_put(&json, "budget_m2={visibility=%g tessellation=%g rounding=%g}",
+                       result->budget.visibility_m2, cli_known(result->budget.tessellation_m2),
+                       result->budget.rounding_m2);
     cli_run_materials_json(job, &json);
-    cli_json(&json, "projected_area_m2=%g method=%s method_reason=%s", result->projected_area_m2,
-             lrcs_method_text(result->method), result->method_reason);
+    lrcs_host_json_put(&json, "projected_area_m2=%g method=%s method_reason=%s",
+                       result->projected_area_m2, lrcs_method_text(result->method),
+                       result->method_reason);
     json_effects(job, &json);
     json_tail(job, &json);
     lrcs_host_scene_box(&job->scene.scene, box[0], box[1]);
-    cli_numbers_json(&json, "box_min_m", box[0], 3);
-    cli_numbers_json(&json, "box_max_m", box[1], 3);
+    lrcs_host_json_numbers(&json, "box_min_m", box[0], 3);
+    lrcs_host_json_numbers(&json, "box_max_m", box[1], 3);
     cli_run_open_json(job, &json);
     cli_provenance_json(job->args, &job->scene, &json);
     if (job->shares_asked) {
         cli_shares_json(&job->shares, &json);
     }
-    cli_json(&json, "}");
+    lrcs_host_json_put(&json, "}");
 }
 
 void cli_run_table(const run_job *job)

@@ -55,16 +55,16 @@ int cli_run_open(run_job *job)
 void cli_run_open_json(const run_job *job, lrcs_host_json *json)
 {
     const run_open *open = &job->open;
-    cli_json(json,
-             "back_sides={area_m2=%g share_of_silhouette=%g sigma_two_sided_m2=%g} "
-             "coarse_glint={parts=%u sigma_glint_m2=%g error_estimate_m2=%g",
-             open->back_area_m2, open->back_share, open->back_sigma_m2, open->coarse,
-             open->glint.glint_m2, open->glint.error_m2);
+    lrcs_host_json_put(json,
+                       "back_sides={area_m2=%g share_of_silhouette=%g sigma_two_sided_m2=%g} "
+                       "coarse_glint={parts=%u sigma_glint_m2=%g error_estimate_m2=%g",
+                       open->back_area_m2, open->back_share, open->back_sigma_m2, open->coarse,
+                       open->glint.glint_m2, open->glint.error_m2);
     if (job->records || open->coarse == 0) {
-        cli_json(json, "one_facet_dominates=%d}",
-                 lrcs_host_glint_dominates(&open->glint, job->result.sigma_m2));
+        lrcs_host_json_put(json, "one_facet_dominates=%d}",
+                           lrcs_host_glint_dominates(&open->glint, job->result.sigma_m2));
     } else {
-        cli_json(json, "one_facet_dominates=null}"); /* not known */
+        lrcs_host_json_put(json, "one_facet_dominates=null}"); /* not known */
     }
 }
 

@@ -14,8 +14,8 @@
 
 /* ---- options ---- */
 
-int cli_brightest_read(const cli_args *args, const lrcs_host_plan *plan, const sweep_file *file,
-                       uint32_t *most)
+int cli_brightest_read(const cli_args *args, const lrcs_host_plan *plan,
+                       const lrcs_host_sweep_output *file, uint32_t *most)
 {
     int code = cli_whole(args, "brightest", 1.0, BRIGHTEST_MOST, most);
     if (code != 0 || *most == 0) {

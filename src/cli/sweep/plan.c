@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What a sweep varies, as options give it: which of them exclude each other, and which rows a shard
-   has. The host makes the plan of them. */
+   has; and where its rows go. The host makes the plan of them. */
 #include "cli/sweep/sweep.h"
 
 #include <stdlib.h>
@@ -116,4 +116,32 @@ int cli_shard_read(const cli_args *args, const lrcs_host_plan *plan, uint64_t *f
     *first = whole * (k - 1) + rest * (k - 1) / shards;
     *end = whole * k + rest * k / shards;
     return 0;
+}
+
+int cli_rows_output_read(const cli_args *args, lrcs_host_sweep_output *output)
+{
+    static const char *const extension[] = {".csv", ".jsonl", ".npy"}; /* by format; of a map */
+    const char *path = cli_value(args, "o");
+    int lines = cli_value(args, "json") != NULL;
+    int format = lines ? LRCS_HOST_ROWS_JSONL : LRCS_HOST_ROWS_CSV;
+    int kind = 0;
+    lrcs_host_error error;
+    path = path && strcmp(path, "-") == 0 ? NULL : path;
+    lrcs_host_sweep_output_make(NULL, format, 0, output, NULL);
+    if (!path && cli_value(args, "resume")) {
+        return cli_usage(args->command, "--resume needs -o FILE: it goes on with that file");
+    }
+    if (path && lines) {
+        return cli_usage(args->command, "--json is for standard output; -o FILE.jsonl writes it");
+    }
+    while (path && kind < 3 && !cli_extension(path, extension[kind])) {
+        kind++;
+    }
+    if (kind == 3) {
+        return cli_expected(args, "o", "FILE.csv, FILE.jsonl or FILE.npy");
+    }
+    return !path || lrcs_host_sweep_output_make(path, kind == 1, kind == 2, output, &error) ==
+                        LRCS_OK
+               ? 0
+               : cli_failed(&error);
 }

@@ -145,7 +145,7 @@ static void stats_print(FILE *out, const sweep_stats *stats)
 static void band_json(lrcs_host_json *json, double low, double high)
 {
     if (high >= 0.0) {
-        cli_json(json, "material_low=%g material_high=%g", low, high);
+        lrcs_host_json_put(json, "material_low=%g material_high=%g", low, high);
     }
 }
 
@@ -153,9 +153,9 @@ static void value_json(lrcs_host_json *json, const char *key, const lrcs_distrib
 {
     const double *at = value->at;
     lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
-    cli_json(json, "value=%g least=%g most=%g", at[VALUE], at[LEAST], at[MOST]);
+    lrcs_host_json_put(json, "value=%g least=%g most=%g", at[VALUE], at[LEAST], at[MOST]);
     band_json(json, at[LOW], at[HIGH]);
-    cli_json(json, "}");
+    lrcs_host_json_put(json, "}");
 }
 
 static void row_json(lrcs_host_json *json, const char *key, const sweep_stats *stats,
@@ -164,13 +164,13 @@ static void row_json(lrcs_host_json *json, const char *key, const sweep_stats *s
     double value[LRCS_HOST_PLAN_COLUMNS];
     lrcs_host_plan_values(stats->plan, row->index, value);
     lrcs_host_json_begin(json, key, LRCS_HOST_ROW_OBJECT);
-    cli_json(json, "sigma_m2=%g bound_m2=%g", row->sigma_m2, row->bound_m2);
+    lrcs_host_json_put(json, "sigma_m2=%g bound_m2=%g", row->sigma_m2, row->bound_m2);
     band_json(json, row->low_m2, row->high_m2);
-    cli_json(json, "index=%llu", (unsigned long long)row->index);
+    lrcs_host_json_put(json, "index=%llu", (unsigned long long)row->index);
     for (uint32_t i = 0; i < stats->plan->columns; i++) {
         lrcs_host_json_number(json, stats->plan->column[i], value[i]);
     }
-    cli_json(json, "}");
+    lrcs_host_json_put(json, "}");
 }
 
 static void stats_json(FILE *out, const void *context)
@@ -178,37 +178,39 @@ static void stats_json(FILE *out, const void *context)
     const sweep_stats *stats = context;
     const lrcs_host_rows_head *head = stats->head;
     lrcs_host_json json = lrcs_host_json_make(out);
-    cli_json(&json, "{\nlrcs=%s", "statistics");
+    lrcs_host_json_put(&json, "{\nlrcs=%s", "statistics");
     cli_version_json(&json);
     cli_hash_json(head->scene_hash, &json);
-    cli_json(&json, "rows=%llu weights=%s", (unsigned long long)stats->all.rows, stats->weights);
+    lrcs_host_json_put(&json, "rows=%llu weights=%s", (unsigned long long)stats->all.rows,
+                       stats->weights);
     value_json(&json, "mean_m2", &stats->all.mean_m2);
-    cli_json(&json, "standard_error_m2=%g",
-             lrcs_host_plan_is_sphere(stats->plan) ? stats->all.standard_error_m2 : (double)NAN);
+    lrcs_host_json_put(&json, "standard_error_m2=%g",
+                       lrcs_host_plan_is_sphere(stats->plan) ? stats->all.standard_error_m2
+                                                             : (double)NAN);
     row_json(&json, "least", stats, &stats->row[0]);
     row_json(&json, "most", stats, &stats->row[stats->all.rows - 1]);
-    cli_json(&json, "percentiles=[\n");
+    lrcs_host_json_put(&json, "percentiles=[\n");
     for (int k = 0; k < LRCS_DISTRIBUTION_PERCENTS; k++) {
-        cli_json(&json, "{percent=%u", stats->all.percent[k]);
+        lrcs_host_json_put(&json, "{percent=%u", stats->all.percent[k]);
         value_json(&json, "sigma_m2", &stats->all.percentile_m2[k]);
-        cli_json(&json, "}");
+        lrcs_host_json_put(&json, "}");
     }
-    cli_json(&json, "] cdf=[\n");
+    lrcs_host_json_put(&json, "] cdf=[\n");
     for (uint32_t i = 0; i <= stats->all.bins && stats->all.bins > 0; i++) {
         lrcs_distribution_value share;
         for (int end = 0; end < LRCS_DISTRIBUTION_ENDS; end++) {
             share.at[end] = stats->all.cdf[end][i];
         }
-        cli_json(&json, "{sigma_dbsm=%g sigma_m2=%g", stats->all.edge_dbsm[i],
-                 stats->all.edge_m2[i]);
+        lrcs_host_json_put(&json, "{sigma_dbsm=%g sigma_m2=%g", stats->all.edge_dbsm[i],
+                           stats->all.edge_m2[i]);
         value_json(&json, "share", &share);
-        cli_json(&json, "}");
+        lrcs_host_json_put(&json, "}");
     }
-    cli_json(&json, "] sweep={\n");
+    lrcs_host_json_put(&json, "] sweep={\n");
     for (uint32_t i = 0; i < head->options; i++) {
         lrcs_host_json_text(&json, head->option[i].key, head->option[i].text);
     }
-    cli_json(&json, "}}");
+    lrcs_host_json_put(&json, "}}");
 }
 
 /* ---- CSV ---- */
@@ -225,11 +227,11 @@ static void stats_csv(FILE *out, const void *context)
     fprintf(out, "\nto_dbsm,to_m2,share,cdf,cdf_least,cdf_most%s\n",
             stats->all.banded ? ",cdf_material_low,cdf_material_high" : "");
     for (uint32_t i = 0; i <= stats->all.bins && stats->all.bins > 0; i++) {
-        cli_number_put(out, "", stats->all.edge_dbsm[i]);
-        cli_number_put(out, ",", stats->all.edge_m2[i]);
-        cli_number_put(out, ",", i > 0 ? stats->all.share[i - 1] : stats->all.cdf[VALUE][0]);
+        lrcs_host_number_put(out, "", stats->all.edge_dbsm[i]);
+        lrcs_host_number_put(out, ",", stats->all.edge_m2[i]);
+        lrcs_host_number_put(out, ",", i > 0 ? stats->all.share[i - 1] : stats->all.cdf[VALUE][0]);
         for (int k = 0; k < (stats->all.banded ? 5 : 3); k++) {
-            cli_number_put(out, ",", stats->all.cdf[column[k]][i]);
+            lrcs_host_number_put(out, ",", stats->all.cdf[column[k]][i]);
         }
         putc('\n', out);
     }

@@ -87,7 +87,7 @@ typedef struct sweep_job {
     const cli_args *args;
     lrcs_host_plan plan;
     lrcs_host_rows_head head;
-    sweep_file file;
+    lrcs_host_sweep_output file;
     cli_progress progress;
     sweep_plot plot;
     uint32_t brightest;
@@ -144,7 +144,7 @@ static void signals_watch(void)
 static int job_read(sweep_job *job)
 {
     const cli_args *args = job->args;
-    int code = cli_file_read(args, &job->file);
+    int code = cli_rows_output_read(args, &job->file);
     code = code ? code : cli_whole(args, "jobs", 1.0, JOBS_MOST, &job->threads);
     code = code ? code : cli_accuracy_read(args, &job->options);
     code = code ? code : cli_scene_options_read(args, &job->load);
@@ -226,7 +226,7 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
         row.field[LRCS_HOST_ROW_DOMINATED] = lrcs_host_glint_dominates(glint, result->sigma_m2);
     }
     job->notices |= result->notices;
-    int status = cli_file_put(&job->file, &row, error);
+    int status = lrcs_host_sweep_output_put(&job->file, &row, error);
     cli_progress_show(&job->progress, job->file.next - job->file.first);
     return status;
 }
@@ -348,12 +348,15 @@ static int job_rows(sweep_job *job)
             return cli_out_of_memory();
         }
     }
-    int code = cli_file_open(args, &job->file);
-    if (code != 0) {
-        return code;
+    lrcs_host_error error;
+    int resume = cli_value(args, "resume") != NULL;
+    if (lrcs_host_sweep_output_open(&job->file, resume, &error) != LRCS_OK) {
+        return cli_failed(&error);
     }
-    code = job_run(job);
-    int closed = cli_file_close(&job->file, code == 0);
+    int code = job_run(job);
+    int closed = lrcs_host_sweep_output_close(&job->file, code == 0, &error);
+    /* cli_finish checks standard output */
+    closed = closed == LRCS_OK || !job->file.path ? 0 : cli_failed(&error);
     if (code != 0 && job->file.next > job->file.first && job->file.path && closed == 0) {
         fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume goes on with them\n",
                 job->file.partial, (unsigned long long)(job->file.next - job->file.first),
@@ -433,7 +436,7 @@ static int sweep_command(const cli_args *args)
     free(job->row);
     free(job->band);
     free(job->coarse);
-    cli_file_free(&job->file);
+    lrcs_host_sweep_output_free(&job->file);
     lrcs_host_plan_free(&job->plan);
     lrcs_host_scene_free(&job->scene);
     cli_scene_options_free(&job->load);

@@ -29,45 +29,9 @@ int cli_shard_read(const cli_args *args, const lrcs_host_plan *plan, uint64_t *f
 int cli_head_make(const cli_args *args, const lrcs_host_plan *plan, const lrcs_run_options *options,
                   const lrcs_host_scene *scene, int coarse, lrcs_host_rows_head *head);
 
-/* ---- files ---- */
-
-/* The destination of rows: standard output, or FILE.partial, which becomes FILE when it is complete
-   and is valid after every line before that. */
-typedef struct sweep_file {
-    int format;                       /* of the rows, lrcs_host_rows_format */
-    int npy;                          /* 1 if the rows become a map at the end */
-    char *path, *partial, *lock_path; /* NULL: standard output */
-    int lock;                         /* descriptor of FILE.lock; 0 if not locked */
-    int descriptor;                   /* descriptor of FILE.partial; 0 if not open */
-    FILE *stream;                     /* rows not yet written, in memory */
-    char *waiting;                    /* those bytes */
-    size_t waiting_size;
-    uint64_t size, sum; /* number of bytes in FILE.partial before its checksum, and that checksum */
-    const lrcs_host_plan *plan;
-    const lrcs_host_rows_head *head;
-    uint64_t first, end; /* the rows of this shard */
-    uint64_t next;       /* the next row to be written */
-    lrcs_host_tally tally;
-    double flushed;    /* time of the last write, s */
-    double (*row)[2];  /* sigma and bound of every row, or NULL; freed by its creator */
-    double (*band)[2]; /* the interval of its material uncertainty, likewise */
-} sweep_file;
-
-/* Reads -o and --json; 0 or CLI_USAGE. */
-int cli_file_read(const cli_args *args, sweep_file *file);
-
-/* Locks the file; then begins, or continues if --resume finds rows with the same head. A second
-   process is refused with a message that names the holder of the lock. The caller sets plan, head,
-   first and end. 0 or CLI_FAILED. */
-int cli_file_open(const cli_args *args, sweep_file *file);
-
-/* Writes one row. Status: LRCS_OK; LRCS_E_SYSTEM if it could not be written. */
-int cli_file_put(sweep_file *file, const lrcs_host_row *row, lrcs_host_error *error);
-
-/* Ends the output: with all rows FILE.partial becomes FILE; with some it is kept, with none it is
-   removed. 0 or CLI_FAILED. */
-int cli_file_close(sweep_file *file, int all);
-void cli_file_free(sweep_file *file);
+/* -o and --json: where rows go; 0, CLI_FAILED or CLI_USAGE. The caller frees the output in any
+   case. */
+int cli_rows_output_read(const cli_args *args, lrcs_host_sweep_output *output);
 
 /* ---- plots ---- */
 
@@ -120,8 +84,8 @@ int cli_row_shares(const lrcs_host_plan *plan, uint64_t row, lrcs_host_scene *ba
 /* --brightest: reads the number of peaks, 0 if it was not given; 0 or CLI_USAGE. Then prints their
    table on stdout; 0 or CLI_FAILED. Peaks that are the normal of a facet of a coarse curved part
    are marked: flat facets glint there although the curved body need not. */
-int cli_brightest_read(const cli_args *args, const lrcs_host_plan *plan, const sweep_file *file,
-                       uint32_t *most);
+int cli_brightest_read(const cli_args *args, const lrcs_host_plan *plan,
+                       const lrcs_host_sweep_output *file, uint32_t *most);
 int cli_brightest_print(const lrcs_host_plan *plan, const double (*row)[2], uint32_t most,
                         lrcs_host_scene *base, const lrcs_run_options *options,
                         const lrcs_build_options *build, const lrcs_host_glint *coarse,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Compares the submitted visible areas with the truth's, facet by facet: how facets differ, and
    which ones change sigma most. This only explains; the verdict depends on sigma alone. */
-#include "host/kit.h"
+#include "host/kit/kit.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -96,8 +96,7 @@ static void facet_compare(facets_read *facets, const lrcs_host_kit_case *one, ui
        (two if outlines of other facets cross it) and a pixel. */
     double pixel = one->side_m / job->pixels;
     double outlines = truth >= (1.0 - NONE_SEEN) * whole ? 1.0 : 2.0;
-    double raster =
-        outlines * lrcs_host_kit_outline(scene, facet, &one->pose) * pixel + pixel * pixel;
+    double raster = outlines * lrcsi_kit_outline(scene, facet, &one->pose) * pixel + pixel * pixel;
     double allowed =
         job->grade == LRCS_HOST_GRADE_RASTER ? fmax(SEEN * whole, raster) : SEEN * whole;
     lrcs_host_kit_facet off = {.one = one, .facet = facet, .theirs_m2 = theirs, .truth_m2 = truth};

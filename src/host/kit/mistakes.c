@@ -3,7 +3,7 @@
    and the answer that a code with a mistake would produce for a case: the sum of Eq. 2 over the
    truth's facets, with the mistake applied. kit_explain.c decides which of them explains the
    submitted answers. */
-#include "host/kit_search.h"
+#include "host/kit/search.h"
 
 #include <math.h>
 #include <stdlib.h>

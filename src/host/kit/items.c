@@ -2,7 +2,7 @@
 /* Compares the submitted item images with the truth's, pixel by pixel: which are rotated or
    mirrored, number facets from another base, lose facets or show hidden ones. This only explains;
    the verdict depends on sigma alone. */
-#include "host/kit.h"
+#include "host/kit/kit.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -2,7 +2,7 @@
 /* Reads a kit from its files: materials and cases from their tables, scenes through the engine when
    they are needed. Nothing of the kit is taken from this program, so that an older kit gives the
    same verdict as before. */
-#include "host/kit.h"
+#include "host/kit/kit.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -98,7 +98,7 @@ static int kit_case_read(const lrcsi_kit_table *table, lrcs_host_kit *kit)
     if (!(value[CASE_IMAGE] >= 0.0 && value[CASE_IMAGE] <= 16384.0)) {
         return lrcsi_kit_table_refuse(table, CASE_IMAGE, "0 .. 16384");
     }
-    if (lrcs_host_kit_pose(one->quaternion, one->direction, &one->pose) != LRCS_OK) {
+    if (lrcsi_kit_pose(one->quaternion, one->direction, &one->pose) != LRCS_OK) {
         return lrcsi_kit_table_refuse(table, CASE_QUATERNION, "an attitude");
     }
     one->tier = (int)value[CASE_TIER];
@@ -184,7 +184,7 @@ void lrcs_host_kit_free(lrcs_host_kit *kit)
 
 /* ---- scenes ---- */
 
-int lrcs_host_kit_pose(const double quaternion[4], const double direction[3], lrcs_pose *pose)
+int lrcsi_kit_pose(const double quaternion[4], const double direction[3], lrcs_pose *pose)
 {
     lrcs_pose turned;
     lrcs_pose aimed;
@@ -197,7 +197,7 @@ int lrcs_host_kit_pose(const double quaternion[4], const double direction[3], lr
     return status;
 }
 
-double lrcs_host_kit_outline(const lrcs_scene *scene, uint32_t facet, const lrcs_pose *pose)
+double lrcsi_kit_outline(const lrcs_scene *scene, uint32_t facet, const lrcs_pose *pose)
 {
     double length = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -213,8 +213,8 @@ double lrcs_host_kit_outline(const lrcs_scene *scene, uint32_t facet, const lrcs
     return length;
 }
 
-int lrcs_host_kit_scene_read(const char *folder, const char *name, const lrcs_binding *binding,
-                             uint32_t count, lrcs_host_scene *scene, lrcs_host_error *error)
+int lrcsi_kit_scene_read(const char *folder, const char *name, const lrcs_binding *binding,
+                         uint32_t count, lrcs_host_scene *scene, lrcs_host_error *error)
 {
     lrcs_host_options options = lrcs_host_options_default();
     char path[LRCSI_KIT_PATH];
@@ -233,8 +233,8 @@ int lrcsi_kit_scene(const lrcs_host_kit *kit, lrcs_host_kit_scene *scene, lrcs_h
         return LRCS_OK;
     }
     scene->loaded = 1;
-    int status = lrcs_host_kit_scene_read(kit->folder, scene->name, kit->binding, kit->bindings,
-                                          &scene->host, error);
+    int status = lrcsi_kit_scene_read(kit->folder, scene->name, kit->binding, kit->bindings,
+                                      &scene->host, error);
     if (status != LRCS_OK) {
         return status;
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Tables with named columns, as other programs write them: which columns they have, and what a
    valid name and a valid answer are. Faults are reported with line and column. */
-#include "host/kit_table.h"
+#include "host/kit/table.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -3,7 +3,7 @@
    zeros, another unit than the column states, rows shifted by one, too few digits. Others follow
    from which cases fail, and by how much: depths that are too coarse, single precision, a raster,
    or a factor that all answers share. */
-#include "host/kit_search.h"
+#include "host/kit/search.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,14 +2,14 @@
 /* Writes what the laser sees of a case, pixel by pixel: facet and depth at the centre of each, as
    raw data for programs and as PNG for people. Row 0 is at the top, column 0 at the left;
    little-endian on every machine. */
-#include "cli/vectors/vectors.h"
+#include "host/kit/vectors.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct images_case {
-    const vectors_case *one;
+    const lrcsi_vectors_case *one;
     const lrcs_scene *scene;
     const lrcs_image *image;
     double *depth; /* m towards the laser, NaN if there is no facet */
@@ -23,22 +23,26 @@ static void bytes_put(FILE *out, uint64_t value, int count)
     }
 }
 
-static void item_raw(FILE *out, const void *context)
+static int item_raw(FILE *out, const void *context, lrcs_host_error *error)
 {
+    (void)error;
     const lrcs_image *image = ((const images_case *)context)->image;
     for (size_t i = 0; i < (size_t)image->size * image->size; i++) {
         bytes_put(out, image->facet[i], 4);
     }
+    return LRCS_OK;
 }
 
-static void depth_raw(FILE *out, const void *context)
+static int depth_raw(FILE *out, const void *context, lrcs_host_error *error)
 {
+    (void)error;
     const images_case *file = context;
     for (size_t i = 0; i < (size_t)file->image->size * file->image->size; i++) {
         uint64_t bits;
         memcpy(&bits, &file->depth[i], sizeof bits);
         bytes_put(out, isnan(file->depth[i]) ? 0x7ff8000000000000u : bits, 8);
     }
+    return LRCS_OK;
 }
 
 /* Facets as colours: facet + 1 as red * 65536 + green * 256 + blue, black for none (3 channels); or
@@ -50,8 +54,7 @@ static int png_make(FILE *out, const images_case *file, uint32_t channels, lrcs_
     double range = file->nearest - file->farthest;
     unsigned char *pixels = malloc(count * channels);
     if (!pixels) {
-        snprintf(error->text, sizeof error->text, "out of memory");
-        return LRCS_E_SYSTEM;
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
     }
     for (size_t i = 0; i < count; i++) {
         uint32_t id = file->image->facet[i] + 1u;
@@ -112,25 +115,27 @@ static void depth_fill(images_case *file)
     }
 }
 
-int cli_vectors_images(const vectors_job *job, const vectors_case *one, const lrcs_scene *scene,
-                       const lrcs_image *image)
+int lrcsi_vectors_images_write(const lrcsi_vectors_job *job, const lrcsi_vectors_case *one,
+                               const lrcs_scene *scene, const lrcs_image *image,
+                               lrcs_host_error *error)
 {
-    static const vectors_file file[] = {{"item.u32", item_raw, NULL},
-                                        {"item.png", NULL, item_png},
-                                        {"depth.f64", depth_raw, NULL},
-                                        {"depth.png", NULL, depth_png}};
+    static const lrcsi_vectors_file file[] = {{"item.u32", item_raw},
+                                              {"item.png", item_png},
+                                              {"depth.f64", depth_raw},
+                                              {"depth.png", depth_png}};
     images_case context = {.one = one, .scene = scene, .image = image};
-    char prefix[KIT_PATH];
-    if (cli_kit_path(prefix, "%s/truth/%s.%s.", job->folder, one->scene->name,
-                     one->attitude->name) != 0) {
-        return CLI_FAILED;
+    char prefix[LRCSI_KIT_PATH];
+    int status = lrcsi_kit_path(prefix, error, "%s/truth/%s.%s.", job->folder, one->scene->name,
+                                one->attitude->name);
+    if (status != LRCS_OK) {
+        return status;
     }
     context.depth = malloc((size_t)image->size * image->size * sizeof *context.depth);
     if (!context.depth) {
-        return cli_out_of_memory();
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
     }
     depth_fill(&context);
-    int code = cli_vectors_write(prefix, file, 4, &context);
+    status = lrcsi_vectors_write(prefix, file, 4, &context, error);
     free(context.depth);
-    return code;
+    return status;
 }

@@ -4,7 +4,7 @@
 #ifndef LRCSI_KIT_SEARCH_H
 #define LRCSI_KIT_SEARCH_H
 
-#include "host/kit.h"
+#include "host/kit/kit.h"
 
 /* ---- mistakes ---- */
 

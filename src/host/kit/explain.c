@@ -4,7 +4,7 @@
    differences is a finding, described in a sentence; the remaining differences are examined again.
    An explanation is not a proof: the report states how many cases it explains, and which cases
    remain unexplained. */
-#include "host/kit_search.h"
+#include "host/kit/search.h"
 
 #include <math.h>
 #include <stdarg.h>

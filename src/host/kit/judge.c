@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The allowed error in each class, and the class of each case. kit_explain.c decides why answers
    differ. */
-#include "host/kit.h"
+#include "host/kit/kit.h"
 
 #include <math.h>
 

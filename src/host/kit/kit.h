@@ -3,12 +3,25 @@
 #ifndef LRCSI_KIT_H
 #define LRCSI_KIT_H
 
-#include "host/kit_table.h"
+#include "host/kit/table.h"
 
 /* Writes a path; LRCS_E_LIMIT if it does not fit. */
 #define LRCSI_KIT_PATH 4096u
 __attribute__((format(printf, 3, 4))) int
 lrcsi_kit_path(char path[LRCSI_KIT_PATH], lrcs_host_error *error, const char *format, ...);
+
+/* A pose of a kit: the direction is that of the truth, bit for bit; the quaternion adds the roll.
+   Status: as lrcs_pose_from_quaternion and lrcs_pose_from_direction. */
+int lrcsi_kit_pose(const double quaternion[4], const double direction[3], lrcs_pose *pose);
+
+/* The length of a facet's outline in the view plane, m. */
+double lrcsi_kit_outline(const lrcs_scene *scene, uint32_t facet, const lrcs_pose *pose);
+
+/* Reads FOLDER/scenes/NAME.obj, assigns materials by these bindings, and prepares it.
+   Returned: scene, to be freed in any case.
+   Status: as lrcs_host_scene_read and lrcs_host_scene_prepare. */
+int lrcsi_kit_scene_read(const char *folder, const char *name, const lrcs_binding *binding,
+                         uint32_t count, lrcs_host_scene *scene, lrcs_host_error *error);
 
 /* The scene's facets, prepared; the truth's records of a case. Status: as lrcs_host_judge. */
 int lrcsi_kit_scene(const lrcs_host_kit *kit, lrcs_host_kit_scene *scene, lrcs_host_error *error);

@@ -3,7 +3,7 @@
    scene is the one that others read. This file also decides what errors are allowed for single
    precision and for a raster; these are not bounds but the typical size of the errors of such
    codes. */
-#include "cli/vectors/vectors.h"
+#include "host/kit/vectors.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@
 #define PARTLY_SEEN 0.999
 
 typedef struct truth_run {
-    const vectors_job *job;
+    const lrcsi_vectors_job *job;
     lrcs_host_scene host;
     lrcs_facet_record *records; /* records of one case */
     lrcs_image image;
@@ -58,23 +58,25 @@ static double facet_edge(const lrcs_scene *scene, const lrcs_facet_record *recor
         return 0.0;
     }
     double pixels = record->visible_area_m2 < PARTLY_SEEN * whole ? 1.0 : 0.5;
-    return pixels * lrcs_host_kit_outline(scene, facet, pose) * record->sigma_m2 /
+    return pixels * lrcsi_kit_outline(scene, facet, pose) * record->sigma_m2 /
            record->visible_area_m2;
 }
 
 /* ---- a case ---- */
 
-static int case_run(truth_run *run, vectors_case *one)
+static int case_run(truth_run *run, lrcsi_vectors_case *one, lrcs_host_error *error)
 {
     lrcs_run_options options = lrcs_run_options_default();
     options.method = LRCS_METHOD_EXACT;
-    if (cli_scene_run(&run->host, &one->pose, &options, &one->result, run->records, &run->image,
-                      NULL) != 0) {
-        return CLI_FAILED;
+    int status = lrcs_host_scene_run(&run->host, &one->pose, &options, &one->result, run->records,
+                                     &run->image, NULL, error);
+    if (status != LRCS_OK) {
+        return status;
     }
     if (one->result.method != LRCS_METHOD_EXACT ||
         (one->result.flags & LRCS_FLAG_MEMORY_FALLBACK)) {
-        return cli_fail("%s, %s: no exact truth here", one->scene->name, one->attitude->name);
+        return lrcsi_host_fail(error, LRCS_E_UNSUPPORTED, "%s, %s: no exact truth here",
+                               one->scene->name, one->attitude->name);
     }
     one->window[0] = run->image.left_m;
     one->window[1] = run->image.top_m;
@@ -87,55 +89,54 @@ static int case_run(truth_run *run, vectors_case *one)
         one->float_m2 += facet_float(record, &scene->material[scene->facet_material[i]].brdf);
         square += edge * edge;
         fprintf(run->out, "%s,%s,%lu", one->scene->name, one->attitude->name, (unsigned long)i);
-        cli_number_put(run->out, ",", record->cos_theta);
-        cli_number_put(run->out, ",", record->visible_area_m2);
-        cli_number_put(run->out, ",", record->sigma_m2);
+        lrcs_host_number_put(run->out, ",", record->cos_theta);
+        lrcs_host_number_put(run->out, ",", record->visible_area_m2);
+        lrcs_host_number_put(run->out, ",", record->sigma_m2);
         putc('\n', run->out);
     }
     one->edge_m2 = sqrt(square) * one->window[2];
-    return one->image ? cli_vectors_images(run->job, one, scene, &run->image) : 0;
+    return one->image ? lrcsi_vectors_images_write(run->job, one, scene, &run->image, error)
+                      : LRCS_OK;
 }
 
 /* Writes NAME.facets.csv with the facets of all cases, and runs the cases for it. */
-static int truth_file(truth_run *run, vectors_job *job, const vectors_scene *scene)
+static int truth_file(truth_run *run, lrcsi_vectors_job *job, const lrcsi_vectors_scene *scene,
+                      lrcs_host_error *error)
 {
-    lrcs_host_error error;
     lrcs_host_output out;
-    char path[KIT_PATH];
-    if (cli_kit_path(path, "%s/truth/%s.facets.csv", job->folder, scene->name) != 0) {
-        return CLI_FAILED;
+    char path[LRCSI_KIT_PATH];
+    int status = lrcsi_kit_path(path, error, "%s/truth/%s.facets.csv", job->folder, scene->name);
+    status = status == LRCS_OK ? lrcs_host_output_open(path, &out, error) : status;
+    if (status != LRCS_OK) {
+        return status;
     }
-    if (lrcs_host_output_open(path, &out, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    int code = 0;
     run->out = out.stream;
     fputs("scene,attitude,facet,cos_theta,visible_area_m2,sigma_m2\n", run->out);
-    for (uint32_t i = 0; i < job->cases && code == 0; i++) {
-        code = job->list[i].scene == scene ? case_run(run, &job->list[i]) : 0;
+    for (uint32_t i = 0; i < job->cases && status == LRCS_OK; i++) {
+        status = job->list[i].scene == scene ? case_run(run, &job->list[i], error) : LRCS_OK;
     }
-    if (lrcs_host_output_close(&out, code == 0, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    return code;
+    int good = status == LRCS_OK;
+    int closed = lrcs_host_output_close(&out, good, good ? error : NULL);
+    return good ? closed : status;
 }
 
-int cli_vectors_truth(vectors_job *job, const vectors_scene *scene)
+int lrcsi_vectors_truth_write(lrcsi_vectors_job *job, const lrcsi_vectors_scene *scene,
+                              lrcs_host_error *error)
 {
     truth_run run = {.job = job};
-    lrcs_host_error error;
-    int status = lrcs_host_kit_scene_read(job->folder, scene->name, job->binding, job->bindings,
-                                          &run.host, &error);
-    int code = status == LRCS_OK ? 0 : cli_failed(&error);
-    if (code == 0) {
+    int status = lrcsi_kit_scene_read(job->folder, scene->name, job->binding, job->bindings,
+                                      &run.host, error);
+    if (status == LRCS_OK) {
         uint32_t side = job->resolution > 0 ? job->resolution : 1;
         run.image.size = side;
         run.image.facet = malloc((size_t)side * side * sizeof *run.image.facet);
         run.records = malloc(((size_t)run.host.scene.facet_count + 1) * sizeof *run.records);
-        code = run.image.facet && run.records ? truth_file(&run, job, scene) : cli_out_of_memory();
+        status = run.image.facet && run.records
+                     ? truth_file(&run, job, scene, error)
+                     : lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
     }
     free(run.image.facet);
     free(run.records);
     lrcs_host_scene_free(&run.host);
-    return code;
+    return status;
 }

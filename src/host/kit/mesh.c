@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Makes facets from a scene of the tables. This file decides their order, their winding
+/* Makes the facets of a scene of a kit from its row. This file decides their order, their winding
    (counter-clockwise seen from outside) and the division into facets; all coordinates are rounded
    to single precision, so that a code that works in single precision starts from the same body. It
    has simple loops of its own: a kit from the engine's own meshes would not test them. */
-#include "cli/vectors/vectors.h"
+#include "host/kit/vectors.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,9 +11,9 @@
 
 /* The item that is being built. */
 typedef struct mesh_build {
-    vectors_mesh *mesh;
-    const vectors_scene *scene;
-    const vectors_item *item;
+    lrcsi_vectors_mesh *mesh;
+    const lrcsi_vectors_scene *scene;
+    const lrcsi_vectors_item *item;
     lrcs_pose turn;
     uint32_t first; /* first vertex of the item: earlier ones are not shared */
 } mesh_build;
@@ -33,9 +33,9 @@ static void *room_grow(void *list, uint32_t *room, uint32_t used, size_t size)
 
 /* The index of a point of the item, in the scene's coordinates and in single precision; points of
    the same item are shared. */
-static uint32_t point_add(mesh_build *build, const double p[3])
+static uint32_t mesh_point(mesh_build *build, const double p[3])
 {
-    vectors_mesh *mesh = build->mesh;
+    lrcsi_vectors_mesh *mesh = build->mesh;
     lrcs_point placed;
     for (int k = 0; k < 3; k++) {
         const double *row = build->turn.R[k];
@@ -59,22 +59,22 @@ static uint32_t point_add(mesh_build *build, const double p[3])
 }
 
 /* Adds a triangle unless two of its corners coincide. */
-static void triangle_add(mesh_build *build, size_t face, const double *a, const double *b,
-                         const double *c)
+static void mesh_triangle(mesh_build *build, size_t face, const double *a, const double *b,
+                          const double *c)
 {
-    vectors_mesh *mesh = build->mesh;
+    lrcsi_vectors_mesh *mesh = build->mesh;
     const char *letters = build->item->material; /* the last one applies to all other faces */
     char letter = letters[face < strlen(letters) ? face : strlen(letters) - 1];
     uint32_t material = 0;
     if (letter == '-' || mesh->failed) {
         return;
     }
-    while (cli_vectors_materials[material].name &&
-           cli_vectors_materials[material].letter != letter) {
+    while (lrcsi_vectors_materials[material].name &&
+           lrcsi_vectors_materials[material].letter != letter) {
         material++;
     }
     uint32_t room = mesh->facet_room;
-    lrcs_facet facet = {{point_add(build, a), point_add(build, b), point_add(build, c)}};
+    lrcs_facet facet = {{mesh_point(build, a), mesh_point(build, b), mesh_point(build, c)}};
     const uint32_t *v = facet.corner;
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
         return;
@@ -88,13 +88,13 @@ static void triangle_add(mesh_build *build, size_t face, const double *a, const 
     }
 }
 
-static void quad_add(mesh_build *build, size_t face, double p[4][3])
+static void mesh_quad(mesh_build *build, size_t face, double p[4][3])
 {
-    triangle_add(build, face, p[0], p[1], p[2]);
-    triangle_add(build, face, p[0], p[2], p[3]);
+    mesh_triangle(build, face, p[0], p[1], p[2]);
+    mesh_triangle(build, face, p[0], p[2], p[3]);
 }
 
-static void box_add(mesh_build *build)
+static void mesh_box(mesh_build *build)
 {
     const double *size = build->item->size;
     for (size_t face = 0; face < 6; face++) {
@@ -107,7 +107,7 @@ static void box_add(mesh_build *build)
             p[k][u] = (k == 1 || k == 2 ? size[u] : -size[u]) / 2;
             p[k][v] = (k >= 2 ? size[v] : -size[v]) / 2;
         }
-        quad_add(build, face, p);
+        mesh_quad(build, face, p);
     }
 }
 
@@ -121,7 +121,7 @@ static void circle_point(double radius, int i, int count, double z, double p[3])
 }
 
 /* Adds the surface between two circles, given by their radii and heights, from below. */
-static void belt_add(mesh_build *build, double r0, double z0, double r1, double z1)
+static void mesh_belt(mesh_build *build, double r0, double z0, double r1, double z1)
 {
     int count = build->item->count;
     for (int i = 0; i < count; i++) {
@@ -131,12 +131,12 @@ static void belt_add(mesh_build *build, double r0, double z0, double r1, double 
         circle_point(r0, next, count, z0, p[1]);
         circle_point(r1, next, count, z1, p[2]);
         circle_point(r1, i, count, z1, p[3]);
-        quad_add(build, 0, p);
+        mesh_quad(build, 0, p);
     }
 }
 
 /* A cap as a triangle fan from its first corner, seen from above or from below. */
-static void cap_add(mesh_build *build, size_t face, double radius, double z)
+static void mesh_cap(mesh_build *build, size_t face, double radius, double z)
 {
     int count = build->item->count;
     for (int i = 1; radius > 0.0 && i + 1 < count; i++) {
@@ -145,11 +145,11 @@ static void cap_add(mesh_build *build, size_t face, double radius, double z)
         circle_point(radius, 0, count, z, p[0]);
         circle_point(radius, below ? i + 1 : i, count, z, p[1]);
         circle_point(radius, below ? i : i + 1, count, z, p[2]);
-        triangle_add(build, face, p[0], p[1], p[2]);
+        mesh_triangle(build, face, p[0], p[1], p[2]);
     }
 }
 
-static void ball_add(mesh_build *build)
+static void mesh_ball(mesh_build *build)
 {
     double radius = build->item->size[0];
     int rings = build->item->count / 2;
@@ -158,14 +158,14 @@ static void ball_add(mesh_build *build)
         double high[3]; /* radius of the ring, -, height */
         circle_point(radius, 3 * rings + 2 * i, 4 * rings, 0.0, low);
         circle_point(radius, 3 * rings + 2 * (i + 1), 4 * rings, 0.0, high);
-        belt_add(build, i ? low[0] : 0.0, low[1], i + 1 < rings ? high[0] : 0.0, high[1]);
+        mesh_belt(build, i ? low[0] : 0.0, low[1], i + 1 < rings ? high[0] : 0.0, high[1]);
     }
 }
 
 /* Neighbouring corners have different heights, which are the same on every machine. */
-static void quilt_add(mesh_build *build)
+static void mesh_quilt(mesh_build *build)
 {
-    const vectors_item *item = build->item;
+    const lrcsi_vectors_item *item = build->item;
     int count = item->count;
     for (int i = 0; i < count * count; i++) {
         double p[4][3];
@@ -176,22 +176,22 @@ static void quilt_add(mesh_build *build)
             p[k][1] = item->size[1] * (y / (double)count - 0.5);
             p[k][2] = item->size[2] * ((7 * x + 3 * y + x * y) % 5 - 2);
         }
-        quad_add(build, 0, p);
+        mesh_quad(build, 0, p);
     }
 }
 
-static void fan_add(mesh_build *build)
+static void mesh_fan(mesh_build *build)
 {
-    const vectors_item *item = build->item;
+    const lrcsi_vectors_item *item = build->item;
     for (int i = 0; i < item->count; i++) {
         double p[3][3] = {{0, 0, 0}};
         circle_point(item->size[0], i, item->count, 0.0, p[1]);
         circle_point(item->size[0], (i + 1) % item->count, item->count, 0.0, p[2]);
-        triangle_add(build, 0, p[0], p[1], p[2]);
+        mesh_triangle(build, 0, p[0], p[1], p[2]);
     }
 }
 
-static void item_add(mesh_build *build)
+static void mesh_item(mesh_build *build)
 {
     const double *size = build->item->size;
     double x = size[0] / 2;
@@ -199,44 +199,46 @@ static void item_add(mesh_build *build)
     double plate[4][3] = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}};
     build->first = build->mesh->vertices;
     switch (build->item->kind) {
-    case VECTORS_PLATE:
-        quad_add(build, 0, plate);
+    case LRCSI_VECTORS_PLATE:
+        mesh_quad(build, 0, plate);
         break;
-    case VECTORS_BOX:
-        box_add(build);
+    case LRCSI_VECTORS_BOX:
+        mesh_box(build);
         break;
-    case VECTORS_ROUND:
-        belt_add(build, size[0], -size[2] / 2, size[1], size[2] / 2);
-        cap_add(build, 1, size[1], size[2] / 2);
-        cap_add(build, 2, size[0], -size[2] / 2);
+    case LRCSI_VECTORS_ROUND:
+        mesh_belt(build, size[0], -size[2] / 2, size[1], size[2] / 2);
+        mesh_cap(build, 1, size[1], size[2] / 2);
+        mesh_cap(build, 2, size[0], -size[2] / 2);
         break;
-    case VECTORS_BALL:
-        ball_add(build);
+    case LRCSI_VECTORS_BALL:
+        mesh_ball(build);
         break;
-    case VECTORS_QUILT:
-        quilt_add(build);
+    case LRCSI_VECTORS_QUILT:
+        mesh_quilt(build);
         break;
     default:
-        fan_add(build);
+        mesh_fan(build);
         break;
     }
 }
 
-int cli_vectors_mesh(const vectors_scene *scene, vectors_mesh *mesh)
+int lrcsi_vectors_mesh_make(const lrcsi_vectors_scene *scene, lrcsi_vectors_mesh *mesh,
+                            lrcs_host_error *error)
 {
     mesh_build build = {.mesh = mesh, .scene = scene};
     memset(mesh, 0, sizeof *mesh);
-    for (int i = 0; scene->item[i].kind != VECTORS_NONE; i++) {
+    for (int i = 0; scene->item[i].kind != LRCSI_VECTORS_NONE; i++) {
         build.item = &scene->item[i];
-        if (lrcs_pose_from_euler("XYZ", build.item->turn_deg, &build.turn) != LRCS_OK) {
-            return CLI_FAILED;
+        int status = lrcs_pose_from_euler("XYZ", build.item->turn_deg, &build.turn);
+        if (status != LRCS_OK) {
+            return lrcsi_host_fail(error, status, "%s: %s", scene->name, lrcs_status_text(status));
         }
-        item_add(&build);
+        mesh_item(&build);
     }
-    return mesh->failed ? cli_out_of_memory() : 0;
+    return mesh->failed ? lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory") : LRCS_OK;
 }
 
-void cli_vectors_mesh_free(vectors_mesh *mesh)
+void lrcsi_vectors_mesh_free(lrcsi_vectors_mesh *mesh)
 {
     free(mesh->vertex);
     free(mesh->facet);

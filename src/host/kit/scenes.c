@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The kit's materials, attitudes and scenes, as tables. This file decides what is tested; mesh.c
+/* The materials, attitudes and scenes of a kit, as tables. This file decides what is tested; mesh.c
    makes facets from a row. A change here requires a new LRCS_HOST_KIT_VERSION. */
-#include "cli/vectors/vectors.h"
+#include "host/kit/vectors.h"
 
 #include <stddef.h>
 
-const vectors_material cli_vectors_materials[] = {
+const lrcsi_vectors_material lrcsi_vectors_materials[] = {
     {"white", {0.0, 0.25, 0.3, 0.0}, 0, {235, 235, 230}, 'w'},
     {"power", {0.0, 0.2, 0.3, 2.5}, 0, {170, 190, 220}, 'p'},
     {"gloss", {4.0, 0.0, 0.1, 0.0}, 0, {240, 220, 120}, 'g'},
@@ -20,31 +20,35 @@ const vectors_material cli_vectors_materials[] = {
     {"dark", {0.0, 0.005, 0.3, 0.0}, 0, {40, 40, 40}, 'k'},
     {NULL, {0.0, 0.0, 0.0, 0.0}, 0, {0, 0, 0}, '\0'}};
 
+#define TILTS LRCSI_VECTORS_TILTS
+#define TURNS LRCSI_VECTORS_TURNS
+#define EDGES LRCSI_VECTORS_EDGES
+
 /* tNN: rotated about y by some NN deg; xNN: about x. */
-const vectors_attitude cli_vectors_attitudes[] = {
-    {"nose", VECTORS_TILTS | VECTORS_TURNS | VECTORS_EDGES, {1, 0, 0, 0}},
-    {"t05", VECTORS_TILTS, {23, 0, 1, 0}},
-    {"t10", VECTORS_TILTS, {23, 0, 2, 0}},
-    {"t20", VECTORS_TILTS, {17, 0, 3, 0}},
-    {"t40", VECTORS_TILTS, {11, 0, 4, 0}},
-    {"t60", VECTORS_TILTS, {7, 0, 4, 0}},
-    {"t80", VECTORS_TILTS, {6, 0, 5, 0}},
-    {"t87", VECTORS_TILTS, {20, 0, 19, 0}},
-    {"x30", VECTORS_TILTS, {15, 4, 0, 0}},
-    {"behind", VECTORS_TILTS, {1, 0, 2, 0}},
-    {"a", VECTORS_TURNS, {9, 2, -1, 3}},
-    {"b", VECTORS_TURNS, {5, -3, 2, 1}},
-    {"c", VECTORS_TURNS, {4, 1, 3, -2}},
-    {"d", VECTORS_TURNS, {3, -4, 1, 2}},
-    {"e", VECTORS_TURNS, {1, 3, -2, 5}},
-    {"f", VECTORS_TURNS, {2, 5, 3, -1}},
-    {"g", VECTORS_TURNS, {7, -1, -5, 2}},
-    {"h", VECTORS_TURNS, {6, 5, 1, -3}},
-    {"roll", VECTORS_EDGES, {1, 0, 0, 1}},
-    {"front", VECTORS_EDGES, {1, 1, 0, 0}},
-    {"side", VECTORS_EDGES, {1, 0, 1, 0}},
-    {"below", VECTORS_EDGES, {0, 1, 0, 0}},
-    {"thirds", VECTORS_EDGES, {1, 1, 1, 1}},
+const lrcsi_vectors_attitude lrcsi_vectors_attitudes[] = {
+    {"nose", TILTS | TURNS | EDGES, {1, 0, 0, 0}},
+    {"t05", TILTS, {23, 0, 1, 0}},
+    {"t10", TILTS, {23, 0, 2, 0}},
+    {"t20", TILTS, {17, 0, 3, 0}},
+    {"t40", TILTS, {11, 0, 4, 0}},
+    {"t60", TILTS, {7, 0, 4, 0}},
+    {"t80", TILTS, {6, 0, 5, 0}},
+    {"t87", TILTS, {20, 0, 19, 0}},
+    {"x30", TILTS, {15, 4, 0, 0}},
+    {"behind", TILTS, {1, 0, 2, 0}},
+    {"a", TURNS, {9, 2, -1, 3}},
+    {"b", TURNS, {5, -3, 2, 1}},
+    {"c", TURNS, {4, 1, 3, -2}},
+    {"d", TURNS, {3, -4, 1, 2}},
+    {"e", TURNS, {1, 3, -2, 5}},
+    {"f", TURNS, {2, 5, 3, -1}},
+    {"g", TURNS, {7, -1, -5, 2}},
+    {"h", TURNS, {6, 5, 1, -3}},
+    {"roll", EDGES, {1, 0, 0, 1}},
+    {"front", EDGES, {1, 1, 0, 0}},
+    {"side", EDGES, {1, 0, 1, 0}},
+    {"below", EDGES, {0, 1, 0, 0}},
+    {"thirds", EDGES, {1, 1, 1, 1}},
     {NULL, 0, {0, 0, 0, 0}}};
 
 #define UP                                                                                         \
@@ -52,22 +56,19 @@ const vectors_attitude cli_vectors_attitudes[] = {
         0.0, 0.0, 0.0                                                                              \
     }
 #define HERE  UP
-#define TILTS VECTORS_TILTS
-#define TURNS VECTORS_TURNS
-#define EDGES VECTORS_EDGES
-#define PLATE VECTORS_PLATE
-#define BOX   VECTORS_BOX
-#define ROUND VECTORS_ROUND
-#define BALL  VECTORS_BALL
-#define QUILT VECTORS_QUILT
-#define FAN   VECTORS_FAN
+#define PLATE LRCSI_VECTORS_PLATE
+#define BOX   LRCSI_VECTORS_BOX
+#define ROUND LRCSI_VECTORS_ROUND
+#define BALL  LRCSI_VECTORS_BALL
+#define QUILT LRCSI_VECTORS_QUILT
+#define FAN   LRCSI_VECTORS_FAN
 #define AWAY                                                                                       \
     {                                                                                              \
         16384, -8192, 4096                                                                         \
     }
 
 /* The items of a scene. */
-#define ITEMS(...) ((const vectors_item[]){__VA_ARGS__, {.kind = VECTORS_NONE}})
+#define ITEMS(...) ((const lrcsi_vectors_item[]){__VA_ARGS__, {.kind = LRCSI_VECTORS_NONE}})
 
 /* The bus and the arrays shadow each other; the shadows have closed forms. */
 #define WINGS                                                                                      \
@@ -85,7 +86,7 @@ const vectors_attitude cli_vectors_attitudes[] = {
             "two skins 2^-" #K " m apart in a scene 8 m deep"                                      \
     }
 
-const vectors_scene cli_vectors_scenes[] = {
+const lrcsi_vectors_scene lrcsi_vectors_scenes[] = {
     {"plate-white", 1, TILTS, 1.0, HERE, ITEMS({PLATE, 0, {2, 1, 0}, HERE, UP, "w"}),
      "a plate of 2 x 1 m that scatters the same way everywhere: 4 pi B S cos^2"},
     {"plate-power", 1, TILTS, 1.0, HERE, ITEMS({PLATE, 0, {2, 1, 0}, HERE, UP, "p"}),

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/* lrcs vectors: writes a conformance kit for other implementations (lrcs/kit.h). */
+#include "cli/cli.h"
+
+#include <lrcs/kit.h>
+
+static const char vectors_help[] =
+    "usage: lrcs vectors DIR [options]\n"
+    "\n"
+    "Writes a conformance kit for other implementations into DIR: small scenes (OBJ, STL, JSON),\n"
+    "attitudes, materials, and the truth of each: sigma with its bound, glint and diffuse parts,\n"
+    "visible area and cos theta of every facet, item and depth images; in five tiers, from a "
+    "plate\n"
+    "to hard cases. DIR/README.md says all that one needs to take part; lrcs compare judges.\n"
+    "DIR is made where it is not there; an older kit in it is overwritten, but files of scenes "
+    "that\n"
+    "are not asked for stay (cases.csv says which count). The same bytes every time.\n"
+    "\n"
+    "options\n"
+    "  --resolution N        side of the images in pixels (128; 0: none)\n"
+    "  --tier K              tiers 1 .. K alone (5)\n"
+    "\n"
+    "examples\n"
+    "  lrcs vectors kit\n"
+    "  lrcs vectors kit --resolution 512\n";
+
+static const cli_option vectors_options[] = {
+    {"resolution", 1, 0}, {"tier", 1, 0}, {"help", 0, 0}, {NULL, 0, 0}};
+
+static void scene_begin(const char *scene)
+{
+    cli_watch_stage(scene, NULL);
+}
+
+static int vectors_command(const cli_args *args)
+{
+    const char *folder = args->operand;
+    lrcs_host_kit_options options = {
+        .tier = LRCS_HOST_KIT_TIERS, .resolution = 128, .begin = scene_begin};
+    lrcs_host_kit_size size;
+    lrcs_host_error error;
+    int code =
+        cli_whole(args, "resolution", 0.0, LRCS_HOST_KIT_RESOLUTION_MOST, &options.resolution);
+    code = code ? code : cli_whole(args, "tier", 1.0, LRCS_HOST_KIT_TIERS, &options.tier);
+    if (code != 0) {
+        return code;
+    }
+    if (lrcs_host_kit_write(folder, &options, &size, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    cli_watch_end();
+    printf("%s: kit %d, %lu scenes, %lu cases; begin with %s/README.md\n", folder,
+           LRCS_HOST_KIT_VERSION, (unsigned long)size.scenes, (unsigned long)size.cases, folder);
+    return CLI_DONE;
+}
+
+const cli_command cli_vectors_command = {
+    "vectors",       "DIR", "give the folder that the kit goes to", vectors_help, vectors_options,
+    vectors_command, NULL};
