@@ -5,13 +5,15 @@
    so that dg/ds = g 2 u / s^3 and dd/dm = -d log(1 + u) / 2. Limits: as s -> 0, g and dg/ds vanish
    except at u = 0, and count as 0 at s = 0; as u -> infinity all four vanish.
    Visible areas do not depend on materials.
-   Called: lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make; lrcsi_shape_response_make. */
+   Called: lrcsi_view_incidence, lrcsi_reflect, lrcsi_patch_make, lrcsi_linear_make;
+   lrcsi_shape_response_make. */
 #include "integrate/sensitivity.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/constant.h"
+#include "integrate/linear.h"
 #include "integrate/patch.h"
 #include "optics/reflect.h"
 #include "visibility/query.h"
@@ -89,6 +91,40 @@ static lrcsi_unit_response facet_response(const lrcsi_view *view, const lrcsi_pl
     return at;
 }
 
+/* The response of the correction of a facet (integrate/linear.h), per unit of its area: from the
+   same patches as in facet_response. */
+static lrcsi_unit_response correction_response(const lrcsi_view *view, const lrcsi_areas *areas,
+                                               const lrcs_brdf *own, const lrcs_brdf *unit,
+                                               uint32_t facet, const lrcsi_patch patch[2])
+{
+    const lrcs_prepared *p = view->prepared;
+    const lrcs_curvature *c = &p->scene->part[patch[0].part].curvature;
+    double projected = lrcsi_view_projected(view, facet);
+    lrcsi_unit_response at = {0, 0, 0, 0};
+    for (int i = 0; i < 2; i++) {
+        const lrcs_brdf *brdf = i == 0 ? own : unit;
+        int glint = i == 0 ? own->A > 0 : own->A == 0;
+        int diffuse = i == 0 ? own->B > 0 : own->B == 0;
+        lrcsi_linear linear;
+        if ((glint || diffuse) && patch[i].known &&
+            lrcsi_linear_make(view, brdf, &patch[i], c, 0, &linear)) {
+            lrcsi_linear_moment m = lrcsi_linear_moment_make(
+                view, facet, &patch[i], &areas->visible[facet], &areas->moment[facet]);
+            const double x = m.first[0] / projected;
+            const double y = m.first[1] / projected;
+            if (glint && brdf->A > 0) {
+                at.glint = (linear.glint[0] * x + linear.glint[1] * y) / brdf->A;
+                at.glint_s = (linear.glint_s[0] * x + linear.glint_s[1] * y) / brdf->A;
+            }
+            if (diffuse) {
+                at.diffuse = (linear.diffuse[0] * x + linear.diffuse[1] * y) / brdf->B;
+                at.diffuse_m = (linear.diffuse_m[0] * x + linear.diffuse_m[1] * y) / brdf->B;
+            }
+        }
+    }
+    return at;
+}
+
 void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcsi_areas *areas,
                          const lrcsi_curved *curved, const lrcsi_clear *clear,
                          const lrcs_brdf *brdf, lrcsi_response *response)
@@ -121,6 +157,10 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
         } else if (fraction > 0) {
             lrcsi_unit_response at = facet_response(view, plan, &own, &unit, f, u, patch);
             response_sum(to, weight, &at);
+            if (areas->moment && areas->corrected[f]) {
+                at = correction_response(view, areas, &own, &unit, f, patch);
+                response_sum(to, weight / fraction, &at);
+            }
         }
     }
     for (uint32_t i = 0; clear->count > 0 && i < scene->part_count; i++) { /* 2. clear shapes */

@@ -45,7 +45,14 @@ int lrcsi_sigma_check(const lrcs_run_options *options, const lrcs_image *image)
 
 /* --- memory ----------------------------------------------------------------------------------- */
 
-/* 1. Results by facet: areas, integrals over curved normals;
+/* Moments of visible regions are used where facets stand for curved shapes among others. They are
+   not computed with curved normals. */
+static int moments_wanted(const lrcs_prepared *prepared)
+{
+    return prepared->proximity.reach && !prepared->smooth;
+}
+
+/* 1. Results by facet: areas, moments, integrals over curved normals;
    2. the view, clear shapes, the classification, the proximity band;
    3. visible areas: by clipping, or by a raster, after which facets with curved normals that are
       partly visible are clipped as well; under auto, the larger of the two. */
@@ -64,6 +71,10 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_work_add(areas, curved));
     if (options->method == LRCS_METHOD_AUTO) {
         need = lrcsi_work_add(need, lrcsi_clear_need(prepared));
+    }
+    if (moments_wanted(prepared)) {
+        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_moment)));
+        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
@@ -95,10 +106,16 @@ static int run_take(lrcsi_sigma *run)
     uint32_t facets = p->scene->facet_count;
     int areas = !run_is_unshadowed(run) || p->smooth;
     run->visible = areas ? lrcsi_work_take(run->work, facets, sizeof *run->visible) : NULL;
+    int moments = !run_is_unshadowed(run) && moments_wanted(p);
+    run->moment_memory =
+        moments ? lrcsi_work_take(run->work, facets, sizeof *run->moment_memory) : NULL;
+    run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
     run->curved = p->smooth ? lrcsi_work_take(run->work, facets, sizeof *run->curved) : NULL;
     run->stack = p->smooth ? lrcsi_cubature_stack(run->work) : NULL;
-    return (run->visible || !areas) && ((run->curved && run->stack) || !p->smooth) ? LRCS_OK
-                                                                                   : LRCS_E_MEMORY;
+    return (run->visible || !areas) && ((run->moment_memory && run->corrected) || !moments) &&
+                   ((run->curved && run->stack) || !p->smooth)
+               ? LRCS_OK
+               : LRCS_E_MEMORY;
 }
 
 /* --- is the answer accepted? ------------------------------------------------------------------ */
@@ -140,7 +157,7 @@ static lrcsi_curve_options run_curve_options(const lrcsi_sigma *run, lrcsi_meter
 
 static lrcsi_total run_total(const lrcsi_sigma *run, lrcs_facet_record *records)
 {
-    const lrcsi_areas areas = {run->visible, run->answer};
+    const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->corrected};
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
     return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run->band, &run->clear,
                             records, run->options->part_error_m2);
@@ -270,8 +287,10 @@ static int run_exact(lrcsi_sigma *run, lrcsi_meter *meter)
                                          run->curved);
     } else if (status == LRCS_OK) {
         int sum_only = !run->view.prepared->curved && !run_has_proofs(run);
-        status = lrcsi_occlude_all(&run->classification, meter, run->work,
-                                   sum_only ? &run->answer : NULL, run->visible);
+        status =
+            lrcsi_occlude_all(&run->classification, meter, run->work,
+                              sum_only ? &run->answer : NULL, run->visible, run->moment_memory);
+        run->moment = run->plan.unshadowed ? NULL : run->moment_memory; /* areas_apply_proofs */
     }
     if (status == LRCS_OK) {
         run->size = 0;
@@ -293,6 +312,7 @@ static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
     int status = LRCS_E_MEMORY;
     run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
     run->answer = NULL;
+    run->moment = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
         status = known ? lrcsi_visible_sampled(known, size, run->work, &raster, run->visible)
                        : lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);

@@ -32,6 +32,9 @@ typedef struct lrcsi_sigma {
     const lrcsi_proximity_band *band; /* NULL: none was made */
     lrcsi_visible *visible;           /* [facet_count]; NULL: the plan implies all areas */
     const unsigned char *answer;      /* as in lrcsi_areas */
+    lrcsi_moment *moment_memory;      /* [facet_count]; NULL: moments are not wanted */
+    const lrcsi_moment *moment;       /* as in lrcsi_areas */
+    unsigned char *corrected;         /* as in lrcsi_areas */
     lrcsi_curved *curved;             /* [facet_count]; NULL: all normals are flat */
     lrcsi_cubature_cell *stack;       /* NULL: all normals are flat */
     uint32_t size;                    /* of the raster that gave the areas; 0: none did */

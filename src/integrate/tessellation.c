@@ -42,6 +42,20 @@
    a sector of which no facet is hidden or unlit: T - M <= S (whole + m region + F_i (m a + (1 + a)
    g)), and M - T likewise with l.
 
+   A facet that is partly visible, or whose sector is, may be summed with a linear function l of
+   position on the facets in place of F_i (integrate/linear.h): M' = Int_f l w. It exceeds M by the
+   correction Int_f (l - F_i) w, which follows from the area and the first moment of what is
+   visible. Then everything above holds with M' for M, l for F_i, and the bounds of linear.h for
+   those of F - F_i: F_i in a bound becomes an upper bound of l, which is nowhere negative. Two more
+   things:
+   - Over a whole row of a straight wall l - F_i is antisymmetric, so that its integral is 0, and
+     what was said of rows holds.
+   - If the other facet of the sector is hidden or unlit, the integral of F - l over a region of
+   this facet's patch alone still has the bound of the whole sector: per unit of this facet's area,
+   it is the sector's area divided by this facet's times as large. Whichever of the two has the
+   smaller bound is used. For a sector of which no facet is hidden or unlit this must be the same
+   for both facets; so sector_choose compares bounds of both.
+
    Without a proximity band the facets count as visible: the bounds of the visible areas then
    include what may be hidden, both of the true surface and of the facets. */
 #include "integrate/tessellation.h"
@@ -49,6 +63,7 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "integrate/linear.h"
 #include "mesh/profile.h"
 #include "optics/reflect.h"
 #include "scene/proximity.h"
@@ -217,8 +232,9 @@ enum sector_method {
     BY_ROWS    /* the deviation of the whole patch, and of the rows that meet a proximity band */
 };
 typedef struct sector_bound {
-    int method;  /* sector_method */
-    double rows; /* BY_ROWS: the fraction of the sector in rows that meet a proximity band */
+    int method;   /* sector_method */
+    double rows;  /* BY_ROWS: the fraction of the sector in rows that meet a proximity band */
+    double error; /* the larger error of both facets, per unit of area */
 } sector_bound;
 
 /* An upper bound of the fraction of a facet's sector in rows that meet a proximity band; 1 if it
@@ -234,18 +250,22 @@ static double sector_rows(const lrcsi_view *view, uint32_t facet, const lrcsi_pr
     return fmin(1, 2 * rows);
 }
 
+/* The first facet of a sector. */
+static uint32_t sector_first(const lrcs_prepared *p, uint32_t facet)
+{
+    uint32_t begin = patch_part(p, facet)->first_facet;
+    return begin + ((facet - begin) & ~UINT32_C(1));
+}
+
 /* Chooses the smallest of these bounds, for both facets of the sector: from the deviation of the
    first facet, and the larger fractions of both. */
-static sector_bound sector_choose(const lrcsi_view *view, const lrcsi_plan *plan, uint32_t facet,
-                                  const lrcs_curvature *c, const lrcsi_visible *visible,
-                                  const lrcsi_proximity_band *band, lrcsi_patch *patch)
+static sector_bound sector_choose(const lrcsi_view *view, uint32_t facet, const lrcs_curvature *c,
+                                  const lrcsi_visible *visible, const lrcsi_proximity_band *band,
+                                  const lrcsi_deviation *deviation, double stretch)
 {
     const lrcs_part *part = patch_part(view->prepared, facet);
-    uint32_t begin = part->first_facet;
-    uint32_t first = begin + ((facet - begin) & ~UINT32_C(1));
+    uint32_t first = sector_first(view->prepared, facet);
     lrcsi_incidence incidence = lrcsi_view_incidence(view, first);
-    double stretch;
-    lrcsi_deviation deviation = patch_deviation(view, plan, first, &incidence, c, patch, &stretch);
     lrcsi_incidence other = lrcsi_view_incidence(view, first + 1);
     const patch_fractions one = patch_fractions_of(&incidence, first, visible, band);
     const patch_fractions two = patch_fractions_of(&other, first + 1, visible, band);
@@ -253,19 +273,22 @@ static sector_bound sector_choose(const lrcsi_view *view, const lrcsi_plan *plan
     double a = patch_area_error(view->prepared, facet, c);
     double rows = sector_rows(view, part->kind == LRCS_SHAPE_CONE ? facet : first, band);
     double b = fmax(fmax(one.gain, one.loss), fmax(two.gain, two.loss));
-    double by_hidden = deviation.whole + (1 + a) * hidden * deviation.value_max;
-    double by_rows = deviation.whole + rows * (deviation.region + stretch * deviation.value) +
-                     (1 + a) * b * deviation.value;
+    double by_hidden = deviation->whole + (1 + a) * hidden * deviation->value_max;
+    double by_rows = deviation->whole + rows * (deviation->region + stretch * deviation->value) +
+                     (1 + a) * b * deviation->value;
     double lit = fmax(one.lit, two.lit);
-    double by_region = deviation.region + stretch * deviation.value;
-    double by_point = lit * ((1 + a) * deviation.point + stretch * deviation.value);
+    double by_region = deviation->region + stretch * deviation->value;
+    double by_point = lit * ((1 + a) * deviation->point + stretch * deviation->value);
     double either = fmin(by_region, by_point);
-    double by_either = fmin(either + (1 + a) * b * deviation.value, (1 + a) * deviation.value_max);
-    sector_bound bound = {by_point < by_region ? BY_POINT : BY_REGION, rows};
+    double by_either =
+        fmin(either + (1 + a) * b * deviation->value, (1 + a) * deviation->value_max);
+    sector_bound bound = {by_point < by_region ? BY_POINT : BY_REGION, rows, by_either};
     if (by_rows < fmin(by_hidden, by_either)) {
         bound.method = BY_ROWS;
+        bound.error = by_rows;
     } else if (by_hidden < either) {
         bound.method = BY_HIDDEN;
+        bound.error = by_hidden;
     }
     return bound;
 }
@@ -280,17 +303,17 @@ static lrcsi_tessellation wall_error(const lrcsi_deviation *deviation, double a,
     double sup = (1 + a) * deviation->value_max;
     double lit = f->lit * ((1 + a) * deviation->point + stretch * deviation->value);
     if (state == PATCH_HIDDEN) {
-        return (lrcsi_tessellation){f->gain * sup, f->loss * sup};
+        return (lrcsi_tessellation){f->gain * sup, f->loss * sup, 0, 0, 0};
     }
     if (state == PATCH_UNLIT) {
-        return (lrcsi_tessellation){partner == PATCH_UNLIT ? deviation->whole : sup, 0};
+        return (lrcsi_tessellation){partner == PATCH_UNLIT ? deviation->whole : sup, 0, 0, 0, 0};
     }
     if (state == PATCH_VISIBLE && partner == PATCH_VISIBLE) {
-        return (lrcsi_tessellation){deviation->whole, deviation->whole};
+        return (lrcsi_tessellation){deviation->whole, deviation->whole, 0, 0, 0};
     }
     if (bound->method == BY_HIDDEN) {
         return (lrcsi_tessellation){deviation->whole + f->hidden * sup,
-                                    deviation->whole + fmin(1, f->hidden + f->loss) * sup};
+                                    deviation->whole + fmin(1, f->hidden + f->loss) * sup, 0, 0, 0};
     }
     if (bound->method == BY_ROWS) {
         lit = deviation->whole + bound->rows * (deviation->region + stretch * deviation->value);
@@ -299,7 +322,63 @@ static lrcsi_tessellation wall_error(const lrcsi_deviation *deviation, double a,
         lit = deviation->region + stretch * deviation->value;
     }
     return (lrcsi_tessellation){fmin(lit + deviation->value * (1 + a) * f->gain, sup),
-                                fmin(lit + deviation->value * (1 + a) * f->loss, sup)};
+                                fmin(lit + deviation->value * (1 + a) * f->loss, sup), 0, 0, 0};
+}
+
+/* --- linear functions ------------------------------------------------------------------------- */
+
+/* What is known about a facet on a curved wall. */
+typedef struct patch_case {
+    const lrcsi_view *view;
+    const lrcsi_plan *plan;
+    uint32_t facet;
+    const lrcs_curvature *c;
+    const lrcsi_visible *visible;
+    const lrcsi_moment *moment;
+    const lrcsi_proximity_band *band;
+    int state, partner; /* of the facet, and of the other one of its sector */
+    const patch_fractions *f;
+    lrcsi_deviation deviation;
+    double stretch;
+} patch_case;
+
+/* The correction of a facet and the error of that, per unit of area. */
+typedef struct patch_correction {
+    double glint, diffuse, error;
+    double ratio; /* the area of the sector divided by the facet's */
+} patch_correction;
+
+/* The integral of l - F_i over what is visible of a facet, in the view plane, divided by its
+   projected area. An error of the moment counts with the slope; rounding is part of
+   linear->rounding, except for the projected area. Returns 0 if the moment is not known. */
+static int correction_make(const patch_case *at, uint32_t facet, const lrcsi_patch *patch,
+                           const lrcsi_linear *linear, patch_correction *correction)
+{
+    lrcsi_incidence incidence = lrcsi_view_incidence(at->view, facet);
+    lrcsi_linear_moment m =
+        lrcsi_linear_moment_make(at->view, facet, patch, &at->visible[facet], &at->moment[facet]);
+    const double x = m.first[0] / incidence.projected;
+    const double y = m.first[1] / incidence.projected;
+    correction->ratio = m.ratio;
+    correction->glint = linear->glint[0] * x + linear->glint[1] * y;
+    correction->diffuse = linear->diffuse[0] * x + linear->diffuse[1] * y;
+    correction->error = linear->slope * m.error / (incidence.projected * (1 - incidence.error)) +
+                        linear->variation * incidence.error;
+    return isfinite(correction->glint + correction->diffuse + correction->error);
+}
+
+/* The deviation of F from l instead of F_i. Given: the deviation from F_i, and the mean. */
+static lrcsi_deviation linear_deviation(const lrcsi_deviation *constant, double a,
+                                        const lrcsi_linear *linear, const lrcsi_patch *patch)
+{
+    double error = patch->remainder + patch->rounding;
+    lrcsi_deviation deviation = *constant;
+    deviation.whole += linear->rounding;
+    deviation.region = linear->region + error;
+    deviation.point = linear->point + (1 + a) * linear->region + error;
+    deviation.value = patch->glint + patch->diffuse + error + linear->variation;
+    deviation.value_max = fmax(deviation.value_max, deviation.value);
+    return deviation;
 }
 
 /* The error, per unit of area, of a facet of a closed part whose inside seems to be visible because
@@ -335,6 +414,75 @@ static double other_side(const lrcsi_view *view, uint32_t facet, const lrcs_brdf
            lrcsi_deviation_make(brdf, cosine, incidence->tan2, c).value_max;
 }
 
+/* Computes the error of a facet on a curved wall, per unit of area, and its correction:
+   1. the error without a correction, for which lit sectors with a partly visible facet choose
+      together;
+   2. the linear function, and the correction by it;
+   3. the error with it: of such sectors together again, of a lit facet alone if the other one is
+      hidden or unlit. The smaller one is returned. */
+static lrcsi_tessellation curved_error(const patch_case *at, lrcsi_patch *patch)
+{
+    const lrcs_prepared *p = at->view->prepared;
+    const lrcs_brdf brdf = lrcsi_plan_brdf(at->plan, lrcsi_prepared_material(p, at->facet));
+    const double a = patch_area_error(p, at->facet, at->c);
+    const uint32_t first = sector_first(p, at->facet);
+    const int partial = at->state == PATCH_PARTIAL || at->partner == PATCH_PARTIAL;
+    const int joint = is_lit(at->state) && is_lit(at->partner) && partial;
+    lrcsi_deviation sector = at->deviation; /* of the first facet */
+    sector_bound bound = {BY_POINT, 1, 0};
+    if (joint) { /* 1 */
+        lrcsi_incidence incidence = lrcsi_view_incidence(at->view, first);
+        double stretch;
+        sector = patch_deviation(at->view, at->plan, first, &incidence, at->c, patch, &stretch);
+        bound = sector_choose(at->view, at->facet, at->c, at->visible, at->band, &sector, stretch);
+    }
+    lrcsi_tessellation unit =
+        wall_error(&at->deviation, a, at->stretch, at->f, at->state, at->partner, &bound);
+
+    lrcsi_linear linear; /* 2 */
+    patch_correction own;
+    if (!at->moment || !at->band || !is_lit(at->state) ||
+        (at->state == PATCH_VISIBLE && at->partner == PATCH_VISIBLE) ||
+        !lrcsi_patch_make(at->view, at->plan, &brdf, at->facet, patch)) {
+        return unit;
+    }
+    sector = patch->at.facets == 2 ? sector : at->deviation;
+    if (!lrcsi_linear_make(at->view, &brdf, patch, at->c, sector.second, &linear) ||
+        !correction_make(at, at->facet, patch, &linear, &own)) {
+        return unit;
+    }
+
+    lrcsi_deviation deviation = linear_deviation(&at->deviation, a, &linear, patch); /* 3 */
+    double error = own.error;
+    double constant = fmax(unit.above, unit.below);
+    if (joint) {
+        patch_correction other = own;
+        if (patch->at.facets == 2 &&
+            !correction_make(at, first + (at->facet == first), patch, &linear, &other)) {
+            return unit;
+        }
+        sector = linear_deviation(&sector, a, &linear, patch);
+        constant = bound.error;
+        bound =
+            sector_choose(at->view, at->facet, at->c, at->visible, at->band, &sector, at->stretch);
+        error = bound.error + fmax(own.error, other.error);
+    } else {
+        deviation.region *= own.ratio;
+        double by_region = deviation.region + at->stretch * deviation.value;
+        double by_point = at->f->lit * ((1 + a) * deviation.point + at->stretch * deviation.value);
+        bound.method = by_region < by_point ? BY_REGION : BY_POINT;
+    }
+    lrcsi_tessellation corrected =
+        wall_error(&deviation, a, at->stretch, at->f, at->state, at->partner, &bound);
+    corrected.above += own.error;
+    corrected.below += own.error;
+    corrected.glint = own.glint;
+    corrected.diffuse = own.diffuse;
+    corrected.corrected = 1;
+    error = joint ? error : fmax(corrected.above, corrected.below);
+    return error < constant ? corrected : unit;
+}
+
 int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
 {
     for (uint32_t i = 0; i < p->scene->part_count && plan->unshadowed; i++) {
@@ -349,6 +497,7 @@ int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
 lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan,
                                             uint32_t facet, const lrcsi_incidence *incidence,
                                             const lrcsi_visible *visible,
+                                            const lrcsi_moment *moment,
                                             const lrcsi_proximity_band *band, lrcsi_patch *patch)
 {
     const lrcs_prepared *p = view->prepared;
@@ -362,7 +511,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
     double seen = is_curved && state == PATCH_HIDDEN
                       ? hidden_facet_fraction(incidence, facet, visible, band)
                       : 0;
-    lrcsi_tessellation error = {0, 0};
+    lrcsi_tessellation error = {0, 0, 0, 0, 0};
     error.above = area * other_side(view, facet, brdf, incidence, &c, band);
     if (state == PATCH_UNLIT) {
         error.below = area * inside_error(view, facet, brdf, incidence, visible, band);
@@ -373,7 +522,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
     int partner = is_curved && band ? partner_state(view, facet, visible, band) : state;
     if (is_curved && state == PATCH_VISIBLE && partner == PATCH_VISIBLE && is_certain &&
         lrcsi_patch_make(view, plan, brdf, facet, patch)) {
-        return (lrcsi_tessellation){area * patch->remainder, area * patch->remainder};
+        return (lrcsi_tessellation){area * patch->remainder, area * patch->remainder, 0, 0, 0};
     }
     double stretch = 0;
     lrcsi_deviation deviation =
@@ -383,20 +532,19 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
     if (state != PATCH_UNLIT) {
         f = patch_fractions_of(incidence, facet, visible, band);
     }
-    lrcsi_tessellation unit = {f.gain * deviation.value_max, f.loss * deviation.value_max};
+    lrcsi_tessellation unit = {f.gain * deviation.value_max, f.loss * deviation.value_max, 0, 0, 0};
     if (is_curved) {
-        sector_bound bound = {BY_POINT, 1};
-        if (is_lit(state) && is_lit(partner) &&
-            (state == PATCH_PARTIAL || partner == PATCH_PARTIAL)) {
-            bound = sector_choose(view, plan, facet, &c, visible, band, patch);
-        }
         f.gain += seen;
         f.loss += seen;
-        unit = wall_error(&deviation, patch_area_error(p, facet, &c), stretch, &f, state, partner,
-                          &bound);
+        const patch_case at = {view, plan,  facet,   &c, visible,   moment,
+                               band, state, partner, &f, deviation, stretch};
+        unit = curved_error(&at, patch);
     }
     error.above += area * unit.above;
     error.below += area * unit.below;
+    error.glint = area * unit.glint;
+    error.diffuse = area * unit.diffuse;
+    error.corrected = unit.corrected;
     return error;
 }
 
@@ -419,7 +567,7 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_p
     int is_curved = c.turn > FLAT_TILT;
     int state = patch_state_of(view, facet, visible, band);
     lrcsi_tessellation error =
-        lrcsi_tessellation_error(view, plan, facet, incidence, visible, band, patch);
+        lrcsi_tessellation_error(view, plan, facet, incidence, visible, NULL, band, patch);
     lrcsi_patch_parts parts = {.whole = fmax(error.above, error.below),
                                .lit = is_lit(state),
                                .mismatch = band ? band->mismatch[facet] : 0,

@@ -13,19 +13,25 @@
    are searched for, so that the bound includes everything that could be hidden. */
 int lrcsi_tessellation_known(const lrcs_prepared *prepared, const lrcsi_plan *plan);
 
-/* Bounds on the error: the true value exceeds that of the facets by at most `above`, and falls
-   below it by at most `below`. Scaled, without the factor 4 pi. */
+/* Bounds on the error: the true value exceeds that of the facets, and the correction if there is
+   one, by at most `above`, and falls below it by at most `below`. Scaled, without the factor 4 pi.
+ */
 typedef struct lrcsi_tessellation {
     double above, below;
+    double glint, diffuse; /* the correction: what is to be added to the facet's terms because only
+                              a part of it is visible, and F varies over its patch */
+    int corrected;         /* 0: there is none; both are 0 */
 } lrcsi_tessellation;
 
 /* The bounds for one facet that is not skipped, and its patch. Given: the facet's incidence; the
    visible areas of all facets; the proximity band, or NULL if every front is entirely visible or
-   the bounds of the visible area include what could be hidden; the patch of the last facet, or one
-   with side = 0. */
+   the bounds of the visible area include what could be hidden; the moments of the visible regions
+   of all undecided facets, or NULL for an error without a correction; the patch of the last facet,
+   or one with side = 0. */
 lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_plan *plan,
                                             uint32_t facet, const lrcsi_incidence *incidence,
                                             const lrcsi_visible *visible,
+                                            const lrcsi_moment *moment,
                                             const lrcsi_proximity_band *band, lrcsi_patch *patch);
 
 /* Numbers that bound the tessellation error of the part of a facet where a coordinate, such as the

@@ -56,6 +56,8 @@ typedef struct total_run {
     const lrcsi_plan *plan;
     const lrcsi_visible *visible;     /* lrcsi_areas */
     const unsigned char *answer;      /* lrcsi_areas */
+    const lrcsi_moment *moment;       /* lrcsi_areas */
+    unsigned char *corrected;         /* lrcsi_areas */
     const lrcsi_curved *curved;       /* NULL: all normals are flat */
     const lrcsi_proximity_band *band; /* NULL: none was made */
     const lrcsi_clear *clear;         /* NULL: no shape is evaluated by its closed form */
@@ -348,17 +350,35 @@ static void add_part_errors(const total_run *run, uint32_t facet, double error)
     }
 }
 
-/* Adds the tessellation error of a facet: the error of replacing curved shapes by facets. A facet
-   with curved normals adds only the effect of differences in visibility within the proximity band;
-   clear shapes have no such error. */
+/* Adds what a facet's sigma is corrected by, because F varies over its patch. Its rounding error is
+   part of the tessellation error. */
+static void add_correction(total_run *run, uint32_t facet, double glint, double diffuse)
+{
+    lrcsi_sum_add(&run->sums.glint, LRCS_FOUR_PI * glint);
+    lrcsi_sum_add(&run->sums.diffuse, LRCS_FOUR_PI * diffuse);
+    run->corrected[facet] = 1;
+    if (run->records) {
+        const lrcs_prepared *p = run->view->prepared;
+        run->records[facet].sigma_m2 += lrcsi_prepared_area(p, LRCS_FOUR_PI * (glint + diffuse));
+        run->records[facet].sigma_glint_m2 += lrcsi_prepared_area(p, LRCS_FOUR_PI * glint);
+    }
+}
+
+/* Adds the tessellation error of a facet: the error of replacing curved shapes by facets, and the
+   correction that goes with it. A facet with curved normals adds only the effect of differences in
+   visibility within the proximity band; clear shapes have no such error. */
 static void add_tessellation_error(total_run *run, uint32_t facet, const lrcsi_incidence *incidence)
 {
     if (is_in_clear_shape(run, facet)) {
         return;
     }
     if (!run->curved || !lrcsi_curve_applies(run->view, facet)) {
-        lrcsi_tessellation error = lrcsi_tessellation_error(run->view, run->plan, facet, incidence,
-                                                            run->visible, run->band, &run->patch);
+        lrcsi_tessellation error =
+            lrcsi_tessellation_error(run->view, run->plan, facet, incidence, run->visible,
+                                     run->moment, run->band, &run->patch);
+        if (error.corrected) {
+            add_correction(run, facet, error.glint, error.diffuse);
+        }
         run->sums.above += LRCS_FOUR_PI * error.above;
         run->sums.below += LRCS_FOUR_PI * error.below;
         if (run->part_error && error.above + error.below > 0) {
@@ -896,6 +916,8 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                      .plan = plan,
                      .visible = areas->visible,
                      .answer = areas->answer,
+                     .moment = areas->moment,
+                     .corrected = areas->corrected,
                      .curved = curved,
                      .band = band,
                      .clear = clear->count > 0 ? clear : NULL,
@@ -903,6 +925,9 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                      .part_error = part_error};
     for (uint32_t i = 0; part_error && i < p->scene->part_count; i++) {
         part_error[i] = 0;
+    }
+    if (areas->moment) {
+        memset(areas->corrected, 0, p->scene->facet_count);
     }
     if (plan->patches) {
         run.patch.negligible = negligible_remainder(&run);

@@ -48,6 +48,9 @@ double lrcsi_bound_area(const lrcs_prepared *p, double scaled);
 typedef struct lrcsi_areas {
     const lrcsi_visible *visible; /* NULL: method facet, where the plan implies all areas */
     const unsigned char *answer;
+    const lrcsi_moment *moment; /* of the visible regions of all facets; NULL: not known */
+    unsigned char *corrected;   /* returned, with moments: facet: 1 if its terms were corrected by
+                                   them   (integrate/linear.h) */
 } lrcsi_areas;
 
 /* Given: the view and its plan; the visible areas (answer NULL if shapes are curved); the results
@@ -58,7 +61,7 @@ typedef struct lrcsi_areas {
    the sigma of a clear shape is divided among its facets in proportion to what they would reflect
    or, if none of them would reflect, to their projected areas. If only a sliver of a shape faces
    the laser, and none of its facets does, its sigma is in no record. Unless NULL, also
-   part_error[part_count], as in lrcs_run_options. */
+   part_error[part_count], as in lrcs_run_options; with moments, areas->corrected[facet_count]. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
                              const lrcsi_proximity_band *band, const lrcsi_clear *clear,

@@ -481,6 +481,19 @@ static double strip_sagitta(const lrcsi_profile *profile, uint32_t i)
     return slant > 0.0 ? above * (wide * profile->base / slant) : above;
 }
 
+/* An upper bound of rho - r within strip i. */
+static double strip_out(const lrcsi_profile *profile, uint32_t i)
+{
+    double below = lrcsi_profile_radius(profile, i);
+    double above = lrcsi_profile_radius(profile, i + 1);
+    double bulge = strip_bulge(profile, i);
+    if (!(bulge > 0.0)) {
+        return 0.0;
+    }
+    double out = fmin(sqrt(bulge), below - above);
+    return above > 0.0 ? fmin(out, 0.5 * bulge / above) : out;
+}
+
 /* How far points of strip i move, if its rows differ from their true heights by at most
    height_err. */
 static lrcsi_reach strip_reach(const lrcsi_profile *profile, uint32_t i, double height_err)
@@ -489,12 +502,8 @@ static lrcsi_reach strip_reach(const lrcsi_profile *profile, uint32_t i, double 
     double above = lrcsi_profile_radius(profile, i + 1);
     double bulge = strip_bulge(profile, i);
     lrcsi_reach sector = sector_reach(profile);
-    double out = 0.0;      /* the largest rho - r */
+    double out = strip_out(profile, i);
     double fraction = 0.0; /* the largest difference of fractions of the height */
-    if (bulge > 0.0) {
-        out = fmin(sqrt(bulge), below - above);
-        out = above > 0.0 ? fmin(out, 0.5 * bulge / above) : out;
-    }
     if (!profile_straight(profile) && below > above) {
         fraction = 0.25 * (below - above) / (below + above);
         if (profile->kind == LRCS_SHAPE_PARABOLOID) {
@@ -542,4 +551,106 @@ lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile)
                          .tangential = bound.tangential * REACH_MARGIN + rounding,
                          .solid = bound.solid * REACH_MARGIN + rounding,
                          .surface = bound.surface * REACH_MARGIN + rounding};
+}
+
+/* --- normals ---------------------------------------------------------------------------------- */
+
+/* Let the patch have its normals at polar angles alpha and at azimuths phi = v h from the middle of
+   the sector, v in -1 .. 1, and let nu be the polar angle of the facets' normal. Then
+       N . e_x = sin alpha sin vh,
+       N . e_y = sin(alpha - nu) - sin alpha cos nu (1 - cos vh),
+   and the second term of N . e_y varies by at most sin alpha |cos nu| (1 - cos h), half of which is
+   an error if the constant is chosen well. The image has x = v mu r sin h (see "Reach"). For v in
+   0 .. 1, q = sin vh - v sin h is 0 at both ends, and q'' >= -h^3 v: so 0 <= q <= h^3 (v - v^3)/6,
+   which is below h^3/15.
+
+   Across. On a sphere sin alpha = rho/R. With across = 1/(mu R) the error is at most
+   (rho - r)/R |sin vh| + r/R q, and the mean of |sin vh| is below h/2. On a paraboloid rho/R is
+   y / y_rim, sin alpha = y cos alpha, and across = y_rim C / (mu R), where C is the mean of cos
+   alpha at both rows: the first term is then [y |cos alpha - C| + C y_rim (rho - r)/R] |sin vh|. On
+   a straight wall sin alpha = S is constant. With across = S / (mu r'), r' the mean of the radii of
+   the rows, the first term is S |1 - r/r'| |sin vh|, at most S D |sin vh| with D = |rho0 - rho1| /
+   (rho0 + rho1). The mean of |1 - r/r'| over the patch, where r has a density in proportion to r,
+   is D/2.
+
+   Along, half the range of the difference of both sides.
+   - Straight wall: along = 0; sin(alpha - nu) is constant.
+   - Sphere: N is the position on the unit sphere, so with along = 1/R the difference is that of
+     patch and facets along e_y,
+         (rho cos vh - kappa r) cos nu - (z - z') sin nu.
+     There rho - r is between 0 and strip_out, and (1 - kappa) r varies by |1 - kappa| (rho0 -
+   rho1). With a and beta the fractions of the height, z - z' is a constant and (beta - a) dz + beta
+   (dz'
+     - dz), dz and dz' the rises of patch and facets; beta - a is between 0 and (rho0 - rho1) / (4
+     (rho0 + rho1)).
+   - Paraboloid: f = sin(alpha - nu) as a function of y = tan alpha has
+         |f''| = |sin(alpha - nu) + 2 y cos(alpha - nu)| cos^4 alpha,
+     so that it differs from its chord between both rows by at most (y1 - y0)^2 / 8 times the
+     supremum of that. On the facets y_rim r/R is linear in the position along e_y, and takes the
+     place of y, from which it differs by 0 .. y_rim strip_out / R. */
+lrcsi_profile_normals lrcsi_profile_normals_make(const lrcsi_profile *profile, uint32_t i)
+{
+    const double h = profile->half;
+    const double mu = profile->vertex_ratio;
+    const double kappa = mu * cos(h);
+    double below = lrcsi_profile_radius(profile, i);
+    double above = lrcsi_profile_radius(profile, i + 1);
+    double wide = fmax(below, above);
+    double rise = lrcsi_profile_rise(profile, i);
+    double out = strip_out(profile, i);
+    profile_strip strip = strip_make(profile, i);
+    double facet = hypot(strip.gain * strip.across, strip.up);
+    lrcsi_profile_normals n = {.sine = strip.gain * strip.across / facet,
+                               .cosine = strip.up / facet,
+                               .width = mu * sin(h) * wide,
+                               .length = hypot(kappa * (below - above), rise)};
+    double sine = 1.0; /* the largest of sin alpha */
+    double across;     /* the error except for |sin vh| */
+    double cubic = h * h * h / 15.0;
+    if (profile_straight(profile)) {
+        double mean = 0.5 * (below + above);
+        sine = cos(strip.low);
+        n.across = sine / (mu * mean);
+        across = sine * fabs(below - above) / (below + above);
+        n.across_mean = 0.25 * h * across + sine * wide / mean * cubic;
+        n.across_err = across * sin(h) + sine * wide / mean * cubic;
+    } else if (profile->kind == LRCS_SHAPE_PARABOLOID) {
+        double y1 = profile_tangent(profile, i);
+        double y0 = profile_tangent(profile, i + 1);
+        double low = 1.0 / hypot(1.0, y1); /* cos alpha */
+        double high = 1.0 / hypot(1.0, y0);
+        double shift = profile->slope * (out / profile->base);
+        double nu = atan2(strip.up, strip.gain * strip.across);
+        double elevation = fmax(fabs(strip.low - nu), fabs(strip.high - nu));
+        double fall = sin(nu - strip.low) - sin(nu - strip.high);
+        double bend = (elevation + 2.0 * y1) * (high * high) * (high * high);
+        sine = y1 * low;
+        n.across = profile->slope / profile->base * (0.5 * (low + high)) / mu;
+        n.along = fall / n.length;
+        across = y1 * (0.5 * (high - low)) + high * shift;
+        n.across_mean = 0.5 * h * across + y1 * high * cubic;
+        n.across_err = across * sin(h) + y1 * high * cubic;
+        n.along_err = 0.125 * (y1 - y0) * (y1 - y0) * bend + 0.5 * shift * fabs(fall / (y1 - y0));
+    } else {
+        double unit = 1.0 / profile->base;
+        double lag = 0.25 * (below - above) / (below + above) * level_rise(profile, i) +
+                     fabs(rise - level_rise(profile, i));
+        sine = below * unit;
+        n.across = unit / mu;
+        n.along = unit;
+        across = out * unit;
+        n.across_mean = 0.5 * h * across + sine * cubic;
+        n.across_err = across * sin(h) + sine * cubic;
+        n.along_err =
+            0.5 * unit *
+            ((out + fabs(1.0 - kappa) * (below - above)) * fabs(n.cosine) + lag * fabs(n.sine));
+    }
+    n.along_err += 0.5 * sine * fabs(n.cosine) * (2.0 * sin(0.5 * h) * sin(0.5 * h));
+    double rounding = (64.0 + 4.0 * (double)profile->strips) * LRCSI_U;
+    n.across_err = n.across_err * REACH_MARGIN + rounding;
+    n.across_mean = n.across_mean * REACH_MARGIN + rounding;
+    n.along_err = n.along_err * REACH_MARGIN + rounding;
+    n.width *= REACH_MARGIN;
+    n.length *= REACH_MARGIN;
+    return n;
 }

@@ -62,4 +62,20 @@ typedef struct lrcsi_reach {
 } lrcsi_reach;
 lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile);
 
+/* The true normals N of the patch of one facet or sector, approximated by a linear function of
+   position on its facets. In their plane, x is measured along the rows from the middle of the
+   sector, y along the line that falls most steeply away from the apex, from anywhere; e_x and e_y
+   are unit vectors in these directions. A point of the patch and its image (lrcsi_reach) satisfy
+       |N . e_x - across x| <= across_err,  mean over the patch <= across_mean,
+       |N . e_y - along y - constant| <= along_err. */
+typedef struct lrcsi_profile_normals {
+    double sine, cosine;  /* of the angle between the facets' normal and the axis */
+    double across, along; /* 1/m */
+    double across_err, across_mean, along_err;
+    double width, length; /* m: upper bounds of |x|, and of differences of y */
+} lrcsi_profile_normals;
+
+/* For the strip between rows i and i + 1. */
+lrcsi_profile_normals lrcsi_profile_normals_make(const lrcsi_profile *profile, uint32_t i);
+
 #endif

@@ -239,20 +239,22 @@ static lrcsi_deviation deviation_of(const deviation_suprema *all, const lrcs_cur
     return (lrcsi_deviation){(times(c->area_error, all->value) + least) * DEVIATION_MARGIN,
                              point * DEVIATION_MARGIN,
                              fmin(region, times(1.0 + c->area_error, point)) * DEVIATION_MARGIN,
-                             all->value * DEVIATION_MARGIN, all->value_max * DEVIATION_MARGIN};
+                             all->value * DEVIATION_MARGIN,
+                             all->value_max * DEVIATION_MARGIN,
+                             all->second * DEVIATION_MARGIN};
 }
 
 lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, double tan2,
                                      const lrcs_curvature *curvature)
 {
     if (cos_theta < -(curvature->turn + 0x1p-40)) { /* below -sin(turn): all of it faces away */
-        return (lrcsi_deviation){0.0, 0.0, 0.0, 0.0, 0.0};
+        return (lrcsi_deviation){0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     }
     int front = cos_theta > 0.0;
     double angle = atan(sqrt(tan2));
     tan2_range range;
     if (!range_around(front ? angle : 2.0 * HALF_PI_BELOW - angle, curvature->turn, &range)) {
-        return (lrcsi_deviation){0.0, 0.0, 0.0, 0.0, 0.0};
+        return (lrcsi_deviation){0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     }
     tan2_point at_facet = tan2_at(tan2);
     deviation_suprema all = {0.0, 0.0, 0.0, 0.0, 0.0};

@@ -37,6 +37,8 @@ typedef struct lrcsi_deviation {
     double region; /* |integral of F - F(facet normal) over any region of the patch| / facet area */
     double value;  /* F(facet normal) */
     double value_max; /* F at any point of the patch */
+    double second; /* the second derivative of F at any normal of the patch, or between them, along
+                      any great circle */
 } lrcsi_deviation;
 
 /* The same bounds for any curvature. For a flat patch `whole`, `point` and `region` may be of the

@@ -69,6 +69,18 @@ static int cell_is_wanted(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
     return 0;
 }
 
+/* Adds a visible piece of a facet to its moment. The facet's centroid is known to within the error
+   of its vertices, which moves the moment by that times the area of the piece. */
+static void add_visible_moment(lrcsi_moment *moment, const lrcsi_cells_facet *f,
+                               const lrcsi_clip_polygon *piece)
+{
+    const double centre[2] = {(f->x[0] + f->x[1] + f->x[2]) / 3, (f->y[0] + f->y[1] + f->y[2]) / 3};
+    double size = lrcsi_max(f->high[0] - f->low[0], f->high[1] - f->low[1]);
+    double reach = lrcsi_clip_add_moment(piece, centre, moment->first);
+    moment->reach = lrcsi_max(moment->reach, lrcsi_max(reach, size));
+    moment->error += (2 * f->err + 4 * LRCSI_U * size) * lrcsi_max(0, lrcsi_clip_area(piece));
+}
+
 /* Adds the facet's area in a cell in which it is visible. Of the sides of the cell and of the facet
    only the parts in both bounding boxes matter; a convex curve in a box is no longer than the box's
    perimeter. */
@@ -101,6 +113,9 @@ static void add_visible_area(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         }
     }
     area->visible += piece.count >= 3 ? lrcsi_max(0, lrcsi_clip_area(&piece)) : 0;
+    if (c->moment && piece.count >= 3) {
+        add_visible_moment(&c->moment[facet], f, &piece);
+    }
 }
 
 /* Decides a cell: the facets of the component are visible in it, all others hidden. */
@@ -313,6 +328,25 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double p
            (ordinary ? lrcsi_max(alone, ACCURACY_OF_SCENE * extent * extent) : 0);
 }
 
+/* Finishes the moment of a facet whose area is reported. What was added differs from the visible
+   region by at most `err`, an area, and the rounding error of an area, times the distance from the
+   centroid, bounds that of a moment (lrcsi_clip_add_moment). If the facet is not partly visible,
+   only what may be hidden, or visible, moves the moment from 0; its points are no farther from the
+   centroid than the largest difference of coordinates. */
+static void moment_report(const lrcsi_cells_work *c, uint32_t facet, int partly, double err)
+{
+    lrcsi_moment *moment = &c->moment[facet];
+    if (partly) {
+        moment->error += moment->reach * err;
+    } else {
+        double low[3];
+        double high[3];
+        lrcsi_view_bounds(c->view, c->view->prepared->scene->facet[facet].corner, 3, low, high);
+        *moment = (lrcsi_moment){.error = err * lrcsi_max(high[0] - low[0], high[1] - low[1]) *
+                                          (1 + 4 * LRCSI_U)};
+    }
+}
+
 /* Reports the areas that are accurate enough. Returns the number of facets that the cells decided,
    but less accurately. */
 static uint32_t areas_report(const lrcsi_cells_work *c, int as_single, lrcsi_visible *visible)
@@ -333,6 +367,9 @@ static uint32_t areas_report(const lrcsi_cells_work *c, int as_single, lrcsi_vis
             visible[f] =
                 (lrcsi_visible){area, lrcsi_max(0, area - err), lrcsi_min(whole, area + err), 0, 0};
             c->wanted[f] = 0;
+            if (c->moment) {
+                moment_report(c, f, some_visible && some_hidden, err);
+            }
         } else {
             left++;
         }
@@ -407,12 +444,13 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
 
 void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *meter,
                        lrcs_work *work, const unsigned char *answer, unsigned char *open,
-                       lrcsi_visible *visible)
+                       lrcsi_visible *visible, lrcsi_moment *moment)
 {
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;
     size_t peak = work->peak; /* restored if memory does not suffice: it is no failure then */
-    lrcsi_cells_work c = {.view = view, .meter = meter, .frame = {.view = view}, .wanted = open};
+    lrcsi_cells_work c = {
+        .view = view, .meter = meter, .frame = {.view = view}, .wanted = open, .moment = moment};
     c.negligible =
         0x1p-10 * ACCURACY_OF_SCENE * extent_of(view->prepared) * extent_of(view->prepared);
     if (cells_allocate(classification, answer, work, &c)) {

@@ -366,6 +366,7 @@ void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
     lrcsi_target_make(c->view, facet, &a->target);
     lrcsi_target_refine(&a->target, &a->needle, &a->frame);
     a->area = (lrcsi_cells_found){.visible = 0};
+    a->moment = (lrcsi_moment){.error = 0};
     c->facet = &a->shape;
     c->area = &a->area;
     c->wanted = &a->wanted;
@@ -653,6 +654,11 @@ static void add_visible_piece(lrcsi_cells_single *a, const lrcsi_cells_cell *cel
         }
         a->piece_err += 4 * LRCSI_U * a->target.reach * lrcsi_clip_perimeter(&a->piece);
     }
+    double(*corner)[2] = a->target.corner;
+    const double centre[2] = {(corner[0][0] + corner[1][0] + corner[2][0]) / 3,
+                              (corner[0][1] + corner[1][1] + corner[2][1]) / 3};
+    double reach = lrcsi_clip_add_moment(&a->piece, centre, a->moment.first);
+    a->moment.reach = lrcsi_max(a->moment.reach, reach);
     area->visible += lrcsi_max(0, lrcsi_clip_area(&cell->shape));
     area->visible_err += 4 * s->tolerance * s->perimeter + 5 * LRCSI_U * (cell->shape.count + 3) *
                                                                (s->high[0] - s->low[0]) *
@@ -720,6 +726,25 @@ int lrcsi_cells_single_next(lrcsi_cells_single *a)
     return 0;
 }
 
+/* The pieces differ from the visible region by at most `err`, an area, all that is undecided, and
+   the error of their corners and of the centroid, 10 u of the target's reach, along the perimeter.
+   All of this is within `reach` of the centroid, or in the facet. If all of the facet is visible,
+   its moment is 0. */
+static void moment_close(lrcsi_cells_single *a, double err)
+{
+    const lrcsi_target *t = &a->target;
+    double undecided = a->uncertainty[0] + a->uncertainty[1];
+    double differs = err + undecided + 40 * LRCSI_U * t->reach * t->perimeter;
+    double reach = lrcsi_max(a->moment.reach, t->diameter);
+    if (a->frame.needle) {
+        a->moment.error = HUGE_VAL;
+    } else if (a->hidden || undecided > 0) {
+        a->moment.error = reach * differs;
+    } else {
+        a->moment = (lrcsi_moment){.error = reach * differs};
+    }
+}
+
 lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
 {
     const lrcsi_cells_found *found = &a->area;
@@ -732,6 +757,7 @@ lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
                       ? lrcsi_min(whole, unit * (found->visible + a->uncertainty[1]))
                       : whole;
     err += a->frame.needle ? incidence.error * whole : 0;
+    moment_close(a, err);
     return (lrcsi_visible){seen, lrcsi_max(0, seen - unit * a->uncertainty[1] - err),
                            lrcsi_min(whole, seen + unit * a->uncertainty[0] + err), 0, 0};
 }

@@ -35,6 +35,7 @@ typedef struct lrcsi_cells_single {
     double negligible;        /* undecided area too small to be divided further */
     double border_area;       /* area within the error of the sides of f */
     double piece_err;         /* additional error of the area of a needle's pieces */
+    lrcsi_moment moment;      /* of the pieces; after `close` of the visible region */
     double uncertainty[2];    /* undecided area: [0] probably hidden, [1] probably visible */
     int hidden;               /* 1 if some of f is hidden */
 } lrcsi_cells_single;
@@ -50,7 +51,8 @@ int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *m
 
 /* One facet that can hide others (lrcsi_view_casts), piece by piece: call open, then next until
    it returns 0, then close. Each `next` that returns 1 leaves one piece of the visible region in
-   a->piece, in the frame of a->target; `close` returns the area. */
+   a->piece, in the frame of a->target; `close` returns the area, and leaves the moment in
+   a->moment; that of a needle is not known. */
 void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet);
 int lrcsi_cells_single_next(lrcsi_cells_single *a);
 lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a);

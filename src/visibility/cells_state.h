@@ -7,6 +7,7 @@
 #include "base/constant.h"
 #include "visibility/cells_facet.h"
 #include "visibility/classify.h"
+#include "visibility/visible_area.h"
 
 /* A list for each block: item[first[b] .. first[b + 1]) of block b. */
 typedef struct lrcsi_cells_lists {
@@ -85,6 +86,7 @@ typedef struct lrcsi_cells_work {
     unsigned char *kind;   /* facet: LRCSI_CELLS_COPLANAR and so on (visibility/cells_facet.h) */
     lrcsi_cells_facet *facet;
     lrcsi_cells_found *area;
+    lrcsi_moment *moment;   /* facet: of its visible region; NULL: not wanted */
     uint32_t stamp;         /* the number of the sample; arrays marked with it need no clearing: */
     uint32_t *listed;       /* facet: the last sample in whose cell it was listed */
     uint32_t *covers;       /* facet: 2 stamp + 1 if it certainly covers the sample, 2 stamp if it

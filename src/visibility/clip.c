@@ -48,6 +48,31 @@ double lrcsi_clip_area(const lrcsi_clip_polygon *polygon)
     return area;
 }
 
+double lrcsi_clip_add_moment(const lrcsi_clip_polygon *polygon, const double about[2],
+                             double first[2])
+{
+    const double(*c)[2] = (const double(*)[2])polygon->corner;
+    double sum[2] = {0, 0};
+    double square = 0;
+    for (uint32_t j = 0; j < polygon->count; j++) {
+        double x = c[j][0] - about[0];
+        double y = c[j][1] - about[1];
+        square = lrcsi_max(square, x * x + y * y);
+    }
+    for (uint32_t j = 2; j < polygon->count; j++) {
+        double area = 0.5 * ((c[j - 1][0] - c[0][0]) * (c[j][1] - c[0][1]) -
+                             (c[j - 1][1] - c[0][1]) * (c[j][0] - c[0][0]));
+        for (int k = 0; k < 2; k++) {
+            sum[k] +=
+                area *
+                (((c[0][k] - about[k]) + (c[j - 1][k] - about[k]) + (c[j][k] - about[k])) / 3);
+        }
+    }
+    first[0] += sum[0];
+    first[1] += sum[1];
+    return sqrt(square) * (1 + 4 * LRCSI_U);
+}
+
 /* The contribution of the segment p q to the area of a polygon within the unit square at the
    origin: the integral of x, clamped to 0 .. 1, over y from p to q, also clamped to 0 .. 1.
 

@@ -4,6 +4,7 @@
    for all others, together or one by one. */
 #include "visibility/occlude.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/work.h"
@@ -122,14 +123,14 @@ static uint32_t next_facet_with(const unsigned char *values, int value, uint32_t
 
 /* Undecided facets: together if there are many; then one by one those that remain. */
 static int occlude_undecided(lrcsi_occlusion *o, lrcs_work *work, unsigned char *open,
-                             lrcsi_visible *visible)
+                             lrcsi_visible *visible, lrcsi_moment *moment)
 {
     lrcsi_classification *classification = o->classification;
     const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
     if (classification->undecided_count >= MIN_UNDECIDED &&
         classification->undecided_count >= count / MIN_FRACTION && can_process_together(p)) {
-        lrcsi_cells_areas(classification, o->meter, work, o->uniform, open, visible);
+        lrcsi_cells_areas(classification, o->meter, work, o->uniform, open, visible, moment);
     }
     uint32_t f = next_facet_with(open, 1, 0, count);
     if (f == count) {
@@ -140,6 +141,9 @@ static int occlude_undecided(lrcsi_occlusion *o, lrcs_work *work, unsigned char 
         lrcsi_view_progress(classification->view, LRCS_PROGRESS_VISIBILITY, f, count);
         lrcsi_occlude_open(o, f);
         visible[f] = lrcsi_occlude_area(o);
+        if (moment) {
+            moment[f] = o->undecided ? o->single.moment : (lrcsi_moment){.error = 0};
+        }
         if (visible[f].high == 0) {
             o->uniform[f] = LRCSI_QUERY_HIDDEN;
         }
@@ -148,7 +152,7 @@ static int occlude_undecided(lrcsi_occlusion *o, lrcs_work *work, unsigned char 
 }
 
 int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                      const unsigned char **answer, lrcsi_visible *visible)
+                      const unsigned char **answer, lrcsi_visible *visible, lrcsi_moment *moment)
 {
     const lrcsi_view *view = classification->view;
     uint32_t count = view->prepared->scene->facet_count;
@@ -157,17 +161,23 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
     int status = occlude_begin(classification, meter, work, &o);
     unsigned char *open = lrcsi_work_take(work, count, 1);
     status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
+    for (uint32_t f = 0; moment && f < count; f++) {
+        moment[f] = (lrcsi_moment){.error = 0};
+    }
     if (status == LRCS_OK) { /* only facets that can hide others are ever undecided */
         memcpy(open, classification->undecided, count);
         for (uint32_t f = next_facet_with(o.uniform, LRCSI_QUERY_UNDECIDED, 0, count); f < count;
              f = next_facet_with(o.uniform, LRCSI_QUERY_UNDECIDED, f + 1, count)) {
             visible[f] = uniform_area(&o, f);
+            if (moment) {
+                moment[f].error = HUGE_VAL;
+            }
         }
         for (uint32_t f = next_facet_with(open, 1, 0, count); f < count;
              f = next_facet_with(open, 1, f + 1, count)) {
             o.uniform[f] = LRCSI_QUERY_UNDECIDED;
         }
-        status = occlude_undecided(&o, work, open, visible);
+        status = occlude_undecided(&o, work, open, visible, moment);
     }
     /* Either the answers, moved to the beginning of the work area used here, or all areas. */
     work->used = mark;

@@ -46,8 +46,9 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o);
    Returned: *answer, unless answer is NULL: by facet, LRCSI_QUERY_HIDDEN or _VISIBLE if nothing or
    all of it is visible (exact); otherwise LRCSI_QUERY_UNDECIDED, and visible[facet] is its area.
    Thus most of visible[] is never written. With answer NULL, visible[] has the areas of all facets.
+   Unless NULL, moment[] has the moments of all facets.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Only *answer stays in the work area. */
 int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                      const unsigned char **answer, lrcsi_visible *visible);
+                      const unsigned char **answer, lrcsi_visible *visible, lrcsi_moment *moment);
 
 #endif

@@ -19,6 +19,14 @@ typedef struct lrcsi_known_list {
     uint32_t first, count;
 } lrcsi_known_list;
 
+/* The first moment of a facet's visible region: the integral of x - c over its projection, c the
+   facet's centroid in the view plane. 0 for a facet that is entirely visible or hidden. */
+typedef struct lrcsi_moment {
+    double first[2];
+    double error; /* bound on the error of either component; HUGE_VAL: the moment is not known */
+    double reach; /* while it is computed: the largest distance from c of what counts as visible */
+} lrcsi_moment;
+
 /* What exact queries decide about facets before samples are taken. */
 typedef struct lrcsi_known {
     lrcsi_classification *classification;

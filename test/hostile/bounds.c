@@ -321,7 +321,7 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
             check_bounds(c, &view, f, &alone, 0);
         }
     }
-    lrcsi_cells_areas(&classification, NULL, &work, o.uniform, open, together);
+    lrcsi_cells_areas(&classification, NULL, &work, o.uniform, open, together, NULL);
     for (uint32_t f = 0; f < c->scene.facet_count; f++) {
         if (lrcsi_view_casts(&view, f) && !open[f]) {
             check_bounds(c, &view, f, &together[f], 1);

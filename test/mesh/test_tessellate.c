@@ -515,6 +515,104 @@ static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along
     }
 }
 
+/* The normals of the true surface beside linear functions of the images of their points, over the
+   same map. */
+static void check_normals(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_rings)
+{
+    enum { STEPS = 120 };
+    const lrcs_divisions divisions = {around, along, level_rings};
+    lrcs_mesh mesh = make_rings(shape, around, along, level_rings, NULL);
+    lrcsi_profile profile = lrcsi_profile_make(shape, &divisions);
+    double h = pi / around;
+    double swell = sqrt(2.0 * h / sin(2.0 * h));
+    for (uint32_t i = 0; i < along; i++) {
+        lrcsi_profile_normals n = lrcsi_profile_normals_make(&profile, i);
+        const double *low = mesh.vertex[i * around].x;
+        const double *high = mesh.vertex[(i + 1) * around].x;
+        int apex = i + 1 == along && shape->kind != LRCS_SHAPE_FRUSTUM;
+        double lower = low[0] / swell;
+        double upper = apex ? 0.0 : high[0] / swell;
+        double across = 0.0;
+        double mean = 0.0;
+        double least = HUGE_VAL;
+        double most = -HUGE_VAL;
+        check_rel(n.sine * n.sine + n.cosine * n.cosine, 1.0, 1e-14);
+        for (int j = 0; j < STEPS * STEPS; j++) {
+            double fraction = (j / STEPS + 0.5) / STEPS;
+            double v = 2.0 * (j % STEPS + 0.5) / STEPS - 1.0;
+            double r;
+            double z;
+            true_point(shape, lower, upper, fraction, &r, &z);
+            double ours = sqrt(upper * upper + fraction * (lower * lower - upper * upper));
+            double down = lower == upper ? fraction : (ours - upper) / (lower - upper);
+            double x = swell * sin(h) * v * ours;
+            double y =
+                n.cosine * swell * cos(h) * ours - n.sine * (high[2] + down * (low[2] - high[2]));
+            double out = shape->length; /* the true normal, away from the axis and along it */
+            double up = shape->radius2 - shape->radius;
+            if (shape->kind == LRCS_SHAPE_DOME) {
+                out = r;
+                up = z;
+            } else if (shape->kind == LRCS_SHAPE_PARABOLOID) {
+                out = 2.0 * shape->length * r / (shape->radius * shape->radius);
+                up = 1.0;
+            } else if (shape->kind == LRCS_SHAPE_CONE) {
+                up = shape->radius;
+            }
+            double length = hypot(out, up);
+            double by_x = out / length * sin(v * h) - n.across * x;
+            double by_y = n.cosine * out / length * cos(v * h) - n.sine * up / length - n.along * y;
+            across = fmax(across, fabs(by_x));
+            mean += fabs(by_x) / STEPS / STEPS;
+            least = fmin(least, by_y);
+            most = fmax(most, by_y);
+            check_most(fabs(x), n.width);
+        }
+        check_most(across, n.across_err);
+        check_most(mean, n.across_mean * (1.0 + 1e-3)); /* the quadrature's error */
+        check_most(0.5 * (most - least), n.along_err);
+        check_most(hypot(swell * cos(h) * (lower - upper), high[2] - low[2]), n.length);
+        if (along > 20 && !apex && shape->kind == LRCS_SHAPE_DOME) { /* and they are not idle */
+            check_most(n.across_err, 8.0 * across + 1e-12);
+            check_most(n.along_err, 4.0 * (most - least) + 1e-12);
+        }
+    }
+}
+
+static void normals_are_nearly_linear_in_position_on_facets(void **state)
+{
+    (void)state;
+    const lrcs_shape dome = {.kind = LRCS_SHAPE_DOME, .radius = 0.7, .parts = LRCS_SHAPE_WALL};
+    const lrcs_shape bowl = {
+        .kind = LRCS_SHAPE_PARABOLOID, .radius = 0.5, .length = 0.4, .parts = LRCS_SHAPE_WALL};
+    const lrcs_shape flat = {
+        .kind = LRCS_SHAPE_PARABOLOID, .radius = 2.0, .length = 0.1, .parts = LRCS_SHAPE_WALL};
+    const lrcs_shape cone = {
+        .kind = LRCS_SHAPE_CONE, .radius = 0.5, .length = 0.8, .parts = LRCS_SHAPE_WALL};
+    lrcs_shape frustum = {.kind = LRCS_SHAPE_FRUSTUM,
+                          .radius = 0.3,
+                          .radius2 = 0.5,
+                          .length = 0.8,
+                          .parts = LRCS_SHAPE_WALL};
+    static const uint32_t around[] = {8, 12, 24, 100};
+    for (int i = 0; i < 4; i++) {
+        for (uint32_t along = 1; along <= 36; along += along < 4 ? 1 : 8) {
+            for (int level = 0; level < 2; level++) {
+                check_normals(&dome, around[i], along, level);
+                check_normals(&bowl, around[i], along, level);
+                check_normals(&flat, around[i], along, level);
+            }
+        }
+        check_normals(&cone, around[i], 1, 0);
+        check_normals(&frustum, around[i], 1, 0);
+        frustum.radius = 0.5; /* a cylinder */
+        check_normals(&frustum, around[i], 1, 0);
+        frustum.radius = 1.3;
+        check_normals(&frustum, around[i], 1, 0);
+        frustum.radius = 0.3;
+    }
+}
+
 static void reach_bounds_how_far_the_map_onto_facets_moves_points(void **state)
 {
     (void)state;
@@ -834,6 +932,7 @@ int main(void)
         cmocka_unit_test(plane_faced_bodies_and_discs_have_no_curvature),
         cmocka_unit_test(curvature_bounds_every_patch_and_is_nearly_reached),
         cmocka_unit_test(reach_bounds_how_far_the_map_onto_facets_moves_points),
+        cmocka_unit_test(normals_are_nearly_linear_in_position_on_facets),
         cmocka_unit_test(hausdorff_distances_bound_how_far_the_surfaces_are_from_each_other),
         cmocka_unit_test(level_rings_are_closer_to_the_true_surface),
         cmocka_unit_test(no_dimension_at_all_makes_a_mesh_of_no_area),

@@ -101,7 +101,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
         open[f] = lrcsi_view_casts(&view, f) != 0;
     }
     double start = now_ms();
-    lrcsi_cells_areas(&classification, NULL, work, NULL, open, found);
+    lrcsi_cells_areas(&classification, NULL, work, NULL, open, found, NULL);
     sums->together.ms += now_ms() - start;
     must(ref_occlude_make(&classification, work, &o));
     must(lrcsi_cells_single_make(&classification, NULL, &o.cover.facets, work, &a));

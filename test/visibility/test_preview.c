@@ -254,7 +254,8 @@ static void the_likely_error_is_near_the_error(void **state)
             lrcsi_view view = seen_from(i);
             lrcsi_classification classification;
             assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
-            assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, truth), LRCS_OK);
+            assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, truth, NULL),
+                             LRCS_OK);
             for (uint32_t size = 32; size <= 512; size *= 4) {
                 int undecided;
                 assert_int_equal(lrcsi_preview_make(&view, size, &work, visible, &undecided),

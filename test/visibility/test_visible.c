@@ -188,7 +188,7 @@ static double check_bounds(const lrcsi_view *view, uint32_t size, unsigned *part
     double all = 0;
     assert_int_equal(lrcsi_classify_make(view, NULL, &work, &classification), LRCS_OK);
     size_t mark = work.used;
-    assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, exact), LRCS_OK);
+    assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, exact, NULL), LRCS_OK);
     work.used = mark;
     assert_int_equal(lrcsi_visible_known(&classification, &work, &known), LRCS_OK);
     assert_int_equal(lrcsi_visible_sampled(&known, size, &work, &raster, visible), LRCS_OK);

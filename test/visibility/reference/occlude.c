@@ -468,7 +468,7 @@ int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work, lrcsi
     if (status == LRCS_OK && classification->undecided_count >= CELLS_LEAST &&
         classification->undecided_count >= view->prepared->scene->facet_count / CELLS_SHARE &&
         cells_serve(view->prepared)) {
-        lrcsi_cells_areas(classification, NULL, work, o.uniform, open, visible);
+        lrcsi_cells_areas(classification, NULL, work, o.uniform, open, visible, NULL);
     }
     /* 2. One by one what that left open. */
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {

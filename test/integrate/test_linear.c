@@ -1,0 +1,290 @@
+/* SPDX-License-Identifier: MIT */
+/* The linear approximation over a patch against F at points of the true surface, and its integral
+   over parts of the patch, by sums over the map onto the facets (mesh/profile.c), written down here
+   once more. usage: test_linear [SHAPES SEED]    (many more) */
+#include "integrate/linear.h"
+
+#include <lrcs/lrcs.h>
+
+#include <stdlib.h>
+
+#include "base/rotate.h"
+#include "check.h"
+#include "random.h"
+
+static unsigned char memory[1u << 28];
+static uint64_t seed = 1;
+
+static double between(double low, double high)
+{
+    return low * pow(high / low, random_unit(&seed));
+}
+
+/* --- one shape in a view -----------------------------------------------------------------------
+ */
+
+typedef struct linear_scene {
+    lrcs_place place;
+    lrcs_scene scene;
+    lrcsi_view view;
+    lrcsi_plan plan;
+} linear_scene;
+
+/* The shape, placed, and a plate far away, so that it is one among others. */
+static void scene_make(const lrcs_shape *shape, double division, const lrcs_brdf *brdf,
+                       const double d[3], linear_scene *s)
+{
+    lrcs_recipe_part part[2] = {
+        {.name = "a", .material_index = -1, .place = s->place, .shape = *shape},
+        {.name = "b", .material_index = -1, .place = lrcs_place_default()}};
+    part[1].shape = (lrcs_shape){.kind = LRCS_SHAPE_PLATE, .size = {1, 1}};
+    part[1].place.translate[2] = -30;
+    lrcs_binding binding = {.kind = LRCS_BIND_DEFAULT, .brdf = *brdf, .two_sided = 1};
+    const lrcs_recipe recipe = {
+        .part = part, .part_count = 2, .binding = &binding, .binding_count = 1};
+    lrcs_build_options options = lrcs_build_options_default();
+    lrcs_run_options run = lrcs_run_options_default();
+    const lrcs_prepared *prepared;
+    lrcsi_clear clear;
+    lrcs_pose pose;
+    options.tolerance = division;
+    lrcs_work work = lrcs_work_make(memory, sizeof memory);
+    assert_int_equal(lrcs_scene_build(&recipe, NULL, &options, &work, &s->scene, NULL), LRCS_OK);
+    assert_int_equal(lrcs_prepare_run(&s->scene, &work, &prepared), LRCS_OK);
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    assert_int_equal(
+        lrcsi_view_face(prepared, &pose, lrcsi_plan_backs(prepared, &run), &work, &s->view),
+        LRCS_OK);
+    assert_int_equal(lrcsi_view_project(&work, &s->view), LRCS_OK);
+    assert_int_equal(lrcsi_clear_make(&s->view, &work, &clear), LRCS_OK);
+    s->plan = lrcsi_plan_make(&s->view, &clear, &run);
+}
+
+static lrcs_shape any_shape(void)
+{
+    static const int kind[] = {LRCS_SHAPE_SPHERE, LRCS_SHAPE_DOME,    LRCS_SHAPE_PARABOLOID,
+                               LRCS_SHAPE_CONE,   LRCS_SHAPE_FRUSTUM, LRCS_SHAPE_CYLINDER};
+    lrcs_shape shape = {.kind = kind[(int)(6 * random_unit(&seed))], .parts = LRCS_SHAPE_WALL};
+    shape.radius = between(0.1, 2);
+    if (shape.kind == LRCS_SHAPE_SPHERE) {
+        shape.parts = LRCS_SHAPE_ALL;
+    } else if (shape.kind != LRCS_SHAPE_DOME) {
+        shape.length = between(0.1, 2);
+    }
+    shape.radius2 = shape.kind == LRCS_SHAPE_FRUSTUM ? between(0.1, 2) : 0;
+    return shape;
+}
+
+/* --- the patch and its map ---------------------------------------------------------------------
+ */
+
+/* The strip of a patch, in the shape's units: true radii and heights of the facets' rows. */
+typedef struct strip {
+    const lrcs_shape *shape;
+    double lower, upper; /* radii */
+    double low, high;    /* heights of the facets' rows */
+    double h, swell;     /* half a sector; vertex radius / true radius */
+} strip;
+
+/* The true radius at a fraction of the area, counted from the upper row, and the normal there. */
+static double true_radius(const strip *s, double fraction, double *out, double *up)
+{
+    const lrcs_shape *shape = s->shape;
+    double square = s->upper * s->upper + fraction * (s->lower * s->lower - s->upper * s->upper);
+    double r = sqrt(square);
+    if (shape->kind == LRCS_SHAPE_SPHERE || shape->kind == LRCS_SHAPE_DOME) {
+        double a = sqrt(shape->radius * shape->radius - s->upper * s->upper);
+        double b = sqrt(fmax(0, shape->radius * shape->radius - s->lower * s->lower));
+        double z = a + fraction * (b - a);
+        r = sqrt(shape->radius * shape->radius - z * z);
+        *out = r;
+        *up = z;
+    } else if (shape->kind == LRCS_SHAPE_PARABOLOID) {
+        double k = 2 * shape->length / (shape->radius * shape->radius);
+        double a = pow(1 + k * k * s->upper * s->upper, 1.5);
+        double b = pow(1 + k * k * s->lower * s->lower, 1.5);
+        double w = cbrt(a + fraction * (b - a));
+        r = sqrt((w - 1) * (w + 1)) / k;
+        *out = k * r;
+        *up = 1;
+    } else {
+        *out = shape->length;
+        *up = s->lower - s->upper;
+    }
+    double length = hypot(*out, *up);
+    *out /= length;
+    *up /= length;
+    return r;
+}
+
+/* A vector of the shape's frame, or a point relative to another one, in the view. */
+static void to_view(const linear_scene *s, const double v[3], double scale, double out[3])
+{
+    double body[3];
+    for (int k = 0; k < 3; k++) {
+        const double *row = s->place.rotate[k];
+        body[k] = scale * (row[0] * v[0] + row[1] * v[1] + row[2] * v[2]);
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *row = s->view.R[k];
+        out[k] = row[0] * body[0] + row[1] * body[1] + row[2] * body[2];
+    }
+}
+
+static double reflect_at(const lrcs_brdf *brdf, double c)
+{
+    double u = 1 / (c * c) - 1;
+    return brdf->A / (c * c * c * c) * exp(-u / (brdf->s * brdf->s)) +
+           brdf->B * pow(c, brdf->m + 2);
+}
+
+static unsigned patches;
+static unsigned beyond;
+static double closest_point;
+static double closest_region;
+
+static void compare(double is, double most, double *closest, const char *what, uint64_t began,
+                    const strip *at)
+{
+    *closest = fmax(*closest, is / most);
+    if (!(is <= most)) {
+        beyond++;
+        fprintf(stderr, "seed %llu, kind %d, %s: %.17g, at most %.17g\n", (unsigned long long)began,
+                at->shape->kind, what, is, most);
+    }
+}
+
+/* Points at equal fractions of area; regions: on one side of lines in the view, and between rows.
+   Their integrals are sums over these points. */
+static void patch_check(const linear_scene *s, const lrcs_brdf *brdf, const lrcsi_patch *patch,
+                        const lrcsi_linear *linear, const lrcs_curvature *c, const strip *at,
+                        uint64_t began)
+{
+    enum { STEPS = 48, LINES = 12 };
+    static double image[STEPS * STEPS][2];
+    static double off[STEPS * STEPS];
+    const double phi = (2.0 * patch->at.sector + 1) * at->h;
+    const double side = patch->at.mirrored ? -1 : 1;
+    const double scale = ldexp(s->place.scale[0], -s->view.prepared->exponent);
+    const double mean = patch->glint + patch->diffuse;
+    double error = patch->remainder + patch->rounding + 1e-11 * mean;
+    double top = at->swell * sin(at->h) * at->upper;
+    double base = at->swell * sin(at->h) * at->lower;
+    double centroid = (top + 2 * base) / (top + base) / 3; /* fraction from the top */
+    double centre[3] = {at->swell * cos(at->h) * (at->upper + centroid * (at->lower - at->upper)),
+                        0, at->high + centroid * (at->low - at->high)};
+    double point = linear->point + (1 + c->area_error) * linear->region + error;
+    double largest = 0;
+    for (int i = 0; i < STEPS * STEPS; i++) {
+        double fraction = (i / STEPS + 0.5) / STEPS;
+        double v = 2.0 * (i % STEPS + 0.5) / STEPS - 1;
+        double out;
+        double up;
+        double view[3];
+        true_radius(at, fraction, &out, &up);
+        double azimuth = phi + v * at->h;
+        const double n[3] = {out * cos(azimuth), out * sin(azimuth), side * up};
+        to_view(s, n, s->place.scale[0] < 0 ? -1 : 1, view);
+        double f = reflect_at(brdf, patch->side * view[2]);
+        double ours = sqrt(at->upper * at->upper +
+                           fraction * (at->lower * at->lower - at->upper * at->upper));
+        double down =
+            at->lower == at->upper ? fraction : (ours - at->upper) / (at->lower - at->upper);
+        double x = at->swell * cos(at->h) * ours - centre[0]; /* in the frame of the sector */
+        double y = at->swell * sin(at->h) * v * ours;
+        const double p[3] = {x * cos(phi) - y * sin(phi), x * sin(phi) + y * cos(phi),
+                             side * (at->high + down * (at->low - at->high) - centre[2])};
+        to_view(s, p, scale, view);
+        image[i][0] = view[0];
+        image[i][1] = view[1];
+        off[i] = f - mean;
+        for (int k = 0; k < 2; k++) {
+            off[i] -= (linear->glint[k] + linear->diffuse[k]) * view[k];
+        }
+        largest = fmax(largest, fabs(off[i]));
+    }
+    compare(largest, point, &closest_point, "point", began, at);
+    double reach = hypot(image[0][0], image[0][1]);
+    for (int i = 0; i < LINES; i++) {
+        double angle = 2 * acos(-1.0) * random_unit(&seed);
+        double shift = (2 * random_unit(&seed) - 1) * reach;
+        double whole = 0;
+        for (int j = 0; j < STEPS * STEPS; j++) {
+            int inside =
+                i == 0 ? off[j] > 0 : image[j][0] * cos(angle) + image[j][1] * sin(angle) < shift;
+            whole += inside ? off[j] : 0;
+        }
+        compare(fabs(whole) / STEPS / STEPS, linear->region + error, &closest_region, "region",
+                began, at);
+    }
+}
+
+/* A few facets of one shape. */
+static void shape_check(void)
+{
+    static linear_scene s;
+    uint64_t began = seed;
+    lrcs_shape shape = any_shape();
+    const lrcs_brdf brdf = {random_unit(&seed) < 0.7 ? random_unit(&seed) : 0, random_unit(&seed),
+                            between(0.05, 2), 4 * random_unit(&seed) * random_unit(&seed)};
+    double scale = random_unit(&seed) < 0.5 ? -between(0.1, 10) : between(0.1, 10);
+    double d[3];
+    double euler[3];
+    s.place = lrcs_place_default();
+    for (int k = 0; k < 3; k++) {
+        s.place.scale[k] = scale;
+        s.place.translate[k] = random_unit(&seed);
+        euler[k] = 360 * random_unit(&seed);
+        d[k] = random_unit(&seed) - 0.5;
+    }
+    assert_int_equal(lrcsi_rotate_euler("XYZ", euler, s.place.rotate), LRCS_OK);
+    scene_make(&shape, between(2e-3, 2e-1), &brdf, d, &s);
+    const lrcs_part *part = &s.scene.part[0];
+    const lrcs_curvature *c = &part->curvature;
+    lrcsi_profile profile = lrcsi_profile_make(&shape, &part->divisions);
+    uint32_t step = 29 + part->facet_count / 40;
+    for (uint32_t f = (uint32_t)(step * random_unit(&seed)); f < part->facet_count; f += step) {
+        lrcsi_patch patch = {.side = 0};
+        lrcsi_linear linear;
+        if (s.view.prepared->skip[f] || !lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patch)) {
+            continue;
+        }
+        lrcsi_incidence incidence = lrcsi_view_incidence(&s.view, f);
+        double second =
+            lrcsi_deviation_make(&brdf, fabs(incidence.cos_theta), incidence.tan2, c).second;
+        assert_int_equal(lrcsi_linear_make(&s.view, &brdf, &patch, c, second, &linear), 1);
+        strip at = {.shape = &shape, .h = profile.half, .swell = profile.vertex_ratio};
+        at.lower = lrcsi_profile_radius(&profile, patch.at.row);
+        at.upper = lrcsi_profile_radius(&profile, patch.at.row + 1);
+        at.high = lrcsi_profile_rise(&profile, patch.at.row);
+        patches++;
+        patch_check(&s, &brdf, &patch, &linear, c, &at, began);
+    }
+}
+
+static void f_is_within_the_bounds_of_the_linear_function(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 40; i++) {
+        shape_check();
+    }
+    assert_true(patches > 500);
+    assert_int_equal(beyond, 0);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(f_is_within_the_bounds_of_the_linear_function),
+    };
+    if (argc > 2) {
+        seed = strtoull(argv[2], NULL, 10);
+        for (unsigned long i = strtoul(argv[1], NULL, 10); i > 0; i--) {
+            shape_check();
+        }
+        printf("%u patches, %u beyond, worst fraction of the bound: point %.3f, region %.3f\n",
+               patches, beyond, closest_point, closest_region);
+        return beyond != 0;
+    }
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
