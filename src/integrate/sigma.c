@@ -5,8 +5,11 @@
    1. view: lrcsi_plan_backs, lrcsi_view_face, lrcsi_clear_make, lrcsi_plan_make,
       lrcsi_view_project;
    2. classification: run_classify;
-   3. visible areas: run_exact (clipping), run_zbuffer or run_previews (samples);
-   4. the sum of Eq. 2: run_sum, and run_facet where nothing is searched for shadows. */
+   3. visible areas: run_clip, or run_draw (samples), or run_unshadowed where nothing is searched
+      for shadows;
+   4. the sum of Eq. 2: run_sum.
+   Rasters are drawn until one is accepted (run_rasters), or clipping and rasters take turns
+   (run_previews); so 3 and 4 may be repeated. */
 #include "integrate/sigma.h"
 
 #include <math.h>
@@ -132,9 +135,10 @@ static double total_bound(const lrcsi_total *total)
    because undecided facets then count by half. */
 static uint32_t run_acceptance(const lrcsi_sigma *run)
 {
-    const lrcsi_total *t = &run->total;
+    const lrcsi_outcome *outcome = &run->outcome;
+    const lrcsi_total *t = &outcome->total;
     double allowed = run->options->tolerance * (t->glint + t->diffuse);
-    int estimated = run->size != 0 && !(run->flags & LRCS_FLAG_DEPTH_UNDECIDED) &&
+    int estimated = outcome->size != 0 && !(outcome->flags & LRCS_FLAG_DEPTH_UNDECIDED) &&
                     !run->meter.spent && allowed > 0 &&
                     t->error_estimate + fmax(0, t->tessellation) + t->rounding <= allowed;
     if (total_bound(t) <= allowed && t->curvature <= allowed) {
@@ -155,33 +159,34 @@ static lrcsi_curve_options run_curve_options(const lrcsi_sigma *run, lrcsi_meter
                                  run->moments};
 }
 
+static const lrcsi_proximity_band *run_band(const lrcsi_sigma *run)
+{
+    return run->classified && run->plan.proximity_band ? &run->band : NULL;
+}
+
 static lrcsi_total run_total(const lrcsi_sigma *run, lrcs_facet_record *records)
 {
     const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->corrected};
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
-    return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run->band, &run->clear,
+    return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run_band(run), &run->clear,
                             records, run->options->part_error_m2);
 }
 
-/* Runs method facet. Only facets with curved normals need areas in memory; for all others
+/* The areas of method facet. Only facets with curved normals need them in memory; for all others
    lrcsi_total_make derives them from the plan. */
-static void run_facet(lrcsi_sigma *run)
+static void run_unshadowed(lrcsi_sigma *run)
 {
     const lrcsi_view *view = &run->view;
-    if (run->last < LRCSI_SIGMA_SUM) {
-        return;
+    for (uint32_t f = 0; run->curved && f < view->prepared->scene->facet_count; f++) {
+        lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
+        run->visible[f] = lrcsi_view_casts(view, f)
+                              ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
+                              : (lrcsi_visible){0, 0, 0, 0, 0};
     }
     if (run->curved) {
         lrcsi_curve_options options = run_curve_options(run, &run->meter);
-        for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-            lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-            run->visible[f] = lrcsi_view_casts(view, f)
-                                  ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
-                                  : (lrcsi_visible){0, 0, 0, 0, 0};
-        }
         lrcsi_curve_from_areas(view, &options, run->visible, run->curved);
     }
-    run->total = run_total(run, NULL);
 }
 
 /* Are there proofs about the visible areas of the pose that the methods do not use? */
@@ -225,15 +230,15 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
     }
 }
 
-/* Computes the sum over the visible areas found by samples or by clipping:
+/* Computes the sum over the visible areas that samples or clipping found:
    1. replaces areas by what is proved about them;
    2. if they are sampled, integrates over facets with curved normals, which are clipped if they are
-      partly visible and there is memory for it; method exact has already integrated over its
-      pieces;
+      partly visible and there is memory for it; clipping has already integrated over its pieces;
    3. finds the hidden regions of the proximity band;
-   4. sums. */
-static void run_sum(lrcsi_sigma *run, int sampled)
+   4. sums. Steps are taken from the given meter, which is that of the run or of an attempt. */
+static void run_sum(lrcsi_sigma *run, lrcsi_meter *meter)
 {
+    int sampled = run->outcome.size != 0;
     if (run->last < LRCSI_SIGMA_SUM) {
         return;
     }
@@ -241,18 +246,18 @@ static void run_sum(lrcsi_sigma *run, int sampled)
         areas_apply_proofs(run);
     }
     if (run->curved && sampled) {
-        lrcsi_curve_options options = run_curve_options(run, &run->meter);
+        lrcsi_curve_options options = run_curve_options(run, meter);
         int status = lrcsi_curve_from_pieces(&run->classification, &options, 1, run->work,
                                              run->visible, run->curved);
         if (status != LRCS_OK) {
             lrcsi_curve_from_areas(&run->view, &options, run->visible, run->curved);
-            run->flags |= LRCS_FLAG_MEMORY_FALLBACK;
+            run->outcome.flags |= LRCS_FLAG_MEMORY_FALLBACK;
         }
     }
-    if (run->band) {
-        lrcsi_proximity_band_settle(run->band, run->visible, &run->meter, run->work);
+    if (run_band(run)) {
+        lrcsi_proximity_band_settle(&run->band, run->visible, meter, run->work);
     }
-    run->total = run_total(run, NULL);
+    run->outcome.total = run_total(run, NULL);
 }
 
 /* --- classification, clipping ----------------------------------------------------------------- */
@@ -267,18 +272,16 @@ static int run_classify(lrcsi_sigma *run, lrcsi_meter *meter)
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_CLASSIFY, 0, 0);
     int status = lrcsi_classify_make(&run->view, meter, run->work, &run->classification);
     if (status == LRCS_OK && run->plan.proximity_band) {
-        status =
-            lrcsi_proximity_band_make(&run->classification, meter, run->work, &run->band_memory);
-        run->band = &run->band_memory;
+        status = lrcsi_proximity_band_make(&run->classification, meter, run->work, &run->band);
     }
     run->classified = status == LRCS_OK;
     return status;
 }
 
-/* Runs method exact: clipping. If only the sum reads the visible areas, facets that are entirely
-   visible or hidden get only an answer and no area; tessellation errors and areas_apply_proofs need
-   the areas of all facets. The meter is as in run_classify. */
-static int run_exact(lrcsi_sigma *run, lrcsi_meter *meter)
+/* Finds visible areas by clipping. If only the sum reads the visible areas, facets that are
+   entirely visible or hidden get only an answer and no area; tessellation errors and
+   areas_apply_proofs need the areas of all facets. The meter is as in run_classify. */
+static int run_clip(lrcsi_sigma *run, lrcsi_meter *meter)
 {
     int status = run_classify(run, meter);
     if (status == LRCS_OK && run->curved) {
@@ -292,40 +295,34 @@ static int run_exact(lrcsi_sigma *run, lrcsi_meter *meter)
                               sum_only ? &run->answer : NULL, run->visible, run->moment_memory);
         run->moment = run->plan.unshadowed ? NULL : run->moment_memory; /* areas_apply_proofs */
     }
-    if (status == LRCS_OK) {
-        run->size = 0;
-        run_sum(run, 0);
-    }
+    run->outcome.size = 0;
     return status;
 }
 
 /* --- rasters ---------------------------------------------------------------------------------- */
 
-/* Draws one raster of the given size, or of half of it, a quarter and so on until it fits into the
-   work area, and computes the sum over its areas. If `known` is NULL, the areas are taken from the
-   samples alone. */
-static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
+/* Finds visible areas by one raster of the given size, or of half of it, a quarter and so on until
+   it fits into the work area. If `known` is NULL, the areas are taken from the samples alone. */
+static int run_draw(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
 {
+    lrcsi_outcome *outcome = &run->outcome;
     lrcsi_raster raster;
     int undecided = 0;
     size_t mark = run->work->used;
     int status = LRCS_E_MEMORY;
-    run->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
+    outcome->flags &= ~(uint32_t)LRCS_FLAG_DEPTH_UNDECIDED; /* of an earlier raster */
     run->answer = NULL;
     run->moment = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
         status = known ? lrcsi_visible_sampled(known, size, run->work, &raster, run->visible)
                        : lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
-        run->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
-        run->size = size;
+        outcome->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
+        outcome->size = size;
     }
-    if (status == LRCS_OK) {
-        if (known) {
-            undecided = memchr(raster.undecided, 1, run->view.prepared->scene->facet_count) != NULL;
-        }
-        run->flags |= undecided ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
-        run_sum(run, 1);
+    if (status == LRCS_OK && known) {
+        undecided = memchr(raster.undecided, 1, run->view.prepared->scene->facet_count) != NULL;
     }
+    outcome->flags |= status == LRCS_OK && undecided ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
     run->work->used = mark;
     return status;
 }
@@ -335,13 +332,14 @@ static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
    increases the size to at most four times. */
 static uint32_t next_size(const lrcsi_sigma *run)
 {
-    double sigma = run->total.glint + run->total.diffuse;
-    double others = total_bound(&run->total) - run->total.visibility;
+    const lrcsi_total *total = &run->outcome.total;
+    double sigma = total->glint + total->diffuse;
+    double others = total_bound(total) - total->visibility;
     double allowed = run->options->tolerance * sigma - others; /* for visibility */
-    double ratio = sqrt(run->total.error_estimate / allowed);
-    double times = run->options->accept == LRCS_ACCEPT_BOUND ? 1.2 * run->total.visibility / allowed
+    double ratio = sqrt(total->error_estimate / allowed);
+    double times = run->options->accept == LRCS_ACCEPT_BOUND ? 1.2 * total->visibility / allowed
                                                              : fmin(ratio * sqrt(ratio), 4);
-    double size = run->size * fmax(1.5, times);
+    double size = run->outcome.size * fmax(1.5, times);
     if (!(allowed > 0) || !(size < LAST_SIZE)) {
         return LAST_SIZE;
     }
@@ -349,29 +347,35 @@ static uint32_t next_size(const lrcsi_sigma *run)
 }
 
 /* Is the last raster accepted, or would a finer one be no better? */
-static int raster_ends(const lrcsi_sigma *run)
+static int raster_ends(const lrcsi_sigma *run, int samples_only)
 {
-    return run->options->resolution != 0 || run->size >= LAST_SIZE || run->meter.spent ||
-           (run->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
-           (!run->plan.samples_only && run->classification.undecided_count == 0) ||
+    const lrcsi_outcome *outcome = &run->outcome;
+    return run->options->resolution != 0 || outcome->size >= LAST_SIZE || run->meter.spent ||
+           (outcome->flags & LRCS_FLAG_MEMORY_FALLBACK) ||
+           (!samples_only && run->classification.undecided_count == 0) ||
            !(run_acceptance(run) & LRCS_FLAG_TOLERANCE_NOT_MET);
 }
 
-/* Draws rasters of increasing size until one is accepted or is the finest. */
-static int run_zbuffer(lrcsi_sigma *run)
+/* Draws rasters of increasing size until one is accepted or is the finest. samples_only: 1 if their
+   areas are taken from the samples alone. */
+static int run_rasters(lrcsi_sigma *run, int samples_only)
 {
     lrcsi_known known;
     size_t mark = run->work->used;
     uint32_t size = run->plan.size;
     int status = LRCS_OK;
-    if (!run->plan.samples_only) {
+    if (!samples_only) {
         status = run_classify(run, &run->meter);
         status = status == LRCS_OK ? lrcsi_visible_known(&run->classification, run->work, &known)
                                    : status;
     }
     while (status == LRCS_OK) {
-        status = run_raster(run, run->plan.samples_only ? NULL : &known, size);
-        if (status != LRCS_OK || raster_ends(run)) {
+        status = run_draw(run, samples_only ? NULL : &known, size);
+        if (status != LRCS_OK) {
+            break;
+        }
+        run_sum(run, &run->meter);
+        if (raster_ends(run, samples_only)) {
             break;
         }
         size = next_size(run);
@@ -385,18 +389,14 @@ static int run_zbuffer(lrcsi_sigma *run)
 /* The outcome of an attempt to clip. */
 enum clip_outcome { CLIP_DONE, CLIP_ABANDONED, CLIP_NOT_BEGUN };
 
-/* Tries to clip within ns, the estimated time of a raster, which limits the number of steps. The
-   attempt is abandoned when the steps are spent, and is not begun if too many facets turn out to be
-   undecided. The state of the run is then restored, except for the number of steps taken and, if it
-   was completed, the classification. */
+/* Tries to clip and to sum within ns, the estimated time of a raster, which limits the number of
+   steps. The attempt is abandoned when the steps are spent, and is not begun if too many facets
+   turn out to be undecided. Of such an attempt only the number of steps taken and, if it was
+   completed, the classification are kept. */
 static int run_clip_within(lrcsi_sigma *run, const lrcsi_cost *cost, double ns)
 {
-    const lrcsi_plan plan = run->plan;
-    const lrcsi_total total = run->total;
-    const uint32_t flags = run->flags;
-    const uint32_t size = run->size;
+    const lrcsi_outcome before = run->outcome;
     const int classified = run->classified;
-    const lrcsi_proximity_band *band = run->band;
     uint64_t steps = lrcsi_cost_steps(ns);
     uint64_t left = run->meter.limit - run->meter.taken;
     lrcsi_meter meter = {.limit = steps < left ? steps : left}; /* of this attempt */
@@ -404,23 +404,20 @@ static int run_clip_within(lrcsi_sigma *run, const lrcsi_cost *cost, double ns)
     int outcome = CLIP_ABANDONED;
     if (run_classify(run, &meter) != LRCS_OK || meter.spent) {
         run->classified = classified;
-        run->band = band;
-    } else if (lrcsi_cost_clip(cost, run->classification.undecided_count) > ns) {
-        mark = run->work->used;
-        outcome = CLIP_NOT_BEGUN;
     } else {
         mark = run->work->used;
-        run->plan.method = LRCS_METHOD_EXACT;
-        int status = run_exact(run, &meter);
-        outcome = status == LRCS_OK && !meter.spent ? CLIP_DONE : CLIP_ABANDONED;
+        if (lrcsi_cost_clip(cost, run->classification.undecided_count) > ns) {
+            outcome = CLIP_NOT_BEGUN;
+        } else if (run_clip(run, &meter) == LRCS_OK) {
+            run->outcome.method = LRCS_METHOD_EXACT;
+            run_sum(run, &meter);
+            outcome = meter.spent ? CLIP_ABANDONED : CLIP_DONE;
+        }
     }
     run->meter.taken += meter.taken;
     if (outcome != CLIP_DONE) {
         run->work->used = mark;
-        run->plan = plan;
-        run->flags = flags;
-        run->size = size;
-        run->total = total;
+        run->outcome = before;
     }
     return outcome;
 }
@@ -448,34 +445,54 @@ static int run_previews(lrcsi_sigma *run)
         if (!any && ns >= 4 * abandoned_ns && lrcsi_cost_clip(&cost, undecided) <= ns) {
             int outcome = run_clip_within(run, &cost, ns);
             if (outcome == CLIP_DONE) {
-                run->plan.reason = "clipping is estimated to cost less than a raster";
+                run->outcome.reason = "clipping is estimated to cost less than a raster";
                 return LRCS_OK;
             }
             abandoned_ns = outcome == CLIP_ABANDONED ? ns : abandoned_ns;
         }
         size = rasters == 0 ? lrcsi_cost_first(&cost, size) : size;
-        status = run_raster(run, NULL, size);
-        if (status != LRCS_OK || raster_ends(run) || (run->flags & LRCS_FLAG_DEPTH_UNDECIDED)) {
+        status = run_draw(run, NULL, size);
+        if (status != LRCS_OK) {
+            break;
+        }
+        run_sum(run, &run->meter);
+        if (raster_ends(run, 1) || (run->outcome.flags & LRCS_FLAG_DEPTH_UNDECIDED)) {
             break;
         }
         size = next_size(run);
     }
     if (!any) {
-        run->plan.reason = abandoned_ns > 0 ? "clipping was begun, and took longer than a raster"
-                                            : "a raster is estimated to cost less than clipping";
+        run->outcome.reason = abandoned_ns > 0 ? "clipping was begun, and took longer than a raster"
+                                               : "a raster is estimated to cost less than clipping";
     }
     return status;
 }
 
 /* --- the stages ------------------------------------------------------------------------------- */
 
+/* Clips, and sums; where there is too little memory for clipping, draws rasters instead. */
+static int run_exact(lrcsi_sigma *run, const char *reason)
+{
+    run->outcome.method = LRCS_METHOD_EXACT;
+    run->outcome.reason = reason;
+    int status = run_clip(run, &run->meter);
+    if (status == LRCS_OK) {
+        run_sum(run, &run->meter);
+    } else if (status == LRCS_E_MEMORY) {
+        run->outcome.method = LRCS_METHOD_ZBUFFER;
+        run->outcome.reason = "too little memory for clipping";
+        run->outcome.flags = LRCS_FLAG_MEMORY_FALLBACK;
+        status = run_rasters(run, 0);
+    }
+    return status;
+}
+
 /* Computes visible areas and their sum, where shadows are searched for:
    1. view coordinates;
    2. the classification, unless areas are taken from samples alone;
    3. the plan's method. Under auto a raster comes first if its size was requested, or if it costs
       less than clipping and its estimate may be accepted;
-   4. clipping under auto, if no raster was accepted;
-   5. a raster, which needs less memory, if there was too little memory for clipping. */
+   4. clipping under auto, if no raster was accepted. */
 static int run_shadowed(lrcsi_sigma *run)
 {
     const lrcs_run_options *options = run->options;
@@ -487,24 +504,17 @@ static int run_shadowed(lrcsi_sigma *run)
         return status;
     }
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_VISIBILITY, 0, 0);
-    status = run->plan.method == LRCS_METHOD_EXACT ? run_exact(run, &run->meter)
-             : run->plan.previews                  ? run_previews(run)
-                                                   : run_zbuffer(run);
-    if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
-        run->plan.method == LRCS_METHOD_ZBUFFER && !run->meter.spent &&
-        (run_acceptance(run) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
-        run->plan.method = LRCS_METHOD_EXACT;
-        run->plan.reason = options->resolution != 0 ? "the raster asked for misses the tolerance"
-                                                    : "no raster's estimate meets the tolerance";
-        run->flags = 0;
-        status = run_exact(run, &run->meter);
+    if (run->plan.method == LRCS_METHOD_EXACT) {
+        return run_exact(run, run->plan.reason);
     }
-    if (status == LRCS_E_MEMORY && run->plan.method == LRCS_METHOD_EXACT) {
-        run->plan.method = LRCS_METHOD_ZBUFFER;
-        run->plan.reason = "too little memory for clipping";
-        run->plan.samples_only = 0;
-        run->flags = LRCS_FLAG_MEMORY_FALLBACK;
-        status = run_zbuffer(run);
+    status = run->plan.previews ? run_previews(run) : run_rasters(run, run->plan.samples_only);
+    if (status == LRCS_OK && options->method == LRCS_METHOD_AUTO &&
+        run->outcome.method == LRCS_METHOD_ZBUFFER && !run->meter.spent &&
+        (run_acceptance(run) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
+        run->outcome.flags = 0;
+        status =
+            run_exact(run, options->resolution != 0 ? "the raster asked for misses the tolerance"
+                                                    : "no raster's estimate meets the tolerance");
     }
     return status;
 }
@@ -524,19 +534,23 @@ int lrcsi_sigma_stages(lrcsi_sigma *run, const lrcs_prepared *prepared, const lr
     }
     if (status == LRCS_OK) {
         run->plan = lrcsi_plan_make(&run->view, &run->clear, options);
+        run->outcome = (lrcsi_outcome){.method = run->plan.method, .reason = run->plan.reason};
         status = run_take(run);
     }
-    if (status == LRCS_OK && run_is_unshadowed(run)) {
-        run_facet(run);
-    } else if (status == LRCS_OK) {
-        status = run_shadowed(run);
+    if (status != LRCS_OK || !run_is_unshadowed(run)) {
+        return status == LRCS_OK ? run_shadowed(run) : status;
     }
-    return status;
+    if (run->last == LRCSI_SIGMA_SUM) {
+        run_unshadowed(run);
+        run->outcome.total = run_total(run, NULL);
+    }
+    return LRCS_OK;
 }
 
 int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result)
 {
-    const lrcsi_total *t = &run->total;
+    const lrcsi_outcome *outcome = &run->outcome;
+    const lrcsi_total *t = &outcome->total;
     if (!isfinite(total_bound(t) + t->glint + t->diffuse + t->curvature)) {
         return LRCS_E_NUMBER;
     }
@@ -545,19 +559,19 @@ int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result)
                      .sigma_diffuse_m2 = t->diffuse,
                      .bound_m2 = total_bound(t),
                      .budget = {t->visibility, t->tessellation, t->rounding},
-                     .estimate_m2 = run->size != 0 ? t->error_estimate : -1,
+                     .estimate_m2 = outcome->size != 0 ? t->error_estimate : -1,
                      .curvature_estimate_m2 = run->curved ? t->curvature : -1,
                      .projected_area_m2 = t->projected,
                      .back_side_area_m2 = t->back_side,
                      .back_side_facets = t->back_sides,
-                     .method = run->plan.method,
-                     .method_reason = run->plan.reason,
-                     .resolution = run->size,
+                     .method = outcome->method,
+                     .method_reason = outcome->reason,
+                     .resolution = outcome->size,
                      .facets_total = run->view.prepared->scene->facet_count,
                      .facets_front = run->view.front,
                      .facets_hidden = t->hidden,
                      .facets_partial = t->partial,
-                     .flags = run->flags,
+                     .flags = outcome->flags,
                      .steps = run->meter.taken};
     lrcsi_plan_effects(&run->view, &run->plan, &run->clear, t->seen, r.effect);
     r.flags |= run_acceptance(run);
@@ -622,7 +636,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
         if (records) {
-            run.total = run_total(&run, records);
+            run.outcome.total = run_total(&run, records);
         }
         *result = answer;
     }

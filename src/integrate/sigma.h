@@ -14,6 +14,15 @@ enum lrcsi_sigma_stage {
     LRCSI_SIGMA_STAGES
 };
 
+/* The answer of a run, and how it was found. */
+typedef struct lrcsi_outcome {
+    int method; /* lrcs_method; as planned, unless another one had to follow */
+    const char *reason;
+    uint32_t size; /* of the raster that gave the areas; 0: none did */
+    uint32_t flags;
+    lrcsi_total total;
+} lrcsi_outcome;
+
 /* The state of a run. The caller sets the first five fields, and all others to 0. */
 typedef struct lrcsi_sigma {
     const lrcs_run_options *options;
@@ -25,21 +34,18 @@ typedef struct lrcsi_sigma {
     lrcsi_view view;
     lrcsi_meter meter; /* limit on the steps of the visibility computation */
     lrcsi_clear clear; /* shapes that are evaluated by their closed forms: method auto only */
-    lrcsi_plan plan;
-    int classified; /* the classification is made, and the band if the plan needs it */
+    lrcsi_plan plan;   /* is not changed once it is made */
+    int classified;    /* the classification is made, and the band if the plan needs it */
     lrcsi_classification classification;
-    lrcsi_proximity_band band_memory;
-    const lrcsi_proximity_band *band; /* NULL: none was made */
-    lrcsi_visible *visible;           /* [facet_count]; NULL: the plan implies all areas */
-    const unsigned char *answer;      /* as in lrcsi_areas */
-    lrcsi_moment *moment_memory;      /* [facet_count]; NULL: moments are not wanted */
-    const lrcsi_moment *moment;       /* as in lrcsi_areas */
-    unsigned char *corrected;         /* as in lrcsi_areas */
-    lrcsi_curved *curved;             /* [facet_count]; NULL: all normals are flat */
-    lrcsi_cubature_cell *stack;       /* NULL: all normals are flat */
-    uint32_t size;                    /* of the raster that gave the areas; 0: none did */
-    uint32_t flags;
-    lrcsi_total total;
+    lrcsi_proximity_band band;
+    lrcsi_visible *visible;      /* [facet_count]; NULL: the plan implies all areas */
+    const unsigned char *answer; /* as in lrcsi_areas */
+    lrcsi_moment *moment_memory; /* [facet_count]; NULL: moments are not wanted */
+    const lrcsi_moment *moment;  /* as in lrcsi_areas */
+    unsigned char *corrected;    /* as in lrcsi_areas */
+    lrcsi_curved *curved;        /* [facet_count]; NULL: all normals are flat */
+    lrcsi_cubature_cell *stack;  /* NULL: all normals are flat */
+    lrcsi_outcome outcome;
 } lrcsi_sigma;
 
 /* Checks options and the size of a picture (NULL: none). Status: LRCS_OK; LRCS_E_ARGUMENT. */

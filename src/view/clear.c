@@ -4,14 +4,14 @@
 
    The true surface P of a part lies on the boundary of a convex body, so P hides none of its own
    front. It is clear if for each other part some plane proves that this part hides nothing of P
-   (view/separation.c). A plane that contains the direction to the laser separates the silhouettes;
-   one across that direction has the other part behind P; planes in between separate parts that
-   stand on one another.
+   (view/separation.c). Three kinds of planes are tried: those that contain the direction to the
+   laser separate two silhouettes; one perpendicular to it separates a part that lies wholly behind
+   P; those in between separate parts that stand on one another.
 
-   If both touch the plane, P may be hidden within a slab at its lowest end. The area of P's lit
-   surface in it, `slab`, is known if n is P's own axis (rings of the wall; the end there is a plane
-   with the normal -n, which faces away from the laser or is within 16 u of edge-on) or if P is a
-   sphere (a zone, for every n). */
+   If both parts touch the plane, P may be hidden within a slab at its lowest end. The area of P's
+   lit surface in it, `slab`, is known if n is P's own axis (rings of the wall; the end there is a
+   plane with the normal -n, which faces away from the laser or is within 16 u of edge-on) or if P
+   is a sphere (a zone, for every n). */
 #include "view/clear.h"
 
 #include <math.h>
@@ -27,9 +27,9 @@ static int is_separating(const lrcsi_body *P, const lrcsi_body *Q, const double 
                          const double n[3], int has_slab, double *slab)
 {
     lrcsi_gap gap = lrcsi_gap_make(P, Q, d, n, 0);
-    *slab = gap.is_open ? 0 : lrcsi_body_slab(P, gap.height);
-    return gap.is_open ||
-           (has_slab && gap.is_shut && lrcsi_body_support(P, n) - gap.low > 4 * gap.height);
+    *slab = gap.separates ? 0 : lrcsi_body_slab(P, gap.height);
+    return gap.separates ||
+           (has_slab && gap.touches && lrcsi_body_support(P, n) - gap.low > 4 * gap.height);
 }
 
 /* Tries planes across n and -n, unless these face away from the laser; n need not have length 1. */

@@ -12,11 +12,12 @@ typedef struct lrcsi_body {
     const lrcs_prepared *prepared;
     const lrcs_part *part;
     const lrcsi_extent *extent;
-    int curved; /* 1: support of the closed form with these scaled dimensions; 0: of the facets or
-                   of the box around the part */
+    int curved; /* 1: supports are those of the closed form with the scaled dimensions
+                   `solid`; 0: those of the facets, or of the box around the part */
     lrcsi_support solid;
-    double vertex_ratio; /* of a curved body: radius of its mesh's vertices / true radius; */
-    double beyond;       /* and how far facets may be outside a solid that is wider by this ratio */
+    double vertex_ratio; /* of a curved body: radius of its mesh's vertices / true radius */
+    double beyond;       /* bound on the distance of its facets from the solid that is wider by
+                            this ratio */
     double origin[3];
     double centre[3]; /* of its box */
     double err;       /* bound on the error of a support along a unit vector */
@@ -31,19 +32,19 @@ double lrcsi_body_support(const lrcsi_body *body, const double n[3]);
 /* That of the true shape and its facets together. */
 double lrcsi_body_support_all(const lrcsi_body *body, const double n[3]);
 
-/* An upper bound of the lit surface of a curved body within `height` of an end along its axis, or
-   of a sphere in any direction: rings of the wall, each at most as long as the longest; and an area
-   that covers the end itself, where F is below B (20 u)^2 if s is at most
+/* A bound on the lit area of a curved body within `height` of an end along its axis, or of a sphere
+   in any direction: rings of the wall, each at most as long as the longest, and a term for the face
+   at the end, which is edge-on to within rounding. There F is below B (20 u)^2 if s is at most
    LRCSI_SLAB_GLINT_SLOPE_MAX. */
 double lrcsi_body_slab(const lrcsi_body *body, double height);
 #define LRCSI_SLAB_GLINT_SLOPE_MAX 0x1p20
 
 /* Does a plane across n separate P, in front of it, from Q, behind it? */
 typedef struct lrcsi_gap {
-    int is_open; /* 1: it does, so that Q hides nothing of P */
-    int is_shut; /* 1: to within rounding P and Q touch the plane: Q may hide only points of P at
-                    which n . x < low + height */
-    double low;  /* the lowest n . x over P */
+    int separates; /* 1: it does, so that Q hides nothing of P */
+    int touches;   /* 1: to within rounding P and Q touch the plane: Q may hide only points of P at
+                      which n . x < low + height */
+    double low;    /* the lowest n . x over P */
     double height;
 } lrcsi_gap;
 

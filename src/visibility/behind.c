@@ -50,13 +50,13 @@ static void behind_try(const lrcsi_body *front, const lrcsi_body *back, const do
     double sign = lrcsi_vec3_dot(axis, d) < 0 ? -1 : 1;
     const double n[3] = {sign * axis[0], sign * axis[1], sign * axis[2]};
     lrcsi_gap gap = lrcsi_gap_make(front, back, d, n, 1);
-    if (gap.is_open) {
+    if (gap.separates) {
         behind->front = behind->back = proof_make(front, 1, n, -HUGE_VAL, 0);
     }
-    if (gap.is_shut && has_slab(front, own)) {
+    if (gap.touches && has_slab(front, own)) {
         behind->front = proof_make(front, 1, n, gap.low + gap.height, gap.height);
     }
-    if (gap.is_shut && has_slab(back, own)) {
+    if (gap.touches && has_slab(back, own)) {
         double high = lrcsi_body_support_all(back, n);
         behind->back = proof_make(back, -1, n, gap.height - high, gap.height);
     }
