@@ -16,7 +16,8 @@ typedef struct lrcsi_linear {
     double glint_s[2], diffuse_m[2]; /* their derivatives in s, in m */
     double slope;                    /* upper bound of the length of their sum */
     double variation; /* upper bound of |gradient . (x - c)|; of each term it is at most its mean */
-    /* Bounds on the difference h of F, at a point of the patch, and l at its image: */
+    /* Bounds on the difference h of F, at a point of the patch, and l at its image, divided by
+       patch area / facet area: */
     double region;   /* on |the integral of h over any region of the patch| / area of the facets */
     double point;    /* on |h| */
     double rounding; /* the part of either that is due to rounding */

@@ -258,7 +258,7 @@ static uint32_t sector_first(const lrcs_prepared *p, uint32_t facet)
 }
 
 /* Chooses the smallest of these bounds, for both facets of the sector: from the deviation of the
-   first facet, and the larger fractions of both. */
+   first facet (on a cone, of the facet itself), and the larger fractions of both. */
 static sector_bound sector_choose(const lrcsi_view *view, uint32_t facet, const lrcs_curvature *c,
                                   const lrcsi_visible *visible, const lrcsi_proximity_band *band,
                                   const lrcsi_deviation *deviation, double stretch)
@@ -425,15 +425,18 @@ static lrcsi_tessellation curved_error(const patch_case *at, lrcsi_patch *patch)
     const lrcs_prepared *p = at->view->prepared;
     const lrcs_brdf brdf = lrcsi_plan_brdf(at->plan, lrcsi_prepared_material(p, at->facet));
     const double a = patch_area_error(p, at->facet, at->c);
-    const uint32_t first = sector_first(p, at->facet);
+    const int cone = patch_part(p, at->facet)->kind == LRCS_SHAPE_CONE; /* one facet a sector */
+    const uint32_t first = cone ? at->facet : sector_first(p, at->facet);
     const int partial = at->state == PATCH_PARTIAL || at->partner == PATCH_PARTIAL;
     const int joint = is_lit(at->state) && is_lit(at->partner) && partial;
     lrcsi_deviation sector = at->deviation; /* of the first facet */
     sector_bound bound = {BY_POINT, 1, 0};
-    if (joint) { /* 1 */
+    double stretch = at->stretch;
+    if (joint && first != at->facet) { /* 1 */
         lrcsi_incidence incidence = lrcsi_view_incidence(at->view, first);
-        double stretch;
         sector = patch_deviation(at->view, at->plan, first, &incidence, at->c, patch, &stretch);
+    }
+    if (joint) {
         bound = sector_choose(at->view, at->facet, at->c, at->visible, at->band, &sector, stretch);
     }
     lrcsi_tessellation unit =

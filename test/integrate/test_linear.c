@@ -117,6 +117,27 @@ static double true_radius(const strip *s, double fraction, double *out, double *
     return r;
 }
 
+/* The area of the patch divided by that of its facets. */
+static double area_ratio(const strip *s)
+{
+    const lrcs_shape *shape = s->shape;
+    double fall = s->lower - s->upper;
+    double facets = s->swell * sin(s->h) * (s->lower + s->upper) *
+                    hypot(s->swell * cos(s->h) * fall, s->high - s->low);
+    if (shape->kind == LRCS_SHAPE_SPHERE || shape->kind == LRCS_SHAPE_DOME) {
+        double a = sqrt(shape->radius * shape->radius - s->upper * s->upper);
+        double b = sqrt(fmax(0, shape->radius * shape->radius - s->lower * s->lower));
+        return 2 * s->h * shape->radius * (a - b) / facets;
+    }
+    if (shape->kind == LRCS_SHAPE_PARABOLOID) {
+        double k = 2 * shape->length / (shape->radius * shape->radius);
+        double a = pow(1 + k * k * s->upper * s->upper, 1.5);
+        double b = pow(1 + k * k * s->lower * s->lower, 1.5);
+        return 2 * s->h * (b - a) / (3 * k * k) / facets;
+    }
+    return s->h * (s->lower + s->upper) * hypot(fall, shape->length) / facets;
+}
+
 /* A vector of the shape's frame, or a point relative to another one, in the view. */
 static void to_view(const linear_scene *s, const double v[3], double scale, double out[3])
 {
@@ -167,7 +188,8 @@ static void patch_check(const linear_scene *s, const lrcs_brdf *brdf, const lrcs
     const double side = patch->at.mirrored ? -1 : 1;
     const double scale = ldexp(s->place.scale[0], -s->view.prepared->exponent);
     const double mean = patch->glint + patch->diffuse;
-    double error = patch->remainder + patch->rounding + 1e-11 * mean;
+    double error = patch->remainder + patch->rounding + 1e-10 * mean;
+    double ratio = area_ratio(at);
     double top = at->swell * sin(at->h) * at->upper;
     double base = at->swell * sin(at->h) * at->lower;
     double centroid = (top + 2 * base) / (top + base) / 3; /* fraction from the top */
@@ -197,10 +219,11 @@ static void patch_check(const linear_scene *s, const lrcs_brdf *brdf, const lrcs
         to_view(s, p, scale, view);
         image[i][0] = view[0];
         image[i][1] = view[1];
-        off[i] = f - mean;
+        double l = mean;
         for (int k = 0; k < 2; k++) {
-            off[i] -= (linear->glint[k] + linear->diffuse[k]) * view[k];
+            l += (linear->glint[k] + linear->diffuse[k]) * view[k];
         }
+        off[i] = f - l / ratio;
         largest = fmax(largest, fabs(off[i]));
     }
     compare(largest, point, &closest_point, "point", began, at);
@@ -214,8 +237,8 @@ static void patch_check(const linear_scene *s, const lrcs_brdf *brdf, const lrcs
                 i == 0 ? off[j] > 0 : image[j][0] * cos(angle) + image[j][1] * sin(angle) < shift;
             whole += inside ? off[j] : 0;
         }
-        compare(fabs(whole) / STEPS / STEPS, linear->region + error, &closest_region, "region",
-                began, at);
+        compare(fabs(whole) / STEPS / STEPS * ratio, linear->region + error, &closest_region,
+                "region", began, at);
     }
 }
 
