@@ -42,7 +42,7 @@ NOTHING  =
 CORE     = base mesh optics scene view visibility integrate
 CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
 ABOVE_SRC = $(sort $(wildcard src/analysis/*.c))
-HOST_SRC = $(sort $(wildcard src/host/*.c))
+HOST_SRC = $(sort $(wildcard src/host/*.c src/host/*/*.c))
 CLI_SRC  = $(sort $(wildcard src/cli/*.c src/cli/*/*.c))
 TEST_SRC = $(sort $(wildcard test/*/test_*.c))
 SH_TESTS = $(sort $(wildcard test/*/test_*.sh))
@@ -391,7 +391,7 @@ $(INCLUDED):
 # The flags stand in this file.
 $(CORE_OBJ) $(ABOVE_OBJ) $(HOST_OBJ): Makefile
 
-$(BUILD)/src/host/demo.o: $(BUILD)/demo.inc
+$(BUILD)/src/host/scene/demo.o: $(BUILD)/demo.inc
 $(BUILD)/src/cli/report/explore.o: $(BUILD)/explore.inc $(BUILD)/explore_style.inc $(BUILD)/explore_controls.inc
 $(BUILD)/src/cli/report/page.o: $(BUILD)/style.inc
 $(BUILD)/src/cli/vectors/index.o: $(BUILD)/readme.inc

@@ -72,7 +72,7 @@ def bodies(text):
 def sources():
     """name: (functions that its body calls, statuses that it mentions other than to compare with them)."""
     body = {}
-    for path in sorted(glob.glob("src/*/*.c") + glob.glob("src/*/*.h")):
+    for path in sorted(glob.glob("src/**/*.[ch]", recursive=True)):
         if not path.startswith("src/cli/"):
             with open(path, encoding="utf-8") as file:
                 body.update(bodies(file.read()))

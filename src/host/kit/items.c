@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: MIT */
+/* Compares the submitted item images with the truth's, pixel by pixel: which are rotated or
+   mirrored, number facets from another base, lose facets or show hidden ones. This only explains;
+   the verdict depends on sigma alone. */
+#include "host/kit/kit.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "host/fail.h"
+
+#define AGREE 0.98 /* share of the non-empty pixels; the others are outlines */
+
+typedef struct items_image {
+    uint32_t side;
+    unsigned char *bytes; /* side * side uint32, little-endian */
+    lrcs_host_file file;
+} items_image;
+
+static uint32_t item_at(const items_image *image, uint32_t row, uint32_t column)
+{
+    const unsigned char *p = image->bytes + 4 * ((size_t)row * image->side + column);
+    return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+/* A convention for images: rows and columns reversed or exchanged, and indices shifted. */
+typedef struct items_way {
+    const char *text;
+    int exchange, rows, columns; /* rows, columns: 1 if reversed */
+    uint32_t add;                /* added to the truth's facet to get the submitted one */
+} items_way;
+
+static const items_way item_ways[LRCS_HOST_IMAGE_WAYS] = {
+    {"agree with the truth", 0, 0, 0, 0},
+    {"are upside down: row 0 is at the bottom", 0, 1, 0, 0},
+    {"are mirrored left to right: a left-handed view", 0, 0, 1, 0},
+    {"are turned by 180 deg", 0, 1, 1, 0},
+    {"have rows and columns exchanged", 1, 0, 0, 0},
+    {"are turned by 90 deg", 1, 1, 0, 0},
+    {"are turned by -90 deg", 1, 0, 1, 0},
+    {"have rows and columns exchanged and turned", 1, 1, 1, 0},
+    {"agree, but their facets count from 1", 0, 0, 0, 1},
+    {"are upside down, and their facets count from 1", 0, 1, 0, 1}};
+
+/* Of the pixels that are not empty in at least one of the images, the share in which both agree,
+   with rows and columns of the submitted image as in `way`. If indices start at 1, 0 is none. */
+static double images_agree(const items_image *truth, const items_image *theirs,
+                           const items_way *way)
+{
+    uint32_t last = truth->side - 1;
+    uint64_t shown = 0;
+    uint64_t same = 0;
+    for (uint32_t row = 0; row < truth->side; row++) {
+        for (uint32_t column = 0; column < truth->side; column++) {
+            uint32_t y = way->rows ? last - row : row;
+            uint32_t x = way->columns ? last - column : column;
+            uint32_t a = item_at(truth, row, column);
+            uint32_t b = way->exchange ? item_at(theirs, x, y) : item_at(theirs, y, x);
+            int none = b == LRCS_NONE || (way->add > 0 && b == 0);
+            int equal = a == LRCS_NONE ? none : b == a + way->add;
+            shown += a != LRCS_NONE || !equal;
+            same += a != LRCS_NONE && equal;
+        }
+    }
+    return shown > 0 ? (double)same / (double)shown : 1.0;
+}
+
+/* The facets that lose most pixels, with the number of the truth's pixels that show something else.
+ */
+static int facets_lost(const lrcs_scene *scene, const items_image *truth, const items_image *theirs,
+                       lrcs_host_kit_image *image, lrcs_host_error *error)
+{
+    uint32_t *lost = calloc((size_t)scene->facet_count + 1, sizeof *lost);
+    if (!lost) {
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+    }
+    for (uint32_t i = 0; i < truth->side * truth->side; i++) {
+        uint32_t a = item_at(truth, i / truth->side, i % truth->side);
+        uint32_t b = item_at(theirs, i / truth->side, i % truth->side);
+        lost[a < scene->facet_count ? a : scene->facet_count] += a != b;
+    }
+    for (uint32_t n = 0; n < LRCS_HOST_KIT_TOP; n++) {
+        uint32_t best = 0;
+        for (uint32_t i = 1; i < scene->facet_count; i++) {
+            best = lost[i] > lost[best] ? i : best;
+        }
+        image->facet[n] = best;
+        image->lost[n] = lost[best];
+        lost[best] = 0;
+    }
+    free(lost);
+    return LRCS_OK;
+}
+
+/* Reads an image: 1 if it exists, 0 if not. */
+static int item_image_read(const char *path, uint32_t side, items_image *image,
+                           lrcs_host_error *error)
+{
+    size_t size = 4 * (size_t)side * side;
+    *image = (items_image){.side = side};
+    if (access(path, F_OK) != 0) {
+        return 0;
+    }
+    int status = lrcs_host_file_read(path, &image->file, error);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    image->bytes = image->file.bytes;
+    if (image->file.size != size) {
+        status = lrcsi_host_fail(error, LRCS_E_SYNTAX,
+                                 "%s: expected %lu x %lu pixels of 4 bytes, found %zu bytes", path,
+                                 (unsigned long)side, (unsigned long)side, image->file.size);
+        lrcs_host_file_free(&image->file);
+        return status;
+    }
+    return 1;
+}
+
+static int image_judge(lrcs_host_judgement *job, const lrcs_host_kit_case *one,
+                       const items_image *truth, const items_image *theirs, lrcs_host_error *error)
+{
+    lrcs_host_kit_items *found = &job->by_item;
+    double first = 0.0;
+    double most = 0.0;
+    size_t best = 0;
+    for (size_t i = 0; i < LRCS_HOST_IMAGE_WAYS; i++) {
+        double agree = images_agree(truth, theirs, &item_ways[i]);
+        first = i == 0 ? agree : first;
+        best = agree > most ? i : best;
+        most = fmax(agree, most);
+    }
+    if (first >= AGREE || most >= AGREE) {
+        found->way[first >= AGREE ? 0 : best]++;
+        return 0;
+    }
+    if (found->differ++ >= LRCS_HOST_KIT_NAMED) {
+        return 0;
+    }
+    lrcs_host_kit_image *image = &found->image[found->named++];
+    *image = (lrcs_host_kit_image){.one = one, .agree = first};
+    return facets_lost(&job->kit.scene[one->scene].host.scene, truth, theirs, image, error);
+}
+
+/* 1 if there is an image of a case, 0 if not. */
+static int item_case_judge(lrcs_host_judgement *job, const char *theirs,
+                           const lrcs_host_kit_case *one, lrcs_host_error *error)
+{
+    char path[2][LRCSI_KIT_PATH];
+    const char *const folder[2] = {job->kit.folder, theirs};
+    const char *const inside[2] = {"truth/", ""};
+    const char *name = job->kit.scene[one->scene].name;
+    items_image image[2];
+    for (int i = 0; i < 2; i++) {
+        int status = lrcsi_kit_path(path[i], error, "%s/%s%s.%s.item.u32", folder[i], inside[i],
+                                    name, one->attitude);
+        if (status != LRCS_OK) {
+            return status;
+        }
+    }
+    int found = item_image_read(path[1], one->image, &image[1], error);
+    if (found <= 0) {
+        return found;
+    }
+    int status = item_image_read(path[0], one->image, &image[0], error);
+    if (status == 0) {
+        lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: not there", path[0]);
+        status = LRCS_E_SYSTEM;
+    }
+    status = status > 0 ? lrcsi_kit_scene(&job->kit, &job->kit.scene[one->scene], error) : status;
+    status = status == LRCS_OK ? image_judge(job, one, &image[0], &image[1], error) : status;
+    lrcs_host_file_free(&image[0].file);
+    lrcs_host_file_free(&image[1].file);
+    return status == LRCS_OK ? 1 : status;
+}
+
+int lrcs_host_judge_items(lrcs_host_judgement *judgement, const char *folder,
+                          lrcs_host_error *error)
+{
+    DIR *opened = opendir(folder);
+    if (!opened) {
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: cannot open folder: %s", folder,
+                               strerror(errno));
+    }
+    closedir(opened);
+    for (uint32_t i = 0; i < judgement->kit.cases; i++) {
+        const lrcs_host_kit_case *one = &judgement->kit.list[i];
+        if (one->image > 0 && lrcs_host_judge_asked(judgement, one)) {
+            int judged = item_case_judge(judgement, folder, one, error);
+            if (judged < 0) {
+                return judged;
+            }
+            judgement->by_item.handed += (uint32_t)judged;
+            judgement->by_item.images++;
+        }
+    }
+    return LRCS_OK;
+}
+
+const char *lrcs_host_image_way_text(int way)
+{
+    return item_ways[way].text;
+}

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT */
+/* The search for what explains failing cases: the catalogue of mistakes, and causes that need no
+   mistake. */
+#ifndef LRCSI_KIT_SEARCH_H
+#define LRCSI_KIT_SEARCH_H
+
+#include "host/kit/kit.h"
+
+/* ---- mistakes ---- */
+
+/* A mistake: whatever is not 0 differs from the truth. */
+typedef struct lrcsi_mistake {
+    const char *name, *text;
+    int shade, area, turn; /* mistakes.c: enum mistake_shade, ... */
+    double at;             /* of shade */
+    int axes[3]; /* of turn: for x, y, z of s_hat, the component that is used, 1 .. 3, negative to
+                    mirror it */
+    int corners; /* 3 if the facet is the mean of the values at its corners */
+    uint32_t without;   /* effects that are left out, lrcs_run_options.without */
+    int wrong_coplanar; /* 1 if of coplanar facets the wrong one is seen */
+} lrcsi_mistake;
+
+/* The catalogue, terminated by a NULL name; the first entry is no mistake. */
+extern const lrcsi_mistake lrcsi_mistakes[];
+
+/* sigma of a case with a mistake. Status: as lrcs_host_judge. */
+int lrcsi_mistake_answer(const lrcs_host_kit *kit, lrcs_host_kit_case *one,
+                         const lrcsi_mistake *mistake, double *sigma_m2, lrcs_host_error *error);
+
+/* ---- the search ---- */
+
+typedef struct lrcsi_search {
+    lrcs_host_judgement *job;
+    lrcs_host_error *error;
+    lrcs_host_kit_case **failing; /* not explained yet */
+    lrcs_host_kit_case **passing; /* a sample of them */
+    uint32_t failings, passings;
+    int telling;          /* 1 if some failing case has an answer other than 0 */
+    double weight;        /* number of passing cases that each of the sample stands for */
+    double *answer;       /* answers of a mistake: to the failing cases, then to the passing ones */
+    double *room;         /* for sorting */
+    unsigned char *holds; /* by failing case: 1 if the current cause explains it */
+} lrcsi_search;
+
+/* 1 if an expected answer explains the one that was given. */
+int lrcsi_search_explained(const lrcsi_search *search, const lrcs_host_kit_case *one,
+                           double expected);
+
+/* The number of failing cases that the current cause explains (search->holds). */
+uint32_t lrcsi_search_holds(const lrcsi_search *search);
+
+/* Makes that cause a finding with its sentence: its cases are marked and no longer unexplained.
+   NULL if there is no room for one. */
+__attribute__((format(printf, 3, 4))) lrcs_host_finding *
+lrcsi_search_find(lrcsi_search *search, const char *name, const char *format, ...);
+
+/* The median, 0 of an empty list; sorts the values. */
+double lrcsi_search_median(double *value, uint32_t count);
+
+/* The possible cause of a constant factor, and its name. */
+const char *lrcsi_factor_text(const lrcs_host_judgement *job, double factor);
+const char *lrcsi_factor_name(double factor);
+
+/* Finds causes that need no mistake of the catalogue: those visible in the table, before the
+   search; those that are left, after it. Status: as lrcs_host_judge. */
+void lrcsi_symptoms_format(lrcsi_search *search);
+int lrcsi_symptoms_rest(lrcsi_search *search);
+
+#endif
