@@ -84,8 +84,9 @@ charts: $(TOOL)
 study: $(STUDY)
 	$(STUDY) -o examples/study/results
 
+# Shell tests first: they take longest, and would leave a processor idle at the end.
 test: cmocka $(TOOL) $(TESTS) $(EXAMPLES) $(BENCH_DIR)/bench $(BENCH_DIR)/scaling $(FUZZ_TESTS)
-	@sh test/run.sh $(TOOL) $(TESTS) $(SH_TESTS)
+	@sh test/run.sh $(TOOL) $(SH_TESTS) $(TESTS)
 
 asan: cmocka
 	$(MAKE) BUILD=$(BUILD)/asan OPT="-O1 -g" CFLAGS="$(SANITIZE)" LDLIBS="$(SANITIZE) $(THREADS) -lm" test
