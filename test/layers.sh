@@ -166,7 +166,7 @@ done
 # Its trace of one facet names functions and files that exist.
 for name in $(sed -n '/^## One facet/,$p' src/README.md | grep -oE '`[a-z0-9_]+`' | tr -d '`' |
     LC_ALL=C sort -u); do
-    grep -qE "^[a-z].*[ *]$name\\(" $files || [ -d "src/$name" ] || ls src/*/"$name".c >/dev/null 2>&1 ||
+    grep -qE "^[a-z].*[ *]$name\\(" $files || [ -d "src/$name" ] || [ -n "$(find src -name "$name.c")" ] ||
         echo "src/README.md: the trace of one facet names $name, which does not exist" >>"$log"
 done
 

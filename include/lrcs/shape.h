@@ -115,7 +115,7 @@ typedef struct lrcs_divisions {
    which the proved error (from lrcs_curvature and bounds of the brdf) meets the tolerance at every
    aspect of a sampled set, relative to sigma or to its mean over attitudes, whichever is larger;
    at most max_facets. If even max_facets do not reduce the error below sigma itself, the glint is
-   disregarded and the diffuse part determines the count.
+   disregarded and the diffuse term determines the count.
    Status: LRCS_OK; LRCS_E_ARGUMENT, LRCS_E_NUMBER (shape, as lrcs_shape_check; fineness).
    Work: O(around log around); milliseconds. */
 int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,

@@ -151,8 +151,8 @@ typedef struct fit_job {
     uint32_t starts;
     uint32_t kept;
     lrcsi_fit_parameters full; /* the best fit of all four parameters */
-    lrcsi_fit_parameters best; /* that, or the best fit without an insignificant part */
-    int absent[2];             /* A or B of the part that is not significant */
+    lrcsi_fit_parameters best; /* that, or the best fit without an insignificant term */
+    int absent[2];             /* A or B of the term that is not significant */
     double error;              /* standard deviation of a weighted residual */
     double rise;               /* of the sum of squares at the confidence limits */
     lrcsi_fit_spread spread;
@@ -196,8 +196,8 @@ static void full_fit(fit_job *job)
     }
 }
 
-/* The fit that is reported: without the less significant part if that is not significant, or else
-   without the other part if that is not significant, or else with both. */
+/* The fit that is reported: without the less significant term if that is not significant, or else
+   without the other term if that is not significant, or else with both. */
 static void parts_choose(fit_job *job)
 {
     lrcsi_fit_parameters without[2];
@@ -210,11 +210,11 @@ static void parts_choose(fit_job *job)
     job->best = job->full;
     int weaker = without[1].square < without[0].square;
     for (int i = 0; i < 2; i++) {
-        int part = i == 0 ? weaker : !weaker;
-        if (!lrcsi_fit_presence(&job->data, part, &without[part], job->full.square, job->kept,
+        int term = i == 0 ? weaker : !weaker;
+        if (!lrcsi_fit_presence(&job->data, term, &without[term], job->full.square, job->kept,
                                 known)) {
-            job->absent[part] = 1;
-            job->best = without[part];
+            job->absent[term] = 1;
+            job->best = without[term];
             return;
         }
     }
@@ -231,13 +231,13 @@ static double readings_size(const lrcsi_fit_data *data, int all)
     return size;
 }
 
-/* The variance of the errors, estimated from the residuals; each part that is present has two
+/* The variance of the errors, estimated from the residuals; each term that is present has two
    parameters. It is at least that of rounding; if the squares of all kept readings vanish, the
    rounding of excluded readings counts too. */
 static void errors_estimate(fit_job *job)
 {
-    int parts = 2 - job->absent[0] - job->absent[1];
-    uint32_t freedom = job->kept - 2 * (uint32_t)parts;
+    int terms = 2 - job->absent[0] - job->absent[1];
+    uint32_t freedom = job->kept - 2 * (uint32_t)terms;
     double rounding = FIT_ROUNDING * readings_size(&job->data, 0) / job->kept;
     double variance = lrcsi_max(job->best.square / freedom, rounding);
     if (!(variance > 0.0)) {
@@ -252,7 +252,7 @@ static void errors_estimate(fit_job *job)
 /* Makes the fit:
    1. minimizes from all starting points with Huber's weights. They are ordered by the sum of
       absolute residuals, on which a few outliers have little influence;
-   2. fits all four parameters, excluding outliers, and leaves out a part that is not significant;
+   2. fits all four parameters, excluding outliers, and leaves out a term that is not significant;
    3. estimates the errors, and finds the confidence limits. If a better fit is found on the way, 2
       and 3 are repeated from there. */
 static void fit_make(fit_job *job)
@@ -337,9 +337,9 @@ static int parameter_verdict(int p, const double limit[2], int absent)
 static void parameters_fill(const fit_job *job, double unit, lrcs_fit *fit)
 {
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
-        int part = p % 2;
+        int term = p % 2;
         double at = job->best.at[p];
-        int none = job->best.at[part] == 0.0;
+        int none = job->best.at[term] == 0.0;
         double by_coordinate =
             p < LRCS_FIT_S ? unit
                            : exp(at); /* for s and 1 + m, the exponential of the coordinate */
@@ -348,7 +348,7 @@ static void parameters_fill(const fit_job *job, double unit, lrcs_fit *fit)
             .error = job->spread.error[p] * by_coordinate,
             .low = lrcsi_max(0.0, parameter_value(p, job->limit[p][0], unit)),
             .high = parameter_value(p, job->limit[p][1], unit),
-            .verdict = parameter_verdict(p, job->limit[p], job->limit[part][0] == 0.0)};
+            .verdict = parameter_verdict(p, job->limit[p], job->limit[term][0] == 0.0)};
     }
     memcpy(fit->correlation, job->spread.correlation, sizeof fit->correlation);
     fit->brdf = (lrcs_brdf){fit->parameter[LRCS_FIT_A].value, fit->parameter[LRCS_FIT_B].value,
@@ -403,9 +403,9 @@ const char *lrcs_fit_verdict_text(int parameter, int verdict)
     static const char *const text[][LRCS_FIT_PARAMETERS] = {
         [LRCS_FIT_DETERMINED] = {"determined", "determined", "determined", "determined"},
         [LRCS_FIT_ABSENT] = {"may be 0: no glint is needed to explain the readings",
-                             "may be 0: no diffuse part is needed to explain the readings"},
+                             "may be 0: no diffuse term is needed to explain the readings"},
         [LRCS_FIT_UNDEFINED] = {[LRCS_FIT_S] = "not determined: there may be no glint",
-                                [LRCS_FIT_M] = "not determined: there may be no diffuse part"},
+                                [LRCS_FIT_M] = "not determined: there may be no diffuse term"},
         [LRCS_FIT_AT_MOST] = {[LRCS_FIT_S] =
                                   "not determined, only an upper limit: the glint may be "
                                   "narrower, with too few readings on its slope"},
@@ -414,7 +414,7 @@ const char *lrcs_fit_verdict_text(int parameter, int verdict)
                                "not determined, only a lower limit: the readings begin too far "
                                "from the normal",
                                "not determined, only a lower limit: so wide a glint looks diffuse",
-                               "not determined, only a lower limit: the diffuse part may be as "
+                               "not determined, only a lower limit: the diffuse term may be as "
                                "narrow as a glint"},
         [LRCS_FIT_FREE] = {"not determined: a glint narrower than the smallest angle read would "
                            "not be seen",

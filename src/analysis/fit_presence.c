@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether a glint or a diffuse part is significant compared with the noise of readings. It decides
-   by how much the sum of squares must fall before a part counts as present.
+/* Whether a glint or a diffuse term is significant compared with the noise of readings. It decides
+   by how much the sum of squares must fall before a term counts as present.
 
-   Without the part, its shape parameter (s or m) has no meaning, and the fit takes the most
+   Without the term, its shape parameter (s or m) has no meaning, and the fit takes the most
    favourable of all shapes: the usual t test of one parameter would find a glint in one of five
    series of pure noise. H. Hotelling (1939) gives the correct probability, and M. Knowles and D.
-   Siegmund (Int. Stat. Rev. 57 (1989) 205) its application here: let v be the part's vector over
-   the readings, made orthogonal to what the other part can represent (its vector and the derivative
+   Siegmund (Int. Stat. Rev. 57 (1989) 205) its application here: let v be the term's vector over
+   the readings, made orthogonal to what the other term can represent (its vector and the derivative
    of that), and L the length of the arc that v/|v| draws on the unit sphere as the shape runs over
-   its range. The probability that noise of N dimensions is so near to that arc that the part lowers
+   its range. The probability that noise of N dimensions is so near to that arc that the term lowers
    the sum of squares by a fraction of q or more is at most
      (1 - q)^((N-2)/2) (sqrt(1 - q)/2 + L/(2 pi)),
    the volume of a tube about the arc with half a cap at its end (a cap of angle a is at most
    sin(a)^(N-1)/2 of the sphere). With known errors the power becomes exp(-fall/2), where fall is
    the decrease of the sum of squares. The bound is exact if the rest of the model is linear; the
-   derivative of the other part's shape makes it so to first order. */
+   derivative of the other term's shape makes it so to first order. */
 #include "analysis/fit_presence.h"
 
 #include <math.h>
@@ -25,16 +25,16 @@
 #define PRESENCE_LEVEL 0.05
 #define PRESENCE_STEPS 240
 
-/* If the other part represents a vector to within rounding, the direction of the residual is not
+/* If the other term represents a vector to within rounding, the direction of the residual is not
    usable. */
 #define PRESENCE_ROUNDING 1e-12
 
-/* The part's vector at given s and m, made orthogonal to the other part's and normalised, in
+/* The term's vector at given s and m, made orthogonal to the other term's and normalised, in
    residual[]. Returns 0 if it is zero to within rounding. */
-static int presence_vector(const lrcsi_fit_data *data, int part,
+static int presence_vector(const lrcsi_fit_data *data, int term,
                            const lrcsi_fit_parameters *parameters)
 {
-    int other = part == LRCS_FIT_A ? LRCS_FIT_B : LRCS_FIT_A;
+    int other = term == LRCS_FIT_A ? LRCS_FIT_B : LRCS_FIT_A;
     int shape = other + LRCS_FIT_S;
     lrcsi_fit_parameters at = *parameters;
     lrcsi_fit_normal normal;
@@ -43,19 +43,19 @@ static int presence_vector(const lrcsi_fit_data *data, int part,
     double b = normal.gram[shape][shape];
     double ab = normal.gram[other][shape];
     double det = a * b - ab * ab;
-    double x = a > 0.0 ? normal.gram[part][other] / a : 0.0;
+    double x = a > 0.0 ? normal.gram[term][other] / a : 0.0;
     double y = 0.0;
     if (det > PRESENCE_ROUNDING * a * b) {
-        x = (b * normal.gram[part][other] - ab * normal.gram[part][shape]) / det;
-        y = (a * normal.gram[part][shape] - ab * normal.gram[part][other]) / det;
+        x = (b * normal.gram[term][other] - ab * normal.gram[term][shape]) / det;
+        y = (a * normal.gram[term][shape] - ab * normal.gram[term][other]) / det;
     }
     double square = 0.0;
     for (uint32_t i = 0; i < data->count; i++) {
-        double v = data->column[part][i] - x * data->column[other][i] - y * data->column[shape][i];
+        double v = data->column[term][i] - x * data->column[other][i] - y * data->column[shape][i];
         data->residual[i] = v;
         square += v * v;
     }
-    if (!(square > PRESENCE_ROUNDING * normal.gram[part][part])) {
+    if (!(square > PRESENCE_ROUNDING * normal.gram[term][term])) {
         return 0;
     }
     for (uint32_t i = 0; i < data->count; i++) {
@@ -65,10 +65,10 @@ static int presence_vector(const lrcsi_fit_data *data, int part,
 }
 
 /* The length of the arc, as the sum of chords. */
-static double presence_arc(const lrcsi_fit_data *data, int part,
+static double presence_arc(const lrcsi_fit_data *data, int term,
                            const lrcsi_fit_parameters *without)
 {
-    int shape = part + LRCS_FIT_S;
+    int shape = term + LRCS_FIT_S;
     int before = 0;
     double arc = 0.0;
     lrcsi_fit_parameters parameters = *without;
@@ -76,7 +76,7 @@ static double presence_arc(const lrcsi_fit_data *data, int part,
         double chord = 0.0;
         double fraction = (double)k / PRESENCE_STEPS;
         parameters.at[shape] = data->low[shape] + fraction * (data->high[shape] - data->low[shape]);
-        if (!presence_vector(data, part, &parameters)) {
+        if (!presence_vector(data, term, &parameters)) {
             continue;
         }
         for (uint32_t i = 0; i < data->count; i++) {
@@ -90,13 +90,13 @@ static double presence_arc(const lrcsi_fit_data *data, int part,
     return arc;
 }
 
-int lrcsi_fit_presence(const lrcsi_fit_data *data, int part, const lrcsi_fit_parameters *without,
+int lrcsi_fit_presence(const lrcsi_fit_data *data, int term, const lrcsi_fit_parameters *without,
                        double square, uint32_t kept, int known)
 {
     double fall = lrcsi_max(0.0, without->square - square);
     double ratio = without->square > 0.0 ? square / without->square : 1.0; /* 1 - q */
     double freedom = (double)kept - 2.0;
-    double arc = presence_arc(data, part, without) / (2.0 * LRCS_PI);
+    double arc = presence_arc(data, term, without) / (2.0 * LRCS_PI);
     ratio = lrcsi_min(1.0, ratio);
     double probability = known ? exp(-0.5 * fall) * (0.5 + arc)
                                : pow(ratio, 0.5 * freedom - 1.0) * (0.5 * sqrt(ratio) + arc);

@@ -103,9 +103,9 @@ static void walk_minimize(const profile_walk *walk, double x, const lrcsi_fit_pa
     *lowest = parameters.square < lowest->square ? parameters : *lowest;
 }
 
-/* The best minimum over several shapes of a part, with the profiled parameter at x: a glint may lie
+/* The best minimum over several shapes of a term, with the profiled parameter at x: a glint may lie
    between readings or be wide, and a maximum may separate the two. A and m use shapes of the glint,
-   B and s those of the diffuse part. */
+   B and s those of the diffuse term. */
 static lrcsi_fit_parameters walk_shape(const profile_walk *walk, double x)
 {
     int p = walk->parameter;

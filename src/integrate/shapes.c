@@ -115,7 +115,7 @@ static double shape_glint_s(const lrcs_shape *shape, const lrcsi_dd direction[3]
     return slope / h / s;
 }
 
-/* The derivative of the diffuse part in m: a forward difference of order 8, because m may be 0,
+/* The derivative of the diffuse term in m: a forward difference of order 8, because m may be 0,
    with an error of h^8 f(9) / 9, below 1e-10 of f'; rounding adds some 1e-12 of f. */
 static double shape_diffuse_m(const lrcs_shape *shape, const lrcsi_dd direction[3], double s,
                               double m, double value)

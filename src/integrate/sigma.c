@@ -5,7 +5,7 @@
    1. view: lrcsi_plan_backs, lrcsi_view_face, lrcsi_clear_make, lrcsi_plan_make,
       lrcsi_view_project;
    2. classification: run_classify;
-   3. visible areas: run_clip, or run_draw (samples), or run_unshadowed where nothing is searched
+   3. visible areas: run_clip, or run_raster (samples), or run_unshadowed where nothing is searched
       for shadows;
    4. the sum of Eq. 2: run_sum.
    Rasters are drawn until one is accepted (run_rasters), or clipping and rasters take turns
@@ -303,7 +303,7 @@ static int run_clip(lrcsi_sigma *run, lrcsi_meter *meter)
 
 /* Finds visible areas by one raster of the given size, or of half of it, a quarter and so on until
    it fits into the work area. If `known` is NULL, the areas are taken from the samples alone. */
-static int run_draw(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
+static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
 {
     lrcsi_outcome *outcome = &run->outcome;
     lrcsi_raster raster;
@@ -370,7 +370,7 @@ static int run_rasters(lrcsi_sigma *run, int samples_only)
                                    : status;
     }
     while (status == LRCS_OK) {
-        status = run_draw(run, samples_only ? NULL : &known, size);
+        status = run_raster(run, samples_only ? NULL : &known, size);
         if (status != LRCS_OK) {
             break;
         }
@@ -451,7 +451,7 @@ static int run_previews(lrcsi_sigma *run)
             abandoned_ns = outcome == CLIP_ABANDONED ? ns : abandoned_ns;
         }
         size = rasters == 0 ? lrcsi_cost_first(&cost, size) : size;
-        status = run_draw(run, NULL, size);
+        status = run_raster(run, NULL, size);
         if (status != LRCS_OK) {
             break;
         }

@@ -173,14 +173,14 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
         const double plus[3] = {q[1] * p[2], q[2] * p[0], q[0] * p[1]};
         const double minus[3] = {q[2] * p[1], q[0] * p[2], q[1] * p[0]};
         const double normal[3] = {plus[0] - minus[0], plus[1] - minus[1], plus[2] - minus[2]};
-        double turn_error = 0.0;
-        double line_error[3]; /* of g . side */
+        double turn_err = 0.0;
+        double line_err[3]; /* of g . side */
         for (int k = 0; k < 3; k++) {
-            turn_error += fabs(plus[k]) + fabs(minus[k]);
-            line_error[k] = RING_FILTER * LINE_SCALE *
-                            ((fabs(side[k][0]) + fabs(side[k][1])) + fabs(side[k][2]));
+            turn_err += fabs(plus[k]) + fabs(minus[k]);
+            line_err[k] = RING_FILTER * LINE_SCALE *
+                          ((fabs(side[k][0]) + fabs(side[k][1])) + fabs(side[k][2]));
         }
-        turn_error *= RING_FILTER * RING_SCALE;
+        turn_err *= RING_FILTER * RING_SCALE;
         for (int corner = 0; corner < 3; corner++) {
             vertex_ring *r = &rings[weld[c[corner]]];
             int last = corner > 0 ? corner - 1 : 2; /* the side that leads to the corner */
@@ -192,8 +192,8 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
             double start =
                 (g[0] * side[corner][0] + g[1] * side[corner][1]) + g[2] * side[corner][2];
             double end = -((g[0] * side[last][0] + g[1] * side[last][1]) + g[2] * side[last][2]);
-            int decided = (turn > turn_error) & (fabs(start) > line_error[corner]) &
-                          (fabs(end) > line_error[last]);
+            int decided =
+                (turn > turn_err) & (fabs(start) > line_err[corner]) & (fabs(end) > line_err[last]);
             r->refused |= (unsigned char)!decided;
             r->up = count_to_2(r->up, (start < 0.0) & (end > 0.0));
             r->down = count_to_2(r->down, (start > 0.0) & (end < 0.0));

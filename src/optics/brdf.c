@@ -182,7 +182,7 @@ const char *lrcs_brdf_warning_text(int bit)
     case LRCS_BRDF_SLOPE_LARGE:
         return "s is above 0.7: the glint of a plate peaks away from its normal";
     case LRCS_BRDF_DIFFUSE_GAIN:
-        return "pi B is above 1: the diffuse part reflects more light than it receives";
+        return "pi B is above 1: the diffuse term reflects more light than it receives";
     case LRCS_BRDF_GLINT_GAIN:
         return "4 pi A s^2 is above 1: the glint reflects more light than it receives";
     case LRCS_BRDF_DARK:

@@ -172,18 +172,18 @@ static double diffuse_error(const lrcs_brdf *brdf, const reflect_term *diffuse, 
     return term_error_bound(diffuse, reflect_diffuse(brdf, low).value);
 }
 
-lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error)
+lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_err)
 {
     lrcsi_reflection out = {0.0, 0.0, 0.0};
     if (brdf->A > 0.0 && isfinite(tan2)) {
         reflect_term glint = reflect_glint(brdf, tan2);
         out.glint = lrcsi_min(glint.value, DBL_MAX);
-        out.error = glint_error(brdf, &glint, tan2, tan2_error);
+        out.error = glint_error(brdf, &glint, tan2, tan2_err);
     }
     if (brdf->B > 0.0 && isfinite(tan2)) {
         reflect_term diffuse = reflect_diffuse(brdf, tan2);
         out.diffuse = diffuse.value;
-        out.error += diffuse_error(brdf, &diffuse, tan2, tan2_error);
+        out.error += diffuse_error(brdf, &diffuse, tan2, tan2_err);
     }
     return out;
 }

@@ -14,12 +14,12 @@ typedef struct lrcsi_reflection {
 } lrcsi_reflection;
 
 /* Given: tan2 = tan^2(theta) >= 0 (infinity allowed: edge-on, both terms 0) with relative error
-   at most tan2_error. Parts are finite and not NaN for every brdf in its domain; if the glint
+   at most tan2_err. Both terms are finite for every brdf in its domain; if the glint
    exceeds the largest double it is that double, and error is infinite.
    Notes: 1. The only libm function called is sqrt: the same bits on every machine.
    2. Cost: one exponential, and one power except for m = 0, 1/2, 1 and 2; a term of amplitude 0
    costs nothing. */
-lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_error);
+lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_err);
 
 /* Bound on the flat-facet error of a curved patch, per unit of facet area:
      | integral over the patch of F dA / (facet area)  -  F(facet normal) |,

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Decides which coincident facets are redundant, and which two are the sides of one panel. Call the
-   facets on the same three points a group. When the laser sees the fronts of the facets of one
-   winding, it sees the backs of those of the other. They are at equal distance; of equally distant
-   facets the first front in order is seen, else the first back that reflects, else the first back
-   (visibility/sample.h).
+/* Decides which coincident facets are redundant, and which two are opposite: of opposite winding,
+   each seen instead of the other from one side. Call the facets on the same three points a group.
+   When the laser sees the fronts of the facets of one winding, it sees the backs of those of the
+   other. They are at equal distance; of equally distant facets the first front in order is seen,
+   else the first back that reflects, else the first back (visibility/sample.h).
 
    A group with both windings shows a front to every direction (except edge-on, where nothing is
-   seen). So only the first facet of each winding is ever seen: the two are the sides of one panel,
-   each the `opposite` of the other. The one that faces away is entirely hidden by the other, and
-   hides nothing that the other does not hide.
+   seen). So only the first facet of each winding is ever seen: the two are opposite facets. The one
+   that faces away is entirely hidden by the other, and hides nothing that the other does not hide.
 
    In a group with one winding, a facet is never seen if an earlier one reflects from its back, or
    if there is an earlier one and the facet itself does not reflect from its back. In both cases the

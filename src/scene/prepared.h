@@ -129,13 +129,13 @@ typedef struct lrcsi_extent {
 
 struct lrcs_prepared {
     const lrcs_scene *scene;
-    int exponent;             /* scene coordinate = vertex * 2^exponent */
-    lrcs_point *vertex;       /* scaled */
-    unsigned char *skip;      /* facet: 1 if degenerate or omitted; such a facet is ignored
-                                 everywhere */
-    unsigned char *redundant; /* facet: a lrcsi_redundant */
-    uint32_t *opposite; /* facet: the other side of its panel (scene/coincident.h), or LRCS_NONE;
-                           NULL if no facet has one */
+    int exponent;              /* scene coordinate = vertex * 2^exponent */
+    lrcs_point *vertex;        /* scaled */
+    unsigned char *skip;       /* facet: 1 if degenerate or omitted; such a facet is ignored
+                                  everywhere */
+    unsigned char *redundant;  /* facet: a lrcsi_redundant */
+    uint32_t *opposite;        /* facet: the facet that is seen instead of it from behind
+                                  (scene/coincident.h), or LRCS_NONE; NULL if no facet has one */
     unsigned char *referenced; /* vertex: 1 if a live facet has it as a corner */
     lrcsi_normal *normal;
     lrcsi_batches batches;             /* facets that are not skipped, by material */

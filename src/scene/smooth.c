@@ -12,8 +12,8 @@
 
    The winding decides which side is the front. If all the vertex normals of a facet point behind
    it, the file gives them for the other side, and they are reversed. Any other normal that does not
-   point to the front is replaced by the facet's own; this happens where the two sides of a panel
-   share vertices, and at corners for which no normal is suitable.
+   point to the front is replaced by the facet's own; this happens where two opposite facets share
+   vertices, and at corners for which no normal is suitable.
 
    Only + - * / and sqrt are used on normals, so they are the same on every machine. */
 #include "scene/smooth.h"

@@ -7,9 +7,8 @@
 
 /* Divides the surface into pieces: facets are in the same piece if they are connected across edges.
    piece[facet] is the first facet of its piece. Returned: 1 if every edge of a live facet has
-   exactly two live facets, which traverse it in opposite senses, and no two facets are the sides of
-   one panel (these enclose no volume, so no such scene is solid); else 0, and piece is
-   undefined. */
+   exactly two live facets, which traverse it in opposite senses, and no facet has an opposite (two
+   opposite facets enclose no volume, so no such scene is solid); else 0, and piece is undefined. */
 int lrcsi_solid_pieces(const lrcs_prepared *prepared, uint32_t *piece);
 
 /* The last step of a proof that the winding number of the live facets is nowhere negative. The

@@ -348,7 +348,7 @@ static void odd_scenes_give_finite_answers(void **state)
 }
 
 /* Amplitudes beyond floats are refused where they are seen; slopes and exponents beyond them are
-   their limits: no glint but at the normal, all glint, no diffuse part but at the normal. */
+   their limits: no glint but at the normal, all glint, no diffuse term but at the normal. */
 static void materials_beyond_floats_are_refused_or_limits(void **state)
 {
     (void)state;

@@ -207,7 +207,7 @@ static void verdicts_name_what_is_not_determined(void **state)
         /* a glint that one reading shows */
         {{{1, 0.25, 0.005, 0.5}, 0, 75, 0.003, 0, 31, 0},
          {LRCS_FIT_DETERMINED, LRCS_FIT_DETERMINED, LRCS_FIT_AT_MOST, LRCS_FIT_DETERMINED}},
-        /* no diffuse part */
+        /* no diffuse term */
         {{{1, 0, 0.2, 0}, 0, 60, 0.003, 0, 31, 0},
          {LRCS_FIT_DETERMINED, LRCS_FIT_ABSENT, LRCS_FIT_DETERMINED, LRCS_FIT_UNDEFINED}},
     };

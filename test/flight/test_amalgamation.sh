@@ -58,7 +58,7 @@ for compiler in "${CC:-cc}" clang aarch64-linux-gnu-gcc; do
     sed '/lrcs\.h"$/,$d' "$scratch/joined/lrcs.c" | cat - "$scratch/plain.c" >"$scratch/sum.c"
     same "$compiler is_kept_from_it" "$(contract "$compiler" $fused)" 0
 done
-"${CC:-cc}" -ffast-math -fsyntax-only "$scratch/joined/lrcs.c" 2>/dev/null
+"${CC:-cc}" -ffast-math -Wfatal-errors -fsyntax-only "$scratch/joined/lrcs.c" 2>/dev/null
 same fast_math_is_refused "$?" 1
 
 # ---- a program ----

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The axes of charts: round ends, ticks in order, names that say what they mean. */
-#include "host/axis.h"
+#include "host/chart/axis.h"
 
 #include <stdlib.h>
 #include <string.h>

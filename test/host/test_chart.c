@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Charts: labels that cover nothing, and drawings of data of every kind. */
-#include "host/canvas.h"
-#include "host/label.h"
-#include "host/letters.h"
+#include "host/chart/canvas.h"
+#include "host/chart/label.h"
+#include "host/chart/letters.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Names as people type them: patterns against a plain recursive matcher, folding, likeness. */
-#include "host/names.h"
+#include "host/scene/names.h"
 
 #include "check.h"
 

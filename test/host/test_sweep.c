@@ -8,7 +8,7 @@
 
 #include "check.h"
 
-/* More than the results that seven threads may keep waiting (host/workers.c). */
+/* More than the results that seven threads may keep waiting (host/run/workers.c). */
 #define POSES 128u
 
 static const uint32_t threads_tried[] = {1, 2, 3, 7};

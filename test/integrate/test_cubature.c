@@ -263,7 +263,7 @@ static void the_most_is_above_every_value_and_near_the_largest(void **state)
     }
 }
 
-/* Moments: of the glint by u, of the diffuse part by log(1 + u), 0 for a term that is absent or too
+/* Moments: of the glint by u, of the diffuse term by log(1 + u), 0 for a term that is absent or too
    small for a double. */
 static void moments_of_one_incidence_are_products(void **state)
 {

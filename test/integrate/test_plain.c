@@ -80,7 +80,7 @@ static double plain_p(double u, double s)
            1.875 * sqrt(PI) * pow(s, 5.0) * exp(u / (s * s)) * erfc(root / s);
 }
 
-/* Only the wall, nose-on; the glint as a difference, the diffuse part as a power. */
+/* Only the wall, nose-on; the glint as a difference, the diffuse term as a power. */
 static double plain_paraboloid(const hard_case *one)
 {
     const lrcs_brdf *b = &one->brdf;

@@ -372,7 +372,7 @@ static void digest_emulation(const lrcs_prepared *prepared, const lrcs_pose *pos
 }
 
 /* Many facets at random, on lattice points, each in a cube of its own, for full blocks of every
-   kind of material: narrow and wide glints, each form of the diffuse part, one-sided and two-sided.
+   kind of material: narrow and wide glints, each form of the diffuse term, one-sided and two-sided.
  */
 static void digest_materials(void)
 {

@@ -61,7 +61,7 @@ def steps(low, high, widths):
 
 
 def graded(ends):
-    """Breaks that close in on every end: there the diffuse part is a broken power of n_z."""
+    """Breaks that close in on every end: there the diffuse term is a broken power of n_z."""
     at = set(ends)
     for low, high in zip(ends, ends[1:]):
         for k in range(1, 15):
@@ -185,7 +185,7 @@ CASES += [("lit", n, s, m) for n in (DARK1, DARK2) for s, m in ((0.3, 0.5), (0.5
 
 def main():
     print("/* Made by cubature.py (Gauss-Legendre, 1e-12): normals at three corners, s, m, the integrals over")
-    print("   an area of 1 of the glint and of the diffuse part of f_r cos for A = B = 1. */")
+    print("   an area of 1 of the glint and of the diffuse term of f_r cos for A = B = 1. */")
     for kind, given, s, m in CASES:
         normals = given
         found = []

@@ -266,12 +266,29 @@ static void tubes_and_flat_parts_have_no_outline(void **state)
     assert_false(lrcsi_outline_make(&view, 1).known);
 }
 
+static void nothing_is_known_along_edges_without_length_side_or_outline(void **state)
+{
+    (void)state;
+    const double above[3] = {0, 0, -1};
+    const double direction[3] = {0.3, 0.2, 1};
+    view_make(&shapes[1], 1e-1, above, direction, 0, 0, 0);
+    lrcsi_outline o = lrcsi_outline_make(&view, 0);
+    const double a[3] = {o.centre[0], o.centre[1], 0};
+    const double b[3] = {o.centre[0] + 0.5 * o.size, o.centre[1], 0};
+    assert_true(o.known);
+    assert_true(isinf(lrcsi_outline_lens(&o, a, b, 0).gain));
+    assert_true(isinf(lrcsi_outline_lens(&o, a, a, 1).gain));
+    o.known = 0;
+    assert_true(isinf(lrcsi_outline_lens(&o, a, b, 1).loss));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(areas_bound_what_lies_between_both_outlines),
         cmocka_unit_test(a_shape_is_in_front_of_the_plane_that_it_stands_on),
         cmocka_unit_test(tubes_and_flat_parts_have_no_outline),
+        cmocka_unit_test(nothing_is_known_along_edges_without_length_side_or_outline),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The allowed error in each class, and the class of each case. kit_explain.c decides why answers
+/* The allowed error in each class, and the class of each case. explain.c decides why answers
    differ. */
 #include "host/kit/kit.h"
 

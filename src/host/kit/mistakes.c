@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The catalogue of mistakes (in the shading of a facet, in the area that is summed, in the pose),
    and the answer that a code with a mistake would produce for a case: the sum of Eq. 2 over the
-   truth's facets, with the mistake applied. kit_explain.c decides which of them explains the
+   truth's facets, with the mistake applied. explain.c decides which of them explains the
    submitted answers. */
 #include "host/kit/search.h"
 

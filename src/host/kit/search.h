@@ -11,7 +11,7 @@
 /* A mistake: whatever is not 0 differs from the truth. */
 typedef struct lrcsi_mistake {
     const char *name, *text;
-    int shade, area, turn; /* kit_mistakes.c: enum mistake_shade, ... */
+    int shade, area, turn; /* mistakes.c: enum mistake_shade, ... */
     double at;             /* of shade */
     int axes[3]; /* of turn: for x, y, z of s_hat, the component that is used, 1 .. 3, negative to
                     mirror it */

@@ -1,0 +1,380 @@
+/* SPDX-License-Identifier: MIT */
+/* Curved shapes among other parts, divided as finely as a pose needs. A scene is built and prepared
+   with few facets. Where the tessellation's share of a bound makes it miss the tolerance, the pose
+   is run again with those parts divided more finely that most of this share is due to, each by a
+   number of halvings. Poses that need the same halvings share the scene built for them. Every pose
+   begins with the scene's own division: its result does not depend on what other poses needed. */
+#include "host/run/refine.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The error due to a part is about proportional to its division. Divisions are chosen for this
+   fraction of what the tolerance leaves for all parts together. */
+#define TOLERANCE_FRACTION 0.8
+/* Some poses are so dark that their tolerance cannot be met, or only at a high cost: no division is
+   smaller than the tolerance divided by this factor. */
+#define DIVISION_FACTOR_MAX 64.0
+/* No part is halved more often. */
+#define PART_HALVINGS_MAX 64
+/* The number of levels kept, and of their facets, besides those in use. */
+#define KEPT_LEVELS_MAX 32u
+#define KEPT_FACETS_MAX (UINT32_C(1) << 19)
+/* All parts are divided alike if that takes at most this many times the facets. */
+#define SHARED_MAX 1.1
+/* How far errors are reduced beside those of parts that cannot be divided any further. */
+#define FIXED_FRACTION 0.1
+/* The cost of a halving is at least that of so many facets. */
+#define COST_MIN 16.0
+
+struct lrcsi_host_levels {
+    pthread_mutex_t lock;
+    pthread_cond_t built;
+    lrcs_build_options build;
+    unsigned char *own; /* the halvings of the scene itself */
+    uint32_t parts;
+    lrcsi_host_level *first; /* a list */
+    uint64_t clock;
+    uint32_t notices; /* those of the scene that no division changes */
+};
+
+struct lrcsi_host_levels *lrcsi_host_levels_make(const lrcs_host_scene *scene,
+                                                 const lrcs_build_options *build)
+{
+    int curved = 0;
+    for (uint32_t i = 0; i < scene->scene.part_count; i++) {
+        curved |= scene->scene.part[i].reach > 0.0;
+    }
+    if (!curved || !(build->division > 0.0)) {
+        return NULL;
+    }
+    struct lrcsi_host_levels *levels = calloc(1, sizeof *levels);
+    unsigned char *own = calloc(scene->scene.part_count, 1);
+    if (!levels || !own) {
+        free(levels);
+        free(own);
+        return NULL;
+    }
+    levels->build = *build;
+    levels->own = own;
+    levels->parts = scene->scene.part_count;
+    levels->notices = scene->notices.count;
+    if (build->halvings) {
+        memcpy(own, build->halvings, levels->parts);
+    }
+    pthread_mutex_init(&levels->lock, NULL);
+    pthread_cond_init(&levels->built, NULL);
+    return levels;
+}
+
+static void level_free(lrcsi_host_level *level)
+{
+    if (level->scene) {
+        lrcs_host_scene_free(level->scene);
+    }
+    free(level->scene);
+    free(level->halvings);
+    free(level);
+}
+
+void lrcsi_host_levels_free(struct lrcsi_host_levels *levels)
+{
+    if (!levels) {
+        return;
+    }
+    while (levels->first) {
+        lrcsi_host_level *level = levels->first;
+        levels->first = level->next;
+        level_free(level);
+    }
+    pthread_cond_destroy(&levels->built);
+    pthread_mutex_destroy(&levels->lock);
+    free(levels->own);
+    free(levels);
+}
+
+/* --- which parts to divide -------------------------------------------------------------------- */
+
+/* What the tolerance leaves for the tessellation of a pose; 0: dividing shapes does not help, or is
+   not needed. */
+static double error_allowed(const lrcs_run_options *options, const lrcs_result *result)
+{
+    double visibility = options->accept == LRCS_ACCEPT_BOUND || result->estimate_m2 < 0.0
+                            ? result->budget.visibility_m2
+                            : fmin(result->estimate_m2, result->budget.visibility_m2);
+    double left = TOLERANCE_FRACTION *
+                  (options->tolerance * result->sigma_m2 - visibility - result->budget.rounding_m2);
+    return (result->flags & LRCS_FLAG_TOLERANCE_NOT_MET) && left > 0.0 &&
+                   result->budget.tessellation_m2 > left
+               ? left
+               : 0.0;
+}
+
+/* A part while its halvings are chosen: the error due to it, and its facets. */
+typedef struct part_choice {
+    double error, facets;
+    double growth; /* of the facets at each halving */
+    int fixed;     /* it is not divided any finer */
+} part_choice;
+
+static int part_is_round(const lrcs_part *part)
+{
+    return part->kind == LRCS_SHAPE_SPHERE || part->kind == LRCS_SHAPE_DOME ||
+           part->kind == LRCS_SHAPE_PARABOLOID;
+}
+
+/* The errors of the parts, in total that of the tessellation; where these are not known, all curved
+   parts have the same. */
+static void choices_start(const lrcs_scene *scene, const lrcs_run_options *options,
+                          const lrcs_result *result, part_choice *choice)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        const lrcs_part *part = &scene->part[i];
+        double error = options->part_error_m2 ? options->part_error_m2[i] : 1.0;
+        choice[i] = (part_choice){part->reach > 0.0 ? error : 0.0, part->facet_count,
+                                  part_is_round(part) ? 2.0 : sqrt(2.0), !(part->reach > 0.0)};
+        sum += choice[i].error;
+    }
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        choice[i].error *= sum > 0.0 ? result->budget.tessellation_m2 / sum : 0.0;
+    }
+}
+
+/* The part whose next halving gains most for its price; parts if there is none. */
+static uint32_t choice_best(const part_choice *choice, uint32_t parts)
+{
+    uint32_t best = parts;
+    double most = 0.0;
+    for (uint32_t i = 0; i < parts; i++) {
+        double price = (choice[i].growth - 1.0) * choice[i].facets + COST_MIN;
+        if (!choice[i].fixed && choice[i].error / price > most) {
+            most = choice[i].error / price;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* Halves one part, unless it would be too fine; then it is fixed. */
+static void choice_halve(const struct lrcsi_host_levels *levels, double tolerance,
+                         part_choice *choice, unsigned char *halvings)
+{
+    double division = ldexp(levels->build.division, -(int)*halvings - 1);
+    if (choice->fixed || *halvings >= PART_HALVINGS_MAX ||
+        division < tolerance / DIVISION_FACTOR_MAX ||
+        choice->facets * choice->growth > levels->build.max_facets) {
+        choice->fixed = 1;
+        return;
+    }
+    ++*halvings;
+    choice->facets *= choice->growth;
+    choice->error *= 0.5;
+}
+
+/* Halves parts until their errors together are allowed, or no part can be halved: all parts at a
+   time, or the best one each time. Where parts that cannot be halved have more error than is
+   allowed, that of the others is reduced to FIXED_FRACTION of theirs. Returns the number of facets.
+ */
+static double choices_halve(const struct lrcsi_host_levels *levels, double tolerance,
+                            double allowed, int all, part_choice *choice, unsigned char *halvings)
+{
+    for (;;) {
+        double error = 0.0;
+        double fixed = 0.0;
+        double facets = 0.0;
+        for (uint32_t i = 0; i < levels->parts; i++) {
+            error += choice[i].error;
+            fixed += choice[i].fixed ? choice[i].error : 0.0;
+            facets += choice[i].facets;
+        }
+        uint32_t best = choice_best(choice, levels->parts);
+        if (!(error > fmax(allowed, (1.0 + FIXED_FRACTION) * fixed)) || best == levels->parts) {
+            return facets;
+        }
+        for (uint32_t i = all ? 0 : best; i < (all ? levels->parts : best + 1); i++) {
+            choice_halve(levels, tolerance, &choice[i], &halvings[i]);
+        }
+    }
+}
+
+/* The halvings with which the tolerance is likely to be met, or all that are allowed: of the parts
+   that the error is due to; but of all parts alike, which more poses share, if that takes about as
+   few facets. There is room for twice as many. Returns 0 if they are those of `from`. */
+static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_scene *scene,
+                           const lrcs_run_options *options, const lrcs_result *result,
+                           const unsigned char *from, unsigned char *halvings)
+{
+    double allowed = error_allowed(options, result);
+    part_choice *choice = calloc(levels->parts, sizeof *choice);
+    unsigned char *alike = halvings + levels->parts;
+    memcpy(halvings, from, levels->parts);
+    memcpy(alike, from, levels->parts);
+    if (choice && allowed > 0.0) {
+        choices_start(scene, options, result, choice);
+        double facets = choices_halve(levels, options->tolerance, allowed, 0, choice, halvings);
+        choices_start(scene, options, result, choice);
+        if (choices_halve(levels, options->tolerance, allowed, 1, choice, alike) <
+            SHARED_MAX * facets) {
+            memcpy(halvings, alike, levels->parts);
+        }
+    }
+    free(choice);
+    return memcmp(halvings, from, levels->parts) != 0;
+}
+
+/* --- levels ----------------------------------------------------------------------------------- */
+
+/* Builds and prepares a scene; NULL if that fails. */
+static lrcs_host_scene *level_build(const lrcs_host_scene *base,
+                                    const struct lrcsi_host_levels *levels,
+                                    const unsigned char *halvings)
+{
+    lrcs_host_error error;
+    lrcs_build_options build = levels->build;
+    lrcs_host_scene *scene = calloc(1, sizeof *scene);
+    build.halvings = halvings;
+    if (!scene) {
+        return NULL;
+    }
+    if (lrcs_host_scene_vary(base, &base->recipe, &build, scene, &error) != LRCS_OK) {
+        free(scene);
+        return NULL;
+    }
+    if (lrcs_host_scene_prepare(scene, &error) != LRCS_OK) {
+        lrcs_host_scene_free(scene);
+        free(scene);
+        return NULL;
+    }
+    return scene;
+}
+
+/* Frees the levels that were not asked for the longest time, until few enough are left. */
+static void levels_limit(struct lrcsi_host_levels *levels)
+{
+    for (;;) {
+        uint64_t facets = 0;
+        uint32_t idle = 0;
+        lrcsi_host_level **oldest = NULL; /* the pointer to it */
+        for (lrcsi_host_level **at = &levels->first; *at; at = &(*at)->next) {
+            if ((*at)->users == 0 && (*at)->scene) {
+                oldest = !oldest || (*at)->used < (*oldest)->used ? at : oldest;
+                facets += (*at)->scene->scene.facet_count;
+                idle++;
+            }
+        }
+        if (!oldest || (idle <= KEPT_LEVELS_MAX && facets <= KEPT_FACETS_MAX)) {
+            return;
+        }
+        lrcsi_host_level *level = *oldest;
+        *oldest = level->next;
+        level_free(level);
+    }
+}
+
+/* A new level, which is being built; NULL if there is no memory. */
+static lrcsi_host_level *level_add(struct lrcsi_host_levels *levels, const unsigned char *halvings)
+{
+    lrcsi_host_level *level = calloc(1, sizeof *level);
+    unsigned char *own = malloc(levels->parts);
+    if (!level || !own) {
+        free(level);
+        free(own);
+        return NULL;
+    }
+    memcpy(own, halvings, levels->parts);
+    level->halvings = own;
+    level->users = 1;
+    level->next = levels->first;
+    levels->first = level;
+    return level;
+}
+
+/* The level with these halvings: one that is kept, or a new one, built while other threads go on.
+   NULL if that fails. The lock is held, but not while a level is built. */
+static lrcsi_host_level *level_get(const lrcs_host_scene *base, struct lrcsi_host_levels *levels,
+                                   const unsigned char *halvings)
+{
+    lrcsi_host_level *level = levels->first;
+    while (level && memcmp(level->halvings, halvings, levels->parts) != 0) {
+        level = level->next;
+    }
+    if (level) {
+        level->users++;
+        while (!level->scene && !level->failed) {
+            pthread_cond_wait(&levels->built, &levels->lock);
+        }
+    } else {
+        level = level_add(levels, halvings);
+        if (!level) {
+            return NULL;
+        }
+        pthread_mutex_unlock(&levels->lock);
+        lrcs_host_scene *scene = level_build(base, levels, halvings);
+        pthread_mutex_lock(&levels->lock);
+        level->scene = scene;
+        level->failed = !scene;
+        pthread_cond_broadcast(&levels->built);
+    }
+    level->used = ++levels->clock;
+    if (level->failed) {
+        level->users--;
+        return NULL;
+    }
+    return level;
+}
+
+lrcsi_host_level *lrcsi_host_finer(const lrcs_host_scene *scene, const lrcs_run_options *options,
+                                   const lrcs_result *result, lrcsi_host_level *from)
+{
+    struct lrcsi_host_levels *levels = scene->levels;
+    lrcsi_host_level *level = NULL;
+    if (!levels) {
+        return NULL;
+    }
+    unsigned char *halvings = malloc(2 * (size_t)levels->parts);
+    if (halvings) {
+        const unsigned char *now = from ? from->halvings : levels->own;
+        int finer = halvings_choose(levels, from ? &from->scene->scene : &scene->scene, options,
+                                    result, now, halvings);
+        pthread_mutex_lock(&levels->lock);
+        while (finer && !(level = level_get(scene, levels, halvings))) {
+            finer = 0; /* too many facets, or too little memory: half of the way */
+            for (uint32_t i = 0; i < levels->parts; i++) {
+                halvings[i] = (unsigned char)(now[i] + (halvings[i] - now[i]) / 2);
+                finer |= halvings[i] > now[i];
+            }
+        }
+        pthread_mutex_unlock(&levels->lock);
+    }
+    free(halvings);
+    lrcsi_host_level_release(scene, from);
+    return level;
+}
+
+void lrcsi_host_level_release(const lrcs_host_scene *scene, lrcsi_host_level *level)
+{
+    if (level) {
+        pthread_mutex_lock(&scene->levels->lock);
+        level->users--;
+        levels_limit(scene->levels);
+        pthread_mutex_unlock(&scene->levels->lock);
+    }
+}
+
+uint32_t lrcsi_host_level_adopt(lrcs_host_scene *scene, const lrcsi_host_level *level,
+                                const unsigned char **halvings)
+{
+    struct lrcsi_host_levels *levels = scene->levels;
+    const lrcs_host_scene *finer = level->scene;
+    memcpy(levels->own, level->halvings, levels->parts);
+    scene->scene = finer->scene;
+    scene->prepared = finer->prepared;
+    scene->seconds_load += finer->seconds_load;
+    scene->seconds_prepare = finer->seconds_prepare;
+    memcpy(scene->seconds_stage, finer->seconds_stage, sizeof scene->seconds_stage);
+    *halvings = levels->own;
+    return levels->notices;
+}

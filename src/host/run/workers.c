@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT */
+/* Jobs in threads. It decides which member does which job (the next one, whoever is free), how far
+   fast members may run ahead of slow ones (a ring buffer of slots), and when to stop; it does not
+   depend on what the jobs are. The calling thread is a member too: it hands over results that are
+   ready and works if there are none. It does all jobs if the system grants no threads. */
+#include "host/run/workers.h"
+
+#include <lrcs/sweep.h>
+
+#include <pthread.h>
+#include <stdlib.h>
+
+/* Slots per member: enough for jobs of unequal length and an occasional slow hand-over. */
+#define WORKERS_SLOTS 16u
+/* The core keeps no large arrays on the stack; some systems give threads very little. */
+#define WORKERS_STACK ((size_t)1 << 20)
+
+typedef struct workers_ring {
+    const lrcsi_workers *workers;
+    unsigned char *slot; /* of job i: i % window */
+    unsigned char *done; /* 1: that slot holds the result of a job */
+    uint64_t window;
+    uint64_t head, next, end; /* to be taken; to be done; one past the last */
+    int stop;
+    pthread_mutex_t lock; /* of all above */
+    pthread_cond_t room;  /* there is a job to do, or none any more */
+    pthread_cond_t ready; /* the slot at the head is done */
+} workers_ring;
+
+typedef struct workers_member {
+    workers_ring *ring;
+    uint32_t number;
+    pthread_t thread;
+} workers_member;
+
+static void *ring_slot(const workers_ring *ring, uint64_t index)
+{
+    return ring->slot + (size_t)(index % ring->window) * ring->workers->slot_size;
+}
+
+static int ring_has_job(const workers_ring *ring)
+{
+    return !ring->stop && ring->next < ring->end && ring->next - ring->head < ring->window;
+}
+
+/* Does the next job; the lock is held before and after. */
+static void ring_work(workers_ring *ring, uint32_t member)
+{
+    uint64_t index = ring->next++;
+    pthread_mutex_unlock(&ring->lock);
+    ring->workers->work(ring->workers->context, member, index, ring_slot(ring, index));
+    pthread_mutex_lock(&ring->lock);
+    ring->done[index % ring->window] = 1;
+    if (index == ring->head) {
+        pthread_cond_signal(&ring->ready);
+    }
+}
+
+static void *workers_member_run(void *context)
+{
+    workers_member *member = context;
+    workers_ring *ring = member->ring;
+    pthread_mutex_lock(&ring->lock);
+    while (!ring->stop && ring->next < ring->end) {
+        if (ring_has_job(ring)) {
+            ring_work(ring, member->number);
+        } else {
+            pthread_cond_wait(&ring->room, &ring->lock);
+        }
+    }
+    pthread_mutex_unlock(&ring->lock);
+    return NULL;
+}
+
+/* Hands over what is at the head; the lock is held before and after. */
+static int ring_take(workers_ring *ring)
+{
+    uint64_t index = ring->head;
+    pthread_mutex_unlock(&ring->lock);
+    int status = ring->workers->take(ring->workers->context, index, ring_slot(ring, index));
+    pthread_mutex_lock(&ring->lock);
+    if (status == LRCS_OK) {
+        ring->done[index % ring->window] = 0;
+        ring->head++;
+        pthread_cond_signal(&ring->room);
+    }
+    return status;
+}
+
+/* The calling thread's part, until all is taken or the work ends. */
+static int workers_lead(workers_ring *ring)
+{
+    const volatile sig_atomic_t *cancel = ring->workers->cancel;
+    int status = LRCS_OK;
+    pthread_mutex_lock(&ring->lock);
+    while (ring->head < ring->end && status == LRCS_OK) {
+        if (cancel && *cancel) {
+            status = LRCS_E_CANCELLED;
+        } else if (ring->done[ring->head % ring->window]) {
+            status = ring_take(ring);
+        } else if (ring_has_job(ring)) {
+            ring_work(ring, 0);
+        } else {
+            pthread_cond_wait(&ring->ready, &ring->lock);
+        }
+    }
+    ring->stop = 1;
+    pthread_cond_broadcast(&ring->room);
+    pthread_mutex_unlock(&ring->lock);
+    return status;
+}
+
+/* Starts as many threads as the system grants; only the calling thread receives signals. Returns
+   their number. */
+static uint32_t workers_start(workers_ring *ring, workers_member *member)
+{
+    sigset_t all;
+    sigset_t before;
+    pthread_attr_t attributes;
+    uint32_t started = 0;
+    if (ring->workers->members == 1 || pthread_attr_init(&attributes) != 0) {
+        return 0;
+    }
+    pthread_attr_setstacksize(&attributes, WORKERS_STACK);
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    while (started + 1 < ring->workers->members) {
+        member[started] = (workers_member){.ring = ring, .number = started + 1};
+        if (pthread_create(&member[started].thread, &attributes, workers_member_run,
+                           &member[started]) != 0) {
+            break;
+        }
+        started++;
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    pthread_attr_destroy(&attributes);
+    return started;
+}
+
+/* Runs the work once the ring and its locks exist. Jobs done before a cancel are still handed
+   over. */
+static int workers_work(workers_ring *ring, workers_member *member)
+{
+    uint32_t started = workers_start(ring, member);
+    int status = workers_lead(ring);
+    for (uint32_t i = 0; i < started; i++) {
+        pthread_join(member[i].thread, NULL);
+    }
+    pthread_mutex_lock(&ring->lock);
+    int taken = LRCS_OK;
+    while (status == LRCS_E_CANCELLED && taken == LRCS_OK && ring->head < ring->next &&
+           ring->done[ring->head % ring->window]) {
+        taken = ring_take(ring);
+    }
+    int whole = ring->head == ring->end; /* nothing was left to cancel */
+    pthread_mutex_unlock(&ring->lock);
+    if (status != LRCS_E_CANCELLED) {
+        return status;
+    }
+    return taken != LRCS_OK ? taken : whole ? LRCS_OK : status;
+}
+
+int lrcsi_workers_run(const lrcsi_workers *workers, uint64_t *done, lrcs_host_error *error)
+{
+    workers_ring ring = {.workers = workers,
+                         .head = workers->first,
+                         .next = workers->first,
+                         .end = workers->first + workers->count,
+                         .window = (uint64_t)WORKERS_SLOTS * workers->members,
+                         .lock = PTHREAD_MUTEX_INITIALIZER,
+                         .room = PTHREAD_COND_INITIALIZER,
+                         .ready = PTHREAD_COND_INITIALIZER};
+    size_t bytes = (size_t)ring.window * workers->slot_size;
+    workers_member *member = calloc(workers->members, sizeof *member);
+    ring.slot = calloc((size_t)ring.window, workers->slot_size);
+    ring.done = calloc((size_t)ring.window, 1);
+    int status = member && ring.slot && ring.done ? workers_work(&ring, member)
+                                                  : lrcsi_host_fail_memory(error, bytes);
+    *done = ring.head - workers->first;
+    free(ring.done);
+    free(ring.slot);
+    free(member);
+    pthread_cond_destroy(&ring.ready);
+    pthread_cond_destroy(&ring.room);
+    pthread_mutex_destroy(&ring.lock);
+    return status;
+}
