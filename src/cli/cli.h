@@ -287,14 +287,6 @@ double cli_percent(double part, double whole);
 /* The value in dBsm of a sigma > 0. */
 double cli_dbsm(double sigma_m2);
 
-/* A bound >= 0 as "%.*g" prints it, rounded up. */
-#define CLI_BOUND_SIZE 40
-void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
-
-/* Appends to a text, truncated to its size. */
-__attribute__((format(printf, 3, 4))) void cli_append(char *text, size_t size, const char *format,
-                                                      ...);
-
 /* A character of a text that stays on its line: "?" for a control character. */
 #define CLI_PLAIN(c) ((unsigned char)(c) < 0x20 || (c) == 0x7f ? '?' : (c))
 

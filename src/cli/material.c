@@ -263,7 +263,7 @@ static uint32_t colours_near(const lrcs_scene *scene, const unsigned char rgb[3]
 static void list_add(char *list, size_t size, uint32_t index, const char *quote, const char *name)
 {
     static const char *const before[] = {"", ", then ", ", "};
-    cli_append(list, size, "%s%s%.60s%s", before[index < 2 ? index : 2], quote, name, quote);
+    lrcs_host_append(list, size, "%s%s%.60s%s", before[index < 2 ? index : 2], quote, name, quote);
 }
 
 /* Reports a --material that matches no facet: the message lists the names or colours most like

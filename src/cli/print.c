@@ -50,26 +50,6 @@ double cli_dbsm(double sigma_m2)
     return 10.0 * log10(sigma_m2);
 }
 
-/* Adds a unit to the last digit if the nearest number is less than the bound. */
-void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE])
-{
-    snprintf(text, CLI_BOUND_SIZE, "%.*g", digits, bound);
-    double shown = strtod(text, NULL);
-    if (shown < bound) {
-        double step = pow(10.0, floor(log10(shown > 0.0 ? shown : bound)) + 1.0 - digits);
-        snprintf(text, CLI_BOUND_SIZE, "%.*g", digits, shown + step);
-    }
-}
-
-void cli_append(char *text, size_t size, const char *format, ...)
-{
-    size_t used = strlen(text);
-    va_list list;
-    va_start(list, format);
-    vsnprintf(text + used, size - used, format, list);
-    va_end(list);
-}
-
 /* The width is counted in code points: every byte except the continuation bytes of UTF-8. */
 void cli_column_to(FILE *out, const char *text, int width)
 {

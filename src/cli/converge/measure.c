@@ -115,9 +115,10 @@ static int setting_add(converge_job *job, int dial, int method, uint32_t resolut
     setting->resolution = resolution;
     setting->mesh = mesh;
     if (dial == CONVERGE_ZBUFFER) {
-        cli_append(setting->name, sizeof setting->name, " %lu", (unsigned long)resolution);
+        lrcs_host_append(setting->name, sizeof setting->name, " %lu", (unsigned long)resolution);
     } else if (dial == CONVERGE_MESH) {
-        cli_append(setting->name, sizeof setting->name, " on mesh 1e-%d", job->mesh[mesh].digits);
+        lrcs_host_append(setting->name, sizeof setting->name, " on mesh 1e-%d",
+                         job->mesh[mesh].digits);
     }
     return setting_run(job, setting);
 }
@@ -153,8 +154,9 @@ static int rasters_add(converge_job *job, uint32_t mesh)
     double last = 0.0;
     for (uint32_t n = RASTER_LEAST; n <= RASTER_MOST && code == 0; n *= 2) {
         if (job->spent + last > 0.5 * job->seconds) { /* this one would not be faster */
-            cli_append(job->left_out, sizeof job->left_out, "%szbuffer %lu and finer, for time",
-                       job->left_out[0] ? "; " : "left out: ", (unsigned long)n);
+            lrcs_host_append(job->left_out, sizeof job->left_out,
+                             "%szbuffer %lu and finer, for time",
+                             job->left_out[0] ? "; " : "left out: ", (unsigned long)n);
             break;
         }
         code = setting_add(job, CONVERGE_ZBUFFER, LRCS_METHOD_ZBUFFER, n, mesh);

@@ -57,43 +57,43 @@ converge_sentence cli_converge_sentence(const converge_job *job)
     const char *verb = " is";
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {
         const converge_setting *one = setting_cheapest(job, report_tolerance[i].value);
-        cli_append(sentence.text, sizeof sentence.text, "%s", report_tolerance[i].text);
+        lrcs_host_append(sentence.text, sizeof sentence.text, "%s", report_tolerance[i].text);
         if (i + 1 < REPORT_TOLERANCES &&
             one == setting_cheapest(job, report_tolerance[i + 1].value)) {
-            cli_append(sentence.text, sizeof sentence.text, ", ");
+            lrcs_host_append(sentence.text, sizeof sentence.text, ", ");
             continue;
         }
-        cli_append(sentence.text, sizeof sentence.text, "%s %s", verb,
-                   one ? one->name : "none of these");
+        lrcs_host_append(sentence.text, sizeof sentence.text, "%s %s", verb,
+                         one ? one->name : "none of these");
         if (one) {
-            cli_append(sentence.text, sizeof sentence.text, " (%.3g ms)", 1e3 * one->pose_s);
+            lrcs_host_append(sentence.text, sizeof sentence.text, " (%.3g ms)", 1e3 * one->pose_s);
         }
-        cli_append(sentence.text, sizeof sentence.text,
-                   i + 1 < REPORT_TOLERANCES ? ", for " : "; ");
+        lrcs_host_append(sentence.text, sizeof sentence.text,
+                         i + 1 < REPORT_TOLERANCES ? ", for " : "; ");
         verb = "";
     }
     if (best) {
-        cli_append(sentence.text, sizeof sentence.text,
-                   "the best bound, %.2g%s, is that of %s (%.3g ms).",
-                   cli_converge_relative(job, best->bound_m2),
-                   job->truth.sigma_m2 > 0.0 ? " of sigma" : " m2", best->name, 1e3 * best->pose_s);
+        lrcs_host_append(
+            sentence.text, sizeof sentence.text, "the best bound, %.2g%s, is that of %s (%.3g ms).",
+            cli_converge_relative(job, best->bound_m2),
+            job->truth.sigma_m2 > 0.0 ? " of sigma" : " m2", best->name, 1e3 * best->pose_s);
     } else {
-        cli_append(sentence.text, sizeof sentence.text, "no bound is known.");
+        lrcs_host_append(sentence.text, sizeof sentence.text, "no bound is known.");
     }
     const char *before = " By estimate, unproved, a tolerance of ";
     for (uint32_t i = 0; i < job->settings; i++) {
         const converge_setting *one = &job->setting[i];
         if (one->dial == CONVERGE_PREVIEW) {
             int estimated = one->accepted_by && strcmp(one->accepted_by, "estimate") == 0;
-            cli_append(sentence.text, sizeof sentence.text, "%s1e-%d takes %.3g ms%s", before,
-                       one->digits, 1e3 * one->pose_s,
-                       estimated          ? ""
-                       : one->accepted_by ? " (and is proved)"
-                                          : " (and is missed)");
+            lrcs_host_append(sentence.text, sizeof sentence.text, "%s1e-%d takes %.3g ms%s", before,
+                             one->digits, 1e3 * one->pose_s,
+                             estimated          ? ""
+                             : one->accepted_by ? " (and is proved)"
+                                                : " (and is missed)");
             before = ", ";
         }
     }
-    cli_append(sentence.text, sizeof sentence.text, before[0] == ',' ? "." : "");
+    lrcs_host_append(sentence.text, sizeof sentence.text, before[0] == ',' ? "." : "");
     return sentence;
 }
 

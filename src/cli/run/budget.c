@@ -280,14 +280,14 @@ static int budget_settle(run_job *job, const budget_answer *best)
     const int named = best->options.method != LRCS_METHOD_AUTO;
     char text[sizeof job->budget.same] = "";
     if (tolerance_matters(job)) {
-        cli_append(text, sizeof text, " --tolerance %g", best->options.tolerance);
+        lrcs_host_append(text, sizeof text, " --tolerance %g", best->options.tolerance);
     }
     if (named) {
-        cli_append(text, sizeof text, " --method %s%s", lrcs_method_text(result->method),
-                   best->options.accept == LRCS_ACCEPT_ESTIMATE ? " --accept estimate" : "");
+        lrcs_host_append(text, sizeof text, " --method %s%s", lrcs_method_text(result->method),
+                         best->options.accept == LRCS_ACCEPT_ESTIMATE ? " --accept estimate" : "");
     }
     if (result->resolution != 0) {
-        cli_append(text, sizeof text, " --resolution %lu", (unsigned long)result->resolution);
+        lrcs_host_append(text, sizeof text, " --resolution %lu", (unsigned long)result->resolution);
     }
     snprintf(job->budget.same, sizeof job->budget.same, "%s", text + 1);
     job->options = best->options;
