@@ -197,7 +197,9 @@ int cli_scene_options_read(const cli_args *args, lrcs_host_options *options);
 void cli_scene_options_free(lrcs_host_options *options);
 
 /* Loads the command's scene; 0, CLI_FAILED or CLI_USAGE with the message printed. A binding that
-   matches nothing is a usage error. */
+   matches nothing is a usage error. The same code for a scene that was read with that status. */
+int cli_scene_code(const cli_args *args, const lrcs_host_options *options, int status,
+                   const lrcs_host_error *error, const lrcs_host_scene *scene);
 int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene);
 
 /* A unit of length (lrcs_host_input.unit_m) in words: "mm", .., metres per unit, "m assumed", or
@@ -212,9 +214,6 @@ int cli_scene_prepare(lrcs_host_scene *scene);
 int cli_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                   const lrcs_run_options *options, lrcs_result *result, lrcs_facet_record *records,
                   lrcs_image *image, double *seconds);
-
-/* 1 if the scene contains shapes that the engine meshes, so that a tolerance changes it. */
-int cli_has_curved_shapes(const lrcs_scene *scene);
 
 /* What a result was made from: the scene's title, or the operand; the origin of a material's
    numbers, "given", "illustrative" or "published" (the library), "default" or "assumed" (as the

@@ -216,7 +216,7 @@ static void verdict_print(const profile_job *job)
                          all);
     printf("verdict      each bin is proved to %s of sigma or better, their sum to %s.\n", bin,
            all);
-    if (worst > 1e-6 * total_sigma(job) && !cli_has_curved_shapes(&job->scene.scene)) {
+    if (worst > 1e-6 * total_sigma(job) && !lrcs_host_scene_tessellated(&job->scene.scene)) {
         printf("             A face within rounding of a bin's edge may be on either side of it\n");
     }
     if (is_curved(job)) {

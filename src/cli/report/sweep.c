@@ -231,7 +231,7 @@ static int scene_choose(report_job *job, lrcs_host_scene **scene)
 {
     *scene = &job->scene;
     if (job->sweep_options.tolerance == job->options.tolerance ||
-        !cli_has_curved_shapes(&job->scene.scene)) {
+        !lrcs_host_scene_tessellated(&job->scene.scene)) {
         return 0;
     }
     *scene = &job->sweep_scene;

@@ -63,7 +63,7 @@ static pid_t child_parent;
 /* Does the tolerance change the answer? */
 static int tolerance_matters(const run_job *job)
 {
-    return cli_has_curved_shapes(&job->scene.scene) ||
+    return lrcs_host_scene_tessellated(&job->scene.scene) ||
            job->scene.scene.normals != LRCS_NORMALS_FLAT;
 }
 
@@ -73,7 +73,7 @@ static int setting_run(run_job *job, budget_answer *answer)
 {
     int code = 0;
     memset(answer, 0, sizeof *answer);
-    if (cli_has_curved_shapes(&job->scene.scene)) {
+    if (lrcs_host_scene_tessellated(&job->scene.scene)) {
         lrcs_host_scene_free(&job->scene);
         job->load.build.tolerance = job->options.tolerance;
         job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
@@ -155,7 +155,7 @@ static void settings_run(run_job *job, int answers)
         on = setting_send(job, answers, &answer);
         cli_sequence_done(&sequence, i, answer.seconds_pose,
                           answer.result.method != LRCS_METHOD_ZBUFFER);
-        again = cli_has_curved_shapes(&job->scene.scene)
+        again = lrcs_host_scene_tessellated(&job->scene.scene)
                     ? answer.seconds_load + answer.seconds_prepare
                     : 0.0;
         finer = job->options.method == LRCS_METHOD_AUTO &&
@@ -296,7 +296,7 @@ static int budget_settle(run_job *job, const budget_answer *best)
         job->result.method_reason = "the best that the time budget reached";
     }
     int code = 0;
-    if (cli_has_curved_shapes(&job->scene.scene)) {
+    if (lrcs_host_scene_tessellated(&job->scene.scene)) {
         uint32_t parts = job->scene.scene.part_count;
         int divided = best->build.halvings != NULL;
         lrcs_host_scene_free(&job->scene);
