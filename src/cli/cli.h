@@ -273,10 +273,6 @@ typedef struct cli_sum {
 void cli_sum_add(cli_sum *sum, double value);
 double cli_sum_value(const cli_sum *sum);
 
-/* Sorts numbers in ascending order. Returns their median: of an even number the mean of the middle
-   two; 0 of none. */
-double cli_median(double *value, size_t count);
-
 /* A value >= 0 as it is, or NAN, which no output shows as a number, for one that is not known. */
 double cli_known(double value);
 

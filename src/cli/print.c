@@ -22,19 +22,6 @@ double cli_sum_value(const cli_sum *sum)
     return sum->value + sum->low;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double *x = a;
-    const double *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-double cli_median(double *value, size_t count)
-{
-    qsort(value, count, sizeof *value, ascending);
-    return count > 0 ? 0.5 * (value[(count - 1) / 2] + value[count / 2]) : 0.0;
-}
-
 double cli_known(double value)
 {
     return value >= 0.0 ? value : (double)NAN;
