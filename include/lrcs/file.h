@@ -34,6 +34,14 @@ int lrcs_host_number_read(const char *text, size_t size, double *value);
    Status: LRCS_OK; LRCS_E_SYNTAX; LRCS_E_NUMBER. */
 int lrcs_host_numbers_read(const char *text, double *value, int count);
 
+/* A bound >= 0 as "%.*g" prints it, rounded up. */
+#define LRCS_HOST_BOUND_SIZE 40
+void lrcs_host_bound_text(double bound, int digits, char text[LRCS_HOST_BOUND_SIZE]);
+
+/* Appends to a text, truncated to its size. */
+__attribute__((format(printf, 3, 4))) void lrcs_host_append(char *text, size_t size,
+                                                            const char *format, ...);
+
 /* ---- names ---- */
 
 /* How far a name is from what was typed: 0 if it begins with the text, else the number of edits

@@ -107,6 +107,14 @@ size_t lrcs_fit_need(uint32_t count);
 int lrcs_fit_run(const lrcs_fit_reading *reading, uint32_t count, const lrcs_fit_options *options,
                  lrcs_work *work, lrcs_fit *fit, lrcs_fit_point *point);
 
+/* The same for readings of unknown errors: with relative errors and with absolute ones, of which
+   the likelier is kept. options->noise is not used. Returned: noise, LRCS_FIT_RELATIVE or
+   LRCS_FIT_ABSOLUTE; fit; point[count]. Status: as lrcs_fit_run. Work: lrcs_fit_need(count) bytes;
+   up to three times that of lrcs_fit_run. */
+int lrcs_fit_run_likelier(const lrcs_fit_reading *reading, uint32_t count,
+                          const lrcs_fit_options *options, lrcs_work *work, int *noise,
+                          lrcs_fit *fit, lrcs_fit_point *point);
+
 /* One sentence on what a verdict means for a parameter. Never NULL. */
 const char *lrcs_fit_verdict_text(int parameter, int verdict);
 

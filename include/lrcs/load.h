@@ -111,6 +111,9 @@ int lrcs_host_output_same(const char *path, const char *other);
  */
 void lrcs_host_scene_box(const lrcs_scene *scene, double box_min[3], double box_max[3]);
 
+/* 1 if facets replace curved shapes of the scene, so that a tolerance changes it; else 0. */
+int lrcs_host_scene_tessellated(const lrcs_scene *scene);
+
 /* Prepares a scene, once for all poses: lrcs_prepare_run with memory from the heap.
    Status: LRCS_OK; LRCS_E_SYSTEM; as lrcs_prepare_run. */
 int lrcs_host_scene_prepare(lrcs_host_scene *scene, lrcs_host_error *error);

@@ -197,7 +197,9 @@ int cli_scene_options_read(const cli_args *args, lrcs_host_options *options);
 void cli_scene_options_free(lrcs_host_options *options);
 
 /* Loads the command's scene; 0, CLI_FAILED or CLI_USAGE with the message printed. A binding that
-   matches nothing is a usage error. */
+   matches nothing is a usage error. The same code for a scene that was read with that status. */
+int cli_scene_code(const cli_args *args, const lrcs_host_options *options, int status,
+                   const lrcs_host_error *error, const lrcs_host_scene *scene);
 int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene);
 
 /* A unit of length (lrcs_host_input.unit_m) in words: "mm", .., metres per unit, "m assumed", or
@@ -212,9 +214,6 @@ int cli_scene_prepare(lrcs_host_scene *scene);
 int cli_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                   const lrcs_run_options *options, lrcs_result *result, lrcs_facet_record *records,
                   lrcs_image *image, double *seconds);
-
-/* 1 if the scene contains shapes that the engine meshes, so that a tolerance changes it. */
-int cli_has_curved_shapes(const lrcs_scene *scene);
 
 /* What a result was made from: the scene's title, or the operand; the origin of a material's
    numbers, "given", "illustrative" or "published" (the library), "default" or "assumed" (as the
@@ -274,10 +273,6 @@ typedef struct cli_sum {
 void cli_sum_add(cli_sum *sum, double value);
 double cli_sum_value(const cli_sum *sum);
 
-/* Sorts numbers in ascending order. Returns their median: of an even number the mean of the middle
-   two; 0 of none. */
-double cli_median(double *value, size_t count);
-
 /* A value >= 0 as it is, or NAN, which no output shows as a number, for one that is not known. */
 double cli_known(double value);
 
@@ -286,14 +281,6 @@ double cli_percent(double part, double whole);
 
 /* The value in dBsm of a sigma > 0. */
 double cli_dbsm(double sigma_m2);
-
-/* A bound >= 0 as "%.*g" prints it, rounded up. */
-#define CLI_BOUND_SIZE 40
-void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE]);
-
-/* Appends to a text, truncated to its size. */
-__attribute__((format(printf, 3, 4))) void cli_append(char *text, size_t size, const char *format,
-                                                      ...);
 
 /* A character of a text that stays on its line: "?" for a control character. */
 #define CLI_PLAIN(c) ((unsigned char)(c) < 0x20 || (c) == 0x7f ? '?' : (c))

@@ -263,7 +263,7 @@ static uint32_t colours_near(const lrcs_scene *scene, const unsigned char rgb[3]
 static void list_add(char *list, size_t size, uint32_t index, const char *quote, const char *name)
 {
     static const char *const before[] = {"", ", then ", ", "};
-    cli_append(list, size, "%s%s%.60s%s", before[index < 2 ? index : 2], quote, name, quote);
+    lrcs_host_append(list, size, "%s%s%.60s%s", before[index < 2 ? index : 2], quote, name, quote);
 }
 
 /* Reports a --material that matches no facet: the message lists the names or colours most like
@@ -301,31 +301,26 @@ static int unmatched_binding(const cli_command *command, const lrcs_host_scene *
                      found > 0 ? "; the nearest is " : ", nor any other", list);
 }
 
-int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene)
+int cli_scene_code(const cli_args *args, const lrcs_host_options *options, int status,
+                   const lrcs_host_error *error, const lrcs_host_scene *scene)
 {
-    lrcs_host_error error;
-    int status = lrcs_host_scene_read(args->operand, options, scene, &error);
     if (status == LRCS_E_ARGUMENT && options->unit_m > 0.0) {
-        return cli_usage(args->command, "--unit: %s", error.text);
+        return cli_usage(args->command, "--unit: %s", error->text);
     }
-    if (status == LRCS_E_NAME && strncmp(error.text, "two-sided:", 10) == 0) {
-        return cli_usage(args->command, "--%s", error.text);
+    if (status == LRCS_E_NAME && strncmp(error->text, "two-sided:", 10) == 0) {
+        return cli_usage(args->command, "--%s", error->text);
     }
     if (status != LRCS_OK) {
-        return cli_failed(&error);
+        return cli_failed(error);
     }
     return scene->scene.unmatched == LRCS_NONE ? 0 : unmatched_binding(args->command, scene);
 }
 
-int cli_has_curved_shapes(const lrcs_scene *scene)
+int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene)
 {
-    for (uint32_t i = 0; i < scene->part_count; i++) {
-        const lrcs_part *part = &scene->part[i];
-        if (part->kind >= 0 && (part->curvature.turn > 0.0 || !part->curvature_known)) {
-            return 1;
-        }
-    }
-    return 0;
+    lrcs_host_error error;
+    int status = lrcs_host_scene_read(args->operand, options, scene, &error);
+    return cli_scene_code(args, options, status, &error, scene);
 }
 
 int cli_scene_prepare(lrcs_host_scene *scene)

@@ -22,19 +22,6 @@ double cli_sum_value(const cli_sum *sum)
     return sum->value + sum->low;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double *x = a;
-    const double *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-double cli_median(double *value, size_t count)
-{
-    qsort(value, count, sizeof *value, ascending);
-    return count > 0 ? 0.5 * (value[(count - 1) / 2] + value[count / 2]) : 0.0;
-}
-
 double cli_known(double value)
 {
     return value >= 0.0 ? value : (double)NAN;
@@ -48,26 +35,6 @@ double cli_percent(double part, double whole)
 double cli_dbsm(double sigma_m2)
 {
     return 10.0 * log10(sigma_m2);
-}
-
-/* Adds a unit to the last digit if the nearest number is less than the bound. */
-void cli_bound_text(double bound, int digits, char text[CLI_BOUND_SIZE])
-{
-    snprintf(text, CLI_BOUND_SIZE, "%.*g", digits, bound);
-    double shown = strtod(text, NULL);
-    if (shown < bound) {
-        double step = pow(10.0, floor(log10(shown > 0.0 ? shown : bound)) + 1.0 - digits);
-        snprintf(text, CLI_BOUND_SIZE, "%.*g", digits, shown + step);
-    }
-}
-
-void cli_append(char *text, size_t size, const char *format, ...)
-{
-    size_t used = strlen(text);
-    va_list list;
-    va_start(list, format);
-    vsnprintf(text + used, size - used, format, list);
-    va_end(list);
 }
 
 /* The width is counted in code points: every byte except the continuation bytes of UTF-8. */

@@ -157,7 +157,7 @@ static int shape_read(const cli_args *args, lrcs_shape *shape, lrcs_aspect *aspe
 
 static void shape_print(const cli_args *args, const lrcs_closed *closed)
 {
-    char bound[CLI_BOUND_SIZE];
+    char bound[LRCS_HOST_BOUND_SIZE];
     if (cli_value(args, "json")) {
         lrcs_host_json json = lrcs_host_json_make(stdout);
         lrcs_host_json_put(&json, "{\n");
@@ -174,7 +174,7 @@ static void shape_print(const cli_args *args, const lrcs_closed *closed)
     if (closed->sigma_m2 > 0.0) {
         printf("   %.6f dBsm", cli_dbsm(closed->sigma_m2));
     }
-    cli_bound_text(closed->bound_m2, 3, bound);
+    lrcs_host_bound_text(closed->bound_m2, 3, bound);
     printf("\n  glint    %.15g m2\n  diffuse  %.15g m2\nbound      %s m2\n", closed->sigma_glint_m2,
            closed->sigma_diffuse_m2, bound);
 }

@@ -590,6 +590,52 @@ static void need_never_shrinks_as_readings_grow(void **state)
     }
 }
 
+/* Readings made with errors of one kind, over values that differ by a factor of more than 100. */
+static void the_likelier_errors_are_those_that_readings_were_made_with(void **state)
+{
+    (void)state;
+    int right = 0;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        const series made = {.brdf = {2.0, 0.01, 0.2, 1.0},
+                             .first = 0.0,
+                             .last = 60.0,
+                             .noise = seed % 2 ? 0.05 : 0.02,
+                             .count = 40,
+                             .kind = seed % 2 ? LRCS_FIT_RELATIVE : LRCS_FIT_ABSOLUTE};
+        lrcs_fit_reading reading[40];
+        lrcs_fit_point point[40], plain_point[40];
+        lrcs_fit fit, plain;
+        lrcs_fit_options options = lrcs_fit_options_default();
+        int noise = -1;
+        series_make(&made, seed, reading);
+        size_t size = lrcs_fit_need(made.count);
+        void *bytes = malloc(size);
+        lrcs_work work = lrcs_work_make(bytes, size);
+        assert_int_equal(
+            lrcs_fit_run_likelier(reading, made.count, &options, &work, &noise, &fit, point),
+            LRCS_OK);
+        right += noise == made.kind;
+        options.noise = noise; /* the fit is that of these errors */
+        assert_int_equal(lrcs_fit_run(reading, made.count, &options, &work, &plain, plain_point),
+                         LRCS_OK);
+        assert_memory_equal(&fit.brdf, &plain.brdf, sizeof fit.brdf);
+        for (uint32_t i = 0; i < made.count; i++) {
+            assert_true(point[i].fitted == plain_point[i].fitted &&
+                        point[i].outlier == plain_point[i].outlier);
+        }
+        free(bytes);
+    }
+    assert_int_equal(right, 20);
+    lrcs_fit fit;
+    lrcs_fit_point point[1];
+    lrcs_fit_options options = lrcs_fit_options_default();
+    const lrcs_fit_reading one = {0.0, 1.0, 0.0};
+    lrcs_work work = lrcs_work_make(NULL, 0);
+    int noise;
+    assert_int_equal(lrcs_fit_run_likelier(&one, 1, &options, &work, &noise, &fit, point),
+                     LRCS_E_EMPTY);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -616,6 +662,7 @@ int main(void)
         cmocka_unit_test(grazing_readings_alone_give_back_a_matt_surface),
         cmocka_unit_test(a_fit_grows_until_it_fits),
         cmocka_unit_test(need_never_shrinks_as_readings_grow),
+        cmocka_unit_test(the_likelier_errors_are_those_that_readings_were_made_with),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,6 +40,7 @@ NEVER = {
     "lrcs_host_chart_png": {"LRCS_E_ARGUMENT", "LRCS_E_LIMIT"},
     "lrcs_host_map_png": {"LRCS_E_ARGUMENT", "LRCS_E_LIMIT"},
     "lrcs_host_picture_png": {"LRCS_E_ARGUMENT"},
+    "lrcs_host_sweep_chart_write": {"LRCS_E_ARGUMENT", "LRCS_E_LIMIT", "LRCS_E_NAME", "LRCS_E_NUMBER"},
 }
 
 COMMENT = re.compile(r"/\*.*?\*/", re.S)

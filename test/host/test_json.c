@@ -154,6 +154,34 @@ static void a_comma_locale_changes_nothing(void **state)
     check_same(value, 1.5);
 }
 
+static void bounds_are_rounded_up(void **state)
+{
+    static const struct {
+        double bound;
+        int digits;
+        const char *want;
+    } item[] = {{0.0, 2, "0"},        {1.0, 2, "1"},        {1.01, 2, "1.1"},
+                {0.0999, 2, "0.1"},   {1.2e-9, 1, "2e-09"}, {9.96e-9, 2, "1e-08"},
+                {123.0, 2, "1.3e+02"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof item / sizeof *item; i++) {
+        char text[LRCS_HOST_BOUND_SIZE];
+        lrcs_host_bound_text(item[i].bound, item[i].digits, text);
+        assert_string_equal(text, item[i].want);
+        assert_true(strtod(text, NULL) >= item[i].bound);
+    }
+}
+
+static void text_is_appended_as_far_as_there_is_room(void **state)
+{
+    (void)state;
+    char text[8] = "";
+    lrcs_host_append(text, sizeof text, "%s-%d", "ab", 12);
+    assert_string_equal(text, "ab-12");
+    lrcs_host_append(text, sizeof text, "xyz");
+    assert_string_equal(text, "ab-12xy");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -165,6 +193,8 @@ int main(void)
         cmocka_unit_test(what_is_not_finite_is_null),
         cmocka_unit_test(text_that_is_no_number_is_refused),
         cmocka_unit_test(a_comma_locale_changes_nothing),
+        cmocka_unit_test(bounds_are_rounded_up),
+        cmocka_unit_test(text_is_appended_as_far_as_there_is_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,34 +6,34 @@
 
 #include <math.h>
 
-#define CHART_SERIES (3 * CONVERGE_DIALS)
+#define CHART_SERIES (3 * LRCS_HOST_DIALS)
 
 /* The quantities of a setting, each a curve. */
 enum chart_quantity { CHART_ERROR, CHART_BOUND, CHART_ESTIMATE };
 
 typedef struct chart_curve {
     char name[48];
-    double x[CONVERGE_SETTINGS], y[CONVERGE_SETTINGS];
-    const char *label[CONVERGE_SETTINGS];
+    double x[LRCS_HOST_CONVERGENCE_SETTINGS], y[LRCS_HOST_CONVERGENCE_SETTINGS];
+    const char *label[LRCS_HOST_CONVERGENCE_SETTINGS];
 } chart_curve;
 
 typedef struct chart_curves {
     chart_curve curve[CHART_SERIES];
     lrcs_host_series series[CHART_SERIES];
     uint32_t count;
-    char short_name[CONVERGE_SETTINGS][16];
+    char short_name[LRCS_HOST_CONVERGENCE_SETTINGS][16];
 } chart_curves;
 
 static const struct {
     int colour, marker;
-} chart_dials[CONVERGE_DIALS] = {[CONVERGE_MESH] = {LRCS_HOST_GREEN, LRCS_HOST_TRIANGLE},
-                                 [CONVERGE_PREVIEW] = {LRCS_HOST_ORANGE, LRCS_HOST_SQUARE},
-                                 [CONVERGE_FACET] = {LRCS_HOST_PURPLE, LRCS_HOST_SQUARE},
-                                 [CONVERGE_EXACT] = {LRCS_HOST_VERMILION, LRCS_HOST_DIAMOND},
-                                 [CONVERGE_CLOSED] = {LRCS_HOST_BLACK, LRCS_HOST_CROSS},
-                                 [CONVERGE_ZBUFFER] = {LRCS_HOST_BLUE, LRCS_HOST_DISC}};
+} chart_dials[LRCS_HOST_DIALS] = {[LRCS_HOST_DIAL_MESH] = {LRCS_HOST_GREEN, LRCS_HOST_TRIANGLE},
+                                  [LRCS_HOST_DIAL_PREVIEW] = {LRCS_HOST_ORANGE, LRCS_HOST_SQUARE},
+                                  [LRCS_HOST_DIAL_FACET] = {LRCS_HOST_PURPLE, LRCS_HOST_SQUARE},
+                                  [LRCS_HOST_DIAL_EXACT] = {LRCS_HOST_VERMILION, LRCS_HOST_DIAMOND},
+                                  [LRCS_HOST_DIAL_CLOSED] = {LRCS_HOST_BLACK, LRCS_HOST_CROSS},
+                                  [LRCS_HOST_DIAL_ZBUFFER] = {LRCS_HOST_BLUE, LRCS_HOST_DISC}};
 
-static double setting_quantity(const converge_setting *setting, int quantity)
+static double setting_quantity(const lrcs_host_convergence_setting *setting, int quantity)
 {
     return quantity == CHART_ERROR   ? setting->error_m2
            : quantity == CHART_BOUND ? setting->bound_m2
@@ -42,7 +42,7 @@ static double setting_quantity(const converge_setting *setting, int quantity)
 
 /* 1 if a kind of setting has a curve: some value is known. An estimate that is 0 everywhere only
    means that nothing was sampled. */
-static int curve_known(const converge_job *job, int dial, int quantity)
+static int curve_known(const lrcs_host_convergence *job, int dial, int quantity)
 {
     for (uint32_t i = 0; i < job->settings; i++) {
         double value = setting_quantity(&job->setting[i], quantity);
@@ -54,7 +54,8 @@ static int curve_known(const converge_job *job, int dial, int quantity)
     return 0;
 }
 
-static void curve_add(const converge_job *job, chart_curves *all, int dial, int quantity, int named)
+static void curve_add(const lrcs_host_convergence *job, chart_curves *all, int dial, int quantity,
+                      int named)
 {
     static const char *const what[] = {"error", "bound", "estimate"};
     static const int dash[] = {LRCS_HOST_SOLID, LRCS_HOST_DASHED, LRCS_HOST_DOTTED};
@@ -76,47 +77,47 @@ static void curve_add(const converge_job *job, chart_curves *all, int dial, int 
         if (job->setting[i].dial == dial && value >= 0.0) {
             int has_name = named && all->short_name[i][0];
             curve->x[series->count] = 1e3 * job->setting[i].pose_s;
-            curve->y[series->count] = cli_converge_relative(job, value);
+            curve->y[series->count] = lrcs_host_convergence_relative(job, value);
             curve->label[series->count++] = has_name ? all->short_name[i] : NULL;
         }
     }
     /* "zbuffer N: bound", "exact, mesh 1e-k: error" */
-    const char *position = dial == CONVERGE_MESH      ? ", mesh 1e-k"
-                           : dial == CONVERGE_ZBUFFER ? " N"
-                                                      : "";
+    const char *position = dial == LRCS_HOST_DIAL_MESH      ? ", mesh 1e-k"
+                           : dial == LRCS_HOST_DIAL_ZBUFFER ? " N"
+                                                            : "";
     snprintf(curve->name, sizeof curve->name, "%s%s: %s",
-             dial == CONVERGE_PREVIEW ? "accepted by estimate" : lrcs_method_text(method), position,
-             what[quantity]);
+             dial == LRCS_HOST_DIAL_PREVIEW ? "accepted by estimate" : lrcs_method_text(method),
+             position, what[quantity]);
 }
 
 /* Adds the curves of a kind of setting; the upper one has the settings' names. A preview has the
    bound of its raster, which is no reason to choose it. */
-static void dial_add(const converge_job *job, chart_curves *all, int dial)
+static void dial_add(const lrcs_host_convergence *job, chart_curves *all, int dial)
 {
-    int bounds = dial != CONVERGE_PREVIEW && curve_known(job, dial, CHART_BOUND);
+    int bounds = dial != LRCS_HOST_DIAL_PREVIEW && curve_known(job, dial, CHART_BOUND);
     if (bounds) {
         curve_add(job, all, dial, CHART_BOUND, 1);
     }
     if (curve_known(job, dial, CHART_ESTIMATE)) {
-        curve_add(job, all, dial, CHART_ESTIMATE, dial == CONVERGE_PREVIEW);
+        curve_add(job, all, dial, CHART_ESTIMATE, dial == LRCS_HOST_DIAL_PREVIEW);
     }
     if (curve_known(job, dial, CHART_ERROR)) {
-        curve_add(job, all, dial, CHART_ERROR, !bounds && dial != CONVERGE_PREVIEW);
+        curve_add(job, all, dial, CHART_ERROR, !bounds && dial != LRCS_HOST_DIAL_PREVIEW);
     }
 }
 
 /* "256" for a raster, "1e-3" for a mesh. */
-static void short_names(const converge_job *job, chart_curves *all)
+static void short_names(const lrcs_host_convergence *job, chart_curves *all)
 {
     for (uint32_t i = 0; i < job->settings; i++) {
-        const converge_setting *one = &job->setting[i];
+        const lrcs_host_convergence_setting *one = &job->setting[i];
         char *name = all->short_name[i];
         name[0] = '\0';
-        if (one->dial == CONVERGE_ZBUFFER) {
+        if (one->dial == LRCS_HOST_DIAL_ZBUFFER) {
             snprintf(name, 16, "%lu", (unsigned long)one->resolution);
-        } else if (one->dial == CONVERGE_MESH) {
+        } else if (one->dial == LRCS_HOST_DIAL_MESH) {
             snprintf(name, 16, "1e-%d", job->mesh[one->mesh].digits);
-        } else if (one->dial == CONVERGE_PREVIEW) {
+        } else if (one->dial == LRCS_HOST_DIAL_PREVIEW) {
             snprintf(name, 16, "1e-%d", one->digits);
         }
     }
@@ -124,26 +125,27 @@ static void short_names(const converge_job *job, chart_curves *all)
 
 int cli_converge_chart(FILE *out, const void *context, int png, lrcs_host_error *error)
 {
-    const converge_job *job = context;
+    const converge_job *from = context;
+    const lrcs_host_convergence *job = &from->all;
     chart_curves all = {.count = 0};
     const double *d = job->pose.direction;
     double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     char title[256];
     char note[256];
-    snprintf(title, sizeof title, "What accuracy costs in time: %s", cli_base_name(job->title));
+    snprintf(title, sizeof title, "What accuracy costs in time: %s", cli_base_name(from->title));
     snprintf(note, sizeof note, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)",
              job->truth.text, job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
     /* the smallest value of the axis: the uncertainty of the truth, or of a double; never 0, which
        a logarithmic axis cannot show */
-    double floor = cli_converge_relative(job, job->truth.bound_m2);
+    double floor = lrcs_host_convergence_relative(job, job->truth.bound_m2);
     floor = job->truth.sigma_m2 > 0.0 ? fmax(floor, 0x1p-53) : floor > 0.0 ? floor : 1e-16;
     short_names(job, &all);
-    for (int dial = 0; dial < CONVERGE_DIALS; dial++) {
+    for (int dial = 0; dial < LRCS_HOST_DIALS; dial++) {
         dial_add(job, &all, dial);
     }
     const lrcs_host_chart chart = {
         .title = title,
-        .about = job->about,
+        .about = from->about,
         .note = note,
         .x_name = "time of one pose, median (ms)",
         .y_name = job->truth.sigma_m2 > 0.0 ? "error of sigma (relative to the truth)"

@@ -35,19 +35,47 @@ static const cli_option converge_options[] = {
     {"material", 1, 1},         {"json", 0, 0},       {"seconds", 1, 0},      {"help", 0, 0},
     {"keep-transparent", 0, 0}, {NULL, 0, 0}};
 
+/* ---- the measurement ---- */
+
+static void stage_begin(const char *name, uint32_t done, uint32_t count)
+{
+    cli_watch_stage(name, NULL);
+    if (count > 0) {
+        cli_watch_count(done, count);
+    } else {
+        cli_watch_run();
+    }
+}
+
+int cli_converge_read(converge_job *job)
+{
+    lrcs_host_error error;
+    job->all.path = job->args->operand;
+    job->all.stage = stage_begin;
+    int status = lrcs_host_convergence_read(&job->all, &error);
+    return cli_scene_code(job->args, &job->all.load, status, &error, &job->all.mesh[0].scene);
+}
+
+int cli_converge_measure(converge_job *job)
+{
+    lrcs_host_error error;
+    job->all.progress = cli_watch_run();
+    return lrcs_host_convergence_measure(&job->all, &error) == LRCS_OK ? 0 : cli_failed(&error);
+}
+
 /* ---- the command ---- */
 
 /* Checks the errors against their bounds: an error above its bound is a fault of the engine. */
-static int settings_check(const converge_job *job)
+static int settings_check(const lrcs_host_convergence *all)
 {
     int code = CLI_DONE;
-    for (uint32_t i = 0; i < job->settings; i++) {
-        const converge_setting *one = &job->setting[i];
-        if (one->bound_m2 >= 0.0 && one->error_m2 > one->bound_m2 + job->truth.bound_m2) {
+    for (uint32_t i = 0; i < all->settings; i++) {
+        const lrcs_host_convergence_setting *one = &all->setting[i];
+        if (one->bound_m2 >= 0.0 && one->error_m2 > one->bound_m2 + all->truth.bound_m2) {
             return cli_fail("%s: the error, %.3g m2, exceeds its bound, %.3g m2", one->name,
                             one->error_m2, one->bound_m2);
         }
-        code = one->short_of_memory ? CLI_DEGRADED : code;
+        code = one->flags & LRCS_FLAG_MEMORY_FALLBACK ? CLI_DEGRADED : code;
     }
     return code;
 }
@@ -57,8 +85,9 @@ static int converge_report(const converge_job *job)
     const cli_args *args = job->args;
     int code = job->csv ? cli_text_write(job->csv, cli_converge_csv, job) : 0;
     if (code == 0 && job->csv) {
-        code = cli_provenance_beside(args, job->csv, &cli_converge_finest(job)->scene, &job->pose,
-                                     job->about);
+        code =
+            cli_provenance_beside(args, job->csv, &lrcs_host_convergence_finest(&job->all)->scene,
+                                  &job->all.pose, job->about);
     }
     code = code ? code : cli_charts_write(args, "plot", cli_converge_chart, job);
     cli_watch_end();
@@ -67,19 +96,19 @@ static int converge_report(const converge_job *job)
     }
     if (cli_value(args, "json")) {
         cli_converge_json(job);
-        return settings_check(job);
+        return settings_check(&job->all);
     }
-    cli_notices_print(stderr, &cli_converge_finest(job)->scene.notices);
-    if (job->left_out[0]) {
-        fprintf(stderr, "notice: %s\n", job->left_out);
+    cli_notices_print(stderr, &lrcs_host_convergence_finest(&job->all)->scene.notices);
+    if (job->all.left_out[0]) {
+        fprintf(stderr, "notice: %s\n", job->all.left_out);
     }
-    if (job->busy[0]) {
-        fprintf(stderr, "notice: %s\n", job->busy);
+    if (job->all.busy[0]) {
+        fprintf(stderr, "notice: %s\n", job->all.busy);
     }
     if (!job->csv || strcmp(job->csv, "-") != 0) {
         cli_converge_table(job);
     }
-    return settings_check(job);
+    return settings_check(&job->all);
 }
 
 static int converge_command(const cli_args *args)
@@ -88,22 +117,20 @@ static int converge_command(const cli_args *args)
     memset(&job, 0, sizeof job);
     job.args = args;
     job.title = args->operand;
-    job.seconds = 20.0;
+    job.all.seconds = 20.0;
     job.csv = cli_value(args, "csv");
-    int code = cli_pose_read(args, &job.pose);
-    code = code ? code : cli_positive(args, "seconds", "a time > 0", &job.seconds);
-    code = code ? code : cli_scene_options_read(args, &job.load);
-    code = code ? code : cli_converge_meshes(&job);
-    code = code ? code : cli_outputs_spare(args, &job.mesh[0].scene);
+    int code = cli_pose_read(args, &job.all.pose);
+    code = code ? code : cli_positive(args, "seconds", "a time > 0", &job.all.seconds);
+    code = code ? code : cli_scene_options_read(args, &job.all.load);
+    code = code ? code : cli_converge_read(&job);
+    code = code ? code : cli_outputs_spare(args, &job.all.mesh[0].scene);
     code = code ? code : cli_converge_measure(&job);
     char *about = code == 0 ? cli_text_of(cli_converge_about, &job) : NULL;
     job.about = about;
     code = code ? code : converge_report(&job);
     free(about);
-    for (uint32_t i = 0; i < job.meshes; i++) {
-        lrcs_host_scene_free(&job.mesh[i].scene);
-    }
-    cli_scene_options_free(&job.load);
+    lrcs_host_convergence_free(&job.all);
+    cli_scene_options_free(&job.all.load);
     return code;
 }
 

@@ -14,20 +14,21 @@ static const struct {
 
 #define REPORT_TOLERANCES (sizeof report_tolerance / sizeof report_tolerance[0])
 
-double cli_converge_relative(const converge_job *job, double value_m2)
+/* By what a preview was accepted: NULL for other settings, and if the tolerance is missed. */
+static const char *accepted_by(const lrcs_host_convergence_setting *setting)
 {
-    double truth = job->truth.sigma_m2;
-    return truth > 0.0 ? value_m2 / truth : value_m2;
+    return setting->digits > 0 ? cli_accepted_by(setting->flags) : NULL;
 }
 
 /* ---- the sentence ---- */
 
 /* As for --tolerance: bound <= tolerance * sigma. */
-static const converge_setting *setting_cheapest(const converge_job *job, double tolerance)
+static const lrcs_host_convergence_setting *setting_cheapest(const lrcs_host_convergence *all,
+                                                             double tolerance)
 {
-    const converge_setting *best = NULL;
-    for (uint32_t i = 0; i < job->settings; i++) {
-        const converge_setting *one = &job->setting[i];
+    const lrcs_host_convergence_setting *best = NULL;
+    for (uint32_t i = 0; i < all->settings; i++) {
+        const lrcs_host_convergence_setting *one = &all->setting[i];
         int meets = one->bound_m2 >= 0.0 && one->bound_m2 <= tolerance * one->sigma_m2;
         if (meets && (!best || one->pose_s < best->pose_s)) {
             best = one;
@@ -36,11 +37,11 @@ static const converge_setting *setting_cheapest(const converge_job *job, double 
     return best;
 }
 
-static const converge_setting *setting_best(const converge_job *job)
+static const lrcs_host_convergence_setting *setting_best(const lrcs_host_convergence *all)
 {
-    const converge_setting *best = NULL;
-    for (uint32_t i = 0; i < job->settings; i++) {
-        const converge_setting *one = &job->setting[i];
+    const lrcs_host_convergence_setting *best = NULL;
+    for (uint32_t i = 0; i < all->settings; i++) {
+        const lrcs_host_convergence_setting *one = &all->setting[i];
         int better = !best || one->bound_m2 < best->bound_m2 ||
                      (one->bound_m2 == best->bound_m2 && one->pose_s < best->pose_s);
         if (one->bound_m2 >= 0.0 && better) {
@@ -50,50 +51,50 @@ static const converge_setting *setting_best(const converge_job *job)
     return best;
 }
 
-converge_sentence cli_converge_sentence(const converge_job *job)
+converge_sentence cli_converge_sentence(const lrcs_host_convergence *all)
 {
     converge_sentence sentence = {"The cheapest setting by pose time for a bound of "};
-    const converge_setting *best = setting_best(job);
+    const lrcs_host_convergence_setting *best = setting_best(all);
     const char *verb = " is";
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {
-        const converge_setting *one = setting_cheapest(job, report_tolerance[i].value);
-        cli_append(sentence.text, sizeof sentence.text, "%s", report_tolerance[i].text);
+        const lrcs_host_convergence_setting *one = setting_cheapest(all, report_tolerance[i].value);
+        lrcs_host_append(sentence.text, sizeof sentence.text, "%s", report_tolerance[i].text);
         if (i + 1 < REPORT_TOLERANCES &&
-            one == setting_cheapest(job, report_tolerance[i + 1].value)) {
-            cli_append(sentence.text, sizeof sentence.text, ", ");
+            one == setting_cheapest(all, report_tolerance[i + 1].value)) {
+            lrcs_host_append(sentence.text, sizeof sentence.text, ", ");
             continue;
         }
-        cli_append(sentence.text, sizeof sentence.text, "%s %s", verb,
-                   one ? one->name : "none of these");
+        lrcs_host_append(sentence.text, sizeof sentence.text, "%s %s", verb,
+                         one ? one->name : "none of these");
         if (one) {
-            cli_append(sentence.text, sizeof sentence.text, " (%.3g ms)", 1e3 * one->pose_s);
+            lrcs_host_append(sentence.text, sizeof sentence.text, " (%.3g ms)", 1e3 * one->pose_s);
         }
-        cli_append(sentence.text, sizeof sentence.text,
-                   i + 1 < REPORT_TOLERANCES ? ", for " : "; ");
+        lrcs_host_append(sentence.text, sizeof sentence.text,
+                         i + 1 < REPORT_TOLERANCES ? ", for " : "; ");
         verb = "";
     }
     if (best) {
-        cli_append(sentence.text, sizeof sentence.text,
-                   "the best bound, %.2g%s, is that of %s (%.3g ms).",
-                   cli_converge_relative(job, best->bound_m2),
-                   job->truth.sigma_m2 > 0.0 ? " of sigma" : " m2", best->name, 1e3 * best->pose_s);
+        lrcs_host_append(
+            sentence.text, sizeof sentence.text, "the best bound, %.2g%s, is that of %s (%.3g ms).",
+            lrcs_host_convergence_relative(all, best->bound_m2),
+            all->truth.sigma_m2 > 0.0 ? " of sigma" : " m2", best->name, 1e3 * best->pose_s);
     } else {
-        cli_append(sentence.text, sizeof sentence.text, "no bound is known.");
+        lrcs_host_append(sentence.text, sizeof sentence.text, "no bound is known.");
     }
     const char *before = " By estimate, unproved, a tolerance of ";
-    for (uint32_t i = 0; i < job->settings; i++) {
-        const converge_setting *one = &job->setting[i];
-        if (one->dial == CONVERGE_PREVIEW) {
-            int estimated = one->accepted_by && strcmp(one->accepted_by, "estimate") == 0;
-            cli_append(sentence.text, sizeof sentence.text, "%s1e-%d takes %.3g ms%s", before,
-                       one->digits, 1e3 * one->pose_s,
-                       estimated          ? ""
-                       : one->accepted_by ? " (and is proved)"
-                                          : " (and is missed)");
+    for (uint32_t i = 0; i < all->settings; i++) {
+        const lrcs_host_convergence_setting *one = &all->setting[i];
+        if (one->dial == LRCS_HOST_DIAL_PREVIEW) {
+            const char *by = accepted_by(one);
+            lrcs_host_append(sentence.text, sizeof sentence.text, "%s1e-%d takes %.3g ms%s", before,
+                             one->digits, 1e3 * one->pose_s,
+                             by && strcmp(by, "estimate") == 0 ? ""
+                             : by                              ? " (and is proved)"
+                                                               : " (and is missed)");
             before = ", ";
         }
     }
-    cli_append(sentence.text, sizeof sentence.text, before[0] == ',' ? "." : "");
+    lrcs_host_append(sentence.text, sizeof sentence.text, before[0] == ',' ? "." : "");
     return sentence;
 }
 
@@ -123,44 +124,46 @@ static const char *const number_name[NUMBERS] = {
     "relative_error", "relative_bound", "relative_estimate"};
 
 /* NaN where a number is not known, or none. */
-static void numbers_make(const converge_job *job, const converge_setting *one,
+static void numbers_make(const lrcs_host_convergence *all, const lrcs_host_convergence_setting *one,
                          double number[NUMBERS])
 {
-    const converge_mesh *mesh = &job->mesh[one->mesh];
+    const lrcs_host_convergence_mesh *mesh = &all->mesh[one->mesh];
     double bound = cli_known(one->bound_m2);
     double estimate = cli_known(one->estimate_m2);
-    const double all[NUMBERS] = {one->resolution ? one->resolution : (double)NAN,
-                                 mesh->digits > 0 ? pow(10.0, -mesh->digits) : (double)NAN,
-                                 mesh->scene.scene.facet_count,
-                                 one->runs,
-                                 1e3 * mesh->scene.seconds_prepare,
-                                 1e3 * one->pose_s,
-                                 one->sigma_m2,
-                                 one->error_m2,
-                                 bound,
-                                 estimate,
-                                 cli_converge_relative(job, one->error_m2),
-                                 cli_converge_relative(job, bound),
-                                 cli_converge_relative(job, estimate)};
-    memcpy(number, all, sizeof all);
+    const double list[NUMBERS] = {one->resolution ? one->resolution : (double)NAN,
+                                  mesh->digits > 0 ? pow(10.0, -mesh->digits) : (double)NAN,
+                                  mesh->scene.scene.facet_count,
+                                  one->runs,
+                                  1e3 * mesh->scene.seconds_prepare,
+                                  1e3 * one->pose_s,
+                                  one->sigma_m2,
+                                  one->error_m2,
+                                  bound,
+                                  estimate,
+                                  lrcs_host_convergence_relative(all, one->error_m2),
+                                  lrcs_host_convergence_relative(all, bound),
+                                  lrcs_host_convergence_relative(all, estimate)};
+    memcpy(number, list, sizeof list);
 }
 
 void cli_converge_table(const converge_job *job)
 {
-    converge_sentence sentence = cli_converge_sentence(job);
-    const char *unit = job->truth.sigma_m2 > 0.0 ? "relative" : "m2";
-    printf("scene  %s, hash %016llx\n", job->args->operand,
-           (unsigned long long)lrcs_scene_hash(&cli_converge_finest(job)->scene.scene));
-    printf("truth  %.15g m2, known to %.2g m2%s: %s\n\n", job->truth.sigma_m2, job->truth.bound_m2,
-           job->truth.whole ? "" : " for its facets", job->truth.text);
+    converge_sentence sentence = cli_converge_sentence(&job->all);
+    const char *unit = job->all.truth.sigma_m2 > 0.0 ? "relative" : "m2";
+    printf(
+        "scene  %s, hash %016llx\n", job->args->operand,
+        (unsigned long long)lrcs_scene_hash(&lrcs_host_convergence_finest(&job->all)->scene.scene));
+    printf("truth  %.15g m2, known to %.2g m2%s: %s\n\n", job->all.truth.sigma_m2,
+           job->all.truth.bound_m2, job->all.truth.whole ? "" : " for its facets",
+           job->all.truth.text);
     printf("%-22s %8s %4s %10s %10s %16s %10s %10s %10s\n", "", "", "", "prepare", "pose", "sigma",
            "error", "bound", "estimate");
     printf("%-22s %8s %4s %10s %10s %16s %10s %10s %10s\n", "setting", "facets", "runs", "ms",
            "median ms", "m2", unit, unit, unit);
-    for (uint32_t i = 0; i < job->settings; i++) {
+    for (uint32_t i = 0; i < job->all.settings; i++) {
         double number[NUMBERS];
-        numbers_make(job, &job->setting[i], number);
-        printf("%-22s %8.0f %4.0f %10.4g %10.4g %16.12g", job->setting[i].name,
+        numbers_make(&job->all, &job->all.setting[i], number);
+        printf("%-22s %8.0f %4.0f %10.4g %10.4g %16.12g", job->all.setting[i].name,
                number[NUMBER_FACETS], number[NUMBER_RUNS], number[NUMBER_PREPARE],
                number[NUMBER_POSE], number[NUMBER_SIGMA]);
         for (int k = NUMBER_RELATIVE_ERROR; k <= NUMBER_RELATIVE_ESTIMATE; k++) {
@@ -181,12 +184,13 @@ void cli_converge_about(FILE *out, const void *context)
 {
     const converge_job *job = context;
     double s_hat[3];
-    cli_pose_unit(&job->pose, s_hat);
-    cli_table_head(out, job->args, job->title, &cli_converge_finest(job)->scene, s_hat);
-    lrcs_host_number_put(out, "; truth_m2=", job->truth.sigma_m2);
-    lrcs_host_number_put(out, "; truth_bound_m2=", job->truth.bound_m2);
-    fprintf(out, "; truth_of=%s; truth=%s", job->truth.whole ? "shapes" : "facets",
-            job->truth.text);
+    cli_pose_unit(&job->all.pose, s_hat);
+    cli_table_head(out, job->args, job->title, &lrcs_host_convergence_finest(&job->all)->scene,
+                   s_hat);
+    lrcs_host_number_put(out, "; truth_m2=", job->all.truth.sigma_m2);
+    lrcs_host_number_put(out, "; truth_bound_m2=", job->all.truth.bound_m2);
+    fprintf(out, "; truth_of=%s; truth=%s", job->all.truth.whole ? "shapes" : "facets",
+            job->all.truth.text);
 }
 
 void cli_converge_csv(FILE *out, const void *context)
@@ -197,28 +201,29 @@ void cli_converge_csv(FILE *out, const void *context)
         fprintf(out, ",%s", number_name[k]);
     }
     fputs(",accepted_by\n", out);
-    for (uint32_t i = 0; i < job->settings; i++) {
-        const converge_setting *one = &job->setting[i];
+    for (uint32_t i = 0; i < job->all.settings; i++) {
+        const lrcs_host_convergence_setting *one = &job->all.setting[i];
         double number[NUMBERS];
-        numbers_make(job, one, number);
+        numbers_make(&job->all, one, number);
         fprintf(out, "%s,%s", one->name, lrcs_method_text(one->method));
         for (int k = 0; k < NUMBERS; k++) {
             if (isnan(number[k])) {
                 putc(',', out);
             } else if (k == NUMBER_MESH) {
-                fprintf(out, ",1e-%d", job->mesh[one->mesh].digits);
+                fprintf(out, ",1e-%d", job->all.mesh[one->mesh].digits);
             } else {
                 lrcs_host_number_put(out, ",", number[k]);
             }
         }
-        fprintf(out, ",%s\n", one->accepted_by ? one->accepted_by : "");
+        const char *by = accepted_by(one);
+        fprintf(out, ",%s\n", by ? by : "");
     }
 }
 
 /* ---- JSON ---- */
 
 /* The setting, in an open object, which it ends. */
-static void cheapest_json(const converge_setting *one, lrcs_host_json *json)
+static void cheapest_json(const lrcs_host_convergence_setting *one, lrcs_host_json *json)
 {
     lrcs_host_json_put(json, "setting=%s pose_ms=%g bound_m2=%g}", one ? one->name : NULL,
                        one ? 1e3 * one->pose_s : (double)NAN, one ? one->bound_m2 : (double)NAN);
@@ -226,22 +231,22 @@ static void cheapest_json(const converge_setting *one, lrcs_host_json *json)
 
 void cli_converge_json(const converge_job *job)
 {
-    const lrcs_host_scene *scene = &cli_converge_finest(job)->scene;
+    const lrcs_host_scene *scene = &lrcs_host_convergence_finest(&job->all)->scene;
     lrcs_host_json json = lrcs_host_json_make(stdout);
-    converge_sentence sentence = cli_converge_sentence(job);
+    converge_sentence sentence = cli_converge_sentence(&job->all);
     lrcs_host_json_put(&json, "{\n");
     cli_version_json(&json);
     cli_hash_json(lrcs_scene_hash(&scene->scene), &json);
     cli_files_json(scene, &json);
     lrcs_host_json_put(&json, "unit=%s", cli_scene_unit(job->args, scene));
-    cli_direction_json(&job->pose, &json);
+    cli_direction_json(&job->all.pose, &json);
     lrcs_host_json_put(&json, "truth={from=%s sigma_m2=%g bound_m2=%g of_facets=%d} settings=[\n",
-                       job->truth.text, job->truth.sigma_m2, job->truth.bound_m2,
-                       !job->truth.whole);
-    for (uint32_t i = 0; i < job->settings; i++) {
-        const converge_setting *one = &job->setting[i];
+                       job->all.truth.text, job->all.truth.sigma_m2, job->all.truth.bound_m2,
+                       !job->all.truth.whole);
+    for (uint32_t i = 0; i < job->all.settings; i++) {
+        const lrcs_host_convergence_setting *one = &job->all.setting[i];
         double number[NUMBERS];
-        numbers_make(job, one, number);
+        numbers_make(&job->all, one, number);
         lrcs_host_json_put(&json, "{setting=%s method=%s", one->name,
                            lrcs_method_text(one->method));
         for (int k = 0; k < NUMBERS; k++) {
@@ -249,24 +254,24 @@ void cli_converge_json(const converge_job *job)
         }
         if (one->digits > 0) {
             lrcs_host_json_put(&json, "tolerance=%g accepted_by=%s", pow(10.0, -one->digits),
-                               one->accepted_by);
+                               accepted_by(one));
         }
         lrcs_host_json_put(&json, "}");
     }
     lrcs_host_json_put(&json, "] cheapest=[\n");
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {
         lrcs_host_json_put(&json, "{tolerance=%g", report_tolerance[i].value);
-        cheapest_json(setting_cheapest(job, report_tolerance[i].value), &json);
+        cheapest_json(setting_cheapest(&job->all, report_tolerance[i].value), &json);
     }
     lrcs_host_json_put(&json, "] best={");
-    cheapest_json(setting_best(job), &json);
+    cheapest_json(setting_best(&job->all), &json);
     lrcs_host_json_put(&json, "notices=[\n");
     cli_notices_json(&scene->notices, &json);
-    if (job->left_out[0]) {
-        lrcs_host_json_put(&json, "%s", job->left_out);
+    if (job->all.left_out[0]) {
+        lrcs_host_json_put(&json, "%s", job->all.left_out);
     }
-    if (job->busy[0]) {
-        lrcs_host_json_put(&json, "%s", job->busy);
+    if (job->all.busy[0]) {
+        lrcs_host_json_put(&json, "%s", job->all.busy);
     }
     lrcs_host_json_put(&json, "] sentence=%s", sentence.text);
     cli_provenance_json(job->args, scene, &json);

@@ -2,8 +2,6 @@
 /* lrcs fit: fits a material to measured BRDF against angle. */
 #include "cli/fit/fit.h"
 
-#include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -115,44 +113,7 @@ static int material_name(fit_job *job)
     return 0;
 }
 
-/* The logarithm of the likelihood of all residuals, up to a constant, for errors with a Cauchy
-   distribution, on which outliers have little influence. The expected errors of the readings are
-   the same (absolute) or in proportion to the fit (relative), up to a common width, which is the
-   likeliest one (by expectation and maximisation). */
-static double noise_likelihood(const fit_material *material, int noise)
-{
-    double most = 0.0;
-    double square = 1.0; /* of the width */
-    double sum = 0.0;
-    for (uint32_t i = 0; i < material->count; i++) {
-        most = fmax(most, material->point[i].fitted);
-    }
-    for (int round = 0; round < 60; round++) {
-        double next = 0.0;
-        sum = 0.0;
-        for (uint32_t i = 0; i < material->count; i++) {
-            const lrcs_fit_point *point = &material->point[i];
-            double size = noise == LRCS_FIT_RELATIVE ? fmax(point->fitted, 1e-4 * most) : 1.0;
-            double x = point->residual / size;
-            sum -= log(size) + 0.5 * log(square) + log1p(x * x / square);
-            next += 2.0 * x * x / (1.0 + x * x / square) / material->count;
-        }
-        square = fmax(next, DBL_MIN);
-    }
-    return sum;
-}
-
-static int noise_fit(const fit_job *job, int noise, fit_material *material, lrcs_work *work)
-{
-    lrcs_fit_options options = job->options;
-    options.noise = noise;
-    material->noise = noise;
-    return lrcs_fit_run(material->reading, material->count, &options, work, &material->fit,
-                        material->point);
-}
-
-/* Fits with the errors that are known or asked for; else with relative errors and with absolute
-   ones, and keeps the likelier fit. */
+/* Fits with the errors that are known or asked for, else with the likelier ones. */
 static int material_fit(const fit_job *job, fit_material *material)
 {
     size_t size = lrcs_fit_need(material->count);
@@ -161,15 +122,12 @@ static int material_fit(const fit_job *job, fit_material *material)
         return cli_out_of_memory();
     }
     lrcs_work work = lrcs_work_make(bytes, size);
-    int status =
-        noise_fit(job, job->noise_asked ? job->options.noise : LRCS_FIT_RELATIVE, material, &work);
-    if (status == LRCS_OK && !job->noise_asked) {
-        double relative = noise_likelihood(material, LRCS_FIT_RELATIVE);
-        status = noise_fit(job, LRCS_FIT_ABSOLUTE, material, &work);
-        if (status == LRCS_OK && relative > noise_likelihood(material, LRCS_FIT_ABSOLUTE)) {
-            status = noise_fit(job, LRCS_FIT_RELATIVE, material, &work);
-        }
-    }
+    material->noise = job->options.noise;
+    int status = job->noise_asked ? lrcs_fit_run(material->reading, material->count, &job->options,
+                                                 &work, &material->fit, material->point)
+                                  : lrcs_fit_run_likelier(material->reading, material->count,
+                                                          &job->options, &work, &material->noise,
+                                                          &material->fit, material->point);
     free(bytes);
     if (status == LRCS_E_EMPTY && material->count < LRCS_FIT_READINGS) {
         return cli_fail("%s: %s: found %lu readings, expected %u or more", job->args->operand,

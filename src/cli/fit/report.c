@@ -34,11 +34,11 @@ static report_statement statement_make(const lrcs_fit *fit, int parameter)
     int verdict = fit->parameter[parameter].verdict;
     int reach =
         verdict == LRCS_FIT_AT_MOST || verdict == LRCS_FIT_AT_LEAST || verdict == LRCS_FIT_FREE;
-    cli_append(statement.text, sizeof statement.text, "%s",
-               lrcs_fit_verdict_text(parameter, verdict));
+    lrcs_host_append(statement.text, sizeof statement.text, "%s",
+                     lrcs_fit_verdict_text(parameter, verdict));
     if (reach) {
-        cli_append(statement.text, sizeof statement.text, " (readings from %.4g to %.4g deg)",
-                   fit->least_deg, fit->most_deg);
+        lrcs_host_append(statement.text, sizeof statement.text, " (readings from %.4g to %.4g deg)",
+                         fit->least_deg, fit->most_deg);
     }
     return statement;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* lrcs plot: draws the output of sweeps, range profiles and comparisons of lrcs converge again
    without computing: one file as its command draws it, or the curves of several sweeps together.
-   This file decides which files fit together; sweep/plot.c and plot/table.c draw. */
+   This file decides which files fit together; the host and plot/table.c draw. */
 #include "cli/plot/table.h"
 #include "cli/sweep/sweep.h"
 
@@ -58,7 +58,7 @@ typedef struct plot_job {
     const cli_args *args;
     uint32_t count;
     plot_file *file;
-    sweep_plot *plot;
+    lrcs_host_sweep_chart *plot;
     int stats;
 } plot_job;
 
@@ -70,7 +70,7 @@ static void differences_list(const lrcs_host_rows_head *head, const lrcs_host_ro
         const char *key = head->option[i].key;
         const char *text = lrcs_host_rows_head_text(other, key);
         if (!text || (values && strcmp(text, head->option[i].text) != 0)) {
-            cli_append(list, size, "%s%s", list[0] ? ", " : "", key);
+            lrcs_host_append(list, size, "%s%s", list[0] ? ", " : "", key);
         }
     }
 }
@@ -97,10 +97,10 @@ static void differences_say(const plot_job *job, uint32_t k)
 static int overlay_check(const plot_job *job)
 {
     const cli_args *args = job->args;
-    const sweep_plot *first = &job->plot[0];
+    const lrcs_host_sweep_chart *first = &job->plot[0];
     uint64_t curves = 0;
     for (uint32_t k = 0; k < job->count; k++) {
-        const sweep_plot *plot = &job->plot[k];
+        const lrcs_host_sweep_chart *plot = &job->plot[k];
         if (plot->map) {
             return cli_usage(args->command, "%s is a map: maps are drawn one by one",
                              job->file[k].path);
@@ -113,10 +113,10 @@ static int overlay_check(const plot_job *job)
         }
         curves += plot->y.count;
     }
-    return curves <= PLOT_CURVES
+    return curves <= LRCS_HOST_SWEEP_CURVES
                ? 0
-               : cli_usage(args->command, "at most %u curves in one chart, found %llu", PLOT_CURVES,
-                           (unsigned long long)curves);
+               : cli_usage(args->command, "at most %u curves in one chart, found %llu",
+                           LRCS_HOST_SWEEP_CURVES, (unsigned long long)curves);
 }
 
 static int job_read(plot_job *job)
@@ -130,7 +130,7 @@ static int job_read(plot_job *job)
         lrcs_host_error error;
         plot_file *file = &job->file[job->count];
         lrcs_host_sweep_data *data = &file->data;
-        sweep_plot *plot = &job->plot[job->count++];
+        lrcs_host_sweep_chart *plot = &job->plot[job->count++];
         file->path = args->given[i].value;
         cli_watch_stage(file->path, NULL);
         int status = lrcs_host_sweep_read(file->path, data, &error);
@@ -162,14 +162,15 @@ static int job_run(plot_job *job)
             }
         }
     }
-    if (code == 0 && !job->plot[0].asked && !job->stats) {
+    const int plotted = cli_value(args, "o") != NULL;
+    if (code == 0 && !plotted && !job->stats) {
         return cli_usage(args->command, "nothing to do: give -o OUT.svg, --stats or --stats-file");
     }
     if (code == 0 && job->stats && job->count > 1) {
         return cli_usage(args->command, "--stats are of one file, found %lu",
                          (unsigned long)job->count);
     }
-    if (code == 0 && job->plot[0].asked) {
+    if (code == 0 && plotted) {
         code = job->count > 1 ? overlay_check(job) : 0;
         int differ = 1; /* the legend has titles if all differ, else names of files */
         for (uint32_t k = 1; k < job->count; k++) {

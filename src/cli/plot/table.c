@@ -163,15 +163,15 @@ enum {
     ROWS
 };
 
-/* The kind of a setting, and its digits, from its name as measure.c gives it. The method of a
-   preview is that which auto chose. */
-static int setting_name_read(table_job *job, const uint32_t column[ROWS], converge_setting *setting,
-                             lrcs_host_error *error)
+/* The kind of a setting, and its digits, from its name as lrcs/convergence.h gives it. The method
+   of a preview is that which auto chose. */
+static int setting_name_read(table_job *job, const uint32_t column[ROWS],
+                             lrcs_host_convergence_setting *setting, lrcs_host_error *error)
 {
-    static const int dial[] = {[LRCS_METHOD_ZBUFFER] = CONVERGE_ZBUFFER,
-                               [LRCS_METHOD_FACET] = CONVERGE_FACET,
-                               [LRCS_METHOD_EXACT] = CONVERGE_EXACT,
-                               [LRCS_METHOD_CLOSED] = CONVERGE_CLOSED};
+    static const int dial[] = {[LRCS_METHOD_ZBUFFER] = LRCS_HOST_DIAL_ZBUFFER,
+                               [LRCS_METHOD_FACET] = LRCS_HOST_DIAL_FACET,
+                               [LRCS_METHOD_EXACT] = LRCS_HOST_DIAL_EXACT,
+                               [LRCS_METHOD_CLOSED] = LRCS_HOST_DIAL_CLOSED};
     const lrcs_host_field *name = &job->table.field[column[ROW_SETTING]];
     const lrcs_host_field *method = &job->table.field[column[ROW_METHOD]];
     snprintf(setting->name, sizeof setting->name, "%.*s", (int)name->size, name->text);
@@ -187,29 +187,29 @@ static int setting_name_read(table_job *job, const uint32_t column[ROWS], conver
         return lrcs_host_field_refuse(&job->table, LRCS_E_SYNTAX, column[ROW_METHOD], "a method",
                                       error);
     }
-    if (digits &&
-        strncmp(setting->name, CONVERGE_PREVIEW_NAME, strlen(CONVERGE_PREVIEW_NAME)) == 0) {
-        setting->dial = CONVERGE_PREVIEW;
+    if (digits && strncmp(setting->name, LRCS_HOST_PREVIEW_NAME_TEXT,
+                          strlen(LRCS_HOST_PREVIEW_NAME_TEXT)) == 0) {
+        setting->dial = LRCS_HOST_DIAL_PREVIEW;
         setting->digits = (int)strtol(digits + 4, NULL, 10);
     } else if (digits) {
         long mesh = strtol(digits + 4, NULL, 10);
-        if (mesh < 1 || mesh > CONVERGE_MESHES) {
+        if (mesh < 1 || mesh > LRCS_HOST_CONVERGENCE_MESHES) {
             return lrcs_host_field_refuse(&job->table, LRCS_E_SYNTAX, column[ROW_SETTING],
                                           "a mesh of 1e-1 .. 1e-6", error);
         }
-        setting->dial = CONVERGE_MESH;
+        setting->dial = LRCS_HOST_DIAL_MESH;
         setting->mesh = (uint32_t)mesh - 1;
-        job->converge.mesh[mesh - 1].digits = (int)mesh;
+        job->converge.all.mesh[mesh - 1].digits = (int)mesh;
     }
     return LRCS_OK;
 }
 
 static int converge_row_take(table_job *job, const uint32_t column[ROWS], lrcs_host_error *error)
 {
-    converge_job *converge = &job->converge;
-    converge_setting *setting = &converge->setting[converge->settings];
+    lrcs_host_convergence *converge = &job->converge.all;
+    lrcs_host_convergence_setting *setting = &converge->setting[converge->settings];
     double value[ROWS];
-    if (converge->settings == CONVERGE_SETTINGS) {
+    if (converge->settings == LRCS_HOST_CONVERGENCE_SETTINGS) {
         return job_refuse(job, "has too many rows for lrcs converge", error);
     }
     int status = setting_name_read(job, column, setting, error);
@@ -240,12 +240,12 @@ static int converge_read(table_job *job, lrcs_host_error *error)
                                            "error_m2", "bound_m2", "estimate_m2"};
     char text[TABLE_TEXT];
     uint32_t column[ROWS];
-    converge_job *converge = &job->converge;
-    converge_truth *truth = &converge->truth;
+    lrcs_host_convergence *converge = &job->converge.all;
+    lrcs_host_convergence_truth *truth = &converge->truth;
     int more;
     int status = columns_find(job, name, ROWS, column, error);
-    converge->title = job->title;
-    converge->about = job->about;
+    job->converge.title = job->title;
+    job->converge.about = job->about;
     truth->sigma_m2 = lrcs_host_key_number(job->about, "truth_m2");
     truth->bound_m2 = lrcs_host_key_number(job->about, "truth_bound_m2");
     truth->whole = lrcs_host_key_text(job->about, "truth_of", text, sizeof text) &&
@@ -303,7 +303,7 @@ static int job_read(table_job *job, lrcs_host_error *error)
     }
     lrcs_host_table_names(&job->table);
     status = job->kind == TABLE_CONVERGE ? converge_read(job, error) : profile_read(job, error);
-    if (status == LRCS_OK && job->profile.rows + job->converge.settings == 0) {
+    if (status == LRCS_OK && job->profile.rows + job->converge.all.settings == 0) {
         return job_refuse(job, "has no rows: nothing to draw", error);
     }
     return status;

@@ -62,10 +62,10 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
     snprintf(note, sizeof note, "sigma %.6g m2 in all; bins of %g m",
              p->sigma_glint_m2 + p->sigma_diffuse_m2, job->bin_m);
     if (job->fwhm_m > 0.0) {
-        cli_append(note, sizeof note, "; pulse of %g m (FWHM)", job->fwhm_m);
+        lrcs_host_append(note, sizeof note, "; pulse of %g m (FWHM)", job->fwhm_m);
     }
     if (job->open) {
-        cli_append(note, sizeof note, "; materials illustrative or default");
+        lrcs_host_append(note, sizeof note, "; materials illustrative or default");
     }
     const lrcs_host_chart chart = {.title = title,
                                    .about = job->about,

@@ -166,13 +166,13 @@ static int by_falling_sigma(const void *a, const void *b)
 
 static void row_print(const profile_job *job, const profile_row *row)
 {
-    char bound[CLI_BOUND_SIZE];
+    char bound[LRCS_HOST_BOUND_SIZE];
     double sigma = cli_profile_sigma(&row->bin);
-    cli_bound_text(row->bin.bound_m2, 2, bound);
+    lrcs_host_bound_text(row->bin.bound_m2, 2, bound);
     printf("  %12.6g %12.6g %14.8g %9s %12.6g", row->near_m, row->far_m, sigma, bound,
            sigma / job->bin_m);
     if (job->fwhm_m > 0.0) {
-        cli_bound_text(row->pulse_bound_m, 2, bound);
+        lrcs_host_bound_text(row->pulse_bound_m, 2, bound);
         printf(" %14.8g %9s", row->pulse_m, bound);
     }
     putchar('\n');
@@ -205,22 +205,23 @@ static void rows_print(const profile_job *job)
 static void verdict_print(const profile_job *job)
 {
     const lrcs_profile *p = &job->profile.list;
-    char bin[CLI_BOUND_SIZE];
-    char all[CLI_BOUND_SIZE];
+    char bin[LRCS_HOST_BOUND_SIZE];
+    char all[LRCS_HOST_BOUND_SIZE];
     double worst = 0.0;
     for (uint32_t i = 0; i < p->count; i++) {
         worst = fmax(worst, p->bin[i].bound_m2);
     }
-    cli_bound_text(total_sigma(job) > 0.0 ? worst / total_sigma(job) : worst, 2, bin);
-    cli_bound_text(total_sigma(job) > 0.0 ? p->bound_m2 / total_sigma(job) : p->bound_m2, 2, all);
+    lrcs_host_bound_text(total_sigma(job) > 0.0 ? worst / total_sigma(job) : worst, 2, bin);
+    lrcs_host_bound_text(total_sigma(job) > 0.0 ? p->bound_m2 / total_sigma(job) : p->bound_m2, 2,
+                         all);
     printf("verdict      each bin is proved to %s of sigma or better, their sum to %s.\n", bin,
            all);
-    if (worst > 1e-6 * total_sigma(job) && !cli_has_curved_shapes(&job->scene.scene)) {
+    if (worst > 1e-6 * total_sigma(job) && !lrcs_host_scene_tessellated(&job->scene.scene)) {
         printf("             A face within rounding of a bin's edge may be on either side of it\n");
     }
     if (is_curved(job)) {
-        cli_bound_text(total_sigma(job) > 0.0 ? p->curvature_estimate_m2 / total_sigma(job) : 0.0,
-                       2, all);
+        lrcs_host_bound_text(
+            total_sigma(job) > 0.0 ? p->curvature_estimate_m2 / total_sigma(job) : 0.0, 2, all);
         printf("             Estimated, not proved: the integral over curved normals, to %s of "
                "sigma\n",
                all);
@@ -238,14 +239,14 @@ void cli_profile_table(const profile_job *job)
 {
     const lrcs_profile *p = &job->profile.list;
     double s_hat[3];
-    char bound[CLI_BOUND_SIZE];
+    char bound[LRCS_HOST_BOUND_SIZE];
     cli_pose_unit(&job->pose, s_hat);
     printf("scene        ");
     cli_column(job->title, 0);
     printf(", hash %016llx\n", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
     printf("direction    %.10g, %.10g, %.10g   to the laser, body frame\n", s_hat[0], s_hat[1],
            s_hat[2]);
-    cli_bound_text(p->bound_m2, 3, bound);
+    lrcs_host_bound_text(p->bound_m2, 3, bound);
     printf("sigma        %.10g m2, the sum of all bins; bound %s m2", total_sigma(job), bound);
     if (job->asked > 0.0) {
         printf("; tolerance %g %s", job->asked, job->met ? "met" : "NOT met");

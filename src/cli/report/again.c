@@ -93,7 +93,7 @@ static void lines_write(FILE *out, const void *context)
     line_begin(out, job, "image", 1, 1);
     fputs(" --by material -o material.png\n", out);
     line_begin(out, job, "info", 0, 0);
-    fputs(cli_has_curved_shapes(&job->scene.scene) &&
+    fputs(lrcs_host_scene_tessellated(&job->scene.scene) &&
                   job->load.build.tolerance != lrcs_build_options_default().tolerance
               ? " # shapes as fine as by default\n"
               : "\n",
@@ -102,7 +102,7 @@ static void lines_write(FILE *out, const void *context)
         sweep_line(out, job, kind);
     }
     line_begin(out, job, "converge", 1, 0);
-    fprintf(out, " --seconds %.3g --plot accuracy.svg\n", job->converge.seconds);
+    fprintf(out, " --seconds %.3g --plot accuracy.svg\n", job->converge.all.seconds);
 }
 
 void cli_report_again(FILE *out, const report_job *job)

@@ -153,7 +153,7 @@ void cli_report_curves(FILE *out, const report_job *job)
 
 void cli_report_accuracy(FILE *out, const report_job *job)
 {
-    const converge_job *compare = &job->converge;
+    const lrcs_host_convergence *compare = &job->converge.all;
     converge_sentence sentence = cli_converge_sentence(compare);
     cli_page_section(out, "accuracy", "What accuracy costs in time");
     cli_page(out, "<p>%s</p>\n", sentence.text);
@@ -170,12 +170,12 @@ void cli_report_accuracy(FILE *out, const report_job *job)
                        : "Setting|#Facets|#Pose, ms|#\xcf\x83, m\xc2\xb2|#Error, m\xc2\xb2|#Bound, "
                          "m\xc2\xb2|#Estimate, m\xc2\xb2");
     for (uint32_t i = 0; i < compare->settings; i++) {
-        const converge_setting *one = &compare->setting[i];
+        const lrcs_host_convergence_setting *one = &compare->setting[i];
         cli_page_row(out, "%s%u%.3g%.8g%.2g%.2e%.2g", one->name,
                      compare->mesh[one->mesh].scene.scene.facet_count, 1e3 * one->pose_s,
-                     one->sigma_m2, cli_converge_relative(compare, one->error_m2),
-                     cli_converge_relative(compare, one->bound_m2),
-                     cli_known(cli_converge_relative(compare, one->estimate_m2)));
+                     one->sigma_m2, lrcs_host_convergence_relative(compare, one->error_m2),
+                     lrcs_host_convergence_relative(compare, one->bound_m2),
+                     cli_known(lrcs_host_convergence_relative(compare, one->estimate_m2)));
     }
     cli_page_table_end(out);
     fputs("</details>\n</section>\n", out);

@@ -87,8 +87,8 @@ void cli_page_number(FILE *out, const char *id, double value, int digits)
 void cli_page_bound(FILE *out, const char *id, double bound, int digits)
 {
     if (bound >= 0.0 && isfinite(bound)) {
-        char text[CLI_BOUND_SIZE];
-        cli_bound_text(bound, digits, text);
+        char text[LRCS_HOST_BOUND_SIZE];
+        lrcs_host_bound_text(bound, digits, text);
         data_put(out, id, bound, text);
     } else {
         fputs("\xe2\x80\x93", out);

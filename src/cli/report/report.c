@@ -103,17 +103,18 @@ static int report_compare(report_job *job)
     double least = 1.0;
     *compare = (converge_job){.args = job->args,
                               .title = cli_report_title(job),
-                              .pose = job->pose,
-                              .load = job->load,
-                              .seconds = REPORT_COMPARE * job->seconds};
-    compare->load.build.normals = LRCS_NORMALS_FLAT; /* as in lrcs converge */
-    compare->digits = 1;
-    while (compare->digits < CONVERGE_MESHES && least > 1.5 * job->options.tolerance &&
-           (least > 1e-3 || 3.0 * job->pose_s < compare->seconds)) {
+                              .all = {.pose = job->pose,
+                                      .load = job->load,
+                                      .digits = 1,
+                                      .seconds = REPORT_COMPARE * job->seconds}};
+    lrcs_host_convergence *all = &compare->all;
+    all->load.build.normals = LRCS_NORMALS_FLAT; /* as in lrcs converge */
+    while (all->digits < LRCS_HOST_CONVERGENCE_MESHES && least > 1.5 * job->options.tolerance &&
+           (least > 1e-3 || 3.0 * job->pose_s < all->seconds)) {
         least /= 10.0;
-        compare->digits += least < 0.05;
+        all->digits += least < 0.05;
     }
-    int code = cli_converge_meshes(compare);
+    int code = cli_converge_read(compare);
     code = code ? code : cli_converge_measure(compare);
     if (code == 0) {
         lrcs_host_error error;
@@ -162,9 +163,7 @@ static void report_free(report_job *job)
         free(job->picture[i][0].bytes);
         free(job->picture[i][1].bytes);
     }
-    for (uint32_t i = 0; i < job->converge.meshes; i++) {
-        lrcs_host_scene_free(&job->converge.mesh[i].scene);
-    }
+    lrcs_host_convergence_free(&job->converge.all);
     free(job->chart.bytes);
     free(job->verdict.bytes);
     free(job->records);

@@ -29,10 +29,10 @@ typedef struct report_bytes {
 typedef struct report_sweep {
     char az[40], el[40]; /* what varies, as lrcs sweep takes it */
     lrcs_host_plan plan;
-    sweep_plot plot;
+    lrcs_host_sweep_chart plot;
     double (*row)[2];  /* sigma and bound, m2 */
     double (*band)[2]; /* the interval of the material uncertainty, m2; NULL if none is stated */
-    double part[2];    /* as of cli_plot_uncertainty */
+    double part[2];    /* as of lrcs_host_sweep_chart_band */
     report_bytes svg;  /* none if sigma is 0 everywhere */
 } report_sweep;
 

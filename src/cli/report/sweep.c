@@ -97,8 +97,9 @@ static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
     lrcs_host_error error;
     const lrcs_host_plan_text given[] = {{"az", sweep->az}, {"el", sweep->el}};
     int status = lrcs_host_plan_make(given, 2, NULL, &sweep->plan, &error);
-    sweep->plot = (sweep_plot){.dbsm = 1, .polar = kind != REPORT_MAP, .plan = &sweep->plan};
-    cli_plot_choose(&sweep->plot);
+    sweep->plot =
+        (lrcs_host_sweep_chart){.dbsm = 1, .polar = kind != REPORT_MAP, .plan = &sweep->plan};
+    lrcs_host_sweep_chart_choose(&sweep->plot);
     sweep->plot.title = cli_report_title(job);
     sweep->plot.open = cli_materials_open(&job->scene.scene);
     sweep->plot.map = kind == REPORT_MAP; /* even if it has few rows */
@@ -211,16 +212,16 @@ static int sweep_draw(report_sweep *sweep)
     }
     sweep->plot.row = sweep->row;
     sweep->plot.band = sweep->band;
-    if (sweep->band && cli_plot_uncertainty(&sweep->plot, sweep->part) != 0) {
-        return CLI_FAILED;
-    }
-    FILE *out = cli_report_bytes_begin(&sweep->svg);
+    lrcs_host_error error;
+    int status =
+        sweep->band ? lrcs_host_sweep_chart_band(&sweep->plot, sweep->part, &error) : LRCS_OK;
+    FILE *out = status == LRCS_OK ? cli_report_bytes_begin(&sweep->svg) : NULL;
     if (!out) {
-        return CLI_FAILED;
+        return status == LRCS_OK ? CLI_FAILED : cli_failed(&error);
     }
-    int code = cli_plot_svg(out, &sweep->plot);
+    status = lrcs_host_sweep_chart_write(out, &sweep->plot, 1, 0, &error);
     int ended = cli_report_bytes_end(out);
-    return code ? code : ended;
+    return status == LRCS_OK ? ended : cli_failed(&error);
 }
 
 /* ---- all of them ---- */
@@ -230,7 +231,7 @@ static int scene_choose(report_job *job, lrcs_host_scene **scene)
 {
     *scene = &job->scene;
     if (job->sweep_options.tolerance == job->options.tolerance ||
-        !cli_has_curved_shapes(&job->scene.scene)) {
+        !lrcs_host_scene_tessellated(&job->scene.scene)) {
         return 0;
     }
     *scene = &job->sweep_scene;

@@ -2,8 +2,8 @@
 /* lrcs run --time-budget: the most accurate answer that can be computed in a given time. Settings
    are tried one after the other:
      1. no self-shadowing;
-     2. in the order of their expected time (sequence.h): rasters of 256, 512 and 1024 pixels, with
-        their bound or accepted by their estimate; and clipping, or method auto with the tolerance
+     2. in the order of their expected time (lrcs/sequence.h): rasters of 256, 512 and 1024 pixels,
+   with their bound or accepted by their estimate; and clipping, or method auto with the tolerance
         1e-1 if tolerances change the answer. Rasters are not tried any more after this last
         setting, nor before it if it is expected to take at most a quarter of the time left, or
         half of it once a raster with a bound has been timed: clipping leaves only rounding errors,
@@ -15,7 +15,7 @@
 
    Claim: every setting of this list that is expected to take less time than the answer's has been
    completed, except for rasters where the answer is that of clipping or of method auto; and the
-   error (cli_sequence_error) of the answer is the least of all completed ones.
+   error (lrcs_sequence_error) of the answer is the least of all completed ones.
 
    The first setting runs in this process, because there must be an answer whatever the time. The
    others run in one child process: the library cannot be interrupted, but a process can end itself.
@@ -23,7 +23,8 @@
    This file decides which settings are tried; each is an ordinary run, which the same options
    reproduce. */
 #include "cli/run/run.h"
-#include "cli/run/sequence.h"
+
+#include <lrcs/sequence.h>
 
 #include <errno.h>
 #include <math.h>
@@ -63,7 +64,7 @@ static pid_t child_parent;
 /* Does the tolerance change the answer? */
 static int tolerance_matters(const run_job *job)
 {
-    return cli_has_curved_shapes(&job->scene.scene) ||
+    return lrcs_host_scene_tessellated(&job->scene.scene) ||
            job->scene.scene.normals != LRCS_NORMALS_FLAT;
 }
 
@@ -73,7 +74,7 @@ static int setting_run(run_job *job, budget_answer *answer)
 {
     int code = 0;
     memset(answer, 0, sizeof *answer);
-    if (cli_has_curved_shapes(&job->scene.scene)) {
+    if (lrcs_host_scene_tessellated(&job->scene.scene)) {
         lrcs_host_scene_free(&job->scene);
         job->load.build.tolerance = job->options.tolerance;
         job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
@@ -109,24 +110,24 @@ static int setting_send(run_job *job, int answers, budget_answer *answer)
 }
 
 /* The options of a setting of the sequence. */
-static lrcs_run_options setting_options(const run_job *job, const cli_setting *setting)
+static lrcs_run_options setting_options(const run_job *job, const lrcs_setting *setting)
 {
     lrcs_run_options options = job->options;
-    options.method = setting->kind != CLI_SETTING_LAST ? LRCS_METHOD_ZBUFFER
-                     : tolerance_matters(job)          ? LRCS_METHOD_AUTO
-                                                       : LRCS_METHOD_EXACT;
+    options.method = setting->kind != LRCS_SETTING_LAST ? LRCS_METHOD_ZBUFFER
+                     : tolerance_matters(job)           ? LRCS_METHOD_AUTO
+                                                        : LRCS_METHOD_EXACT;
     options.resolution = setting->resolution;
     options.accept =
-        setting->kind == CLI_SETTING_SAMPLES ? LRCS_ACCEPT_ESTIMATE : LRCS_ACCEPT_BOUND;
+        setting->kind == LRCS_SETTING_SAMPLES ? LRCS_ACCEPT_ESTIMATE : LRCS_ACCEPT_BOUND;
     return options;
 }
 
 /* The settings with their forecasts. Without these (no memory) they keep the order of the list. */
-static cli_sequence sequence_forecast(const run_job *job)
+static lrcs_sequence sequence_forecast(const run_job *job)
 {
-    cli_sequence sequence = cli_sequence_make();
-    lrcs_run_options options[CLI_SEQUENCE_MOST];
-    double seconds[CLI_SEQUENCE_MOST];
+    lrcs_sequence sequence = lrcs_sequence_make();
+    lrcs_run_options options[LRCS_SEQUENCE_MOST];
+    double seconds[LRCS_SEQUENCE_MOST];
     lrcs_host_error error;
     for (int i = 0; i < sequence.count; i++) {
         options[i] = setting_options(job, &sequence.setting[i]);
@@ -144,18 +145,18 @@ static cli_sequence sequence_forecast(const run_job *job)
 static void settings_run(run_job *job, int answers)
 {
     const lrcs_run_options plain = job->options;
-    cli_sequence sequence = sequence_forecast(job);
+    lrcs_sequence sequence = sequence_forecast(job);
     budget_answer answer;
     int on = 1, finer = 0;
     double again = 0.0; /* time of reading and preparing the scene again */
     for (int i;
-         on && (i = cli_sequence_next(&sequence, child_deadline - cli_seconds() - again)) >= 0;) {
+         on && (i = lrcs_sequence_next(&sequence, child_deadline - cli_seconds() - again)) >= 0;) {
         job->options = plain;
         job->options = setting_options(job, &sequence.setting[i]);
         on = setting_send(job, answers, &answer);
-        cli_sequence_done(&sequence, i, answer.seconds_pose,
-                          answer.result.method != LRCS_METHOD_ZBUFFER);
-        again = cli_has_curved_shapes(&job->scene.scene)
+        lrcs_sequence_done(&sequence, i, answer.seconds_pose,
+                           answer.result.method != LRCS_METHOD_ZBUFFER);
+        again = lrcs_host_scene_tessellated(&job->scene.scene)
                     ? answer.seconds_load + answer.seconds_prepare
                     : 0.0;
         finer = job->options.method == LRCS_METHOD_AUTO &&
@@ -218,8 +219,8 @@ static int child_start(run_job *job, pid_t *child)
    but one with a bound is preferred to one that was accepted by its estimate. */
 static int answer_beats(const budget_answer *answer, const budget_answer *best)
 {
-    double error = cli_sequence_error(&answer->result);
-    double least = cli_sequence_error(&best->result);
+    double error = lrcs_sequence_error(&answer->result);
+    double least = lrcs_sequence_error(&best->result);
     int proved =
         answer->options.accept == LRCS_ACCEPT_BOUND && best->options.accept != LRCS_ACCEPT_BOUND;
     return error < least || (error == least && proved);
@@ -280,14 +281,14 @@ static int budget_settle(run_job *job, const budget_answer *best)
     const int named = best->options.method != LRCS_METHOD_AUTO;
     char text[sizeof job->budget.same] = "";
     if (tolerance_matters(job)) {
-        cli_append(text, sizeof text, " --tolerance %g", best->options.tolerance);
+        lrcs_host_append(text, sizeof text, " --tolerance %g", best->options.tolerance);
     }
     if (named) {
-        cli_append(text, sizeof text, " --method %s%s", lrcs_method_text(result->method),
-                   best->options.accept == LRCS_ACCEPT_ESTIMATE ? " --accept estimate" : "");
+        lrcs_host_append(text, sizeof text, " --method %s%s", lrcs_method_text(result->method),
+                         best->options.accept == LRCS_ACCEPT_ESTIMATE ? " --accept estimate" : "");
     }
     if (result->resolution != 0) {
-        cli_append(text, sizeof text, " --resolution %lu", (unsigned long)result->resolution);
+        lrcs_host_append(text, sizeof text, " --resolution %lu", (unsigned long)result->resolution);
     }
     snprintf(job->budget.same, sizeof job->budget.same, "%s", text + 1);
     job->options = best->options;
@@ -296,7 +297,7 @@ static int budget_settle(run_job *job, const budget_answer *best)
         job->result.method_reason = "the best that the time budget reached";
     }
     int code = 0;
-    if (cli_has_curved_shapes(&job->scene.scene)) {
+    if (lrcs_host_scene_tessellated(&job->scene.scene)) {
         uint32_t parts = job->scene.scene.part_count;
         int divided = best->build.halvings != NULL;
         lrcs_host_scene_free(&job->scene);

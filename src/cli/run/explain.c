@@ -1,17 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* lrcs run --explain: the time and the change of sigma that each effect causes, measured by leaving
-   it out, or by simulating it if the planner does not. The planner decides which effects are on,
-   and why; timings are those of this machine, and those smaller than their scatter are marked. The
-   stages of the pose are timed by runs that end after each of them. */
+/* lrcs run --explain: what each effect and each stage takes (lrcs/explain.h), as JSON and as a
+   table. Timings smaller than their scatter are marked. */
 #include "cli/run/run.h"
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
-
-/* Rounds of measurements: at least one, and more as long as this time allows. */
-#define ROUNDS_MOST  101u
-#define ROUNDS_SPENT 2.0 /* seconds */
 
 /* Columns of the table. */
 #define WHY_FROM 67
@@ -22,150 +15,29 @@ static const char *const prepare_stage[LRCS_HOST_PREPARE_STAGES] = {
 static const char *const pose_stage[LRCS_HOST_POSE_STAGES] = {"view", "classify", "visibility",
                                                               "sum"};
 
-/* Seconds of every round: as planned, with each effect flipped, as planned again, and up to each
-   stage. */
-typedef struct explain_times {
-    double first[ROUNDS_MOST], last[ROUNDS_MOST];
-    double flipped[LRCS_EFFECTS][ROUNDS_MOST];
-    double until[LRCS_HOST_POSE_STAGES][ROUNDS_MOST];
-} explain_times;
-
 static int is_switched(int effect)
 {
     return (1u << effect & LRCS_EFFECTS_SWITCHED) != 0;
 }
 
-static double processor_seconds(void)
+static void effect_begin(uint32_t done, uint32_t count)
 {
-    struct timespec now = {0, 0};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-/* Runs the pose once more; 0 or CLI_FAILED. Measures the processor's time, which does not include
-   waiting for other processes. */
-static int explain_pose(const run_job *job, const lrcs_run_options *options, lrcs_result *result,
-                        double *seconds)
-{
-    double start = processor_seconds();
-    int code = cli_scene_run(&job->scene, &job->pose, options, result, NULL, NULL, NULL);
-    *seconds = processor_seconds() - start;
-    return code;
-}
-
-/* Runs the pose up to a stage, by the method and raster that gave the answer; likewise. */
-static int explain_stage(const run_job *job, int stage, double *seconds)
-{
-    lrcs_host_error error;
-    lrcs_run_options options = job->options;
-    options.method = job->result.method;
-    options.resolution = job->result.resolution;
-    double start = processor_seconds();
-    int status = lrcs_host_scene_run_until(&job->scene, &job->pose, &options, stage, &error);
-    *seconds = processor_seconds() - start;
-    return status == LRCS_OK ? 0 : cli_failed(&error);
-}
-
-/* One round: its runs follow each other closely, so that a slower machine affects them all. Adds
-   its time to *spent. */
-static int explain_round(run_job *job, explain_times *times, uint32_t round, double *spent)
-{
-    lrcs_result result = {0};
-    int code = explain_pose(job, &job->options, &result, &times->first[round]);
     cli_watch_stage("effects", NULL);
-    for (int i = 0; i < LRCS_EFFECTS && code == 0; i++) {
-        cli_watch_count((uint64_t)i, LRCS_EFFECTS);
-        lrcs_run_options options = job->options;
-        if (!is_switched(i)) {
-            continue;
-        }
-        *(job->result.effect[i].on ? &options.without : &options.with) = 1u << i;
-        code = explain_pose(job, &options, &result, &times->flipped[i][round]);
-        *spent += times->flipped[i][round];
-        job->explained.effect[i].sigma_m2 = result.sigma_m2;
-    }
-    if (code == 0) {
-        code = explain_pose(job, &job->options, &result, &times->last[round]);
-        *spent += times->first[round] + times->last[round];
-    }
-    for (int i = 0; i < LRCS_HOST_POSE_STAGES && code == 0; i++) {
-        code = explain_stage(job, i, &times->until[i][round]);
-        *spent += times->until[i][round];
-    }
-    return code;
-}
-
-/* The time of an effect: the median over rounds of the difference between runs with and without it.
-   The scatter is its standard error, as for normal errors of n rounds: 1.86 times the median
-   deviation over sqrt(n); with few rounds, 1.09 times the difference between equal runs of a
-   round. */
-static void explain_effect(const run_job *job, const explain_times *times, uint32_t rounds,
-                           int effect, run_explained_effect *out)
-{
-    double difference[ROUNDS_MOST];
-    double away[ROUNDS_MOST];
-    double equal[ROUNDS_MOST];
-    double sign = job->result.effect[effect].on ? 1.0 : -1.0;
-    for (uint32_t r = 0; r < rounds; r++) {
-        double planned = 0.5 * (times->first[r] + times->last[r]);
-        difference[r] = away[r] = sign * (planned - times->flipped[effect][r]);
-        equal[r] = fabs(times->first[r] - times->last[r]);
-    }
-    out->seconds = cli_median(difference, rounds);
-    for (uint32_t r = 0; r < rounds; r++) {
-        away[r] = fabs(away[r] - out->seconds);
-    }
-    out->scatter =
-        fmax(1.86 * cli_median(away, rounds), 1.09 * cli_median(equal, rounds)) / sqrt(rounds);
-}
-
-/* The time of each stage: the median over rounds of the difference between runs up to it and up to
-   the one before, at least 0. The scatter is that of an effect, reduced in proportion for runs that
-   are shorter than the pose. */
-static void explain_stages(const explain_times *times, uint32_t rounds, run_explained *out)
-{
-    double difference[ROUNDS_MOST];
-    double run[ROUNDS_MOST];
-    double equal[ROUNDS_MOST];
-    for (int i = 0; i < LRCS_HOST_POSE_STAGES; i++) {
-        for (uint32_t r = 0; r < rounds; r++) {
-            difference[r] = times->until[i][r] - (i > 0 ? times->until[i - 1][r] : 0.0);
-            run[r] = times->until[i][r];
-            equal[r] = fabs(times->first[r] - times->last[r]) / times->first[r];
-        }
-        out->stage[i] = fmax(0.0, cli_median(difference, rounds));
-        for (uint32_t r = 0; r < rounds; r++) {
-            difference[r] = fabs(difference[r] - out->stage[i]);
-        }
-        double single = 1.09 * cli_median(equal, rounds) * cli_median(run, rounds);
-        out->stage_scatter[i] = fmax(1.86 * cli_median(difference, rounds), single) / sqrt(rounds);
-    }
+    cli_watch_count(done, count);
 }
 
 int cli_run_explain(run_job *job)
 {
-    explain_times times;
-    double spent = 0.0;
-    uint32_t rounds = 0;
-    int code = 0;
-    while (code == 0 && rounds < ROUNDS_MOST &&
-           (rounds == 0 || spent * (rounds + 1) / rounds < ROUNDS_SPENT)) {
-        code = explain_round(job, &times, rounds++, &spent);
+    lrcs_host_error error;
+    lrcs_host_explained *explained = &job->explained;
+    if (lrcs_host_explain(&job->scene, &job->pose, &job->options, &job->result, effect_begin,
+                          explained, &error) != LRCS_OK) {
+        return cli_failed(&error);
     }
-    for (int i = 0; i < LRCS_EFFECTS && code == 0; i++) {
-        if (is_switched(i)) {
-            explain_effect(job, &times, rounds, i, &job->explained.effect[i]);
-        }
-        if (i == LRCS_EFFECT_TWO_SIDED && job->open.back_area_m2 > 0.0) {
-            job->explained.effect[i].sigma_m2 = job->open.back_sigma_m2;
-        }
+    if (job->open.back_area_m2 > 0.0) {
+        explained->effect[LRCS_EFFECT_TWO_SIDED].sigma_m2 = job->open.back_sigma_m2;
     }
-    if (code == 0) {
-        explain_stages(&times, rounds, &job->explained);
-    }
-    job->explained.rounds = rounds;
-    job->explained.pose = code == 0 ? cli_median(times.first, rounds) : 0.0;
-    return code;
+    return 0;
 }
 
 /* A value of an effect, or none if a run cannot switch the effect. */
@@ -176,7 +48,7 @@ static double where_switched(int effect, double value)
 
 void cli_run_explain_json(const run_job *job, int effect, lrcs_host_json *json)
 {
-    const run_explained_effect *e = &job->explained.effect[effect];
+    const lrcs_host_explained_effect *e = &job->explained.effect[effect];
     lrcs_host_json_put(json, "seconds=%g share=%g sigma_m2_flipped=%g",
                        where_switched(effect, e->seconds),
                        where_switched(effect, e->seconds / job->explained.pose),
@@ -245,7 +117,7 @@ static void measure_column(double value, int lost, int on, const char *unit, int
     cli_column(text, width);
 }
 
-static void time_columns(const run_job *job, int on, const run_explained_effect *e)
+static void time_columns(const run_job *job, int on, const lrcs_host_explained_effect *e)
 {
     int lost = !(e->seconds > 2.0 * e->scatter);
     double seconds = lost ? fmax(fabs(e->seconds), 2.0 * e->scatter) : e->seconds;

@@ -99,8 +99,8 @@ static void json_tail(const run_job *job, lrcs_host_json *json)
 
 static void table_bound(const char *label, double bound)
 {
-    char text[CLI_BOUND_SIZE];
-    cli_bound_text(bound, 3, text);
+    char text[LRCS_HOST_BOUND_SIZE];
+    lrcs_host_bound_text(bound, 3, text);
     printf("%s%s m2", label, text);
 }
 
@@ -127,8 +127,8 @@ static void table_sigma(const run_job *job)
            r->sigma_diffuse_m2);
     table_bound("bound        ", r->bound_m2);
     if (r->sigma_m2 > 0.0) {
-        char share[CLI_BOUND_SIZE];
-        cli_bound_text(r->bound_m2 / r->sigma_m2, 2, share);
+        char share[LRCS_HOST_BOUND_SIZE];
+        lrcs_host_bound_text(r->bound_m2 / r->sigma_m2, 2, share);
         printf("   %s of sigma", share);
     }
     if (job->asked > 0.0) {

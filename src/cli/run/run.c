@@ -126,7 +126,7 @@ static int options_read(run_job *job)
 static void run_patience(run_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
-    if (scene->facet_count > RUN_MANY && cli_has_curved_shapes(scene) &&
+    if (scene->facet_count > RUN_MANY && lrcs_host_scene_tessellated(scene) &&
         !(job->budget.asked_ms > 0.0) && !job->announced) {
         job->announced = 1;
         fprintf(stderr,

@@ -5,23 +5,8 @@
 
 #include "cli/shares.h"
 
+#include <lrcs/explain.h>
 #include <lrcs/picture.h>
-
-/* The result of flipping an effect: an effect that is on was left out, one that is off was
-   simulated. All zero if a run cannot switch it. */
-typedef struct run_explained_effect {
-    double seconds;  /* time that it takes, or would take */
-    double scatter;  /* deviation of single measurements from that */
-    double sigma_m2; /* sigma with the effect flipped */
-} run_explained_effect;
-
-typedef struct run_explained {
-    double pose;                         /* seconds of the pose as planned */
-    double stage[LRCS_HOST_POSE_STAGES]; /* of a pose by the method and raster that answered */
-    double stage_scatter[LRCS_HOST_POSE_STAGES];
-    uint32_t rounds;
-    run_explained_effect effect[LRCS_EFFECTS];
-} run_explained;
 
 /* --time-budget: the time asked for, and the outcome. */
 typedef struct run_budget {
@@ -75,7 +60,7 @@ typedef struct run_job {
     double asked; /* tolerance; 0 if none, because a time budget replaces it */
     int met;
     int explain; /* 1 if asked for */
-    run_explained explained;
+    lrcs_host_explained explained;
     run_budget budget;
     run_emulation emulation;
     int shares_asked;

@@ -160,19 +160,19 @@ static void materials_say(const run_job *job, FILE *out)
 void cli_run_verdict(const run_job *job, FILE *out)
 {
     const lrcs_result *r = &job->result;
-    char bound[CLI_BOUND_SIZE];
+    char bound[LRCS_HOST_BOUND_SIZE];
     if (r->budget.tessellation_m2 < 0.0) {
         fprintf(
             out,
             "verdict      shadows are proved, but not how far curved shapes are from their facets");
     } else if (r->sigma_m2 > 0.0) {
-        cli_bound_text(r->bound_m2 / r->sigma_m2, 2, bound);
+        lrcs_host_bound_text(r->bound_m2 / r->sigma_m2, 2, bound);
         fprintf(out, "verdict      geometry and shadows are proved to %s of sigma%s", bound,
                 r->bound_m2 > r->sigma_m2         ? ": a bound larger than sigma says little"
                 : r->bound_m2 > 0.1 * r->sigma_m2 ? ": coarse"
                                                   : "");
     } else {
-        cli_bound_text(r->bound_m2, 2, bound);
+        lrcs_host_bound_text(r->bound_m2, 2, bound);
         fprintf(out, "verdict      geometry and shadows are proved: sigma is at most %s m2", bound);
     }
     if (r->estimate_m2 >= 0.0 && r->bound_m2 > 0.1 * r->sigma_m2) {

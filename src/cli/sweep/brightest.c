@@ -85,7 +85,7 @@ static void numbers_print(const lrcs_host_plan *plan, uint32_t rank, uint64_t ro
                           const double sigma[2], const cli_shares *shares)
 {
     double value[LRCS_HOST_PLAN_COLUMNS];
-    char bound[CLI_BOUND_SIZE];
+    char bound[LRCS_HOST_BOUND_SIZE];
     double glint = 0.0;
     lrcs_host_plan_values(plan, row, value);
     for (uint32_t i = 0; i < shares->parts; i++) {
@@ -95,7 +95,7 @@ static void numbers_print(const lrcs_host_plan *plan, uint32_t rank, uint64_t ro
     for (uint32_t i = 0; i < plan->columns; i++) {
         printf(" %*.9g", column_width(plan, i), value[i]);
     }
-    cli_bound_text(sigma[1], 2, bound);
+    lrcs_host_bound_text(sigma[1], 2, bound);
     printf(" %12.6g %9.3f %9s %6.1f %%\n", sigma[0], cli_dbsm(sigma[0]), bound,
            100.0 * cli_share_of(shares, glint));
 }

@@ -111,12 +111,12 @@ static void histogram_print(FILE *out, const sweep_stats *stats)
 
 static void stats_print(FILE *out, const sweep_stats *stats)
 {
-    char error[CLI_BOUND_SIZE];
+    char error[LRCS_HOST_BOUND_SIZE];
     double worst = 0.0;
     fprintf(out, "statistics   %llu rows, %s\n", (unsigned long long)stats->all.rows,
             stats->weights);
     sigma_print(out, "mean", stats->all.mean_m2.at[VALUE]);
-    cli_bound_text(value_error(&stats->all.mean_m2), 2, error);
+    lrcs_host_bound_text(value_error(&stats->all.mean_m2), 2, error);
     fprintf(out, ", known to %s m2 for these rows", error);
     band_print(out, stats->all.mean_m2.at[LOW], stats->all.mean_m2.at[HIGH]);
     place_print(out, "least", stats->plan, &stats->row[0]);
@@ -130,7 +130,7 @@ static void stats_print(FILE *out, const sweep_stats *stats)
         worst = fmax(worst, value_error(value));
     }
     place_print(out, "most", stats->plan, &stats->row[stats->all.rows - 1]);
-    cli_bound_text(worst, 2, error);
+    lrcs_host_bound_text(worst, 2, error);
     fprintf(out, "  percentiles are known to %s m2 or better for these rows\n", error);
     if (stats->all.banded) {
         fputs("  materials: 68 % by their errors, as if these moved all rows together, which is\n"

@@ -89,7 +89,7 @@ typedef struct sweep_job {
     lrcs_host_rows_head head;
     lrcs_host_sweep_output file;
     cli_progress progress;
-    sweep_plot plot;
+    lrcs_host_sweep_chart plot;
     uint32_t brightest;
     int stats;
     double (*row)[2]; /* sigma and bound of every row, for the two outputs above */
@@ -339,8 +339,9 @@ static int job_rows(sweep_job *job)
     const cli_args *args = job->args;
     signals_watch(); /* before the existing rows are read, which may take seconds */
     cli_watch_stage("rows that are there", NULL);
-    if (job->plot.asked || job->brightest > 0 || job->stats) { /* what depends on all rows */
-        int banded = (job->plot.asked || job->stats) && job->head.fields.materials;
+    int plotted = cli_value(args, "plot") != NULL;
+    if (plotted || job->brightest > 0 || job->stats) { /* what depends on all rows */
+        int banded = (plotted || job->stats) && job->head.fields.materials;
         job->file.row = job->plot.row = job->row = calloc(job->plan.rows, sizeof *job->row);
         job->band = banded ? calloc(job->plan.rows, sizeof *job->band) : NULL;
         job->file.band = job->plot.band = job->band;
@@ -364,7 +365,7 @@ static int job_rows(sweep_job *job)
     }
     code = code ? code : closed;
     const double(*row)[2] = (const double(*)[2])job->row;
-    code = code == 0 && job->plot.asked ? cli_plot_write(args, &job->plot, 1) : code;
+    code = code == 0 && plotted ? cli_plot_write(args, &job->plot, 1) : code;
     if (code == 0 && job->stats) { /* stdout is for the rows if no file is given */
         code = cli_stats_write(args, job->file.path ? stdout : stderr, &job->plan, &job->head, row,
                                (const double(*)[2])job->band);

@@ -7,6 +7,7 @@
 
 #include <lrcs/distribution.h>
 #include <lrcs/sweep.h>
+#include <lrcs/sweep_chart.h>
 #include <lrcs/sweep_file.h>
 
 /* ---- the plan ---- */
@@ -35,43 +36,13 @@ int cli_rows_output_read(const cli_args *args, lrcs_host_sweep_output *output);
 
 /* ---- plots ---- */
 
-/* One of the quantities that vary. */
-typedef struct plot_axis {
-    uint32_t column; /* column of the plan; the one after its axes is the time of a track */
-    uint64_t count;
-    const char *name;
-} plot_axis;
-
-/* What is drawn of a sweep: curves along x, one for each value of y, or a map. */
-typedef struct sweep_plot {
-    const char *option; /* the option that names the files: "plot", "o" */
-    int asked, dbsm, polar, map, mollweide;
-    int open; /* 1 if materials are illustrative or assumed: no bound includes their error */
-    const char *accept;              /* as --accept, or NULL */
-    const char *title;               /* the scene's, or the name of its file */
-    const lrcs_host_rows_head *head; /* what it was made from; NULL: not stated */
-    const char *name;                /* in the legend, of all curves, or NULL */
-    plot_axis x, y;                  /* y: a single value if only one quantity varies */
-    int swapped;                     /* 1 if x is the faster of two axes */
-    const lrcs_host_plan *plan;
-    double (*row)[2];  /* sigma and bound, m2 */
-    double (*band)[2]; /* the interval of its material uncertainty, m2; NULL if none */
-} sweep_plot;
-
-#define PLOT_CURVES 7u /* more values than this along both axes make a map */
-
-/* Reads --plot (or -o of lrcs plot), --dbsm, --polar and --projection, and checks that no plot
-   replaces a file; 0 or CLI_USAGE. Then draws one sweep, or the curves of several along the same
-   axis; 0 or CLI_FAILED. Also one drawing as SVG. The caller sets title and row. */
-int cli_plot_read(const cli_args *args, const lrcs_host_plan *plan, sweep_plot *plot);
-uint32_t
-cli_plot_choose(sweep_plot *plot); /* x and y, by plan, polar and mollweide; how many vary */
-int cli_plot_write(const cli_args *args, const sweep_plot *plot, uint32_t count);
-int cli_plot_svg(FILE *out, const sweep_plot *plot);
-
-/* The material uncertainty of a sweep that has bands: the median and the largest half width of its
-   band relative to sigma, over the rows with sigma > 0 (0 if there is none). 0 or CLI_FAILED. */
-int cli_plot_uncertainty(const sweep_plot *plot, double part[2]);
+/* The option that names the files of plots: "plot", or "o" of lrcs plot. Reads --dbsm, --polar and
+   --projection and checks them, if plots are asked for, against the plan: 0 or CLI_USAGE; the
+   caller sets the other members of the chart. Then draws one sweep, or the curves of several: 0 or
+   CLI_FAILED. */
+const char *cli_plot_option(const cli_args *args);
+int cli_plot_read(const cli_args *args, const lrcs_host_plan *plan, lrcs_host_sweep_chart *plot);
+int cli_plot_write(const cli_args *args, const lrcs_host_sweep_chart *plot, uint32_t count);
 
 /* ---- peaks ---- */
 

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Numbers to text and back, the same in every locale. */
+/* Numbers to text and back, the same in every locale; bounds to text, rounded up. */
 #include <lrcs/host.h>
 
 #include "base/decimal.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* snprintf takes its decimal separator from the program's locale, which may be any number of bytes;
@@ -67,4 +69,24 @@ void lrcs_host_number_put(FILE *out, const char *before, double value)
     char text[LRCS_HOST_NUMBER_SIZE];
     lrcs_host_number_text(value, text);
     fprintf(out, "%s%s", before, text);
+}
+
+/* Adds a unit to the last digit if the nearest number is less than the bound. */
+void lrcs_host_bound_text(double bound, int digits, char text[LRCS_HOST_BOUND_SIZE])
+{
+    snprintf(text, LRCS_HOST_BOUND_SIZE, "%.*g", digits, bound);
+    double shown = strtod(text, NULL);
+    if (shown < bound) {
+        double step = pow(10.0, floor(log10(shown > 0.0 ? shown : bound)) + 1.0 - digits);
+        snprintf(text, LRCS_HOST_BOUND_SIZE, "%.*g", digits, shown + step);
+    }
+}
+
+void lrcs_host_append(char *text, size_t size, const char *format, ...)
+{
+    size_t used = strlen(text);
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text + used, size - used, format, list);
+    va_end(list);
 }

@@ -43,6 +43,17 @@ static int facets_box(const lrcs_scene *scene, uint32_t first, uint32_t count, d
     return 1;
 }
 
+int lrcs_host_scene_tessellated(const lrcs_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        const lrcs_part *part = &scene->part[i];
+        if (part->kind >= 0 && (part->curvature.turn > 0.0 || !part->curvature_known)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 void lrcs_host_scene_box(const lrcs_scene *scene, double box_min[3], double box_max[3])
 {
     if (!facets_box(scene, 0, scene->facet_count, box_min, box_max)) {

@@ -1,54 +1,51 @@
 /* SPDX-License-Identifier: MIT */
-/* The order in which the settings of a time budget are tried: by expected time. Expected times come
-   from a forecast, scaled by what has been measured in this run. */
-#ifndef LRCS_CLI_SEQUENCE_H
-#define LRCS_CLI_SEQUENCE_H
+/* The order in which settings of a run are tried within a time: by expected time. Expected times
+   come from a forecast (lrcs_host_scene_forecast), scaled by what has been measured in this run. */
+#ifndef LRCS_SEQUENCE_H
+#define LRCS_SEQUENCE_H
 
-#include <lrcs/lrcs.h>
+#include <lrcs/run.h>
 
-#define CLI_SEQUENCE_MOST 8
+#define LRCS_SEQUENCE_MOST 8
 
-enum cli_setting_kind {
-    CLI_SETTING_SAMPLES, /* a raster that is accepted by its estimate */
-    CLI_SETTING_PROVED,  /* a raster with its bound */
-    CLI_SETTING_LAST     /* clipping, or method auto: better than every raster */
+enum lrcs_setting_kind {
+    LRCS_SETTING_SAMPLES, /* a raster that is accepted by its estimate */
+    LRCS_SETTING_PROVED,  /* a raster with its bound */
+    LRCS_SETTING_LAST     /* clipping, or method auto: better than every raster */
 };
 
-typedef struct cli_setting {
+typedef struct lrcs_setting {
     int kind;
     uint32_t resolution;
     double forecast; /* s */
     int over;        /* 1: completed, or not worth trying any more */
-} cli_setting;
+} lrcs_setting;
 
-typedef struct cli_sequence {
-    cli_setting setting[CLI_SEQUENCE_MOST];
+typedef struct lrcs_sequence {
+    lrcs_setting setting[LRCS_SEQUENCE_MOST];
     int count;
     double samples_scale; /* measured time of a raster of samples, in times of its forecast */
     double proof_scale;   /* the same for what a raster with a bound takes besides; 0: not known */
-} cli_sequence;
+} lrcs_sequence;
 
 /* What is tried, without forecasts: rasters of each kind at each resolution, and the last setting.
  */
-cli_sequence cli_sequence_make(void);
-
-/* The time that a setting is expected to take, s. */
-double cli_sequence_expected(const cli_sequence *sequence, int setting);
+lrcs_sequence lrcs_sequence_make(void);
 
 /* The setting that is tried next, with `left` seconds to go: the one with the least expected time
    among those not yet over (the first of equal ones), or -1 if there are none. But once the clock
    of this machine is known from a completed setting, the last kind comes before rasters whose
    result it makes needless, if it is expected to take at most a quarter of the time left; or half
    of it, once a raster with a bound has been timed. */
-int cli_sequence_next(const cli_sequence *sequence, double left);
+int lrcs_sequence_next(const lrcs_sequence *sequence, double left);
 
 /* Records that a setting took so many seconds. Once the last kind is completed without a fallback
    to a raster (`clipped`), the others are over. */
-void cli_sequence_done(cli_sequence *sequence, int setting, double seconds, int clipped);
+void lrcs_sequence_done(lrcs_sequence *sequence, int setting, double seconds, int clipped);
 
 /* The error by which answers are compared: bound + curvature_estimate. Above a tenth of sigma it
    says little; then the likely error of a raster counts instead, ranked after every bound below a
    tenth and before other bounds. */
-double cli_sequence_error(const lrcs_result *result);
+double lrcs_sequence_error(const lrcs_result *result);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which setting of a time budget comes next, and which answer is better. This file only computes:
-   it reads no clock and runs nothing (budget.c does). */
-#include "cli/run/sequence.h"
+   it reads no clock and runs nothing. */
+#include <lrcs/sequence.h>
 
 #include <math.h>
 #include <string.h>
@@ -20,65 +20,66 @@
 #define LAST_MARGIN         2.0
 #define LAST_MARGIN_UNTIMED 4.0
 
-cli_sequence cli_sequence_make(void)
+lrcs_sequence lrcs_sequence_make(void)
 {
     static const uint32_t size[] = {256, 512, 1024};
-    cli_sequence s;
+    lrcs_sequence s;
     memset(&s, 0, sizeof s);
     s.samples_scale = 1.0;
     for (size_t i = 0; i < sizeof size / sizeof size[0]; i++) {
-        s.setting[s.count++] = (cli_setting){CLI_SETTING_PROVED, size[i], 0.0, 0};
-        s.setting[s.count++] = (cli_setting){CLI_SETTING_SAMPLES, size[i], 0.0, 0};
+        s.setting[s.count++] = (lrcs_setting){LRCS_SETTING_PROVED, size[i], 0.0, 0};
+        s.setting[s.count++] = (lrcs_setting){LRCS_SETTING_SAMPLES, size[i], 0.0, 0};
     }
-    s.setting[s.count++] = (cli_setting){CLI_SETTING_LAST, 0, 0.0, 0};
+    s.setting[s.count++] = (lrcs_setting){LRCS_SETTING_LAST, 0, 0.0, 0};
     return s;
 }
 
 /* The part of a setting's forecast that is drawing: that of the same raster without a proof. */
-static double draw_forecast(const cli_sequence *sequence, const cli_setting *setting)
+static double draw_forecast(const lrcs_sequence *sequence, const lrcs_setting *setting)
 {
-    for (int i = 0; i < sequence->count && setting->kind != CLI_SETTING_LAST; i++) {
-        const cli_setting *other = &sequence->setting[i];
-        if (other->kind == CLI_SETTING_SAMPLES && other->resolution == setting->resolution) {
+    for (int i = 0; i < sequence->count && setting->kind != LRCS_SETTING_LAST; i++) {
+        const lrcs_setting *other = &sequence->setting[i];
+        if (other->kind == LRCS_SETTING_SAMPLES && other->resolution == setting->resolution) {
             return fmin(other->forecast, setting->forecast);
         }
     }
     return 0.0;
 }
 
-double cli_sequence_expected(const cli_sequence *sequence, int setting)
+/* The time that a setting is expected to take, s. */
+static double sequence_expected(const lrcs_sequence *sequence, int setting)
 {
-    const cli_setting *s = &sequence->setting[setting];
+    const lrcs_setting *s = &sequence->setting[setting];
     double draw = draw_forecast(sequence, s);
     double proof_scale =
         sequence->proof_scale > 0.0 ? sequence->proof_scale : sequence->samples_scale;
     return sequence->samples_scale * draw + proof_scale * (s->forecast - draw);
 }
 
-int cli_sequence_next(const cli_sequence *sequence, double left)
+int lrcs_sequence_next(const lrcs_sequence *sequence, double left)
 {
     const double margin = sequence->proof_scale > 0.0 ? LAST_MARGIN : LAST_MARGIN_UNTIMED;
     int next = -1, begun = 0;
     for (int i = 0; i < sequence->count; i++) {
         begun |= sequence->setting[i].over;
-        if (!sequence->setting[i].over && (next < 0 || cli_sequence_expected(sequence, i) <
-                                                           cli_sequence_expected(sequence, next))) {
+        if (!sequence->setting[i].over &&
+            (next < 0 || sequence_expected(sequence, i) < sequence_expected(sequence, next))) {
             next = i;
         }
     }
     for (int i = 0; i < sequence->count && begun; i++) {
-        const cli_setting *s = &sequence->setting[i];
-        if (s->kind == CLI_SETTING_LAST && !s->over &&
-            margin * cli_sequence_expected(sequence, i) <= left) {
+        const lrcs_setting *s = &sequence->setting[i];
+        if (s->kind == LRCS_SETTING_LAST && !s->over &&
+            margin * sequence_expected(sequence, i) <= left) {
             next = i;
         }
     }
     return next;
 }
 
-void cli_sequence_done(cli_sequence *sequence, int setting, double seconds, int clipped)
+void lrcs_sequence_done(lrcs_sequence *sequence, int setting, double seconds, int clipped)
 {
-    cli_setting *s = &sequence->setting[setting];
+    lrcs_setting *s = &sequence->setting[setting];
     double draw = draw_forecast(sequence, s);
     double proof = s->forecast - draw;
     s->over = 1;
@@ -89,17 +90,17 @@ void cli_sequence_done(cli_sequence *sequence, int setting, double seconds, int 
         sequence->samples_scale = seconds / draw;
     }
     for (int i = 0; i < sequence->count; i++) {
-        cli_setting *other = &sequence->setting[i];
+        lrcs_setting *other = &sequence->setting[i];
         /* where a raster of samples alone cannot be drawn, it is the one with a bound */
         int same = other->resolution == s->resolution && other->forecast == s->forecast;
-        if ((s->kind == CLI_SETTING_LAST && clipped) ||
-            (s->kind != CLI_SETTING_LAST && s->forecast > 0.0 && same)) {
+        if ((s->kind == LRCS_SETTING_LAST && clipped) ||
+            (s->kind != LRCS_SETTING_LAST && s->forecast > 0.0 && same)) {
             other->over = 1;
         }
     }
 }
 
-double cli_sequence_error(const lrcs_result *result)
+double lrcs_sequence_error(const lrcs_result *result)
 {
     double bound = result->bound_m2 + fmax(0.0, result->curvature_estimate_m2);
     double tells = BOUND_TELLS * result->sigma_m2;

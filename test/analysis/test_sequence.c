@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The order of the settings of a time budget, with times that are made up: a run of the sequence on
    a clock of its own, and which answer it gives. */
-#include "cli/run/sequence.c"
+#include <lrcs/sequence.h>
 
 #include "check.h"
 
@@ -19,7 +19,7 @@ typedef struct outcome {
     int best;
 } outcome;
 
-/* In the order of cli_sequence_make: with a bound and by estimate at 256, 512 and 1024; the last.
+/* In the order of lrcs_sequence_make: with a bound and by estimate at 256, 512 and 1024; the last.
  */
 static const double forecast[SETTINGS] = {30, 4, 33, 6, 39, 12, 50};
 static const double error_of[SETTINGS] = {0.05, 0.2, 0.03, 0.15, 0.01, 0.12, 1e-12};
@@ -36,14 +36,14 @@ static machine machine_make(double scale)
 
 static outcome tried(const machine *m, const double *expected, double budget)
 {
-    cli_sequence s = cli_sequence_make();
+    lrcs_sequence s = lrcs_sequence_make();
     outcome out = {.unfinished = -1, .best = -1};
     assert_int_equal(s.count, SETTINGS);
     for (int i = 0; i < SETTINGS; i++) {
         s.setting[i].forecast = expected[i];
     }
     double clock = 0;
-    for (int i; (i = cli_sequence_next(&s, budget - clock)) >= 0;) {
+    for (int i; (i = lrcs_sequence_next(&s, budget - clock)) >= 0;) {
         if (clock + m->seconds[i] > budget) {
             out.unfinished = i;
             break;
@@ -51,7 +51,7 @@ static outcome tried(const machine *m, const double *expected, double budget)
         clock += m->seconds[i];
         out.order[out.count++] = i;
         out.best = out.best < 0 || m->error[i] < m->error[out.best] ? i : out.best;
-        cli_sequence_done(&s, i, m->seconds[i], !(m->raster_instead && i == SETTINGS - 1));
+        lrcs_sequence_done(&s, i, m->seconds[i], !(m->raster_instead && i == SETTINGS - 1));
     }
     return out;
 }
@@ -187,10 +187,10 @@ static void a_bound_ranks_before_an_estimate_before_a_bound_that_says_nothing(vo
     const lrcs_result loose = {.sigma_m2 = 1, .bound_m2 = 0.2, .estimate_m2 = -1};
     const lrcs_result curved = {
         .sigma_m2 = 1, .bound_m2 = 0.05, .estimate_m2 = -1, .curvature_estimate_m2 = 0.03};
-    check_same(cli_sequence_error(&bound), 0.09);
-    check_abs(cli_sequence_error(&likely), 0.101, 1e-15);
-    check_same(cli_sequence_error(&loose), 0.2);
-    check_abs(cli_sequence_error(&curved), 0.08, 1e-15);
+    check_same(lrcs_sequence_error(&bound), 0.09);
+    check_abs(lrcs_sequence_error(&likely), 0.101, 1e-15);
+    check_same(lrcs_sequence_error(&loose), 0.2);
+    check_abs(lrcs_sequence_error(&curved), 0.08, 1e-15);
 }
 
 int main(void)

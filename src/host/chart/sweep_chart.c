@@ -1,0 +1,557 @@
+/* SPDX-License-Identifier: MIT */
+/* Draws the rows of sweeps as curves, as a polar diagram, or as a map. This file decides which
+   quantity runs along which axis, and the texts; chart.c and map.c draw. */
+#include <lrcs/sweep_chart.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constant.h"
+#include "host/fail.h"
+#include "host/run/median.h"
+
+#define PLOT_MARKS 40u  /* points are marked if there are fewer */
+#define PLOT_DEEP  60.0 /* the colours of a map span at most this many dB */
+#define PLOT_ROWS  ((uint64_t)1 << 28)
+
+#define PLOT_DEGREES (180.0 / LRCS_PI) /* degrees per radian */
+
+/* ---- words ---- */
+
+/* The name of an axis in words, and its unit or NULL. */
+typedef struct axis_words {
+    char text[160];
+    const char *unit;
+} axis_words;
+
+/* Converts "az_deg" to words and its unit; other names are unchanged. */
+static axis_words words_of(const char *name)
+{
+    static const char *const units[][2] = {{"_deg", "deg"},  {".A", "1/sr"},    {".B", "1/sr"},
+                                           {".size_x", "m"}, {".size_y", "m"},  {".size_z", "m"},
+                                           {".radius", "m"}, {".radius2", "m"}, {".length", "m"}};
+    static const char *const known[][2] = {{"az_deg", "azimuth"},
+                                           {"el_deg", "elevation"},
+                                           {"euler_a_deg", "Euler angle a"},
+                                           {"euler_b_deg", "Euler angle b"},
+                                           {"euler_c_deg", "Euler angle c"},
+                                           {"rotate_deg", "rotation"}};
+    axis_words words = {.unit = NULL};
+    size_t size = strlen(name);
+    snprintf(words.text, sizeof words.text, "%s", name);
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
+        size_t end = strlen(units[i][0]);
+        if (size > end && strcmp(name + size - end, units[i][0]) == 0) {
+            words.unit = units[i][1];
+            words.text[units[i][0][0] == '_' ? size - end : size] = '\0';
+        }
+    }
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        if (strcmp(name, known[i][0]) == 0) {
+            snprintf(words.text, sizeof words.text, "%s", known[i][1]);
+        }
+    }
+    return words;
+}
+
+static void value_text(const char *name, double value, char text[192])
+{
+    axis_words words = words_of(name);
+    snprintf(text, 192, "%s %.7g%s%s", words.text, value, words.unit ? " " : "",
+             words.unit ? words.unit : "");
+}
+
+static int is_angle(const lrcs_host_sweep_axis *axis)
+{
+    const char *unit = words_of(axis->name).unit;
+    return unit && strcmp(unit, "deg") == 0;
+}
+
+/* ---- what varies ---- */
+
+/* Lists everything with more than one value: the axes, and the time of a track. */
+static uint32_t varying_list(const lrcs_host_plan *plan,
+                             lrcs_host_sweep_axis axis[LRCS_HOST_PLAN_AXES + 1])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < plan->axes; i++) {
+        if (plan->axis[i].range.count > 1) {
+            axis[count++] = (lrcs_host_sweep_axis){i, plan->axis[i].range.count, plan->column[i]};
+        }
+    }
+    if (plan->kind == LRCS_HOST_PLAN_TRACK) {
+        axis[count++] = (lrcs_host_sweep_axis){plan->axes, plan->track.count, "time"};
+    }
+    return count;
+}
+
+/* Curves run along the axis with more values (if equal, the faster one); a map's second axis is the
+   slower one. */
+static void plot_choose(const lrcs_host_sweep_axis *axis, uint32_t count,
+                        lrcs_host_sweep_chart *plot)
+{
+    plot->x = axis[0];
+    plot->y = count == 2 ? axis[1] : (lrcs_host_sweep_axis){0, 1, ""};
+    plot->swapped =
+        count == 2 && plot->x.count <= LRCS_HOST_SWEEP_CURVES && plot->y.count >= plot->x.count;
+    if (plot->swapped) {
+        plot->x = axis[1];
+        plot->y = axis[0];
+    }
+    if (plot->mollweide && count == 2 && strcmp(plot->x.name, "az_deg") != 0) {
+        lrcs_host_sweep_axis el = plot->x;
+        plot->x = plot->y;
+        plot->y = el;
+        plot->swapped = !plot->swapped;
+    }
+    plot->map = plot->mollweide || (plot->y.count > LRCS_HOST_SWEEP_CURVES && !plot->polar);
+}
+
+/* Directions of the whole sphere, as a map over azimuth and elevation whose step is a third of the
+   distance between them. */
+static void sphere_choose(const lrcs_host_plan *plan, lrcs_host_sweep_chart *plot)
+{
+    static const uint32_t step[] = {1, 2, 3, 5};
+    double apart = PLOT_DEGREES * sqrt(4.0 * (180.0 / PLOT_DEGREES) / (double)plan->rows);
+    uint32_t i = 0;
+    while (i < 3 && 3.0 * step[i + 1] <= apart) {
+        i++;
+    }
+    plot->x = (lrcs_host_sweep_axis){0, 360 / step[i] + 1, "az_deg"};
+    plot->y = (lrcs_host_sweep_axis){0, 180 / step[i] + 1, "el_deg"};
+    plot->map = 1;
+}
+
+/* 1 if azimuth spans at most a full turn and elevation at most pole to pole. */
+static int mollweide_fits(const lrcs_host_plan *plan, const lrcs_host_sweep_chart *plot)
+{
+    static const double most[2] = {360.0, 90.0};
+    for (int k = 0; k < 2 && plan->kind != LRCS_HOST_PLAN_SPHERE; k++) {
+        const lrcs_host_sweep_axis *axis = k == 0 ? &plot->x : &plot->y;
+        if (plan->kind != LRCS_HOST_PLAN_AZEL || axis->count < 2 || axis->column >= plan->axes ||
+            strcmp(axis->name, k == 0 ? "az_deg" : "el_deg") != 0) {
+            return 0;
+        }
+        const lrcs_host_range *range = &plan->axis[axis->column].range;
+        double first = lrcs_host_range_at(range, 0);
+        double last = lrcs_host_range_at(range, range->count - 1);
+        if (!(k == 0 ? fabs(last - first) <= most[0]
+                     : fabs(first) <= most[1] && fabs(last) <= most[1])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+uint32_t lrcs_host_sweep_chart_choose(lrcs_host_sweep_chart *plot)
+{
+    lrcs_host_sweep_axis axis[LRCS_HOST_PLAN_AXES + 1];
+    uint32_t count = varying_list(plot->plan, axis);
+    if (plot->plan->kind == LRCS_HOST_PLAN_SPHERE) {
+        sphere_choose(plot->plan, plot);
+    } else if (count > 0) {
+        plot_choose(axis, count, plot);
+    }
+    return count;
+}
+
+int lrcs_host_sweep_chart_check(lrcs_host_sweep_chart *plot, lrcs_host_error *error)
+{
+    const lrcs_host_plan *plan = plot->plan;
+    uint32_t count = lrcs_host_sweep_chart_choose(plot);
+    int sphere = plan->kind == LRCS_HOST_PLAN_SPHERE;
+    int ascends = 1; /* the axes of a map must ascend; ranges do so, or are reversed */
+    for (uint64_t i = 1; plan->kind == LRCS_HOST_PLAN_TRACK && i < plan->track.count; i++) {
+        ascends &= plan->track.row[i][0] > plan->track.row[i - 1][0];
+    }
+    if (sphere && (count > 0 || plot->polar)) {
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
+                               "plot draws the directions of --sphere as a map, of one scene");
+    }
+    if (!sphere && (count < 1 || count > 2)) {
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
+                               "plot draws one or two things that vary, found %lu",
+                               (unsigned long)count);
+    }
+    if (plan->rows > PLOT_ROWS) {
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT, "plot: at most 2^28 rows, found %llu",
+                               (unsigned long long)plan->rows);
+    }
+    if (plot->polar && plot->y.count > LRCS_HOST_SWEEP_CURVES) {
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT, "polar draws at most %u curves, found %llu",
+                               LRCS_HOST_SWEEP_CURVES, (unsigned long long)plot->y.count);
+    }
+    if (plot->polar && !is_angle(&plot->x)) {
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
+                               "polar: curves turn with an angle, found '%s'", plot->x.name);
+    }
+    if (plot->map && !ascends) {
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
+                               "plot: a map wants poses whose time ascends");
+    }
+    if (plot->mollweide && !mollweide_fits(plan, plot)) {
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
+                               "projection mollweide draws a map over azimuth and elevation, of at "
+                               "most a turn and within -90 .. 90 deg, or --sphere");
+    }
+    return LRCS_OK;
+}
+
+/* ---- notes ---- */
+
+int lrcs_host_sweep_chart_band(const lrcs_host_sweep_chart *plot, double part[2],
+                               lrcs_host_error *error)
+{
+    uint64_t count = 0;
+    double *half = malloc((plot->plan->rows + 1) * sizeof *half);
+    if (!half) {
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+    }
+    for (uint64_t i = 0; i < plot->plan->rows; i++) {
+        if (plot->row[i][0] > 0.0) {
+            half[count++] = 0.5 * (plot->band[i][1] - plot->band[i][0]) / plot->row[i][0];
+        }
+    }
+    part[0] = lrcsi_host_median(half, (uint32_t)count);
+    part[1] = count > 0 ? half[count - 1] : 0.0;
+    free(half);
+    return LRCS_OK;
+}
+
+/* The text below the title: the fixed values, and how accurate sigma is. */
+static int plot_note(const lrcs_host_sweep_chart *plots, uint32_t count, char note[512],
+                     lrcs_host_error *error)
+{
+    const lrcs_host_plan *plan = plots->plan;
+    const char *accept = NULL;
+    char bound[LRCS_HOST_BOUND_SIZE];
+    double worst = 0.0;
+    int dark = 0;
+    int open = 0;
+    char banded[120] = "";
+    int status = LRCS_OK;
+    note[0] = '\0';
+    for (uint32_t i = 0; i < plan->axes && strlen(note) < 300 && count == 1; i++) {
+        if (plan->axis[i].range.count == 1) {
+            char text[192];
+            value_text(plan->column[i], lrcs_host_range_at(&plan->axis[i].range, 0), text);
+            lrcs_host_append(note, 512, "%s; ", text);
+        }
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        const lrcs_host_sweep_chart *plot = &plots[k];
+        for (uint64_t i = 0; i < plot->plan->rows; i++) {
+            worst = fmax(worst, plot->row[i][1]);
+            dark |= plot->dbsm && !(plot->row[i][0] > 0.0);
+        }
+        open |= plot->open;
+        if (plot->band && plot->map) {
+            double part[2] = {0.0, 0.0};
+            status = lrcs_host_sweep_chart_band(plot, part, error);
+            snprintf(banded, sizeof banded,
+                     "; errors of materials (68 %%): +-%.2g %% of sigma (median), +-%.2g %% (most)",
+                     100.0 * part[0], 100.0 * part[1]);
+        } else if (plot->band) {
+            snprintf(banded, sizeof banded, "; shaded: 68 %% by the errors of materials");
+        }
+        accept = plot->accept && strcmp(plot->accept, "bound") != 0 ? plot->accept : accept;
+    }
+    lrcs_host_bound_text(worst, 2, bound);
+    lrcs_host_append(
+        note, 512, "each sigma is proved to within %s m2 or better%s%s%s%s%s%s", bound,
+        open ? " for its materials, which are illustrative" : "", banded,
+        accept ? "; accepted by " : "", accept ? accept : "",
+        !dark        ? ""
+        : plots->map ? "; grey: sigma is 0"
+                     : "; gaps: sigma is 0",
+        plan->kind == LRCS_HOST_PLAN_SPHERE ? "; each place shows the nearest direction" : "");
+    return status;
+}
+
+/* ---- data ---- */
+
+/* The direction of a Fibonacci lattice nearest to an azimuth and elevation: rows descend in z, and
+   only those within a chord of 4 / sqrt(N) of its z can be nearest (the lattice leaves no gap of
+   that radius). */
+static uint64_t sphere_nearest(const lrcs_host_plan *plan, double az, double el)
+{
+    lrcs_pose pose = lrcs_pose_default();
+    double n = (double)plan->rows;
+    double reach = 4.0 / sqrt(n);
+    uint64_t best = 0;
+    double most = -2.0;
+    lrcs_pose_from_azel(az, el, &pose);
+    double z = pose.direction[2];
+    uint64_t first = (uint64_t)fmax(0.0, floor(0.5 * n * (1.0 - z - reach)));
+    uint64_t end = (uint64_t)fmin(n, ceil(0.5 * n * (1.0 - z + reach)) + 1.0);
+    for (uint64_t i = first; i < end; i++) {
+        double direction[LRCS_HOST_PLAN_COLUMNS];
+        lrcs_host_plan_values(plan, i, direction);
+        double dot = direction[0] * pose.direction[0] + direction[1] * pose.direction[1] +
+                     direction[2] * pose.direction[2];
+        if (dot > most) {
+            most = dot;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* The row at a place along both axes. */
+static uint64_t plot_row(const lrcs_host_sweep_chart *plot, uint64_t x, uint64_t y)
+{
+    if (plot->plan->kind == LRCS_HOST_PLAN_SPHERE) {
+        double step = 360.0 / (double)(plot->x.count - 1);
+        return sphere_nearest(plot->plan, (double)x * step - 180.0, (double)y * step - 90.0);
+    }
+    return plot->swapped || plot->y.count == 1 ? y * plot->x.count + x : x * plot->y.count + y;
+}
+
+static double plot_shown(const lrcs_host_sweep_chart *plot, double sigma)
+{
+    return plot->dbsm ? 10.0 * log10(sigma) : sigma; /* dBsm of 0 is not finite and not drawn */
+}
+
+/* The value of an axis at one of its places. */
+static double place_value(const lrcs_host_sweep_chart *plot, const lrcs_host_sweep_axis *axis,
+                          uint64_t place)
+{
+    const lrcs_host_plan *plan = plot->plan;
+    if (plan->kind == LRCS_HOST_PLAN_SPHERE) {
+        double first = axis == &plot->x ? -180.0 : -90.0;
+        return first * (1.0 - 2.0 * (double)place / (double)(axis->count - 1));
+    }
+    return axis->column == plan->axes ? plan->track.row[place][0]
+                                      : lrcs_host_range_at(&plan->axis[axis->column].range, place);
+}
+
+/* The title of an axis; for the time of a track with its unit and its epoch. */
+static void time_title(const lrcs_host_sweep_chart *plot, const lrcs_host_sweep_axis *axis,
+                       char text[192])
+{
+    const lrcs_host_plan *plan = plot->plan;
+    if (plan->kind != LRCS_HOST_PLAN_TRACK || axis->column != plan->axes ||
+        strcmp(axis->name, "time") != 0) {
+        axis_words words = words_of(axis->name);
+        snprintf(text, 192, words.unit ? "%s (%s)" : "%s", words.text, words.unit);
+    } else if (plan->track.epoch[0]) {
+        snprintf(text, 192, "time since %s (s)", plan->track.epoch);
+    } else {
+        snprintf(text, 192, "time (s)");
+    }
+}
+
+/* ---- drawing ---- */
+
+/* The values of one sweep. */
+typedef struct plot_values {
+    double *x, *y, *z;  /* values along both axes, and sigma: z[y][x]; x is allocated */
+    double *low, *high; /* the ends of bands, as z; NULL if none */
+} plot_values;
+
+typedef struct plot_sheet {
+    const lrcs_host_sweep_chart *plot;
+    uint32_t count; /* number of sweeps */
+    plot_values values[LRCS_HOST_SWEEP_CURVES];
+    char title[256], note[512], x_name[192], y_name[192];
+    char *about; /* what the sweeps were made from, for the file; owned */
+} plot_sheet;
+
+/* The name of a curve: its sweep, its value along y, or both. */
+static void curve_name(const lrcs_host_sweep_chart *plot, double y, char name[400])
+{
+    char value[192] = "";
+    if (plot->y.count > 1) {
+        value_text(plot->y.name, y, value);
+    }
+    snprintf(name, 400, "%.200s%s%s", plot->name ? plot->name : "",
+             plot->name && value[0] ? ", " : "", value);
+}
+
+static int sheet_curves(FILE *out, const plot_sheet *sheet, int png, lrcs_host_error *error)
+{
+    static const int colour[LRCS_HOST_SWEEP_CURVES] = {
+        LRCS_HOST_BLUE,     LRCS_HOST_VERMILION, LRCS_HOST_GREEN, LRCS_HOST_PURPLE,
+        LRCS_HOST_SKY_BLUE, LRCS_HOST_ORANGE,    LRCS_HOST_BLACK};
+    const lrcs_host_sweep_chart *plot = sheet->plot;
+    lrcs_host_series series[LRCS_HOST_SWEEP_CURVES];
+    char name[LRCS_HOST_SWEEP_CURVES][400];
+    uint32_t curves = 0;
+    for (uint32_t k = 0; k < sheet->count; k++) {
+        const lrcs_host_sweep_chart *one = &sheet->plot[k];
+        const plot_values *values = &sheet->values[k];
+        for (uint32_t i = 0; i < one->y.count; i++, curves++) {
+            int marked = one->x.count < PLOT_MARKS;
+            curve_name(one, values->y[i], name[curves]);
+            series[curves] = (lrcs_host_series){
+                .name = name[curves][0] ? name[curves] : NULL,
+                .count = (uint32_t)one->x.count,
+                .x = values->x,
+                .y = values->z + i * one->x.count,
+                .low = values->low ? values->low + i * one->x.count : NULL,
+                .high = values->high ? values->high + i * one->x.count : NULL,
+                .colour = colour[curves],
+                .marker = marked ? (int)(curves % LRCS_HOST_NO_MARKER) : LRCS_HOST_NO_MARKER,
+                .dash = (int)(curves % 2 ? LRCS_HOST_DASHED : LRCS_HOST_SOLID)};
+        }
+    }
+    const lrcs_host_chart chart = {.title = sheet->title,
+                                   .note = sheet->note,
+                                   .x_name = sheet->x_name,
+                                   .y_name = plot->dbsm ? "sigma (dBsm)" : "sigma (m2)",
+                                   .x_deg = is_angle(&plot->x),
+                                   .y_from_0 =
+                                       !plot->dbsm && plot->plan->kind != LRCS_HOST_PLAN_TRACK,
+                                   .polar = plot->polar,
+                                   .about = sheet->about,
+                                   .series = series,
+                                   .series_count = curves};
+    if (png) {
+        return lrcs_host_chart_png(out, &chart, error);
+    }
+    lrcs_host_chart_svg(out, &chart);
+    return LRCS_OK;
+}
+
+/* A map around the whole sphere in Mollweide's projection whose azimuths end one step before the
+   full turn: repeats its first column there, because otherwise that step would be empty. Returns
+   the memory of the longer arrays; NULL if the map stays as it is. */
+static double *ring_close(lrcs_host_map *map)
+{
+    const uint32_t n = map->columns;
+    double end = map->x[0] + 360.0;
+    double step = map->x[n - 1] - map->x[n - 2];
+    if (!map->mollweide || !(end > map->x[n - 1] && end - map->x[n - 1] <= 1.000001 * step)) {
+        return NULL;
+    }
+    double *x = malloc(((size_t)n + 1) * ((size_t)map->rows + 1) * sizeof *x);
+    if (x) {
+        double *z = x + n + 1;
+        memcpy(x, map->x, n * sizeof *x);
+        x[n] = end;
+        for (size_t i = 0; i < map->rows; i++) {
+            memcpy(z + i * (n + 1), map->z + i * n, n * sizeof *z);
+            z[i * (n + 1) + n] = map->z[i * n];
+        }
+        map->x = x;
+        map->z = z;
+        map->columns = n + 1;
+    }
+    return x;
+}
+
+static int sheet_map(FILE *out, const plot_sheet *sheet, int png, lrcs_host_error *error)
+{
+    const lrcs_host_sweep_chart *plot = sheet->plot;
+    lrcs_host_map map = {.title = sheet->title,
+                         .note = sheet->note,
+                         .x_name = sheet->x_name,
+                         .y_name = sheet->y_name,
+                         .z_name = plot->dbsm ? "sigma (dBsm)" : "sigma (m2)",
+                         .columns = (uint32_t)plot->x.count,
+                         .rows = (uint32_t)plot->y.count,
+                         .x = sheet->values->x,
+                         .y = sheet->values->y,
+                         .z = sheet->values->z,
+                         .deep = plot->dbsm ? PLOT_DEEP : 0.0,
+                         .x_deg = is_angle(&plot->x),
+                         .y_deg = is_angle(&plot->y),
+                         .mollweide = plot->mollweide,
+                         .about = sheet->about,
+                         .cells = plot->plan->kind == LRCS_HOST_PLAN_SPHERE};
+    int status = LRCS_OK;
+    double *closed = ring_close(&map);
+    if (png) {
+        status = lrcs_host_map_png(out, &map, error);
+    } else {
+        lrcs_host_map_svg(out, &map);
+    }
+    free(closed);
+    return status;
+}
+
+/* The values along both axes in ascending order, as a map needs them, and sigma in that order:
+   descending ranges are reversed. */
+static int values_fill(const lrcs_host_sweep_chart *plot, plot_values *values,
+                       lrcs_host_error *error)
+{
+    const lrcs_host_sweep_axis *along[2] = {&plot->x, &plot->y};
+    int back[2];
+    uint64_t cells = plot->x.count * plot->y.count;
+    values->x = malloc((3 * cells + plot->x.count + plot->y.count) * sizeof(double));
+    if (!values->x) {
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+    }
+    values->y = values->x + plot->x.count;
+    values->z = values->y + plot->y.count;
+    values->low = plot->band ? values->z + cells : NULL;
+    values->high = plot->band ? values->z + 2 * cells : NULL;
+    for (int k = 0; k < 2; k++) {
+        uint64_t last = along[k]->count - 1;
+        double *value = k == 0 ? values->x : values->y;
+        back[k] = last > 0 && place_value(plot, along[k], last) < place_value(plot, along[k], 0);
+        for (uint64_t i = 0; i <= last; i++) {
+            value[i] = last == 0 ? 0.0 : place_value(plot, along[k], back[k] ? last - i : i);
+        }
+    }
+    for (uint64_t y = 0; y < plot->y.count; y++) {
+        for (uint64_t x = 0; x < plot->x.count; x++) {
+            uint64_t row = plot_row(plot, back[0] ? plot->x.count - 1 - x : x,
+                                    back[1] ? plot->y.count - 1 - y : y);
+            uint64_t at = y * plot->x.count + x;
+            values->z[at] = plot_shown(plot, plot->row[row][0]);
+            for (int k = 0; k < 2 && plot->band; k++) {
+                (k == 0 ? values->low : values->high)[at] = plot_shown(plot, plot->band[row][k]);
+            }
+        }
+    }
+    return LRCS_OK;
+}
+
+/* What the sweeps were made from, which the caller frees; NULL without memory. */
+static char *about_text(const lrcs_host_sweep_chart *plot, uint32_t count)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) {
+        return NULL;
+    }
+    fprintf(out, "lrcs %s sweep", lrcs_version());
+    for (uint32_t k = 0; k < count; k++) {
+        fprintf(out, "; scene_hash=%016llx", (unsigned long long)plot[k].head->scene_hash);
+        lrcs_host_rows_options_write(out, plot[k].head);
+    }
+    if (fclose(out) != 0) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}
+
+int lrcs_host_sweep_chart_write(FILE *out, const lrcs_host_sweep_chart *plot, uint32_t count,
+                                int png, lrcs_host_error *error)
+{
+    plot_sheet sheet = {.plot = plot, .count = count};
+    int status = LRCS_OK;
+    int alike = 1;
+    for (uint32_t k = 0; k < count && status == LRCS_OK; k++) {
+        status = values_fill(&plot[k], &sheet.values[k], error);
+        alike &= strcmp(plot[k].title, plot->title) == 0;
+    }
+    snprintf(sheet.title, sizeof sheet.title, "Laser radar cross-section%s%.200s",
+             alike ? " of " : "", alike ? plot->title : "");
+    status = status == LRCS_OK ? plot_note(plot, count, sheet.note, error) : status;
+    sheet.about = plot->head ? about_text(plot, count) : NULL;
+    time_title(plot, &plot->x, sheet.x_name);
+    time_title(plot, &plot->y, sheet.y_name);
+    if (status == LRCS_OK) {
+        status = (plot->map ? sheet_map : sheet_curves)(out, &sheet, png, error);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        free(sheet.values[k].x);
+    }
+    free(sheet.about);
+    return status;
+}
