@@ -117,21 +117,25 @@ static int line_meets(const query_line *line, uint32_t facet)
 static uint32_t line_next(query_line *line)
 {
     const lrcsi_grid *grid = line->grid;
+    const lrcsi_boxes boxes = grid->boxes;
+    const lrcsi_view_box at = line->at;
     for (;;) {
-        while (line->items.from == line->items.to) {
-            if (line->y == line->cells.y1) {
-                return LRCS_NONE;
-            }
-            line->items = lrcsi_grid_row_items(grid, line->y++, line->cells.x0, line->cells.x1);
-            if (!lrcsi_meter_take(line->meter, line->items.to - line->items.from)) {
-                return LRCS_NONE;
+        const uint32_t *end = grid->item + line->items.to;
+        for (const uint32_t *item = grid->item + line->items.from; item < end; item++) {
+            const lrcsi_view_box *its = lrcsi_boxes_facet(&boxes, *item);
+            if (!lrcsi_view_box_behind(its, &at) && !lrcsi_view_box_beside(its, &at) &&
+                *item != line->facet && line_meets(line, *item)) {
+                line->items.from = (uint32_t)(item + 1 - grid->item);
+                return *item;
             }
         }
-        uint32_t other = grid->item[line->items.from++];
-        const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
-        if (other != line->facet && !lrcsi_view_box_beside(its, &line->at) &&
-            !lrcsi_view_box_behind(its, &line->at) && line_meets(line, other)) {
-            return other;
+        line->items.from = line->items.to;
+        if (line->y == line->cells.y1) {
+            return LRCS_NONE;
+        }
+        line->items = lrcsi_grid_row_items(grid, line->y++, line->cells.x0, line->cells.x1);
+        if (!lrcsi_meter_take(line->meter, line->items.to - line->items.from)) {
+            return LRCS_NONE;
         }
     }
 }
