@@ -52,7 +52,7 @@ static int starve_once(const starved *s, unsigned char *memory, size_t size)
 }
 
 /* Byte by byte, but for the middle of those that need much: the first and last 1024 sizes, and
-   every 31st between. Once served, it is served by every larger area. */
+   every 127th between. Once served, it is served by every larger area. */
 static void starve(const starved *s)
 {
     unsigned char *memory = malloc(s->need + STARVE_CANARY);
@@ -65,7 +65,7 @@ static void starve(const starved *s)
             fail();
         }
         served |= status == LRCS_OK;
-        size += size < 1024 || size + 1024 > s->need ? 1 : 31;
+        size += size < 1024 || size + 1024 > s->need ? 1 : 127;
     }
     assert_true(served);
     free(memory);

@@ -267,7 +267,7 @@ static void estimates_with_little_memory_and_few_steps_hold_the_truth(void **sta
         options.tolerance = i / 3 % 2 ? 2e-4 : 0.02;
         options.steps = steps[i % 3];
         int before = LRCS_E_MEMORY;
-        for (size_t size = 4096; size <= sizeof little; size += size / 24) {
+        for (size_t size = 4096; size <= sizeof little; size += size / 12) {
             lrcs_result r;
             work = lrcs_work_make(little, size);
             int status = lrcs_sigma_run(prepared, &pose, &options, &work, &r, NULL, NULL);

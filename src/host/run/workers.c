@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Jobs in threads. It decides which member does which job (the next one, whoever is free), how far
-   fast members may run ahead of slow ones (a ring buffer of slots), and when to stop; it does not
-   depend on what the jobs are. The calling thread is a member too: it hands over results that are
+/* Jobs in threads. It decides which worker does which job (the next one, whoever is free), how far
+   fast workers may run ahead of slow ones (a ring buffer of slots), and when to stop; it does not
+   depend on what the jobs are. The calling thread is a worker too: it hands over results that are
    ready and works if there are none. It does all jobs if the system grants no threads. */
 #include "host/run/workers.h"
 
@@ -10,7 +10,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-/* Slots per member: enough for jobs of unequal length and an occasional slow hand-over. */
+/* Slots per worker: enough for jobs of unequal length and an occasional slow hand-over. */
 #define WORKERS_SLOTS 16u
 /* The core keeps no large arrays on the stack; some systems give threads very little. */
 #define WORKERS_STACK ((size_t)1 << 20)
@@ -27,11 +27,11 @@ typedef struct workers_ring {
     pthread_cond_t ready; /* the slot at the head is done */
 } workers_ring;
 
-typedef struct workers_member {
+typedef struct workers_thread {
     workers_ring *ring;
     uint32_t number;
     pthread_t thread;
-} workers_member;
+} workers_thread;
 
 static void *ring_slot(const workers_ring *ring, uint64_t index)
 {
@@ -44,11 +44,11 @@ static int ring_has_job(const workers_ring *ring)
 }
 
 /* Does the next job; the lock is held before and after. */
-static void ring_work(workers_ring *ring, uint32_t member)
+static void ring_work(workers_ring *ring, uint32_t worker)
 {
     uint64_t index = ring->next++;
     pthread_mutex_unlock(&ring->lock);
-    ring->workers->work(ring->workers->context, member, index, ring_slot(ring, index));
+    ring->workers->work(ring->workers->context, worker, index, ring_slot(ring, index));
     pthread_mutex_lock(&ring->lock);
     ring->done[index % ring->window] = 1;
     if (index == ring->head) {
@@ -56,14 +56,14 @@ static void ring_work(workers_ring *ring, uint32_t member)
     }
 }
 
-static void *workers_member_run(void *context)
+static void *workers_thread_run(void *context)
 {
-    workers_member *member = context;
-    workers_ring *ring = member->ring;
+    workers_thread *worker = context;
+    workers_ring *ring = worker->ring;
     pthread_mutex_lock(&ring->lock);
     while (!ring->stop && ring->next < ring->end) {
         if (ring_has_job(ring)) {
-            ring_work(ring, member->number);
+            ring_work(ring, worker->number);
         } else {
             pthread_cond_wait(&ring->room, &ring->lock);
         }
@@ -112,22 +112,22 @@ static int workers_lead(workers_ring *ring)
 
 /* Starts as many threads as the system grants; only the calling thread receives signals. Returns
    their number. */
-static uint32_t workers_start(workers_ring *ring, workers_member *member)
+static uint32_t workers_start(workers_ring *ring, workers_thread *worker)
 {
     sigset_t all;
     sigset_t before;
     pthread_attr_t attributes;
     uint32_t started = 0;
-    if (ring->workers->members == 1 || pthread_attr_init(&attributes) != 0) {
+    if (ring->workers->threads == 1 || pthread_attr_init(&attributes) != 0) {
         return 0;
     }
     pthread_attr_setstacksize(&attributes, WORKERS_STACK);
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    while (started + 1 < ring->workers->members) {
-        member[started] = (workers_member){.ring = ring, .number = started + 1};
-        if (pthread_create(&member[started].thread, &attributes, workers_member_run,
-                           &member[started]) != 0) {
+    while (started + 1 < ring->workers->threads) {
+        worker[started] = (workers_thread){.ring = ring, .number = started + 1};
+        if (pthread_create(&worker[started].thread, &attributes, workers_thread_run,
+                           &worker[started]) != 0) {
             break;
         }
         started++;
@@ -139,12 +139,12 @@ static uint32_t workers_start(workers_ring *ring, workers_member *member)
 
 /* Runs the work once the ring and its locks exist. Jobs done before a cancel are still handed
    over. */
-static int workers_work(workers_ring *ring, workers_member *member)
+static int workers_work(workers_ring *ring, workers_thread *worker)
 {
-    uint32_t started = workers_start(ring, member);
+    uint32_t started = workers_start(ring, worker);
     int status = workers_lead(ring);
     for (uint32_t i = 0; i < started; i++) {
-        pthread_join(member[i].thread, NULL);
+        pthread_join(worker[i].thread, NULL);
     }
     pthread_mutex_lock(&ring->lock);
     int taken = LRCS_OK;
@@ -166,20 +166,20 @@ int lrcsi_workers_run(const lrcsi_workers *workers, uint64_t *done, lrcs_host_er
                          .head = workers->first,
                          .next = workers->first,
                          .end = workers->first + workers->count,
-                         .window = (uint64_t)WORKERS_SLOTS * workers->members,
+                         .window = (uint64_t)WORKERS_SLOTS * workers->threads,
                          .lock = PTHREAD_MUTEX_INITIALIZER,
                          .room = PTHREAD_COND_INITIALIZER,
                          .ready = PTHREAD_COND_INITIALIZER};
     size_t bytes = (size_t)ring.window * workers->slot_size;
-    workers_member *member = calloc(workers->members, sizeof *member);
+    workers_thread *worker = calloc(workers->threads, sizeof *worker);
     ring.slot = calloc((size_t)ring.window, workers->slot_size);
     ring.done = calloc((size_t)ring.window, 1);
-    int status = member && ring.slot && ring.done ? workers_work(&ring, member)
+    int status = worker && ring.slot && ring.done ? workers_work(&ring, worker)
                                                   : lrcsi_host_fail_memory(error, bytes);
     *done = ring.head - workers->first;
     free(ring.done);
     free(ring.slot);
-    free(member);
+    free(worker);
     pthread_cond_destroy(&ring.ready);
     pthread_cond_destroy(&ring.room);
     pthread_mutex_destroy(&ring.lock);

@@ -9,11 +9,11 @@
 
 typedef struct lrcsi_workers {
     uint64_t first, count; /* jobs */
-    uint32_t members;      /* threads, the calling one among them; >= 1 */
+    uint32_t threads;      /* the calling one among them; >= 1 */
     size_t slot_size;      /* bytes of the result of a job */
     void *context;
-    /* does a job; several at a time, each with a member number and a slot of its own */
-    void (*work)(void *context, uint32_t member, uint64_t index, void *slot);
+    /* does a job; several at a time, each with a worker number and a slot of its own */
+    void (*work)(void *context, uint32_t worker, uint64_t index, void *slot);
     /* takes its result, on the calling thread, in order; a status other than LRCS_OK ends the work
      */
     int (*take)(void *context, uint64_t index, const void *slot);

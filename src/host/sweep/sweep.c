@@ -35,7 +35,7 @@ typedef struct sweep_run {
 } sweep_run;
 
 /* One pose of a scene, with the glint of coarse facets if requested. */
-static int pose_sigma(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
+static int pose_sigma(const sweep_run *run, uint32_t worker, const lrcs_host_scene *scene,
                       const lrcs_run_options *options, int glint, sweep_slot *one)
 {
     const lrcs_host_sweep *sweep = run->sweep;
@@ -47,7 +47,7 @@ static int pose_sigma(const sweep_run *run, uint32_t member, const lrcs_host_sce
             return lrcsi_host_fail_memory(&one->error, size);
         }
     }
-    int status = lrcsi_host_sigma(scene, &one->pose, options, &run->area[member], &one->result,
+    int status = lrcsi_host_sigma(scene, &one->pose, options, &run->area[worker], &one->result,
                                   records, NULL, &one->error);
     if (status == LRCS_OK && records) {
         lrcs_host_glint_sum_make(&scene->scene, records, sweep->glint, sweep->glint_count,
@@ -58,7 +58,7 @@ static int pose_sigma(const sweep_run *run, uint32_t member, const lrcs_host_sce
 }
 
 /* One pose of a scene with its material uncertainty. */
-static int pose_uncertainty(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
+static int pose_uncertainty(const sweep_run *run, uint32_t worker, const lrcs_host_scene *scene,
                             const lrcs_run_options *options, sweep_slot *one)
 {
     size_t size = ((size_t)scene->scene.material_count + 1) * sizeof(lrcs_sensitivity);
@@ -67,7 +67,7 @@ static int pose_uncertainty(const sweep_run *run, uint32_t member, const lrcs_ho
         return lrcsi_host_fail_memory(&one->error, size);
     }
     int status = lrcsi_host_uncertainty(scene, &one->pose, options, run->sweep->uncertainty,
-                                        &run->area[member], &one->result, sensitivity,
+                                        &run->area[worker], &one->result, sensitivity,
                                         &one->uncertainty, &one->error);
     free(sensitivity);
     return status;
@@ -75,7 +75,7 @@ static int pose_uncertainty(const sweep_run *run, uint32_t member, const lrcs_ho
 
 /* One pose: at the scene's own division of curved shapes, then at finer ones while these are needed
    to meet the tolerance. */
-static int sweep_pose(const sweep_run *run, uint32_t member, const lrcs_host_scene *scene,
+static int sweep_pose(const sweep_run *run, uint32_t worker, const lrcs_host_scene *scene,
                       sweep_slot *one)
 {
     const lrcs_host_sweep *sweep = run->sweep;
@@ -92,10 +92,10 @@ static int sweep_pose(const sweep_run *run, uint32_t member, const lrcs_host_sce
     while (at && status == LRCS_OK) {
         int glint = sweep->glint && at == scene;
         if (glint || !sweep->uncertainty) {
-            status = pose_sigma(run, member, at, &options, glint, one);
+            status = pose_sigma(run, worker, at, &options, glint, one);
         }
         if (status == LRCS_OK && sweep->uncertainty) {
-            status = pose_uncertainty(run, member, at, &options, one);
+            status = pose_uncertainty(run, worker, at, &options, one);
         }
         if (status == LRCS_OK && sweep->refine) {
             level = lrcsi_host_finer(scene, &options, &one->result, level);
@@ -110,7 +110,7 @@ static int sweep_pose(const sweep_run *run, uint32_t member, const lrcs_host_sce
 }
 
 /* Status: that of the first step that fails, with its sentence. */
-static int sweep_one(const sweep_run *run, uint32_t member, uint64_t index, sweep_slot *one)
+static int sweep_one(const sweep_run *run, uint32_t worker, uint64_t index, sweep_slot *one)
 {
     const lrcs_host_sweep *sweep = run->sweep;
     lrcs_host_scene own;
@@ -119,22 +119,22 @@ static int sweep_one(const sweep_run *run, uint32_t member, uint64_t index, swee
         return lrcsi_host_fail(&one->error, status, "%s", lrcs_status_text(status));
     }
     if (!sweep->scene) {
-        return sweep_pose(run, member, run->scene, one);
+        return sweep_pose(run, worker, run->scene, one);
     }
     memset(&own, 0, sizeof own);
     status = sweep->scene(sweep->context, index, &own, &one->error);
     if (status == LRCS_OK) {
-        status = sweep_pose(run, member, &own, one);
+        status = sweep_pose(run, worker, &own, one);
         lrcs_host_scene_free(&own);
     }
     return status;
 }
 
-static void sweep_work(void *context, uint32_t member, uint64_t index, void *slot)
+static void sweep_work(void *context, uint32_t worker, uint64_t index, void *slot)
 {
     const sweep_run *run = context;
     sweep_slot *one = slot;
-    one->status = sweep_one(run, member, index, one);
+    one->status = sweep_one(run, worker, index, one);
     one->crowded = run->threads > 1 &&
                    (one->status == LRCS_E_SYSTEM || one->status == LRCS_E_MEMORY ||
                     (one->status == LRCS_OK && (one->result.flags & LRCS_FLAG_MEMORY_FALLBACK)));
@@ -176,7 +176,7 @@ static int sweep_threads_run(sweep_run *run, uint64_t *taken)
     uint64_t done = 0;
     lrcsi_workers workers = {.first = sweep->first + *taken,
                              .count = sweep->count - *taken,
-                             .members = run->threads,
+                             .threads = run->threads,
                              .slot_size = sizeof(sweep_slot),
                              .context = run,
                              .work = sweep_work,
