@@ -9,7 +9,7 @@ core='base mesh optics scene view visibility integrate'
 layers="$core analysis host cli"
 # Public headers above the core: of analysis, and of the host layer.
 analysis_headers="distribution|emulate|fit|quadric|sequence"
-host_headers="chart|conformance|convergence|explain|file|glint|host|kit|load|picture|plan|readings|rows|shares|sweep|sweep_chart|sweep_file|table|track|write"
+host_headers="chart|conformance|convergence|explain|file|glint|host|inventory|kit|load|picture|plan|readings|rows|shares|sweep|sweep_chart|sweep_file|table|track|write"
 core_headers='float.h limits.h math.h stddef.h stdint.h string.h'
 public_headers='stddef.h stdint.h'
 CC=${CC:-cc}

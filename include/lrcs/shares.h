@@ -43,4 +43,7 @@ int lrcs_host_shares_make(const lrcs_host_scene *base, const lrcs_scene *scene,
                           lrcs_host_shares *shares, lrcs_host_error *error);
 void lrcs_host_shares_free(lrcs_host_shares *shares);
 
+/* The sum of rows from .. count - 1 of a list, without a name. */
+lrcs_host_share lrcs_host_shares_sum(const lrcs_host_share *row, uint32_t from, uint32_t count);
+
 #endif

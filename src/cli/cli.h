@@ -266,13 +266,6 @@ int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_hos
 /* The name of a scene's material as it is printed: "(default)" if it has none. */
 const char *cli_material_name(const lrcs_material *material);
 
-/* A compensated sum with its carry. */
-typedef struct cli_sum {
-    double value, low;
-} cli_sum;
-void cli_sum_add(cli_sum *sum, double value);
-double cli_sum_value(const cli_sum *sum);
-
 /* A value >= 0 as it is, or NAN, which no output shows as a number, for one that is not known. */
 double cli_known(double value);
 

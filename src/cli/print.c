@@ -1,26 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Output functions that several commands use, compensated sums, and the clock. */
+/* Output functions that several commands use, and the clock. */
 #include "cli/cli.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
-
-/* A. Neumaier, Z. Angew. Math. Mech. 54 (1974) 39. */
-void cli_sum_add(cli_sum *sum, double value)
-{
-    double total = sum->value + value;
-    sum->low += fabs(sum->value) >= fabs(value) ? (sum->value - total) + value
-                                                : (value - total) + sum->value;
-    sum->value = total;
-}
-
-double cli_sum_value(const cli_sum *sum)
-{
-    return sum->value + sum->low;
-}
 
 double cli_known(double value)
 {

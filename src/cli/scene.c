@@ -2,7 +2,9 @@
 /* lrcs scene: writes a scene file made from a model, to be edited: its parts, its materials with
    their colours, and every number that is assumed for them. As written it is equivalent to the
    model alone: the same facets, materials and sigma. */
-#include "cli/info/info.h"
+#include "cli/cli.h"
+
+#include <lrcs/inventory.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -385,7 +387,7 @@ static int scene_make(scene_job *job)
     if (job->facets && job->area && out) {
         for (uint32_t i = 0; i < scene->facet_count; i++) {
             job->facets[scene->facet_material[i]]++;
-            job->area[scene->facet_material[i]] += cli_facet_area(scene, i);
+            job->area[scene->facet_material[i]] += lrcs_host_facet_area(scene, i);
         }
         scene_put(job, out);
     }

@@ -38,22 +38,6 @@ uint32_t cli_shares_named(const cli_shares *shares, const shares_row *row, uint3
     return named;
 }
 
-shares_row cli_shares_others(const shares_row *row, uint32_t from, uint32_t count)
-{
-    cli_sum sum[3] = {{0.0, 0.0}};
-    shares_row others = {.name = NULL};
-    for (uint32_t i = from; i < count; i++) {
-        cli_sum_add(&sum[0], row[i].sigma_m2);
-        cli_sum_add(&sum[1], row[i].glint_m2);
-        cli_sum_add(&sum[2], row[i].diffuse_m2);
-        others.facets += row[i].facets;
-    }
-    others.sigma_m2 = cli_sum_value(&sum[0]);
-    others.glint_m2 = cli_sum_value(&sum[1]);
-    others.diffuse_m2 = cli_sum_value(&sum[2]);
-    return others;
-}
-
 /* ---- the table ---- */
 
 /* Prints a share in percent; "-" if it is not defined. */
@@ -86,7 +70,7 @@ static void rows_table(const cli_shares *shares, const char *what, const shares_
     }
     if (shown < count) {
         char text[32];
-        shares_row others = cli_shares_others(row, shown, count);
+        shares_row others = lrcs_host_shares_sum(row, shown, count);
         snprintf(text, sizeof text, "%lu other%s", (unsigned long)(count - shown),
                  count - shown > 1 ? "s" : "");
         printf("  %-*s", NAME_WIDTH, text);

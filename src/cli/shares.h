@@ -22,11 +22,9 @@ int cli_shares_make(const lrcs_host_scene *base, const lrcs_scene *scene,
 double cli_share_of(const cli_shares *shares, double part_m2);
 
 /* The number of rows of a list that are shown: at most SHARES_ROWS, only those that contribute.
-   The number named in one line: at most three, until they make 95 % of sigma. And the sum of the
-   others, and how many facets they have. */
+   The number named in one line: at most three, until they make 95 % of sigma. */
 uint32_t cli_shares_shown(const shares_row *row, uint32_t count);
 uint32_t cli_shares_named(const cli_shares *shares, const shares_row *row, uint32_t count);
-shares_row cli_shares_others(const shares_row *row, uint32_t from, uint32_t count);
 
 /* Prints the shares on stdout as a table, and as the key "shares" of an open object. */
 void cli_shares_table(const cli_shares *shares);

@@ -36,6 +36,7 @@ NEVER = {
     "lrcs_pose_from_euler": {"LRCS_E_ARGUMENT"},
     # a surface that is refused is not claimed
     "lrcs_quadric_find": {"LRCS_E_ARGUMENT", "LRCS_E_NUMBER"},
+    "lrcs_host_surfaces_find": {"LRCS_E_ARGUMENT", "LRCS_E_NUMBER"},
     # the pictures they write are of one size, and not too large
     "lrcs_host_chart_png": {"LRCS_E_ARGUMENT", "LRCS_E_LIMIT"},
     "lrcs_host_map_png": {"LRCS_E_ARGUMENT", "LRCS_E_LIMIT"},

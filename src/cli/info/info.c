@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/info/surfaces.h"
-
 static const char info_help[] =
     "usage: lrcs info SCENE [--unit U] [--material [WHAT=]BRDF] [--two-sided WHAT]\n"
     "                 [--keep-transparent] [--json]\n"
@@ -31,19 +29,41 @@ static const cli_option info_options[] = {
     {"json", 0, 0}, {"keep-transparent", 0, 0}, {"help", 0, 0},
     {NULL, 0, 0}};
 
+typedef struct info_job {
+    lrcs_host_scene scene;
+    lrcs_host_inventory all;
+    lrcs_host_surfaces surfaces;
+} info_job;
+
+int cli_inventory_make(const cli_args *args, const lrcs_host_scene *base, const lrcs_scene *scene,
+                       lrcs_host_inventory *inventory)
+{
+    lrcs_host_error error;
+    return lrcs_host_inventory_make(base, scene, inventory, &error) == LRCS_OK
+               ? 0
+               : cli_fail("%s: %s", args->operand, error.text);
+}
+
+int cli_material_listed(const lrcs_host_inventory *inventory, const lrcs_scene *scene,
+                        uint32_t material)
+{
+    return inventory->material[material].facets > 0 || scene->material[material].name[0];
+}
+
 /* ---- JSON ---- */
 
-static void info_json(const cli_args *args, const cli_info *info, const cli_surfaces *surfaces)
+static void info_json(const cli_args *args, const info_job *info)
 {
     const lrcs_scene *scene = &info->scene.scene;
-    const lrcs_mesh_report *report = &info->report;
-    char text[INFO_NOTICE_SIZE], colour[CLI_COLOUR_TEXT];
+    const lrcs_host_inventory *all = &info->all;
+    const lrcs_mesh_report *report = &all->report;
+    char text[LRCS_HOST_INVENTORY_NOTICE], colour[CLI_COLOUR_TEXT];
     lrcs_host_json json = lrcs_host_json_make(stdout);
     lrcs_host_json_put(&json, "{\n");
     cli_version_json(&json);
     cli_files_json(&info->scene, &json);
     lrcs_host_json_put(&json, "unit=%s parts=%u vertices=%u facets=%u area_m2=%g volume_m3=%g",
-                       cli_scene_unit(args, &info->scene), info->parts, scene->vertex_count,
+                       cli_scene_unit(args, &info->scene), all->parts, scene->vertex_count,
                        scene->facet_count, report->area, report->volume);
     lrcs_host_json_numbers(&json, "box_min_m", report->box_min, 3);
     lrcs_host_json_numbers(&json, "box_max_m", report->box_max, 3);
@@ -51,13 +71,13 @@ static void info_json(const cli_args *args, const cli_info *info, const cli_surf
     lrcs_host_json_put(&json, "materials=[\n");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *material = &scene->material[i];
-        if (!cli_info_shows(info, i)) {
+        if (!cli_material_listed(all, scene, i)) {
             continue;
         }
         cli_colour_text(material->rgb, colour);
         lrcs_host_json_put(&json, "{name=%s colour=%s facets=%u area_m2=%g brdf={", material->name,
-                           material->has_colour ? colour : NULL, info->material[i].facets,
-                           cli_sum_value(&info->material[i].area));
+                           material->has_colour ? colour : NULL, all->material[i].facets,
+                           all->material[i].area_m2);
         cli_brdf_json(&material->brdf, &json);
         lrcs_host_json_put(&json, "}}");
     }
@@ -66,8 +86,8 @@ static void info_json(const cli_args *args, const cli_info *info, const cli_surf
                        "nonmanifold_edges=%u} glint=[\n",
                        report->degenerate, report->duplicate, report->opposite_pairs,
                        report->boundary_edges, report->nonmanifold_edges);
-    for (uint32_t i = 0; i < info->glint_count; i++) {
-        const lrcs_host_glint *glint = &info->glint[i];
+    for (uint32_t i = 0; i < all->glint_count; i++) {
+        const lrcs_host_glint *glint = &all->glint[i];
         lrcs_host_json_put(
             &json, "{part=%s material=%s s=%g turn_estimate_deg=%g relative_error_estimate=%g",
             scene->part[glint->part].name, scene->material[glint->material].name, glint->s,
@@ -76,11 +96,11 @@ static void info_json(const cli_args *args, const cli_info *info, const cli_surf
                            glint->around_1_percent, glint->around_01_percent);
     }
     lrcs_host_json_put(&json, "]");
-    cli_surfaces_json(surfaces, scene, &json);
+    cli_surfaces_json(&info->surfaces, scene, &json);
     lrcs_host_json_put(&json, "notices=[\n");
     cli_notices_json(&info->scene.notices, &json);
-    for (int i = 0; i < INFO_NOTICES; i++) {
-        const char *notice = cli_info_notice(info, i, text);
+    for (int i = 0; i < LRCS_HOST_INVENTORY_NOTICES; i++) {
+        const char *notice = lrcs_host_inventory_notice(all, scene, i, text);
         if (notice) {
             lrcs_host_json_text(&json, NULL, notice);
         }
@@ -92,22 +112,22 @@ static void info_json(const cli_args *args, const cli_info *info, const cli_surf
 
 /* ---- the table ---- */
 
-static void table_materials(const cli_info *info)
+static void table_materials(const lrcs_host_inventory *all, const lrcs_scene *scene)
 {
     printf("materials\n  %-24s %-8s %9s %12s  %s\n", "name", "colour", "facets", "area m2",
            "A,B,s,m");
-    for (uint32_t i = 0; i < info->scene.scene.material_count; i++) {
-        const lrcs_material *material = &info->scene.scene.material[i];
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const lrcs_material *material = &scene->material[i];
         char colour[CLI_COLOUR_TEXT];
-        if (!cli_info_shows(info, i)) {
+        if (!cli_material_listed(all, scene, i)) {
             continue;
         }
         printf("  ");
         cli_column(cli_material_name(material), 24);
         printf(" %-8s %9lu %12.6g  %g,%g,%g,%g%s%s%s\n",
                material->has_colour ? cli_colour_text(material->rgb, colour) : "-",
-               (unsigned long)info->material[i].facets, cli_sum_value(&info->material[i].area),
-               material->brdf.A, material->brdf.B, material->brdf.s, material->brdf.m,
+               (unsigned long)all->material[i].facets, all->material[i].area_m2, material->brdf.A,
+               material->brdf.B, material->brdf.s, material->brdf.m,
                material->bound                                    ? ""
                : strcmp(cli_material_source(material), "default") ? "  (assumed)"
                                                                   : "  (unbound)",
@@ -115,18 +135,17 @@ static void table_materials(const cli_info *info)
     }
 }
 
-static void table_glint(const cli_info *info)
+static void table_glint(const lrcs_host_inventory *all, const lrcs_scene *scene)
 {
-    const lrcs_scene *scene = &info->scene.scene;
-    if (info->glint_count == 0) {
+    if (all->glint_count == 0) {
         printf("glint        no curved part with smoothing groups or vertex normals\n");
         return;
     }
     printf("glint        estimates for curved parts; N: facets around a full turn\n"
            "  %-20s %-20s %6s %9s %9s %8s %8s\n",
            "part", "material", "s", "turn deg", "error", "N 1 %", "N 0.1 %");
-    for (uint32_t i = 0; i < info->glint_count; i++) {
-        const lrcs_host_glint *glint = &info->glint[i];
+    for (uint32_t i = 0; i < all->glint_count; i++) {
+        const lrcs_host_glint *glint = &all->glint[i];
         printf("  ");
         cli_column(scene->part[glint->part].name, 20);
         printf(" ");
@@ -137,13 +156,14 @@ static void table_glint(const cli_info *info)
     }
 }
 
-static void info_table(const cli_info *info, const cli_surfaces *surfaces, const char *operand)
+static void info_table(const info_job *info, const char *operand)
 {
     const lrcs_scene *scene = &info->scene.scene;
-    const lrcs_mesh_report *r = &info->report;
-    char text[INFO_NOTICE_SIZE];
+    const lrcs_host_inventory *all = &info->all;
+    const lrcs_mesh_report *r = &all->report;
+    char text[LRCS_HOST_INVENTORY_NOTICE];
     printf("scene        %s\nparts        %lu\nvertices     %lu\nfacets       %lu\n", operand,
-           (unsigned long)info->parts, (unsigned long)scene->vertex_count,
+           (unsigned long)all->parts, (unsigned long)scene->vertex_count,
            (unsigned long)scene->facet_count);
     printf("area         %.10g m2\nvolume       %.10g m3%s\n", r->area, r->volume,
            r->closed ? "" : "   (not closed)");
@@ -151,17 +171,17 @@ static void info_table(const cli_info *info, const cli_surfaces *surfaces, const
            r->box_min[2], r->box_max[0], r->box_max[1], r->box_max[2]);
     printf("closed       %s\nconvex       %s\n", r->closed ? "yes" : "no",
            r->convex ? "yes" : "no");
-    table_materials(info);
+    table_materials(all, scene);
     printf("defects      %lu degenerate, %lu duplicate (%lu facing the other way), "
            "%lu boundary edges, %lu non-manifold edges\n",
            (unsigned long)r->degenerate, (unsigned long)r->duplicate,
            (unsigned long)r->opposite_pairs, (unsigned long)r->boundary_edges,
            (unsigned long)r->nonmanifold_edges);
-    table_glint(info);
-    cli_surfaces_table(surfaces, scene);
+    table_glint(all, scene);
+    cli_surfaces_table(&info->surfaces, scene);
     cli_notices_print(stdout, &info->scene.notices);
-    for (int i = 0; i < INFO_NOTICES; i++) {
-        const char *notice = cli_info_notice(info, i, text);
+    for (int i = 0; i < LRCS_HOST_INVENTORY_NOTICES; i++) {
+        const char *notice = lrcs_host_inventory_notice(all, scene, i, text);
         if (notice) {
             printf("notice: %s\n", notice);
         }
@@ -170,21 +190,28 @@ static void info_table(const cli_info *info, const cli_surfaces *surfaces, const
 
 static int info_command(const cli_args *args)
 {
-    cli_info info;
-    cli_surfaces surfaces = {NULL, 0};
+    info_job info;
     lrcs_host_options options;
+    lrcs_host_error error;
     memset(&info, 0, sizeof info);
     int code = cli_scene_options_read(args, &options);
-    code = code ? code : cli_info_read(args, &options, &info);
-    code = code ? code : cli_surfaces_find(&info.scene.scene, &surfaces);
+    options.build.normals = LRCS_NORMALS_SMOOTH;
+    code = code ? code : cli_scene_read(args, &options, &info.scene);
+    code = code ? code : cli_inventory_make(args, &info.scene, &info.scene.scene, &info.all);
+    cli_watch_stage("looking for planes, cylinders, spheres, cones", NULL);
+    if (code == 0 &&
+        lrcs_host_surfaces_find(&info.scene.scene, &info.surfaces, &error) != LRCS_OK) {
+        code = cli_failed(&error);
+    }
     cli_watch_end();
     if (code == 0 && cli_value(args, "json")) {
-        info_json(args, &info, &surfaces);
+        info_json(args, &info);
     } else if (code == 0) {
-        info_table(&info, &surfaces, args->operand);
+        info_table(&info, args->operand);
     }
-    free(surfaces.region);
-    cli_info_free(&info);
+    lrcs_host_surfaces_free(&info.surfaces);
+    lrcs_host_inventory_free(&info.all);
+    lrcs_host_scene_free(&info.scene);
     cli_scene_options_free(&options);
     return code;
 }

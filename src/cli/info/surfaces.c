@@ -1,20 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* Which facets are proved to lie on a plane, cylinder, sphere or cone: the table and the JSON of
    lrcs info. */
-#include "cli/info/surfaces.h"
+#include "cli/info/info.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <lrcs/glint.h>
-#include <lrcs/quadric.h>
 
 /* Rows of the table; the rest is counted. */
 #define SURFACE_ROWS 12u
 
-enum { SURFACE_KINDS = LRCS_QUADRIC_CONE + 1, PLACE_SIZE = 64 };
-static const char *const kind_text[SURFACE_KINDS] = {"plane", "cylinder", "sphere", "cone"};
+enum { PLACE_SIZE = 64 };
+static const char *const kind_text[LRCS_HOST_SURFACE_KINDS] = {"plane", "cylinder", "sphere",
+                                                               "cone"};
 
 /* A point or vector for people: what is below 1e-5 of its largest component or of `size` is 0. */
 static const char *place_text(const double x[3], double size, char text[PLACE_SIZE])
@@ -59,23 +55,12 @@ static void surface_row(const lrcs_scene *scene, const lrcs_quadric_region *regi
     }
 }
 
-void cli_surfaces_table(const cli_surfaces *surfaces, const lrcs_scene *scene)
+void cli_surfaces_table(const lrcs_host_surfaces *surfaces, const lrcs_scene *scene)
 {
-    static const char *const plural[SURFACE_KINDS] = {"planes", "cylinders", "spheres", "cones"};
-    cli_sum area[SURFACE_KINDS] = {{0}};
-    unsigned long facets[SURFACE_KINDS] = {0};
-    unsigned long regions[SURFACE_KINDS] = {0};
-    double most[SURFACE_KINDS] = {0};
+    static const char *const plural[LRCS_HOST_SURFACE_KINDS] = {"planes", "cylinders", "spheres",
+                                                                "cones"};
     const char *before = "surfaces     ";
     uint32_t models = 0;
-    for (uint32_t i = 0; i < surfaces->count; i++) {
-        const lrcs_quadric_region *region = &surfaces->region[i];
-        int kind = region->surface.kind;
-        cli_sum_add(&area[kind], region->area);
-        facets[kind] += region->facet_count;
-        regions[kind]++;
-        most[kind] = fmax(most[kind], region->bound.displacement);
-    }
     for (uint32_t i = 0; i < scene->part_count; i++) {
         models += scene->part[i].kind < 0;
     }
@@ -86,11 +71,12 @@ void cli_surfaces_table(const cli_surfaces *surfaces, const lrcs_scene *scene)
               stdout);
         return;
     }
-    for (int kind = 0; kind < SURFACE_KINDS; kind++) {
-        if (regions[kind] > 0) {
+    for (int i = 0; i < LRCS_HOST_SURFACE_KINDS; i++) {
+        const lrcs_host_surface_kind *kind = &surfaces->kind[i];
+        if (kind->regions > 0) {
             printf("%s%lu %s: %lu facets, %.6g m2, proved to lie within %.2g m of them\n", before,
-                   regions[kind], regions[kind] == 1 ? kind_text[kind] : plural[kind], facets[kind],
-                   cli_sum_value(&area[kind]), most[kind]);
+                   (unsigned long)kind->regions, kind->regions == 1 ? kind_text[i] : plural[i],
+                   (unsigned long)kind->facets, kind->area_m2, kind->displacement);
             before = "             ";
         }
     }
@@ -107,7 +93,8 @@ void cli_surfaces_table(const cli_surfaces *surfaces, const lrcs_scene *scene)
            "angle\n  between their normals; error: of the glint, an estimate\n");
 }
 
-void cli_surfaces_json(const cli_surfaces *surfaces, const lrcs_scene *scene, lrcs_host_json *json)
+void cli_surfaces_json(const lrcs_host_surfaces *surfaces, const lrcs_scene *scene,
+                       lrcs_host_json *json)
 {
     lrcs_host_json_begin(json, "surfaces", LRCS_HOST_ARRAY);
     for (uint32_t i = 0; i < surfaces->count; i++) {
@@ -140,25 +127,4 @@ void cli_surfaces_json(const cli_surfaces *surfaces, const lrcs_scene *scene, lr
                            region->bound.normal_angle * CLI_DEGREES, region->glint_error);
     }
     lrcs_host_json_end(json);
-}
-
-int cli_surfaces_find(const lrcs_scene *scene, cli_surfaces *surfaces)
-{
-    size_t need = lrcs_quadric_need(scene);
-    lrcs_quadric_region *list = NULL;
-    void *bytes = malloc(need);
-    lrcs_work work = lrcs_work_make(bytes, need);
-    cli_watch_stage("looking for planes, cylinders, spheres, cones", NULL);
-    int status =
-        bytes ? lrcs_quadric_find(scene, &work, &list, &surfaces->count, NULL) : LRCS_E_MEMORY;
-    if (status != LRCS_OK) {
-        free(bytes);
-        return cli_fail("%s", status == LRCS_E_MEMORY ? "out of memory" : lrcs_status_text(status));
-    }
-    surfaces->region = malloc((surfaces->count + (size_t)1) * sizeof *surfaces->region);
-    if (surfaces->region) {
-        memcpy(surfaces->region, list, surfaces->count * sizeof *surfaces->region);
-    }
-    free(bytes);
-    return surfaces->region ? 0 : cli_fail("out of memory");
 }

@@ -93,7 +93,7 @@ static void most_cell(FILE *out, const cli_shares *shares, const shares_row *row
         cli_page_name(out, row[i].name, nameless);
         cli_page(out, "\xc2\xa0%f", cli_share_of(shares, row[i].sigma_m2));
     }
-    shares_row others = cli_shares_others(row, named, count);
+    shares_row others = lrcs_host_shares_sum(row, named, count);
     if (others.sigma_m2 > 0.0) {
         cli_page(out, ", %u other%s\xc2\xa0%f", count - named, count - named > 1 ? "s" : "",
                  cli_share_of(shares, others.sigma_m2));

@@ -140,7 +140,15 @@ static int report_measure(report_job *job, int explore)
         code = cli_scene_prepare(&job->scene);
         return code ? code : cli_report_map(job);
     }
-    code = code ? code : cli_info_make(job->args, &job->scene, &job->load.build, &job->info);
+    if (code == 0) {
+        lrcs_host_error error;
+        lrcs_build_options smooth = job->load.build;
+        smooth.normals = LRCS_NORMALS_SMOOTH;
+        code = lrcs_host_scene_vary(&job->scene, &job->scene.recipe, &smooth, &job->info_scene,
+                                    &error) == LRCS_OK
+                   ? cli_inventory_make(job->args, &job->scene, &job->info_scene.scene, &job->info)
+                   : cli_failed(&error);
+    }
     cli_watch_stage("pose and pictures", &job->scene);
     code = code ? code : cli_report_run(job);
     code = code ? code : cli_report_verdict_make(job);
@@ -169,7 +177,8 @@ static void report_free(report_job *job)
     free(job->records);
     free(job->image.facet);
     lrcs_host_shares_free(&job->shares);
-    cli_info_free(&job->info);
+    lrcs_host_inventory_free(&job->info);
+    lrcs_host_scene_free(&job->info_scene);
     lrcs_host_scene_free(&job->sweep_scene);
     lrcs_host_scene_free(&job->scene);
     cli_scene_options_free(&job->load);

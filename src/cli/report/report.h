@@ -45,7 +45,8 @@ typedef struct report_job {
     lrcs_pose pose;
     lrcs_run_options options;
     lrcs_host_options load;
-    cli_info info;
+    lrcs_host_scene info_scene; /* with the normals of its files */
+    lrcs_host_inventory info;
     lrcs_host_scene scene; /* of the run */
     lrcs_result result;
     lrcs_facet_record *records;

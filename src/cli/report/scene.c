@@ -18,7 +18,7 @@ static void fold_end(FILE *out, uint32_t more)
 
 static void model_facts(FILE *out, const report_job *job)
 {
-    const lrcs_scene *scene = &job->info.scene.scene;
+    const lrcs_scene *scene = &job->info_scene.scene;
     const lrcs_mesh_report *r = &job->info.report;
     fputs("<dl class=\"facts\">\n", out);
     cli_page_fact(out, "Parts", "%u", job->info.parts);
@@ -46,9 +46,8 @@ static void model_facts(FILE *out, const report_job *job)
     fputs("</dl>\n</details>\n", out);
 }
 
-static void model_glint(FILE *out, const cli_info *info)
+static void model_glint(FILE *out, const lrcs_host_inventory *info, const lrcs_scene *scene)
 {
-    const lrcs_scene *scene = &info->scene.scene;
     if (info->glint_count == 0) {
         return;
     }
@@ -71,7 +70,7 @@ static void model_glint(FILE *out, const cli_info *info)
 
 /* ---- materials ---- */
 
-static void material_row(FILE *out, const lrcs_material *material, const info_material *found)
+static void material_row(FILE *out, const lrcs_material *material, uint32_t facets, double area_m2)
 {
     fputs("\n<tr><td class=\"name\">", out);
     if (material->has_colour) {
@@ -80,8 +79,8 @@ static void material_row(FILE *out, const lrcs_material *material, const info_ma
     }
     cli_page_name(out, material->name, "(default)");
     fputs("</td>", out);
-    cli_page_cells(out, "%u%.6g%.6g%.6g%.6g%.6g", found->facets, cli_sum_value(&found->area),
-                   material->brdf.A, material->brdf.B, material->brdf.s, material->brdf.m);
+    cli_page_cells(out, "%u%.6g%.6g%.6g%.6g%.6g", facets, area_m2, material->brdf.A,
+                   material->brdf.B, material->brdf.s, material->brdf.m);
     fprintf(out, "<td>%s%s%s</td></tr>",
             material->bound                                    ? ""
             : strcmp(cli_material_source(material), "default") ? "assumed"
@@ -91,7 +90,7 @@ static void material_row(FILE *out, const lrcs_material *material, const info_ma
 
 static void materials_section(FILE *out, const report_job *job)
 {
-    const lrcs_scene *scene = &job->info.scene.scene;
+    const lrcs_scene *scene = &job->info_scene.scene;
     uint32_t shown = 0;
     uint32_t more = 0;
     cli_page_section(out, "materials", "Materials");
@@ -104,11 +103,12 @@ static void materials_section(FILE *out, const report_job *job)
     cli_page_fold(out, "Materials, their areas and numbers");
     cli_page_table(out, "Materials", "Material|#Facets|#Area, m\xc2\xb2|#A|#B|#s|#m|Remarks");
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        if (cli_info_shows(&job->info, i) && shown < REPORT_ROWS) {
-            material_row(out, &scene->material[i], &job->info.material[i]);
+        if (cli_material_listed(&job->info, scene, i) && shown < REPORT_ROWS) {
+            material_row(out, &scene->material[i], job->info.material[i].facets,
+                         job->info.material[i].area_m2);
             shown++;
         } else {
-            more += cli_info_shows(&job->info, i) ? 1 : 0;
+            more += cli_material_listed(&job->info, scene, i) ? 1 : 0;
         }
     }
     cli_page_table_end(out);
@@ -121,7 +121,7 @@ static void materials_section(FILE *out, const report_job *job)
 void cli_report_notices(FILE *out, const report_job *job)
 {
     const lrcs_host_notices *notices = &job->scene.notices;
-    char text[INFO_NOTICE_SIZE];
+    char text[LRCS_HOST_INVENTORY_NOTICE];
     uint32_t count = notices->count;
     cli_page_section(out, "notices", "Warnings and notices");
     fputs("<ul class=\"notices\">\n", out);
@@ -133,8 +133,9 @@ void cli_report_notices(FILE *out, const report_job *job)
     for (uint32_t i = 0; i < notices->count; i++) {
         cli_page(out, "<li>%s</li>\n", notices->text[i]);
     }
-    for (int i = 0; i < INFO_NOTICES; i++) {
-        const char *notice = cli_info_notice(&job->info, i, text);
+    for (int i = 0; i < LRCS_HOST_INVENTORY_NOTICES; i++) {
+        const char *notice =
+            lrcs_host_inventory_notice(&job->info, &job->info_scene.scene, i, text);
         if (notice) {
             cli_page(out, "<li>%s</li>\n", notice);
             count++;
@@ -152,7 +153,7 @@ void cli_report_scene(FILE *out, const report_job *job)
 {
     cli_page_section(out, "model", "Model");
     model_facts(out, job);
-    model_glint(out, &job->info);
+    model_glint(out, &job->info, &job->info_scene.scene);
     fputs("</section>\n", out);
     materials_section(out, job);
 }

@@ -145,7 +145,7 @@ static void share_table(FILE *out, const cli_shares *shares, const char *label, 
         share_cells(out, shares, &row[i]);
     }
     if (shown < count) {
-        shares_row others = cli_shares_others(row, shown, count);
+        shares_row others = lrcs_host_shares_sum(row, shown, count);
         cli_page(out, "\n<tr class=\"others\"><td class=\"name\">%u other%s</td>", count - shown,
                  count - shown > 1 ? "s" : "");
         share_cells(out, shares, &others);

@@ -111,7 +111,7 @@ static void rows_print(const cli_shares *shares, const char *what, const shares_
         cli_column(row[i].name[0] ? row[i].name : nameless, 0);
         printf(" %.1f %%", 100.0 * cli_share_of(shares, row[i].sigma_m2));
     }
-    shares_row others = cli_shares_others(row, named, count);
+    shares_row others = lrcs_host_shares_sum(row, named, count);
     if (others.sigma_m2 > 0.0) {
         printf(", %lu other%s %.1f %%", (unsigned long)(count - named),
                count - named > 1 ? "s" : "", 100.0 * cli_share_of(shares, others.sigma_m2));

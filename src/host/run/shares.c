@@ -275,3 +275,19 @@ int lrcs_host_shares_make(const lrcs_host_scene *base, const lrcs_scene *scene,
     }
     return LRCS_OK;
 }
+
+lrcs_host_share lrcs_host_shares_sum(const lrcs_host_share *row, uint32_t from, uint32_t count)
+{
+    lrcsi_sum sum[3] = {{0.0, 0.0}};
+    lrcs_host_share others = {.name = NULL};
+    for (uint32_t i = from; i < count; i++) {
+        lrcsi_sum_add(&sum[0], row[i].sigma_m2);
+        lrcsi_sum_add(&sum[1], row[i].glint_m2);
+        lrcsi_sum_add(&sum[2], row[i].diffuse_m2);
+        others.facets += row[i].facets;
+    }
+    others.sigma_m2 = lrcsi_sum_value(&sum[0]);
+    others.glint_m2 = lrcsi_sum_value(&sum[1]);
+    others.diffuse_m2 = lrcsi_sum_value(&sum[2]);
+    return others;
+}
