@@ -128,8 +128,8 @@ int lrcs_host_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                         lrcs_host_error *error);
 
 /* If a pose of a prepared scene that was read with a division misses its tolerance because of the
-   curved shapes' facets, those parts are divided more finely that are the cause, and the scene is
-   prepared again: with it the pose is likely to meet the tolerance.
+   curved shapes' facets, the parts that cause most of the tessellation bound are divided more
+   finely, and the scene is prepared again: with it the pose is likely to meet the tolerance.
    Given: the options, with part_error_m2 as the run wrote it (NULL: all curved parts are divided
    alike), and what the run returned. Returned: 1 if so, and build->halvings, which lasts as long as
    the scene; else 0, also if the shapes cannot be divided any finer. */

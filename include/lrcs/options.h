@@ -109,17 +109,19 @@ typedef struct lrcs_run_options {
    edges and contacts are not counted, nor are the pixels and searches of a raster, by method
    zbuffer, for an estimate or for lack of memory (examples/flight/README.md). lrcs_result.steps is
    the number that a run took.
-   4. For previews. With LRCS_ACCEPT_ESTIMATE auto clips if that is likely to cost little more than
-   a raster, and gives up after as many steps as fit in the time of the raster. Otherwise it draws a
-   raster; a finer one if the estimated error, estimate_m2, exceeds what the proved parts of the
-   bound (tessellation, rounding) leave of the tolerance; and it clips if no raster suffices. An
-   estimate counts only if all depths were decided, no limit of steps was reached and sigma is not
-   0. Such rasters, also with method zbuffer, cost no more than drawing them: their samples prove
-   nothing about areas, so that the bound, still proved, includes all of each facet that could be
-   visible or hidden (for fewer than 1,024 facets, with curved normals, or if there are curved
-   shapes among other parts, it is tighter, and costs more: there auto clips). An answer whose bound
-   meets the tolerance does not count as accepted by estimate. With LRCS_ACCEPT_ANY auto draws the
-   coarsest of those rasters and accepts the result: no tolerance is missed. */
+   4. For previews. With LRCS_ACCEPT_ESTIMATE method auto
+   - clips, if that is likely to cost little more than a raster, and gives up after as many steps as
+     fit in the time of the raster;
+   - otherwise draws a raster, and finer ones while the estimated error (estimate_m2) exceeds what
+     the proved parts of the bound (tessellation, rounding) leave of the tolerance;
+   - clips if no raster suffices.
+   An estimate is used only if all depths were decided, no limit of steps was reached and sigma is
+   not 0. An answer whose bound meets the tolerance does not count as accepted by estimate. These
+   rasters, also with method zbuffer, cost no more than drawing them: their samples prove nothing
+   about areas, so that the bound, still proved, includes all of each facet that could be visible or
+   hidden. For fewer than 1,024 facets, with curved normals, or if there are curved shapes among
+   other parts, the bound is tighter and costs more: there auto clips. With LRCS_ACCEPT_ANY auto
+   draws the coarsest of those rasters and accepts the result: no tolerance is missed. */
 lrcs_run_options lrcs_run_options_default(void);
 
 #endif

@@ -63,11 +63,13 @@ typedef struct lrcs_host_rows_head {
     uint32_t options;
 } lrcs_host_rows_head;
 
-/* The head of a plan's rows, with the fields of materials' errors and of coarse glints or without.
-   The caller adds what else the rows depend on: a text of a key, to which other texts of the same
-   key are joined by " and "; 0 if there is no room for all of it. */
+/* Starts the head of a plan's rows. materials, glint: 1 if the rows have the fields of materials'
+   errors, and of coarse glints. */
 void lrcs_host_rows_head_make(const lrcs_host_plan *plan, uint64_t scene_hash, int materials,
                               int glint, lrcs_host_rows_head *head);
+
+/* Adds "key=text", for what else the rows depend on; a second text of the same key is appended
+   after " and ". Returns 0 if the head is full. */
 int lrcs_host_rows_head_add(lrcs_host_rows_head *head, const char *key, const char *text);
 
 /* The text of a key, or NULL. */
@@ -89,22 +91,30 @@ typedef struct lrcs_host_tally {
     double mean, square, bound; /* mean of sigma; sum of squared deviations; sum of bounds */
 } lrcs_host_tally;
 
-/* Adds a row. And the standard error of the mean, as if directions were drawn at random; NAN of
-   fewer than two rows. */
+/* Adds a row. */
 void lrcs_host_tally_add(lrcs_host_tally *tally, const lrcs_host_row *row);
+
+/* The standard error of the mean, as if directions were drawn at random; NAN for fewer than two
+   rows. */
 double lrcs_host_tally_error(const lrcs_host_tally *tally);
 
 /* ---- writing ---- */
 
-/* The first lines; "; key=text" for each option of a head; one row; of one sphere a line with the
-   mean after the rows; and the last line, whose length depends on the format alone: the hash
-   (lrcs_host_hash) of all bytes before it. */
+/* The first lines. */
 void lrcs_host_rows_head_write(FILE *out, int format, const lrcs_host_rows_head *head,
                                const lrcs_host_plan *plan);
+
+/* "; key=text" for each option of a head. */
 void lrcs_host_rows_options_write(FILE *out, const lrcs_host_rows_head *head);
+
 void lrcs_host_row_write(FILE *out, int format, const lrcs_host_row_fields *fields,
                          const lrcs_host_plan *plan, const lrcs_host_row *row);
+
+/* The line with the mean, after the rows of a single sphere. */
 void lrcs_host_rows_mean_write(FILE *out, int format, const lrcs_host_tally *tally);
+
+/* The last line: the hash (lrcs_host_hash) of all bytes before it. Its length depends on the format
+   alone. */
 void lrcs_host_rows_sum_write(FILE *out, int format, uint64_t sum);
 
 /* ---- reading ---- */

@@ -32,30 +32,30 @@ typedef struct lrcs_part {
     lrcs_curvature curvature; /* of an engine-made shape; zero for a model */
     int curvature_known; /* 0 if rounding in placing left a facet with zero area, or a matrix given
                             as a rotation is not one; 1 for models (where it does not apply) */
-    double uneven;       /* a scale that differs between axes stretches areas unevenly: 1 + this
-                            bounds the ratio, either way, of the stretch at a point of a patch to
-                            its mean over the facet */
+    double stretch_err;  /* a scale that differs between axes stretches areas unevenly: 1 + this
+                       bounds the ratio, either way, of the stretch at a point of a patch to
+                       its mean over the facet */
     int convex_patch;    /* a piece of a convex surface by construction, up to rounding */
     int solid;           /* a closed outward solid by construction, up to rounding */
-    double thinnest;     /* m, smallest extent of such a shape; 0 for plate and disc */
-    double misplaced;    /* m, bound on the rounding error of its placed vertices */
-    double tilted;    /* rad, bound on the rotation of facet normals by rounding in placing, where
-                         reach > 0; included in curvature */
-    double reach;     /* m, bound on the distance of a point of the true surface from its image on
-                         the facets; 0 if the facets are the truth */
-    double hausdorff; /* m, where reach > 0: bound on the distance of any point of the true solid
-                         (of an open shape, of the true surface) from the facets' solid (from the
-                         facets), and the reverse */
-    double displaced[3]; /* m, of a rigid shape's curved wall: bounds on the radial, axial and
+    double min_extent;   /* m, smallest extent of such a shape; 0 for plate and disc */
+    double position_err; /* m, bound on the rounding error of its placed vertices */
+    double normal_err; /* rad, bound on the rotation of facet normals by rounding in placing, where
+                      reach > 0; included in curvature */
+    double reach;      /* m, bound on the distance of a point of the true surface from its image on
+                          the facets; 0 if the facets are the truth */
+    double hausdorff;  /* m, where reach > 0: bound on the distance of any point of the true solid
+                          (of an open shape, of the true surface) from the facets' solid (from the
+                          facets), and the reverse */
+    double displacement[3]; /* m, of a rigid shape's curved wall: bounds on the radial, axial and
                             tangential components of that distance */
-    int articulated;     /* has a joint */
-    int smoothed;        /* its model has smoothing groups or vertex normals */
+    int articulated;        /* has a joint */
+    int smoothed;           /* its model has smoothing groups or vertex normals */
     int rigid;        /* an engine-made shape placed by rotations, reflections and one scale for all
                          axes: the fields below are valid, and its closed form may be used */
     lrcs_shape shape; /* in its own units */
     lrcs_divisions divisions; /* of its mesh */
     double unit;              /* metres per unit */
-    double origin[3];         /* m, position of its origin, to within `misplaced` */
+    double origin[3];         /* m, position of its origin, to within `position_err` */
     /* Its x, y and z axes in the body frame: unit vectors, rounded; axis + axis_low is accurate to
        2^-97. The truth is the shape rotated by the rotations nearest to the matrices given. */
     double axis[3][3];
@@ -109,12 +109,12 @@ enum lrcs_facets_only {
 
 /* How shapes are tessellated; the material comes from the recipe. */
 typedef struct lrcs_build_options {
-    double tolerance;    /* relative, > 0, for a shape alone; among other parts, small shapes may be
-                            coarser. There each facet of a curved wall counts with the mean over the
-                            true surface, so that only shadows require facets: a sphere, dome
-                            or paraboloid is tessellated for 1e-4 at the finest. Where a scale
-                            differs between axes the facets' normals count, and those are
-                            tessellated for ten times the tolerance, at least 1e-4 */
+    double tolerance;    /* relative, > 0. A shape alone is tessellated for this tolerance. Among
+                            other parts small shapes may be coarser, and each facet of a curved wall
+                            counts with the mean over the true surface, so that only shadows require
+                            facets: a sphere, dome or paraboloid is tessellated for 1e-4 at the
+                            finest; where a scale differs between axes, for ten times the tolerance,
+                            at least 1e-4 */
     uint32_t max_facets; /* limit for one shape */
     int normals;         /* lrcs_normals */
     int facets_only;     /* lrcs_facets_only */

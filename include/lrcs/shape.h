@@ -81,7 +81,7 @@ int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_
      the true normal deviates from the facet's normal by at most `turn` (rad);
      |patch area - facet area| <= area_error * facet area;
      |integral over the patch of the turn vector (rad, in the facet's plane)| <= bias * facet area;
-     integral over the patch of the squared turn (rad^2) <= spread^2 * facet area.
+     integral over the patch of the squared turn (rad^2) <= rms_turn^2 * facet area.
    All are zero for polyhedra. The bounds hold for the exact dimensions and include the rounding of
    the mesh's own vertices. They are invariant under rigid motions, reflections and uniform scaling
    (the rounding of these is not included). */
@@ -89,7 +89,7 @@ typedef struct lrcs_curvature {
     double turn;
     double area_error;
     double bias;
-    double spread;
+    double rms_turn;
 } lrcs_curvature;
 
 /* How finely to tessellate. */

@@ -57,10 +57,15 @@ int lrcs_host_field_refuse(const lrcs_host_table *table, int status, uint32_t co
 /* ---- lines of keys ---- */
 
 /* A line "WORDS; key=text; key=text", whose texts may contain "; " too: each ends where the next
-   "; key=" begins. The place of the next "; key=", or NULL; the text of a key, cut at the size: 1,
-   or 0 if the key is missing; its number, or NAN. */
+   "; key=" begins. */
+
+/* The place of the next "; key=", or NULL. */
 char *lrcs_host_key_next(const char *line);
+
+/* Copies the text of a key, cut at the size. Returns 0 if the key is missing. */
 int lrcs_host_key_text(const char *line, const char *key, char *text, size_t size);
+
+/* The number of a key, or NAN. */
 double lrcs_host_key_number(const char *line, const char *key);
 
 /* Ends a JSON text, which begins at `at` after its quote, at its closing quote, each escaped

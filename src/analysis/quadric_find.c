@@ -24,7 +24,7 @@
 #include "base/vec3.h"
 #include "base/work.h"
 #include "mesh/topology.h"
-#include "optics/ripple.h"
+#include "optics/aliasing.h"
 
 /* The normals of neighbours differ by less than 37 deg: on a circle of facets that turn by more,
    the displacement exceeds LRCS_QUADRIC_SHARE. */
@@ -482,7 +482,7 @@ int lrcs_quadric_find(const lrcs_scene *scene, lrcs_work *work, lrcs_quadric_reg
         const lrcs_brdf *brdf = &scene->material[region.material].brdf;
         region.glint_error = region.surface.kind == LRCS_QUADRIC_PLANE || !(brdf->A > 0.0)
                                  ? 0.0
-                                 : lrcsi_ripple_error(2.0 * region.bound.normal_angle, brdf->s);
+                                 : lrcsi_aliasing_error(2.0 * region.bound.normal_angle, brdf->s);
         for (uint32_t k = 0; k < region.facet_count; k++) {
             f.region[f.best[k]] = used;
         }

@@ -174,7 +174,7 @@ static void exact_difference(const double a[3], const double b[3], lrcsi_dd d[3]
     }
 }
 
-int lrcsi_exact_turn(const double a[3], const double b[3], const double c[3], const double d[3])
+int lrcsi_exact_orient(const double a[3], const double b[3], const double c[3], const double d[3])
 {
     double p[3];
     double q[3];

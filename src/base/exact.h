@@ -10,7 +10,7 @@
 
 /* Sign (-1, 0, 1) of det(b - a, c - a, d), which is (b-a) x (c-a) . d: positive if a, b, c are in
    counter-clockwise order as seen with d pointing at the viewer. Exact. */
-int lrcsi_exact_turn(const double a[3], const double b[3], const double c[3], const double d[3]);
+int lrcsi_exact_orient(const double a[3], const double b[3], const double c[3], const double d[3]);
 
 /* Sign of det(b - a, c - a, p - a): positive if p lies on the side to which the normal
    (b-a) x (c-a) points, 0 if p lies in the plane. */

@@ -132,10 +132,10 @@ int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi
 
     /* 2. The bounds: first what holds for any l. */
     const double a = curvature->area_error;
-    double square = curvature->spread * curvature->spread;
+    double square = curvature->rms_turn * curvature->rms_turn;
     double steepest = (fabs(term[0].slope) + term[0].err + fabs(term[1].slope) + term[1].err) *
                       (p + 2 * LINEAR_NORMAL_ERR);
-    double spread = curvature->spread * sqrt(1 + a); /* the mean of gamma */
+    double spread = curvature->rms_turn * sqrt(1 + a); /* the mean of gamma */
     double region = 0.5 * square * second + steepest * curvature->turn * square / 6;
     double point =
         curvature->turn * curvature->turn * (0.5 * second + steepest * curvature->turn / 6);

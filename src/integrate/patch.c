@@ -224,7 +224,7 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lr
     f->area *= (part->rigid ? 1 : part->normal_area) / facets;
     frame_middle(f);
     f->negligible = patch->negligible / f->area;
-    patch->area_err = 2 * (lrcsi_profile_rounding(&profile, at->row) + part->tilted);
+    patch->area_err = 2 * (lrcsi_profile_rounding(&profile, at->row) + part->normal_err);
     return isfinite(f->area) && (!f->fourth || profile.step > 0);
 }
 

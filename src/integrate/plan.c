@@ -73,17 +73,17 @@ static void plan_method(lrcsi_plan *plan, const lrcsi_view *view, const lrcsi_cl
     int samples = samples_suffice(view, options);
     if (shadows_omitted(options)) {
         plan_choose(plan, LRCS_METHOD_FACET,
-                    options->method == LRCS_METHOD_FACET ? "as asked"
+                    options->method == LRCS_METHOD_FACET ? "as requested"
                                                          : "self-shadowing is left out on request");
     } else if (clear->all && !plan->shadows_forced && plan->no_back_hidden) {
         plan_choose(plan, LRCS_METHOD_CLOSED,
                     "every part is a shape that nothing hides: closed forms");
     } else if (options->method > LRCS_METHOD_FACET) {
-        plan_choose(plan, options->method, "as asked");
+        plan_choose(plan, options->method, "as requested");
     } else if (plan->nothing_hidden && !plan->shadows_forced) {
         plan_choose(plan, LRCS_METHOD_FACET, "proved convex and alone: nothing is hidden");
     } else if (options->resolution != 0) {
-        plan_choose(plan, LRCS_METHOD_ZBUFFER, "the raster asked for meets the tolerance");
+        plan_choose(plan, LRCS_METHOD_ZBUFFER, "the requested raster meets the tolerance");
     } else if (preview_tried(options) && (samples || options->accept == LRCS_ACCEPT_ANY)) {
         plan->previews = samples;
         plan_choose(plan, LRCS_METHOD_ZBUFFER, "any answer counts: the first raster");
@@ -93,7 +93,7 @@ static void plan_method(lrcsi_plan *plan, const lrcsi_view *view, const lrcsi_cl
     } else {
         plan_choose(plan, LRCS_METHOD_EXACT,
                     plan->nothing_hidden
-                        ? "self-shadowing is asked for"
+                        ? "self-shadowing is requested"
                         : "not proved convex and alone; clipping has the closest bound");
     }
     plan->samples_only = plan->method == LRCS_METHOD_ZBUFFER && samples;
@@ -138,7 +138,8 @@ static lrcs_effect shadowing_effect(const lrcs_prepared *p, const lrcsi_plan *pl
         return (lrcs_effect){0, "convex and alone: no front side is ever hidden"};
     }
     if (plan->method == LRCS_METHOD_FACET) {
-        return (lrcs_effect){0, "left out on request; the bound holds all that could be hidden"};
+        return (lrcs_effect){
+            0, "left out on request; the bound includes everything that could be hidden"};
     }
     if (plan->nothing_hidden) {
         return (lrcs_effect){1, "on request, though proved convex and alone"};
@@ -180,12 +181,12 @@ static lrcs_effect normals_effect(const lrcs_prepared *p)
                : given ? (lrcs_effect){0, "no model's facets turn too far for their glint"}
                        : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
     case LRCS_NORMALS_SMOOTH:
-        return p->smooth ? (lrcs_effect){1, "smoothing groups or vertex normals, as asked"}
+        return p->smooth ? (lrcs_effect){1, "smoothing groups or vertex normals, as requested"}
                : given   ? (lrcs_effect){0, "all smoothed facets are flat"}
                          : (lrcs_effect){0, "no model has smoothing groups or vertex normals"};
     default:
         return p->curved ? (lrcs_effect){0, "facets of models are flat; those of round shapes "
-                                            "stand for the true surface"}
+                                            "represent the true surface"}
                          : (lrcs_effect){0, "flat facets, as Eq. 2 over facets means"};
     }
 }
@@ -232,7 +233,7 @@ static lrcs_effect closed_effect(const lrcsi_view *view, const lrcsi_clear *clea
         return (lrcs_effect){1, "nothing hides some curved shapes: these count without facets"};
     }
     return clear->part ? (lrcs_effect){0, "every curved shape may be hidden in part"}
-           : p->extent ? (lrcs_effect){0, "facets were asked for"}
+           : p->extent ? (lrcs_effect){0, "facets were requested"}
            : p->curved ? (lrcs_effect){0, "no curved shape has one"}
                        : (lrcs_effect){0, "no part is a curved shape"};
 }
@@ -255,8 +256,7 @@ void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, const lr
         term_effect(plan->diffuse, p->diffuse, has_effect(seen, LRCS_EFFECT_DIFFUSE), &diffuse);
     effect[LRCS_EFFECT_CURVED_NORMALS] = normals_effect(p);
     effect[LRCS_EFFECT_TWO_SIDED] = two_sided_effect(view);
-    effect[LRCS_EFFECT_ARTICULATION] = p->articulated
-                                           ? (lrcs_effect){1, "a part stands on a joint"}
-                                           : (lrcs_effect){0, "no part stands on a joint"};
+    effect[LRCS_EFFECT_ARTICULATION] = p->articulated ? (lrcs_effect){1, "a part has a joint"}
+                                                      : (lrcs_effect){0, "no part has a joint"};
     effect[LRCS_EFFECT_CLOSED_FORMS] = closed_effect(view, clear);
 }

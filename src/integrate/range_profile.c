@@ -613,7 +613,7 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
         size_t facets = prepared->scene->facet_count;
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible)));
         need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
-        need = lrcsi_work_add(need, lrcsi_proximity_band_settle_need(prepared));
+        need = lrcsi_work_add(need, lrcsi_proximity_band_hidden_need(prepared));
     }
     return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
 }
@@ -708,7 +708,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
         return status;
     }
     if (run->band) {
-        lrcsi_proximity_band_settle(run->band, run->visible, NULL, work);
+        lrcsi_proximity_band_find_hidden(run->band, run->visible, NULL, work);
     }
     for (uint32_t facet = 0; facet < p->scene->facet_count; facet++) {
         if (!p->skip[facet]) {

@@ -59,11 +59,12 @@ static lrcsi_unit_response flat_response(const lrcs_brdf *unit, double u)
                                  .diffuse_m = at.diffuse * (-0.5 * lrcsi_log1p(u).hi)};
 }
 
-/* The response of a unit of area of a facet, computed as the sum of Eq. 2 computes it: from the
-   mean over its patch or, if there is none, from the flat facet. Whether there is a mean depends on
-   the amplitudes, so the patch is made with those of the sum (`own`), and its terms are divided by
-   them. A term of amplitude 0 is taken from the patch at amplitudes of 1 (`unit`) or, if that has
-   no mean, from the flat facet. patch[0] and patch[1] hold the last patch for either BRDF. */
+/* The response of a unit of area of a facet, computed as the sum of Eq. 2 computes it:
+   1. from the mean over its patch, made with the material's amplitudes (`own`), because whether
+      there is a mean depends on them; its terms are divided by them;
+   2. a term of amplitude 0 from the patch at amplitudes of 1 (`unit`);
+   3. from the flat facet where the patch in question has no mean.
+   patch[0] and patch[1] hold the last patch for either BRDF. */
 static lrcsi_unit_response facet_response(const lrcsi_view *view, const lrcsi_plan *plan,
                                           const lrcs_brdf *own, const lrcs_brdf *unit,
                                           uint32_t facet, double u, lrcsi_patch patch[2])

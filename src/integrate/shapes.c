@@ -19,7 +19,8 @@
 #define AXES_ERR 0x1p-95
 
 /* Adds the error that eta causes. */
-static void add_axis_error(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcsi_amount *amount)
+static void add_axis_error(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                           lrcsi_term_integrals *amount)
 {
     double s = brdf->s;
     double radius = fmax(shape->radius, shape->radius2);
@@ -54,7 +55,7 @@ lrcsi_shape_terms lrcsi_shape_terms_make(const lrcsi_view *view, const lrcsi_pla
     double unit = ldexp(placed->unit, -p->exponent);
     lrcsi_dd direction[3];
     shape_direction(view, placed, direction);
-    lrcsi_amount sum = {{0, 0}, {0, 0}};
+    lrcsi_term_integrals sum = {{0, 0}, {0, 0}};
     double silhouette = 0;
     if (lrcsi_closed_shape(&placed->shape, &brdf, direction, &sum, &silhouette) != LRCS_OK) {
         sum.error[LRCSI_GLINT] = HUGE_VAL; /* never: pose and shape have been checked */
@@ -80,7 +81,7 @@ static void unit_terms(const lrcs_shape *shape, const lrcsi_dd direction[3], dou
                        double out[2])
 {
     const lrcs_brdf brdf = {s > 0 ? 1 : 0, 1, s, m};
-    lrcsi_amount sum = {{0, 0}, {0, 0}};
+    lrcsi_term_integrals sum = {{0, 0}, {0, 0}};
     double silhouette = 0;
     (void)lrcsi_closed_shape(shape, &brdf, direction, &sum, &silhouette); /* checked before */
     out[0] = sum.value[LRCSI_GLINT];

@@ -81,7 +81,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
-    need = lrcsi_work_add(need, lrcsi_proximity_band_settle_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_proximity_band_hidden_need(prepared));
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
     size_t exact = lrcsi_occlude_need(prepared);
     size_t raster =
@@ -255,7 +255,7 @@ static void run_sum(lrcsi_sigma *run, lrcsi_meter *meter)
         }
     }
     if (run_band(run)) {
-        lrcsi_proximity_band_settle(&run->band, run->visible, meter, run->work);
+        lrcsi_proximity_band_find_hidden(&run->band, run->visible, meter, run->work);
     }
     run->outcome.total = run_total(run, NULL);
 }
@@ -513,7 +513,7 @@ static int run_shadowed(lrcsi_sigma *run)
         (run_acceptance(run) & LRCS_FLAG_TOLERANCE_NOT_MET)) {
         run->outcome.flags = 0;
         status =
-            run_exact(run, options->resolution != 0 ? "the raster asked for misses the tolerance"
+            run_exact(run, options->resolution != 0 ? "the requested raster misses the tolerance"
                                                     : "no raster's estimate meets the tolerance");
     }
     return status;

@@ -96,7 +96,7 @@ static lrcs_curvature patch_curvature(const lrcs_prepared *p, uint32_t facet)
     if (p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0) {
         return part->curvature;
     }
-    return part->tilted > 0 ? lrcsi_profile_rounded(&flat, part->tilted) : flat;
+    return part->normal_err > 0 ? lrcsi_profile_rounded(&flat, part->normal_err) : flat;
 }
 
 /* Does the back of a facet face the laser and reflect? The inside of a closed curved part is always
@@ -184,7 +184,7 @@ static patch_fractions patch_fractions_of(const lrcsi_incidence *incidence, uint
    over the patch. */
 static double patch_area_error(const lrcs_prepared *p, uint32_t facet, const lrcs_curvature *c)
 {
-    double uneven = patch_part(p, facet)->uneven;
+    double uneven = patch_part(p, facet)->stretch_err;
     return c->area_error + uneven + c->area_error * uneven;
 }
 
@@ -218,7 +218,7 @@ static lrcsi_deviation patch_deviation(const lrcsi_view *view, const lrcsi_plan 
         deviation.region += error;
         deviation.point += difference + *stretch * (mean + error);
         deviation.value = mean + error;
-        double uneven = patch_part(view->prepared, facet)->uneven;
+        double uneven = patch_part(view->prepared, facet)->stretch_err;
         *stretch = patch->area_err + uneven * (2 + uneven);
     }
     return deviation;

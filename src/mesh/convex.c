@@ -84,7 +84,7 @@ static void facet_axis(const double *a, const double *b, const double *c, double
         axis[0] = k == 0 ? 1.0 : 0.0;
         axis[1] = k == 1 ? 1.0 : 0.0;
         axis[2] = k == 2 ? 1.0 : 0.0;
-        *sign = lrcsi_exact_turn(a, b, c, axis);
+        *sign = lrcsi_exact_orient(a, b, c, axis);
         if (*sign != 0) {
             return;
         }
@@ -99,7 +99,7 @@ static int turn_in_plane(const double *a, const double *b, const double *c, cons
     double axis[3];
     int sign;
     facet_axis(a, b, c, axis, &sign);
-    return sign * lrcsi_exact_turn(v, p, q, axis);
+    return sign * lrcsi_exact_orient(v, p, q, axis);
 }
 
 /* Condition 3 at one edge: 1 a convex crease, 0 flat, -1 anything else. */

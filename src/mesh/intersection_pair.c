@@ -68,7 +68,7 @@ void lrcsi_pair_plane(lrcsi_pair_facet *f)
     }
     for (int k = 0; k < 3 && f->turn == 0; k++) {
         f->axis = (best + k) % 3;
-        f->turn = lrcsi_exact_turn(a, b, c, unit_axis[f->axis]);
+        f->turn = lrcsi_exact_orient(a, b, c, unit_axis[f->axis]);
     }
 }
 
@@ -178,7 +178,7 @@ static int segment_meets_flat(const lrcsi_pair_facet *t, const double *a, const 
     int left = 0;
     int right = 0;
     for (int k = 0; k < 3; k++) {
-        int turn = lrcsi_exact_turn(a, b, t->x[k], axis);
+        int turn = lrcsi_exact_orient(a, b, t->x[k], axis);
         left |= turn > 0;
         right |= turn < 0;
         if (turn == 0) {
@@ -192,8 +192,8 @@ static int segment_meets_flat(const lrcsi_pair_facet *t, const double *a, const 
     for (int k = 0; k < 3; k++) {
         const double *p = t->x[k];
         const double *q = t->x[(k + 1) % 3];
-        if (t->turn * lrcsi_exact_turn(p, q, a, axis) <= 0 &&
-            t->turn * lrcsi_exact_turn(p, q, b, axis) <= 0) {
+        if (t->turn * lrcsi_exact_orient(p, q, a, axis) <= 0 &&
+            t->turn * lrcsi_exact_orient(p, q, b, axis) <= 0) {
             return 0;
         }
     }
@@ -223,7 +223,7 @@ static int separating_side(const lrcsi_pair_facet *f, int turn, const lrcsi_pair
         const double *a = f->x[k];
         const double *b = f->x[(k + 1) % 3];
         int i = 0;
-        while (i < 3 && turn * lrcsi_exact_turn(a, b, g->x[i], axis) <= 0) {
+        while (i < 3 && turn * lrcsi_exact_orient(a, b, g->x[i], axis) <= 0) {
             i++;
         }
         if (i == 3) {
@@ -247,7 +247,7 @@ static void meet_flat(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t,
                       lrcsi_pair_result *result)
 {
     const double *axis = unit_axis[f->axis];
-    int turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], axis);
+    int turn = lrcsi_exact_orient(t->x[0], t->x[1], t->x[2], axis);
     int of_f = separating_side(f, f->turn, t, axis);
     int of_t = separating_side(t, turn, f, axis);
     if (of_f < 0 && of_t < 0) {

@@ -43,7 +43,7 @@
      paraboloid: w^3 is linear in a, where w^2 = 1 + y^2. As a function of w^3, w^2 exceeds its
        chord most at w = v = 2 (w0^2 + w0 w1 + w1^2) / (3 (w0 + w1)), by
        (v - w1)^2 (v + 2 w1) / (3 v), where v - w1 = (w0 - w1) (2 w0 + w1) / (3 (w0 + w1)).
-   With b a bound on rho^2 - r^2 (strip_bulge), rho - r <= min(sqrt(b), b / (2 rho1), rho0 - rho1).
+   With b a bound on rho^2 - r^2 (strip_excess), rho - r <= min(sqrt(b), b / (2 rho1), rho0 - rho1).
    Heights are compared as fractions from the top. The trapezoid's point is at
    beta = (r - rho1)/(rho0 - rho1), which exceeds a by at most (rho0 - rho1) / (4 (rho0 + rho1)).
    The sphere's point is at a, the paraboloid's between a and a + b/(rho0^2 - rho1^2). To the
@@ -280,9 +280,9 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
     double q = x / sin(x) * (x / sin(x));
     double ratio = s.area / facet;
     double part = (s.across / s.area) * (across / facet) + (s.up / s.area) * (s.up / facet);
-    c.spread = sqrt(ratio * 2.0 * q * (fmax(0.0, 1.0 - part) + SLACK));
+    c.rms_turn = sqrt(ratio * 2.0 * q * (fmax(0.0, 1.0 - part) + SLACK));
     double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
-    c.bias = fabs(shift) + c.turn * c.spread * c.spread / 6.0;
+    c.bias = fabs(shift) + c.turn * c.rms_turn * c.rms_turn / 6.0;
     c.area_error = fabs(ratio - 1.0);
     return lrcsi_profile_rounded(&c,
                                  lrcsi_profile_rounding(profile, i) * (1.0 + c.area_error) + SLACK);
@@ -354,7 +354,7 @@ lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
         bound.turn = fmax(bound.turn, c.turn);
         bound.area_error = fmax(bound.area_error, c.area_error);
         bound.bias = fmax(bound.bias, c.bias);
-        bound.spread = fmax(bound.spread, c.spread);
+        bound.rms_turn = fmax(bound.rms_turn, c.rms_turn);
     }
     return bound;
 }
@@ -367,7 +367,7 @@ lrcs_curvature lrcsi_profile_rounded(const lrcs_curvature *c, double rounding)
         return (lrcs_curvature){LRCS_PI, UNBOUNDED, UNBOUNDED, sqrt(UNBOUNDED)};
     }
     return (lrcs_curvature){fmin(c->turn + rounding, LRCS_PI), c->area_error + 2.0 * rounding,
-                            c->bias + 2.0 * rounding, c->spread + 2.0 * rounding};
+                            c->bias + 2.0 * rounding, c->rms_turn + 2.0 * rounding};
 }
 
 /* A linear map takes normals n to N n / |N n|, N being its inverse transpose, and areas dA to
@@ -388,7 +388,7 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
     double g = 0.5 * (k - 1.0 / k);
     double h = 0.5 * (k - 1.0) * (k + 1.0);
     double G = g + h * c->turn;
-    double square = c->spread * c->spread;
+    double square = c->rms_turn * c->rms_turn;
     double turn = fmin(k * c->turn, LRCS_PI);
     double outward = 1.0 + SLACK;
     if (!(G * c->turn <= 1.0)) {
@@ -400,7 +400,7 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
     *uneven = (E - 1.0) * outward;
     return (lrcs_curvature){
         turn * outward, (c->area_error + g * c->bias + (h + 0.5 * G * G * E) * square) * outward,
-        (k * c->bias + k * (g + G * E) * square) * outward, k * c->spread * sqrt(E) * outward};
+        (k * c->bias + k * (g + G * E) * square) * outward, k * c->rms_turn * sqrt(E) * outward};
 }
 
 /* How far the polygon's vertices are outside the unit circle, and the middles of its sides inside.
@@ -440,7 +440,7 @@ static double profile_height(const lrcsi_profile *profile, uint32_t i)
 }
 
 /* An upper bound of rho^2 - r^2 within strip i. */
-static double strip_bulge(const lrcsi_profile *profile, uint32_t i)
+static double strip_excess(const lrcsi_profile *profile, uint32_t i)
 {
     double below = lrcsi_profile_radius(profile, i);
     double above = lrcsi_profile_radius(profile, i + 1);
@@ -486,12 +486,12 @@ static double strip_out(const lrcsi_profile *profile, uint32_t i)
 {
     double below = lrcsi_profile_radius(profile, i);
     double above = lrcsi_profile_radius(profile, i + 1);
-    double bulge = strip_bulge(profile, i);
-    if (!(bulge > 0.0)) {
+    double excess = strip_excess(profile, i);
+    if (!(excess > 0.0)) {
         return 0.0;
     }
-    double out = fmin(sqrt(bulge), below - above);
-    return above > 0.0 ? fmin(out, 0.5 * bulge / above) : out;
+    double out = fmin(sqrt(excess), below - above);
+    return above > 0.0 ? fmin(out, 0.5 * excess / above) : out;
 }
 
 /* How far points of strip i move, if its rows differ from their true heights by at most
@@ -500,14 +500,14 @@ static lrcsi_reach strip_reach(const lrcsi_profile *profile, uint32_t i, double 
 {
     double below = lrcsi_profile_radius(profile, i);
     double above = lrcsi_profile_radius(profile, i + 1);
-    double bulge = strip_bulge(profile, i);
+    double excess = strip_excess(profile, i);
     lrcsi_reach sector = sector_reach(profile);
     double out = strip_out(profile, i);
     double fraction = 0.0; /* the largest difference of fractions of the height */
     if (!profile_straight(profile) && below > above) {
         fraction = 0.25 * (below - above) / (below + above);
         if (profile->kind == LRCS_SHAPE_PARABOLOID) {
-            fraction = fmax(fraction, bulge / (below - above) / (below + above));
+            fraction = fmax(fraction, excess / (below - above) / (below + above));
         }
     }
     double rise = profile_height(profile, i + 1) - profile_height(profile, i);

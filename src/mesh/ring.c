@@ -216,7 +216,7 @@ static int ring_is_proved(const lrcs_point *vertex, uint32_t v, const vertex_rin
     double m[3];
     mean_of(r, m);
     return r->up == 1 && r->down == 1 &&
-           lrcsi_exact_turn(vertex[v].x, vertex[r->end].x, vertex[r->start].x, m) > 0;
+           lrcsi_exact_orient(vertex[v].x, vertex[r->end].x, vertex[r->start].x, m) > 0;
 }
 
 /* Among a facet's points that many facets share, the one with the most facets, preferring proved

@@ -59,18 +59,18 @@ static int weld_hashed(const lrcs_point *vertex, uint32_t count, uint32_t *slot,
     memset(slot, 0xff, slots * sizeof *slot); /* LRCS_NONE */
     for (uint32_t first = 0; first < count; first += WELD_BATCH) {
         uint32_t batch = count - first < WELD_BATCH ? count - first : WELD_BATCH;
-        size_t home[WELD_BATCH];
+        size_t first_slot[WELD_BATCH];
         for (uint32_t j = 0; j < batch; j++) {
             uint64_t key = 0;
             for (int k = 0; k < 3; k++) {
                 key = lrcsi_store_mix(key + coordinate_key(vertex[first + j].x[k]));
             }
-            home[j] = (size_t)key & (slots - 1);
-            weld[first + j] = slot[home[j]]; /* overwritten below */
+            first_slot[j] = (size_t)key & (slots - 1);
+            weld[first + j] = slot[first_slot[j]]; /* overwritten below */
         }
         for (uint32_t j = 0; j < batch; j++) {
             uint32_t i = first + j;
-            size_t at = home[j];
+            size_t at = first_slot[j];
             while (slot[at] != LRCS_NONE && !same_position(&vertex[slot[at]], &vertex[i])) {
                 at = (at + 1) & (slots - 1);
                 if (probes-- == 0) {
@@ -155,16 +155,16 @@ static int side_before(sorted_side a, sorted_side b)
 /* Sinks entry `i` of a heap of n, the last in order on top. */
 static void sink_side(sorted_side *s, size_t i, size_t n)
 {
-    sorted_side sinking = s[i];
+    sorted_side entry = s[i];
     for (size_t child = 2 * i + 1; child < n; child = 2 * i + 1) {
         child += child + 1 < n && side_before(s[child], s[child + 1]);
-        if (!side_before(sinking, s[child])) {
+        if (!side_before(entry, s[child])) {
             break;
         }
         s[i] = s[child];
         i = child;
     }
-    s[i] = sinking;
+    s[i] = entry;
 }
 
 /* Insertion sort if there are few, as at most vertices; otherwise heap sort. */

@@ -40,11 +40,12 @@ const double lrcsi_gauss_rule[LRCSI_GAUSS_PAIRS][2] = {
     {0x1.f30f9f0cbf876p-1, 0x1.d375514486f1dp-6}, {0x1.fd892de691982p-1, 0x1.9465bd3112202p-7},
 };
 
-lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int term, double cos_reference)
+lrcsi_arc_integrand lrcsi_arc_integrand_make(const lrcs_brdf *brdf, int term, double cos_reference)
 {
     double slope = brdf->s * cos_reference;
-    lrcsi_arc_law law = {term, term == LRCSI_GLINT ? 1.0 / slope / slope : 0.0, brdf->m + 2.0};
-    return law;
+    lrcsi_arc_integrand integrand = {term, term == LRCSI_GLINT ? 1.0 / slope / slope : 0.0,
+                                     brdf->m + 2.0};
+    return integrand;
 }
 
 /* F of one term at a point: its value; the exponent by which it has fallen from its reference
@@ -54,23 +55,23 @@ typedef struct arc_sample {
     int falling;
 } arc_sample;
 
-static arc_sample law_sample(const lrcsi_arc_law *law, const lrcsi_arc_point *at)
+static arc_sample law_sample(const lrcsi_arc_integrand *integrand, const lrcsi_arc_point *at)
 {
     arc_sample sample = {0.0, HUGE_VAL, 1};
     double q = at->q;
     if (!(q > 0.0)) {
         return sample;
     }
-    if (law->term == LRCSI_GLINT) {
-        double decay = at->y * (2.0 - at->y) * law->gain / q / q;
-        sample.falling = q * q <= 0.5 * law->gain; /* the peak of c^-4 exp(-1/(s c)^2) */
+    if (integrand->term == LRCSI_GLINT) {
+        double decay = at->y * (2.0 - at->y) * integrand->gain / q / q;
+        sample.falling = q * q <= 0.5 * integrand->gain; /* the peak of c^-4 exp(-1/(s c)^2) */
         if (decay < ARC_DARK) {
             double q2 = q * q;
             sample.decay = decay;
             sample.value = exp(-decay) / (q2 * q2) * at->weight;
         }
     } else {
-        double decay = law->nu * (at->y < 0.5 ? -log1p(-at->y) : -log(q));
+        double decay = integrand->nu * (at->y < 0.5 ? -log1p(-at->y) : -log(q));
         if (decay < ARC_DARK) {
             sample.decay = decay;
             sample.value = exp(-decay) * at->weight;
@@ -90,7 +91,7 @@ static void arc_add_point(const lrcsi_arc *arc, int right, double d, double widt
     lrcsi_arc_point at = arc_point(arc, right, d);
     for (int term = 0; term < LRCSI_TERMS; term++) {
         if (arc->requested[term]) {
-            double value = width * law_sample(&arc->law[term], &at).value;
+            double value = width * law_sample(&arc->integrand[term], &at).value;
             lrcsi_dd next = lrcsi_dd_two_sum(sum[term].hi, value);
             sum[term] = (lrcsi_dd){next.hi, sum[term].lo + next.lo};
         }
@@ -128,13 +129,13 @@ static int term_ends(const lrcsi_arc *arc, int term, int right, double h, double
 {
     double smooth = right ? arc->right_smooth : arc->left_smooth;
     lrcsi_arc_point point = arc_point(arc, right, h);
-    arc_sample at = law_sample(&arc->law[term], &point);
+    arc_sample at = law_sample(&arc->integrand[term], &point);
     if (!right) {
         return at.decay <= 1.0 &&
                (h <= smooth || (h <= arc->weight_scale && h * at.value <= ARC_SMALL * sum));
     }
     lrcsi_arc_point last = arc_point(arc, right, 0.0);
-    arc_sample end = law_sample(&arc->law[term], &last);
+    arc_sample end = law_sample(&arc->integrand[term], &last);
     int level = end.decay - at.decay <= 1.0 && last.q >= 0.5 * point.q;
     if (h <= smooth) {
         return level || (at.falling && h * at.value <= 0x1p-60 * sum);

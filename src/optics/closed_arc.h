@@ -11,21 +11,21 @@
 #define LRCSI_GAUSS_PAIRS 12
 extern const double lrcsi_gauss_rule[LRCSI_GAUSS_PAIRS][2];
 
-/* F along an arc, relative to F at the reference angle theta_r, the angle from the light at the
+/* F along an arc, relative to F at the reference angle theta_r, the angle from the laser at the
    nearest point of the arc: with q = cos(theta)/cos(theta_r) and y = 1 - q (each without
    cancellation) the glint is q^-4 exp(-y (2 - y) gain / q^2), gain = 1/(cos(theta_r) s)^2, and the
    diffuse term q^nu. */
-typedef struct lrcsi_arc_law {
+typedef struct lrcsi_arc_integrand {
     int term; /* lrcsi_term */
     double gain, nu;
-} lrcsi_arc_law;
+} lrcsi_arc_integrand;
 
 /* A point of an arc: y, q, and the weight of F there; 0 if q is not positive. */
 typedef struct lrcsi_arc_point {
     double y, q, weight;
 } lrcsi_arc_point;
 
-lrcsi_arc_law lrcsi_arc_law_make(const lrcs_brdf *brdf, int term, double cos_reference);
+lrcsi_arc_integrand lrcsi_arc_integrand_make(const lrcs_brdf *brdf, int term, double cos_reference);
 
 /* A ring of normals, at azimuths phi = 0 .. phi_1: q = 1 - k sin^2(phi/2). If q_pi = q(pi) = 1 - k
    is not negative, the ring is entirely lit and phi_1 = pi; else q(phi_1) = 0, and psi_1 = pi -
@@ -35,11 +35,11 @@ typedef struct lrcsi_ring {
     double k, q_pi, psi_1;
 } lrcsi_ring;
 
-/* An interval of angles theta from the light; the weight of each theta is its integral over the
-   azimuth about the light (closed_cap.c). */
+/* An interval of angles theta from the laser; the weight of each theta is its integral over the
+   azimuth about the laser (closed_cap.c). */
 typedef struct lrcsi_cap {
     int full_circle;  /* 1: the whole circle lies in the cap of normals; 0: an arc of it */
-    int light_inside; /* the light is inside the cap of normals (alpha < tau) */
+    int laser_inside; /* the laser is inside the cap of normals (alpha < tau) */
     int horizon;      /* 1: theta ends at pi/2; 0: theta ends where the circle leaves the cap */
     int paraboloid;   /* weighted with (n_0 / n_z)^4; else with 1 */
     double sin_start, cos_start, start; /* theta_d = |tau - alpha| */
@@ -49,7 +49,7 @@ typedef struct lrcsi_cap {
 } lrcsi_cap;
 
 typedef struct lrcsi_arc {
-    lrcsi_arc_law law[LRCSI_TERMS];
+    lrcsi_arc_integrand integrand[LRCSI_TERMS];
     int requested[LRCSI_TERMS]; /* 0: that term is not integrated */
     double length;
     int is_cap;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Bodies whose normals fill a cap about the axis, once each: sphere, dome, paraboloid. It decides
    which of the normals are lit; except for the sphere, the integrals are over circles about the
-   light.
+   laser.
 
    The normals within tau of +z (dome: pi/2; paraboloid: atan(2 H / R)) carry a surface of
    dA = R^2 dOmega (dome), K n_z^-4 dOmega with K = (R^2 / 2 H)^2 (paraboloid: 1/K n_z^4 is its
-   Gaussian curvature). With theta and phi about the light, at alpha from +z,
+   Gaussian curvature). With theta and phi about the laser, at alpha from +z,
      integral of F dA = integral over theta of F(theta) sin(theta) Phi(theta),
    Phi the integral over the azimuths phi whose normal lies in the cap: all, if
    theta < tau - alpha; else |phi| < phi_1, by the half-angle formula of the triangle with sides
@@ -33,12 +33,12 @@
 
 /* sigma = 4 pi^2 R^2 A E + 8 pi^2 R^2 B / (m + 3), E = s^2 + (sqrt(pi)/2) s^3 erfcx(1/s): the
    integrals of F over a hemisphere of normals. */
-lrcsi_amount lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
+lrcsi_term_integrals lrcsi_closed_sphere(const lrcs_shape *shape, const lrcs_brdf *brdf)
 {
     double s = brdf->s;
     double width = s > 0.0 ? 1.0 + 0.5 * sqrt(LRCS_PI) * s * lrcsi_special_erfcx(1.0 / s) : 0.0;
     const double factor[LRCSI_TERMS] = {s * s * width, 2.0 / (brdf->m + 3.0)};
-    lrcsi_amount amount = {{brdf->A, brdf->B}, {0.0, 0.0}};
+    lrcsi_term_integrals amount = {{brdf->A, brdf->B}, {0.0, 0.0}};
     amount.error[LRCSI_GLINT] = LRCSI_U * brdf->A;
     amount.error[LRCSI_DIFFUSE] = LRCSI_U * brdf->B;
     lrcsi_closed_scale_terms(&amount, factor, 22.0);
@@ -120,8 +120,8 @@ static double cap_weight_circle(double n_max, double n_min, double q, double n_0
 static double cap_outer_weight(const lrcsi_cap *cap, double delta, double h, double sine,
                                double cosine)
 {
-    double inward = cap->light_inside ? 2.0 * cap->start + delta : delta;  /* tau + theta - alpha */
-    double outward = cap->light_inside ? delta : 2.0 * cap->start + delta; /* alpha + theta - tau */
+    double inward = cap->laser_inside ? 2.0 * cap->start + delta : delta;  /* tau + theta - alpha */
+    double outward = cap->laser_inside ? delta : 2.0 * cap->start + delta; /* alpha + theta - tau */
     double first = sin(0.5 * inward) * sin(0.5 * (cap->horizon ? cap->gap + h : h));
     double second = sin(0.5 * outward) *
                     (cap->horizon ? sin(0.5 * (cap->supplement + h)) : sin(cap->end - 0.5 * h));
@@ -179,18 +179,18 @@ typedef struct cap_body {
     double scale, area;
 } cap_body;
 
-/* sum += the integral over one piece of theta that starts at theta_r, nearest to the light. Values
+/* sum += the integral over one piece of theta that starts at theta_r, nearest to the laser. Values
    that underflow there are smaller still elsewhere, over at most the whole area. Units: the piece's
    ends 10, its weight 20, scale 10, the arc. */
 static void cap_add_piece(const lrcs_brdf *brdf, const cap_body *body, lrcsi_arc *arc,
-                          lrcsi_angle theta_r, lrcsi_amount *sum)
+                          lrcsi_angle theta_r, lrcsi_term_integrals *sum)
 {
-    lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta_r);
+    lrcsi_term_integrals amount = lrcsi_closed_reflect(brdf, theta_r);
     double factor[LRCSI_TERMS] = {body->area, body->area};
     double integral[LRCSI_TERMS];
     for (int term = 0; term < LRCSI_TERMS; term++) {
         arc->requested[term] = amount.value[term] > 0.0;
-        arc->law[term] = lrcsi_arc_law_make(brdf, term, theta_r.cosine.hi);
+        arc->integrand[term] = lrcsi_arc_integrand_make(brdf, term, theta_r.cosine.hi);
     }
     if (arc->requested[LRCSI_GLINT] || arc->requested[LRCSI_DIFFUSE]) {
         lrcsi_arc_integral(arc, integral);
@@ -205,19 +205,19 @@ static void cap_add_piece(const lrcs_brdf *brdf, const cap_body *body, lrcsi_arc
 }
 
 /* The geometry of theta for both pieces; start and end are |tau - alpha| and tau + alpha. */
-static lrcsi_cap cap_make(const cap_body *body, const lrcsi_light *light, lrcsi_angle *start,
-                          lrcsi_angle *end)
+static lrcsi_cap cap_make(const cap_body *body, const lrcsi_laser_direction *laser,
+                          lrcsi_angle *start, lrcsi_angle *end)
 {
-    *start = lrcsi_closed_angle_difference(body->tau, light->aspect);
-    *end = lrcsi_closed_angle_sum(body->tau, light->aspect);
-    lrcsi_cap cap = {.light_inside = start->sine.hi > 0.0,
+    *start = lrcsi_closed_angle_difference(body->tau, laser->aspect);
+    *end = lrcsi_closed_angle_sum(body->tau, laser->aspect);
+    lrcsi_cap cap = {.laser_inside = start->sine.hi > 0.0,
                      .horizon = !(end->cosine.hi > 0.0),
                      .paraboloid = body->paraboloid,
-                     .sin_alpha = light->aspect.sine.hi,
-                     .cos_alpha = light->aspect.cosine.hi,
+                     .sin_alpha = laser->aspect.sine.hi,
+                     .cos_alpha = laser->aspect.cosine.hi,
                      .sin_tau = body->tau.sine.hi,
                      .n_0 = body->tau.cosine.hi};
-    if (!cap.light_inside) {
+    if (!cap.laser_inside) {
         start->sine = lrcsi_dd_negate(start->sine);
     }
     cap.sin_start = start->sine.hi;
@@ -230,18 +230,18 @@ static lrcsi_cap cap_make(const cap_body *body, const lrcsi_light *light, lrcsi_
     return cap;
 }
 
-/* Whole circles up to |tau - alpha|, where the light is inside the cap of normals; then arcs up to
+/* Whole circles up to |tau - alpha|, where the laser is inside the cap of normals; then arcs up to
    tau + alpha or the horizon. n_z is regular within pi/2 - tau (`weight_scale`) of what is lit. */
-static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light,
-                                 const cap_body *body)
+static lrcsi_term_integrals cap_integral(const lrcs_brdf *brdf, const lrcsi_laser_direction *laser,
+                                         const cap_body *body)
 {
     const lrcsi_angle zero = {{0.0, 0.0}, {1.0, 0.0}};
-    lrcsi_amount sum = {{0.0, 0.0}, {0.0, 0.0}};
+    lrcsi_term_integrals sum = {{0.0, 0.0}, {0.0, 0.0}};
     lrcsi_angle start, end;
-    lrcsi_arc arc = {.is_cap = 1, .cap = cap_make(body, light, &start, &end)};
+    lrcsi_arc arc = {.is_cap = 1, .cap = cap_make(body, laser, &start, &end)};
     lrcsi_cap *cap = &arc.cap;
     arc.weight_scale = body->paraboloid ? atan2(cap->n_0, cap->sin_tau) : LRCS_PI;
-    if (cap->light_inside) {
+    if (cap->laser_inside) {
         cap->full_circle = 1;
         cap->sin_end = cap->sin_start;
         cap->cos_end = cap->cos_start;
@@ -253,7 +253,7 @@ static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light
     cap->sin_end = end.sine.hi;
     cap->cos_end = end.cosine.hi;
     arc.right_smooth = 0.0;
-    arc.length = 2.0 * fmin(lrcsi_closed_radians(light->aspect), lrcsi_closed_radians(body->tau));
+    arc.length = 2.0 * fmin(lrcsi_closed_radians(laser->aspect), lrcsi_closed_radians(body->tau));
     if (cap->horizon) {
         arc.length = atan2(cap->cos_start, cap->sin_start); /* pi/2 - start */
     }
@@ -263,24 +263,24 @@ static lrcsi_amount cap_integral(const lrcs_brdf *brdf, const lrcsi_light *light
     return sum;
 }
 
-lrcsi_amount lrcsi_closed_dome(const lrcs_shape *shape, const lrcs_brdf *brdf,
-                               const lrcsi_light *light)
+lrcsi_term_integrals lrcsi_closed_dome(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                                       const lrcsi_laser_direction *laser)
 {
     double radius = shape->radius;
     cap_body body = {{{1.0, 0.0}, {0.0, 0.0}}, 0, radius, 2.0 * LRCS_PI * radius * radius};
-    return cap_integral(brdf, light, &body);
+    return cap_integral(brdf, laser, &body);
 }
 
 /* K n_0^-4 = ((R^2 + 4 H^2)/(2 H))^2. A paraboloid flatter than 2^-480 is its disc: its normals
    turn by less than 2^-478, which moves F by less than a unit for s > 2^-333. Its area is at most
    pi R^2 sqrt(1 + T^2), T = 2 H / R. */
-lrcsi_amount lrcsi_closed_paraboloid(const lrcs_shape *shape, const lrcs_brdf *brdf,
-                                     const lrcsi_light *light)
+lrcsi_term_integrals lrcsi_closed_paraboloid(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                                             const lrcsi_laser_direction *laser)
 {
     double radius = shape->radius;
     double height = shape->length;
     if (height <= 0x1p-480 * radius || radius == 0.0) {
-        lrcsi_amount flat = lrcsi_closed_reflect(brdf, light->aspect);
+        lrcsi_term_integrals flat = lrcsi_closed_reflect(brdf, laser->aspect);
         lrcsi_closed_scale(&flat, LRCS_PI * radius * radius, 4.0);
         return flat;
     }
@@ -291,5 +291,5 @@ lrcsi_amount lrcsi_closed_paraboloid(const lrcs_shape *shape, const lrcs_brdf *b
                      1,
                      hyp.hi * (hyp.hi / h.hi),
                      LRCS_PI * radius * hyp.hi};
-    return cap_integral(brdf, light, &body);
+    return cap_integral(brdf, laser, &body);
 }

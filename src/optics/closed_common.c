@@ -62,9 +62,9 @@ static lrcsi_dd closed_tan2(lrcsi_angle theta)
 /* tan^2 = hi + lo; lrcsi_reflect takes hi, and lo enters to first order by d log F / d log u =
    2u/(1+u) - u/s^2 and -(m/2 + 1) u/(1+u): |lo/hi| <= 2^-53, and unless F has underflowed the
    derivative is below 3000, so the second order is below 2^-83. */
-lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta)
+lrcsi_term_integrals lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta)
 {
-    lrcsi_amount out = {{0.0, 0.0}, {0.0, 0.0}};
+    lrcsi_term_integrals out = {{0.0, 0.0}, {0.0, 0.0}};
     lrcsi_dd u = theta.cosine.hi > 0.0 ? closed_tan2(theta) : (lrcsi_dd){HUGE_VAL, 0.0};
     if (!isfinite(u.hi)) {
         return out;
@@ -84,7 +84,8 @@ lrcsi_amount lrcsi_closed_reflect(const lrcs_brdf *brdf, lrcsi_angle theta)
     return out;
 }
 
-void lrcsi_closed_scale_terms(lrcsi_amount *amount, const double factor[LRCSI_TERMS], double units)
+void lrcsi_closed_scale_terms(lrcsi_term_integrals *amount, const double factor[LRCSI_TERMS],
+                              double units)
 {
     for (int term = 0; term < LRCSI_TERMS; term++) {
         /* a term that is exactly 0 stays 0 for every factor */
@@ -99,13 +100,13 @@ void lrcsi_closed_scale_terms(lrcsi_amount *amount, const double factor[LRCSI_TE
     }
 }
 
-void lrcsi_closed_scale(lrcsi_amount *amount, double factor, double units)
+void lrcsi_closed_scale(lrcsi_term_integrals *amount, double factor, double units)
 {
     const double both[LRCSI_TERMS] = {factor, factor};
     lrcsi_closed_scale_terms(amount, both, units);
 }
 
-void lrcsi_closed_add(lrcsi_amount *sum, const lrcsi_amount *amount)
+void lrcsi_closed_add(lrcsi_term_integrals *sum, const lrcsi_term_integrals *amount)
 {
     for (int term = 0; term < LRCSI_TERMS; term++) {
         sum->value[term] += amount->value[term];

@@ -47,16 +47,16 @@ static ring_wall ring_wall_from_degrees(double radius, double beta_deg)
 
 /* alpha + beta and beta - alpha; from exact degrees if both are given in degrees, so that 0 and 180
    are exact. */
-static void ring_extremes(const ring_wall *wall, const lrcsi_light *light, lrcsi_angle *sum,
-                          lrcsi_angle *difference)
+static void ring_extremes(const ring_wall *wall, const lrcsi_laser_direction *laser,
+                          lrcsi_angle *sum, lrcsi_angle *difference)
 {
-    if (wall->beta_deg >= 0.0 && light->deg >= 0.0) {
-        lrcsi_degrees_sincos_dd(light->deg, wall->beta_deg, &sum->sine, &sum->cosine);
-        lrcsi_degrees_sincos_dd(wall->beta_deg, -light->deg, &difference->sine,
+    if (wall->beta_deg >= 0.0 && laser->deg >= 0.0) {
+        lrcsi_degrees_sincos_dd(laser->deg, wall->beta_deg, &sum->sine, &sum->cosine);
+        lrcsi_degrees_sincos_dd(wall->beta_deg, -laser->deg, &difference->sine,
                                 &difference->cosine);
     } else {
-        *sum = lrcsi_closed_angle_sum(light->aspect, wall->beta);
-        *difference = lrcsi_closed_angle_difference(wall->beta, light->aspect);
+        *sum = lrcsi_closed_angle_sum(laser->aspect, wall->beta);
+        *difference = lrcsi_closed_angle_difference(wall->beta, laser->aspect);
     }
 }
 
@@ -85,7 +85,7 @@ static lrcsi_arc ring_arc(const lrcs_brdf *brdf, double c_max, double c_min, dou
 {
     lrcsi_arc arc = {0};
     for (int term = 0; term < LRCSI_TERMS; term++) {
-        arc.law[term] = lrcsi_arc_law_make(brdf, term, c_max);
+        arc.integrand[term] = lrcsi_arc_integrand_make(brdf, term, c_max);
     }
     arc.ring.k = 2.0 * b / c_max;
     arc.ring.q_pi = c_min / c_max;
@@ -103,14 +103,14 @@ static lrcsi_arc ring_arc(const lrcs_brdf *brdf, double c_max, double c_min, dou
 }
 
 /* Units beside F: area 6, c_max and k 4, phi_1 6, the arc. */
-static lrcsi_amount ring_integral(const ring_wall *wall, const lrcs_brdf *brdf,
-                                  const lrcsi_light *light)
+static lrcsi_term_integrals ring_integral(const ring_wall *wall, const lrcs_brdf *brdf,
+                                          const lrcsi_laser_direction *laser)
 {
     lrcsi_angle sum, difference;
-    ring_extremes(wall, light, &sum, &difference);
+    ring_extremes(wall, laser, &sum, &difference);
     lrcsi_angle theta = {sum.cosine, sum.sine}; /* cos(theta) = sin(alpha + beta) */
-    lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta);
-    double b = wall->beta.cosine.hi * light->aspect.sine.hi;
+    lrcsi_term_integrals amount = lrcsi_closed_reflect(brdf, theta);
+    double b = wall->beta.cosine.hi * laser->aspect.sine.hi;
     double factor[LRCSI_TERMS] = {1.0, 1.0};
     if (b > 0.0 && (amount.value[LRCSI_GLINT] > 0.0 || amount.value[LRCSI_DIFFUSE] > 0.0)) {
         double integral[LRCSI_TERMS];
@@ -128,15 +128,15 @@ static lrcsi_amount ring_integral(const ring_wall *wall, const lrcs_brdf *brdf,
     return amount;
 }
 
-lrcsi_amount lrcsi_closed_cone(const lrcs_shape *shape, const lrcs_brdf *brdf,
-                               const lrcsi_light *light)
+lrcsi_term_integrals lrcsi_closed_cone(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                                       const lrcsi_laser_direction *laser)
 {
     double base = shape->kind == LRCS_SHAPE_FRUSTUM ? shape->radius2 : shape->radius;
     double top = shape->kind == LRCS_SHAPE_FRUSTUM ? shape->radius : 0.0;
     ring_wall wall = shape->half_angle_deg > 0.0
                          ? ring_wall_from_degrees(base, shape->half_angle_deg)
                          : ring_wall_make(top, base, shape->length);
-    lrcsi_light seen = *light;
+    lrcsi_laser_direction seen = *laser;
     if (wall.beta.sine.hi < 0.0) { /* wider at the top: the same cone upside down */
         wall.beta.sine = lrcsi_dd_negate(wall.beta.sine);
         seen.aspect.cosine = lrcsi_dd_negate(seen.aspect.cosine);
@@ -148,12 +148,12 @@ lrcsi_amount lrcsi_closed_cone(const lrcs_shape *shape, const lrcs_brdf *brdf,
 /* F at the brightest line, theta = pi/2 - alpha, times 2 R L / 2 pi and the integrals over phi of
    q^-4 exp(-(1/q^2 - 1)/w^2) = sqrt(pi) w (1 + w^2/2), w = s sin(alpha) (t = tan(phi)), and of
    cos^(m+2). Units: area 2, w 2, sum and products 6; special 48. */
-lrcsi_amount lrcsi_closed_cylinder(const lrcs_shape *shape, const lrcs_brdf *brdf,
-                                   const lrcsi_light *light)
+lrcsi_term_integrals lrcsi_closed_cylinder(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                                           const lrcsi_laser_direction *laser)
 {
-    lrcsi_angle theta = {light->aspect.cosine, light->aspect.sine};
-    lrcsi_amount amount = lrcsi_closed_reflect(brdf, theta);
-    double w = brdf->s * light->aspect.sine.hi;
+    lrcsi_angle theta = {laser->aspect.cosine, laser->aspect.sine};
+    lrcsi_term_integrals amount = lrcsi_closed_reflect(brdf, theta);
+    double w = brdf->s * laser->aspect.sine.hi;
     const double factor[LRCSI_TERMS] = {sqrt(LRCS_PI) * w * (1.0 + 0.5 * w * w),
                                         lrcsi_special_cosine_power(brdf->m + 2.0)};
     lrcsi_closed_scale_terms(&amount, factor, 50.0);

@@ -224,12 +224,13 @@ static int range_around(double theta, double turn, tan2_range *range)
 /* The smallest of the three bounds, and the other bounds. */
 static lrcsi_deviation deviation_of(const deviation_suprema *all, const lrcs_curvature *c)
 {
-    double second = times(c->bias, all->slope) + times(0.5 * c->spread * c->spread, all->second);
-    double first = times(c->spread * sqrt(1.0 + c->area_error), all->slope_max);
+    double second =
+        times(c->bias, all->slope) + times(0.5 * c->rms_turn * c->rms_turn, all->second);
+    double first = times(c->rms_turn * sqrt(1.0 + c->area_error), all->slope_max);
     double range = fmax(all->value_max - all->value, all->value);
     double slope = times(c->turn, all->slope_max);
-    double region = 0.5 * times(c->spread * sqrt(1.0 + c->area_error) + c->bias, all->slope) +
-                    times(0.5 * c->spread * c->spread, all->second);
+    double region = 0.5 * times(c->rms_turn * sqrt(1.0 + c->area_error) + c->bias, all->slope) +
+                    times(0.5 * c->rms_turn * c->rms_turn, all->second);
     double least = fmin(second, first);
     double point = slope;
     if (isfinite(all->value_max)) {
@@ -273,7 +274,7 @@ double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double t
                                const lrcs_curvature *curvature)
 {
     const lrcs_curvature *c = curvature;
-    if (c->turn == 0.0 && c->area_error == 0.0 && c->bias == 0.0 && c->spread == 0.0) {
+    if (c->turn == 0.0 && c->area_error == 0.0 && c->bias == 0.0 && c->rms_turn == 0.0) {
         return 0.0;
     }
     return lrcsi_deviation_make(brdf, cos_theta, tan2, curvature).whole;

@@ -39,7 +39,7 @@ static int has_closed_form(const lrcs_prepared *p, uint32_t index)
         }
     }
     const lrcs_material *material = lrcsi_prepared_material(p, part->first_facet);
-    return ldexp(part->thinnest, -p->exponent) >= EXTENT_MIN &&
+    return ldexp(part->min_extent, -p->exponent) >= EXTENT_MIN &&
            lrcsi_closed_check(&part->shape, &material->brdf) == LRCS_OK;
 }
 

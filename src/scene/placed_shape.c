@@ -99,10 +99,10 @@ void lrcsi_placed_shape_tilt(const lrcsi_placer *placer, const lrcs_scene *scene
     if (part->reach > 0.0 && e > 0.0) {
         double factor = 3.0 * (1.0 + part->curvature.area_error);
         double altitude = smallest_altitude(scene, part);
-        part->tilted = 1.000001 * factor * e / altitude;
+        part->normal_err = 1.000001 * factor * e / altitude;
         part->curvature_known = part->curvature_known && altitude > 0.0;
         part->curvature = part->curvature.turn > 0.0
-                              ? lrcsi_profile_rounded(&part->curvature, part->tilted)
+                              ? lrcsi_profile_rounded(&part->curvature, part->normal_err)
                               : part->curvature;
     }
 }
@@ -120,14 +120,14 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     double smallest = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
     double largest = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
     int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->bias == 0.0 &&
-                curvature->spread == 0.0;
+                curvature->rms_turn == 0.0;
     const double zero[3] = {0.0, 0.0, 0.0};
     double stretch;
     double condition;
     lrcsi_axes axes;
     lrcsi_placer_stretch(placer, &stretch, &condition);
     double error = (17.0 + (double)divisions->along) * LRCSI_U * extent + 0x1p-1022;
-    part->misplaced = lrcsi_placer_error(placer, extent + error, error);
+    part->position_err = lrcsi_placer_error(placer, extent + error, error);
     part->kind = shape->kind;
     part->rigid = lrcsi_placer_axes(placer, &axes);
     if (part->rigid) {
@@ -143,20 +143,20 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     part->curvature = *curvature;
     part->curvature_known = plane || condition < HUGE_VAL;
     if (!plane && !part->rigid && part->curvature_known) {
-        part->curvature = lrcsi_profile_stretched(curvature, condition, &part->uneven);
+        part->curvature = lrcsi_profile_stretched(curvature, condition, &part->stretch_err);
     }
     part->convex_patch = 1;
-    part->thinnest = smallest * smallest_extent(shape);
-    part->solid = is_closed(shape) && part->thinnest > 0.0;
+    part->min_extent = smallest * smallest_extent(shape);
+    part->solid = is_closed(shape) && part->min_extent > 0.0;
     if (reach.all > 0.0) {
         double scaled = 1.000001 * stretch;
-        double placed = 2.0 * part->misplaced;
+        double placed = 2.0 * part->position_err;
         part->reach = scaled * reach.all + placed;
         part->hausdorff =
             scaled * (part->solid || shape->kind == LRCS_SHAPE_DISC ? reach.solid : reach.surface) +
             placed;
-        part->displaced[0] = scaled * reach.radial + placed;
-        part->displaced[1] = scaled * reach.axial + placed;
-        part->displaced[2] = scaled * reach.tangential + placed;
+        part->displacement[0] = scaled * reach.radial + placed;
+        part->displacement[1] = scaled * reach.axial + placed;
+        part->displacement[2] = scaled * reach.tangential + placed;
     }
 }

@@ -18,7 +18,7 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
                                  const lrcs_curvature *curvature, const lrcsi_placer *placer,
                                  double extent, lrcs_part *part);
 
-/* Second step, when the part's facets are in the scene: sets part->tilted, how far rounding in
+/* Second step, when the part's facets are in the scene: sets part->normal_err, how far rounding in
    placing may have tilted them, and includes it in the curvature. */
 void lrcsi_placed_shape_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, double extent,
                              lrcs_part *part);

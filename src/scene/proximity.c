@@ -82,7 +82,7 @@ lrcsi_displacement lrcsi_proximity_displacement(const lrcs_prepared *p, uint32_t
                          &cosine);
     d.known = 1;
     for (int k = 0; k < 3; k++) {
-        d.bound[k] = ldexp(part->displaced[k], -p->exponent) * (1 + 1e-9);
+        d.bound[k] = ldexp(part->displacement[k], -p->exponent) * (1 + 1e-9);
         d.direction[0][k] = part->axis[0][k] * cosine + part->axis[1][k] * sine;
         d.direction[1][k] = part->axis[2][k];
         d.direction[2][k] = part->axis[1][k] * cosine - part->axis[0][k] * sine;
@@ -337,7 +337,7 @@ static void parts_fill(lrcs_prepared *p)
         if (p->skip[f] || proximity->reach[i] == 0) {
             continue;
         }
-        double vertex_err = ldexp(scene->part[i].misplaced, -p->exponent) + 4 * LRCSI_U;
+        double vertex_err = ldexp(scene->part[i].position_err, -p->exponent) + 4 * LRCSI_U;
         double altitude = p->normal[f].length / lrcsi_proximity_longest(p, f);
         proximity->grazing_cos[i] =
             lrcsi_max(proximity->grazing_cos[i], GRAZING_FACTOR * vertex_err / altitude);

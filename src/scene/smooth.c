@@ -25,7 +25,7 @@
 #include "base/length.h"
 #include "base/vec3.h"
 #include "base/work.h"
-#include "optics/ripple.h"
+#include "optics/aliasing.h"
 
 /* A facet is flat if its normals differ from its own by no more than this. */
 #define SMOOTH_FLAT 0x1p-40
@@ -261,7 +261,7 @@ static int normals_needed(const smooth_job *job, uint32_t facet, const lrcs_poin
     for (int k = 0; k < 3; k++) {
         turn = fmax(turn, angle_of(n[k].x, n[(k + 1) % 3].x));
     }
-    return brdf->A > 0.0 && turn > 0.0 && lrcsi_ripple_error(turn, brdf->s) > options->tolerance;
+    return brdf->A > 0.0 && turn > 0.0 && lrcsi_aliasing_error(turn, brdf->s) > options->tolerance;
 }
 
 /* Do all corners that have a normal have one that exists? Status: LRCS_OK; LRCS_E_INDEX. */

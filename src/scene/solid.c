@@ -122,10 +122,10 @@ static double corner_height(const lrcs_prepared *p, uint32_t facet, uint32_t oth
 
 /* The largest such height over all edges (0 if none is positive), and the smallest altitude of all
    facets. */
-static void measure_dents(const lrcs_prepared *p, double *dent, double *altitude)
+static void measure_dents(const lrcs_prepared *p, double *concavity, double *altitude)
 {
     const lrcsi_topology *t = &p->topology;
-    *dent = 0;
+    *concavity = 0;
     *altitude = HUGE_VAL;
     for (uint32_t e = 0; e < t->edge_count; e++) {
         const double *a = p->vertex[t->edge[e].low].x;
@@ -136,7 +136,7 @@ static void measure_dents(const lrcs_prepared *p, double *dent, double *altitude
         for (uint32_t i = 0; i < t->edge[e].uses; i++) {
             *altitude = fmin(*altitude, p->normal[use[i].facet].length / length);
             uint32_t other = use[t->edge[e].uses - 1 - i].facet;
-            *dent = fmax(*dent, corner_height(p, use[i].facet, other));
+            *concavity = fmax(*concavity, corner_height(p, use[i].facet, other));
         }
     }
 }
@@ -144,7 +144,7 @@ static void measure_dents(const lrcs_prepared *p, double *dent, double *altitude
 /* A bound on the distance of a part's vertices from its convex surface, scaled. */
 static double vertex_error(const lrcs_prepared *p, const lrcs_part *part)
 {
-    return ldexp(part->misplaced, -p->exponent) + 4 * LRCSI_U;
+    return ldexp(part->position_err, -p->exponent) + 4 * LRCSI_U;
 }
 
 int lrcsi_convex_by_construction(const lrcs_prepared *p, int *solid)
@@ -155,7 +155,7 @@ int lrcsi_convex_by_construction(const lrcs_prepared *p, int *solid)
     }
     const lrcs_part *part = &p->scene->part[index];
     int flat = part->kind == LRCS_SHAPE_PLATE || part->kind == LRCS_SHAPE_DISC;
-    int thick = ldexp(part->thinnest, -p->exponent) > 1e6 * vertex_error(p, part);
+    int thick = ldexp(part->min_extent, -p->exponent) > 1e6 * vertex_error(p, part);
     int convex = part->convex_patch && (flat || thick) && (part->solid || !p->two_sided);
     *solid = convex && part->solid;
     return convex;
@@ -185,21 +185,22 @@ static int is_plane(const lrcs_prepared *p)
    cos(theta) exceeds three times the turn of a facet, that distance is less than the size of a
    facet, and every normal in that neighbourhood has a positive component along d. There the surface
    is a graph over the view plane, which a line of sight meets once, so x is not hidden: a
-   contradiction. If no dent is larger than rounding can make it (bodies with plane faces, singly
-   curved bodies, Delaunay diagonals), the exact mesh is itself convex, and only the tilt by
+   contradiction. If no concavity is larger than rounding can make it (bodies with plane faces,
+   singly curved bodies, Delaunay diagonals), the exact mesh is itself convex, and only the tilt by
    rounding matters: at most 2 vertex_err / altitude for each of the two facets, which a factor of
    16 covers with a margin. */
 double lrcsi_convex_grazing(const lrcs_prepared *p)
 {
     const lrcs_part *part = &p->scene->part[only_part(p)];
     double vertex_err = vertex_error(p, part);
-    double dent = 0;
+    double concavity = 0;
     double altitude = 0;
     if (is_plane(p)) {
         return 0;
     }
-    measure_dents(p, &dent, &altitude);
-    return 16 * vertex_err / altitude + (dent > 16 * vertex_err ? 3 * part->curvature.turn : 0);
+    measure_dents(p, &concavity, &altitude);
+    return 16 * vertex_err / altitude +
+           (concavity > 16 * vertex_err ? 3 * part->curvature.turn : 0);
 }
 
 /* The proof for scenes with omitted facets: the edges of p->topology include these, so a topology

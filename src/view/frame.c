@@ -74,7 +74,7 @@ int lrcsi_frame_make(const lrcs_pose *pose, double direction[3], double R[3][3])
     }
     unit(row, made[0]);
     for (int k = 0; k < 3; k++) {
-        row[k] = lrcsi_product_turn(d, zero_low, made[0], (k + 1) % 3, (k + 2) % 3);
+        row[k] = lrcsi_product_cross(d, zero_low, made[0], (k + 1) % 3, (k + 2) % 3);
     }
     unit(row, made[1]);
     unit(d, made[2]);

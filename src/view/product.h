@@ -29,8 +29,8 @@ static inline double lrcsi_product_dot(const double *high, const double *low, co
    u^2 Q: together 8 u^2 Q, and the last rounding. The three Q of N x d are at most sqrt(2) |N| |d|
    in norm: the error of |N x d| is at most N's own times |d|, 12 u^2 |N| |d|, and 3.5 u |N x d| for
    the last roundings and that of the norm. */
-static inline double lrcsi_product_turn(const double *high, const double *low, const double *d,
-                                        int i, int j)
+static inline double lrcsi_product_cross(const double *high, const double *low, const double *d,
+                                         int i, int j)
 {
     lrcsi_dd p = lrcsi_dd_two_product(high[i], d[j]);
     lrcsi_dd q = lrcsi_dd_two_product(high[j], d[i]);

@@ -66,7 +66,7 @@ lrcsi_body lrcsi_body_make(const lrcs_prepared *p, uint32_t index)
             size += fabs(body.origin[k]);
         }
         size += body.vertex_ratio * (body.solid.radius + body.solid.radius2) + body.solid.length;
-        body.err = 64 * LRCSI_U * size + ldexp(part->misplaced, -p->exponent);
+        body.err = 64 * LRCSI_U * size + ldexp(part->position_err, -p->exponent);
     }
     return body;
 }

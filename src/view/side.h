@@ -34,7 +34,7 @@ static inline lrcsi_view_side lrcsi_view_side_of(const lrcsi_view *view, uint32_
    the segment's line, -1 if to the right, or LRCSI_VIEW_UNDECIDED. Let p be the direction and q the
    difference, with errors e and f including rounding (lrcsi_view_point_err): p x q has an error of
    e |q| + f |p| + 2 e f in the 1-norm, and of 2 u |p| |q| more, below a fifth of that. */
-static inline int lrcsi_view_side_turn(const lrcsi_view_side *side, const double *x, double err)
+static inline int lrcsi_view_side_orient(const lrcsi_view_side *side, const double *x, double err)
 {
     const double q[2] = {x[0] - side->at[0], x[1] - side->at[1]};
     double turn = side->to[0] * q[1] - side->to[1] * q[0];

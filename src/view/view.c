@@ -21,9 +21,9 @@
 static inline double normal_products(const double *high, const double *low, const double *d,
                                      double *cross)
 {
-    cross[0] = lrcsi_product_turn(high, low, d, 1, 2);
-    cross[1] = lrcsi_product_turn(high, low, d, 2, 0);
-    cross[2] = lrcsi_product_turn(high, low, d, 0, 1);
+    cross[0] = lrcsi_product_cross(high, low, d, 1, 2);
+    cross[1] = lrcsi_product_cross(high, low, d, 2, 0);
+    cross[2] = lrcsi_product_cross(high, low, d, 0, 1);
     return lrcsi_product_dot(high, low, d);
 }
 
@@ -45,9 +45,9 @@ static signed char facing_of(const lrcsi_view *view, uint32_t facet)
     if (fabs(dot) > 8 * LRCSI_U * size + 2 * n->error * view->length) {
         return dot > 0 ? 1 : -1;
     }
-    return (signed char)lrcsi_exact_turn(lrcsi_prepared_corner(view->prepared, facet, 0),
-                                         lrcsi_prepared_corner(view->prepared, facet, 1),
-                                         lrcsi_prepared_corner(view->prepared, facet, 2), d);
+    return (signed char)lrcsi_exact_orient(lrcsi_prepared_corner(view->prepared, facet, 0),
+                                           lrcsi_prepared_corner(view->prepared, facet, 1),
+                                           lrcsi_prepared_corner(view->prepared, facet, 2), d);
 }
 
 /* A dot product below this multiple of its error is computed exactly. */
@@ -193,7 +193,7 @@ void lrcsi_view_coordinates(const lrcsi_view *view, const double point[3], doubl
     point_place(view, point, x);
 }
 
-void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3])
+void lrcsi_view_unproject(const lrcsi_view *view, double x, double y, double point[3])
 {
     for (int k = 0; k < 3; k++) {
         point[k] = view->prepared->origin[k] + (view->R[0][k] * x + view->R[1][k] * y);
@@ -203,7 +203,7 @@ void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]
 /* As vectors: the rows have errors of 4 u each, two products and a sum one of 2 u (|x| + |y|), and
    the last sum one of u times its result, whose length is below |x| + |y| plus sqrt(3) times the
    origin's largest coordinate. */
-double lrcsi_view_lift_err(const lrcsi_view *view, double x, double y)
+double lrcsi_view_unproject_err(const lrcsi_view *view, double x, double y)
 {
     const double *o = view->prepared->origin;
     double origin = lrcsi_max(fabs(o[0]), lrcsi_max(fabs(o[1]), fabs(o[2])));

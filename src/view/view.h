@@ -152,9 +152,9 @@ void lrcsi_view_coordinates(const lrcsi_view *view, const double point[3], doubl
 
 /* The point (x, y) of the view plane, on the plane through the origin, in scaled scene coordinates,
    rounded: the sample line through it along the direction is exact by definition. */
-void lrcsi_view_lift(const lrcsi_view *view, double x, double y, double point[3]);
+void lrcsi_view_unproject(const lrcsi_view *view, double x, double y, double point[3]);
 
-/* Bound on the distance, in each view coordinate, of a lifted point from (x, y). */
-double lrcsi_view_lift_err(const lrcsi_view *view, double x, double y);
+/* Bound on the distance, in each view coordinate, of such a point from (x, y). */
+double lrcsi_view_unproject_err(const lrcsi_view *view, double x, double y);
 
 #endif

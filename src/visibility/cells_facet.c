@@ -240,9 +240,9 @@ int lrcsi_cells_facet_order(const lrcsi_view *view, uint32_t first, uint32_t sec
     const lrcsi_intersection *contact = lrcsi_intersection_find(intersections, first, second);
     contact = contact ? contact : lrcsi_intersection_find(intersections, second, first);
     return !contact ? lrcsi_sample_overlap_order(view, second, first)
-           : contact->kind != LRCSI_INTERSECTION_COPLANAR ? 0
-           : lrcsi_sample_beats(view, second, first)      ? 1
-                                                          : -1;
+           : contact->kind != LRCSI_INTERSECTION_COPLANAR     ? 0
+           : lrcsi_sample_has_precedence(view, second, first) ? 1
+                                                              : -1;
 }
 
 /* --- which facet continues another --------------------------------------------------------------

@@ -161,7 +161,7 @@ static int facet_apart(const lrcsi_cells_single *a, const lrcsi_view_side own[3]
         apart = 1;
         for (int i = 0; i < 3 && apart; i++) {
             const lrcsi_view_vertex *at = &view->point[its[i]];
-            apart = view->facing[a->facet] * lrcsi_view_side_turn(&own[k], at->x, at->err) == -1;
+            apart = view->facing[a->facet] * lrcsi_view_side_orient(&own[k], at->x, at->err) == -1;
         }
     }
     return apart;
@@ -437,7 +437,7 @@ typedef struct single_sample {
 
 /* Finds the sample's point in space from its barycentric coordinates; its coordinates are
    rounded. */
-static void sample_lift(const lrcsi_cells_single *a, single_sample *sample)
+static void sample_unproject(const lrcsi_cells_single *a, single_sample *sample)
 {
     const lrcs_prepared *p = a->cells.view->prepared;
     double weight[3];
@@ -477,7 +477,8 @@ static int sample_is_beyond(const lrcsi_cells_single *a, const single_sample *sa
     for (int k = 0; k < 3 && !beyond; k++) {
         lrcsi_view_side side = lrcsi_view_side_of(view, corner[k], corner[k == 2 ? 0 : k + 1]);
         beyond =
-            view->facing[other] * lrcsi_view_side_turn(&side, sample->view, sample->view_err) == -1;
+            view->facing[other] * lrcsi_view_side_orient(&side, sample->view, sample->view_err) ==
+            -1;
     }
     return beyond;
 }
@@ -609,7 +610,7 @@ static int find_sample(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
                        const lrcsi_cells_sides *s, single_sample *sample, int *guess)
 {
     double margin = 4 * (cell->widest_strip + a->shape.err + s->tolerance);
-    double lift = lrcsi_target_lift_err(&a->target);
+    double unproject_err = lrcsi_target_unproject_err(&a->target);
     int answer = -1;
     for (int t = 0; t < LRCSI_CELLS_SAMPLES && answer < 0; t++) {
         *sample = (single_sample){.test = TEST_BOUNDED};
@@ -620,18 +621,18 @@ static int find_sample(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
         }
         sample_place(a, sample);
         answer = sample_is_hidden(a, cell, s, sample);
-        if (answer < 0 && !a->frame.needle && sample->clear > margin + lift) {
-            sample_lift(a, sample);
-            sample->err = lift;
+        if (answer < 0 && !a->frame.needle && sample->clear > margin + unproject_err) {
+            sample_unproject(a, sample);
+            sample->err = unproject_err;
             sample_place(a, sample);
-            sample->clear -= lift;
+            sample->clear -= unproject_err;
             answer = sample_is_hidden(a, cell, s, sample);
         }
     }
     if (answer < 0) {
         *sample = (single_sample){.test = TEST_GUESSED};
         lrcsi_cells_sample_point(cell, 0, sample->at);
-        sample_lift(a, sample);
+        sample_unproject(a, sample);
         sample->test = TEST_GUESSED;
         sample_place(a, sample);
         *guess = sample_is_hidden(a, cell, s, sample) > 0;

@@ -60,7 +60,7 @@ static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t 
         return turn > 0 ? 1 : -1;
     }
     const lrcs_point *v = view->prepared->vertex;
-    return lrcsi_exact_turn(v[a].x, v[b].x, v[c].x, view->direction);
+    return lrcsi_exact_orient(v[a].x, v[b].x, v[c].x, view->direction);
 }
 
 /* Does the segment p q cross the interior of the facet in projection? From view coordinates: 1 yes,
@@ -300,7 +300,7 @@ int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,
 {
     return lrcsi_view_casts(view, contact->other) &&
            !(contact->kind == LRCSI_INTERSECTION_COPLANAR &&
-             lrcsi_sample_beats(view, facet, contact->other));
+             lrcsi_sample_has_precedence(view, facet, contact->other));
 }
 
 static int intersection_divides(const lrcsi_view *view, uint32_t facet)
@@ -411,7 +411,7 @@ static void run_gather(const lrcsi_classification *c, uint32_t run, run_corners 
 
 /* Do all corners lie strictly on one side of the line of an event edge, so that it neither crosses
    a facet of the run nor runs along a side? The error of each turn is that of
-   lrcsi_view_side_turn, which increases with the distance and with the error of the point: the
+   lrcsi_view_side_orient, which increases with the distance and with the error of the point: the
    largest of both bound the errors of all turns. */
 static int event_beside_run(const lrcsi_view *view, const run_corners *corners, uint32_t edge)
 {

@@ -157,8 +157,8 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes);
 /* Bytes at most for a grid of facets. */
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared);
 
-/* The facets for which a grid is to be searched: those that are marked and, unless region is NULL,
-   the first of each region. */
+/* The facets around which a grid is going to be searched, so that its lists must be complete there:
+   those that are marked and, unless region is NULL, the first of each region. */
 typedef struct lrcsi_grid_readers {
     const unsigned char *undecided; /* of each facet: is it marked? */
     const uint32_t *region;         /* of each facet: the first facet of its region */

@@ -31,8 +31,10 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
    returns 1 leaves one of the disjoint convex pieces of the visible region in o->single.piece, in
    the frame of o->single.target (lrcsi_target_weights leads back to the facet). An entirely visible
    facet is one piece, its own triangle; a facet of which nothing is known to be visible has no
-   pieces. The area in which the union of the pieces differs from the visible region is at most high
-   - low of the returned area, and 20 u reach perimeter for the rounding of the corners. */
+   pieces. The area in which the union of the pieces differs from the visible region is at most
+       high - low + 20 u reach perimeter,
+   where high and low are those of the returned area, and the second term, with the reach and the
+   perimeter of o->single.target, is due to the rounding of the corners. */
 void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet);
 int lrcsi_occlude_next(lrcsi_occlusion *o);
 lrcsi_visible lrcsi_occlude_close(lrcsi_occlusion *o);

@@ -54,7 +54,7 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
     }
     o.size = 2 * o.vertex_ratio * lrcsi_max(o.solid.radius, o.solid.radius2) + o.solid.length;
     o.k = p->proximity.hausdorff[index];
-    o.err = 64 * LRCSI_U * (far + o.size) + ldexp(part->misplaced, -p->exponent);
+    o.err = 64 * LRCSI_U * (far + o.size) + ldexp(part->position_err, -p->exponent);
     return o;
 }
 
@@ -85,7 +85,7 @@ int lrcsi_outline_in_front(const lrcsi_outline *o, const lrcsi_view *view, uint3
     double far = fabs(from[0]) + fabs(from[1]) + fabs(from[2]) + o->size;
     double e = 2 * o->err + 64 * LRCSI_U * far;
     if (own->reach > 0) {
-        e += own->tilted * far + 2 * ldexp(own->misplaced, -p->exponent);
+        e += own->normal_err * far + 2 * ldexp(own->position_err, -p->exponent);
     }
     double lowest[3];
     double highest[3];
@@ -183,8 +183,8 @@ static double integral_positive(double t0, double t1, double v0, double v1)
 
 /* Adds the areas between the edge and the polygon, or the tangents, from point p to point q.
    Returns 0 if the polygon is too steep. */
-static int lens_add(const edge_frame *edge, const outline_point *p, const outline_point *q,
-                    lrcsi_lens *lens)
+static int areas_add(const edge_frame *edge, const outline_point *p, const outline_point *q,
+                     lrcsi_outline_areas *areas)
 {
     double beyond = 2 * edge->outline->k;
     double low = lrcsi_max(p->t, -beyond);
@@ -198,22 +198,22 @@ static int lens_add(const edge_frame *edge, const outline_point *p, const outlin
     }
     double t0 = lrcsi_max(p->t, 0);
     double t1 = lrcsi_min(q->t, edge->length);
-    lens->gain +=
+    areas->gain +=
         integral_positive(t0, t1, p->depth + chord * (t0 - p->t), p->depth + chord * (t1 - p->t));
     double turn = q->slope - p->slope;
     double meet = turn > 0 ? (p->depth - p->slope * p->t - q->depth + q->slope * q->t) / turn : low;
     meet = lrcsi_min(high, lrcsi_max(low, meet));
-    lens->loss += integral_positive(low, meet, -(p->depth + p->slope * (low - p->t)),
-                                    -(p->depth + p->slope * (meet - p->t)));
-    lens->loss += integral_positive(meet, high, -(q->depth + q->slope * (meet - q->t)),
-                                    -(q->depth + q->slope * (high - q->t)));
+    areas->loss += integral_positive(low, meet, -(p->depth + p->slope * (low - p->t)),
+                                     -(p->depth + p->slope * (meet - p->t)));
+    areas->loss += integral_positive(meet, high, -(q->depth + q->slope * (meet - q->t)),
+                                     -(q->depth + q->slope * (high - q->t)));
     return 1;
 }
 
-lrcsi_lens lrcsi_outline_lens(const lrcsi_outline *o, const double a[3], const double b[3],
-                              int side)
+lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const double a[3],
+                                             const double b[3], int side)
 {
-    const lrcsi_lens unknown = {HUGE_VAL, HUGE_VAL, 0};
+    const lrcsi_outline_areas unknown = {HUGE_VAL, HUGE_VAL, 0};
     edge_frame edge = {.outline = o, .a = a};
     const double ab[2] = {b[0] - a[0], b[1] - a[1]};
     edge.length = sqrt(ab[0] * ab[0] + ab[1] * ab[1]);
@@ -226,7 +226,7 @@ lrcsi_lens lrcsi_outline_lens(const lrcsi_outline *o, const double a[3], const d
     edge.outward[1] = -side * edge.along[0];
     double before = slope_until(&edge, -1, -2 * o->k);
     double after = slope_until(&edge, 1, edge.length + 2 * o->k);
-    lrcsi_lens lens = {0, 0, 0};
+    lrcsi_outline_areas areas = {0, 0, 0};
     outline_point last = outline_point_at(&edge, -before);
     if (last.t > -2 * o->k) { /* the end of K, or too steep */
         return unknown;
@@ -234,7 +234,7 @@ lrcsi_lens lrcsi_outline_lens(const lrcsi_outline *o, const double a[3], const d
     for (int i = 1; i < POINTS; i++) {
         double steps = (double)i / POINTS_SIDE - 1; /* -1 .. 1 */
         outline_point next = outline_point_at(&edge, steps * (steps < 0 ? before : after));
-        if (!lens_add(&edge, &last, &next, &lens)) {
+        if (!areas_add(&edge, &last, &next, &areas)) {
             return unknown;
         }
         last = next;
@@ -242,9 +242,9 @@ lrcsi_lens lrcsi_outline_lens(const lrcsi_outline *o, const double a[3], const d
     if (last.t < edge.length + 2 * o->k) {
         return unknown;
     }
-    lens.width = 1.4143 * (edge.length + 4 * o->k);
+    areas.width = 1.4143 * (edge.length + 4 * o->k);
     double err = 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
-    lens.gain = (lens.gain + err * lens.width) * (1 + 0x1p-40);
-    lens.loss = (lens.loss + err * lens.width) * (1 + 0x1p-40);
-    return lens;
+    areas.gain = (areas.gain + err * areas.width) * (1 + 0x1p-40);
+    areas.loss = (areas.loss + err * areas.width) * (1 + 0x1p-40);
+    return areas;
 }

@@ -69,13 +69,13 @@ int lrcsi_outline_in_front(const lrcsi_outline *outline, const lrcsi_view *view,
 
 /* Upper bounds of the areas of 2, in projection: gain and loss, to which `width` times delta is to
    be added. If nothing is known, gain and loss are infinite, and width is 0. */
-typedef struct lrcsi_lens {
+typedef struct lrcsi_outline_areas {
     double gain, loss, width;
-} lrcsi_lens;
+} lrcsi_outline_areas;
 
 /* Given: a contour edge of the part from a to b in view coordinates; the side of its facets, 1 left
    and -1 right. */
-lrcsi_lens lrcsi_outline_lens(const lrcsi_outline *outline, const double a[3], const double b[3],
-                              int side);
+lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *outline, const double a[3],
+                                             const double b[3], int side);
 
 #endif

@@ -224,18 +224,19 @@ static void find_fractions(preview_job *job)
    are equal: therefore the longest such border is added with the square of its length. */
 #define PIXEL_ERROR_SQUARE (4.0 / 12)
 
-/* The total visible area of facets with few samples can be computed in two ways: from their visible
-   fractions, and from all samples whose owners reflect, minus the areas of facets with many
-   samples. The second has no bias, only a random error along the outline of the reflecting region.
-   Therefore the fractions are corrected towards it. If the two differ by d, and the second has an
-   estimated random error e, the correction is d^3 / (d^2 + e^2): nearly all of d if d is much
-   larger than e, and little of it if d is smaller. The remaining bias is estimated as twice the
+/* The areas of facets with few samples are corrected for bias, by d^3 / (d^2 + e^2) in total. Here
+   d is the difference between two values of their total visible area: that from their visible
+   fractions, and that from all samples whose owners reflect, minus the areas of facets with many
+   samples. The second value has no bias, only a random error e along the outline of the reflecting
+   region. So nearly all of d is corrected if d is much larger than e, and little of it if d is
+   smaller. The remaining bias is estimated as twice the
    uncorrected part of d, because one correction is applied to facets that reflect differently, plus
    the part of the correction that exceeds the areas to which it applies. */
 typedef struct preview_bias {
-    double less; /* subtracted, relative to a facet's visible area */
-    double more; /* added, relative to the hidden area of a facet of which something is visible */
-    double left; /* the estimated remaining bias, relative to its visible area */
+    double reduce; /* subtracted, relative to a facet's visible area */
+    double
+        enlarge; /* added, relative to the hidden area of a facet of which something is visible */
+    double remaining; /* the estimated remaining bias, relative to its visible area */
 } preview_bias;
 
 /* Is the facet corrected for bias? */
@@ -269,9 +270,9 @@ static preview_bias bias_of_small_facets(const preview_job *job)
     if (both > 0 && visible > 0) {
         double correction = excess * (excess / both) * (excess / both);
         double applied = lrcsi_min(visible, lrcsi_max(-hidden, correction));
-        bias.less = applied > 0 ? applied / visible : 0;
-        bias.more = applied < 0 ? -applied / hidden : 0;
-        bias.left =
+        bias.reduce = applied > 0 ? applied / visible : 0;
+        bias.enlarge = applied < 0 ? -applied / hidden : 0;
+        bias.remaining =
             (2 * fabs(excess) * (random_error / both) + fabs(correction - applied)) / visible;
     }
     return bias;
@@ -285,8 +286,8 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const 
     lrcsi_visible v = {0, 0, area, 0, 0};
     v.area = area * (double)c->fraction;
     if (few_samples(job, facet)) {
-        v.bias = bias->left * v.area;
-        v.area += bias->more * (area - v.area) - bias->less * v.area;
+        v.bias = bias->remaining * v.area;
+        v.area += bias->enlarge * (area - v.area) - bias->reduce * v.area;
         v.area = lrcsi_min(area, lrcsi_max(0, v.area));
     }
     uint32_t covered = job->raster.covered[facet];

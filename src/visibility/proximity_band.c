@@ -49,9 +49,9 @@ typedef struct band_job {
     uint32_t *edge, *part; /* event: its topology edge, its part */
     signed char *side;     /* event: on which side of it, from low to high, the part's facets lie: 1
                               left, -1 right, 0 both or not known */
-    lrcsi_lens *lens; /* event: the areas along it between the outlines of the true shape and of
-                         its facets; gain < 0: not computed yet */
-    uint32_t *seen;   /* event: 1 + the last facet for which it was considered */
+    lrcsi_outline_areas *areas; /* event: the areas along it between the outlines of the true shape
+                         and of its facets; gain < 0: not computed yet */
+    uint32_t *seen;             /* event: 1 + the last facet for which it was considered */
     uint32_t count;
     lrcsi_grid grid;
     band_box *box;          /* part: that of its facets in the view */
@@ -122,13 +122,13 @@ static int band_events(band_job *job, lrcs_work *work)
     uint32_t *edge = lrcsi_work_take(work, job->count, sizeof *edge);
     job->part = lrcsi_work_take(work, job->count, sizeof *job->part);
     job->side = lrcsi_work_take(work, job->count, sizeof *job->side);
-    job->lens = lrcsi_work_take(work, job->count, sizeof *job->lens);
+    job->areas = lrcsi_work_take(work, job->count, sizeof *job->areas);
     job->seen = lrcsi_work_take_zero(work, job->count, sizeof *job->seen);
-    if (!edge || !job->part || !job->side || !job->lens || !job->seen) {
+    if (!edge || !job->part || !job->side || !job->areas || !job->seen) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t i = 0; i < job->count; i++) {
-        job->lens[i].gain = -1;
+        job->areas[i].gain = -1;
     }
     job->edge = edge;
     list_events(job);
@@ -462,19 +462,20 @@ static void outline_fractions(const band_job *job, uint32_t facet, uint32_t even
     const lrcsi_outline *outline = &job->outline[job->part[event]];
     double projected = lrcsi_view_projected(view, facet);
     double whole = 0.5 * view->prepared->normal[facet].length;
-    lrcsi_lens *lens = &job->lens[event];
+    lrcsi_outline_areas *areas = &job->areas[event];
     *gain = *loss = HUGE_VAL;
     if (!(projected > COS_MIN * whole) || !(delta <= outline->k)) {
         return;
     }
-    if (lens->gain < 0) {
+    if (areas->gain < 0) {
         const double *a = view->point[edge->low].x;
         const double *b = view->point[edge->high].x;
-        *lens = rim_is_inside(job, event) ? (lrcsi_lens){0, 0, 0}
-                                          : lrcsi_outline_lens(outline, a, b, job->side[event]);
+        *areas = rim_is_inside(job, event)
+                     ? (lrcsi_outline_areas){0, 0, 0}
+                     : lrcsi_outline_areas_make(outline, a, b, job->side[event]);
     }
-    *gain = (lens->gain + lens->width * delta) / projected * (1 + COS_MARGIN);
-    *loss = (lens->loss + lens->width * delta) / projected * (1 + COS_MARGIN);
+    *gain = (areas->gain + areas->width * delta) / projected * (1 + COS_MARGIN);
+    *loss = (areas->loss + areas->width * delta) / projected * (1 + COS_MARGIN);
 }
 
 /* The rectangle about an event edge near a facet. slack: event_slack of the displacement across the
@@ -739,7 +740,7 @@ enum { HIDDEN_REGION = 1, HIDDEN_FACET = 2 };
 
 /* Other parts hide a region entirely or not at all: entirely if at most half of one of its front
    facets is visible. */
-static void settle_regions(const lrcsi_proximity_band *band, const lrcsi_visible *visible)
+static void find_hidden_regions(const lrcsi_proximity_band *band, const lrcsi_visible *visible)
 {
     const lrcsi_view *view = band->classification->view;
     const lrcs_prepared *p = view->prepared;
@@ -772,8 +773,8 @@ static uint32_t mark_candidates(const lrcsi_proximity_band *band, const lrcsi_vi
 
 /* A part whose bands a group does not meet hides all of the group or nothing of it. The group's own
    part is not asked: it hides no front, and the bands at its rims decide about its inside. */
-static void settle_groups(const lrcsi_proximity_band *band, const unsigned char *candidate,
-                          const uint32_t *group, const lrcsi_grid *facets, lrcsi_meter *meter)
+static void find_hidden_groups(const lrcsi_proximity_band *band, const unsigned char *candidate,
+                               const uint32_t *group, const lrcsi_grid *facets, lrcsi_meter *meter)
 {
     const lrcs_scene *scene = band->classification->view->prepared->scene;
     for (uint32_t f = 0; f < scene->facet_count; f++) {
@@ -791,7 +792,7 @@ static void settle_groups(const lrcsi_proximity_band *band, const unsigned char 
     }
 }
 
-size_t lrcsi_proximity_band_settle_need(const lrcs_prepared *p)
+size_t lrcsi_proximity_band_hidden_need(const lrcs_prepared *p)
 {
     size_t facets = p->scene->facet_count;
     size_t need =
@@ -799,8 +800,9 @@ size_t lrcsi_proximity_band_settle_need(const lrcs_prepared *p)
     return p->proximity.reach ? lrcsi_work_add(need, lrcsi_grid_facets_need(p)) : 0;
 }
 
-void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_visible *visible,
-                                 lrcsi_meter *meter, lrcs_work *work)
+void lrcsi_proximity_band_find_hidden(const lrcsi_proximity_band *band,
+                                      const lrcsi_visible *visible, lrcsi_meter *meter,
+                                      lrcs_work *work)
 {
     const lrcsi_classification *c = band->classification;
     size_t mark = work->used;
@@ -812,11 +814,11 @@ void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_v
         const lrcsi_grid_readers readers = {.undecided = candidate};
         join_facets(band, candidate, group);
         if (lrcsi_grid_facets(&c->grid, &c->boxes, &readers, work, &facets) == LRCS_OK) {
-            settle_groups(band, candidate, group, &facets, meter);
+            find_hidden_groups(band, candidate, group, &facets, meter);
         }
     }
     work->used = mark;
-    settle_regions(band, visible);
+    find_hidden_regions(band, visible);
 }
 
 /* Upper bound of the number of events: pairs of an edge and a part that has a facet on it. */
@@ -846,7 +848,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, 1));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_lens)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_outline_areas)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(band_box)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_outline)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_body)));

@@ -63,7 +63,7 @@
    2. Distance in projection. In the distance of (2) from y, a bound on the component of x - y
    perpendicular to d may replace e_P, unless Q is open and k_Q > 0. On the curved wall of a shape
    that is placed without distortion, the map moves points by known distances from or towards the
-   axis, along it, and tangentially (lrcs_part.displaced). The bound is the sum of the three, of
+   axis, along it, and tangentially (lrcs_part.displacement). The bound is the sum of the three, of
    which the first two are multiplied by the sines of the angles between these directions and d. To
    the sides of an event edge only the component of x - y perpendicular to the edge counts, since
    the paths below cross the line of the edge only if that component and k_Q together reach it; at
@@ -101,7 +101,7 @@
    may hold: prisms about facets, rectangles about edges. The fractions of a facet in its bands add
    up to an upper bound of the fraction where the visibility of true shapes and facets may differ.
    A fraction of the facet's area is the same fraction of its patch, because the map stretches
-   areas evenly (mesh/profile.c), up to what lrcs_part.uneven bounds.
+   areas evenly (mesh/profile.c), up to what lrcs_part.stretch_err bounds.
 
    7. Regions. Facets of a curved part that are nowhere uncertain, joined across edges, form
    regions. Other parts hide a region entirely or not at all; one hidden facet that faces the laser
@@ -155,12 +155,13 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
                               lrcs_work *work, lrcsi_proximity_band *band);
 
-/* Bytes for lrcsi_proximity_band_settle. */
-size_t lrcsi_proximity_band_settle_need(const lrcs_prepared *prepared);
+/* Bytes for lrcsi_proximity_band_find_hidden. */
+size_t lrcsi_proximity_band_hidden_need(const lrcs_prepared *prepared);
 
 /* Given visible areas, finds what is hidden in truth too: regions; and facets that meet bands, of
    which all fractions become 0. Without memory, or when the meter is spent, it finds less. */
-void lrcsi_proximity_band_settle(const lrcsi_proximity_band *band, const lrcsi_visible *visible,
-                                 lrcsi_meter *meter, lrcs_work *work);
+void lrcsi_proximity_band_find_hidden(const lrcsi_proximity_band *band,
+                                      const lrcsi_visible *visible, lrcsi_meter *meter,
+                                      lrcs_work *work);
 
 #endif

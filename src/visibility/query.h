@@ -50,9 +50,9 @@ int lrcsi_query_hidden_by_others(const lrcsi_grid *facets, uint32_t facet, lrcsi
 int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter *meter,
                         lrcs_work *work, lrcsi_grid *facets, unsigned char *answer);
 
-/* 1 if an undecided facet is proved to be hidden, entirely behind one component; otherwise 0, also
-   when the meter is spent. It may make classification find the facet's crossings
-   (visibility/classify.h). */
+/* Tries to prove that one surface component hides an undecided facet entirely. Returns 1 if that is
+   proved; 0 if not, or if the meter is spent. The classification may find the facet's crossings for
+   it (visibility/classify.h). */
 int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid *facets,
                          uint32_t facet, lrcsi_meter *meter);
 

@@ -17,15 +17,15 @@ void lrcsi_raster_layout(const lrcsi_view *view, uint32_t size, lrcsi_raster *ra
     for (int k = 0; k < 2; k++) {
         r.radius += lrcsi_max(fabs(view->low[k]), fabs(view->low[k] + view->side));
     }
-    r.sample_err = lrcsi_view_lift_err(view, r.radius, 0) * r.scale + 8 * LRCSI_U * size;
+    r.sample_err = lrcsi_view_unproject_err(view, r.radius, 0) * r.scale + 8 * LRCSI_U * size;
     *raster = r;
 }
 
 void lrcsi_raster_sample(const lrcsi_raster *raster, uint32_t x, uint32_t y, double point[3])
 {
     const lrcsi_view *view = raster->view;
-    lrcsi_view_lift(view, view->low[0] + (x + 0.5) * raster->pixel,
-                    view->low[1] + (y + 0.5) * raster->pixel, point);
+    lrcsi_view_unproject(view, view->low[0] + (x + 0.5) * raster->pixel,
+                         view->low[1] + (y + 0.5) * raster->pixel, point);
 }
 
 double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2])

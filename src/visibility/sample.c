@@ -27,12 +27,12 @@ static int sample_axis(const double *d)
 static int sample_edge_side(const double *p, const double *q, const double *point, int sense,
                             const double *d)
 {
-    int side = lrcsi_exact_turn(p, q, point, d);
+    int side = lrcsi_exact_orient(p, q, point, d);
     int axis = sample_axis(d);
     for (int k = 1; k <= 2 && side == 0; k++) {
         double moved[3] = {p[0], p[1], p[2]};
         moved[(axis + k) % 3] += 2;
-        side = sense * lrcsi_exact_turn(p, q, moved, d);
+        side = sense * lrcsi_exact_orient(p, q, moved, d);
     }
     return side;
 }
@@ -78,7 +78,7 @@ int lrcsi_sample_above(const lrcsi_view *view, uint32_t facet, const double poin
                             lrcsi_prepared_corner(view->prepared, facet, 2), point);
 }
 
-int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser)
+int lrcsi_sample_has_precedence(const lrcsi_view *view, uint32_t winner, uint32_t loser)
 {
     if (view->facing[winner] != view->facing[loser]) {
         return view->facing[winner] > view->facing[loser];
@@ -122,7 +122,7 @@ int lrcsi_sample_order(const lrcsi_view *view, uint32_t first, uint32_t second)
             return 0; /* they are not in one plane */
         }
     }
-    return side != 0 ? side : lrcsi_sample_beats(view, first, second) ? 1 : -1;
+    return side != 0 ? side : lrcsi_sample_has_precedence(view, first, second) ? 1 : -1;
 }
 
 /* Where side p q of one facet and side r s of another cross in projection: 1 if p q is nearer
@@ -131,9 +131,9 @@ static int sides_order(const lrcsi_view *view, const double *p, const double *q,
                        const double *s)
 {
     const double *d = view->direction;
-    int left = lrcsi_exact_turn(p, q, s, d);
-    if (left * lrcsi_exact_turn(p, q, r, d) >= 0 ||
-        lrcsi_exact_turn(r, s, p, d) * lrcsi_exact_turn(r, s, q, d) >= 0) {
+    int left = lrcsi_exact_orient(p, q, s, d);
+    if (left * lrcsi_exact_orient(p, q, r, d) >= 0 ||
+        lrcsi_exact_orient(r, s, p, d) * lrcsi_exact_orient(r, s, q, d) >= 0) {
         return 0;
     }
     return left * lrcsi_exact_side(p, q, r, s);
@@ -146,7 +146,7 @@ static int covers_closed(const lrcsi_view *view, uint32_t facet, const double po
     for (int k = 0; k < 3 && covers; k++) {
         const double *p = lrcsi_prepared_corner(view->prepared, facet, k);
         const double *q = lrcsi_prepared_corner(view->prepared, facet, (k + 1) % 3);
-        covers = view->facing[facet] * lrcsi_exact_turn(p, q, point, view->direction) >= 0;
+        covers = view->facing[facet] * lrcsi_exact_orient(p, q, point, view->direction) >= 0;
     }
     return covers;
 }

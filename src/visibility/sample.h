@@ -24,14 +24,14 @@ int lrcsi_sample_above(const lrcsi_view *view, uint32_t facet, const double poin
 /* 1 if `winner` counts as nearer than `loser`; both lie exactly in one plane. A front side counts
    as nearer than a back side, a back side that reflects as nearer than one that does not, and
    otherwise the facet with the lower index. */
-int lrcsi_sample_beats(const lrcsi_view *view, uint32_t winner, uint32_t loser);
+int lrcsi_sample_has_precedence(const lrcsi_view *view, uint32_t winner, uint32_t loser);
 
 /* 1 if the first facet is nearer on every line of sight that meets both, -1 if the second is,
    because one of them lies on one side of the other's plane; otherwise 0, also if they lie in one
    plane. Exact. */
 int lrcsi_sample_side(const lrcsi_view *view, uint32_t first, uint32_t second);
 
-/* The same; for two facets in one plane, lrcsi_sample_beats decides. */
+/* The same; for two facets in one plane, lrcsi_sample_has_precedence decides. */
 int lrcsi_sample_order(const lrcsi_view *view, uint32_t first, uint32_t second);
 
 /* Given two facets whose interiors do not intersect: 1 if the first is nearer on all lines of sight

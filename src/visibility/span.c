@@ -133,9 +133,9 @@ static inline void inner_ends(const double cross[4], const double margin[4], dou
     end[1] = lrcsi_min(x1, lrcsi_min(cross[2] - margin[2], cross[3] - margin[3]));
 }
 
-/* For sides that are parallel to the rows: the larger of the values at the centres of rows y0 and
-   y1, plus `pixels` (1, 0 or -1) times the variation within a pixel; the least of these over such
-   sides, infinity if there are none. */
+/* The least of max(value at row y0, value at row y1) + pixels * variation over the sides that are
+   parallel to the rows; infinity if there are none. Values are those at the centres of the rows,
+   the variation that within a pixel, `pixels` is 1, 0 or -1. */
 static double parallel_value(const lrcsi_edge_functions *e, double y0, double y1, double pixels)
 {
     double least = HUGE_VAL;

@@ -154,7 +154,7 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *t)
 /* The barycentric coordinates cause an error of 100 u of the reach. The sum of three products, with
    coordinates that add up to 1, has an error of 3 u of the largest component in each component,
    less than 6 u in norm. */
-double lrcsi_target_lift_err(const lrcsi_target *t)
+double lrcsi_target_unproject_err(const lrcsi_target *t)
 {
     return 100 * LRCSI_U * t->reach + 8 * LRCSI_U * t->size;
 }

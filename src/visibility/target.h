@@ -45,7 +45,7 @@ void lrcsi_target_make(const lrcsi_view *view, uint32_t facet, lrcsi_target *tar
 
 /* Upper bound of the distance, in the view, between a point of the frame (view axes) and the point
    of the facet that lrcsi_target_weights gives for it, with rounded coordinates. */
-double lrcsi_target_lift_err(const lrcsi_target *target);
+double lrcsi_target_unproject_err(const lrcsi_target *target);
 
 /* The frame in which errors are small in proportion to the width of the facet: barycentric
    coordinates if it is a needle, otherwise the same frame. */

@@ -29,7 +29,7 @@ enum { SIGN_CASES = sizeof sign_cases / sizeof *sign_cases };
 
 static int ask(char kind, const double *a, const double *b, const double *c, const double *d)
 {
-    return kind == 's' ? lrcsi_exact_side(a, b, c, d) : lrcsi_exact_turn(a, b, c, d);
+    return kind == 's' ? lrcsi_exact_side(a, b, c, d) : lrcsi_exact_orient(a, b, c, d);
 }
 
 /* The determinant as one would write it in plain doubles. */
@@ -212,9 +212,9 @@ static void equal_points_give_zero(void **state)
         assert_int_equal(lrcsi_exact_side(a, b, c, c), 0);
         assert_int_equal(lrcsi_exact_side(a, b, b, c), 0);
         assert_int_equal(lrcsi_exact_side(a, a, b, c), 0);
-        assert_int_equal(lrcsi_exact_turn(a, b, b, c), 0);
-        assert_int_equal(lrcsi_exact_turn(a, a, b, c), 0);
-        assert_int_equal(lrcsi_exact_turn(a, b, a, c), 0);
+        assert_int_equal(lrcsi_exact_orient(a, b, b, c), 0);
+        assert_int_equal(lrcsi_exact_orient(a, a, b, c), 0);
+        assert_int_equal(lrcsi_exact_orient(a, b, a, c), 0);
     }
 }
 
@@ -226,8 +226,8 @@ static void turn_along_an_axis_is_the_planar_turn(void **state)
     const double c[3] = {0.0, 1.0, 2.0};
     const double up[3] = {0.0, 0.0, 1.0};
     const double down[3] = {0.0, 0.0, -1.0};
-    assert_int_equal(lrcsi_exact_turn(a, b, c, up), 1);
-    assert_int_equal(lrcsi_exact_turn(a, b, c, down), -1);
+    assert_int_equal(lrcsi_exact_orient(a, b, c, up), 1);
+    assert_int_equal(lrcsi_exact_orient(a, b, c, down), -1);
     assert_int_equal(lrcsi_exact_side(a, b, c, a), 0);
 }
 

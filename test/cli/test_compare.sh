@@ -146,7 +146,7 @@ read_as twenty_logarithms 'decibels: 20 log10 in place of 10 log10' decibels 20 
 read_as m2_in_place_of_dbsm 'the column sigma_dbsm holds m2' awk -F, -v OFS=, 'NR == 1 { $13 = "sigma_dbsm" }
     { print $1, $2, $13 }' kit/cases.csv
 read_as two_digits_are_too_few 'few digits: every answer is rounded to 2 digits' truth 'sprintf("%.2g", $13)'
-read_as rows_that_moved 'rows: every answer stands one line too late' awk -F, -v OFS=, '
+read_as rows_that_moved 'rows: every answer is one line too late' awk -F, -v OFS=, '
     NR == 1 { print "scene,attitude,sigma_m2"; next } { print $1, $2, (NR == 2 ? 6 : last); last = $13 }' kit/cases.csv
 truth '$1 == "box" ? "nan" : $13' >theirs.csv
 run compare kit theirs.csv --json -

@@ -62,11 +62,11 @@ same facet_says_why "$said" "facet (chosen by auto: proved convex and alone: not
 method_line pair.toml
 same exact_says_why "$said" "exact (chosen by auto: not proved convex and alone; clipping has the closest bound)"
 method_line pair.toml --resolution 512 --tolerance 0.5
-same a_raster_that_is_enough_says_so "$said" "zbuffer, 512 x 512 (chosen by auto: the raster asked for meets the tolerance)"
+same a_raster_that_is_enough_says_so "$said" "zbuffer, 512 x 512 (chosen by auto: the requested raster meets the tolerance)"
 method_line pair.toml --resolution 16
-same a_raster_that_is_not_enough_yields "$said" "exact (chosen by auto: the raster asked for misses the tolerance)"
+same a_raster_that_is_not_enough_yields "$said" "exact (chosen by auto: the requested raster misses the tolerance)"
 method_line pair.toml --method zbuffer --resolution 64
-same a_method_asked_for_says_so "$said" "zbuffer, 64 x 64 (as asked)"
+same a_method_asked_for_says_so "$said" "zbuffer, 64 x 64 (as requested)"
 
 # ---- the tolerance ----
 for tolerance in 0.5 1e-2 1e-4 1e-8; do

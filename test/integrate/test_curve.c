@@ -337,7 +337,7 @@ static void effects_tell_what_was_curved_and_why(void **state)
     lrcs_result r = curved_run(&c, direction, LRCS_METHOD_AUTO, 0);
     assert_int_equal(r.effect[LRCS_EFFECT_CURVED_NORMALS].on, 1);
     assert_string_equal(r.effect[LRCS_EFFECT_CURVED_NORMALS].reason,
-                        "smoothing groups or vertex normals, as asked");
+                        "smoothing groups or vertex normals, as requested");
     c.brdf.A = 0;
     curved_build(&c, LRCS_NORMALS_AUTO);
     r = curved_run(&c, direction, LRCS_METHOD_AUTO, 0);

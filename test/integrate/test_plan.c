@@ -41,7 +41,7 @@ static void self_shadowing_is_off_for_a_convex_body_alone(void **state)
     assert_int_equal(r.method, LRCS_METHOD_EXACT);
     r = scene_run(&scene, oblique, LRCS_METHOD_FACET, 0);
     assert_false(on(&r, LRCS_EFFECT_SELF_SHADOWING)); /* on request, and its bound says so */
-    assert_string_equal(r.method_reason, "as asked");
+    assert_string_equal(r.method_reason, "as requested");
     check_most(0.5 * r.sigma_m2, r.bound_m2);
 }
 

@@ -23,7 +23,7 @@ static inline contacts_facet contacts_facet_make(const lrcs_point *v, const lrcs
     }
     for (int k = 0; k < 3 && f.turn == 0; k++) {
         f.axis = axis[k];
-        f.turn = lrcsi_exact_turn(f.x[0], f.x[1], f.x[2], f.axis);
+        f.turn = lrcsi_exact_orient(f.x[0], f.x[1], f.x[2], f.axis);
     }
     return f;
 }
@@ -48,7 +48,7 @@ static inline int contacts_separated(const contacts_facet *f, int turn, const co
     for (int k = 0; k < 3; k++) {
         int outside = 0;
         for (int i = 0; i < 3; i++) {
-            outside += turn * lrcsi_exact_turn(f->x[k], f->x[(k + 1) % 3], g->x[i], axis) <= 0;
+            outside += turn * lrcsi_exact_orient(f->x[k], f->x[(k + 1) % 3], g->x[i], axis) <= 0;
         }
         if (outside == 3) {
             return 1;
@@ -63,7 +63,7 @@ static inline int contacts_kind(const contacts_facet *f, const contacts_facet *t
     int side[3];
     contacts_sides(f, t, side);
     if (side[0] == 0 && side[1] == 0 && side[2] == 0) {
-        int turn = lrcsi_exact_turn(t->x[0], t->x[1], t->x[2], f->axis);
+        int turn = lrcsi_exact_orient(t->x[0], t->x[1], t->x[2], f->axis);
         return contacts_separated(f, f->turn, t, f->axis) || contacts_separated(t, turn, f, f->axis)
                    ? LRCSI_INTERSECTION_NONE
                    : LRCSI_INTERSECTION_COPLANAR;
@@ -131,10 +131,10 @@ static inline int contacts_pierces(const contacts_facet *t, const double *a, con
     for (int k = 0; k < 3; k++) {
         const double *p = t->x[k];
         const double *q = t->x[(k + 1) % 3];
-        int turn_p = lrcsi_exact_turn(a, b, p, t->axis);
-        int turn_q = lrcsi_exact_turn(a, b, q, t->axis);
-        int turn_a = lrcsi_exact_turn(p, q, a, t->axis);
-        int turn_b = lrcsi_exact_turn(p, q, b, t->axis);
+        int turn_p = lrcsi_exact_orient(a, b, p, t->axis);
+        int turn_q = lrcsi_exact_orient(a, b, q, t->axis);
+        int turn_a = lrcsi_exact_orient(p, q, a, t->axis);
+        int turn_b = lrcsi_exact_orient(p, q, b, t->axis);
         if ((turn_p == 0 && contacts_between(a, b, p)) ||
             (turn_p * turn_q < 0 && turn_a * turn_b < 0)) {
             return 1;

@@ -296,7 +296,7 @@ static void plane_faced_bodies_and_discs_have_no_curvature(void **state)
     for (int i = 0; i < 3; i++) {
         lrcs_curvature c = {1.0, 1.0, 1.0, 1.0};
         lrcs_mesh mesh = make(&shapes[i], i < 2 ? 4 : 16, 1, &c);
-        check_same(c.turn + c.area_error + c.bias + c.spread, 0.0);
+        check_same(c.turn + c.area_error + c.bias + c.rms_turn, 0.0);
         double n[3];
         facet_vector(&mesh, 0, n);
         assert_true(i == 1 || n[2] > 0.0);
@@ -399,10 +399,10 @@ static void check_rings(const lrcs_shape *shape, uint32_t around, uint32_t along
     check_most(seen.turn, c.turn);
     check_most(seen.area_error, c.area_error * 1.002);
     check_most(seen.bias, c.bias * 1.002 + 1e-4 * h * h);
-    check_most(seen.spread, c.spread * 1.0005);
+    check_most(seen.spread, c.rms_turn * 1.0005);
     check_most(c.turn, seen.turn * 1.1); /* and they are not idle */
     check_most(c.area_error, seen.area_error * 1.1 + 1e-3 * h * h);
-    check_most(c.spread, seen.spread * 1.1);
+    check_most(c.rms_turn, seen.spread * 1.1);
 }
 
 static void check_strips(const lrcs_shape *shape, uint32_t around, uint32_t along)
@@ -797,7 +797,7 @@ static void no_dimension_at_all_makes_a_mesh_of_no_area(void **state)
         lrcs_curvature c;
         lrcs_mesh mesh = make(&shape, plane ? 4 : 8, 1, &c);
         check_same(group_area(&mesh, 0) + group_area(&mesh, 1), 0.0);
-        assert_true(isfinite(c.turn + c.area_error + c.bias + c.spread));
+        assert_true(isfinite(c.turn + c.area_error + c.bias + c.rms_turn));
     }
 }
 
@@ -814,7 +814,7 @@ static void extreme_dimensions_stay_finite(void **state)
         uint32_t along = i % 4 < 2 ? 1 : 3;
         lrcs_curvature c;
         lrcs_mesh mesh = make(&shape, 8, along, &c);
-        assert_true(isfinite(c.turn + c.area_error + c.bias + c.spread));
+        assert_true(isfinite(c.turn + c.area_error + c.bias + c.rms_turn));
         double reach = lrcsi_tessellate_reach(&shape, &(lrcs_divisions){8, along, 0}).all;
         double size = shape.radius + shape.radius2 + shape.length;
         assert_true(reach >= 0.0 && reach <= 3.0 * size + 1e-300);

@@ -221,7 +221,7 @@ static void digest_predicates(void)
         }
         double high[3];
         double low[3];
-        take((uint64_t)(lrcsi_exact_turn(p[0], p[1], p[2], p[3]) + 1));
+        take((uint64_t)(lrcsi_exact_orient(p[0], p[1], p[2], p[3]) + 1));
         take((uint64_t)(lrcsi_exact_side(p[0], p[1], p[2], p[3]) + 1));
         lrcsi_exact_normal(p[0], p[1], p[2], high, low);
         take_doubles(high, 3);

@@ -156,7 +156,7 @@ static void mirrored_parts_stay_outward(void **state)
         check_same(report_of(&scene).volume, 48.0);
         assert_int_equal(scene.part[0].solid, 1);
         assert_int_equal(scene.part[0].convex_patch, 1);
-        check_same(scene.part[0].thinnest, 2.0);
+        check_same(scene.part[0].min_extent, 2.0);
         free(area);
     }
 }
@@ -236,17 +236,17 @@ static void shapes_say_what_they_are(void **state)
         assert_int_equal(scene.part[0].convex_patch, 1);
         assert_int_equal(scene.part[0].curvature_known, 1);
         assert_int_equal(scene.part[0].curvature.turn > 0.0, want[i].curved);
-        check_same(scene.part[0].thinnest, 0.5 * want[i].thinnest);
-        check_most(scene.part[0].misplaced, 1e-12);
+        check_same(scene.part[0].min_extent, 0.5 * want[i].min_extent);
+        check_most(scene.part[0].position_err, 1e-12);
         free(area);
         part.place.scale[1] = 0.25; /* not uniform: patches are stretched unevenly */
         part.shape.parts =
             part.shape.kind == LRCS_SHAPE_CYLINDER ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
         assert_int_equal(build_scene(&recipe, NULL, &area, &scene, NULL), LRCS_OK);
         assert_int_equal(scene.part[0].curvature_known, 1);
-        assert_int_equal(scene.part[0].uneven > 0.0, want[i].curved);
+        assert_int_equal(scene.part[0].stretch_err > 0.0, want[i].curved);
         assert_int_equal(scene.part[0].convex_patch, 1);
-        check_same(scene.part[0].thinnest, 0.25 * want[i].thinnest);
+        check_same(scene.part[0].min_extent, 0.25 * want[i].min_extent);
         assert_int_equal(scene.part[0].solid,
                          want[i].kind == LRCS_SHAPE_CYLINDER ? 0 : want[i].solid);
         free(area);
@@ -305,7 +305,7 @@ static void a_cones_length_follows_its_half_angle(void **state)
     void *area;
     part.shape.half_angle_deg = 45.0;
     assert_int_equal(build_scene(&recipe, NULL, &area, &scene, NULL), LRCS_OK);
-    check_rel(scene.part[0].thinnest, 1.0, 1e-15);
+    check_rel(scene.part[0].min_extent, 1.0, 1e-15);
     free(area);
 }
 
@@ -338,9 +338,9 @@ static void misplacement_bounds_what_rounding_does(void **state)
             }
             least = fmin(least, sqrt((double)off));
         }
-        check_most(least, scene.part[0].misplaced);
+        check_most(least, scene.part[0].position_err);
     }
-    check_most(scene.part[0].misplaced, 1e-9);
+    check_most(scene.part[0].position_err, 1e-9);
     free(area);
 }
 

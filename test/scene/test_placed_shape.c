@@ -13,7 +13,7 @@ static void curvature_outlives_uniform_scaling_only(void **state)
     for (int i = 0; i < 10; i++) {
         lrcs_curvature curvature = {0, 0, 0, 0};
         double *const number[] = {&curvature.turn, &curvature.area_error, &curvature.bias,
-                                  &curvature.spread};
+                                  &curvature.rms_turn};
         lrcs_place place = lrcs_place_default();
         lrcs_joint joint = {0};
         lrcsi_placer placer;

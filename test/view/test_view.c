@@ -282,16 +282,16 @@ static void lifted_points_lie_within_their_error(void **state)
     for (int i = 0; i < 100; i++) {
         double at[2] = {1e-3 * sin(i), 1e-3 * cos(3 * i)};
         double point[3];
-        lrcsi_view_lift(&view, at[0], at[1], point);
+        lrcsi_view_unproject(&view, at[0], at[1], point);
         for (int k = 0; k < 2; k++) {
             long double got = 0;
             for (int j = 0; j < 3; j++) {
                 got += view.R[k][j] * ((long double)point[j] - view.prepared->origin[j]);
             }
-            check_abs((double)got, at[k], lrcsi_view_lift_err(&view, at[0], at[1]));
+            check_abs((double)got, at[k], lrcsi_view_unproject_err(&view, at[0], at[1]));
         }
     }
-    check_most(lrcsi_view_lift_err(&view, 0, 0), 3e-16);
+    check_most(lrcsi_view_unproject_err(&view, 0, 0), 3e-16);
 }
 
 /* Both against long double: the unit vector's two parts, and n . d of every facet. */

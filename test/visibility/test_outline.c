@@ -172,7 +172,7 @@ static void check_areas(const lrcs_shape *shape, double tolerance, const double 
     lrcsi_outline o = lrcsi_outline_make(&view, 0);
     assert_true(o.known);
     const lrcsi_topology *topology = &view.prepared->topology;
-    lrcsi_lens sum = {0, 0, 0};
+    lrcsi_outline_areas sum = {0, 0, 0};
     double from[2] = {0, 0};
     int count = 0;
     for (uint32_t e = 0; e < topology->edge_count; e++) {
@@ -180,13 +180,13 @@ static void check_areas(const lrcs_shape *shape, double tolerance, const double 
         const double *a = view.point[topology->edge[e].low].x;
         const double *b = view.point[topology->edge[e].high].x;
         if (side != 0) {
-            lrcsi_lens lens = lrcsi_outline_lens(&o, a, b, side);
-            sum.gain += lens.gain;
-            sum.loss += lens.loss;
+            lrcsi_outline_areas areas = lrcsi_outline_areas_make(&o, a, b, side);
+            sum.gain += areas.gain;
+            sum.loss += areas.loss;
             from[0] += 0.5 * (a[0] + b[0]);
             from[1] += 0.5 * (a[1] + b[1]);
             count++;
-            *known += isfinite(lens.gain);
+            *known += isfinite(areas.gain);
         }
     }
     *all += count;
@@ -276,10 +276,10 @@ static void nothing_is_known_along_edges_without_length_side_or_outline(void **s
     const double a[3] = {o.centre[0], o.centre[1], 0};
     const double b[3] = {o.centre[0] + 0.5 * o.size, o.centre[1], 0};
     assert_true(o.known);
-    assert_true(isinf(lrcsi_outline_lens(&o, a, b, 0).gain));
-    assert_true(isinf(lrcsi_outline_lens(&o, a, a, 1).gain));
+    assert_true(isinf(lrcsi_outline_areas_make(&o, a, b, 0).gain));
+    assert_true(isinf(lrcsi_outline_areas_make(&o, a, a, 1).gain));
     o.known = 0;
-    assert_true(isinf(lrcsi_outline_lens(&o, a, b, 1).loss));
+    assert_true(isinf(lrcsi_outline_areas_make(&o, a, b, 1).loss));
 }
 
 int main(void)

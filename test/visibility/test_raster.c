@@ -355,8 +355,8 @@ static void heights_lie_within_their_error_bounds(void **state)
             continue;
         }
         double point[3];
-        lrcsi_view_lift(&view, view.low[0] + (k % N + 0.5) * raster.pixel,
-                        view.low[1] + (k / N + 0.5) * raster.pixel, point);
+        lrcsi_view_unproject(&view, view.low[0] + (k % N + 0.5) * raster.pixel,
+                             view.low[1] + (k / N + 0.5) * raster.pixel, point);
         const double *a = lrcsi_prepared_corner(p, f, 0);
         long double top = 0;
         long double bottom = 0;

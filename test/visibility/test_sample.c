@@ -133,7 +133,7 @@ static void coincident_facets_come_in_their_order_of_precedence(void **state)
             if (i != j) {
                 assert_int_equal(lrcsi_sample_nearer(&view, order[i], order[j], p, 1),
                                  i < j ? 1 : -1);
-                assert_int_equal(lrcsi_sample_beats(&view, order[i], order[j]), i < j);
+                assert_int_equal(lrcsi_sample_has_precedence(&view, order[i], order[j]), i < j);
             }
         }
     }

@@ -217,7 +217,7 @@ static int child_start(run_job *job, pid_t *child)
 
 /* Is an answer better than the best so far? Of equal answers the first is kept, which costs less;
    but one with a bound is preferred to one that was accepted by its estimate. */
-static int answer_beats(const budget_answer *answer, const budget_answer *best)
+static int answer_is_better(const budget_answer *answer, const budget_answer *best)
 {
     double error = lrcs_sequence_error(&answer->result);
     double least = lrcs_sequence_error(&best->result);
@@ -233,7 +233,7 @@ static void answers_read(int answers, pid_t child, budget_answer *best)
     ssize_t count;
     while ((count = read(answers, &answer, sizeof answer)) == (ssize_t)sizeof answer ||
            (count < 0 && errno == EINTR)) {
-        if (count > 0 && answer_beats(&answer, best)) {
+        if (count > 0 && answer_is_better(&answer, best)) {
             *best = answer;
         }
     }

@@ -15,21 +15,21 @@
 #include "base/sort.h"
 #include "host/fail.h"
 
-#define REMOVED        0.1  /* share of a difference that may remain if it is explained */
-#define REMOVED_RASTER 0.5  /* the same, if the class of the case allows that much in any case */
-#define STRIKING       0.02 /* the same, if few cases support a mistake */
-#define PRECISE        0.6  /* share of the cases changed by a mistake that it must explain */
-#define WITNESSES      64u  /* number of passing cases that a mistake must not change */
+#define REMOVED        0.1  /* fraction of a difference that may remain if it is explained */
+#define REMOVED_RASTER 0.5  /* that fraction where the class of the case allows so much anyway */
+#define CLOSE_FIT      0.02 /* that fraction where few cases support a mistake */
+#define PRECISE        0.6  /* fraction of the cases changed by a mistake that it must explain */
+#define PASSING_SAMPLE 64u  /* number of passing cases that a mistake must not change */
 #define ENOUGH         3u   /* number of cases that suffice for a finding */
 #define FACTOR_NEAR    0.02 /* a ratio this near to a known number is taken for that number */
 #define TIED           2e-3 /* scores that differ by less are equally good */
 #define TIES_MOST      3u   /* number of named mistakes that explain equally well */
-#define CLIPPED        0.9  /* share of the remaining cases that lose something at the window */
-#define PROBE          16u  /* failing cases after which a hopeless mistake is abandoned */
-#define HOPELESS       0.1  /* the share of them that must be explained */
-#define LATER          0.1  /* the share of all failing cases that a later finding must explain */
-#define PRICE          0.05 /* the gain by which a factor or a second mistake is justified */
-#define SURE           0.94 /* a score above which the search for a better one stops */
+#define CLIPPED        0.9  /* fraction of the remaining cases that lose something at the window */
+#define TRIAL_CASES    16u  /* failing cases after which a mistake that explains few is abandoned */
+#define MIN_EXPLAINED  0.1  /* fraction of them that it must explain */
+#define LATER          0.1  /* fraction of all failing cases that a later finding must explain */
+#define PENALTY        0.05 /* the gain by which a factor or a second mistake is justified */
+#define CERTAIN        0.94 /* a score above which the search for a better one stops */
 #define PAIRS_BELOW    0.9  /* if one mistake explains less than this, pairs are tried */
 
 /* ---- constant factors ---- */
@@ -73,8 +73,9 @@ const char *lrcsi_factor_text(const lrcs_host_judgement *job, double factor)
 {
     const factor_entry *entry = factor_find(factor);
     double n = job->pixels;
-    double fence = (n / (n - 1.0)) * (n / (n - 1.0));
-    int fences = fabs(factor / fence - 1.0) < 0.2 / n || fabs(factor * fence - 1.0) < 0.2 / n;
+    double off_by_one = (n / (n - 1.0)) * (n / (n - 1.0));
+    int fences =
+        fabs(factor / off_by_one - 1.0) < 0.2 / n || fabs(factor * off_by_one - 1.0) < 0.2 / n;
     return entry    ? entry->text
            : fences ? "pixel area: N - 1 in place of N pixels a side, or the reverse"
                     : "pixel area, the side of the window, or a unit?";
@@ -100,25 +101,26 @@ static void list_shuffle(lrcs_host_kit_case **list, uint32_t count)
 static void search_part(lrcsi_search *search)
 {
     lrcs_host_judgement *job = search->job;
-    search->failings = search->passings = 0;
-    search->telling = 0;
+    search->failing_count = search->passing_count = 0;
+    search->any_nonzero = 0;
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         lrcs_host_kit_case *one = &job->kit.list[i];
         if (!one->given || !isfinite(one->theirs_m2) || !lrcs_host_judge_asked(job, one)) {
             continue;
         }
         if (!lrcs_host_judge_failed(job, one)) {
-            search->passing[search->passings++] = one;
+            search->passing[search->passing_count++] = one;
         } else if (one->explained == 0) {
-            search->failing[search->failings++] = one;
-            search->telling |= one->theirs_m2 != 0.0;
+            search->failing[search->failing_count++] = one;
+            search->any_nonzero |= one->theirs_m2 != 0.0;
         }
     }
-    list_shuffle(search->failing, search->failings);
-    list_shuffle(search->passing, search->passings);
-    uint32_t witnesses = search->passings < WITNESSES ? search->passings : WITNESSES;
-    search->weight = witnesses > 0 ? (double)search->passings / witnesses : 0.0;
-    search->passings = witnesses;
+    list_shuffle(search->failing, search->failing_count);
+    list_shuffle(search->passing, search->passing_count);
+    uint32_t witnesses =
+        search->passing_count < PASSING_SAMPLE ? search->passing_count : PASSING_SAMPLE;
+    search->weight = witnesses > 0 ? (double)search->passing_count / witnesses : 0.0;
+    search->passing_count = witnesses;
 }
 
 double lrcsi_search_median(double *value, uint32_t count)
@@ -153,8 +155,8 @@ static int case_touched(const lrcsi_search *search, const lrcs_host_kit_case *on
 typedef struct search_score {
     const lrcsi_mistake *first, *second; /* second: NULL, or a second mistake made in addition */
     double factor;
-    double score; /* share of the differences that it removes in the cases that it explains */
-    double price; /* for what it assumes; subtracted from the score */
+    double score;   /* share of the differences that it removes in the cases that it explains */
+    double penalty; /* for what it assumes; subtracted from the score */
     uint32_t explained;
 } search_score;
 
@@ -162,41 +164,41 @@ typedef struct search_score {
 static search_score mistake_score(const lrcsi_search *search, double factor)
 {
     search_score score = {.factor = factor};
-    double touched = 0.0;
+    double changed = 0.0;
     double removed = 0.0;
-    uint32_t mute = 0;
-    for (uint32_t i = 0; i < search->failings; i++) {
+    uint32_t uninformative = 0;
+    for (uint32_t i = 0; i < search->failing_count; i++) {
         const lrcs_host_kit_case *one = search->failing[i];
         double expected = factor * search->answer[i];
         double left = fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
         int right = lrcsi_search_explained(search, one, expected);
         score.explained += (uint32_t)right;
-        if (right && search->telling && one->theirs_m2 == 0.0) {
-            mute++; /* no evidence if others are not 0: many mistakes make facets vanish */
+        if (right && search->any_nonzero && one->theirs_m2 == 0.0) {
+            uninformative++; /* no evidence if others are not 0: many mistakes make facets vanish */
             continue;
         }
-        touched += right || case_touched(search, one, expected);
+        changed += right || case_touched(search, one, expected);
         removed += right ? 1.0 - 0.5 * fmin(left, 1.0) : 0.0;
     }
-    for (uint32_t i = 0; i < search->passings; i++) {
-        double expected = factor * search->answer[search->failings + i];
-        touched += case_touched(search, search->passing[i], expected) ? search->weight : 0.0;
+    for (uint32_t i = 0; i < search->passing_count; i++) {
+        double expected = factor * search->answer[search->failing_count + i];
+        changed += case_touched(search, search->passing[i], expected) ? search->weight : 0.0;
     }
-    uint32_t conclusive = score.explained - mute;
-    double precise = touched > 0.0 ? conclusive / touched : 0.0;
-    int striking = removed >= (1.0 - 0.5 * STRIKING) * conclusive;
+    uint32_t conclusive = score.explained - uninformative;
+    double precise = changed > 0.0 ? conclusive / changed : 0.0;
+    int striking = removed >= (1.0 - 0.5 * CLOSE_FIT) * conclusive;
     if (conclusive > 0 && (conclusive >= ENOUGH || striking) && precise >= PRECISE) {
-        score.score = precise * removed / (search->failings - mute);
+        score.score = precise * removed / (search->failing_count - uninformative);
     }
     return score;
 }
 
 /* The median ratio of submitted answers to those of the mistake, over the first failing cases; if
    it is near a known number, that number. */
-static double factor_median(const lrcsi_search *search, uint32_t failings, int *known)
+static double factor_median(const lrcsi_search *search, uint32_t failing_count, int *known)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < failings; i++) {
+    for (uint32_t i = 0; i < failing_count; i++) {
         if (search->answer[i] > 0.0 && search->failing[i]->theirs_m2 > 0.0) {
             search->room[count++] = search->failing[i]->theirs_m2 / search->answer[i];
         }
@@ -209,10 +211,10 @@ static double factor_median(const lrcsi_search *search, uint32_t failings, int *
 
 /* ---- the answers of a mistake ---- */
 
-static uint32_t explained_count(const lrcsi_search *search, uint32_t failings, double factor)
+static uint32_t explained_count(const lrcsi_search *search, uint32_t failing_count, double factor)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < failings; i++) {
+    for (uint32_t i = 0; i < failing_count; i++) {
         count += (uint32_t)lrcsi_search_explained(search, search->failing[i],
                                                   factor * search->answer[i]);
     }
@@ -223,8 +225,9 @@ static uint32_t explained_count(const lrcsi_search *search, uint32_t failings, d
    passing ones. */
 static int answer_make(const lrcsi_search *search, const lrcsi_mistake *mistake, uint32_t i)
 {
-    uint32_t failings = search->failings;
-    lrcs_host_kit_case *one = i < failings ? search->failing[i] : search->passing[i - failings];
+    uint32_t failing_count = search->failing_count;
+    lrcs_host_kit_case *one =
+        i < failing_count ? search->failing[i] : search->passing[i - failing_count];
     return lrcsi_mistake_answer(&search->job->kit, one, mistake, &search->answer[i], search->error);
 }
 
@@ -232,14 +235,14 @@ static int answer_make(const lrcsi_search *search, const lrcsi_mistake *mistake,
    0 if it gave up. */
 static int answers_make(const lrcsi_search *search, const lrcsi_mistake *mistake, int give_up)
 {
-    uint32_t probe = search->failings < PROBE ? search->failings : PROBE;
-    for (uint32_t i = 0; i < search->failings + search->passings; i++) {
+    uint32_t probe = search->failing_count < TRIAL_CASES ? search->failing_count : TRIAL_CASES;
+    for (uint32_t i = 0; i < search->failing_count + search->passing_count; i++) {
         int status = answer_make(search, mistake, i);
         if (status != LRCS_OK) {
             return status;
         }
         int known;
-        double least = fmax(1.0, HOPELESS * probe);
+        double least = fmax(1.0, MIN_EXPLAINED * probe);
         if (give_up && i + 1 == probe && explained_count(search, probe, 1.0) < least &&
             explained_count(search, probe, factor_median(search, probe, &known)) < least) {
             return 0;
@@ -275,8 +278,8 @@ static lrcs_host_finding *finding_add(lrcs_host_judgement *job, const char *name
 uint32_t lrcsi_search_holds(const lrcsi_search *search)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < search->failings; i++) {
-        count += search->holds[i];
+    for (uint32_t i = 0; i < search->failing_count; i++) {
+        count += search->explains[i];
     }
     return count;
 }
@@ -292,8 +295,8 @@ lrcs_host_finding *lrcsi_search_find(lrcsi_search *search, const char *name, con
     va_start(list, format);
     vsnprintf(finding->text, sizeof finding->text, format, list);
     va_end(list);
-    for (uint32_t i = 0; i < search->failings; i++) {
-        if (search->holds[i]) {
+    for (uint32_t i = 0; i < search->failing_count; i++) {
+        if (search->explains[i]) {
             search->failing[i]->explained = (int)search->job->findings;
         }
     }
@@ -318,7 +321,7 @@ static lrcsi_mistake mistake_both(const lrcsi_mistake *first, const lrcsi_mistak
 static double finding_rest(const lrcsi_search *search, const search_score *best, int mark)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < search->failings; i++) {
+    for (uint32_t i = 0; i < search->failing_count; i++) {
         lrcs_host_kit_case *one = search->failing[i];
         double expected = best->factor * search->answer[i];
         if (lrcsi_search_explained(search, one, expected)) {
@@ -355,12 +358,12 @@ static void finding_say(const lrcs_host_judgement *job, const search_score *best
 static int mistake_fits(const lrcsi_search *search, const lrcsi_mistake *mistake, double factor,
                         int mark)
 {
-    for (uint32_t i = 0; i < search->failings + search->passings; i++) {
+    for (uint32_t i = 0; i < search->failing_count + search->passing_count; i++) {
         int status = answer_make(search, mistake, i);
         if (status != LRCS_OK) {
             return status;
         }
-        if (i < search->failings &&
+        if (i < search->failing_count &&
             lrcsi_search_explained(search, search->failing[i], factor * search->answer[i]) !=
                 (search->failing[i]->explained == mark)) {
             return 0;
@@ -386,7 +389,7 @@ static int ties_say(const lrcsi_search *search, const search_score *best,
         if (fits < 0) {
             return fits;
         }
-        double score = fits ? mistake_score(search, best->factor).score - best->price : 0.0;
+        double score = fits ? mistake_score(search, best->factor).score - best->penalty : 0.0;
         if (fits && fabs(score - best->score) <= TIED) {
             finding_append(finding, "%s%s", ties++ > 0 ? "; " : "; or, equally well: ", a->text);
         }
@@ -402,7 +405,7 @@ static void clipped_say(const lrcsi_search *search, const search_score *best,
     int mark = (int)search->job->findings;
     uint32_t left = 0;
     uint32_t less = 0;
-    for (uint32_t i = 0; i < search->failings; i++) {
+    for (uint32_t i = 0; i < search->failing_count; i++) {
         const lrcs_host_kit_case *one = search->failing[i];
         left += one->explained != mark;
         less += one->explained != mark && one->theirs_m2 < best->factor * search->answer[i];
@@ -410,7 +413,7 @@ static void clipped_say(const lrcsi_search *search, const search_score *best,
     if (less == 0 || left > finding->explained || less < CLIPPED * left) {
         return;
     }
-    for (uint32_t i = 0; i < search->failings; i++) {
+    for (uint32_t i = 0; i < search->failing_count; i++) {
         lrcs_host_kit_case *one = search->failing[i];
         int cut = one->explained == 0 && one->theirs_m2 < best->factor * search->answer[i];
         one->explained = cut ? mark : one->explained;
@@ -459,15 +462,15 @@ static int mistake_try(const lrcsi_search *search, const lrcsi_mistake *first,
     if (worth <= 0) {
         return worth;
     }
-    double factor = factor_median(search, search->failings, &known);
+    double factor = factor_median(search, search->failing_count, &known);
     search_score try[2] = {mistake_score(search, 1.0), {.score = 0.0}};
     if (factor > 0.0) {
         try[1] = mistake_score(search, factor);
-        try[1].price = known ? PRICE : 2.0 * PRICE;
+        try[1].penalty = known ? PENALTY : 2.0 * PENALTY;
     }
     for (int i = 0; i < 2; i++) {
-        try[i].price += second ? PRICE : 0.0;
-        try[i].score -= try[i].price;
+        try[i].penalty += second ? PENALTY : 0.0;
+        try[i].score -= try[i].penalty;
         if (try[i].score > best->score) {
             *best = try[i];
             best->first = first;
@@ -488,7 +491,7 @@ static int finding_next(lrcsi_search *search)
     const lrcsi_mistake *list = lrcsi_mistakes;
     search_score best = {.first = list};
     int status = LRCS_OK;
-    for (const lrcsi_mistake *a = list; a->name && best.score < SURE && status == LRCS_OK; a++) {
+    for (const lrcsi_mistake *a = list; a->name && best.score < CERTAIN && status == LRCS_OK; a++) {
         status = mistake_try(search, a, NULL, &best);
     }
     int pairs = status == LRCS_OK && best.score < PAIRS_BELOW;
@@ -519,7 +522,7 @@ static int findings_make(lrcsi_search *search)
     int more = 1;
     search_part(search);
     lrcsi_symptoms_format(search);
-    while (more > 0 && search->failings > 0) {
+    while (more > 0 && search->failing_count > 0) {
         more = finding_next(search);
         search_part(search);
     }
@@ -544,14 +547,14 @@ int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *err
     search.passing = malloc(count * sizeof(lrcs_host_kit_case *));
     search.answer = calloc(count, sizeof(double));
     search.room = calloc(count, sizeof(double));
-    search.holds = calloc(count, 1);
-    int status = search.failing && search.passing && search.answer && search.room && search.holds
+    search.explains = calloc(count, 1);
+    int status = search.failing && search.passing && search.answer && search.room && search.explains
                      ? findings_make(&search)
                      : lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
     free(search.failing);
     free(search.passing);
     free(search.answer);
     free(search.room);
-    free(search.holds);
+    free(search.explains);
     return status;
 }

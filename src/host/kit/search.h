@@ -34,19 +34,19 @@ typedef struct lrcsi_search {
     lrcs_host_error *error;
     lrcs_host_kit_case **failing; /* not explained yet */
     lrcs_host_kit_case **passing; /* a sample of them */
-    uint32_t failings, passings;
-    int telling;          /* 1 if some failing case has an answer other than 0 */
-    double weight;        /* number of passing cases that each of the sample stands for */
-    double *answer;       /* answers of a mistake: to the failing cases, then to the passing ones */
-    double *room;         /* for sorting */
-    unsigned char *holds; /* by failing case: 1 if the current cause explains it */
+    uint32_t failing_count, passing_count;
+    int any_nonzero; /* 1 if some failing case has an answer other than 0 */
+    double weight;   /* number of passing cases that each of the sample stands for */
+    double *answer;  /* answers of a mistake: to the failing cases, then to the passing ones */
+    double *room;    /* for sorting */
+    unsigned char *explains; /* by failing case: 1 if the current cause explains it */
 } lrcsi_search;
 
 /* 1 if an expected answer explains the one that was given. */
 int lrcsi_search_explained(const lrcsi_search *search, const lrcs_host_kit_case *one,
                            double expected);
 
-/* The number of failing cases that the current cause explains (search->holds). */
+/* The number of failing cases that the current cause explains (search->explains). */
 uint32_t lrcsi_search_holds(const lrcsi_search *search);
 
 /* Makes that cause a finding with its sentence: its cases are marked and no longer unexplained.

@@ -32,8 +32,8 @@ static const struct symptom_reading {
 } symptom_readings[] = {{"m2-as-dbsm", "the column sigma_dbsm holds m2, not dBsm", 0.0, 0, 2},
                         {"dbsm-as-m2", "the column sigma_m2 holds dBsm, not m2", 10.0, 0, 1},
                         {"20-log10", "decibels: 20 log10 in place of 10 log10", 20.0, 0, 3},
-                        {"row-before", "rows: every answer stands one line too early", 0.0, -1, 3},
-                        {"row-after", "rows: every answer stands one line too late", 0.0, 1, 3}};
+                        {"row-before", "rows: every answer is one line too early", 0.0, -1, 3},
+                        {"row-after", "rows: every answer is one line too late", 0.0, 1, 3}};
 
 /* ---- findings ---- */
 
@@ -56,7 +56,7 @@ static int reading_matches(const lrcs_host_judgement *job, const lrcs_host_kit_c
 static int holds_most(const lrcsi_search *search)
 {
     uint32_t right = lrcsi_search_holds(search);
-    return right >= LEAST && right >= MOST * search->failings;
+    return right >= LEAST && right >= MOST * search->failing_count;
 }
 
 /* Makes a finding if most answers are right when read in another way. Answers that are no numbers
@@ -64,8 +64,8 @@ static int holds_most(const lrcsi_search *search)
 static void reading_try(lrcsi_search *search, const struct symptom_reading *reading)
 {
     lrcs_host_judgement *job = search->job;
-    for (uint32_t i = 0; i < search->failings; i++) {
-        search->holds[i] = (unsigned char)reading_matches(job, search->failing[i], reading);
+    for (uint32_t i = 0; i < search->failing_count; i++) {
+        search->explains[i] = (unsigned char)reading_matches(job, search->failing[i], reading);
     }
     lrcs_host_finding *finding =
         holds_most(search) ? lrcsi_search_find(search, reading->name, "%s", reading->text) : NULL;
@@ -115,13 +115,13 @@ static void digits_try(lrcsi_search *search)
         while (digits < DIGITS && !digits_all(job, digits, significant)) {
             digits++;
         }
-        for (uint32_t i = 0; i < search->failings; i++) {
+        for (uint32_t i = 0; i < search->failing_count; i++) {
             const lrcs_host_kit_case *one = search->failing[i];
             double value = job->decibels ? 10.0 * log10(one->sigma_m2) : one->sigma_m2;
             double half = 0.5 * digit_step(value, digits, significant);
             double room = job->decibels ? one->sigma_m2 * (pow(10.0, half / 10.0) - 1.0) : half;
-            search->holds[i] = fabs(one->theirs_m2 - one->sigma_m2) <=
-                               room + lrcs_host_judge_allowed(one, job->grade, job->pixels);
+            search->explains[i] = fabs(one->theirs_m2 - one->sigma_m2) <=
+                                  room + lrcs_host_judge_allowed(one, job->grade, job->pixels);
         }
         if (digits < DIGITS && holds_most(search) &&
             lrcsi_search_find(search, "few-digits",
@@ -136,7 +136,7 @@ void lrcsi_symptoms_format(lrcsi_search *search)
 {
     const lrcs_host_judgement *job = search->job;
     uint32_t given = 0;
-    int blank = search->failings > 0;
+    int blank = search->failing_count > 0;
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         const lrcs_host_kit_case *one = &job->kit.list[i];
         int counts = one->given && lrcs_host_judge_asked(job, one);
@@ -144,7 +144,7 @@ void lrcsi_symptoms_format(lrcsi_search *search)
         blank &= !counts || one->theirs_m2 == 0.0;
     }
     if (given > 0 && blank) {
-        memset(search->holds, 1, search->failings);
+        memset(search->explains, 1, search->failing_count);
         lrcsi_search_find(search, "blank",
                           "every answer is 0: nothing drawn, everything culled or outside the "
                           "window, or the buffer never read back");
@@ -175,9 +175,9 @@ static void coarse_try(lrcsi_search *search)
 {
     const lrcs_host_judgement *job = search->job;
     double pixels =
-        job->grade == LRCS_HOST_GRADE_RASTER && search->failings > 0 ? job->pixels : 0.0;
+        job->grade == LRCS_HOST_GRADE_RASTER && search->failing_count > 0 ? job->pixels : 0.0;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < search->failings; i++) {
+    for (uint32_t i = 0; i < search->failing_count; i++) {
         pixels = fmin(pixels, floor(case_pixels(search->failing[i])));
     }
     for (uint32_t i = 0; i < job->kit.cases && pixels >= COARSEST; i++) {
@@ -188,7 +188,7 @@ static void coarse_try(lrcsi_search *search)
         }
     }
     if (2 * count > job->given && lrcsi_search_median(search->room, count) >= COARSE_SHARE) {
-        memset(search->holds, 1, search->failings);
+        memset(search->explains, 1, search->failing_count);
         lrcsi_search_find(
             search, "coarse-raster",
             "a raster of fewer than %lu x %lu pixels: all these pass as one of %.0f x "
@@ -213,12 +213,12 @@ static int skins_of(const lrcs_host_judgement *job, const lrcs_host_kit_case *on
 static void depth_try(lrcsi_search *search)
 {
     int coarsest = SKINS_TOUCH;
-    for (uint32_t i = 0; i < search->failings; i++) {
+    for (uint32_t i = 0; i < search->failing_count; i++) {
         int skins = skins_of(search->job, search->failing[i]);
         coarsest = skins > 0 && skins < coarsest ? skins : coarsest;
-        search->holds[i] = skins > 0;
+        search->explains[i] = skins > 0;
     }
-    if (coarsest < SKINS_TOUCH && 2 * lrcsi_search_holds(search) > search->failings) {
+    if (coarsest < SKINS_TOUCH && 2 * lrcsi_search_holds(search) > search->failing_count) {
         lrcsi_search_find(search, "depth-precision",
                           "depth precision: skins 2^-%d m apart in a scene 8 m deep are not told "
                           "apart: a depth of some %d bits or fewer",
@@ -230,7 +230,7 @@ static void depth_try(lrcsi_search *search)
 
 /* Decides whether an answer lies between the truth and the answer in which the wrong one of
    coplanar facets is seen: 1 or 0. */
-static int case_fights(const lrcsi_search *search, lrcs_host_kit_case *one)
+static int case_has_z_fighting(const lrcsi_search *search, lrcs_host_kit_case *one)
 {
     static const lrcsi_mistake wrong = {.name = "skins", .text = "", .wrong_coplanar = 1};
     const lrcs_host_judgement *job = search->job;
@@ -256,18 +256,18 @@ static int case_fights(const lrcsi_search *search, lrcs_host_kit_case *one)
 static int fights_try(lrcsi_search *search)
 {
     for (uint32_t i = 0;
-         i < search->failings && search->job->findings < (uint32_t)LRCS_HOST_FINDINGS; i++) {
-        int fights = case_fights(search, search->failing[i]);
-        if (fights < 0) {
-            return fights;
+         i < search->failing_count && search->job->findings < (uint32_t)LRCS_HOST_FINDINGS; i++) {
+        int z_fighting = case_has_z_fighting(search, search->failing[i]);
+        if (z_fighting < 0) {
+            return z_fighting;
         }
-        search->holds[i] = (unsigned char)fights;
+        search->explains[i] = (unsigned char)z_fighting;
     }
     if (lrcsi_search_holds(search) > 0) {
         lrcsi_search_find(
             search, "coincident-skins",
             "coincident skins, decided by rounding or by order (z-fighting): of facets "
-            "in one plane a front beats a back, then the lower index wins; push backs "
+            "in one plane a front has precedence over a back, then the lower index; push backs "
             "away by some roundings of the scene's size");
     }
     return 0;
@@ -299,9 +299,9 @@ static void bias_try(lrcsi_search *search)
     if (count < BIAS_CASES || nearer < least * count || fabs(median - 1.0) < BIAS_LEAST) {
         return;
     }
-    for (uint32_t i = 0; i < search->failings; i++) {
+    for (uint32_t i = 0; i < search->failing_count; i++) {
         const lrcs_host_kit_case *one = search->failing[i];
-        search->holds[i] =
+        search->explains[i] =
             (unsigned char)lrcsi_search_explained(search, one, median * one->sigma_m2);
     }
     lrcs_host_finding *finding = lrcsi_search_find(
@@ -335,8 +335,8 @@ int lrcsi_symptoms_rest(lrcsi_search *search)
     }
     coarse_try(search);
     for (int k = 0; k < 2; k++) {
-        for (uint32_t i = 0; i < search->failings; i++) {
-            search->holds[i] = search->failing[i]->grade == class[k].grade;
+        for (uint32_t i = 0; i < search->failing_count; i++) {
+            search->explains[i] = search->failing[i]->grade == class[k].grade;
         }
         if (lrcsi_search_holds(search) > 0) {
             lrcsi_search_find(search, class[k].name, "%s", class[k].text);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Curved shapes among other parts, divided as finely as a pose needs. A scene is built and prepared
-   with few facets. Where the tessellation's share of a bound makes it miss the tolerance, the pose
-   is run again with those parts divided more finely that most of this share is due to, each by a
-   number of halvings. Poses that need the same halvings share the scene built for them. Every pose
-   begins with the scene's own division: its result does not depend on what other poses needed. */
+   with few facets. If the tessellation makes a bound miss the tolerance, the parts that cause most
+   of it are divided more finely, each by a number of halvings, and the pose is run again. Poses
+   that need the same halvings share the scene built for them. Every pose begins with the scene's
+   own division: its result does not depend on what other poses needed. */
 #include "host/run/refine.h"
 
 #include <math.h>

@@ -10,7 +10,7 @@
 
 #include "base/constant.h"
 #include "base/vec3.h"
-#include "optics/ripple.h"
+#include "optics/aliasing.h"
 
 /* Neighbours that turn by less are treated as halves of one flat polygon; those that turn by more
    (60 deg), as faces of a box with a smoothing group. */
@@ -147,9 +147,9 @@ static lrcs_host_glint glint_entry(const lrcs_scene *scene, uint32_t part, uint3
                              material,
                              s,
                              turn,
-                             lrcsi_ripple_error(turn, s),
-                             lrcsi_ripple_around(s, 1e-2),
-                             lrcsi_ripple_around(s, 1e-3)};
+                             lrcsi_aliasing_error(turn, s),
+                             lrcsi_aliasing_around(s, 1e-2),
+                             lrcsi_aliasing_around(s, 1e-3)};
 }
 
 static int entry_order(const void *a, const void *b)
@@ -249,7 +249,7 @@ void lrcs_host_glint_sum_make(const lrcs_scene *scene, const lrcs_facet_record *
             entry = entry_of(scene, i, list, count);
             error = !entry          ? 0.0
                     : s == entry->s ? entry->error
-                                    : lrcsi_ripple_error(entry->turn, s);
+                                    : lrcsi_aliasing_error(entry->turn, s);
         }
         double glint = records[i].sigma_glint_m2;
         if (!entry || !(error > LRCS_HOST_GLINT_COARSE) || !(glint > 0.0)) {

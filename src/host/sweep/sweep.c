@@ -20,7 +20,7 @@ typedef struct sweep_slot {
     lrcs_uncertainty uncertainty;
     lrcs_host_glint_sum glint;
     int status;
-    int crowded; /* memory did not suffice beside other threads: to be repeated with fewer */
+    int memory_short; /* memory did not suffice beside other threads: to be repeated with fewer */
     lrcs_host_error error; /* where the status says so */
 } sweep_slot;
 
@@ -30,7 +30,7 @@ typedef struct sweep_run {
     const lrcs_host_sweep *sweep;
     lrcsi_host_area *area; /* one for each thread */
     uint32_t threads;
-    int crowded; /* the sweep ended at a pose that may succeed with fewer threads */
+    int memory_short; /* the sweep ended at a pose that may succeed with fewer threads */
     lrcs_host_error *error;
 } sweep_run;
 
@@ -135,17 +135,18 @@ static void sweep_work(void *context, uint32_t worker, uint64_t index, void *slo
     const sweep_run *run = context;
     sweep_slot *one = slot;
     one->status = sweep_one(run, worker, index, one);
-    one->crowded = run->threads > 1 &&
-                   (one->status == LRCS_E_SYSTEM || one->status == LRCS_E_MEMORY ||
-                    (one->status == LRCS_OK && (one->result.flags & LRCS_FLAG_MEMORY_FALLBACK)));
+    one->memory_short =
+        run->threads > 1 &&
+        (one->status == LRCS_E_SYSTEM || one->status == LRCS_E_MEMORY ||
+         (one->status == LRCS_OK && (one->result.flags & LRCS_FLAG_MEMORY_FALLBACK)));
 }
 
 static int sweep_take(void *context, uint64_t index, const void *slot)
 {
     sweep_run *run = context;
     const sweep_slot *one = slot;
-    if (one->crowded) {
-        run->crowded = 1;
+    if (one->memory_short) {
+        run->memory_short = 1;
         return LRCS_E_SYSTEM;
     }
     if (one->status != LRCS_OK) {
@@ -182,7 +183,7 @@ static int sweep_threads_run(sweep_run *run, uint64_t *taken)
                              .work = sweep_work,
                              .take = sweep_take,
                              .cancel = sweep->cancel};
-    run->crowded = 0;
+    run->memory_short = 0;
     run->area = calloc(run->threads, sizeof *run->area);
     int status = run->area ? lrcsi_workers_run(&workers, &done, run->error)
                            : lrcsi_host_fail_memory(run->error, run->threads * sizeof *run->area);
@@ -210,8 +211,8 @@ int lrcs_host_sweep_run(const lrcs_host_scene *scene, const lrcs_run_options *op
             lrcsi_host_fail(error, LRCS_E_ARGUMENT, "sweep: %s", lrcs_status_text(LRCS_E_ARGUMENT));
     } else {
         status = sweep_threads_run(&run, &taken);
-        /* with one thread no pose is crowded, so that the loop ends */
-        while (run.crowded) {
+        /* with one thread no pose is memory_short, so that the loop ends */
+        while (run.memory_short) {
             run.threads = (run.threads + 1) / 2;
             status = sweep_threads_run(&run, &taken);
         }

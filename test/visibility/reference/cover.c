@@ -282,7 +282,7 @@ static void line_lift(cover_line *line)
     }
     lrcsi_view_coordinates(t->view, line->point, x);
     line->box = lrcsi_view_box_about(t->view, x, lrcsi_view_point_err(x));
-    line->off = t->needle ? HUGE_VAL : lrcsi_target_lift_err(t);
+    line->off = t->needle ? HUGE_VAL : lrcsi_target_unproject_err(t);
 }
 
 /* The line as its place: the target's first corner and the way from there, which in a needle is off

@@ -84,7 +84,7 @@ static double cell_margin(const ref_occluding *o, double inset)
 /* How far the point of a sample may be from its place. */
 static double cell_off(const ref_occluding *o)
 {
-    return lrcsi_target_lift_err(&o->frame) + o->frame.position_err;
+    return lrcsi_target_unproject_err(&o->frame) + o->frame.position_err;
 }
 
 /* Is the cell known to be visible at a place that stands clear within it? */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The estimate of glint adequacy against the exact sums of flat-sided cylinders. */
-#include "optics/ripple.h"
+#include "optics/aliasing.h"
 
 #include "check.h"
 
@@ -31,8 +31,8 @@ static void the_estimate_is_the_worst_error_of_a_polygon_or_up_to_three_times_th
             double ratio = polygon_over_circle(row[i].n, row[i].s, 0.005 * k * turn);
             worst = fmax(worst, fabs(ratio - 1));
         }
-        check_most(worst, 1.05 * lrcsi_ripple_error(turn, row[i].s));
-        check_most(lrcsi_ripple_error(turn, row[i].s), 3 * worst);
+        check_most(worst, 1.05 * lrcsi_aliasing_error(turn, row[i].s));
+        check_most(lrcsi_aliasing_error(turn, row[i].s), 3 * worst);
     }
 }
 
@@ -44,10 +44,10 @@ static void the_count_is_the_least_that_serves(void **state)
     static const double about[4][2] = {{231, 277}, {93, 112}, {47, 58}, {24, 41}};
     for (int i = 0; i < 4; i++) {
         for (int k = 0; k < 2; k++) {
-            double n = lrcsi_ripple_around(slope[i], most[k]);
+            double n = lrcsi_aliasing_around(slope[i], most[k]);
             double turn = 2 * 3.14159265358979323846;
-            check_most(lrcsi_ripple_error(turn / n, slope[i]), most[k]);
-            assert_true(lrcsi_ripple_error(turn / (n - 1), slope[i]) > most[k]);
+            check_most(lrcsi_aliasing_error(turn / n, slope[i]), most[k]);
+            assert_true(lrcsi_aliasing_error(turn / (n - 1), slope[i]) > most[k]);
             check_rel(n, about[i][k], 0.06); /* the table of the design */
         }
     }
@@ -56,9 +56,9 @@ static void the_count_is_the_least_that_serves(void **state)
 static void no_count_serves_a_slope_narrower_than_rounding(void **state)
 {
     (void)state;
-    double n = lrcsi_ripple_around(1e-20, 1e-3);
+    double n = lrcsi_aliasing_around(1e-20, 1e-3);
     assert_true(n >= 1e15 && n <= 2e15);
-    assert_true(lrcsi_ripple_error(2 * 3.14159265358979323846 / n, 1e-20) > 1e-3);
+    assert_true(lrcsi_aliasing_error(2 * 3.14159265358979323846 / n, 1e-20) > 1e-3);
 }
 
 int main(void)
