@@ -51,6 +51,7 @@
 #include "base/length.h"
 #include "base/range.h"
 
+/* The error of a unit vector and the direction together. */
 #define LINEAR_NORMAL_ERR (64 * LRCSI_U)
 
 /* One term of F: dF/dc, a bound on its error, and its derivative in s or m. */
@@ -101,91 +102,117 @@ static void to_view(const lrcsi_view *view, const lrcs_part *part, const double 
     }
 }
 
+/* Makes e_x, e_y and n in the axes of the view. */
+static void axes_make(const lrcsi_view *view, const lrcsi_patch *patch, double half,
+                      const lrcsi_profile_normals *normals, double e[3][3])
+{
+    const lrcs_part *part = &view->prepared->scene->part[patch->part];
+    double phi = (2.0 * patch->at.sector + 1.0) * half;
+    double x = cos(phi);
+    double y = sin(phi);
+    double z = patch->at.mirrored ? -1 : 1;
+    const double axis[3][3] = {{-y, x, 0},
+                               {normals->cosine * x, normals->cosine * y, -z * normals->sine},
+                               {normals->sine * x, normals->sine * y, z * normals->cosine}};
+    for (int k = 0; k < 3; k++) {
+        to_view(view, part, axis[k], e[k]);
+    }
+}
+
+/* What is known of a patch: scaled, axes of the view. */
+typedef struct linear_patch {
+    double e[3][3];         /* e_x, e_y, n */
+    double toward[2], c, p; /* direction to the laser: along e_x, e_y and n; sin theta */
+    double scale[2];        /* across, along */
+    double reach[2];        /* the largest |across x| and |along y| */
+} linear_patch;
+
+/* Fills the gradients of l and returns the sum of both terms' dF/dc as far as they vary; the bounds
+   of what depends on F alone, and the error of the gradients. */
+static double gradients_make(const linear_patch *at, const linear_term term[2],
+                             const lrcsi_patch *patch, const lrcs_curvature *c, double second,
+                             lrcsi_linear *linear)
+{
+    const double mean[2] = {patch->glint, patch->diffuse};
+    double *gradient[2] = {linear->glint, linear->diffuse};
+    double *derivative[2] = {linear->glint_s, linear->diffuse_m};
+    double across[2]; /* the gradient for dF/dc = 1 */
+    double lifted =
+        (at->toward[0] * at->scale[0] * at->e[0][2] + at->toward[1] * at->scale[1] * at->e[1][2]) /
+        at->e[2][2];
+    double steepest = 0; /* |grad F| */
+    double kept = 0;
+    for (int j = 0; j < 2; j++) {
+        across[j] = at->toward[0] * at->scale[0] * at->e[0][j] +
+                    at->toward[1] * at->scale[1] * at->e[1][j] - lifted * at->e[2][j];
+    }
+    linear->region = linear->point = linear->rounding = 0;
+    for (int k = 0; k < 2; k++) {
+        double slope = fabs(term[k].slope) + term[k].err;
+        double varies =
+            slope * (fabs(at->toward[0]) * at->reach[0] + fabs(at->toward[1]) * at->reach[1]);
+        double turned = slope * (at->p + 2 * LINEAR_NORMAL_ERR);
+        int flank = !(varies <= mean[k]);
+        steepest += turned;
+        if (flank) {
+            linear->region += turned * c->rms_turn * sqrt(1 + c->area_error);
+            linear->point += turned * c->turn;
+        } else {
+            kept += term[k].slope;
+            linear->rounding += (term[k].err * at->p + slope * (2 * LINEAR_NORMAL_ERR)) * c->turn *
+                                (1 + c->area_error);
+        }
+        for (int j = 0; j < 2; j++) {
+            gradient[k][j] = flank ? 0 : term[k].slope * across[j];
+            derivative[k][j] = flank ? 0 : term[k].derivative * across[j];
+        }
+    }
+    double curved = 0.5 * second + steepest * c->turn / 6;
+    linear->region += c->rms_turn * c->rms_turn * curved;
+    linear->point += c->turn * c->turn * curved;
+    return kept;
+}
+
+/* 1. The axes of the facets; 2. both terms' gradients; 3. what the linear part adds to the bounds.
+ */
 int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi_patch *patch,
                       const lrcs_curvature *curvature, double second, lrcsi_linear *linear)
 {
     const lrcs_part *part = &view->prepared->scene->part[patch->part];
-    const lrcsi_wall_patch *at = &patch->at;
+    const double a = curvature->area_error;
     lrcsi_profile profile = lrcsi_profile_make(&part->shape, &part->divisions);
-    lrcsi_profile_normals normals = lrcsi_profile_normals_make(&profile, at->row);
+    lrcsi_profile_normals normals = lrcsi_profile_normals_make(&profile, patch->at.row);
     double unit = ldexp(part->unit, -view->prepared->exponent);
-    double phi = (2.0 * at->sector + 1.0) * profile.half;
-    double across[2] = {-sin(phi), cos(phi)};
-    double z = at->mirrored ? -1 : 1;
-    const double axis[3][3] = {
-        {across[0], across[1], 0},                                                    /* e_x */
-        {normals.cosine * across[1], -normals.cosine * across[0], -z * normals.sine}, /* e_y */
-        {normals.sine * across[1], -normals.sine * across[0], z * normals.cosine}};   /* n */
-    double e[3][3]; /* the same, axes of the view */
-    for (int k = 0; k < 3; k++) {
-        to_view(view, part, axis[k], e[k]);
-    }
-
-    /* 1. The gradients of both terms at n. */
-    double c = patch->side * e[2][2];
-    double toward[2] = {patch->side * e[0][2], patch->side * e[1][2]};
-    double p = lrcsi_length_flat(toward[0], toward[1]);
+    linear_patch at = {
+        .scale = {normals.across / unit, normals.along / unit},
+        .reach = {normals.across * normals.width, fabs(normals.along) * normals.length}};
     linear_term term[2];
-    if (!part->rigid || !(c > 0) || !linear_terms(brdf, c, p, &term[0], &term[1])) {
+    axes_make(view, patch, profile.half, &normals, at.e); /* 1 */
+    at.toward[0] = patch->side * at.e[0][2];
+    at.toward[1] = patch->side * at.e[1][2];
+    at.c = patch->side * at.e[2][2];
+    at.p = lrcsi_length_flat(at.toward[0], at.toward[1]);
+    if (!part->rigid || !(a < 0.5) || !(at.c > 0) ||
+        !linear_terms(brdf, at.c, at.p, &term[0], &term[1])) {
         return 0;
     }
+    double kept = gradients_make(&at, term, patch, curvature, second, linear); /* 2 */
 
-    /* 2. The bounds: first what holds for any l. */
-    const double a = curvature->area_error;
-    double square = curvature->rms_turn * curvature->rms_turn;
-    double steepest = (fabs(term[0].slope) + term[0].err + fabs(term[1].slope) + term[1].err) *
-                      (p + 2 * LINEAR_NORMAL_ERR);
-    double spread = curvature->rms_turn * sqrt(1 + a); /* the mean of gamma */
-    double region = 0.5 * square * second + steepest * curvature->turn * square / 6;
-    double point =
-        curvature->turn * curvature->turn * (0.5 * second + steepest * curvature->turn / 6);
-    double err = 0; /* of the gradients */
-    double kept = 0;
-    const double mean[2] = {patch->glint, patch->diffuse};
-    double *gradient[2] = {linear->glint, linear->diffuse};
-    double *derivative[2] = {linear->glint_s, linear->diffuse_m};
-    const double reach[2] = {normals.across * normals.width, fabs(normals.along) * normals.length};
-    const double scale[2] = {normals.across / unit, normals.along / unit};
-    for (int k = 0; k < 2; k++) {
-        double slope = term[k].slope;
-        double varies = fabs(slope) * (fabs(toward[0]) * reach[0] + fabs(toward[1]) * reach[1]);
-        int flank = !(varies <= mean[k]);
-        if (flank) {
-            region += (fabs(slope) + term[k].err) * (p + 2 * LINEAR_NORMAL_ERR) * spread;
-            point += (fabs(slope) + term[k].err) * (p + 2 * LINEAR_NORMAL_ERR) * curvature->turn;
-            slope = 0;
-        } else {
-            err += term[k].err * p + (fabs(slope) + term[k].err) * (2 * LINEAR_NORMAL_ERR);
-        }
-        kept += slope;
-        for (int j = 0; j < 2; j++) {
-            const double g[2] = {toward[0] * scale[0], toward[1] * scale[1]};
-            double lifted = (g[0] * e[0][2] + g[1] * e[1][2]) / e[2][2];
-            double along = g[0] * e[0][j] + g[1] * e[1][j] - lifted * e[2][j];
-            gradient[k][j] = slope * along;
-            derivative[k][j] = flank ? 0 : term[k].derivative * along;
-        }
-    }
-
-    /* 3. What the linear part adds. */
-    double x = fabs(kept * toward[0]);
-    double y = fabs(kept * toward[1]);
-    double length = lrcsi_length_flat(x * scale[0], y * scale[1]); /* |G| */
+    double x = fabs(kept * at.toward[0]); /* 3 */
+    double y = fabs(kept * at.toward[1]);
+    double length = lrcsi_length_flat(x * at.scale[0], y * at.scale[1]); /* |G| */
     double diameter = (2 * normals.width + normals.length) * unit;
-    linear->variation = (x * reach[0] + y * reach[1]) * (1 + 16 * LRCSI_U);
-    linear->slope = lrcsi_length_flat(linear->glint[0] + linear->diffuse[0],
-                                      linear->glint[1] + linear->diffuse[1]) *
-                        (1 + 16 * LRCSI_U) +
-                    64 * LRCSI_U * length / c;
-    linear->rounding = err * curvature->turn * (1 + a) +
-                       4 * patch->area_err * linear->variation / c +
-                       128 * LRCSI_U * length * diameter / c;
+    double gradient = lrcsi_length_flat(linear->glint[0] + linear->diffuse[0],
+                                        linear->glint[1] + linear->diffuse[1]);
+    linear->variation = (x * at.reach[0] + y * at.reach[1]) * (1 + 16 * LRCSI_U);
+    linear->slope = gradient * (1 + 16 * LRCSI_U) + 64 * LRCSI_U * length / at.c;
+    linear->rounding +=
+        4 * patch->area_err * linear->variation / at.c + 128 * LRCSI_U * length * diameter / at.c;
     double area = linear->variation * (a / (1 - a));
-    linear->region = region + linear->rounding +
-                     (1 + a) * (x * normals.across_mean + y * normals.along_err + area);
-    linear->point =
-        point + linear->rounding + x * normals.across_err + y * normals.along_err + area;
-    return a < 0.5 && isfinite(linear->region + linear->point + linear->slope);
+    linear->region +=
+        linear->rounding + (1 + a) * (x * normals.across_mean + y * normals.along_err + area);
+    linear->point += linear->rounding + x * normals.across_err + y * normals.along_err + area;
+    return isfinite(linear->region + linear->point + linear->slope);
 }
 
 /* The centroids of two facets are the means of their corners, whose differences are accurate; that

@@ -414,76 +414,84 @@ static double other_side(const lrcsi_view *view, uint32_t facet, const lrcs_brdf
            lrcsi_deviation_make(brdf, cosine, incidence->tan2, c).value_max;
 }
 
-/* Computes the error of a facet on a curved wall, per unit of area, and its correction:
-   1. the error without a correction, for which lit sectors with a partly visible facet choose
-      together;
-   2. the linear function, and the correction by it;
-   3. the error with it: of such sectors together again, of a lit facet alone if the other one is
-      hidden or unlit. The smaller one is returned. */
-static lrcsi_tessellation curved_error(const patch_case *at, lrcsi_patch *patch)
+/* The error with a correction, if its bound is smaller than that of `constant`, the error without
+   one; else that. Given: `sector`, the deviation of the sector's first facet, and `bound`, its
+   choice without a correction, if both facets are lit and one of them is partly visible (joint).
+   Then the bounds of both facets are compared, as in sector_choose. */
+static lrcsi_tessellation corrected_error(const patch_case *at, int joint,
+                                          const lrcsi_deviation *sector, const sector_bound *bound,
+                                          lrcsi_tessellation constant, lrcsi_patch *patch)
 {
     const lrcs_prepared *p = at->view->prepared;
     const lrcs_brdf brdf = lrcsi_plan_brdf(at->plan, lrcsi_prepared_material(p, at->facet));
     const double a = patch_area_error(p, at->facet, at->c);
+    lrcsi_linear linear;
+    patch_correction own;
+    if (!lrcsi_patch_make(at->view, at->plan, &brdf, at->facet, patch)) {
+        return constant;
+    }
+    lrcsi_deviation shared = patch->at.facets == 2 ? *sector : at->deviation;
+    if (!lrcsi_linear_make(at->view, &brdf, patch, at->c, shared.second, &linear) ||
+        !correction_make(at, at->facet, patch, &linear, &own)) {
+        return constant;
+    }
+    lrcsi_deviation deviation = linear_deviation(&at->deviation, a, &linear, patch);
+    sector_bound choice = {BY_POINT, 1, 0};
+    double correction_err = own.error;
+    if (joint) {
+        patch_correction other = own;
+        uint32_t first = sector_first(p, at->facet);
+        if (patch->at.facets == 2 &&
+            !correction_make(at, first + (at->facet == first), patch, &linear, &other)) {
+            return constant;
+        }
+        shared = linear_deviation(&shared, a, &linear, patch);
+        choice =
+            sector_choose(at->view, at->facet, at->c, at->visible, at->band, &shared, at->stretch);
+        correction_err = fmax(own.error, other.error);
+    } else {
+        deviation.region *= own.ratio;
+        double by_region = deviation.region + at->stretch * deviation.value;
+        double by_point = at->f->lit * ((1 + a) * deviation.point + at->stretch * deviation.value);
+        choice.method = by_region < by_point ? BY_REGION : BY_POINT;
+    }
+    lrcsi_tessellation error =
+        wall_error(&deviation, a, at->stretch, at->f, at->state, at->partner, &choice);
+    error.above += own.error;
+    error.below += own.error;
+    error.glint = own.glint;
+    error.diffuse = own.diffuse;
+    error.corrected = 1;
+    int smaller = joint ? choice.error + correction_err < bound->error
+                        : fmax(error.above, error.below) < fmax(constant.above, constant.below);
+    return smaller ? error : constant;
+}
+
+/* Computes the error of a facet on a curved wall, per unit of area, and its correction. If both
+   facets of the sector are lit and one of them is partly visible, they choose together. */
+static lrcsi_tessellation curved_error(const patch_case *at, lrcsi_patch *patch)
+{
+    const lrcs_prepared *p = at->view->prepared;
+    const double a = patch_area_error(p, at->facet, at->c);
     const int cone = patch_part(p, at->facet)->kind == LRCS_SHAPE_CONE; /* one facet a sector */
     const uint32_t first = cone ? at->facet : sector_first(p, at->facet);
-    const int partial = at->state == PATCH_PARTIAL || at->partner == PATCH_PARTIAL;
-    const int joint = is_lit(at->state) && is_lit(at->partner) && partial;
+    const int whole = at->state == PATCH_VISIBLE && at->partner == PATCH_VISIBLE;
+    const int joint = is_lit(at->state) && is_lit(at->partner) && !whole;
     lrcsi_deviation sector = at->deviation; /* of the first facet */
     sector_bound bound = {BY_POINT, 1, 0};
     double stretch = at->stretch;
-    if (joint && first != at->facet) { /* 1 */
+    if (joint && first != at->facet) {
         lrcsi_incidence incidence = lrcsi_view_incidence(at->view, first);
         sector = patch_deviation(at->view, at->plan, first, &incidence, at->c, patch, &stretch);
     }
     if (joint) {
         bound = sector_choose(at->view, at->facet, at->c, at->visible, at->band, &sector, stretch);
     }
-    lrcsi_tessellation unit =
+    lrcsi_tessellation error =
         wall_error(&at->deviation, a, at->stretch, at->f, at->state, at->partner, &bound);
-
-    lrcsi_linear linear; /* 2 */
-    patch_correction own;
-    if (!at->moment || !at->band || !is_lit(at->state) ||
-        (at->state == PATCH_VISIBLE && at->partner == PATCH_VISIBLE) ||
-        !lrcsi_patch_make(at->view, at->plan, &brdf, at->facet, patch)) {
-        return unit;
-    }
-    sector = patch->at.facets == 2 ? sector : at->deviation;
-    if (!lrcsi_linear_make(at->view, &brdf, patch, at->c, sector.second, &linear) ||
-        !correction_make(at, at->facet, patch, &linear, &own)) {
-        return unit;
-    }
-
-    lrcsi_deviation deviation = linear_deviation(&at->deviation, a, &linear, patch); /* 3 */
-    double error = own.error;
-    double constant = fmax(unit.above, unit.below);
-    if (joint) {
-        patch_correction other = own;
-        if (patch->at.facets == 2 &&
-            !correction_make(at, first + (at->facet == first), patch, &linear, &other)) {
-            return unit;
-        }
-        sector = linear_deviation(&sector, a, &linear, patch);
-        constant = bound.error;
-        bound =
-            sector_choose(at->view, at->facet, at->c, at->visible, at->band, &sector, at->stretch);
-        error = bound.error + fmax(own.error, other.error);
-    } else {
-        deviation.region *= own.ratio;
-        double by_region = deviation.region + at->stretch * deviation.value;
-        double by_point = at->f->lit * ((1 + a) * deviation.point + at->stretch * deviation.value);
-        bound.method = by_region < by_point ? BY_REGION : BY_POINT;
-    }
-    lrcsi_tessellation corrected =
-        wall_error(&deviation, a, at->stretch, at->f, at->state, at->partner, &bound);
-    corrected.above += own.error;
-    corrected.below += own.error;
-    corrected.glint = own.glint;
-    corrected.diffuse = own.diffuse;
-    corrected.corrected = 1;
-    error = joint ? error : fmax(corrected.above, corrected.below);
-    return error < constant ? corrected : unit;
+    return at->moment && at->band && is_lit(at->state) && !whole
+               ? corrected_error(at, joint, &sector, &bound, error, patch)
+               : error;
 }
 
 int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)

@@ -588,63 +588,85 @@ lrcsi_reach lrcsi_profile_reach(const lrcsi_profile *profile)
      so that it differs from its chord between both rows by at most (y1 - y0)^2 / 8 times the
      supremum of that. On the facets y_rim r/R is linear in the position along e_y, and takes the
      place of y, from which it differs by 0 .. y_rim strip_out / R. */
-lrcsi_profile_normals lrcsi_profile_normals_make(const lrcsi_profile *profile, uint32_t i)
+
+/* What depends on the shape: `across`, `along` and their errors, without the second term of N .
+   e_y. Given: the rest. Returns the largest sin alpha. */
+static double normals_straight(const lrcsi_profile *profile, uint32_t i, lrcsi_profile_normals *n)
 {
-    const double h = profile->half;
-    const double mu = profile->vertex_ratio;
-    const double kappa = mu * cos(h);
     double below = lrcsi_profile_radius(profile, i);
     double above = lrcsi_profile_radius(profile, i + 1);
-    double wide = fmax(below, above);
-    double rise = lrcsi_profile_rise(profile, i);
+    double mean = 0.5 * (below + above);
+    double h = profile->half;
+    double sine = cos(strip_make(profile, i).low);
+    double uneven = sine * fabs(below - above) / (below + above);
+    double bent = sine * fmax(below, above) / mean * (h * h * h / 15.0);
+    n->across = sine / (profile->vertex_ratio * mean);
+    n->across_mean = 0.25 * h * uneven + bent;
+    n->across_err = uneven * sin(h) + bent;
+    return sine;
+}
+
+static double normals_paraboloid(const lrcsi_profile *profile, uint32_t i, lrcsi_profile_normals *n)
+{
+    double h = profile->half;
+    double y1 = profile_tangent(profile, i);
+    double y0 = profile_tangent(profile, i + 1);
+    double low = 1.0 / hypot(1.0, y1); /* cos alpha */
+    double high = 1.0 / hypot(1.0, y0);
+    double shift = profile->slope * (strip_out(profile, i) / profile->base);
+    profile_strip strip = strip_make(profile, i);
+    double nu = atan2(n->cosine, n->sine);
+    double elevation = fmax(fabs(strip.low - nu), fabs(strip.high - nu));
+    double fall = sin(nu - strip.low) - sin(nu - strip.high);
+    double second = (elevation + 2.0 * y1) * (high * high) * (high * high);
+    double uneven = y1 * (0.5 * (high - low)) + high * shift;
+    double bent = y1 * high * (h * h * h / 15.0);
+    n->across = profile->slope / profile->base * (0.5 * (low + high)) / profile->vertex_ratio;
+    n->along = fall / n->length;
+    n->across_mean = 0.5 * h * uneven + bent;
+    n->across_err = uneven * sin(h) + bent;
+    n->along_err = 0.125 * (y1 - y0) * (y1 - y0) * second + 0.5 * shift * fabs(fall / (y1 - y0));
+    return y1 * low;
+}
+
+static double normals_round(const lrcsi_profile *profile, uint32_t i, lrcsi_profile_normals *n)
+{
+    double below = lrcsi_profile_radius(profile, i);
+    double above = lrcsi_profile_radius(profile, i + 1);
+    double h = profile->half;
+    double kappa = profile->vertex_ratio * cos(h);
+    double unit = 1.0 / profile->base;
+    double rise = level_rise(profile, i); /* of the patch */
     double out = strip_out(profile, i);
+    double lag = 0.25 * (below - above) / (below + above) * rise +
+                 fabs(lrcsi_profile_rise(profile, i) - rise);
+    double sine = below * unit;
+    double bent = sine * (h * h * h / 15.0);
+    n->across = unit / profile->vertex_ratio;
+    n->along = unit;
+    n->across_mean = 0.5 * h * (out * unit) + bent;
+    n->across_err = out * unit * sin(h) + bent;
+    n->along_err =
+        0.5 * unit *
+        ((out + fabs(1.0 - kappa) * (below - above)) * fabs(n->cosine) + lag * fabs(n->sine));
+    return sine;
+}
+
+lrcsi_profile_normals lrcsi_profile_normals_make(const lrcsi_profile *profile, uint32_t i)
+{
+    double h = profile->half;
+    double below = lrcsi_profile_radius(profile, i);
+    double above = lrcsi_profile_radius(profile, i + 1);
     profile_strip strip = strip_make(profile, i);
     double facet = hypot(strip.gain * strip.across, strip.up);
     lrcsi_profile_normals n = {.sine = strip.gain * strip.across / facet,
                                .cosine = strip.up / facet,
-                               .width = mu * sin(h) * wide,
-                               .length = hypot(kappa * (below - above), rise)};
-    double sine = 1.0; /* the largest of sin alpha */
-    double across;     /* the error except for |sin vh| */
-    double cubic = h * h * h / 15.0;
-    if (profile_straight(profile)) {
-        double mean = 0.5 * (below + above);
-        sine = cos(strip.low);
-        n.across = sine / (mu * mean);
-        across = sine * fabs(below - above) / (below + above);
-        n.across_mean = 0.25 * h * across + sine * wide / mean * cubic;
-        n.across_err = across * sin(h) + sine * wide / mean * cubic;
-    } else if (profile->kind == LRCS_SHAPE_PARABOLOID) {
-        double y1 = profile_tangent(profile, i);
-        double y0 = profile_tangent(profile, i + 1);
-        double low = 1.0 / hypot(1.0, y1); /* cos alpha */
-        double high = 1.0 / hypot(1.0, y0);
-        double shift = profile->slope * (out / profile->base);
-        double nu = atan2(strip.up, strip.gain * strip.across);
-        double elevation = fmax(fabs(strip.low - nu), fabs(strip.high - nu));
-        double fall = sin(nu - strip.low) - sin(nu - strip.high);
-        double bend = (elevation + 2.0 * y1) * (high * high) * (high * high);
-        sine = y1 * low;
-        n.across = profile->slope / profile->base * (0.5 * (low + high)) / mu;
-        n.along = fall / n.length;
-        across = y1 * (0.5 * (high - low)) + high * shift;
-        n.across_mean = 0.5 * h * across + y1 * high * cubic;
-        n.across_err = across * sin(h) + y1 * high * cubic;
-        n.along_err = 0.125 * (y1 - y0) * (y1 - y0) * bend + 0.5 * shift * fabs(fall / (y1 - y0));
-    } else {
-        double unit = 1.0 / profile->base;
-        double lag = 0.25 * (below - above) / (below + above) * level_rise(profile, i) +
-                     fabs(rise - level_rise(profile, i));
-        sine = below * unit;
-        n.across = unit / mu;
-        n.along = unit;
-        across = out * unit;
-        n.across_mean = 0.5 * h * across + sine * cubic;
-        n.across_err = across * sin(h) + sine * cubic;
-        n.along_err =
-            0.5 * unit *
-            ((out + fabs(1.0 - kappa) * (below - above)) * fabs(n.cosine) + lag * fabs(n.sine));
-    }
+                               .width = profile->vertex_ratio * sin(h) * fmax(below, above),
+                               .length = hypot(profile->vertex_ratio * cos(h) * (below - above),
+                                               lrcsi_profile_rise(profile, i))};
+    double sine = profile_straight(profile)                ? normals_straight(profile, i, &n)
+                  : profile->kind == LRCS_SHAPE_PARABOLOID ? normals_paraboloid(profile, i, &n)
+                                                           : normals_round(profile, i, &n);
     n.along_err += 0.5 * sine * fabs(n.cosine) * (2.0 * sin(0.5 * h) * sin(0.5 * h));
     double rounding = (64.0 + 4.0 * (double)profile->strips) * LRCSI_U;
     n.across_err = n.across_err * REACH_MARGIN + rounding;
