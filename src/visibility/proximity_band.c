@@ -24,6 +24,9 @@
 /* The number of cells of the grid for each event edge: the many short edges of a rim lie in few
    cells. */
 #define EVENT_CELLS 4u
+/* A proof about a part (visibility/behind.h) is used for a facet only if it holds for all but this
+   fraction of it. */
+#define PROOF_FRACTION_MAX 0x1p-20
 /* Pairs of parts of which it is remembered whether one is behind the other. Facets are searched
    part by part, so that few pairs are needed at a time. */
 #define BEHIND_PAIRS 64u
@@ -376,16 +379,20 @@ static const lrcsi_behind *behind_of(band_job *job, uint32_t front, uint32_t bac
 }
 
 /* Is something proved of the facet's part, and another one? If so, the fraction of the facet for
-   which it does not hold is added here. */
+   which it does not hold is added here; if that is not small, the facet lies in the plane, and
+   nothing is proved of it. */
 static int proof_holds(band_job *job, uint32_t facet, uint32_t other,
                        const lrcsi_behind_proof *proof)
 {
-    double fraction = proof->known ? lrcsi_behind_fraction(proof, job->view->prepared, facet) : 0;
+    double fraction = proof->known ? lrcsi_behind_fraction(proof, job->view->prepared, facet) : 1;
+    if (fraction > PROOF_FRACTION_MAX) {
+        return 0;
+    }
     if (fraction > 0) {
         add_both(job, facet, fraction, lrcsi_part_set_of(other));
         job->rows[facet] += fraction;
     }
-    return proof->known;
+    return 1;
 }
 
 /* Is a part behind the facet's own part (visibility/behind.h)? */
@@ -541,8 +548,7 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
     int is_own = job->part[event] == band_part(job, facet);
     int side = is_own ? 0 : job->side[event];
     if ((is_own && !search->inside) ||
-        search_excludes(search, job->view->point[edge->low].x, job->view->point[edge->high].x) ||
-        (!is_own && part_is_behind(job, facet, job->part[event]))) {
+        search_excludes(search, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
         return;
     }
     if (search->lateral < 0) {
@@ -550,7 +556,7 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
         search->lateral = lrcsi_displacement_across(&search->displacement, job->view->unit);
     }
     double slack = event_slack(job, facet, event, search->lateral);
-    if (!(slack > 0)) {
+    if (!(slack > 0) || (!is_own && part_is_behind(job, facet, job->part[event]))) {
         return;
     }
     double err = 0;
