@@ -109,8 +109,8 @@ static int segment_crosses_plainly(const lrcsi_view *view, uint32_t facet, uint3
     return inside > turn_err && most > turn_err && least < -turn_err ? 1 : LRCSI_VIEW_UNDECIDED;
 }
 
-/* The same, decided exactly. *along is set if the segment lies on the line of a side that separates
-   them, and no line separates them clearly. */
+/* The same, decided exactly. *along is set if the segment may run along a side: if it lies on the
+   line of a side that separates them, and view coordinates do not show them apart. */
 static int segment_crosses(const lrcsi_view *view, uint32_t facet, uint32_t p, uint32_t q,
                            int *along)
 {
