@@ -323,7 +323,7 @@ cmocka:
 .DELETE_ON_ERROR:
 
 # --- rules ---------------------------------------------------------------------------------------
-# The folders of everything built are made once: a process for each file takes a tenth of the time.
+# The folders of everything built are made once: a process for each file would take seconds.
 $(shell mkdir -p $(sort $(dir $(TOOL) $(CORE_OBJ) $(ABOVE_OBJ) $(HOST_OBJ) $(CLI_OBJ) $(TESTS) $(EXAMPLES) \
     $(CORE_TESTS:$(BUILD)/%=$(JOINED)/%) $(FUZZ_TESTS) $(BENCH_OBJ) $(FLIGHT)/task)))
 
