@@ -51,10 +51,11 @@
    - Over a whole row of a straight wall l - F_i is antisymmetric, so that its integral is 0, and
      what was said of rows holds.
    - If the other facet of the sector is hidden or unlit, the integral of F - l over a region of
-   this facet's patch alone still has the bound of the whole sector: per unit of this facet's area,
-   it is the sector's area divided by this facet's times as large. Whichever of the two has the
-   smaller bound is used. For a sector of which no facet is hidden or unlit this must be the same
-   for both facets; so sector_choose compares bounds of both.
+     this facet's patch alone still has the bound of the whole sector: per unit of this facet's
+     area, it is the sector's area divided by this facet's times as large.
+   The correction is made where neither bound, above or below, becomes larger by it: then no sum of
+   bounds does. Both facets of a sector must do the same if none of them is hidden or unlit, since
+   the bound of a region is that of both together; there the sums of their bounds are compared.
 
    Without a proximity band the facets count as visible: the bounds of the visible areas then
    include what may be hidden, both of the true surface and of the facets. */
