@@ -293,7 +293,10 @@ static int run_clip(lrcsi_sigma *run, lrcsi_meter *meter)
         status =
             lrcsi_occlude_all(&run->classification, meter, run->work,
                               sum_only ? &run->answer : NULL, run->visible, run->moment_memory);
-        run->moment = run->plan.unshadowed ? NULL : run->moment_memory; /* areas_apply_proofs */
+        /* Moments must belong to the areas (areas_apply_proofs). Where steps ran out, areas are
+           uncertain, and corrections by moments would make bounds grow where more steps are left.
+         */
+        run->moment = run->plan.unshadowed || meter->spent ? NULL : run->moment_memory;
     }
     run->outcome.size = 0;
     return status;

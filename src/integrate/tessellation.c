@@ -51,10 +51,11 @@
    - Over a whole row of a straight wall l - F_i is antisymmetric, so that its integral is 0, and
      what was said of rows holds.
    - If the other facet of the sector is hidden or unlit, the integral of F - l over a region of
-   this facet's patch alone still has the bound of the whole sector: per unit of this facet's area,
-   it is the sector's area divided by this facet's times as large. Whichever of the two has the
-   smaller bound is used. For a sector of which no facet is hidden or unlit this must be the same
-   for both facets; so sector_choose compares bounds of both.
+     this facet's patch alone still has the bound of the whole sector: per unit of this facet's
+     area, it is the sector's area divided by this facet's times as large.
+   The correction is made where neither bound, above or below, becomes larger by it: then no sum of
+   bounds does. Both facets of a sector must do the same if none of them is hidden or unlit, since
+   the bound of a region is that of both together; there the sums of their bounds are compared.
 
    Without a proximity band the facets count as visible: the bounds of the visible areas then
    include what may be hidden, both of the true surface and of the facets. */
@@ -202,24 +203,33 @@ static double patch_area_error(const lrcs_prepared *p, uint32_t facet, const lrc
    Where a scale that differs between axes stretches areas unevenly, the stretch over E and its mean
    over the patch are both within a factor of 1 + uneven of that of the facet: T - M has also F^
    times their difference, at most ((1 + uneven)^2 - 1) F_i per unit of E. */
+static void deviation_about_mean(const lrcs_prepared *p, uint32_t facet, const lrcsi_patch *patch,
+                                 lrcsi_deviation *deviation, double *stretch)
+{
+    double mean = patch->glint + patch->diffuse;
+    double error = patch->remainder + patch->rounding;
+    double difference = fabs(mean - deviation->value) + error + 2e-10 * deviation->value;
+    deviation->whole = fmin(patch->remainder, deviation->whole + difference);
+    deviation->region += error;
+    deviation->point += difference + *stretch * (mean + error);
+    deviation->value = mean + error;
+    double uneven = patch_part(p, facet)->stretch_err;
+    *stretch = patch->area_err + uneven * (2 + uneven);
+}
+
+/* The same for a facet, whose patch is made; *has_mean: whether the sum uses its mean. */
 static lrcsi_deviation patch_deviation(const lrcsi_view *view, const lrcsi_plan *plan,
                                        uint32_t facet, const lrcsi_incidence *incidence,
-                                       const lrcs_curvature *c, lrcsi_patch *patch, double *stretch)
+                                       const lrcs_curvature *c, lrcsi_patch *patch, double *stretch,
+                                       int *has_mean)
 {
     lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(view->prepared, facet));
     double cosine = fabs(incidence->cos_theta);
     lrcsi_deviation deviation = lrcsi_deviation_make(&brdf, cosine, incidence->tan2, c);
     *stretch = patch_area_error(view->prepared, facet, c);
-    if (c->turn > FLAT_TILT && lrcsi_patch_make(view, plan, &brdf, facet, patch)) {
-        double mean = patch->glint + patch->diffuse;
-        double error = patch->remainder + patch->rounding;
-        double difference = fabs(mean - deviation.value) + error + 2e-10 * deviation.value;
-        deviation.whole = fmin(patch->remainder, deviation.whole + difference);
-        deviation.region += error;
-        deviation.point += difference + *stretch * (mean + error);
-        deviation.value = mean + error;
-        double uneven = patch_part(view->prepared, facet)->stretch_err;
-        *stretch = patch->area_err + uneven * (2 + uneven);
+    *has_mean = c->turn > FLAT_TILT && lrcsi_patch_make(view, plan, &brdf, facet, patch);
+    if (*has_mean) {
+        deviation_about_mean(view->prepared, facet, patch, &deviation, stretch);
     }
     return deviation;
 }
@@ -259,16 +269,15 @@ static uint32_t sector_first(const lrcs_prepared *p, uint32_t facet)
 
 /* Chooses the smallest of these bounds, for both facets of the sector: from the deviation of the
    first facet (on a cone, of the facet itself), and the larger fractions of both. */
-static sector_bound sector_choose(const lrcsi_view *view, uint32_t facet, const lrcs_curvature *c,
+static sector_bound sector_choose(const lrcsi_view *view, uint32_t facet,
+                                  const lrcsi_incidence pair[2], const lrcs_curvature *c,
                                   const lrcsi_visible *visible, const lrcsi_proximity_band *band,
                                   const lrcsi_deviation *deviation, double stretch)
 {
     const lrcs_part *part = patch_part(view->prepared, facet);
     uint32_t first = sector_first(view->prepared, facet);
-    lrcsi_incidence incidence = lrcsi_view_incidence(view, first);
-    lrcsi_incidence other = lrcsi_view_incidence(view, first + 1);
-    const patch_fractions one = patch_fractions_of(&incidence, first, visible, band);
-    const patch_fractions two = patch_fractions_of(&other, first + 1, visible, band);
+    const patch_fractions one = patch_fractions_of(&pair[0], first, visible, band);
+    const patch_fractions two = patch_fractions_of(&pair[1], first + 1, visible, band);
     double hidden = fmax(one.hidden + one.loss, two.hidden + two.loss);
     double a = patch_area_error(view->prepared, facet, c);
     double rows = sector_rows(view, part->kind == LRCS_SHAPE_CONE ? facet : first, band);
@@ -336,10 +345,13 @@ typedef struct patch_case {
     const lrcsi_visible *visible;
     const lrcsi_moment *moment;
     const lrcsi_proximity_band *band;
-    int state, partner; /* of the facet, and of the other one of its sector */
+    int state, partner;          /* of the facet, and of the other one of its sector */
+    const lrcsi_incidence *pair; /* of both, in their order; the other's only if both are lit */
     const patch_fractions *f;
-    lrcsi_deviation deviation;
+    const lrcsi_deviation *deviation;
     double stretch;
+    const lrcsi_patch *patch;
+    int has_mean; /* the sum uses the patch's mean */
 } patch_case;
 
 /* The correction of a facet and the error of that, per unit of area. */
@@ -351,12 +363,12 @@ typedef struct patch_correction {
 /* The integral of l - F_i over what is visible of a facet, in the view plane, divided by its
    projected area. An error of the moment counts with the slope; rounding is part of
    linear->rounding, except for the projected area. Returns 0 if the moment is not known. */
-static int correction_make(const patch_case *at, uint32_t facet, const lrcsi_patch *patch,
-                           const lrcsi_linear *linear, patch_correction *correction)
+static int correction_make(const patch_case *at, uint32_t facet, const lrcsi_linear *linear,
+                           patch_correction *correction)
 {
-    lrcsi_incidence incidence = lrcsi_view_incidence(at->view, facet);
-    lrcsi_linear_moment m =
-        lrcsi_linear_moment_make(at->view, facet, patch, &at->visible[facet], &at->moment[facet]);
+    const lrcsi_incidence incidence = at->pair[facet - sector_first(at->view->prepared, facet)];
+    lrcsi_linear_moment m = lrcsi_linear_moment_make(at->view, facet, at->patch,
+                                                     &at->visible[facet], &at->moment[facet]);
     const double x = m.first[0] / incidence.projected;
     const double y = m.first[1] / incidence.projected;
     correction->ratio = m.ratio;
@@ -414,83 +426,110 @@ static double other_side(const lrcsi_view *view, uint32_t facet, const lrcs_brdf
            lrcsi_deviation_make(brdf, cosine, incidence->tan2, c).value_max;
 }
 
-/* The error with a correction, if its bound is smaller than that of `constant`, the error without
-   one; else that. Given: `sector`, the deviation of the sector's first facet, and `bound`, its
-   choice without a correction, if both facets are lit and one of them is partly visible (joint).
-   Then the bounds of both facets are compared, as in sector_choose. */
-static lrcsi_tessellation corrected_error(const patch_case *at, int joint,
-                                          const lrcsi_deviation *sector, const sector_bound *bound,
-                                          lrcsi_tessellation constant, lrcsi_patch *patch)
+/* The sum of the errors of both facets of a sector: with the deviation of the first one and the
+   choice for the sector. */
+static lrcsi_tessellation sector_error(const patch_case *at, const lrcsi_deviation *deviation,
+                                       const sector_bound *bound, double own_err, double other_err)
+{
+    const lrcs_prepared *p = at->view->prepared;
+    const double a = patch_area_error(p, at->facet, at->c);
+    uint32_t first = sector_first(p, at->facet);
+    lrcsi_tessellation sum = {0, 0, 0, 0, 0};
+    for (uint32_t facet = first; facet < first + 2; facet++) {
+        int own = facet == at->facet;
+        patch_fractions f =
+            patch_fractions_of(&at->pair[facet - first], facet, at->visible, at->band);
+        lrcsi_tessellation error =
+            wall_error(deviation, a, at->stretch, &f, own ? at->state : at->partner,
+                       own ? at->partner : at->state, bound);
+        double err = own ? own_err : other_err;
+        sum.above += p->normal[facet].length * (error.above + err);
+        sum.below += p->normal[facet].length * (error.below + err);
+    }
+    return sum;
+}
+
+/* Makes the error with a correction. Returns 1 if neither of its bounds is larger than that of
+   `constant`, the error without one: then no sum of errors is. Given: `sector`, the deviation of
+   the sector's first facet, and `bound`, its choice without a correction, if both facets are lit
+   and one of them is partly visible (joint). Then the bounds of both facets together are compared,
+   if they share a patch. */
+static int corrected_error(const patch_case *at, int joint, const lrcsi_deviation *sector,
+                           const sector_bound *bound, const lrcsi_tessellation *constant,
+                           lrcsi_tessellation *error)
 {
     const lrcs_prepared *p = at->view->prepared;
     const lrcs_brdf brdf = lrcsi_plan_brdf(at->plan, lrcsi_prepared_material(p, at->facet));
     const double a = patch_area_error(p, at->facet, at->c);
+    const int shared = at->patch->at.facets == 2;
+    const uint32_t first = sector_first(p, at->facet);
     lrcsi_linear linear;
     patch_correction own;
-    if (!lrcsi_patch_make(at->view, at->plan, &brdf, at->facet, patch)) {
-        return constant;
+    patch_correction other = {0, 0, 0, 1};
+    if (!lrcsi_linear_make(at->view, &brdf, at->patch, at->c, sector->second, &linear) ||
+        !correction_make(at, at->facet, &linear, &own) ||
+        (joint && shared && !correction_make(at, first + (at->facet == first), &linear, &other))) {
+        return 0;
     }
-    lrcsi_deviation shared = patch->at.facets == 2 ? *sector : at->deviation;
-    if (!lrcsi_linear_make(at->view, &brdf, patch, at->c, shared.second, &linear) ||
-        !correction_make(at, at->facet, patch, &linear, &own)) {
-        return constant;
-    }
-    lrcsi_deviation deviation = linear_deviation(&at->deviation, a, &linear, patch);
+    lrcsi_deviation deviation = linear_deviation(at->deviation, a, &linear, at->patch);
+    lrcsi_deviation both = linear_deviation(sector, a, &linear, at->patch);
     sector_bound choice = {BY_POINT, 1, 0};
-    double correction_err = own.error;
     if (joint) {
-        patch_correction other = own;
-        uint32_t first = sector_first(p, at->facet);
-        if (patch->at.facets == 2 &&
-            !correction_make(at, first + (at->facet == first), patch, &linear, &other)) {
-            return constant;
-        }
-        shared = linear_deviation(&shared, a, &linear, patch);
-        choice =
-            sector_choose(at->view, at->facet, at->c, at->visible, at->band, &shared, at->stretch);
-        correction_err = fmax(own.error, other.error);
+        choice = sector_choose(at->view, at->facet, at->pair, at->c, at->visible, at->band, &both,
+                               at->stretch);
     } else {
         deviation.region *= own.ratio;
         double by_region = deviation.region + at->stretch * deviation.value;
         double by_point = at->f->lit * ((1 + a) * deviation.point + at->stretch * deviation.value);
         choice.method = by_region < by_point ? BY_REGION : BY_POINT;
     }
-    lrcsi_tessellation error =
-        wall_error(&deviation, a, at->stretch, at->f, at->state, at->partner, &choice);
-    error.above += own.error;
-    error.below += own.error;
-    error.glint = own.glint;
-    error.diffuse = own.diffuse;
-    error.corrected = 1;
-    int smaller = joint ? choice.error + correction_err < bound->error
-                        : fmax(error.above, error.below) < fmax(constant.above, constant.below);
-    return smaller ? error : constant;
+    *error = wall_error(&deviation, a, at->stretch, at->f, at->state, at->partner, &choice);
+    error->above += own.error;
+    error->below += own.error;
+    error->glint = own.glint;
+    error->diffuse = own.diffuse;
+    error->corrected = 1;
+    if (!joint || !shared) {
+        return error->above <= constant->above && error->below <= constant->below;
+    }
+    lrcsi_tessellation with = sector_error(at, &both, &choice, own.error, other.error);
+    lrcsi_tessellation without = sector_error(at, sector, bound, 0, 0);
+    return with.above <= without.above && with.below <= without.below;
 }
 
 /* Computes the error of a facet on a curved wall, per unit of area, and its correction. If both
    facets of the sector are lit and one of them is partly visible, they choose together. */
-static lrcsi_tessellation curved_error(const patch_case *at, lrcsi_patch *patch)
+static lrcsi_tessellation curved_error(const patch_case *at)
 {
     const lrcs_prepared *p = at->view->prepared;
     const double a = patch_area_error(p, at->facet, at->c);
-    const int cone = patch_part(p, at->facet)->kind == LRCS_SHAPE_CONE; /* one facet a sector */
-    const uint32_t first = cone ? at->facet : sector_first(p, at->facet);
+    const int alone = patch_part(p, at->facet)->kind == LRCS_SHAPE_CONE ||
+                      (at->has_mean && at->patch->at.facets == 1); /* in its sector */
+    const uint32_t first = alone ? at->facet : sector_first(p, at->facet);
     const int whole = at->state == PATCH_VISIBLE && at->partner == PATCH_VISIBLE;
     const int joint = is_lit(at->state) && is_lit(at->partner) && !whole;
-    lrcsi_deviation sector = at->deviation; /* of the first facet */
+    lrcsi_deviation sector = *at->deviation; /* of the first facet */
     sector_bound bound = {BY_POINT, 1, 0};
     double stretch = at->stretch;
     if (joint && first != at->facet) {
-        lrcsi_incidence incidence = lrcsi_view_incidence(at->view, first);
-        sector = patch_deviation(at->view, at->plan, first, &incidence, at->c, patch, &stretch);
+        lrcs_brdf brdf = lrcsi_plan_brdf(at->plan, lrcsi_prepared_material(p, first));
+        const lrcsi_incidence incidence = at->pair[0];
+        sector = lrcsi_deviation_make(&brdf, fabs(incidence.cos_theta), incidence.tan2, at->c);
+        stretch = a;
+        if (at->has_mean) {
+            deviation_about_mean(p, first, at->patch, &sector, &stretch);
+        }
     }
     if (joint) {
-        bound = sector_choose(at->view, at->facet, at->c, at->visible, at->band, &sector, stretch);
+        bound = sector_choose(at->view, at->facet, at->pair, at->c, at->visible, at->band, &sector,
+                              stretch);
     }
     lrcsi_tessellation error =
-        wall_error(&at->deviation, a, at->stretch, at->f, at->state, at->partner, &bound);
-    return at->moment && at->band && is_lit(at->state) && !whole
-               ? corrected_error(at, joint, &sector, &bound, error, patch)
+        wall_error(at->deviation, a, at->stretch, at->f, at->state, at->partner, &bound);
+    lrcsi_tessellation corrected;
+    return at->moment && at->band && at->has_mean && is_lit(at->state) && !whole &&
+                   corrected_error(at, joint, &sector, &bound, &error, &corrected)
+               ? corrected
                : error;
 }
 
@@ -536,9 +575,11 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
         return (lrcsi_tessellation){area * patch->remainder, area * patch->remainder, 0, 0, 0};
     }
     double stretch = 0;
+    int has_mean = 0;
     lrcsi_deviation deviation =
-        state == PATCH_UNLIT ? lrcsi_deviation_make(brdf, incidence->cos_theta, incidence->tan2, &c)
-                             : patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
+        state == PATCH_UNLIT
+            ? lrcsi_deviation_make(brdf, incidence->cos_theta, incidence->tan2, &c)
+            : patch_deviation(view, plan, facet, incidence, &c, patch, &stretch, &has_mean);
     patch_fractions f = {0, 0, 0, 1};
     if (state != PATCH_UNLIT) {
         f = patch_fractions_of(incidence, facet, visible, band);
@@ -547,9 +588,15 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_view *view, const lrcsi_
     if (is_curved) {
         f.gain += seen;
         f.loss += seen;
-        const patch_case at = {view, plan,  facet,   &c, visible,   moment,
-                               band, state, partner, &f, deviation, stretch};
-        unit = curved_error(&at, patch);
+        uint32_t first = sector_first(p, facet);
+        lrcsi_incidence pair[2] = {*incidence, *incidence};
+        if (is_lit(state) && is_lit(partner)) {
+            uint32_t other = facet == first;
+            pair[other] = lrcsi_view_incidence(view, first + other);
+        }
+        const patch_case at = {view,    plan, facet, &c,         visible, moment, band,    state,
+                               partner, pair, &f,    &deviation, stretch, patch,  has_mean};
+        unit = curved_error(&at);
     }
     error.above += area * unit.above;
     error.below += area * unit.below;
@@ -590,8 +637,9 @@ lrcsi_patch_parts lrcsi_tessellation_parts(const lrcsi_view *view, const lrcsi_p
     }
     if (parts.lit) {
         double stretch;
+        int has_mean;
         lrcsi_deviation deviation =
-            patch_deviation(view, plan, facet, incidence, &c, patch, &stretch);
+            patch_deviation(view, plan, facet, incidence, &c, patch, &stretch, &has_mean);
         double area = 0.5 * p->normal[facet].length;
         double a = is_curved ? patch_area_error(p, facet, &c) : 0;
         lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, facet));
