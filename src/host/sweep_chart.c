@@ -315,7 +315,7 @@ static double plot_shown(const lrcs_host_sweep_chart *plot, double sigma)
 
 /* The value of an axis at one of its places. */
 static double place_value(const lrcs_host_sweep_chart *plot, const lrcs_host_sweep_axis *axis,
-                         uint64_t place)
+                          uint64_t place)
 {
     const lrcs_host_plan *plan = plot->plan;
     if (plan->kind == LRCS_HOST_PLAN_SPHERE) {
