@@ -179,11 +179,6 @@ int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uin
 int cli_brdf_read(const cli_command *command, const char *text, const char *option,
                   lrcs_brdf *brdf);
 
-/* The same with errors: A+-DA,B+-DB,s+-DS,m+-DM. Each +- is one standard deviation; any may be
-   omitted. */
-int cli_brdf_error_read(const cli_command *command, const char *text, const char *option,
-                        lrcs_brdf *brdf, lrcs_brdf_error *error);
-
 /* Prints a notice for each warning about a BRDF, as of a material of that name. */
 void cli_brdf_warnings_print(const char *name, const lrcs_brdf *brdf);
 
@@ -240,9 +235,7 @@ char *cli_text_of(cli_text_writer *write, const void *context);
 const char *cli_material_source(const lrcs_material *material);
 const char *cli_base_name(const char *path);                     /* without its folders */
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json); /* keys A, B, s, m */
-/* Writes the keys of errors, A_error and so on, with their correlations; none if all are 0. */
-void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json);
-int cli_errors_stated(const lrcs_scene *scene);          /* 1 if some material has errors */
+int cli_errors_stated(const lrcs_scene *scene);                  /* 1 if some material has errors */
 int cli_materials_open(const lrcs_scene *scene);         /* 1 if some are illustrative or default */
 void cli_version_json(lrcs_host_json *json);             /* schema and version */
 void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* hash of the scene */

@@ -26,19 +26,10 @@ static int brdf_numbers(const char *text, double value[4], double deviation[4])
     return 0;
 }
 
-int cli_brdf_read(const cli_command *command, const char *text, const char *option, lrcs_brdf *brdf)
-{
-    lrcs_brdf_error error;
-    int code = cli_brdf_error_read(command, text, option, brdf, &error);
-    if (code == 0 && !lrcs_brdf_find(text) &&
-        (error.A > 0.0 || error.B > 0.0 || error.s > 0.0 || error.m > 0.0)) {
-        return cli_usage(command, "%s: no errors (+-) here, found '%s'", option, text);
-    }
-    return code;
-}
-
-int cli_brdf_error_read(const cli_command *command, const char *text, const char *option,
-                        lrcs_brdf *brdf, lrcs_brdf_error *error)
+/* Reads four numbers, A+-DA,B+-DB,s+-DS,m+-DM, or the name of a library material. Each +- is one
+   standard deviation; any may be omitted. */
+static int brdf_error_read(const cli_command *command, const char *text, const char *option,
+                           lrcs_brdf *brdf, lrcs_brdf_error *error)
 {
     double v[4];
     double d[4];
@@ -80,6 +71,17 @@ int cli_brdf_error_read(const cli_command *command, const char *text, const char
     *brdf = entry->brdf;
     *error = entry->error;
     return 0;
+}
+
+int cli_brdf_read(const cli_command *command, const char *text, const char *option, lrcs_brdf *brdf)
+{
+    lrcs_brdf_error error;
+    int code = brdf_error_read(command, text, option, brdf, &error);
+    if (code == 0 && !lrcs_brdf_find(text) &&
+        (error.A > 0.0 || error.B > 0.0 || error.s > 0.0 || error.m > 0.0)) {
+        return cli_usage(command, "%s: no errors (+-) here, found '%s'", option, text);
+    }
+    return code;
 }
 
 void cli_brdf_warnings_print(const char *name, const lrcs_brdf *brdf)
@@ -146,7 +148,7 @@ static int binding_read(const cli_command *command, const char *text, lrcs_bindi
         binding->source =
             strcmp(entry->name, value) == 0 ? LRCS_SOURCE_LIBRARY + i : binding->source;
     }
-    return cli_brdf_error_read(command, value, "--material", &binding->brdf, &binding->error);
+    return brdf_error_read(command, value, "--material", &binding->brdf, &binding->error);
 }
 
 static const struct {

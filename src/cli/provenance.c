@@ -195,7 +195,8 @@ void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json)
     lrcs_host_json_put(json, "A=%g B=%g s=%g m=%g", brdf->A, brdf->B, brdf->s, brdf->m);
 }
 
-void cli_brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json)
+/* The keys of errors, A_error and so on, with their correlations; none if all are 0. */
+static void brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json)
 {
     if (error_stated(error)) {
         lrcs_host_json_put(json, "A_error=%g B_error=%g s_error=%g m_error=%g", error->A, error->B,
@@ -230,7 +231,7 @@ void cli_provenance_json(const cli_args *args, const lrcs_host_scene *host, lrcs
         if (facets > 0 && !material->omitted) {
             lrcs_host_json_put(json, "{name=%s", material->name);
             cli_brdf_json(&material->brdf, json);
-            cli_brdf_error_json(&material->error, json);
+            brdf_error_json(&material->error, json);
             lrcs_host_json_put(json, "two_sided=%d source=%s facets=%u}", material->two_sided,
                                cli_material_source(material), facets);
         }

@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-const char *cli_plot_option(const cli_args *args)
+/* The option that names the files. */
+static const char *plot_option(const cli_args *args)
 {
     return args->command == &cli_sweep_command ? "plot" : "o";
 }
@@ -13,7 +14,7 @@ const char *cli_plot_option(const cli_args *args)
 int cli_plot_read(const cli_args *args, const lrcs_host_plan *plan, lrcs_host_sweep_chart *plot)
 {
     lrcs_host_error error;
-    const char *option = cli_plot_option(args);
+    const char *option = plot_option(args);
     *plot = (lrcs_host_sweep_chart){.dbsm = cli_value(args, "dbsm") != NULL,
                                     .polar = cli_value(args, "polar") != NULL,
                                     .accept = cli_value(args, "accept"),
@@ -52,5 +53,5 @@ static int plot_draw(FILE *out, const void *context, int png, lrcs_host_error *e
 int cli_plot_write(const cli_args *args, const lrcs_host_sweep_chart *plot, uint32_t count)
 {
     const plot_job job = {plot, count};
-    return cli_charts_write(args, cli_plot_option(args), plot_draw, &job);
+    return cli_charts_write(args, plot_option(args), plot_draw, &job);
 }

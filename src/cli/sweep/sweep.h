@@ -36,11 +36,9 @@ int cli_rows_output_read(const cli_args *args, lrcs_host_sweep_output *output);
 
 /* ---- plots ---- */
 
-/* The option that names the files of plots: "plot", or "o" of lrcs plot. Reads --dbsm, --polar and
-   --projection and checks them, if plots are asked for, against the plan: 0 or CLI_USAGE; the
-   caller sets the other members of the chart. Then draws one sweep, or the curves of several: 0 or
-   CLI_FAILED. */
-const char *cli_plot_option(const cli_args *args);
+/* Reads --dbsm, --polar and --projection and checks them, if plots are asked for (by --plot, or -o
+   of lrcs plot), against the plan: 0 or CLI_USAGE; the caller sets the other members of the chart.
+   Then draws one sweep, or the curves of several: 0 or CLI_FAILED. */
 int cli_plot_read(const cli_args *args, const lrcs_host_plan *plan, lrcs_host_sweep_chart *plot);
 int cli_plot_write(const cli_args *args, const lrcs_host_sweep_chart *plot, uint32_t count);
 

@@ -27,8 +27,8 @@ static void point_print(FILE *out, const lrcs_point *point)
 
 static int obj_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    (void)error;
     const files_scene *file = context;
+    (void)error;
     const lrcsi_vectors_mesh *mesh = file->mesh;
     fprintf(out, "# %s: %s; metres\nmtllib %s.mtl\no %s\n", file->scene->name, file->scene->about,
             file->scene->name, file->scene->name);
@@ -57,8 +57,8 @@ static int mesh_uses(const lrcsi_vectors_mesh *mesh, uint32_t material)
 
 static int mtl_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    (void)error;
     const files_scene *file = context;
+    (void)error;
     fputs("# colours for viewers; how a material reflects is in materials.csv\n", out);
     for (uint32_t i = 0; lrcsi_vectors_materials[i].name; i++) {
         const lrcsi_vectors_material *material = &lrcsi_vectors_materials[i];
@@ -76,8 +76,8 @@ static int mtl_write(FILE *out, const void *context, lrcs_host_error *error)
 /* Normals are zero: in this format the reader then computes them. */
 static int stl_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    (void)error;
     const files_scene *file = context;
+    (void)error;
     fprintf(out, "solid %s\n", file->scene->name);
     for (uint32_t i = 0; i < file->mesh->facets; i++) {
         fputs("facet normal 0 0 0\nouter loop\n", out);
@@ -93,8 +93,8 @@ static int stl_write(FILE *out, const void *context, lrcs_host_error *error)
 
 static int json_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    (void)error;
     const files_scene *file = context;
+    (void)error;
     const lrcsi_vectors_mesh *mesh = file->mesh;
     lrcs_host_json json = lrcs_host_json_make(out);
     lrcs_host_json_put(&json, "{\nschema=%u name=%s tier=%u about=%s materials=[\n", KIT_SCHEMA,
@@ -195,8 +195,8 @@ static void case_values(const lrcsi_vectors_case *one, const double *value[CASE_
 
 static int cases_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    (void)error;
     const lrcsi_vectors_job *job = context;
+    (void)error;
     const double *value[CASE_NUMBERS];
     fputs("scene,attitude,tier", out);
     for (int k = 0; k < CASE_NUMBERS; k++) {
@@ -219,8 +219,8 @@ static int cases_write(FILE *out, const void *context, lrcs_host_error *error)
 
 static int kit_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    (void)error;
     const lrcsi_vectors_job *job = context;
+    (void)error;
     lrcs_host_json json = lrcs_host_json_make(out);
     lrcs_host_json_put(&json, "{\nschema=%u kit=%u lrcs=%s tiers=[\n", KIT_SCHEMA,
                        LRCS_HOST_KIT_VERSION, lrcs_version());
@@ -259,8 +259,8 @@ static int kit_write(FILE *out, const void *context, lrcs_host_error *error)
 
 static int readme_write(FILE *out, const void *context, lrcs_host_error *error)
 {
-    (void)error;
     const lrcsi_vectors_job *job = context;
+    (void)error;
     fwrite(readme_text, 1, sizeof readme_text, out);
     fprintf(out,
             "## Scenes (kit %d, %lu cases)\n\n| tier | scene | what it tries |\n|---|---|---|\n",

@@ -25,8 +25,8 @@ static void bytes_put(FILE *out, uint64_t value, int count)
 
 static int item_raw(FILE *out, const void *context, lrcs_host_error *error)
 {
-    (void)error;
     const lrcs_image *image = ((const images_case *)context)->image;
+    (void)error;
     for (size_t i = 0; i < (size_t)image->size * image->size; i++) {
         bytes_put(out, image->facet[i], 4);
     }
@@ -35,8 +35,8 @@ static int item_raw(FILE *out, const void *context, lrcs_host_error *error)
 
 static int depth_raw(FILE *out, const void *context, lrcs_host_error *error)
 {
-    (void)error;
     const images_case *file = context;
+    (void)error;
     for (size_t i = 0; i < (size_t)file->image->size * file->image->size; i++) {
         uint64_t bits;
         memcpy(&bits, &file->depth[i], sizeof bits);
