@@ -111,10 +111,10 @@ static void a_mapped_patch_stays_within_the_mapped_numbers(void **state)
         check_most(after.turn, bound.turn + 1e-14);
         check_most(after.area_error, bound.area_error + 1e-14);
         check_most(after.bias, bound.bias + 1e-14);
-        check_most(after.spread, bound.rms_turn + 1e-14);
-        tightest = fmax(tightest, after.spread / bound.rms_turn);
+        check_most(after.rms_turn, bound.rms_turn + 1e-14);
+        tightest = fmax(tightest, after.rms_turn / bound.rms_turn);
         if (run % 3 == 0) { /* no map */
-            check_rel(bound.rms_turn, before.spread, 1e-13);
+            check_rel(bound.rms_turn, before.rms_turn, 1e-13);
             check_rel(bound.bias, before.bias, 1e-13);
             check_most(uneven, 1e-13);
         }

@@ -394,15 +394,15 @@ static void check_rings(const lrcs_shape *shape, uint32_t around, uint32_t along
         seen.turn = fmax(seen.turn, p.turn);
         seen.area_error = fmax(seen.area_error, fabs(p.area - facet) / facet);
         seen.bias = fmax(seen.bias, sqrt(dot(p.incidence, p.incidence)) / facet);
-        seen.spread = fmax(seen.spread, sqrt(p.square / facet));
+        seen.rms_turn = fmax(seen.rms_turn, sqrt(p.square / facet));
     }
     check_most(seen.turn, c.turn);
     check_most(seen.area_error, c.area_error * 1.002);
     check_most(seen.bias, c.bias * 1.002 + 1e-4 * h * h);
-    check_most(seen.spread, c.rms_turn * 1.0005);
+    check_most(seen.rms_turn, c.rms_turn * 1.0005);
     check_most(c.turn, seen.turn * 1.1); /* and they are not idle */
     check_most(c.area_error, seen.area_error * 1.1 + 1e-3 * h * h);
-    check_most(c.rms_turn, seen.spread * 1.1);
+    check_most(c.rms_turn, seen.rms_turn * 1.1);
 }
 
 static void check_strips(const lrcs_shape *shape, uint32_t around, uint32_t along)

@@ -215,7 +215,7 @@ static void shapes_say_what_they_are(void **state)
         int kind;
         double a, b, c;
         int solid, curved;
-        double thinnest;
+        double min_extent;
     } want[] = {
         {LRCS_SHAPE_PLATE, 2, 1, 0, 0, 0, 0},      {LRCS_SHAPE_DISC, 2, 0, 0, 0, 0, 0},
         {LRCS_SHAPE_BOX, 2, 3, 1, 1, 0, 1},        {LRCS_SHAPE_SPHERE, 2, 0, 0, 1, 1, 4},
