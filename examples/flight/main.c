@@ -86,13 +86,13 @@ int flight_main(void)
 }
 
 /* expected output, the bits of areas left out:
-cycle 1 status 0 stale 0 flags 0 steps 45845 sigma mm2 30579550 bound mm2 1514
-cycle 2 status 0 stale 0 flags 0 steps 39618 sigma mm2 1697630 bound mm2 548
-cycle 3 status 0 stale 0 flags 0 steps 37516 sigma mm2 7070238 bound mm2 448
-cycle 4 status 0 stale 0 flags 0 steps 39490 sigma mm2 1076713 bound mm2 46
-cycle 5 status -1 stale 1 flags 0 steps 39490 sigma mm2 1076713 bound mm2 46
-cycle 6 status -6 stale 2 flags 0 steps 39490 sigma mm2 1076713 bound mm2 46
-cycle 7 status 0 stale 0 flags 0 steps 48495 sigma mm2 1671489 bound mm2 214
+cycle 1 status 0 stale 0 flags 0 steps 45845 sigma mm2 30579550 bound mm2 1218
+cycle 2 status 0 stale 0 flags 0 steps 39618 sigma mm2 1697630 bound mm2 183
+cycle 3 status 0 stale 0 flags 0 steps 37516 sigma mm2 7070238 bound mm2 159
+cycle 4 status 0 stale 0 flags 0 steps 39490 sigma mm2 1076713 bound mm2 44
+cycle 5 status -1 stale 1 flags 0 steps 39490 sigma mm2 1076713 bound mm2 44
+cycle 6 status -6 stale 2 flags 0 steps 39490 sigma mm2 1076713 bound mm2 44
+cycle 7 status 0 stale 0 flags 0 steps 48495 sigma mm2 1671490 bound mm2 113
 cycle 8 status 0 stale 0 flags 0 steps 10994 sigma mm2 3148562 bound mm2 0
 end: status 0 failures 2
 */
