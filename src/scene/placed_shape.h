@@ -12,8 +12,8 @@ int lrcsi_placed_shape_closed_form(const lrcs_shape *shape, int two_sided);
 /* The largest magnitude of a coordinate of a mesh. */
 double lrcsi_placed_shape_extent(const lrcs_mesh *mesh);
 
-/* First step, before the facets are placed: fills `part`, except normal_err. Given: the `extent` and
-   the curvature of the shape's mesh. */
+/* First step, before the facets are placed: fills `part`, except normal_err. Given: the `extent`
+   and the curvature of the shape's mesh. */
 void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
                                  const lrcs_curvature *curvature, const lrcsi_placer *placer,
                                  double extent, lrcs_part *part);
