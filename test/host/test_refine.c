@@ -107,7 +107,7 @@ static void order_and_threads_change_nothing(void **state)
 static void levels_come_and_go_without_a_trace(void **state)
 {
     (void)state;
-    enum { TOLERANCES = 18 };
+    enum { TOLERANCES = 16 };
     static lrcs_result first[TOLERANCES][POSES];
     lrcs_result again[POSES];
     uint32_t total[TOLERANCES * POSES];
