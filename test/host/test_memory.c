@@ -664,6 +664,7 @@ static void levels_that_are_kept_are_limited(void **state)
     long one = 0; /* the blocks of a level */
     long most = 0;
     options.build.division = LRCS_HOST_DIVISION;
+    run.resolution = 64; /* so that a work area is small */
     assert_int_equal(lrcs_host_scene_read("demo", &options, &scene, &error), LRCS_OK);
     assert_int_equal(lrcs_host_scene_prepare(&scene, &error), LRCS_OK);
     long start = atomic_load(&held);
