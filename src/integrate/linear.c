@@ -15,7 +15,7 @@
    With the constant that belongs to along_err,
        |H| <= gamma^2/2 second + |grad F| gamma^3/6 + |grad F . e_x| across_err
               + |grad F . e_y| along_err,
-   where the mean of gamma^2 per area of the facets is at most spread^2, and across_mean replaces
+   where the mean of gamma^2 per area of the facets is at most rms_turn^2, and across_mean replaces
    across_err in the mean. Let h = F - l; its mean is 0, and h = H - (mean of H). The integral of
    |h| is at most that of |H| plus |that of H|, and an integral of h over a region at most half of
    that: at most the integral of |H|. This is `region`. At points |h| <= |H| + |mean of H|; the
@@ -26,8 +26,8 @@
    is multiplied by a factor within a/(1 - a) of 1. That is an error of `variation` times a/(1 - a).
 
    A term of F whose linear part would exceed its mean, which lies on a steep flank, keeps the mean
-   alone. |grad F| gamma of that term is then an error, of which the mean is at most |grad F| spread
-   sqrt(1 + a) (Cauchy-Schwarz).
+   alone. |grad F| gamma of that term is then an error, of which the mean is at most
+   |grad F| rms_turn sqrt(1 + a) (Cauchy-Schwarz).
 
    In the view plane. A vector q in the plane of the facets has grad . q_xy = G . q if, with n in
    the axes of the view, grad = G_xy - G_z n_xy / n_z.
@@ -215,8 +215,6 @@ int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi
     return isfinite(linear->region + linear->point + linear->slope);
 }
 
-/* The centroids of two facets are the means of their corners, whose differences are accurate; that
-   of the sector is their mean, weighted by area. */
 /* An upper bound of the distance of a facet's points from its centroid, in the view plane. */
 static double view_extent(const lrcsi_view *view, uint32_t facet)
 {
@@ -226,6 +224,8 @@ static double view_extent(const lrcsi_view *view, uint32_t facet)
     return lrcsi_length_flat(high[0] - low[0], high[1] - low[1]) * (1 + 4 * LRCSI_U);
 }
 
+/* The centroids of two facets are the means of their corners, whose differences are accurate; that
+   of the sector is their mean, weighted by area. */
 lrcsi_linear_moment lrcsi_linear_moment_make(const lrcsi_view *view, uint32_t facet,
                                              const lrcsi_patch *patch, const lrcsi_visible *visible,
                                              const lrcsi_moment *moment)

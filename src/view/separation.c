@@ -36,6 +36,14 @@
    box around them. */
 #define CORNERS_MAX 32u
 
+lrcsi_support lrcsi_body_solid(const lrcs_prepared *p, uint32_t index)
+{
+    const lrcs_part *part = &p->scene->part[index];
+    double unit = ldexp(part->unit, -p->exponent);
+    return (lrcsi_support){part->kind, unit * part->shape.radius, unit * part->shape.radius2,
+                           unit * lrcsi_closed_length(&part->shape)};
+}
+
 /* The error of a support: 64 u covers about 30 operations on magnitudes below the sum of the
    dimensions; 4 u more cover the length of a cone from its half-angle. */
 lrcsi_body lrcsi_body_make(const lrcs_prepared *p, uint32_t index)
@@ -52,11 +60,8 @@ lrcsi_body lrcsi_body_make(const lrcs_prepared *p, uint32_t index)
     }
     if (body.curved) {
         lrcsi_profile profile = lrcsi_profile_make(&part->shape, &part->divisions);
-        double unit = ldexp(part->unit, -p->exponent);
         double size = 0;
-        body.solid =
-            (lrcsi_support){part->kind, unit * part->shape.radius, unit * part->shape.radius2,
-                            unit * lrcsi_closed_length(&part->shape)};
+        body.solid = lrcsi_body_solid(p, index);
         body.vertex_ratio = profile.vertex_ratio;
         body.beyond = profile.step > 0 && !profile.level_rings
                           ? ldexp(part->hausdorff, -p->exponent) * (1 + 8 * LRCSI_U)

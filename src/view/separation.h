@@ -23,6 +23,9 @@ typedef struct lrcsi_body {
     double err;       /* bound on the error of a support along a unit vector */
 } lrcsi_body;
 
+/* The scaled dimensions of a shape of revolution. */
+lrcsi_support lrcsi_body_solid(const lrcs_prepared *prepared, uint32_t part);
+
 /* Given: prepared->extent is not NULL. */
 lrcsi_body lrcsi_body_make(const lrcs_prepared *prepared, uint32_t part);
 

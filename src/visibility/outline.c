@@ -8,8 +8,8 @@
 
 #include "base/vec3.h"
 #include "mesh/profile.h"
-#include "optics/closed.h"
 #include "scene/proximity.h"
+#include "view/separation.h"
 
 /* The number of support points on either side of the one in the direction of the edge's normal. */
 #define POINTS_SIDE 4
@@ -34,12 +34,10 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
     if (profile.step > 0 && !profile.level_rings) {
         return o; /* its vertices are not at the true heights */
     }
-    double unit = ldexp(part->unit, -p->exponent);
     double far = 0;
     o.known = 1;
     o.vertex_ratio = profile.vertex_ratio;
-    o.solid = (lrcsi_support){part->kind, unit * part->shape.radius, unit * part->shape.radius2,
-                              unit * lrcsi_closed_length(&part->shape)};
+    o.solid = lrcsi_body_solid(p, index);
     for (int k = 0; k < 3; k++) {
         o.origin[k] = ldexp(part->origin[k], -p->exponent);
         far += fabs(o.origin[k] - p->origin[k]) + fabs(o.origin[k]);

@@ -69,8 +69,7 @@ static uint32_t band_part(const band_job *job, uint32_t facet)
     return job->view->prepared->scene->facet_part[facet];
 }
 
-/* --- events of one part ------------------------------------------------------------------------
- */
+/* --- events of one part ----------------------------------------------------------------------- */
 
 /* On which side of an edge all facets of a part lie in projection: 1 left, -1 right; 0: on both, or
    one is seen edge-on. */
@@ -139,8 +138,7 @@ static int band_events(band_job *job, lrcs_work *work)
     return lrcsi_grid_edges(job->edge, job->count, 8 * (uint64_t)job->count, work, &job->grid);
 }
 
-/* --- one facet and one edge --------------------------------------------------------------------
- */
+/* --- one facet and one edge ------------------------------------------------------------------- */
 
 /* Bound on the position errors of a facet's corners and of positions computed from them. */
 static double facet_err(const band_job *job, uint32_t facet)
@@ -289,8 +287,7 @@ typedef struct edge_search {
     int first;  /* the side to try first: the one that excluded the last edge */
     int inside; /* the laser may see the facet through an opening of its own part */
     lrcsi_displacement displacement;
-    double
-        lateral; /* lrcsi_displacement_across the line of sight; negative: neither is known yet */
+    double lateral; /* lrcsi_displacement_across the line of sight; negative: not computed yet */
 } edge_search;
 
 /* outward . x of a point, with `err` times its position's error added. */
@@ -419,8 +416,7 @@ static int gain_is_inside(const band_job *job, const edge_search *search, uint32
     return openings == 0 || (openings == 1 && apart);
 }
 
-/* --- facets behind a shape ---------------------------------------------------------------------
- */
+/* --- facets behind a shape -------------------------------------------------------------------- */
 
 /* Is the outline of a part known, and the part in front of a facet: because the facet is flat, and
    the part in front of its plane (*err: as for lrcsi_outline_in_front); or because a plane
@@ -430,7 +426,6 @@ static int part_in_front(band_job *job, uint32_t facet, uint32_t part, double *e
     const lrcs_prepared *p = job->view->prepared;
     uint32_t own = band_part(job, facet);
     int is_flat = p->scene->facet_smooth[facet] == 0 || p->proximity.reach[own] == 0;
-    *err = 0;
     if (!job->outline[part].known) {
         return 0;
     }

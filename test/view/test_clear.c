@@ -8,22 +8,9 @@
 #include <lrcs/lrcs.h>
 
 #include "base/rotate.h"
-#include "check.h"
+#include "pair.h"
 
 #define ROWS(a) (sizeof(a) / sizeof(a)[0])
-
-static unsigned char scene_area[1u << 22];
-static unsigned char run_area[1u << 24];
-
-static const lrcs_shape ball = {.kind = LRCS_SHAPE_SPHERE, .radius = 0.5};
-static const lrcs_shape post = {.kind = LRCS_SHAPE_CYLINDER, .radius = 0.25, .length = 1};
-static const lrcs_shape cone = {.kind = LRCS_SHAPE_CONE, .radius = 0.5, .half_angle_deg = 30};
-static const lrcs_shape dome = {.kind = LRCS_SHAPE_DOME, .radius = 0.5};
-static const lrcs_shape horn = {
-    .kind = LRCS_SHAPE_FRUSTUM, .radius = 0.5, .radius2 = 0.25, .length = 1};
-static const lrcs_shape dish = {.kind = LRCS_SHAPE_PARABOLOID, .radius = 0.5, .length = 0.25};
-static const lrcs_shape plate = {.kind = LRCS_SHAPE_PLATE, .size = {4, 4}};
-static const lrcs_shape box = {.kind = LRCS_SHAPE_BOX, .size = {1, 1, 1}};
 
 typedef struct clear_case {
     const lrcs_shape *first, *other;
@@ -70,29 +57,17 @@ static const clear_case clear_cases[] = {
 /* Is part 0 of two, both turned by R, clear, seen along R d? */
 static int clear_run(const clear_case *c, const double R[3][3], double shift)
 {
-    lrcs_recipe_part part[2] = {
-        {.name = "a", .shape = *c->first, .place = lrcs_place_default(), .material_index = -1},
-        {.name = "b", .shape = *c->other, .place = lrcs_place_default(), .material_index = -1}};
-    lrcs_recipe recipe = {.part = part, .part_count = 2};
-    const lrcs_build_options build = {1e-1, 1u << 11, LRCS_NORMALS_FLAT, 0, 0, NULL};
-    lrcs_work work = lrcs_work_make(scene_area, sizeof scene_area);
-    const lrcs_prepared *prepared;
     lrcs_scene scene;
+    lrcs_work work;
+    const lrcs_prepared *prepared =
+        pair_prepare(c->first, c->other, c->at, R, shift, &scene, &work);
     lrcs_pose pose;
     lrcsi_view view;
     lrcsi_clear clear;
     double d[3];
     for (int k = 0; k < 3; k++) {
         d[k] = R[k][0] * c->direction[0] + R[k][1] * c->direction[1] + R[k][2] * c->direction[2];
-        part[0].place.translate[k] = shift;
-        part[1].place.translate[k] =
-            shift + R[k][0] * c->at[0] + R[k][1] * c->at[1] + R[k][2] * c->at[2];
     }
-    memcpy(part[0].place.rotate, R, sizeof part[0].place.rotate);
-    memcpy(part[1].place.rotate, R, sizeof part[1].place.rotate);
-    assert_int_equal(lrcs_scene_build(&recipe, NULL, &build, &work, &scene, NULL), LRCS_OK);
-    work = lrcs_work_make(run_area, sizeof run_area);
-    assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);
     assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_face(prepared, &pose,
                                      (lrcsi_view_backs){!prepared->solid, !prepared->solid}, &work,

@@ -350,13 +350,13 @@ typedef struct plot_values {
     double *low, *high; /* the ends of bands, as z; NULL if none */
 } plot_values;
 
-typedef struct plot_sheet {
+typedef struct plot_drawing {
     const lrcs_host_sweep_chart *plot;
     uint32_t count; /* number of sweeps */
     plot_values values[LRCS_HOST_SWEEP_CURVES];
     char title[256], note[512], x_name[192], y_name[192];
     char *about; /* what the sweeps were made from, for the file; owned */
-} plot_sheet;
+} plot_drawing;
 
 /* The name of a curve: its sweep, its value along y, or both. */
 static void curve_name(const lrcs_host_sweep_chart *plot, double y, char name[400])
@@ -369,18 +369,18 @@ static void curve_name(const lrcs_host_sweep_chart *plot, double y, char name[40
              plot->name && value[0] ? ", " : "", value);
 }
 
-static int sheet_curves(FILE *out, const plot_sheet *sheet, int png, lrcs_host_error *error)
+static int drawing_curves(FILE *out, const plot_drawing *drawing, int png, lrcs_host_error *error)
 {
     static const int colour[LRCS_HOST_SWEEP_CURVES] = {
         LRCS_HOST_BLUE,     LRCS_HOST_VERMILION, LRCS_HOST_GREEN, LRCS_HOST_PURPLE,
         LRCS_HOST_SKY_BLUE, LRCS_HOST_ORANGE,    LRCS_HOST_BLACK};
-    const lrcs_host_sweep_chart *plot = sheet->plot;
+    const lrcs_host_sweep_chart *plot = drawing->plot;
     lrcs_host_series series[LRCS_HOST_SWEEP_CURVES];
     char name[LRCS_HOST_SWEEP_CURVES][400];
     uint32_t curves = 0;
-    for (uint32_t k = 0; k < sheet->count; k++) {
-        const lrcs_host_sweep_chart *one = &sheet->plot[k];
-        const plot_values *values = &sheet->values[k];
+    for (uint32_t k = 0; k < drawing->count; k++) {
+        const lrcs_host_sweep_chart *one = &drawing->plot[k];
+        const plot_values *values = &drawing->values[k];
         for (uint32_t i = 0; i < one->y.count; i++, curves++) {
             int marked = one->x.count < PLOT_MARKS;
             curve_name(one, values->y[i], name[curves]);
@@ -396,15 +396,15 @@ static int sheet_curves(FILE *out, const plot_sheet *sheet, int png, lrcs_host_e
                 .dash = (int)(curves % 2 ? LRCS_HOST_DASHED : LRCS_HOST_SOLID)};
         }
     }
-    const lrcs_host_chart chart = {.title = sheet->title,
-                                   .note = sheet->note,
-                                   .x_name = sheet->x_name,
+    const lrcs_host_chart chart = {.title = drawing->title,
+                                   .note = drawing->note,
+                                   .x_name = drawing->x_name,
                                    .y_name = plot->dbsm ? "sigma (dBsm)" : "sigma (m2)",
                                    .x_deg = is_angle(&plot->x),
                                    .y_from_0 =
                                        !plot->dbsm && plot->plan->kind != LRCS_HOST_PLAN_TRACK,
                                    .polar = plot->polar,
-                                   .about = sheet->about,
+                                   .about = drawing->about,
                                    .series = series,
                                    .series_count = curves};
     if (png) {
@@ -441,24 +441,24 @@ static double *ring_close(lrcs_host_map *map)
     return x;
 }
 
-static int sheet_map(FILE *out, const plot_sheet *sheet, int png, lrcs_host_error *error)
+static int drawing_map(FILE *out, const plot_drawing *drawing, int png, lrcs_host_error *error)
 {
-    const lrcs_host_sweep_chart *plot = sheet->plot;
-    lrcs_host_map map = {.title = sheet->title,
-                         .note = sheet->note,
-                         .x_name = sheet->x_name,
-                         .y_name = sheet->y_name,
+    const lrcs_host_sweep_chart *plot = drawing->plot;
+    lrcs_host_map map = {.title = drawing->title,
+                         .note = drawing->note,
+                         .x_name = drawing->x_name,
+                         .y_name = drawing->y_name,
                          .z_name = plot->dbsm ? "sigma (dBsm)" : "sigma (m2)",
                          .columns = (uint32_t)plot->x.count,
                          .rows = (uint32_t)plot->y.count,
-                         .x = sheet->values->x,
-                         .y = sheet->values->y,
-                         .z = sheet->values->z,
+                         .x = drawing->values->x,
+                         .y = drawing->values->y,
+                         .z = drawing->values->z,
                          .deep = plot->dbsm ? PLOT_DEEP : 0.0,
                          .x_deg = is_angle(&plot->x),
                          .y_deg = is_angle(&plot->y),
                          .mollweide = plot->mollweide,
-                         .about = sheet->about,
+                         .about = drawing->about,
                          .cells = plot->plan->kind == LRCS_HOST_PLAN_SPHERE};
     int status = LRCS_OK;
     double *closed = ring_close(&map);
@@ -533,25 +533,25 @@ static char *about_text(const lrcs_host_sweep_chart *plot, uint32_t count)
 int lrcs_host_sweep_chart_write(FILE *out, const lrcs_host_sweep_chart *plot, uint32_t count,
                                 int png, lrcs_host_error *error)
 {
-    plot_sheet sheet = {.plot = plot, .count = count};
+    plot_drawing drawing = {.plot = plot, .count = count};
     int status = LRCS_OK;
     int alike = 1;
     for (uint32_t k = 0; k < count && status == LRCS_OK; k++) {
-        status = values_fill(&plot[k], &sheet.values[k], error);
+        status = values_fill(&plot[k], &drawing.values[k], error);
         alike &= strcmp(plot[k].title, plot->title) == 0;
     }
-    snprintf(sheet.title, sizeof sheet.title, "Laser radar cross-section%s%.200s",
+    snprintf(drawing.title, sizeof drawing.title, "Laser radar cross-section%s%.200s",
              alike ? " of " : "", alike ? plot->title : "");
-    status = status == LRCS_OK ? plot_note(plot, count, sheet.note, error) : status;
-    sheet.about = plot->head ? about_text(plot, count) : NULL;
-    time_title(plot, &plot->x, sheet.x_name);
-    time_title(plot, &plot->y, sheet.y_name);
+    status = status == LRCS_OK ? plot_note(plot, count, drawing.note, error) : status;
+    drawing.about = plot->head ? about_text(plot, count) : NULL;
+    time_title(plot, &plot->x, drawing.x_name);
+    time_title(plot, &plot->y, drawing.y_name);
     if (status == LRCS_OK) {
-        status = (plot->map ? sheet_map : sheet_curves)(out, &sheet, png, error);
+        status = (plot->map ? drawing_map : drawing_curves)(out, &drawing, png, error);
     }
     for (uint32_t k = 0; k < count; k++) {
-        free(sheet.values[k].x);
+        free(drawing.values[k].x);
     }
-    free(sheet.about);
+    free(drawing.about);
     return status;
 }
