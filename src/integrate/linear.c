@@ -215,15 +215,6 @@ int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi
     return isfinite(linear->region + linear->point + linear->slope);
 }
 
-/* An upper bound of the distance of a facet's points from its centroid, in the view plane. */
-static double view_extent(const lrcsi_view *view, uint32_t facet)
-{
-    double low[3];
-    double high[3];
-    lrcsi_view_bounds(view, view->prepared->scene->facet[facet].corner, 3, low, high);
-    return lrcsi_length_flat(high[0] - low[0], high[1] - low[1]) * (1 + 4 * LRCSI_U);
-}
-
 /* The centroids of two facets are the means of their corners, whose differences are accurate; that
    of the sector is their mean, weighted by area. */
 lrcsi_linear_moment lrcsi_linear_moment_make(const lrcsi_view *view, uint32_t facet,
@@ -234,10 +225,6 @@ lrcsi_linear_moment lrcsi_linear_moment_make(const lrcsi_view *view, uint32_t fa
     uint32_t begin = p->scene->part[patch->part].first_facet;
     uint32_t other = begin + ((facet - begin) ^ 1);
     lrcsi_linear_moment m = {{moment->first[0], moment->first[1]}, 1.5 * moment->error, 1};
-    double most = visible->high * view_extent(view, facet);
-    if (!(m.error < most)) { /* no moment is larger */
-        m = (lrcsi_linear_moment){{0, 0}, most, 1};
-    }
     if (patch->at.facets != 2 || p->skip[other]) {
         return m;
     }
