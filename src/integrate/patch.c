@@ -69,7 +69,7 @@
 #define PATCH_NORMAL_ERR (64 * LRCSI_U)
 #define PATCH_AREA_ERR   (512 * LRCSI_U)
 /* The remainder that a rule should have, relative to F in the middle of the patch; but a remainder
-   that is negligible (lrcsi_patch) is small enough. */
+   that is negligible (lrcsi_patches) is small enough. */
 #define REMAINDER_TARGET 0x1p-26
 /* The mean is not used if its remainder, relative to the mean, is larger than this, and not
    negligible. */
@@ -129,6 +129,7 @@ typedef struct patch_frame {
     int fourth;         /* the weight has cos^-4 alpha */
     double area;        /* of the patch, for a weight of 1, divided by that of its facets */
     double negligible;  /* remainder, without that factor */
+    int moments;        /* lrcsi_patches */
 } patch_frame;
 
 int lrcsi_patch_exists(const lrcs_prepared *p, uint32_t facet)
@@ -185,7 +186,8 @@ static void frame_middle(patch_frame *f)
 }
 
 /* The frame of patch->at. Returns 0 if rounding left its facets without area. */
-static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lrcsi_patch *patch)
+static int frame_make(const lrcsi_view *view, uint32_t facet, const lrcsi_patches *patches,
+                      patch_frame *f, lrcsi_patch *patch)
 {
     const lrcs_prepared *prepared = view->prepared;
     const lrcs_part *part = &prepared->scene->part[patch->part];
@@ -223,7 +225,8 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, patch_frame *f, lr
     f->cosine = at->mirrored ? -f->cosine : f->cosine;
     f->area *= (part->rigid ? 1 : part->normal_area) / facets;
     frame_middle(f);
-    f->negligible = patch->negligible / f->area;
+    f->negligible = patches->negligible / f->area;
+    f->moments = patches->moments;
     patch->area_err = 2 * (lrcsi_profile_rounding(&profile, at->row) + part->normal_err);
     return isfinite(f->area) && (!f->fourth || profile.step > 0);
 }
@@ -334,7 +337,7 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double s
     weight *= nu;
     patch->glint += weight * at.glint;
     patch->diffuse += weight * at.diffuse;
-    if (patch->moments) {
+    if (f->moments) {
         patch->glint_u += weight * at.glint * u;
         patch->diffuse_log += weight * at.diffuse * lrcsi_log1p(u).hi;
     }
@@ -475,10 +478,10 @@ static int patch_pieces(const patch_frame *whole, const lrcs_brdf *brdf, int n, 
 /* The mean over the patch that patch->at identifies: in one piece or, if its remainder is too
    large, in 4 or 16. */
 static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32_t facet,
-                           lrcsi_patch *patch)
+                           const lrcsi_patches *patches, lrcsi_patch *patch)
 {
     patch_frame f;
-    if (!frame_make(view, facet, &f, patch)) {
+    if (!frame_make(view, facet, patches, &f, patch)) {
         return 0;
     }
     int answer = PIECES_UNKNOWN;
@@ -497,29 +500,27 @@ static int patch_integrate(const lrcsi_view *view, const lrcs_brdf *brdf, uint32
     patch->rounding *= 1.0001 * f.area;
     patch->remainder *= 1.0001 * f.area;
     return patch->remainder <=
-           lrcsi_max(REMAINDER_MAX * (patch->glint + patch->diffuse), patch->negligible);
+           lrcsi_max(REMAINDER_MAX * (patch->glint + patch->diffuse), patches->negligible);
 }
 
-int lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcs_brdf *brdf,
-                     uint32_t facet, lrcsi_patch *patch)
+const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan,
+                                    const lrcs_brdf *brdf, uint32_t facet, lrcsi_patches *patches)
 {
     const lrcs_scene *scene = view->prepared->scene;
     const uint32_t index = scene->facet_part[facet];
     const lrcs_part *part = &scene->part[index];
-    lrcsi_patch made = {.part = index,
-                        .side = view->facing[facet],
-                        .negligible = patch->negligible,
-                        .moments = patch->moments};
+    lrcsi_patch *last = &patches->last;
+    lrcsi_patch made = {.part = index, .side = view->facing[facet]};
     if (!plan->patches || made.side == 0 || !lrcsi_patch_exists(view->prepared, facet) ||
         (brdf->A > 0 && !(brdf->s >= GLINT_SLOPE_MIN)) ||
         !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet,
                                 &made.at)) {
-        return 0;
+        return NULL;
     }
-    if (patch->side != made.side || patch->part != index || patch->at.row != made.at.row ||
-        patch->at.sector != made.at.sector || patch->at.mirrored != made.at.mirrored) {
-        made.known = patch_integrate(view, brdf, facet, &made);
-        *patch = made;
+    if (last->side != made.side || last->part != index || last->at.row != made.at.row ||
+        last->at.sector != made.at.sector || last->at.mirrored != made.at.mirrored) {
+        made.known = patch_integrate(view, brdf, facet, patches, &made);
+        *last = made;
     }
-    return patch->known;
+    return last->known ? last : NULL;
 }

@@ -29,8 +29,8 @@
    - (4) Rounding of the trapezia: some ten operations on terms of one sign, 16 u.
    - (5) Where facets replace curved shapes, the difference between facets and shapes in a bin. A
      point of the shape is within its part's reach of its image on the facet:
-     lrcsi_tessellation_parts. If both facets of a sector are entirely visible and lie in one bin,
-     reach included, it is the error of the whole patches.
+     lrcsi_tessellation_interval. If both facets of a sector are entirely visible and lie in one
+   bin, reach included, it is the error of the whole patches.
 
    The error of the sum of all bins has only the parts (1), (2), (4) and the error of the whole
    patches.
@@ -61,6 +61,7 @@
 #include "base/sum.h"
 #include "base/work.h"
 #include "integrate/curve.h"
+#include "integrate/facet_terms.h"
 #include "integrate/tessellation.h"
 #include "integrate/total.h"
 #include "view/frame.h"
@@ -105,8 +106,8 @@ typedef struct profile_run {
     lrcsi_visible *visible; /* of every facet; NULL if no facet replaces a curved shape */
     lrcsi_proximity_band band_memory;
     const lrcsi_proximity_band *band; /* NULL: none was made */
-    lrcsi_patch patch;                /* of the last facet that has one */
-    double tessellation;              /* (5) of all bins together */
+    lrcsi_patches patches;
+    double tessellation; /* (5) of all bins together */
 } profile_run;
 
 /* A facet: the ranges of its corners, the bins that it extends into, and its sigma per unit of
@@ -481,7 +482,7 @@ static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occlusion 
         f.upper_bound = LRCS_FOUR_PI * lrcsi_curve_upper_bound(&curve) * (1 + incidence.error);
     } else {
         lrcsi_facet_terms terms =
-            lrcsi_facet_terms_make(run->view, &run->plan, facet, &incidence, &whole, &run->patch);
+            lrcsi_facet_terms_make(run->view, &run->plan, facet, &incidence, &whole, &run->patches);
         f.glint = terms.glint / incidence.projected;
         f.diffuse = terms.diffuse / incidence.projected;
         f.rounding = terms.rounding / incidence.projected;
@@ -544,10 +545,10 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     profile_facet f;
     profile_facet other;
     lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
-    lrcsi_patch_parts parts = lrcsi_tessellation_parts(run->view, &run->plan, facet, &incidence,
-                                                       run->visible, run->band, &run->patch);
+    const lrcsi_tessellation_input in = {run->view, &run->plan, run->visible, NULL, run->band};
+    lrcsi_interval_error error = lrcsi_tessellation_interval(&in, facet, &incidence, &run->patches);
     facet_ranges(run, facet, &f);
-    facet_ranges(run, parts.partner, &other);
+    facet_ranges(run, error.partner, &other);
     const lrcs_part *part = &run->prepared->scene->part[run->prepared->scene->facet_part[facet]];
     double reach = ldexp(part->reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
                    8 * LRCSI_U * f.range_max + 1.01 * f.range_dd_err; /* with the corners' errors */
@@ -560,9 +561,9 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
         lrcsi_max(z[2], lrcsi_max(other.range[0], lrcsi_max(other.range[1], other.range[2])));
     uint32_t begin = bin_of(run, low - reach);
     uint32_t end = bin_of(run, high + reach);
-    double whole = LRCS_FOUR_PI * parts.whole;
+    double whole = LRCS_FOUR_PI * error.whole;
     run->tessellation += whole;
-    if (!(whole > 0) && !(parts.lit && reach > 0 && parts.shift > 0)) {
+    if (!(whole > 0) && !(error.lit && reach > 0 && error.shift > 0)) {
         return;
     }
     run->range_err = lrcsi_max(run->range_err, reach);
@@ -571,10 +572,10 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
         double to = edge_of(run, i + 1);
         double fraction = fraction_between(z, from - reach, to + reach);
         double shifted = fraction_between(z, from - reach, from + reach) +
-                         fraction_between(z, to - reach, to + reach) + parts.mismatch;
-        double general = LRCS_FOUR_PI * (parts.deviation * fraction + parts.shift * shifted);
-        double larger = parts.lit ? LRCS_FOUR_PI * parts.upper_bound * fraction : whole;
-        general = parts.lit ? general : HUGE_VAL;
+                         fraction_between(z, to - reach, to + reach) + error.mismatch;
+        double general = LRCS_FOUR_PI * (error.deviation * fraction + error.shift * shifted);
+        double larger = error.lit ? LRCS_FOUR_PI * error.upper_bound * fraction : whole;
+        general = error.lit ? general : HUGE_VAL;
         run->bin[i].tessellation_variation += lrcsi_min(general, 2 * larger);
         run->bin[i].tessellation += begin == end ? whole : lrcsi_min(general, larger);
         run->additions++;

@@ -19,16 +19,15 @@
 #include "visibility/query.h"
 
 /* The visible fraction of a facet that reflects. */
-static double visible_fraction(const lrcsi_view *view, const lrcsi_areas *areas, uint32_t facet,
-                               double projected)
+static double visible_fraction(const lrcsi_sigma *run, uint32_t facet, double projected)
 {
-    if (areas->answer && areas->answer[facet] != LRCSI_QUERY_UNDECIDED) {
-        return areas->answer[facet] == LRCSI_QUERY_VISIBLE ? 1 : 0;
+    if (run->answer && run->answer[facet] != LRCSI_QUERY_UNDECIDED) {
+        return run->answer[facet] == LRCSI_QUERY_VISIBLE ? 1 : 0;
     }
-    if (!areas->visible) {
-        return lrcsi_view_casts(view, facet) ? 1 : 0;
+    if (!run->visible) {
+        return lrcsi_view_casts(&run->view, facet) ? 1 : 0;
     }
-    double area = areas->visible[facet].area;
+    double area = run->visible[facet].area;
     return area == projected ? 1 : area / projected; /* 1 even if both are 0 */
 }
 
@@ -64,53 +63,54 @@ static lrcsi_unit_response flat_response(const lrcs_brdf *unit, double u)
       there is a mean depends on them; its terms are divided by them;
    2. a term of amplitude 0 from the patch at amplitudes of 1 (`unit`);
    3. from the flat facet where the patch in question has no mean.
-   patch[0] and patch[1] hold the last patch for either BRDF. */
+   patches[0] and patches[1] are for these two BRDFs. */
 static lrcsi_unit_response facet_response(const lrcsi_view *view, const lrcsi_plan *plan,
                                           const lrcs_brdf *own, const lrcs_brdf *unit,
-                                          uint32_t facet, double u, lrcsi_patch patch[2])
+                                          uint32_t facet, double u, lrcsi_patches patches[2])
 {
     const double s = unit->s;
-    if (!lrcsi_patch_make(view, plan, own, facet, &patch[0])) {
+    const lrcsi_patch *patch = lrcsi_patch_make(view, plan, own, facet, &patches[0]);
+    if (!patch) {
         return flat_response(unit, u);
     }
     lrcsi_unit_response at = {0, 0, 0, 0};
     if (!(own->A > 0 && own->B > 0)) {
-        int known = lrcsi_patch_make(view, plan, unit, facet, &patch[1]);
-        const lrcsi_patch *p = &patch[1];
-        at = known ? (lrcsi_unit_response){p->glint, p->diffuse, glint_slope_s(p->glint_u, s),
-                                           -0.5 * p->diffuse_log}
-                   : flat_response(unit, u);
+        const lrcsi_patch *p = lrcsi_patch_make(view, plan, unit, facet, &patches[1]);
+        at = p ? (lrcsi_unit_response){p->glint, p->diffuse, glint_slope_s(p->glint_u, s),
+                                       -0.5 * p->diffuse_log}
+               : flat_response(unit, u);
     }
     if (own->A > 0) {
-        at.glint = patch[0].glint / own->A;
-        at.glint_s = glint_slope_s(patch[0].glint_u / own->A, s);
+        at.glint = patch->glint / own->A;
+        at.glint_s = glint_slope_s(patch->glint_u / own->A, s);
     }
     if (own->B > 0) {
-        at.diffuse = patch[0].diffuse / own->B;
-        at.diffuse_m = -0.5 * (patch[0].diffuse_log / own->B);
+        at.diffuse = patch->diffuse / own->B;
+        at.diffuse_m = -0.5 * (patch->diffuse_log / own->B);
     }
     return at;
 }
 
 /* The response of the correction of a facet (integrate/linear.h), per unit of its area: from the
    same patches as in facet_response. */
-static lrcsi_unit_response correction_response(const lrcsi_view *view, const lrcsi_areas *areas,
-                                               const lrcs_brdf *own, const lrcs_brdf *unit,
-                                               uint32_t facet, const lrcsi_patch patch[2])
+static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrcs_brdf *own,
+                                               const lrcs_brdf *unit, uint32_t facet,
+                                               const lrcsi_patches patches[2])
 {
-    const lrcs_prepared *p = view->prepared;
-    const lrcs_curvature *c = &p->scene->part[patch[0].part].curvature;
+    const lrcsi_view *view = &run->view;
+    const lrcs_curvature *c = &view->prepared->scene->part[patches[0].last.part].curvature;
     double projected = lrcsi_view_projected(view, facet);
     lrcsi_unit_response at = {0, 0, 0, 0};
     for (int i = 0; i < 2; i++) {
         const lrcs_brdf *brdf = i == 0 ? own : unit;
+        const lrcsi_patch *patch = &patches[i].last;
         int glint = i == 0 ? own->A > 0 : own->A == 0;
         int diffuse = i == 0 ? own->B > 0 : own->B == 0;
         lrcsi_linear linear;
-        if ((glint || diffuse) && patch[i].known &&
-            lrcsi_linear_make(view, brdf, &patch[i], c, 0, &linear)) {
+        if ((glint || diffuse) && patch->known &&
+            lrcsi_linear_make(view, brdf, patch, c, 0, &linear)) {
             lrcsi_linear_moment m = lrcsi_linear_moment_make(
-                view, facet, &patch[i], &areas->visible[facet], &areas->moment[facet]);
+                view, facet, patch, &run->visible[facet], &run->moment[facet]);
             const double x = m.first[0] / projected;
             const double y = m.first[1] / projected;
             if (glint && brdf->A > 0) {
@@ -126,13 +126,14 @@ static lrcsi_unit_response correction_response(const lrcsi_view *view, const lrc
     return at;
 }
 
-void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcsi_areas *areas,
-                         const lrcsi_curved *curved, const lrcsi_clear *clear,
-                         const lrcs_brdf *brdf, lrcsi_response *response)
+void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_response *response)
 {
+    const lrcsi_view *view = &run->view;
+    const lrcsi_plan *plan = &run->plan;
+    const lrcsi_clear *clear = &run->clear;
     const lrcs_prepared *p = view->prepared;
     const lrcs_scene *scene = p->scene;
-    lrcsi_patch patch[2] = {{.moments = 1}, {.moments = 1}};
+    lrcsi_patches patches[2] = {{.moments = 1}, {.moments = 1}};
     memset(response, 0, scene->material_count * sizeof *response);
     for (uint32_t f = 0; f < scene->facet_count; f++) { /* 1. facets */
         int in_clear_shape = clear->count > 0 && clear->part[scene->facet_part[f]];
@@ -141,7 +142,7 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
         }
         uint32_t material = scene->facet_material[f];
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-        double fraction = visible_fraction(view, areas, f, incidence.projected);
+        double fraction = visible_fraction(run, f, incidence.projected);
         lrcsi_response *to = &response[material];
         const double s = brdf[material].s;
         const double u = incidence.tan2;
@@ -150,16 +151,16 @@ void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const l
                                plan->diffuse == LRCSI_TERM_OMITTED ? 0 : brdf[material].B, s,
                                brdf[material].m};
         double weight = LRCS_FOUR_PI * 0.5 * p->normal[f].length * fraction;
-        if (curved && lrcsi_curve_applies(view, f)) { /* curved normals */
-            const lrcsi_curved *c = &curved[f];
+        if (run->curved && lrcsi_curve_applies(view, f)) { /* curved normals */
+            const lrcsi_curved *c = &run->curved[f];
             const lrcsi_unit_response at = {c->glint, c->diffuse, glint_slope_s(c->glint_u, s),
                                             -0.5 * c->diffuse_log};
             response_sum(to, 1, &at);
         } else if (fraction > 0) {
-            lrcsi_unit_response at = facet_response(view, plan, &own, &unit, f, u, patch);
+            lrcsi_unit_response at = facet_response(view, plan, &own, &unit, f, u, patches);
             response_sum(to, weight, &at);
-            if (areas->moment && areas->corrected[f]) {
-                at = correction_response(view, areas, &own, &unit, f, patch);
+            if (run->moment && run->corrected[f]) {
+                at = correction_response(run, &own, &unit, f, patches);
                 response_sum(to, weight / fraction, &at);
             }
         }

@@ -8,7 +8,7 @@
 #include <lrcs/uncertainty.h>
 
 #include "base/sum.h"
-#include "integrate/total.h"
+#include "integrate/sigma.h"
 
 /* The sums of one material, scaled. */
 typedef struct lrcsi_response {
@@ -16,13 +16,10 @@ typedef struct lrcsi_response {
     lrcsi_sum glint_s, diffuse_m; /* their derivatives in s, in m */
 } lrcsi_response;
 
-/* Given: a view, its plan, its visible areas and its clear shapes as for lrcsi_total_make;
-   curved[]: the integrals over facets with curved normals, at amplitudes of 1 and with moments
-   (NULL: there are none); brdf[material_count]: the s and m at which the responses are computed,
-   and the A and B that decide for which facets the mean over their patch is used. Returned:
-   response[material_count], summed over facets in their order, then over clear shapes. */
-void lrcsi_response_make(const lrcsi_view *view, const lrcsi_plan *plan, const lrcsi_areas *areas,
-                         const lrcsi_curved *curved, const lrcsi_clear *clear,
-                         const lrcs_brdf *brdf, lrcsi_response *response);
+/* Given: a run that has reached LRCSI_SIGMA_SUM, whose integrals over curved normals, if any, are
+   at amplitudes of 1 and with moments; brdf[material_count]: the s and m at which the responses are
+   computed, and the A and B that decide for which facets the mean over their patch is used.
+   Returned: response[material_count], summed over facets in their order, then over clear shapes. */
+void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_response *response);
 
 #endif

@@ -166,10 +166,11 @@ static const lrcsi_proximity_band *run_band(const lrcsi_sigma *run)
 
 static lrcsi_total run_total(const lrcsi_sigma *run, lrcs_facet_record *records)
 {
-    const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->corrected};
+    const lrcsi_areas areas = {run->visible, run->answer, run->moment};
+    const lrcsi_total_details details = {records, run->options->part_error_m2, run->corrected};
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
     return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run_band(run), &run->clear,
-                            records, run->options->part_error_m2);
+                            &details);
 }
 
 /* The areas of method facet. Only facets with curved normals need them in memory; for all others

@@ -42,7 +42,7 @@ typedef struct lrcsi_sigma {
     const unsigned char *answer; /* as in lrcsi_areas */
     lrcsi_moment *moment_memory; /* [facet_count]; NULL: moments are not wanted */
     const lrcsi_moment *moment;  /* as in lrcsi_areas */
-    unsigned char *corrected;    /* as in lrcsi_areas */
+    unsigned char *corrected;    /* as in lrcsi_total_details */
     lrcsi_curved *curved;        /* [facet_count]; NULL: all normals are flat */
     lrcsi_cubature_cell *stack;  /* NULL: all normals are flat */
     lrcsi_outcome outcome;

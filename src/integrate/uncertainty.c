@@ -397,10 +397,8 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
 static void node_fill(const lrcsi_sigma *run, const response_memory *memory, uint32_t k)
 {
     const lrcs_prepared *p = run->view.prepared;
-    const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->corrected};
     uint32_t count = p->scene->material_count;
-    lrcsi_response_make(&run->view, &run->plan, &areas, run->curved, &run->clear, memory->brdf,
-                        memory->response);
+    lrcsi_response_make(run, memory->brdf, memory->response);
     for (uint32_t i = 0; i < count; i++) {
         const lrcsi_response *at = &memory->response[i];
         memory->node[(size_t)k * count + i] =

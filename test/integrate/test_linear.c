@@ -267,21 +267,24 @@ static void shape_check(void)
     lrcsi_profile profile = lrcsi_profile_make(&shape, &part->divisions);
     uint32_t step = 29 + part->facet_count / 40;
     for (uint32_t f = (uint32_t)(step * random_unit(&seed)); f < part->facet_count; f += step) {
-        lrcsi_patch patch = {.side = 0};
+        lrcsi_patches evaluated = {.negligible = 0};
         lrcsi_linear linear;
-        if (s.view.prepared->skip[f] || !lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patch)) {
+        const lrcsi_patch *patch = s.view.prepared->skip[f]
+                                       ? NULL
+                                       : lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &evaluated);
+        if (!patch) {
             continue;
         }
         lrcsi_incidence incidence = lrcsi_view_incidence(&s.view, f);
         double second =
             lrcsi_deviation_make(&brdf, fabs(incidence.cos_theta), incidence.tan2, c).second;
-        assert_int_equal(lrcsi_linear_make(&s.view, &brdf, &patch, c, second, &linear), 1);
+        assert_int_equal(lrcsi_linear_make(&s.view, &brdf, patch, c, second, &linear), 1);
         strip at = {.shape = &shape, .h = profile.half, .swell = profile.vertex_ratio};
-        at.lower = lrcsi_profile_radius(&profile, patch.at.row);
-        at.upper = lrcsi_profile_radius(&profile, patch.at.row + 1);
-        at.high = lrcsi_profile_rise(&profile, patch.at.row);
+        at.lower = lrcsi_profile_radius(&profile, patch->at.row);
+        at.upper = lrcsi_profile_radius(&profile, patch->at.row + 1);
+        at.high = lrcsi_profile_rise(&profile, patch->at.row);
         patches++;
-        patch_check(&s, &brdf, &patch, &linear, c, &at, began);
+        patch_check(&s, &brdf, patch, &linear, c, &at, began);
     }
 }
 

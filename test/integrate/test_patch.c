@@ -193,25 +193,28 @@ static void shape_check(int uneven)
     scene_make(&shape, &place, &brdf, 1, d, &s);
     const lrcs_part *part = &s.scene.part[0];
     for (uint32_t f = (uint32_t)(37 * random_unit(&seed)); f < part->facet_count; f += 37) {
-        lrcsi_patch patch = {.side = 0};
-        if (s.view.prepared->skip[f] || !lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patch)) {
+        lrcsi_patches patches = {.negligible = 0};
+        const lrcsi_patch *patch = s.view.prepared->skip[f]
+                                       ? NULL
+                                       : lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patches);
+        if (!patch) {
             continue;
         }
-        double truth = reference(&s, &brdf, &patch);
+        double truth = reference(&s, &brdf, patch);
         double area = 0;
-        for (uint32_t i = 0; i < patch.at.facets; i++) {
+        for (uint32_t i = 0; i < patch->at.facets; i++) {
             area += lrcsi_prepared_area(s.view.prepared,
                                         0.5 * s.view.prepared->normal[i ? f ^ 1 : f].length);
         }
-        double apart = fabs((patch.glint + patch.diffuse) * area - truth);
-        double most = (patch.remainder + patch.rounding) * area + 1e-11 * truth;
+        double apart = fabs((patch->glint + patch->diffuse) * area - truth);
+        double most = (patch->remainder + patch->rounding) * area + 1e-11 * truth;
         known++;
         closest = fmax(closest, apart / most);
         if (!(apart <= most)) {
             beyond++;
             fprintf(stderr, "seed %llu, kind %d, facet %u: %.17g, by quadrature %.17g +- %.3g\n",
                     (unsigned long long)began, shape.kind, (unsigned)f,
-                    (patch.glint + patch.diffuse) * area, truth, most);
+                    (patch->glint + patch->diffuse) * area, truth, most);
         }
     }
 }
@@ -251,9 +254,10 @@ static void patches_of_a_cone_add_up_to_its_closed_form(void **state)
     double sum = 0;
     scene_make(&shape, &place, &brdf, 0, d, &s);
     for (uint32_t f = 0; f < s.scene.part[0].facet_count; f++) {
-        lrcsi_patch patch = {.side = 0};
-        assert_int_equal(lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patch), 1);
-        sum += (patch.glint + patch.diffuse) * 0.5 * s.view.prepared->normal[f].length;
+        lrcsi_patches patches = {.negligible = 0};
+        const lrcsi_patch *patch = lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patches);
+        assert_non_null(patch);
+        sum += (patch->glint + patch->diffuse) * 0.5 * s.view.prepared->normal[f].length;
     }
     assert_int_equal(lrcs_closed_eval(&shape, &brdf, &aspect, &closed), LRCS_OK);
     check_rel(lrcsi_prepared_area(s.view.prepared, 4 * LRCS_PI * sum), closed.sigma_m2, 1e-12);
@@ -273,14 +277,14 @@ static void no_mean_is_given_at_the_limb_or_of_flat_parts(void **state)
     unsigned without = 0;
     scene_make(&shape, &place, &brdf, 0, d, &s);
     for (uint32_t f = 0; f < s.scene.facet_count; f++) {
-        lrcsi_patch patch = {.side = 0};
+        lrcsi_patches patches = {.negligible = 0};
         double cosine = fabs(lrcsi_view_incidence(&s.view, f).cos_theta);
-        int made = lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patch);
+        int made = lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patches) != NULL;
         assert_false(made && (cosine <= 0.01 || s.scene.facet_smooth[f] == 0));
         with += made != 0;
         without += !made && cosine > 0.5 && s.scene.facet_smooth[f] != 0;
         s.plan.patches = 0;
-        assert_int_equal(lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patch), 0);
+        assert_null(lrcsi_patch_make(&s.view, &s.plan, &brdf, f, &patches));
         s.plan.patches = 1;
     }
     assert_true(with > 100);

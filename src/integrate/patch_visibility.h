@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* What is known about the visibility of a facet and of the patch of the true surface that it
+   represents: a state, and bounds on fractions. The proofs that use them: integrate/tessellation.c.
+   Given to each function: the visible areas of all facets; the proximity band, or NULL if every
+   front is entirely visible or the bounds of the visible area include what could be hidden. */
+#ifndef LRCSI_PATCH_VISIBILITY_H
+#define LRCSI_PATCH_VISIBILITY_H
+
+#include "visibility/proximity_band.h"
+
+enum lrcsi_patch_state {
+    LRCSI_PATCH_UNLIT,   /* no side of the facet that reflects faces the laser */
+    LRCSI_PATCH_VISIBLE, /* facet and patch are entirely visible */
+    LRCSI_PATCH_HIDDEN,  /* the facet is hidden, except for a tiny fraction of it */
+    LRCSI_PATCH_PARTIAL  /* none of these */
+};
+
+/* Upper bounds of fractions of a facet: */
+typedef struct lrcsi_patch_fractions {
+    double hidden;     /* hidden, or not known to be visible, by facets */
+    double gain, loss; /* as in lrcsi_proximity_band; only what is hidden may be gained, and only
+                          what is visible lost */
+    double lit;        /* visible on the true surface */
+} lrcsi_patch_fractions;
+
+/* The part of a facet. */
+const lrcs_part *lrcsi_patch_part(const lrcs_prepared *prepared, uint32_t facet);
+
+/* The first facet of a sector, of which the given one is the first or the second: the two are
+   neighbours in the part's list of facets, in which every strip of a wall begins at an even index
+   (mesh/tessellate.c). In a strip that ends in an apex each facet has a sector of its own; the two
+   are neighbours in the list all the same. */
+uint32_t lrcsi_patch_sector(const lrcs_prepared *prepared, uint32_t facet);
+
+/* The other facet of the sector. */
+uint32_t lrcsi_patch_partner(const lrcs_prepared *prepared, uint32_t facet);
+
+/* The state of a facet that is not skipped, a lrcsi_patch_state; that of its partner, which counts
+   as hidden if it is skipped. */
+int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                         const lrcsi_proximity_band *band);
+int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+                              const lrcsi_proximity_band *band);
+
+/* Is something of a patch in this state visible? */
+static inline int lrcsi_patch_is_lit(int state)
+{
+    return state == LRCSI_PATCH_VISIBLE || state == LRCSI_PATCH_PARTIAL;
+}
+
+/* The fractions of a facet that is not unlit. */
+lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
+                                               const lrcsi_visible *visible,
+                                               const lrcsi_proximity_band *band);
+
+/* An upper bound of the visible fraction of a facet that counts as hidden. */
+double lrcsi_patch_hidden_fraction(const lrcsi_incidence *incidence, uint32_t facet,
+                                   const lrcsi_visible *visible, const lrcsi_proximity_band *band);
+
+#endif
