@@ -6,7 +6,8 @@
    2. the classification (lrcsi_classify_make), and the proximity band where curved shapes need one;
    3. each facet that reflects (facet_add_profile): its sigma per area (lrcsi_facet_terms_make, or
       lrcsi_curve_integral_make for curved normals), the bins of its corners (facet_ranges), and its
-      visible pieces (lrcsi_occlude_open, _next, _close), triangle by triangle (triangle_add);
+      visible pieces (lrcsi_occlude_open, _next, _close), triangle by triangle
+      (lrcsi_range_add_triangle);
    4. the error of facets in place of curved shapes (tessellation_add_error).
 
    Let s be a facet's sigma per visible projected area, which is constant on a flat facet, and P one
@@ -62,13 +63,11 @@
 #include "base/work.h"
 #include "integrate/curve.h"
 #include "integrate/facet_terms.h"
+#include "integrate/range_bins.h"
 #include "integrate/tessellation.h"
 #include "integrate/total.h"
 #include "view/frame.h"
 #include "visibility/occlude.h"
-
-/* Relative error of the part of a triangle in a bin. */
-#define PART_ERROR (16 * LRCSI_U)
 
 /* Relative error of a range in double-double, for each unit of |x| + |y| + |z|: the components of
    the unit vector are accurate to 2^-97, three products and two sums add 16 u^2. */
@@ -78,126 +77,20 @@
    curved normals; the cubature aims at a tenth of it. */
 #define CURVE_TOLERANCE 1e-6
 
-/* The sums of a bin, scaled. `bound` contains the parts (1) to (4) of the error, both of the bin's
-   sigma and of sums that weight sigma by range; part (5) differs between the two. */
-typedef struct bin_sums {
-    lrcsi_sum glint, diffuse, moment;
-    double bound;
-    double tessellation, tessellation_variation; /* (5): of sigma; of weighted sigma */
-    double estimate;                             /* of the cubature's error */
-} bin_sums;
-
-/* The state of a run; all is scaled except bin_m. */
+/* The state of a run. */
 typedef struct profile_run {
     const lrcs_prepared *prepared;
     const lrcsi_view *view;
     lrcsi_plan plan;
-    double bin_m, width; /* width: bin_m scaled */
-    int64_t first;       /* the number of bin[0] */
-    uint32_t count;
-    bin_sums *bin;
-    uint32_t begin, end;      /* only bins begin <= i < end may have any sigma */
-    lrcsi_sum glint, diffuse; /* of all bins */
-    double bound, estimate;   /* of all bins */
-    double additions;         /* the number of additions to the sums */
-    double range_err;
+    lrcsi_range_bins bins;
     lrcsi_curve_options curve_options; /* its stack is NULL if all normals are flat */
     lrcsi_curve_context curves;
     lrcsi_visible *visible; /* of every facet; NULL if no facet replaces a curved shape */
     lrcsi_proximity_band band_memory;
     const lrcsi_proximity_band *band; /* NULL: none was made */
     lrcsi_patches patches;
-    double tessellation; /* (5) of all bins together */
+    double tessellation; /* (5) of all bins together, scaled */
 } profile_run;
-
-/* A facet: the ranges of its corners, the bins that it extends into, and its sigma per unit of
-   visible projected area. */
-typedef struct profile_facet {
-    double range[3], range_max; /* at its corners; the largest |range| */
-    double range_dd_err;        /* the error of the ranges of corners before they were rounded */
-    double extent;              /* upper bound of the distance in range of any two of its points */
-    uint32_t first, last;       /* bins */
-    double glint, diffuse, rounding; /* of a flat facet */
-    double upper_bound;              /* of its true sigma per unit area, at any point */
-    lrcsi_curve_integral *curve;     /* NULL: its normals are not curved */
-} profile_facet;
-
-/* --- bins ------------------------------------------------------------------------------------- */
-
-static double edge_of(const profile_run *run, uint32_t i)
-{
-    return ldexp((double)(run->first + i) * run->bin_m, -run->prepared->exponent);
-}
-
-static double centre_of(const profile_run *run, uint32_t i)
-{
-    return ldexp(((double)(run->first + i) + 0.5) * run->bin_m, -run->prepared->exponent);
-}
-
-/* The bin that contains a range, or the nearest one if none does. The quotient has an error of a
-   few ulps, which changes the bin by at most one; the loops correct that. */
-static uint32_t bin_of(const profile_run *run, double range)
-{
-    double k = floor(range / run->width) - (double)run->first;
-    uint32_t i = k <= 0 ? 0 : k >= run->count ? run->count - 1 : (uint32_t)k;
-    while (i > 0 && edge_of(run, i) > range) {
-        i--;
-    }
-    while (i + 1 < run->count && edge_of(run, i + 1) <= range) {
-        i++;
-    }
-    return i;
-}
-
-/* The same, among the bins that a facet extends into. */
-static uint32_t bin_within(const profile_run *run, const profile_facet *f, double range)
-{
-    uint32_t i = bin_of(run, range);
-    return i < f->first ? f->first : i > f->last ? f->last : i;
-}
-
-/* Adds a part of sigma, with its first moment about the bin's centre and its error. */
-static void bin_add(profile_run *run, uint32_t i, double glint, double diffuse, double moment,
-                    double rounding)
-{
-    bin_sums *bin = &run->bin[i];
-    lrcsi_sum_add(&bin->glint, glint);
-    lrcsi_sum_add(&bin->diffuse, diffuse);
-    lrcsi_sum_add(&bin->moment, moment);
-    lrcsi_sum_add(&run->glint, glint);
-    lrcsi_sum_add(&run->diffuse, diffuse);
-    bin->bound += rounding + LRCSI_FACET_UNDERFLOW;
-    run->bound += rounding + LRCSI_FACET_UNDERFLOW;
-    run->additions++;
-}
-
-/* Adds a projected area of a flat facet, with its first moment about the bin's centre. */
-static void bin_add_flat(profile_run *run, const profile_facet *f, uint32_t i, double area,
-                         double moment)
-{
-    bin_add(run, i, f->glint * area, f->diffuse * area, (f->glint + f->diffuse) * moment,
-            f->rounding * area + f->upper_bound * PART_ERROR * area);
-}
-
-/* Adds a triangle with curved normals that lies in one bin.
-   Given: its projected area, and the ranges and normals at its corners. */
-static void bin_add_smooth(profile_run *run, const profile_facet *f, uint32_t i, double area,
-                           const double range[3], const double normal[3][3])
-{
-    double centre = centre_of(run, i);
-    const double weight[3] = {range[0] - centre, range[1] - centre, range[2] - centre};
-    lrcsi_cubature sum = f->curve->sum;
-    sum.area = area;
-    sum.weight = weight;
-    lrcsi_cubature_add(&sum, normal, area);
-    double glint = LRCS_FOUR_PI * lrcsi_sum_value(&sum.glint);
-    double diffuse = LRCS_FOUR_PI * lrcsi_sum_value(&sum.diffuse);
-    double relative = f->curve->incidence.error + 16 * LRCSI_U + PART_ERROR;
-    bin_add(run, i, glint, diffuse, LRCS_FOUR_PI * lrcsi_sum_value(&sum.weighted),
-            LRCS_FOUR_PI * (sum.rounding + sum.unresolved) + relative * (glint + diffuse));
-    run->bin[i].estimate += LRCS_FOUR_PI * sum.estimate;
-    run->estimate += LRCS_FOUR_PI * sum.estimate;
-}
 
 /* --- ranges ----------------------------------------------------------------------------------- */
 
@@ -224,9 +117,9 @@ static lrcsi_dd range_of(const lrcsi_view *view, const double x[3], double *err)
 /* Computes the ranges of a facet's corners, and finds the bins that it extends into. A corner whose
    range cannot be distinguished from the edge between two bins extends into both. If the range is
    exact, so is bin_of. */
-static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *f)
+static void facet_ranges(const profile_run *run, uint32_t facet, lrcsi_range_facet *f)
 {
-    f->first = run->count;
+    f->first = run->bins.count;
     f->last = 0;
     f->range_max = 0;
     f->range_dd_err = 0;
@@ -236,14 +129,16 @@ static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *
         f->range[k] = lrcsi_dd_value(range);
         f->range_max = lrcsi_max(f->range_max, fabs(f->range[k]));
         f->range_dd_err = lrcsi_max(f->range_dd_err, err);
-        uint32_t low = bin_of(run, f->range[k]);
+        uint32_t low = lrcsi_range_bin(&run->bins, f->range[k]);
         uint32_t high = low;
-        double below = lrcsi_dd_value(lrcsi_dd_sub(range, (lrcsi_dd){edge_of(run, low), 0}));
-        double above = lrcsi_dd_value(lrcsi_dd_sub(range, (lrcsi_dd){edge_of(run, low + 1), 0}));
+        double below =
+            lrcsi_dd_value(lrcsi_dd_sub(range, (lrcsi_dd){lrcsi_range_edge(&run->bins, low), 0}));
+        double above = lrcsi_dd_value(
+            lrcsi_dd_sub(range, (lrcsi_dd){lrcsi_range_edge(&run->bins, low + 1), 0}));
         if (low > 0 && below < 2 * err) {
             low -= 1;
             high -= below < -2 * err ? 1 : 0;
-        } else if (high + 1 < run->count && err > 0 && above >= -2 * err) {
+        } else if (high + 1 < run->bins.count && err > 0 && above >= -2 * err) {
             high += 1;
         }
         f->first = low < f->first ? low : f->first;
@@ -254,140 +149,11 @@ static void facet_ranges(const profile_run *run, uint32_t facet, profile_facet *
                 8 * LRCSI_U * f->range_max + 2.01 * f->range_dd_err;
 }
 
-/* --- one triangle ----------------------------------------------------------------------------- */
-
-/* The corners of a triangle in ascending order of their ranges. */
-static void corners_order(const double range[3], int order[3])
-{
-    static const int pair[3][2] = {{0, 1}, {1, 2}, {0, 1}};
-    order[0] = 0;
-    order[1] = 1;
-    order[2] = 2;
-    for (int i = 0; i < 3; i++) {
-        int a = order[pair[i][0]];
-        int b = order[pair[i][1]];
-        int swapped = range[b] < range[a];
-        order[pair[i][0]] = swapped ? b : a;
-        order[pair[i][1]] = swapped ? a : b;
-    }
-}
-
-/* A triangle of a piece: its area, and the ranges of its corners in ascending order; on a facet
-   with curved normals, also the normals at them. */
-typedef struct profile_triangle {
-    double area, z[3];
-    double normal[3][3];
-} profile_triangle;
-
-/* The normal at the point of the side from corner a to corner b that has the range z. Given: the
-   normals at all corners, and their ranges in ascending order. */
-static void normal_at(const double corner[3][3], const double range[3], int a, int b, double z,
-                      double normal[3])
-{
-    double fraction = range[a] < range[b] ? (z - range[a]) / (range[b] - range[a]) : 0;
-    for (int k = 0; k < 3; k++) {
-        normal[k] = (1 - fraction) * corner[a][k] + fraction * corner[b][k];
-    }
-}
-
-/* Adds the part of a triangle between two ranges, which lie on one side of its middle corner, to a
-   bin. The part is a trapezium: its parallel sides, at `from` and at `to`, lead from the long side
-   of the triangle to a short one, from corner a to corner b. A diagonal divides it into two
-   triangles, whose areas are the fractions `first` and `last` of the largest area per unit of
-   range, which is at the middle corner, times half the width. On a flat facet the area and its
-   first moment are added to *part and *moment; curved normals are integrated. */
-static void trapezium_add(profile_run *run, const profile_facet *f, uint32_t bin,
-                          const profile_triangle *t, double from, double to, double *part,
-                          double *moment)
-{
-    if (!(from < to)) {
-        return;
-    }
-    const double *z = t->z;
-    int rising = to <= z[1];
-    int a = rising ? 0 : 1;
-    int b = rising ? 1 : 2;
-    double first = (rising ? from - z[0] : z[2] - from) / (z[b] - z[a]);
-    double last = (rising ? to - z[0] : z[2] - to) / (z[b] - z[a]);
-    double scale = t->area / (z[2] - z[0]) * (to - from);
-    if (f->curve) {
-        const double range[2][3] = {{from, from, to}, {from, to, to}};
-        const double(*normal)[3] = (const double(*)[3])t->normal;
-        double side[4][3]; /* at `from` on the long side, on the short one; at `to` likewise */
-        normal_at(normal, z, 0, 2, from, side[0]);
-        normal_at(normal, z, a, b, from, side[1]);
-        normal_at(normal, z, 0, 2, to, side[2]);
-        normal_at(normal, z, a, b, to, side[3]);
-        bin_add_smooth(run, f, bin, scale * first, range[0], (const double(*)[3])side);
-        bin_add_smooth(run, f, bin, scale * last, range[1], (const double(*)[3])(side + 1));
-        return;
-    }
-    double centre = centre_of(run, bin);
-    double trapezium = scale * (first + last);
-    *part += trapezium;
-    *moment += trapezium * (0.5 * (from - centre) + 0.5 * (to - centre)) +
-               scale * (last - first) * (0.5 * (to - from)) / 3;
-}
-
-/* Adds a triangle to the bins. Given: its area; the ranges of its corners, with errors of at most
-   range_err; the normals at its corners, used if those of the facet are curved.
-   1. The corners are ordered by range.
-   2. A triangle in one bin is added to it.
-   3. Otherwise each bin receives the part between its edges, divided at the middle corner.
-   4. Part (3) of the error: at each edge of a bin within range_err of the triangle, the fraction of
-      its area that may lie on the other side. */
-static void triangle_add(profile_run *run, const profile_facet *f, double area,
-                         const double range[3], const double normal[3][3], double range_err)
-{
-    int order[3]; /* 1 */
-    profile_triangle t = {.area = area};
-    const double *z = t.z;
-    corners_order(range, order);
-    for (int k = 0; k < 3; k++) {
-        t.z[k] = range[order[k]];
-        for (int c = 0; c < 3 && f->curve; c++) {
-            t.normal[k][c] = normal[order[k]][c];
-        }
-    }
-    uint32_t begin = bin_within(run, f, z[0]);
-    uint32_t end = bin_within(run, f, z[2]);
-    if (begin == end && f->curve) { /* 2 */
-        bin_add_smooth(run, f, begin, area, z, (const double(*)[3])t.normal);
-    } else if (begin == end) {
-        double centre = centre_of(run, begin);
-        double mean = ((z[0] - centre) + (z[1] - centre) + (z[2] - centre)) / 3;
-        bin_add_flat(run, f, begin, area, area * mean);
-    }
-    for (uint32_t i = begin; begin < end && i <= end; i++) { /* 3 */
-        double from = i == begin ? z[0] : edge_of(run, i);
-        double to = i == end ? z[2] : edge_of(run, i + 1);
-        double middle = lrcsi_min(to, lrcsi_max(from, z[1]));
-        double part = 0;
-        double moment = 0;
-        trapezium_add(run, f, i, &t, from, middle, &part, &moment);
-        trapezium_add(run, f, i, &t, middle, to, &part, &moment);
-        if (!f->curve) {
-            bin_add_flat(run, f, i, part, moment);
-        }
-    }
-    double extent = z[2] - z[0]; /* 4 */
-    double fraction = 4 * range_err < extent ? lrcsi_min(1, 4 * range_err / extent) : 1;
-    double error = f->upper_bound * area * fraction;
-    begin = bin_within(run, f, z[0] - range_err);
-    end = bin_within(run, f, z[2] + range_err);
-    for (uint32_t i = begin + 1; i <= end; i++) {
-        run->bin[i - 1].bound += error;
-        run->bin[i].bound += error;
-        run->additions++;
-    }
-    run->range_err = lrcsi_max(run->range_err, lrcsi_min(range_err, f->extent));
-}
-
 /* --- one facet -------------------------------------------------------------------------------- */
 
 /* The range, and on a facet with curved normals the normal, at a corner of a piece. */
-static void piece_corner(const profile_facet *f, const lrcsi_target *target, const double corner[2],
-                         double *range, double normal[3])
+static void piece_corner(const lrcsi_range_facet *f, const lrcsi_target *target,
+                         const double corner[2], double *range, double normal[3])
 {
     double weight[3];
     lrcsi_target_weights(target, corner, weight);
@@ -400,7 +166,7 @@ static void piece_corner(const profile_facet *f, const lrcsi_target *target, con
 
 /* Adds a convex piece as a fan of triangles from its first corner. Returns a bound on the error of
    its area. */
-static double fan_add(profile_run *run, const profile_facet *f, const lrcsi_target *target,
+static double fan_add(profile_run *run, const lrcsi_range_facet *f, const lrcsi_target *target,
                       const lrcsi_clip_polygon *piece, double range_err)
 {
     double range[3]; /* of corners 0, i - 1 and i */
@@ -417,7 +183,8 @@ static double fan_add(profile_run *run, const profile_facet *f, const lrcsi_targ
         const double v[2] = {piece->corner[i][0] - c[0], piece->corner[i][1] - c[1]};
         double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
         if (area > 0) {
-            triangle_add(run, f, area, range, (const double(*)[3])normal, range_err);
+            lrcsi_range_add_triangle(&run->bins, f, area, range, (const double(*)[3])normal,
+                                     range_err);
         }
         area_err += lrcsi_max(0, -area) + 4 * LRCSI_U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
         range[1] = range[2];
@@ -428,14 +195,14 @@ static double fan_add(profile_run *run, const profile_facet *f, const lrcsi_targ
 
 /* Adds the visible pieces of a facet, and returns the area D of part (2). On a convex surface
    fronts are visible without clipping, except those at grazing incidence. */
-static double pieces_add(profile_run *run, const profile_facet *f, uint32_t facet,
+static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t facet,
                          const lrcsi_incidence *incidence, lrcsi_occlusion *o)
 {
     double corner_err = 2 * LRCSI_U * f->range_max + 1.01 * f->range_dd_err;
     const double(*normal)[3] = f->curve ? (const double(*)[3])f->curve->normal : NULL;
     if (run->plan.unshadowed && run->view->facing[facet] > 0) {
         lrcsi_visible known = lrcsi_visible_unshadowed(incidence, run->plan.grazing_cos);
-        triangle_add(run, f, known.area, f->range, normal, corner_err);
+        lrcsi_range_add_triangle(&run->bins, f, known.area, f->range, normal, corner_err);
         if (run->visible) {
             run->visible[facet] = known;
         }
@@ -454,7 +221,8 @@ static double pieces_add(profile_run *run, const profile_facet *f, uint32_t face
         if (o->undecided) {
             area_err += fan_add(run, f, target, &o->single.piece, range_err);
         } else {
-            triangle_add(run, f, incidence->projected, f->range, normal, corner_err);
+            lrcsi_range_add_triangle(&run->bins, f, incidence->projected, f->range, normal,
+                                     corner_err);
         }
     }
     lrcsi_visible visible = lrcsi_visible_proved(run->view, facet, lrcsi_occlude_close(o));
@@ -474,8 +242,8 @@ static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occlusion 
     lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
     lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
     lrcsi_curve_integral curve;
-    profile_facet f = {.curve = NULL};
-    double before = lrcsi_sum_value(&run->glint) + lrcsi_sum_value(&run->diffuse);
+    lrcsi_range_facet f = {.curve = NULL};
+    double before = lrcsi_sum_value(&run->bins.glint) + lrcsi_sum_value(&run->bins.diffuse);
     if (lrcsi_curve_applies(run->view, facet)) {
         lrcsi_curve_integral_make(&run->curves, facet, &curve);
         f.curve = &curve;
@@ -489,20 +257,20 @@ static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occlusion 
         f.upper_bound = f.glint + f.diffuse + f.rounding;
     }
     facet_ranges(run, facet, &f);
-    double additions = run->additions;
+    double additions = run->bins.additions;
     double uncertain_area = pieces_add(run, &f, facet, &incidence, o);
     for (uint32_t i = f.first; uncertain_area > 0 && i <= f.last; i++) {
-        run->bin[i].bound += f.upper_bound * uncertain_area;
-        run->additions++;
+        run->bins.bin[i].bound += f.upper_bound * uncertain_area;
+        run->bins.additions++;
     }
-    run->bound += f.upper_bound * uncertain_area;
+    run->bins.bound += f.upper_bound * uncertain_area;
     if (f.curve) {
-        lrcsi_curve_context_add(&run->curves, lrcsi_sum_value(&run->glint) +
-                                                  lrcsi_sum_value(&run->diffuse) - before);
+        lrcsi_curve_context_add(&run->curves, lrcsi_sum_value(&run->bins.glint) +
+                                                  lrcsi_sum_value(&run->bins.diffuse) - before);
     }
-    if (run->additions > additions) {
-        run->begin = f.first < run->begin ? f.first : run->begin;
-        run->end = f.last + 1 > run->end ? f.last + 1 : run->end;
+    if (run->bins.additions > additions) {
+        run->bins.begin = f.first < run->bins.begin ? f.first : run->bins.begin;
+        run->bins.end = f.last + 1 > run->bins.end ? f.last + 1 : run->bins.end;
     }
 }
 
@@ -527,7 +295,8 @@ static double fraction_below(const double corner[3], double z)
 /* An upper bound of the fraction with a range between two values, with the error (4) of each. */
 static double fraction_between(const double corner[3], double from, double to)
 {
-    double fraction = fraction_below(corner, to) - fraction_below(corner, from) + 2 * PART_ERROR;
+    double fraction =
+        fraction_below(corner, to) - fraction_below(corner, from) + 2 * LRCSI_RANGE_AREA_ERR;
     return to < corner[0] || from > corner[2] ? 0 : lrcsi_min(1, fraction);
 }
 
@@ -542,8 +311,8 @@ static double fraction_between(const double corner[3], double from, double to)
       one. */
 static void tessellation_add_error(profile_run *run, uint32_t facet)
 {
-    profile_facet f;
-    profile_facet other;
+    lrcsi_range_facet f;
+    lrcsi_range_facet other;
     lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
     const lrcsi_tessellation_input in = {run->view, &run->plan, run->visible, NULL, run->band};
     lrcsi_interval_error error = lrcsi_tessellation_interval(&in, facet, &incidence, &run->patches);
@@ -553,35 +322,35 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     double reach = ldexp(part->reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
                    8 * LRCSI_U * f.range_max + 1.01 * f.range_dd_err; /* with the corners' errors */
     int order[3];
-    corners_order(f.range, order);
+    lrcsi_range_order(f.range, order);
     const double z[3] = {f.range[order[0]], f.range[order[1]], f.range[order[2]]};
     double low =
         lrcsi_min(z[0], lrcsi_min(other.range[0], lrcsi_min(other.range[1], other.range[2])));
     double high =
         lrcsi_max(z[2], lrcsi_max(other.range[0], lrcsi_max(other.range[1], other.range[2])));
-    uint32_t begin = bin_of(run, low - reach);
-    uint32_t end = bin_of(run, high + reach);
+    uint32_t begin = lrcsi_range_bin(&run->bins, low - reach);
+    uint32_t end = lrcsi_range_bin(&run->bins, high + reach);
     double whole = LRCS_FOUR_PI * error.whole;
     run->tessellation += whole;
     if (!(whole > 0) && !(error.lit && reach > 0 && error.shift > 0)) {
         return;
     }
-    run->range_err = lrcsi_max(run->range_err, reach);
+    run->bins.range_err = lrcsi_max(run->bins.range_err, reach);
     for (uint32_t i = begin; i <= end; i++) {
-        double from = edge_of(run, i);
-        double to = edge_of(run, i + 1);
+        double from = lrcsi_range_edge(&run->bins, i);
+        double to = lrcsi_range_edge(&run->bins, i + 1);
         double fraction = fraction_between(z, from - reach, to + reach);
         double shifted = fraction_between(z, from - reach, from + reach) +
                          fraction_between(z, to - reach, to + reach) + error.mismatch;
         double general = LRCS_FOUR_PI * (error.deviation * fraction + error.shift * shifted);
         double larger = error.lit ? LRCS_FOUR_PI * error.upper_bound * fraction : whole;
         general = error.lit ? general : HUGE_VAL;
-        run->bin[i].tessellation_variation += lrcsi_min(general, 2 * larger);
-        run->bin[i].tessellation += begin == end ? whole : lrcsi_min(general, larger);
-        run->additions++;
+        run->bins.bin[i].tessellation_variation += lrcsi_min(general, 2 * larger);
+        run->bins.bin[i].tessellation += begin == end ? whole : lrcsi_min(general, larger);
+        run->bins.additions++;
     }
-    run->begin = begin < run->begin ? begin : run->begin;
-    run->end = end + 1 > run->end ? end + 1 : run->end;
+    run->bins.begin = begin < run->bins.begin ? begin : run->bins.begin;
+    run->bins.end = end + 1 > run->bins.end ? end + 1 : run->bins.end;
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
@@ -606,7 +375,7 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
     size_t bins =
         bins_max < LRCS_PROFILE_BINS ? (size_t)bins_max + 1 : (size_t)LRCS_PROFILE_BINS + 4;
     size_t need = lrcsi_work_bytes(bins, sizeof(lrcs_profile_bin));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(bins, sizeof(bin_sums)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(bins, sizeof(lrcsi_range_sums)));
     need = lrcsi_work_add(need, lrcsi_view_need(prepared));
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, prepared->smooth ? lrcsi_cubature_need() : 0);
@@ -637,14 +406,14 @@ static int bins_number(profile_run *run)
         return LRCS_OK;
     }
     double reach = ldexp(max_reach(p), -p->exponent);
-    double first = floor((nearest - reach) / run->width) - 1;
-    double last = floor((farthest + reach) / run->width) + 1;
+    double first = floor((nearest - reach) / run->bins.width) - 1;
+    double last = floor((farthest + reach) / run->bins.width) + 1;
     if (!(first >= -LRCS_PROFILE_INDEX && last <= LRCS_PROFILE_INDEX &&
           last - first < LRCS_PROFILE_BINS)) {
         return LRCS_E_LIMIT;
     }
-    run->first = (int64_t)first;
-    run->count = (uint32_t)(last - first) + 1;
+    run->bins.first = (int64_t)first;
+    run->bins.count = (uint32_t)(last - first) + 1;
     return LRCS_OK;
 }
 
@@ -693,9 +462,10 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
     run->plan = lrcsi_plan_make(view, &clear, &options);
     status = bins_number(run);
     if (status == LRCS_OK) {
-        run->bin = lrcsi_work_take_zero(work, run->count, sizeof *run->bin);
-        run->begin = run->count;
-        status = run->bin ? lrcsi_classify_make(view, NULL, work, &classification) : LRCS_E_MEMORY;
+        run->bins.bin = lrcsi_work_take_zero(work, run->bins.count, sizeof *run->bins.bin);
+        run->bins.begin = run->bins.count;
+        status =
+            run->bins.bin ? lrcsi_classify_make(view, NULL, work, &classification) : LRCS_E_MEMORY;
     }
     status = status == LRCS_OK ? curved_take(run, &classification, work) : status;
     status = status == LRCS_OK ? lrcsi_occlude_make(&classification, NULL, work, &o) : status;
@@ -724,11 +494,11 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
 static void profile_finish(const profile_run *run, lrcs_profile *profile)
 {
     const lrcs_prepared *p = run->prepared;
-    double count = run->additions;
+    double count = run->bins.additions;
     double outward = 1 + 1e-9 + 2 * count * LRCSI_U;
     double adding = 4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U);
     for (uint32_t i = 0; i < profile->count; i++) {
-        const bin_sums *sums = &run->bin[run->begin + i];
+        const lrcsi_range_sums *sums = &run->bins.bin[run->bins.begin + i];
         double glint = lrcsi_sum_value(&sums->glint);
         double diffuse = lrcsi_sum_value(&sums->diffuse);
         double moment = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->moment));
@@ -746,17 +516,18 @@ static void profile_finish(const profile_run *run, lrcs_profile *profile)
             profile->bin[i].variation_m2 = profile->bin[i].bound_m2;
         }
     }
-    double glint = lrcsi_sum_value(&run->glint);
-    double diffuse = lrcsi_sum_value(&run->diffuse);
-    profile->bin_m = run->bin_m;
-    profile->first = profile->count > 0 ? run->first + run->begin : 0;
+    double glint = lrcsi_sum_value(&run->bins.glint);
+    double diffuse = lrcsi_sum_value(&run->bins.diffuse);
+    profile->bin_m = run->bins.bin_m;
+    profile->first = profile->count > 0 ? run->bins.first + run->bins.begin : 0;
     profile->sigma_glint_m2 = lrcsi_prepared_area(p, glint);
     profile->sigma_diffuse_m2 = lrcsi_prepared_area(p, diffuse);
     profile->bound_m2 = lrcsi_bound_area(
-        p, (run->bound + run->tessellation + (glint + diffuse) * adding) * outward);
-    profile->curvature_estimate_m2 = p->smooth ? lrcsi_bound_area(p, run->estimate * outward) : -1;
+        p, (run->bins.bound + run->tessellation + (glint + diffuse) * adding) * outward);
+    profile->curvature_estimate_m2 =
+        p->smooth ? lrcsi_bound_area(p, run->bins.estimate * outward) : -1;
     profile->tessellation_known = !p->curved || lrcsi_tessellation_known(p, &run->plan);
-    profile->range_err_m = ldexp(run->range_err, p->exponent);
+    profile->range_err_m = ldexp(run->bins.range_err, p->exponent);
 }
 
 int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, double bin_m,
@@ -765,14 +536,17 @@ int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, doubl
     size_t mark = work->used;
     lrcsi_view view;
     lrcs_profile result = {0};
-    profile_run run = {.prepared = prepared, .bin_m = bin_m};
-    run.width = ldexp(bin_m, -prepared->exponent);
-    if (!(bin_m > 0 && bin_m <= DBL_MAX) || !(run.width >= DBL_MIN && run.width <= DBL_MAX)) {
+    profile_run run = {.prepared = prepared,
+                       .bins = {.exponent = prepared->exponent,
+                                .bin_m = bin_m,
+                                .width = ldexp(bin_m, -prepared->exponent)}};
+    if (!(bin_m > 0 && bin_m <= DBL_MAX) ||
+        !(run.bins.width >= DBL_MIN && run.bins.width <= DBL_MAX)) {
         return LRCS_E_ARGUMENT;
     }
     int status = profile_sum(&run, &view, pose, work);
     if (status == LRCS_OK) {
-        result.count = run.begin < run.end ? run.end - run.begin : 0;
+        result.count = run.bins.begin < run.bins.end ? run.bins.end - run.bins.begin : 0;
         result.bin = lrcsi_work_take(work, result.count, sizeof *result.bin);
         status = result.bin ? LRCS_OK : LRCS_E_MEMORY;
     }
@@ -790,66 +564,4 @@ int lrcs_profile_run(const lrcs_prepared *prepared, const lrcs_pose *pose, doubl
         *profile = result;
     }
     return status;
-}
-
-/* --- a pulse ---------------------------------------------------------------------------------- */
-
-/* More than this many standard deviations from its peak the pulse counts as 0, with an error of at
-   most e^-72 of the peak. */
-#define PULSE_END       12.0
-#define PULSE_END_VALUE 5.4e-32 /* above e^-72 */
-
-/* The full width at half maximum is 2 sqrt(2 ln 2) standard deviations. */
-#define FWHM_DEVIATIONS 2.3548200450309493
-
-/* Let g be the pulse, z the range at which the response is requested, and c the centre of a bin.
-   For a point x of the bin g(z - x) = g(z - c) - (x - c) g'(z - c) + R,  |R| <= (x - c)^2 / 2 sup
-   |g''|, where |x - c| is at most half the bin. With t in standard deviations d, g' = -t g / d and
-   g'' = (t^2 - 1) g / d^2. Over a bin g is at most its value at the point nearest to z, and
-   |t^2 - 1| at most the larger of 1 and t^2 - 1 at the farthest point. The error of the bin's sigma
-   adds at most that value of g times itself; an error e in the range of points adds e |g'|.
-   Rounding: t has an error of 4 u (|z| + |c|) / d, as if z had one of 4 u (|z| + |c|), which is
-   added to e; all other rounding errors are below 64 u. */
-int lrcs_profile_pulse(const lrcs_profile *profile, double fwhm_m, double range_m,
-                       double *density_m, double *bound_m, double *estimate_m)
-{
-    double d = fwhm_m / FWHM_DEVIATIONS;
-    double peak = 1 / (d * sqrt(2 * LRCS_PI));
-    lrcsi_sum density = {0, 0};
-    double bound = 0;
-    double estimate = 0;
-    if (!(fwhm_m > 0 && d >= DBL_MIN)) { /* the peak is then below 2^1022 */
-        return LRCS_E_ARGUMENT;
-    }
-    for (uint32_t i = 0; i < profile->count; i++) {
-        const lrcs_profile_bin *bin = &profile->bin[i];
-        double centre = ((double)(profile->first + i) + 0.5) * profile->bin_m;
-        double sigma = bin->sigma_glint_m2 + bin->sigma_diffuse_m2;
-        double err = profile->range_err_m + 4 * LRCSI_U * (fabs(range_m) + fabs(centre));
-        double t = (range_m - centre) / d;
-        double half = (0.5 * profile->bin_m + err) / d * (1 + 8 * LRCSI_U);
-        double nearest = lrcsi_max(0, fabs(t) - half);
-        double farthest = fabs(t) + half;
-        if (nearest > PULSE_END) {
-            bound += peak * PULSE_END_VALUE * (bin->variation_m2 + sigma);
-            continue;
-        }
-        double g = peak * lrcsi_exp(-0.5 * t * t);
-        double highest = peak * lrcsi_exp(-0.5 * nearest * nearest);
-        double curvature = lrcsi_max(1, farthest * farthest - 1);
-        double remainder = 0.5 * half * half * curvature + err / d * farthest;
-        lrcsi_sum_add(&density, g * sigma);
-        lrcsi_sum_add(&density, g * (t / d) * bin->moment_m3);
-        bound += highest * (bin->variation_m2 + remainder * sigma);
-        estimate += highest * bin->curvature_estimate_m2;
-        bound += 64 * LRCSI_U * highest * (1 + farthest * farthest) * sigma;
-    }
-    bound *= 1 + 1e-9 + 4 * LRCSI_U * profile->count;
-    if (!isfinite(lrcsi_sum_value(&density) + bound)) {
-        return LRCS_E_NUMBER;
-    }
-    *density_m = lrcsi_sum_value(&density);
-    *estimate_m = estimate;
-    *bound_m = bound + (bound > 0 && bound < DBL_MIN ? 0x1p-1073 : 0);
-    return LRCS_OK;
 }

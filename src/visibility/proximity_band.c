@@ -7,16 +7,13 @@
 
 #include <math.h>
 
-#include "base/disjoint.h"
 #include "base/range.h"
 #include "base/work.h"
-#include "mesh/slice.h"
 #include "scene/proximity.h"
 #include "visibility/behind.h"
+#include "visibility/edge_box.h"
 #include "visibility/outline.h"
 
-/* Errors of positions computed here, as a multiple of the error of view coordinates. */
-#define ERR_MARGIN 8.0
 /* More than the rounding error of a facet's cosine. */
 #define COS_MARGIN 1e-9
 /* The projected areas of facets with a larger cosine than this are accurate to COS_MARGIN. */
@@ -138,103 +135,7 @@ static int band_events(band_job *job, lrcs_work *work)
     return lrcsi_grid_edges(job->edge, job->count, 8 * (uint64_t)job->count, work, &job->grid);
 }
 
-/* --- one facet and one edge ------------------------------------------------------------------- */
-
-/* Bound on the position errors of a facet's corners and of positions computed from them. */
-static double facet_err(const band_job *job, uint32_t facet)
-{
-    const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
-    double err = 0;
-    for (int k = 0; k < 3; k++) {
-        err = lrcsi_max(err, job->view->point[corner[k]].err);
-    }
-    return ERR_MARGIN * err;
-}
-
-/* A rectangle about an edge in projection that contains all points of a facet within some distance
-   of the edge. It extends by `half_width` to either side, by `before` before a, and by `end` beyond
-   b. */
-typedef struct edge_box {
-    const double *a, *b;
-    double along[3];
-    double half_width, before, end;
-    double err;  /* a bound on the error of distances from the edge's line, within the rectangle */
-    int reverse; /* a is the edge's end `high` */
-} edge_box;
-
-/* Do all corners of a facet lie beyond one side of the rectangle about an edge? */
-static int edge_box_apart(const band_job *job, uint32_t facet, const edge_box *box)
-{
-    const uint32_t *corner = job->view->prepared->scene->facet[facet].corner;
-    int left = 0;
-    int right = 0;
-    int before = 0;
-    int beyond = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *x = job->view->point[corner[k]].x;
-        const double from_a[2] = {x[0] - box->a[0], x[1] - box->a[1]};
-        const double from_b[2] = {x[0] - box->b[0], x[1] - box->b[1]};
-        double across = box->along[0] * from_a[1] - box->along[1] * from_a[0];
-        left += across > box->half_width;
-        right += across < -box->half_width;
-        before += box->along[0] * from_a[0] + box->along[1] * from_a[1] < -box->before;
-        beyond += box->along[0] * from_b[0] + box->along[1] * from_b[1] > box->end;
-    }
-    return left == 3 || right == 3 || before == 3 || beyond == 3;
-}
-
-/* The part of a facet in the rectangle about an edge. */
-static lrcsi_slice edge_slice(const band_job *job, uint32_t facet, const edge_box *box)
-{
-    const lrcsi_view *view = job->view;
-    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    lrcsi_slice slice = {.count = 0};
-    if (edge_box_apart(job, facet, box)) {
-        return slice;
-    }
-    const double *along = box->along;
-    const double left[3] = {-along[1], along[0], 0};
-    const double back[3] = {-along[0], -along[1], 0};
-    const double right[3] = {along[1], -along[0], 0};
-    slice = lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
-                              view->point[corner[2]].x);
-    lrcsi_slice_cut(&slice, left, box->a, box->half_width);
-    lrcsi_slice_cut(&slice, right, box->a, box->half_width);
-    lrcsi_slice_cut(&slice, along, box->b, box->end);
-    lrcsi_slice_cut(&slice, back, box->a, box->before);
-    return slice;
-}
-
-/* The part of a slice that may lie to the left (side 1) or to the right (-1) of the edge, seen from
-   low to high; the slice lies in the rectangle about the edge. */
-static lrcsi_slice edge_half(lrcsi_slice slice, const edge_box *box, int side)
-{
-    double outward = box->reverse ? -side : side;
-    const double away[3] = {outward * box->along[1], -outward * box->along[0], 0};
-    lrcsi_slice_cut(&slice, away, box->a, box->err);
-    return slice;
-}
-
-/* 1 if the edge lies so far behind a facet's plane that wherever it is within `slack` of a point of
-   the facet in projection, it is at least 2 slack behind that point. */
-static int edge_behind(const band_job *job, uint32_t facet, const lrcsi_edge *edge, double slack)
-{
-    const lrcs_prepared *p = job->view->prepared;
-    const lrcsi_normal *n = &p->normal[facet];
-    const double *a = lrcsi_prepared_corner(p, facet, 0);
-    const uint32_t end[2] = {edge->low, edge->high};
-    double err = facet_err(job, facet);
-    int behind = job->view->facing[facet] != 0;
-    for (int i = 0; i < 2 && behind; i++) {
-        double height = 0;
-        for (int k = 0; k < 3; k++) {
-            height += job->view->facing[facet] * n->high[k] * (p->vertex[end[i]].x[k] - a[k]);
-        }
-        double end_err = ERR_MARGIN * job->view->point[end[i]].err;
-        behind = height < -(3 * slack + err + end_err) * n->length;
-    }
-    return behind;
-}
+/* --- one facet and one event ------------------------------------------------------------------ */
 
 /* 1 if an edge of the part is a rim whose wall faces the laser, or may face it; also 1 if the limit
    of steps is reached. */
@@ -312,7 +213,7 @@ static void search_line(edge_search *search, int side, const double *const corne
     search->outward[side][1] = length > 0 ? sign * y / length : 0;
     double highest = -HUGE_VAL;
     for (int k = 0; k < 3; k++) {
-        highest = lrcsi_max(highest, search_height(search, side, corner[k], ERR_MARGIN));
+        highest = lrcsi_max(highest, search_height(search, side, corner[k], LRCSI_EDGE_BOX_ERR));
     }
     search->limit[side] = length > 0 ? highest + near * (1 + 0x1p-40) : HUGE_VAL;
 }
@@ -322,8 +223,8 @@ static int search_excludes(edge_search *search, const double a[3], const double 
 {
     int side = search->first;
     for (int i = 0; i < 3; i++) {
-        if (search_height(search, side, a, -ERR_MARGIN) > search->limit[side] &&
-            search_height(search, side, b, -ERR_MARGIN) > search->limit[side]) {
+        if (search_height(search, side, a, -LRCSI_EDGE_BOX_ERR) > search->limit[side] &&
+            search_height(search, side, b, -LRCSI_EDGE_BOX_ERR) > search->limit[side]) {
             search->first = side;
             return 1;
         }
@@ -339,7 +240,7 @@ static edge_search search_make(const band_job *job, uint32_t facet)
     const uint32_t *corner = p->scene->facet[facet].corner;
     double near = 2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.max_hausdorff) +
                   LRCSI_PROXIMITY_ERR;
-    double wide = near + facet_err(job, facet);
+    double wide = near + lrcsi_edge_box_facet_err(job->view, facet);
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
                                     view->point[corner[2]].x};
     edge_search search = {.first = 0, .lateral = -1};
@@ -482,55 +383,18 @@ static void outline_fractions(const band_job *job, uint32_t facet, uint32_t even
 
 /* The rectangle about an event edge near a facet. slack: event_slack of the displacement across the
    line of sight, `wider` included, which counts at the ends of the edge. To its sides only the
-   component perpendicular to the edge counts.
-
-   The error of the edge's position at parameter t (0 .. 1) is linear in t. A point of the edge near
-   the facet is no farther from a than the facet's farthest corner plus the slack and the errors:
-   t length is at most that. So the error of end b is multiplied by t. The errors of both ends turn
-   the edge by at most an angle of 2 (first + last) / length. */
-static edge_box edge_box_make(const band_job *job, uint32_t facet, uint32_t event,
-                              const edge_search *search, double slack, double wider)
+   component perpendicular to the edge counts. */
+static lrcsi_edge_box event_box(const band_job *job, uint32_t facet, uint32_t event,
+                                const edge_search *search, double slack, double wider)
 {
-    const lrcsi_view *view = job->view;
-    const lrcsi_edge *edge = &view->prepared->topology.edge[job->edge[event]];
-    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    edge_box box = {.a = view->point[edge->low].x, .b = view->point[edge->high].x};
-    if (lrcsi_view_point_err(box.a) > lrcsi_view_point_err(box.b)) {
-        box.a = view->point[edge->high].x;
-        box.b = view->point[edge->low].x;
-        box.reverse = 1;
-    }
-    box.along[0] = box.b[0] - box.a[0];
-    box.along[1] = box.b[1] - box.a[1];
-    double length = sqrt(box.along[0] * box.along[0] + box.along[1] * box.along[1]);
-    double first = ERR_MARGIN * lrcsi_view_point_err(box.a);
-    double last = ERR_MARGIN * lrcsi_view_point_err(box.b);
-    double far = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *x = view->point[corner[k]].x;
-        far = lrcsi_max(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
-    }
-    box.err = facet_err(job, facet) + first;
-    box.before = slack + box.err;
-    box.end = box.before + last;
-    if (length > 2 * (first + last)) {
-        double normal[3];
-        box.along[0] /= length;
-        box.along[1] /= length;
-        for (int k = 0; k < 3; k++) {
-            normal[k] = box.along[0] * view->R[1][k] - box.along[1] * view->R[0][k];
-        }
-        double across = lrcsi_displacement_along(&search->displacement, normal) +
-                        2 * (first + last) / length * search->lateral;
+    const lrcsi_topology *topology = &job->view->prepared->topology;
+    lrcsi_edge_box box =
+        lrcsi_edge_box_make(job->view, facet, &topology->edge[job->edge[event]], slack);
+    if (box.has_sides) {
+        double across = lrcsi_displacement_along(&search->displacement, box.across) +
+                        box.rotation_err * search->lateral;
         across = event_slack(job, facet, event, lrcsi_min(across, search->lateral)) + wider;
-        box.err += last * lrcsi_min(1, 2 * (far + box.before) / length);
         box.half_width = lrcsi_min(across, slack) + box.err;
-    } else { /* no length: a square about it, without sides */
-        box.along[0] = 1;
-        box.along[1] = 0;
-        box.end += length;
-        box.half_width = box.before = box.end;
-        box.err = box.end;
     }
     return box;
 }
@@ -557,11 +421,12 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
     double err = 0;
     int in_front = !is_own && part_in_front(job, facet, job->part[event], &err);
     slack += in_front ? err : 0;
-    edge_box box = edge_box_make(job, facet, event, search, slack, in_front ? err : 0);
-    lrcsi_slice slice = edge_slice(job, facet, &box);
-    if (slice.count == 0 || (!is_own && edge_behind(job, facet, edge,
-                                                    lrcsi_proximity_slack(p, band_part(job, facet),
-                                                                          job->part[event])))) {
+    lrcsi_edge_box box = event_box(job, facet, event, search, slack, in_front ? err : 0);
+    lrcsi_slice slice = lrcsi_edge_box_slice(job->view, facet, &box);
+    if (slice.count == 0 ||
+        (!is_own && lrcsi_edge_box_behind(
+                        job->view, facet, edge,
+                        lrcsi_proximity_slack(p, band_part(job, facet), job->part[event])))) {
         return;
     }
     const uint32_t *vertex = p->scene->facet[facet].corner;
@@ -575,8 +440,8 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
         add_both(job, facet, lrcsi_slice_fraction(&slice, whole, longest), part);
         return;
     }
-    lrcsi_slice outer = edge_half(slice, &box, -side);
-    lrcsi_slice inner = edge_half(slice, &box, side);
+    lrcsi_slice outer = lrcsi_edge_box_half(slice, &box, -side);
+    lrcsi_slice inner = lrcsi_edge_box_half(slice, &box, side);
     double fraction = lrcsi_slice_fraction(&slice, whole, longest);
     double gain = gain_is_inside(job, search, job->part[event])
                       ? lrcsi_slice_fraction(&inner, whole, longest)
@@ -701,127 +566,6 @@ static void band_boxes(band_job *job)
     }
 }
 
-/* --- regions ---------------------------------------------------------------------------------- */
-
-/* Joins facets of one part across edges into groups, each named by its first facet: facets of
-   curved parts without bands or, if `candidate` is given, facets that it marks and that meet bands
-   of the same parts. */
-static void join_facets(const lrcsi_proximity_band *band, const unsigned char *candidate,
-                        uint32_t *group)
-{
-    const lrcs_prepared *p = band->classification->view->prepared;
-    const uint32_t *part = p->scene->facet_part;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        group[f] = f;
-    }
-    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
-        const lrcsi_edge_use *use = p->topology.use + p->topology.edge[e].first_use;
-        for (uint32_t i = 1; i < p->topology.edge[e].uses; i++) {
-            uint32_t a = use[i - 1].facet;
-            uint32_t b = use[i].facet;
-            int joined = candidate
-                             ? candidate[a] && candidate[b] && band->parts[a] == band->parts[b]
-                             : p->proximity.reach[part[a]] > 0 && band->mismatch[a] == 0 &&
-                                   band->mismatch[b] == 0;
-            if (part[a] == part[b] && joined) {
-                lrcsi_disjoint_union(group, a, b);
-            }
-        }
-    }
-    lrcsi_disjoint_flatten(group, p->scene->facet_count);
-}
-
-/* --- what is hidden --------------------------------------------------------------------------- */
-
-/* Values of band->hidden: found from the visible area of a facet of the region, anew each time; or
-   by a query, which is final. */
-enum { HIDDEN_REGION = 1, HIDDEN_FACET = 2 };
-/* A candidate for such a query: at most this fraction of the facet may be visible. */
-#define CANDIDATE_FRACTION 0x1p-20
-
-/* Other parts hide a region entirely or not at all: entirely if at most half of one of its front
-   facets is visible. */
-static void find_hidden_regions(const lrcsi_proximity_band *band, const lrcsi_visible *visible)
-{
-    const lrcsi_view *view = band->classification->view;
-    const lrcs_prepared *p = view->prepared;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        band->hidden[f] = band->hidden[f] == HIDDEN_FACET ? HIDDEN_FACET : 0;
-    }
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        if (view->facing[f] > 0 && p->proximity.reach[p->scene->facet_part[f]] > 0 &&
-            band->mismatch[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f) &&
-            band->hidden[f] == 0) {
-            band->hidden[band->region[f]] = HIDDEN_REGION;
-        }
-    }
-}
-
-/* Marks facets that are hidden and meet bands, but not those of all parts. Returns their number. */
-static uint32_t mark_candidates(const lrcsi_proximity_band *band, const lrcsi_visible *visible,
-                                unsigned char *candidate)
-{
-    const lrcsi_view *view = band->classification->view;
-    uint32_t count = 0;
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
-        candidate[f] = band->mismatch[f] > 0 && band->parts[f] != LRCSI_PART_SET_ALL &&
-                       lrcsi_view_casts(view, f) &&
-                       visible[f].high <= CANDIDATE_FRACTION * lrcsi_view_projected(view, f);
-        count += candidate[f];
-    }
-    return count;
-}
-
-/* A part whose bands a group does not meet hides all of the group or nothing of it. The group's own
-   part is not asked: it hides no front, and the bands at its rims decide about its inside. */
-static void find_hidden_groups(const lrcsi_proximity_band *band, const unsigned char *candidate,
-                               const uint32_t *group, const lrcsi_grid *facets, lrcsi_meter *meter)
-{
-    const lrcs_scene *scene = band->classification->view->prepared->scene;
-    for (uint32_t f = 0; f < scene->facet_count; f++) {
-        lrcsi_part_set others = band->parts[f] | lrcsi_part_set_of(scene->facet_part[f]);
-        if (candidate[f] && group[f] == f &&
-            lrcsi_query_hidden_by_others(facets, f, others, meter)) {
-            band->hidden[f] = HIDDEN_FACET;
-        }
-    }
-    for (uint32_t f = 0; f < scene->facet_count; f++) {
-        if (candidate[f] && band->hidden[group[f]] == HIDDEN_FACET) {
-            band->hidden[f] = HIDDEN_FACET;
-            band->mismatch[f] = band->gain[f] = band->loss[f] = band->rows[f] = 0;
-        }
-    }
-}
-
-size_t lrcsi_proximity_band_hidden_need(const lrcs_prepared *p)
-{
-    size_t facets = p->scene->facet_count;
-    size_t need =
-        lrcsi_work_add(lrcsi_work_bytes(facets, 1), lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    return p->proximity.reach ? lrcsi_work_add(need, lrcsi_grid_facets_need(p)) : 0;
-}
-
-void lrcsi_proximity_band_find_hidden(const lrcsi_proximity_band *band,
-                                      const lrcsi_visible *visible, lrcsi_meter *meter,
-                                      lrcs_work *work)
-{
-    const lrcsi_classification *c = band->classification;
-    size_t mark = work->used;
-    uint32_t count = c->view->prepared->scene->facet_count;
-    unsigned char *candidate = lrcsi_work_take(work, count, 1);
-    uint32_t *group = lrcsi_work_take(work, count, sizeof *group);
-    lrcsi_grid facets;
-    if (candidate && group && mark_candidates(band, visible, candidate) > 0) {
-        const lrcsi_grid_readers readers = {.undecided = candidate};
-        join_facets(band, candidate, group);
-        if (lrcsi_grid_facets(&c->grid, &c->boxes, &readers, work, &facets) == LRCS_OK) {
-            find_hidden_groups(band, candidate, group, &facets, meter);
-        }
-    }
-    work->used = mark;
-    find_hidden_regions(band, visible);
-}
-
 /* Upper bound of the number of events: pairs of an edge and a part that has a facet on it. */
 static size_t band_edges(const lrcs_prepared *p)
 {
@@ -920,7 +664,7 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_
         work->used = mark;
         return status;
     }
-    join_facets(&m, NULL, m.region);
+    lrcsi_proximity_band_make_regions(&m);
     *band = m;
     return LRCS_OK;
 }

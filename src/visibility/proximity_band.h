@@ -155,6 +155,9 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
                               lrcs_work *work, lrcsi_proximity_band *band);
 
+/* Makes the regions; lrcsi_proximity_band_make does. */
+void lrcsi_proximity_band_make_regions(lrcsi_proximity_band *band);
+
 /* Bytes for lrcsi_proximity_band_find_hidden. */
 size_t lrcsi_proximity_band_hidden_need(const lrcs_prepared *prepared);
 
