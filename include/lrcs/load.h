@@ -21,10 +21,10 @@ lrcs_host_options lrcs_host_options_default(void);
 
 /* A division (lrcs_build_options) with which curved shapes have a few hundred facets; poses that
    need more are run at finer divisions: lrcs_host_scene_refine, lrcs_host_sweep.refine. And the
-   limit for the facets of one shape at finer divisions: preparing so many takes about a tenth of a
-   second. */
+   limit for the facets of one shape at finer divisions: preparing so many takes about half a
+   second, and a pose some 0.5 GB. */
 #define LRCS_HOST_DIVISION 1e-2
-#define LRCS_HOST_FACETS   (UINT32_C(1) << 17)
+#define LRCS_HOST_FACETS   (UINT32_C(1) << 19)
 
 /* A regular file that a scene was read from: its name, the FNV-1a hash of its bytes, and its device
    and inode number. */

@@ -160,14 +160,21 @@ static uint32_t choice_best(const part_choice *choice, uint32_t parts)
     return best;
 }
 
+/* May a part be halved again, or would it be too fine? */
+static int part_can_be_halved(const struct lrcsi_host_levels *levels, double tolerance,
+                              const part_choice *choice, unsigned char halvings)
+{
+    double division = ldexp(levels->build.division, -(int)halvings - 1);
+    return !choice->fixed && halvings < PART_HALVINGS_MAX &&
+           division >= tolerance / DIVISION_FACTOR_MAX &&
+           choice->facets * choice->growth <= levels->build.max_facets;
+}
+
 /* Halves one part, unless it would be too fine; then it is fixed. */
 static void choice_halve(const struct lrcsi_host_levels *levels, double tolerance,
                          part_choice *choice, unsigned char *halvings)
 {
-    double division = ldexp(levels->build.division, -(int)*halvings - 1);
-    if (choice->fixed || *halvings >= PART_HALVINGS_MAX ||
-        division < tolerance / DIVISION_FACTOR_MAX ||
-        choice->facets * choice->growth > levels->build.max_facets) {
+    if (!part_can_be_halved(levels, tolerance, choice, *halvings)) {
         choice->fixed = 1;
         return;
     }
@@ -204,7 +211,8 @@ static double choices_halve(const struct lrcsi_host_levels *levels, double toler
 
 /* The halvings with which the tolerance is likely to be met, or all that are allowed: of the parts
    that the error is due to; but of all parts alike, which more poses share, if that takes about as
-   few facets. There is room for twice as many. Returns 0 if they are those of `from`. */
+   few facets. There is room for twice as many. Returns 0 if they are those of `from`, or if one
+   part that cannot be halved has more error than is allowed: the tolerance is out of reach. */
 static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_scene *scene,
                            const lrcs_run_options *options, const lrcs_result *result,
                            const unsigned char *from, unsigned char *halvings)
@@ -212,10 +220,15 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
     double allowed = error_allowed(options, result);
     part_choice *choice = calloc(levels->parts, sizeof *choice);
     unsigned char *alike = halvings + levels->parts;
+    int reachable = 1;
     memcpy(halvings, from, levels->parts);
     memcpy(alike, from, levels->parts);
     if (choice && allowed > 0.0) {
         choices_start(scene, options, result, choice);
+        for (uint32_t i = 0; i < levels->parts; i++) {
+            reachable &= choice[i].error <= allowed ||
+                         part_can_be_halved(levels, options->tolerance, &choice[i], from[i]);
+        }
         double facets = choices_halve(levels, options->tolerance, allowed, 0, choice, halvings);
         choices_start(scene, options, result, choice);
         if (choices_halve(levels, options->tolerance, allowed, 1, choice, alike) <
@@ -224,7 +237,7 @@ static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_sc
         }
     }
     free(choice);
-    return memcmp(halvings, from, levels->parts) != 0;
+    return reachable && memcmp(halvings, from, levels->parts) != 0;
 }
 
 /* --- levels ----------------------------------------------------------------------------------- */
