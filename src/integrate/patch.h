@@ -22,8 +22,8 @@ typedef struct lrcsi_patch {
     int known;           /* 0: there is a patch, but its mean is not known */
 } lrcsi_patch;
 
-/* The patches of one material, evaluated one after the other. The last one is kept, because the
-   other facet of its sector represents it as well. */
+/* What evaluates patches, one after the other. The last one is kept, because the other facet of its
+   sector represents it as well. */
 typedef struct lrcsi_patches {
     double negligible; /* given: no smaller remainder is needed */
     int moments;       /* given: 1 if glint_u and diffuse_log are needed */

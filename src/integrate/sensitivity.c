@@ -58,35 +58,50 @@ static lrcsi_unit_response flat_response(const lrcs_brdf *unit, double u)
                                  .diffuse_m = at.diffuse * (-0.5 * lrcsi_log1p(u).hi)};
 }
 
-/* The response of a unit of area of a facet, computed as the sum of Eq. 2 computes it:
-   1. from the mean over its patch, made with the material's amplitudes (`own`), because whether
-      there is a mean depends on them; its terms are divided by them;
-   2. a term of amplitude 0 from the patch at amplitudes of 1 (`unit`);
-   3. from the flat facet where the patch in question has no mean.
-   patches[0] and patches[1] are for these two BRDFs. */
-static lrcsi_unit_response facet_response(const lrcsi_view *view, const lrcsi_plan *plan,
-                                          const lrcs_brdf *own, const lrcs_brdf *unit,
-                                          uint32_t facet, double u, lrcsi_patches patches[2])
+/* The patches that a facet's terms are computed from; NULL: from the flat facet. */
+typedef struct response_patches {
+    const lrcsi_patch *own; /* of the material's amplitudes, because whether there is a mean depends
+                               on them: for terms whose amplitude is not 0 */
+    const lrcsi_patch *unit; /* of amplitudes of 1: for terms of amplitude 0 */
+} response_patches;
+
+/* The patches of a facet. Given: the BRDF with the material's amplitudes, and with amplitudes of 1;
+   what evaluates patches for either. The sum of Eq. 2 uses a mean only if `own` has one. */
+static response_patches patches_find(const lrcsi_view *view, const lrcsi_plan *plan,
+                                     const lrcs_brdf *own, const lrcs_brdf *unit, uint32_t facet,
+                                     lrcsi_patches patches[2])
+{
+    response_patches found = {lrcsi_patch_make(view, plan, own, facet, &patches[0]), NULL};
+    if (found.own && !(own->A > 0 && own->B > 0)) {
+        found.unit = lrcsi_patch_make(view, plan, unit, facet, &patches[1]);
+    }
+    return found;
+}
+
+/* The response of a unit of area of a facet, computed as the sum of Eq. 2 computes it: from the
+   means over its patches, divided by the amplitudes, or from the flat facet. */
+static lrcsi_unit_response facet_response(const lrcs_brdf *own, const lrcs_brdf *unit, double u,
+                                          const response_patches *patches)
 {
     const double s = unit->s;
-    const lrcsi_patch *patch = lrcsi_patch_make(view, plan, own, facet, &patches[0]);
-    if (!patch) {
+    const lrcsi_patch *p = patches->unit;
+    if (!patches->own) {
         return flat_response(unit, u);
     }
     lrcsi_unit_response at = {0, 0, 0, 0};
     if (!(own->A > 0 && own->B > 0)) {
-        const lrcsi_patch *p = lrcsi_patch_make(view, plan, unit, facet, &patches[1]);
         at = p ? (lrcsi_unit_response){p->glint, p->diffuse, glint_slope_s(p->glint_u, s),
                                        -0.5 * p->diffuse_log}
                : flat_response(unit, u);
     }
+    p = patches->own;
     if (own->A > 0) {
-        at.glint = patch->glint / own->A;
-        at.glint_s = glint_slope_s(patch->glint_u / own->A, s);
+        at.glint = p->glint / own->A;
+        at.glint_s = glint_slope_s(p->glint_u / own->A, s);
     }
     if (own->B > 0) {
-        at.diffuse = patch->diffuse / own->B;
-        at.diffuse_m = -0.5 * (patch->diffuse_log / own->B);
+        at.diffuse = p->diffuse / own->B;
+        at.diffuse_m = -0.5 * (p->diffuse_log / own->B);
     }
     return at;
 }
@@ -95,20 +110,20 @@ static lrcsi_unit_response facet_response(const lrcsi_view *view, const lrcsi_pl
    same patches as in facet_response. */
 static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrcs_brdf *own,
                                                const lrcs_brdf *unit, uint32_t facet,
-                                               const lrcsi_patches patches[2])
+                                               const response_patches *patches)
 {
     const lrcsi_view *view = &run->view;
-    const lrcs_curvature *c = &view->prepared->scene->part[patches[0].last.part].curvature;
+    const lrcs_scene *scene = view->prepared->scene;
+    const lrcs_curvature *c = &scene->part[scene->facet_part[facet]].curvature;
     double projected = lrcsi_view_projected(view, facet);
     lrcsi_unit_response at = {0, 0, 0, 0};
     for (int i = 0; i < 2; i++) {
         const lrcs_brdf *brdf = i == 0 ? own : unit;
-        const lrcsi_patch *patch = &patches[i].last;
+        const lrcsi_patch *patch = i == 0 ? patches->own : patches->unit;
         int glint = i == 0 ? own->A > 0 : own->A == 0;
         int diffuse = i == 0 ? own->B > 0 : own->B == 0;
         lrcsi_linear linear;
-        if ((glint || diffuse) && patch->known &&
-            lrcsi_linear_make(view, brdf, patch, c, 0, &linear)) {
+        if ((glint || diffuse) && patch && lrcsi_linear_make(view, brdf, patch, c, 0, &linear)) {
             lrcsi_linear_moment m = lrcsi_linear_moment_make(
                 view, facet, patch, &run->visible[facet], &run->moment[facet]);
             const double x = m.first[0] / projected;
@@ -157,10 +172,11 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_re
                                             -0.5 * c->diffuse_log};
             response_sum(to, 1, &at);
         } else if (fraction > 0) {
-            lrcsi_unit_response at = facet_response(view, plan, &own, &unit, f, u, patches);
+            response_patches found = patches_find(view, plan, &own, &unit, f, patches);
+            lrcsi_unit_response at = facet_response(&own, &unit, u, &found);
             response_sum(to, weight, &at);
             if (run->moment && run->corrected[f]) {
-                at = correction_response(run, &own, &unit, f, patches);
+                at = correction_response(run, &own, &unit, f, &found);
                 response_sum(to, weight / fraction, &at);
             }
         }
