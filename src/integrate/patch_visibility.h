@@ -7,6 +7,7 @@
 #define LRCSI_PATCH_VISIBILITY_H
 
 #include "visibility/proximity_band.h"
+#include "visibility/visible_area.h"
 
 enum lrcsi_patch_state {
     LRCSI_PATCH_UNLIT,   /* no side of the facet that reflects faces the laser */

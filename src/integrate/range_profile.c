@@ -68,6 +68,7 @@
 #include "integrate/total.h"
 #include "view/frame.h"
 #include "visibility/occlude.h"
+#include "visibility/proximity_hidden.h"
 
 /* Relative error of a range in double-double, for each unit of |x| + |y| + |z|: the components of
    the unit vector are accurate to 2^-97, three products and two sums add 16 u^2. */
@@ -87,7 +88,7 @@ typedef struct profile_run {
     lrcsi_curve_context curves;
     lrcsi_visible *visible; /* of every facet; NULL if no facet replaces a curved shape */
     lrcsi_proximity_band band_memory;
-    const lrcsi_proximity_band *band; /* NULL: none was made */
+    lrcsi_proximity_band *band; /* NULL: none was made */
     lrcsi_patches patches;
     double tessellation; /* (5) of all bins together, scaled */
 } profile_run;
@@ -383,7 +384,7 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
         size_t facets = prepared->scene->facet_count;
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible)));
         need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
-        need = lrcsi_work_add(need, lrcsi_proximity_band_hidden_need(prepared));
+        need = lrcsi_work_add(need, lrcsi_proximity_hidden_need(prepared));
     }
     return lrcsi_work_add(need, lrcsi_occlude_need(prepared));
 }
@@ -479,7 +480,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
         return status;
     }
     if (run->band) {
-        lrcsi_proximity_band_find_hidden(run->band, run->visible, NULL, work);
+        lrcsi_proximity_find_hidden(run->band, run->visible, NULL, work);
     }
     for (uint32_t facet = 0; facet < p->scene->facet_count; facet++) {
         if (!p->skip[facet]) {

@@ -20,6 +20,7 @@
 #include "integrate/cost.h"
 #include "integrate/image.h"
 #include "visibility/preview.h"
+#include "visibility/proximity_hidden.h"
 
 /* The size of the finest raster: a finer one would improve the bound too little for its cost. */
 #define LAST_SIZE 4096u
@@ -81,7 +82,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
-    need = lrcsi_work_add(need, lrcsi_proximity_band_hidden_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_proximity_hidden_need(prepared));
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
     size_t exact = lrcsi_occlude_need(prepared);
     size_t raster =
@@ -256,7 +257,7 @@ static void run_sum(lrcsi_sigma *run, lrcsi_meter *meter)
         }
     }
     if (run_band(run)) {
-        lrcsi_proximity_band_find_hidden(&run->band, run->visible, meter, run->work);
+        lrcsi_proximity_find_hidden(&run->band, run->visible, meter, run->work);
     }
     run->outcome.total = run_total(run, NULL);
 }

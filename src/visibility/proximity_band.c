@@ -7,22 +7,23 @@
 
 #include <math.h>
 
+#include "base/disjoint.h"
 #include "base/range.h"
 #include "base/work.h"
 #include "scene/proximity.h"
-#include "visibility/behind.h"
-#include "visibility/edge_box.h"
+#include "visibility/depth_order.h"
+#include "visibility/edge_rectangle.h"
 #include "visibility/outline.h"
 
 /* More than the rounding error of a facet's cosine. */
-#define COS_MARGIN 1e-9
-/* The projected areas of facets with a larger cosine than this are accurate to COS_MARGIN. */
+#define COS_ERR 1e-9
+/* The projected areas of facets with a larger cosine than this are accurate to COS_ERR. */
 #define COS_MIN 1e-4
 /* The number of cells of the grid for each event edge: the many short edges of a rim lie in few
    cells. */
 #define EVENT_CELLS 4u
-/* A proof about a part (visibility/behind.h) is used for a facet only if it holds for all but this
-   fraction of it. */
+/* A proof about a part (visibility/depth_order.h) is used for a facet only if it holds for all but
+   this fraction of it. */
 #define PROOF_FRACTION_MAX 0x1p-20
 /* Pairs of parts of which it is remembered whether one is behind the other. Facets are searched
    part by part, so that few pairs are needed at a time. */
@@ -31,7 +32,7 @@
 /* A pair of parts, `back` perhaps behind `front`; front == back: none yet. */
 typedef struct band_pair {
     uint32_t front, back;
-    lrcsi_behind behind;
+    lrcsi_depth_order order;
 } band_pair;
 
 /* Bounds in view coordinates. */
@@ -56,7 +57,7 @@ typedef struct band_job {
     lrcsi_grid grid;
     band_box *box;          /* part: that of its facets in the view */
     lrcsi_outline *outline; /* part */
-    lrcsi_body *body;       /* part; NULL: no shape has a closed form, and pairs are not tried */
+    const lrcsi_body *body; /* part; NULL: no shape has a closed form, and pairs are not tried */
     band_pair *pair;        /* BEHIND_PAIRS of them */
     band_box curved;        /* of all facets of curved parts */
 } band_job;
@@ -157,7 +158,7 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
         double cosine = (n->high[0] * d[0] + n->high[1] * d[1] + n->high[2] * d[2]) /
                         (n->length * job->view->length);
         count++;
-        facing |= cosine > -(p->scene->part[part].curvature.turn + COS_MARGIN);
+        facing |= cosine > -(p->scene->part[part].curvature.turn + COS_ERR);
     }
     return count == 1 && facing;
 }
@@ -213,7 +214,8 @@ static void search_line(edge_search *search, int side, const double *const corne
     search->outward[side][1] = length > 0 ? sign * y / length : 0;
     double highest = -HUGE_VAL;
     for (int k = 0; k < 3; k++) {
-        highest = lrcsi_max(highest, search_height(search, side, corner[k], LRCSI_EDGE_BOX_ERR));
+        highest =
+            lrcsi_max(highest, search_height(search, side, corner[k], LRCSI_EDGE_RECTANGLE_ERR));
     }
     search->limit[side] = length > 0 ? highest + near * (1 + 0x1p-40) : HUGE_VAL;
 }
@@ -223,8 +225,8 @@ static int search_excludes(edge_search *search, const double a[3], const double 
 {
     int side = search->first;
     for (int i = 0; i < 3; i++) {
-        if (search_height(search, side, a, -LRCSI_EDGE_BOX_ERR) > search->limit[side] &&
-            search_height(search, side, b, -LRCSI_EDGE_BOX_ERR) > search->limit[side]) {
+        if (search_height(search, side, a, -LRCSI_EDGE_RECTANGLE_ERR) > search->limit[side] &&
+            search_height(search, side, b, -LRCSI_EDGE_RECTANGLE_ERR) > search->limit[side]) {
             search->first = side;
             return 1;
         }
@@ -240,7 +242,7 @@ static edge_search search_make(const band_job *job, uint32_t facet)
     const uint32_t *corner = p->scene->facet[facet].corner;
     double near = 2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.max_hausdorff) +
                   LRCSI_PROXIMITY_ERR;
-    double wide = near + lrcsi_edge_box_facet_err(job->view, facet);
+    double wide = near + lrcsi_edge_rectangle_facet_err(job->view, facet);
     const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
                                     view->point[corner[2]].x};
     edge_search search = {.first = 0, .lateral = -1};
@@ -265,41 +267,45 @@ static void add_both(band_job *job, uint32_t facet, double fraction, lrcsi_part_
     job->loss[facet] += fraction;
 }
 
-/* What a plane between two parts proves. */
-static const lrcsi_behind *behind_of(band_job *job, uint32_t front, uint32_t back)
+/* What a plane between two parts proves; computed once for each pair in turn. */
+static const lrcsi_depth_order *depth_order(const band_job *job, uint32_t front, uint32_t back)
 {
-    band_pair *pair = &job->pair[(front + 7 * back) % BEHIND_PAIRS];
+    band_pair *pair = &job->pair[(front + 7 * back) % BEHIND_PAIRS]; /* any spread serves */
     if (pair->front != front || pair->back != back) {
         *pair = (band_pair){
-            front, back, lrcsi_behind_make(&job->body[front], &job->body[back], job->view->unit)};
+            front, back,
+            lrcsi_depth_order_make(&job->body[front], &job->body[back], job->view->unit)};
     }
-    return &pair->behind;
+    return &pair->order;
 }
 
-/* Is something proved of the facet's part, and another one? If so, the fraction of the facet for
-   which it does not hold is added here; if that is not small, the facet lies in the plane, and
-   nothing is proved of it. */
-static int proof_holds(band_job *job, uint32_t facet, uint32_t other,
-                       const lrcsi_behind_proof *proof)
+/* Does a proof about a facet's part hold for the facet, except for the fraction *unproved? It does
+   not if that is not small: then the facet lies in the plane. */
+static int proof_holds(const band_job *job, uint32_t facet, const lrcsi_order_proof *proof,
+                       double *unproved)
 {
-    double fraction = proof->known ? lrcsi_behind_fraction(proof, job->view->prepared, facet) : 1;
-    if (fraction > PROOF_FRACTION_MAX) {
-        return 0;
-    }
+    double fraction = proof->known ? lrcsi_order_unproved(proof, job->view->prepared, facet) : 1;
+    *unproved = fraction > PROOF_FRACTION_MAX ? 0 : fraction;
+    return fraction <= PROOF_FRACTION_MAX;
+}
+
+/* Is a part behind the facet's own part (visibility/depth_order.h), except for a fraction of the
+   facet? */
+static int part_is_behind(const band_job *job, uint32_t facet, uint32_t other, double *unproved)
+{
+    *unproved = 0;
+    return job->body &&
+           proof_holds(job, facet, &depth_order(job, band_part(job, facet), other)->front_is_free,
+                       unproved);
+}
+
+/* Adds the fraction of a facet for which a proof about another part does not hold. */
+static void add_unproved(band_job *job, uint32_t facet, uint32_t other, double fraction)
+{
     if (fraction > 0) {
         add_both(job, facet, fraction, lrcsi_part_set_of(other));
         job->rows[facet] += fraction;
     }
-    return 1;
-}
-
-/* Is a part behind the facet's own part (visibility/behind.h)? */
-static int part_is_behind(band_job *job, uint32_t facet, uint32_t other)
-{
-    if (!job->body) {
-        return 0;
-    }
-    return proof_holds(job, facet, other, &behind_of(job, band_part(job, facet), other)->front);
 }
 
 /* Is gain possible only on the inner side of a part's event edges? It is for parts without openings
@@ -321,12 +327,14 @@ static int gain_is_inside(const band_job *job, const edge_search *search, uint32
 
 /* Is the outline of a part known, and the part in front of a facet: because the facet is flat, and
    the part in front of its plane (*err: as for lrcsi_outline_in_front); or because a plane
-   separates it from the facet's own part? */
-static int part_in_front(band_job *job, uint32_t facet, uint32_t part, double *err)
+   separates it from the facet's own part, except for a fraction of the facet? */
+static int part_in_front(const band_job *job, uint32_t facet, uint32_t part, double *err,
+                         double *unproved)
 {
     const lrcs_prepared *p = job->view->prepared;
     uint32_t own = band_part(job, facet);
     int is_flat = p->scene->facet_smooth[facet] == 0 || p->proximity.reach[own] == 0;
+    *err = *unproved = 0;
     if (!job->outline[part].known) {
         return 0;
     }
@@ -335,7 +343,8 @@ static int part_in_front(band_job *job, uint32_t facet, uint32_t part, double *e
         return 1;
     }
     *err = 0;
-    return job->body && proof_holds(job, facet, part, &behind_of(job, part, own)->back);
+    return job->body &&
+           proof_holds(job, facet, &depth_order(job, part, own)->back_by_outline, unproved);
 }
 
 /* Is an event edge a rim inside the outline of its part? */
@@ -377,19 +386,19 @@ static void outline_fractions(const band_job *job, uint32_t facet, uint32_t even
                      ? (lrcsi_outline_areas){0, 0, 0}
                      : lrcsi_outline_areas_make(outline, a, b, job->side[event]);
     }
-    *gain = (areas->gain + areas->width * delta) / projected * (1 + COS_MARGIN);
-    *loss = (areas->loss + areas->width * delta) / projected * (1 + COS_MARGIN);
+    *gain = (areas->gain + areas->width * delta) / projected * (1 + COS_ERR);
+    *loss = (areas->loss + areas->width * delta) / projected * (1 + COS_ERR);
 }
 
 /* The rectangle about an event edge near a facet. slack: event_slack of the displacement across the
    line of sight, `wider` included, which counts at the ends of the edge. To its sides only the
    component perpendicular to the edge counts. */
-static lrcsi_edge_box event_box(const band_job *job, uint32_t facet, uint32_t event,
-                                const edge_search *search, double slack, double wider)
+static lrcsi_edge_rectangle event_rectangle(const band_job *job, uint32_t facet, uint32_t event,
+                                            const edge_search *search, double slack, double wider)
 {
     const lrcsi_topology *topology = &job->view->prepared->topology;
-    lrcsi_edge_box box =
-        lrcsi_edge_box_make(job->view, facet, &topology->edge[job->edge[event]], slack);
+    lrcsi_edge_rectangle box =
+        lrcsi_edge_rectangle_make(job->view, facet, &topology->edge[job->edge[event]], slack);
     if (box.has_sides) {
         double across = lrcsi_displacement_along(&search->displacement, box.across) +
                         box.rotation_err * search->lateral;
@@ -399,7 +408,13 @@ static lrcsi_edge_box event_box(const band_job *job, uint32_t facet, uint32_t ev
     return box;
 }
 
-/* Adds the fractions of area and of rows near an event edge. */
+/* Adds the fractions of area and of rows near an event edge:
+   1. nothing if it is too far away, or an edge of the facet's own part of which it sees no inside;
+   2. nothing but what a proof leaves open if its part is behind the facet's;
+   3. what of the facet lies in the rectangle about the edge, unless the edge is behind it;
+   4. all of that as gain and loss where the part lies on both sides of the edge; else what is on
+      the inner side as gain, on the outer side as loss;
+   5. but no more than the area between outlines, where the part is in front of the facet. */
 static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search *search)
 {
     const lrcs_prepared *p = job->view->prepared;
@@ -408,23 +423,28 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
     int side = is_own ? 0 : job->side[event];
     if ((is_own && !search->inside) ||
         search_excludes(search, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
-        return;
+        return; /* 1 */
     }
     if (search->lateral < 0) {
         search->displacement = lrcsi_proximity_displacement(p, facet);
         search->lateral = lrcsi_displacement_across(&search->displacement, job->view->unit);
     }
     double slack = event_slack(job, facet, event, search->lateral);
-    if (!(slack > 0) || (!is_own && part_is_behind(job, facet, job->part[event]))) {
+    double err = 0;
+    double unproved = 0;
+    if (!(slack > 0)) {
         return;
     }
-    double err = 0;
-    int in_front = !is_own && part_in_front(job, facet, job->part[event], &err);
-    slack += in_front ? err : 0;
-    lrcsi_edge_box box = event_box(job, facet, event, search, slack, in_front ? err : 0);
-    lrcsi_slice slice = lrcsi_edge_box_slice(job->view, facet, &box);
+    if (!is_own && part_is_behind(job, facet, job->part[event], &unproved)) { /* 2 */
+        add_unproved(job, facet, job->part[event], unproved);
+        return;
+    }
+    int in_front = !is_own && part_in_front(job, facet, job->part[event], &err, &unproved);
+    slack += err;
+    lrcsi_edge_rectangle box = event_rectangle(job, facet, event, search, slack, err); /* 3 */
+    lrcsi_slice slice = lrcsi_edge_rectangle_slice(job->view, facet, &box);
     if (slice.count == 0 ||
-        (!is_own && lrcsi_edge_box_behind(
+        (!is_own && lrcsi_edge_rectangle_behind(
                         job->view, facet, edge,
                         lrcsi_proximity_slack(p, band_part(job, facet), job->part[event])))) {
         return;
@@ -432,7 +452,7 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
     const uint32_t *vertex = p->scene->facet[facet].corner;
     const double *const corner[3] = {job->view->point[vertex[0]].x, job->view->point[vertex[1]].x,
                                      job->view->point[vertex[2]].x};
-    lrcsi_part_set part = lrcsi_part_set_of(job->part[event]);
+    lrcsi_part_set part = lrcsi_part_set_of(job->part[event]); /* 4 */
     double whole = 0.5 * p->normal[facet].length;
     double longest = lrcsi_proximity_longest(p, facet);
     job->rows[facet] += lrcsi_proximity_rows(p, facet, corner, &slice);
@@ -440,8 +460,8 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
         add_both(job, facet, lrcsi_slice_fraction(&slice, whole, longest), part);
         return;
     }
-    lrcsi_slice outer = lrcsi_edge_box_half(slice, &box, -side);
-    lrcsi_slice inner = lrcsi_edge_box_half(slice, &box, side);
+    lrcsi_slice outer = lrcsi_edge_rectangle_half(slice, &box, -side);
+    lrcsi_slice inner = lrcsi_edge_rectangle_half(slice, &box, side);
     double fraction = lrcsi_slice_fraction(&slice, whole, longest);
     double gain = gain_is_inside(job, search, job->part[event])
                       ? lrcsi_slice_fraction(&inner, whole, longest)
@@ -449,8 +469,9 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
     double loss = lrcsi_slice_fraction(&outer, whole, longest);
     double gain_max = HUGE_VAL;
     double loss_max = HUGE_VAL;
-    if (in_front) {
+    if (in_front) { /* 5 */
         outline_fractions(job, facet, event, search->lateral + err, &gain_max, &loss_max);
+        add_unproved(job, facet, job->part[event], unproved);
     }
     job->parts[facet] |= part;
     job->mismatch[facet] += lrcsi_min(fraction, gain_max + loss_max);
@@ -505,9 +526,8 @@ static void facet_fractions(band_job *job, uint32_t facet)
         return;
     }
     add_events(job, facet, &search);
-    if (reach > 0 &&
-        fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
-            p->proximity.grazing_cos[band_part(job, facet)] + COS_MARGIN * COS_MARGIN) {
+    if (reach > 0 && fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
+                         p->proximity.grazing_cos[band_part(job, facet)] + COS_ERR * COS_ERR) {
         add_both(job, facet, 1, LRCSI_PART_SET_ALL);
     }
 }
@@ -525,12 +545,17 @@ static void add_pairs(band_job *job)
         const lrcsi_proximity_pair *pair = &p->proximity.pair[i];
         int facing = view->facing[pair->other];
         int shut = p->solid || lrcsi_proximity_closed(p, band_part(job, pair->other));
+        uint32_t other = band_part(job, pair->other);
         double err;
-        if ((facing > 0 || (facing < 0 && !shut)) &&
-            !part_in_front(job, pair->facet, band_part(job, pair->other), &err) &&
-            !part_is_behind(job, pair->facet, band_part(job, pair->other))) {
-            add_both(job, pair->facet, (double)pair->area_fraction,
-                     lrcsi_part_set_of(band_part(job, pair->other)));
+        double unproved;
+        if (facing == 0 || (facing < 0 && shut)) {
+            continue;
+        }
+        if (part_in_front(job, pair->facet, other, &err, &unproved) ||
+            part_is_behind(job, pair->facet, other, &unproved)) {
+            add_unproved(job, pair->facet, other, unproved);
+        } else {
+            add_both(job, pair->facet, (double)pair->area_fraction, lrcsi_part_set_of(other));
             job->rows[pair->facet] += (double)pair->row_fraction;
         }
     }
@@ -601,32 +626,39 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
     return lrcsi_work_add(need, lrcsi_grid_need(EVENT_CELLS * edges, 8 * edges));
 }
 
-/* Computes all fractions; scratch memory is released. */
+/* Computes all fractions; scratch memory is released:
+   1. the events and their grid (band_events);
+   2. outlines of parts (lrcsi_outline_make) and parts as convex bodies (lrcsi_body_make);
+   3. facets near those of other parts (add_pairs);
+   4. for each facet that matters: event edges near it, and grazing incidence (facet_fractions);
+   5. no fraction exceeds 1. */
 static int all_fractions(band_job *job, lrcs_work *work)
 {
+    const lrcs_prepared *p = job->view->prepared;
+    const uint32_t parts = p->scene->part_count;
     size_t mark = work->used;
-    uint32_t parts = job->view->prepared->scene->part_count;
     job->box = lrcsi_work_take(work, parts, sizeof *job->box);
     job->outline = lrcsi_work_take(work, parts, sizeof *job->outline);
-    job->body = lrcsi_work_take(work, parts, sizeof *job->body);
     job->pair = lrcsi_work_take_zero(work, BEHIND_PAIRS, sizeof *job->pair);
-    int status =
-        job->box && job->outline && job->body && job->pair ? band_events(job, work) : LRCS_E_MEMORY;
+    lrcsi_body *body = p->extent ? lrcsi_work_take(work, parts, sizeof *body) : NULL;
+    job->body = body;
+    int status = job->box && job->outline && job->pair && (body || !p->extent)
+                     ? band_events(job, work) /* 1 */
+                     : LRCS_E_MEMORY;
     if (status == LRCS_OK) {
-        for (uint32_t i = 0; i < parts; i++) {
+        for (uint32_t i = 0; i < parts; i++) { /* 2 */
             job->outline[i] = lrcsi_outline_make(job->view, i);
-        }
-        for (uint32_t i = 0; job->view->prepared->extent && i < parts; i++) {
-            job->body[i] = lrcsi_body_make(job->view->prepared, i);
-        }
-        job->body = job->view->prepared->extent ? job->body : NULL;
-        add_pairs(job);
-        band_boxes(job);
-        for (uint32_t f = 0; f < job->view->prepared->scene->facet_count; f++) {
-            if (facet_matters(job->view, f)) {
-                facet_fractions(job, f);
+            if (body) {
+                body[i] = lrcsi_body_make(p, i);
             }
-            job->mismatch[f] = lrcsi_min(1, job->mismatch[f]);
+        }
+        add_pairs(job); /* 3 */
+        band_boxes(job);
+        for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+            if (facet_matters(job->view, f)) {
+                facet_fractions(job, f); /* 4 */
+            }
+            job->mismatch[f] = lrcsi_min(1, job->mismatch[f]); /* 5 */
             job->gain[f] = lrcsi_min(1, job->gain[f]);
             job->loss[f] = lrcsi_min(1, job->loss[f]);
             job->rows[f] = job->mismatch[f] < 1 ? lrcsi_min(1, job->rows[f]) : 1;
@@ -634,6 +666,31 @@ static int all_fractions(band_job *job, lrcs_work *work)
     }
     work->used = mark;
     return status;
+}
+
+void lrcsi_proximity_band_join(const lrcsi_proximity_band *band, const unsigned char *candidate,
+                               uint32_t *group)
+{
+    const lrcs_prepared *p = band->classification->view->prepared;
+    const uint32_t *part = p->scene->facet_part;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        group[f] = f;
+    }
+    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
+        const lrcsi_edge_use *use = p->topology.use + p->topology.edge[e].first_use;
+        for (uint32_t i = 1; i < p->topology.edge[e].uses; i++) {
+            uint32_t a = use[i - 1].facet;
+            uint32_t b = use[i].facet;
+            int joined = candidate
+                             ? candidate[a] && candidate[b] && band->parts[a] == band->parts[b]
+                             : p->proximity.reach[part[a]] > 0 && band->mismatch[a] == 0 &&
+                                   band->mismatch[b] == 0;
+            if (part[a] == part[b] && joined) {
+                lrcsi_disjoint_union(group, a, b);
+            }
+        }
+    }
+    lrcsi_disjoint_flatten(group, p->scene->facet_count);
 }
 
 int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
@@ -664,7 +721,7 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_
         work->used = mark;
         return status;
     }
-    lrcsi_proximity_band_make_regions(&m);
+    lrcsi_proximity_band_join(&m, NULL, m.region);
     *band = m;
     return LRCS_OK;
 }

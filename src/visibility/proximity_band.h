@@ -122,7 +122,7 @@
 
    10. A part behind another. If a plane that does not face away from the laser has P in front of it
    and Q behind it, true surfaces and facets of both, then Q hides neither x nor y
-   (visibility/behind.h), and its facets and event edges need not be considered. If it has Q in
+   (visibility/depth_order.h), and its facets and event edges need not be considered. If it has Q in
    front of it and P behind it, and Q has at most one opening, Q hides x if and only if the
    projection of x lies in that of B, and likewise for y and the facets: so (1) need not be
    considered, and what 9 says of event edges holds, delta being the distance in projection of x
@@ -133,7 +133,6 @@
 
 #include "visibility/classify.h"
 #include "visibility/query.h"
-#include "visibility/visible.h"
 
 typedef struct lrcsi_proximity_band {
     const lrcsi_classification *classification;
@@ -143,10 +142,11 @@ typedef struct lrcsi_proximity_band {
     double *rows;     /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
     lrcsi_part_set *parts; /* facet: the parts whose bands it meets */
     uint32_t *region;      /* facet of a curved part: its region, named by one of its facets */
-    unsigned char *hidden; /* region: not 0 if other parts hide all of it, in truth too */
+    unsigned char *hidden; /* region: not 0 if other parts hide all of it, in truth too
+                              (visibility/proximity_hidden.h) */
 } lrcsi_proximity_band;
 
-/* Upper bound of bytes; 0 if prepared->proximity was not requested. */
+/* Upper bound of bytes; 0 if prepared->proximity.reach is NULL. */
 size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 
 /* For a scene with prepared->proximity.reach. No region is marked hidden yet. Facets that neither
@@ -155,16 +155,10 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
                               lrcs_work *work, lrcsi_proximity_band *band);
 
-/* Makes the regions; lrcsi_proximity_band_make does. */
-void lrcsi_proximity_band_make_regions(lrcsi_proximity_band *band);
-
-/* Bytes for lrcsi_proximity_band_find_hidden. */
-size_t lrcsi_proximity_band_hidden_need(const lrcs_prepared *prepared);
-
-/* Given visible areas, finds what is hidden in truth too: regions; and facets that meet bands, of
-   which all fractions become 0. Without memory, or when the meter is spent, it finds less. */
-void lrcsi_proximity_band_find_hidden(const lrcsi_proximity_band *band,
-                                      const lrcsi_visible *visible, lrcsi_meter *meter,
-                                      lrcs_work *work);
+/* Joins facets of one part across edges into groups, each named by its first facet: facets of
+   curved parts without bands or, if `candidate` is given, facets that it marks and that meet bands
+   of the same parts. */
+void lrcsi_proximity_band_join(const lrcsi_proximity_band *band, const unsigned char *candidate,
+                               uint32_t *group);
 
 #endif

@@ -2,58 +2,27 @@
 /* What other parts hide of curved shapes in truth, where their facets are hidden: whole regions,
    and groups of facets that meet the same bands (visibility/proximity_band.h, 7). Areas are not
    computed here. */
-#include "base/disjoint.h"
+#include "visibility/proximity_hidden.h"
+
 #include "base/work.h"
-#include "visibility/proximity_band.h"
 
-/* Joins facets of one part across edges into groups, each named by its first facet: facets of
-   curved parts without bands or, if `candidate` is given, facets that it marks and that meet bands
-   of the same parts. */
-static void join_facets(const lrcsi_proximity_band *band, const unsigned char *candidate,
-                        uint32_t *group)
-{
-    const lrcs_prepared *p = band->classification->view->prepared;
-    const uint32_t *part = p->scene->facet_part;
-    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        group[f] = f;
-    }
-    for (uint32_t e = 0; e < p->topology.edge_count; e++) {
-        const lrcsi_edge_use *use = p->topology.use + p->topology.edge[e].first_use;
-        for (uint32_t i = 1; i < p->topology.edge[e].uses; i++) {
-            uint32_t a = use[i - 1].facet;
-            uint32_t b = use[i].facet;
-            int joined = candidate
-                             ? candidate[a] && candidate[b] && band->parts[a] == band->parts[b]
-                             : p->proximity.reach[part[a]] > 0 && band->mismatch[a] == 0 &&
-                                   band->mismatch[b] == 0;
-            if (part[a] == part[b] && joined) {
-                lrcsi_disjoint_union(group, a, b);
-            }
-        }
-    }
-    lrcsi_disjoint_flatten(group, p->scene->facet_count);
-}
-
-/* Values of band->hidden: found from the visible area of a facet of the region, anew each time; or
-   by a query, which is final. */
-enum { HIDDEN_REGION = 1, HIDDEN_FACET = 2 };
-/* A candidate for such a query: at most this fraction of the facet may be visible. */
+/* A candidate for a query: at most this fraction of the facet may be visible. */
 #define CANDIDATE_FRACTION 0x1p-20
 
 /* Other parts hide a region entirely or not at all: entirely if at most half of one of its front
    facets is visible. */
-static void find_hidden_regions(const lrcsi_proximity_band *band, const lrcsi_visible *visible)
+static void find_hidden_regions(lrcsi_proximity_band *band, const lrcsi_visible *visible)
 {
     const lrcsi_view *view = band->classification->view;
     const lrcs_prepared *p = view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        band->hidden[f] = band->hidden[f] == HIDDEN_FACET ? HIDDEN_FACET : 0;
+        band->hidden[f] = band->hidden[f] == LRCSI_HIDDEN_BY_QUERY ? LRCSI_HIDDEN_BY_QUERY : 0;
     }
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         if (view->facing[f] > 0 && p->proximity.reach[p->scene->facet_part[f]] > 0 &&
             band->mismatch[f] == 0 && visible[f].high <= 0.5 * lrcsi_view_projected(view, f) &&
             band->hidden[f] == 0) {
-            band->hidden[band->region[f]] = HIDDEN_REGION;
+            band->hidden[band->region[f]] = LRCSI_HIDDEN_BY_AREA;
         }
     }
 }
@@ -75,7 +44,7 @@ static uint32_t mark_candidates(const lrcsi_proximity_band *band, const lrcsi_vi
 
 /* A part whose bands a group does not meet hides all of the group or nothing of it. The group's own
    part is not asked: it hides no front, and the bands at its rims decide about its inside. */
-static void find_hidden_groups(const lrcsi_proximity_band *band, const unsigned char *candidate,
+static void find_hidden_groups(lrcsi_proximity_band *band, const unsigned char *candidate,
                                const uint32_t *group, const lrcsi_grid *facets, lrcsi_meter *meter)
 {
     const lrcs_scene *scene = band->classification->view->prepared->scene;
@@ -83,18 +52,18 @@ static void find_hidden_groups(const lrcsi_proximity_band *band, const unsigned 
         lrcsi_part_set others = band->parts[f] | lrcsi_part_set_of(scene->facet_part[f]);
         if (candidate[f] && group[f] == f &&
             lrcsi_query_hidden_by_others(facets, f, others, meter)) {
-            band->hidden[f] = HIDDEN_FACET;
+            band->hidden[f] = LRCSI_HIDDEN_BY_QUERY;
         }
     }
     for (uint32_t f = 0; f < scene->facet_count; f++) {
-        if (candidate[f] && band->hidden[group[f]] == HIDDEN_FACET) {
-            band->hidden[f] = HIDDEN_FACET;
+        if (candidate[f] && band->hidden[group[f]] == LRCSI_HIDDEN_BY_QUERY) {
+            band->hidden[f] = LRCSI_HIDDEN_BY_QUERY;
             band->mismatch[f] = band->gain[f] = band->loss[f] = band->rows[f] = 0;
         }
     }
 }
 
-size_t lrcsi_proximity_band_hidden_need(const lrcs_prepared *p)
+size_t lrcsi_proximity_hidden_need(const lrcs_prepared *p)
 {
     size_t facets = p->scene->facet_count;
     size_t need =
@@ -102,9 +71,8 @@ size_t lrcsi_proximity_band_hidden_need(const lrcs_prepared *p)
     return p->proximity.reach ? lrcsi_work_add(need, lrcsi_grid_facets_need(p)) : 0;
 }
 
-void lrcsi_proximity_band_find_hidden(const lrcsi_proximity_band *band,
-                                      const lrcsi_visible *visible, lrcsi_meter *meter,
-                                      lrcs_work *work)
+void lrcsi_proximity_find_hidden(lrcsi_proximity_band *band, const lrcsi_visible *visible,
+                                 lrcsi_meter *meter, lrcs_work *work)
 {
     const lrcsi_classification *c = band->classification;
     size_t mark = work->used;
@@ -114,16 +82,11 @@ void lrcsi_proximity_band_find_hidden(const lrcsi_proximity_band *band,
     lrcsi_grid facets;
     if (candidate && group && mark_candidates(band, visible, candidate) > 0) {
         const lrcsi_grid_readers readers = {.undecided = candidate};
-        join_facets(band, candidate, group);
+        lrcsi_proximity_band_join(band, candidate, group);
         if (lrcsi_grid_facets(&c->grid, &c->boxes, &readers, work, &facets) == LRCS_OK) {
             find_hidden_groups(band, candidate, group, &facets, meter);
         }
     }
     work->used = mark;
     find_hidden_regions(band, visible);
-}
-
-void lrcsi_proximity_band_make_regions(lrcsi_proximity_band *band)
-{
-    join_facets(band, NULL, band->region);
 }

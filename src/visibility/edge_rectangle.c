@@ -1,31 +1,31 @@
 /* SPDX-License-Identifier: MIT */
 /* Cuts facets with rectangles about event edges. It does not decide how wide these have to be
    (visibility/proximity_band.c). */
-#include "visibility/edge_box.h"
+#include "visibility/edge_rectangle.h"
 
 #include <math.h>
 
 #include "base/range.h"
 
-double lrcsi_edge_box_facet_err(const lrcsi_view *view, uint32_t facet)
+double lrcsi_edge_rectangle_facet_err(const lrcsi_view *view, uint32_t facet)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
     double err = 0;
     for (int k = 0; k < 3; k++) {
         err = lrcsi_max(err, view->point[corner[k]].err);
     }
-    return LRCSI_EDGE_BOX_ERR * err;
+    return LRCSI_EDGE_RECTANGLE_ERR * err;
 }
 
 /* The error of the edge's position at parameter t (0 .. 1) is linear in t. A point of the edge near
    the facet is no farther from a than the facet's farthest corner plus the slack and the errors:
    t length is at most that. So the error of end b is multiplied by t. The errors of both ends turn
    the edge by at most an angle of 2 (first + last) / length. */
-lrcsi_edge_box lrcsi_edge_box_make(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
-                                   double slack)
+lrcsi_edge_rectangle lrcsi_edge_rectangle_make(const lrcsi_view *view, uint32_t facet,
+                                               const lrcsi_edge *edge, double slack)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
-    lrcsi_edge_box box = {.a = view->point[edge->low].x, .b = view->point[edge->high].x};
+    lrcsi_edge_rectangle box = {.a = view->point[edge->low].x, .b = view->point[edge->high].x};
     if (lrcsi_view_point_err(box.a) > lrcsi_view_point_err(box.b)) {
         box.a = view->point[edge->high].x;
         box.b = view->point[edge->low].x;
@@ -34,14 +34,14 @@ lrcsi_edge_box lrcsi_edge_box_make(const lrcsi_view *view, uint32_t facet, const
     box.along[0] = box.b[0] - box.a[0];
     box.along[1] = box.b[1] - box.a[1];
     double length = sqrt(box.along[0] * box.along[0] + box.along[1] * box.along[1]);
-    double first = LRCSI_EDGE_BOX_ERR * lrcsi_view_point_err(box.a);
-    double last = LRCSI_EDGE_BOX_ERR * lrcsi_view_point_err(box.b);
+    double first = LRCSI_EDGE_RECTANGLE_ERR * lrcsi_view_point_err(box.a);
+    double last = LRCSI_EDGE_RECTANGLE_ERR * lrcsi_view_point_err(box.b);
     double far = 0;
     for (int k = 0; k < 3; k++) {
         const double *x = view->point[corner[k]].x;
         far = lrcsi_max(far, fabs(x[0] - box.a[0]) + fabs(x[1] - box.a[1]));
     }
-    box.err = lrcsi_edge_box_facet_err(view, facet) + first;
+    box.err = lrcsi_edge_rectangle_facet_err(view, facet) + first;
     box.before = slack + box.err;
     box.end = box.before + last;
     box.has_sides = length > 2 * (first + last);
@@ -65,7 +65,8 @@ lrcsi_edge_box lrcsi_edge_box_make(const lrcsi_view *view, uint32_t facet, const
 }
 
 /* Do all corners of a facet lie beyond one side of the rectangle about an edge? */
-static int edge_box_apart(const lrcsi_view *view, uint32_t facet, const lrcsi_edge_box *box)
+static int edge_rectangle_apart(const lrcsi_view *view, uint32_t facet,
+                                const lrcsi_edge_rectangle *box)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
     int left = 0;
@@ -85,11 +86,12 @@ static int edge_box_apart(const lrcsi_view *view, uint32_t facet, const lrcsi_ed
     return left == 3 || right == 3 || before == 3 || beyond == 3;
 }
 
-lrcsi_slice lrcsi_edge_box_slice(const lrcsi_view *view, uint32_t facet, const lrcsi_edge_box *box)
+lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
+                                       const lrcsi_edge_rectangle *box)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
     lrcsi_slice slice = {.count = 0};
-    if (edge_box_apart(view, facet, box)) {
+    if (edge_rectangle_apart(view, facet, box)) {
         return slice;
     }
     const double *along = box->along;
@@ -105,7 +107,7 @@ lrcsi_slice lrcsi_edge_box_slice(const lrcsi_view *view, uint32_t facet, const l
     return slice;
 }
 
-lrcsi_slice lrcsi_edge_box_half(lrcsi_slice slice, const lrcsi_edge_box *box, int side)
+lrcsi_slice lrcsi_edge_rectangle_half(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side)
 {
     double outward = box->reverse ? -side : side;
     const double away[3] = {outward * box->along[1], -outward * box->along[0], 0};
@@ -113,21 +115,21 @@ lrcsi_slice lrcsi_edge_box_half(lrcsi_slice slice, const lrcsi_edge_box *box, in
     return slice;
 }
 
-int lrcsi_edge_box_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
-                          double slack)
+int lrcsi_edge_rectangle_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
+                                double slack)
 {
     const lrcs_prepared *p = view->prepared;
     const lrcsi_normal *n = &p->normal[facet];
     const double *a = lrcsi_prepared_corner(p, facet, 0);
     const uint32_t end[2] = {edge->low, edge->high};
-    double err = lrcsi_edge_box_facet_err(view, facet);
+    double err = lrcsi_edge_rectangle_facet_err(view, facet);
     int behind = view->facing[facet] != 0;
     for (int i = 0; i < 2 && behind; i++) {
         double height = 0;
         for (int k = 0; k < 3; k++) {
             height += view->facing[facet] * n->high[k] * (p->vertex[end[i]].x[k] - a[k]);
         }
-        double end_err = LRCSI_EDGE_BOX_ERR * view->point[end[i]].err;
+        double end_err = LRCSI_EDGE_RECTANGLE_ERR * view->point[end[i]].err;
         behind = height < -(3 * slack + err + end_err) * n->length;
     }
     return behind;

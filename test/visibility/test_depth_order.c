@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Which parts hide nothing of another: pairs placed so that the answer is plain, whichever way the
    pair is turned, in both roles; and what rounding leaves open of the facets where they touch. */
-#include "visibility/behind.h"
+#include "visibility/depth_order.h"
 
 #include "base/rotate.h"
 #include "base/vec3.h"
@@ -9,15 +9,15 @@
 
 #define ROWS(a) (sizeof(a) / sizeof(a)[0])
 
-typedef struct behind_case {
+typedef struct order_case {
     const lrcs_shape *first, *other;
     double at[3];        /* of the other */
     double direction[3]; /* in the frame in which the first stands upright at the origin */
     int first_free;      /* the other hides nothing of the first */
     int other_free;      /* the first hides nothing of the other */
-} behind_case;
+} order_case;
 
-static const behind_case behind_cases[] = {
+static const order_case order_cases[] = {
     {&post, &drum, {0, 0, -1}, {0.1, 0.2, 1}, 1, 0}, /* it stands there */
     {&post, &drum, {0, 0, -1}, {0.1, 0.2, -1}, 0, 1},
     {&post, &drum, {0, 0, -0.999}, {0.1, 0.2, 1}, 0, 0}, /* it is sunk in */
@@ -36,11 +36,11 @@ static const behind_case behind_cases[] = {
 };
 
 /* Is what rounding leaves open a small fraction of every facet that is not in the plane? */
-static void check_fractions(const lrcsi_behind_proof *proof, const lrcs_prepared *p, uint32_t part)
+static void check_fractions(const lrcsi_order_proof *proof, const lrcs_prepared *p, uint32_t part)
 {
     const lrcs_part *at = &p->scene->part[part];
     for (uint32_t f = at->first_facet; f < at->first_facet + at->facet_count; f++) {
-        double fraction = lrcsi_behind_fraction(proof, p, f);
+        double fraction = lrcsi_order_unproved(proof, p, f);
         int flat = 1;
         for (int k = 0; k < 3; k++) {
             double height = lrcsi_vec3_dot(lrcsi_prepared_corner(p, f, k), proof->n);
@@ -50,7 +50,7 @@ static void check_fractions(const lrcsi_behind_proof *proof, const lrcs_prepared
     }
 }
 
-static void behind_run(const behind_case *c, const double R[3][3], double shift)
+static void order_run(const order_case *c, const double R[3][3], double shift)
 {
     lrcs_scene scene;
     lrcs_work work;
@@ -64,15 +64,15 @@ static void behind_run(const behind_case *c, const double R[3][3], double shift)
     lrcsi_body body[2] = {lrcsi_body_make(prepared, 0), lrcsi_body_make(prepared, 1)};
     for (int i = 0; i < 2; i++) {
         int known = i == 0 ? c->first_free : c->other_free;
-        lrcsi_behind behind = lrcsi_behind_make(&body[i], &body[1 - i], d);
-        if (behind.front.known != known || (behind.back.known && !known)) {
-            fail_msg("case %ld, part %d", (long)(c - behind_cases), i);
+        lrcsi_depth_order order = lrcsi_depth_order_make(&body[i], &body[1 - i], d);
+        if (order.front_is_free.known != known || (order.back_by_outline.known && !known)) {
+            fail_msg("case %ld, part %d", (long)(c - order_cases), i);
         }
-        if (behind.front.known) {
-            check_fractions(&behind.front, prepared, (uint32_t)i);
+        if (order.front_is_free.known) {
+            check_fractions(&order.front_is_free, prepared, (uint32_t)i);
         }
-        if (behind.back.known) {
-            check_fractions(&behind.back, prepared, (uint32_t)(1 - i));
+        if (order.back_by_outline.known) {
+            check_fractions(&order.back_by_outline, prepared, (uint32_t)(1 - i));
         }
     }
 }
@@ -81,8 +81,8 @@ static void what_is_behind_hides_nothing(void **state)
 {
     (void)state;
     static const double upright[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (size_t i = 0; i < ROWS(behind_cases); i++) {
-        behind_run(&behind_cases[i], upright, 0);
+    for (size_t i = 0; i < ROWS(order_cases); i++) {
+        order_run(&order_cases[i], upright, 0);
     }
 }
 
@@ -93,8 +93,8 @@ static void turning_and_moving_a_pair_changes_nothing(void **state)
         double R[3][3];
         assert_int_equal(lrcsi_rotate_axis((const double[3]){0.3, -0.5, 0.8}, 10.0 + 70 * turn, R),
                          LRCS_OK);
-        for (size_t i = 0; i < ROWS(behind_cases); i++) {
-            behind_run(&behind_cases[i], (const double(*)[3])R, 0.1 * turn);
+        for (size_t i = 0; i < ROWS(order_cases); i++) {
+            order_run(&order_cases[i], (const double(*)[3])R, 0.1 * turn);
         }
     }
 }

@@ -13,7 +13,7 @@
    surfaces a facet is the true surface. On a curved part such a plane is used only across its own
    axis, and if its rings are level: then a facet and its patch extend over the same heights, and
    the area of the true surface in a slab is known (lrcsi_body_slab). */
-#include "visibility/behind.h"
+#include "visibility/depth_order.h"
 
 #include <math.h>
 
@@ -34,50 +34,52 @@ static int has_slab(const lrcsi_body *body, const lrcsi_body *own)
     return body->part->reach == 0 || (body->curved && body == own && body->beyond == 0);
 }
 
-static lrcsi_behind_proof proof_make(const lrcsi_body *body, double sign, const double n[3],
-                                     double level, double height)
+static lrcsi_order_proof proof_make(const lrcsi_body *body, double sign, const double n[3],
+                                    double level, double height)
 {
-    return (lrcsi_behind_proof){1,
-                                {sign * n[0], sign * n[1], sign * n[2]},
-                                level,
-                                body->curved ? lrcsi_body_slab(body, height) : 0};
+    return (lrcsi_order_proof){1,
+                               {sign * n[0], sign * n[1], sign * n[2]},
+                               level,
+                               body->curved ? lrcsi_body_slab(body, height) : 0};
 }
 
 /* Tries the plane across one axis of `own`, on the side that does not face away from the laser. */
-static void behind_try(const lrcsi_body *front, const lrcsi_body *back, const double d[3],
-                       const lrcsi_body *own, const double axis[3], lrcsi_behind *behind)
+static void order_try(const lrcsi_body *front, const lrcsi_body *back, const double d[3],
+                      const lrcsi_body *own, const double axis[3], lrcsi_depth_order *order)
 {
     double sign = lrcsi_vec3_dot(axis, d) < 0 ? -1 : 1;
     const double n[3] = {sign * axis[0], sign * axis[1], sign * axis[2]};
     lrcsi_gap gap = lrcsi_gap_make(front, back, d, n, 1);
     if (gap.separates) {
-        behind->front = behind->back = proof_make(front, 1, n, -HUGE_VAL, 0);
+        order->front_is_free = order->back_by_outline = proof_make(front, 1, n, -HUGE_VAL, 0);
     }
     if (gap.touches && has_slab(front, own)) {
-        behind->front = proof_make(front, 1, n, gap.low + gap.height, gap.height);
+        order->front_is_free = proof_make(front, 1, n, gap.low + gap.height, gap.height);
     }
     if (gap.touches && has_slab(back, own)) {
         double high = lrcsi_body_support_all(back, n);
-        behind->back = proof_make(back, -1, n, gap.height - high, gap.height);
+        order->back_by_outline = proof_make(back, -1, n, gap.height - high, gap.height);
     }
 }
 
-lrcsi_behind lrcsi_behind_make(const lrcsi_body *front, const lrcsi_body *back, const double d[3])
+lrcsi_depth_order lrcsi_depth_order_make(const lrcsi_body *front, const lrcsi_body *back,
+                                         const double d[3])
 {
     const lrcsi_body *const own[2] = {front, back};
-    lrcsi_behind behind = {{.known = 0}, {.known = 0}};
+    lrcsi_depth_order order = {{.known = 0}, {.known = 0}};
     for (int i = 0; i < 2; i++) {
-        for (int k = 0; k < axes_count(own[i]) && !(behind.front.known && behind.back.known); k++) {
-            behind_try(front, back, d, own[i], own[i]->part->axis[2 - k], &behind);
+        for (int k = 0;
+             k < axes_count(own[i]) && !(order.front_is_free.known && order.back_by_outline.known);
+             k++) {
+            order_try(front, back, d, own[i], own[i]->part->axis[2 - k], &order);
         }
     }
-    return behind;
+    return order;
 }
 
 /* The heights n . x of a facet's points are linear: at most the fraction 2 (level - low) / (high -
    low) of its area is below the level. */
-double lrcsi_behind_fraction(const lrcsi_behind_proof *proof, const lrcs_prepared *p,
-                             uint32_t facet)
+double lrcsi_order_unproved(const lrcsi_order_proof *proof, const lrcs_prepared *p, uint32_t facet)
 {
     double low = HUGE_VAL;
     double high = -HUGE_VAL;

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* Rectangles about event edges in projection, and what of a facet lies in them. All distances are
    increased by the errors of the positions between which they are measured. */
-#ifndef LRCSI_EDGE_BOX_H
-#define LRCSI_EDGE_BOX_H
+#ifndef LRCSI_EDGE_RECTANGLE_H
+#define LRCSI_EDGE_RECTANGLE_H
 
 #include "mesh/slice.h"
 #include "view/view.h"
 
 /* Contains all points of a facet within some distance of an edge. It extends by `half_width` to
    either side, by `before` before a, and by `end` beyond b. */
-typedef struct lrcsi_edge_box {
+typedef struct lrcsi_edge_rectangle {
     const double *a, *b;
     double along[3];
     double half_width, before, end;
@@ -19,29 +19,30 @@ typedef struct lrcsi_edge_box {
                             it, and the next two are not set */
     double across[3];    /* the unit vector perpendicular to the edge, in the axes of the scene */
     double rotation_err; /* bound on the error of its direction, rad */
-} lrcsi_edge_box;
+} lrcsi_edge_rectangle;
 
 /* Bound on the position errors of a facet's corners and of positions computed from them. */
-double lrcsi_edge_box_facet_err(const lrcsi_view *view, uint32_t facet);
+double lrcsi_edge_rectangle_facet_err(const lrcsi_view *view, uint32_t facet);
 
 /* The rectangle of points of a facet within `slack` of an edge. */
-lrcsi_edge_box lrcsi_edge_box_make(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
-                                   double slack);
+lrcsi_edge_rectangle lrcsi_edge_rectangle_make(const lrcsi_view *view, uint32_t facet,
+                                               const lrcsi_edge *edge, double slack);
 
 /* What of a facet lies in the rectangle about an edge. */
-lrcsi_slice lrcsi_edge_box_slice(const lrcsi_view *view, uint32_t facet, const lrcsi_edge_box *box);
+lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
+                                       const lrcsi_edge_rectangle *box);
 
 /* What of a slice in the rectangle may lie to the left (side 1) or to the right (-1) of the edge,
    seen from low to high. */
-lrcsi_slice lrcsi_edge_box_half(lrcsi_slice slice, const lrcsi_edge_box *box, int side);
+lrcsi_slice lrcsi_edge_rectangle_half(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side);
 
 /* 1 if the edge lies so far behind a facet's plane that wherever it is within `slack` of a point of
    the facet in projection, it is at least 2 slack behind that point. */
-int lrcsi_edge_box_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
-                          double slack);
+int lrcsi_edge_rectangle_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
+                                double slack);
 
 /* The errors of positions computed here and of what is compared with them, as a multiple of the
    error of view coordinates. */
-#define LRCSI_EDGE_BOX_ERR 8.0
+#define LRCSI_EDGE_RECTANGLE_ERR 8.0
 
 #endif
