@@ -83,9 +83,9 @@ typedef struct lrcs_run_options {
     uint64_t steps;          /* limit on the steps of the visibility computation, 0: none: note 3 */
     int accept;              /* lrcs_accept: note 4 */
     lrcs_progress *progress; /* where the run says how far it is, or NULL */
-    double *part_error_m2;   /* where the run writes about how much of budget.tessellation_m2 is due
-                                to each of the scene's parts: what dividing that part more finely
-                                reduces; or NULL */
+    double *part_error_m2; /* where a run that succeeds writes, for each of the scene's parts, about
+                              how much of budget.tessellation_m2 is due to it: what dividing the
+                              part more finely reduces. NULL: nowhere. Threads must not share it */
 } lrcs_run_options;
 
 /* 1e-4, auto, 0, 0, 0, 0, bound, NULL, NULL.

@@ -38,6 +38,8 @@ int lrcs_attitude_slope_run(const lrcs_prepared *prepared, const lrcs_pose *pose
                             lrcs_attitude_slope *slope)
 {
     lrcs_attitude_slope out = {{0, 0}, {0, 0}, {0, 0}};
+    lrcs_run_options turned_options = *options;
+    turned_options.part_error_m2 = NULL; /* of the pose itself, not of turned ones */
     for (int axis = 0; axis < 2; axis++) {
         double quotient[2];
         for (int wide = 0; wide < 2; wide++) {
@@ -46,7 +48,8 @@ int lrcs_attitude_slope_run(const lrcs_prepared *prepared, const lrcs_pose *pose
             for (int i = 0; i < 2; i++) {
                 lrcs_pose turned;
                 pose_turn(pose, axis, i ? step : -step, &turned);
-                int status = lrcs_sigma_run(prepared, &turned, options, work, &end[i], NULL, NULL);
+                int status =
+                    lrcs_sigma_run(prepared, &turned, &turned_options, work, &end[i], NULL, NULL);
                 if (status != LRCS_OK) {
                     return status;
                 }

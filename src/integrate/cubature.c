@@ -68,7 +68,7 @@
 /* The value of the rule on a cell. */
 typedef struct cubature_value {
     double glint, diffuse, rounding;
-    double glint_u, diffuse_log; /* moments, if sum.moments */
+    double glint_u, diffuse_log; /* if sum.derivatives */
     double weighted;             /* f_r cos times the caller's linear function; 0 without one */
 } cubature_value;
 
@@ -122,7 +122,7 @@ static cubature_value node_value(const lrcsi_cubature *sum, const double n[3])
     double secant = sqrt(1 + u);
     at.glint = reflection.glint * secant;
     at.diffuse = reflection.diffuse * secant;
-    if (sum->moments) {
+    if (sum->derivatives) {
         at.glint_u = at.glint > 0 ? at.glint * u : 0;
         at.diffuse_log = at.diffuse > 0 ? at.diffuse * lrcsi_log1p(u).hi : 0;
     }

@@ -26,7 +26,7 @@ typedef struct lrcsi_cubature {
     double reference; /* f_r cos of the surfaces with which this one is summed: errors below the
                          tolerance times this are accepted too */
     lrcsi_sum glint, diffuse;
-    int moments;                    /* 1: compute the next two, too; set by the caller */
+    int derivatives;                /* 1: compute the next two, too; set by the caller */
     lrcsi_sum glint_u, diffuse_log; /* the integral of the glint times tan^2, and that of the
                                        diffuse term times log(1 + tan^2) */
     const double *weight;           /* a linear function, as its values at the three corners of the

@@ -61,7 +61,7 @@ void lrcsi_curve_integral_make(const lrcsi_curve_context *context, uint32_t face
     integral->sum.area = integral->incidence.projected;
     integral->sum.position_err = NORMAL_ERR;
     integral->sum.meter = context->options->meter;
-    integral->sum.moments = context->options->moments;
+    integral->sum.derivatives = context->options->derivatives;
     integral->sum.negligible = lrcsi_max(integral->sum.negligible, context->negligible);
     integral->sum.reference =
         context->sum > 0 ? context->sum / context->projected +

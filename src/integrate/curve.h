@@ -17,8 +17,8 @@ typedef struct lrcsi_curved {
     double error_estimate;       /* the estimated error due to a sampled area; 0: none */
     double upper_bound;          /* of what the facet would add if all of it were visible */
     double estimate;             /* of the cubature's error */
-    /* With moments only: the integral of the glint times tan^2, and that of the diffuse term times
-       log(1 + tan^2). */
+    /* For derivatives only: the integral of the glint times tan^2, and that of the diffuse term
+       times log(1 + tan^2). */
     double glint_u, diffuse_log;
 } lrcsi_curved;
 
@@ -27,7 +27,7 @@ typedef struct lrcsi_curve_options {
     double tolerance;       /* relative */
     lrcsi_meter *meter;     /* limit on steps; NULL: none */
     lrcsi_cubature_cell *stack;
-    int moments; /* 1: compute the moments */
+    int derivatives; /* 1: compute what derivatives need */
 } lrcsi_curve_options;
 
 /* The state that the integrals over all facets share. The sum so far decides how accurate the next

@@ -129,7 +129,7 @@ typedef struct patch_frame {
     int fourth;         /* the weight has cos^-4 alpha */
     double area;        /* of the patch, for a weight of 1, divided by that of its facets */
     double negligible;  /* remainder, without that factor */
-    int moments;        /* lrcsi_patches */
+    int derivatives;    /* lrcsi_patches */
 } patch_frame;
 
 int lrcsi_patch_exists(const lrcs_prepared *p, uint32_t facet)
@@ -226,7 +226,7 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, const lrcsi_patche
     f->area *= (part->rigid ? 1 : part->normal_area) / facets;
     frame_middle(f);
     f->negligible = patches->negligible / f->area;
-    f->moments = patches->moments;
+    f->derivatives = patches->derivatives;
     patch->area_err = 2 * (lrcsi_profile_rounding(&profile, at->row) + part->normal_err);
     return isfinite(f->area) && (!f->fourth || profile.step > 0);
 }
@@ -337,7 +337,7 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double s
     weight *= nu;
     patch->glint += weight * at.glint;
     patch->diffuse += weight * at.diffuse;
-    if (f->moments) {
+    if (f->derivatives) {
         patch->glint_u += weight * at.glint * u;
         patch->diffuse_log += weight * at.diffuse * lrcsi_log1p(u).hi;
     }

@@ -26,7 +26,7 @@ typedef struct lrcsi_patch {
    sector represents it as well. */
 typedef struct lrcsi_patches {
     double negligible; /* given: no smaller remainder is needed */
-    int moments;       /* given: 1 if glint_u and diffuse_log are needed */
+    int derivatives;   /* given: 1 if glint_u and diffuse_log are needed, for derivatives */
     lrcsi_patch last;  /* side = 0: none yet */
 } lrcsi_patches;
 

@@ -30,7 +30,7 @@ uint32_t lrcsi_patch_partner(const lrcs_prepared *p, uint32_t facet)
 
 /* Does the back of a facet face the laser and reflect? The inside of a closed curved part is always
    hidden, even if rounding has turned a facet of it towards the laser. */
-static int back_is_lit(const lrcsi_view *view, uint32_t facet)
+static int back_reflects(const lrcsi_view *view, uint32_t facet)
 {
     const lrcs_part *part = lrcsi_patch_part(view->prepared, facet);
     return view->facing[facet] < 0 && lrcsi_view_reflects(view, facet) &&
@@ -43,8 +43,8 @@ int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_vis
     if (band && band->hidden[band->region[facet]]) {
         return LRCSI_PATCH_HIDDEN;
     }
-    if (view->facing[facet] <= 0 && !back_is_lit(view, facet)) {
-        return LRCSI_PATCH_UNLIT;
+    if (view->facing[facet] <= 0 && !back_reflects(view, facet)) {
+        return LRCSI_PATCH_AWAY;
     }
     if (!band || (band->mismatch[facet] == 0 && !band->classification->undecided[facet] &&
                   visible[facet].low > 0)) {
@@ -79,7 +79,7 @@ lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence,
     double visible_most = visible[facet].high / incidence->projected * (1 + 2 * error);
     f.gain = fmin(band->gain[facet], f.hidden);
     f.loss = fmin(band->loss[facet], visible_most);
-    f.lit = visible_most + f.gain <= 1 ? visible_most + f.gain : 1;
+    f.visible = visible_most + f.gain <= 1 ? visible_most + f.gain : 1;
     return f;
 }
 

@@ -10,7 +10,7 @@
 #include "visibility/visible_area.h"
 
 enum lrcsi_patch_state {
-    LRCSI_PATCH_UNLIT,   /* no side of the facet that reflects faces the laser */
+    LRCSI_PATCH_AWAY,    /* no side of the facet that reflects faces the laser */
     LRCSI_PATCH_VISIBLE, /* facet and patch are entirely visible */
     LRCSI_PATCH_HIDDEN,  /* the facet is hidden, except for a tiny fraction of it */
     LRCSI_PATCH_PARTIAL  /* none of these */
@@ -21,7 +21,7 @@ typedef struct lrcsi_patch_fractions {
     double hidden;     /* hidden, or not known to be visible, by facets */
     double gain, loss; /* as in lrcsi_proximity_band; only what is hidden may be gained, and only
                           what is visible lost */
-    double lit;        /* visible on the true surface */
+    double visible;    /* visible on the true surface */
 } lrcsi_patch_fractions;
 
 /* The part of a facet. */
@@ -44,12 +44,12 @@ int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet, const lrcs
                               const lrcsi_proximity_band *band);
 
 /* Is something of a patch in this state visible? */
-static inline int lrcsi_patch_is_lit(int state)
+static inline int lrcsi_patch_is_visible(int state)
 {
     return state == LRCSI_PATCH_VISIBLE || state == LRCSI_PATCH_PARTIAL;
 }
 
-/* The fractions of a facet that is not unlit. */
+/* The fractions of a facet of which a side that reflects faces the laser. */
 lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
                                                const lrcsi_visible *visible,
                                                const lrcsi_proximity_band *band);

@@ -333,7 +333,7 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     uint32_t end = lrcsi_range_bin(&run->bins, high + reach);
     double whole = LRCS_FOUR_PI * error.whole;
     run->tessellation += whole;
-    if (!(whole > 0) && !(error.lit && reach > 0 && error.shift > 0)) {
+    if (!(whole > 0) && !(error.visible && reach > 0 && error.shift > 0)) {
         return;
     }
     run->bins.range_err = lrcsi_max(run->bins.range_err, reach);
@@ -344,8 +344,8 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
         double shifted = fraction_between(z, from - reach, from + reach) +
                          fraction_between(z, to - reach, to + reach) + error.mismatch;
         double general = LRCS_FOUR_PI * (error.deviation * fraction + error.shift * shifted);
-        double larger = error.lit ? LRCS_FOUR_PI * error.upper_bound * fraction : whole;
-        general = error.lit ? general : HUGE_VAL;
+        double larger = error.visible ? LRCS_FOUR_PI * error.upper_bound * fraction : whole;
+        general = error.visible ? general : HUGE_VAL;
         run->bins.bin[i].tessellation_variation += lrcsi_min(general, 2 * larger);
         run->bins.bin[i].tessellation += begin == end ? whole : lrcsi_min(general, larger);
         run->bins.additions++;

@@ -148,7 +148,7 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_re
     const lrcsi_clear *clear = &run->clear;
     const lrcs_prepared *p = view->prepared;
     const lrcs_scene *scene = p->scene;
-    lrcsi_patches patches[2] = {{.moments = 1}, {.moments = 1}};
+    lrcsi_patches patches[2] = {{.derivatives = 1}, {.derivatives = 1}};
     memset(response, 0, scene->material_count * sizeof *response);
     for (uint32_t f = 0; f < scene->facet_count; f++) { /* 1. facets */
         int in_clear_shape = clear->count > 0 && clear->part[scene->facet_part[f]];

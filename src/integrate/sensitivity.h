@@ -17,8 +17,8 @@ typedef struct lrcsi_response {
 } lrcsi_response;
 
 /* Given: a run that has reached LRCSI_SIGMA_SUM, whose integrals over curved normals, if any, are
-   at amplitudes of 1 and with moments; brdf[material_count]: the s and m at which the responses are
-   computed, and the A and B that decide for which facets the mean over their patch is used.
+   at amplitudes of 1 and for derivatives; brdf[material_count]: the s and m at which the responses
+   are computed, and the A and B that decide for which facets the mean over their patch is used.
    Returned: response[material_count], summed over facets in their order, then over clear shapes. */
 void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_response *response);
 

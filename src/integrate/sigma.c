@@ -64,15 +64,18 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
 {
     size_t facets = prepared->scene->facet_count;
     size_t areas = lrcsi_work_bytes(facets, sizeof(lrcsi_visible));
+    size_t errors =
+        options->part_error_m2 ? lrcsi_work_bytes(prepared->scene->part_count, sizeof(double)) : 0;
     size_t curved =
         prepared->smooth
             ? lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(lrcsi_curved)), lrcsi_cubature_need())
             : 0;
     if (options->method == LRCS_METHOD_FACET && options->with == 0) {
-        return lrcsi_work_add(lrcsi_view_face_need(prepared),
+        return lrcsi_work_add(lrcsi_work_add(lrcsi_view_face_need(prepared), errors),
                               prepared->smooth ? lrcsi_work_add(areas, curved) : 0);
     }
-    size_t need = lrcsi_work_add(lrcsi_view_need(prepared), lrcsi_work_add(areas, curved));
+    size_t need = lrcsi_work_add(lrcsi_work_add(lrcsi_view_need(prepared), errors),
+                                 lrcsi_work_add(areas, curved));
     if (options->method == LRCS_METHOD_AUTO) {
         need = lrcsi_work_add(need, lrcsi_clear_need(prepared));
     }
@@ -114,9 +117,13 @@ static int run_take(lrcsi_sigma *run)
     run->moment_memory =
         moments ? lrcsi_work_take(run->work, facets, sizeof *run->moment_memory) : NULL;
     run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
+    int errors = run->options->part_error_m2 != NULL;
+    run->part_error =
+        errors ? lrcsi_work_take(run->work, p->scene->part_count, sizeof *run->part_error) : NULL;
     run->curved = p->smooth ? lrcsi_work_take(run->work, facets, sizeof *run->curved) : NULL;
     run->stack = p->smooth ? lrcsi_cubature_stack(run->work) : NULL;
-    return (run->visible || !areas) && ((run->moment_memory && run->corrected) || !moments) &&
+    return (run->visible || !areas) && (run->part_error || !errors) &&
+                   ((run->moment_memory && run->corrected) || !moments) &&
                    ((run->curved && run->stack) || !p->smooth)
                ? LRCS_OK
                : LRCS_E_MEMORY;
@@ -157,7 +164,7 @@ static uint32_t run_acceptance(const lrcsi_sigma *run)
 static lrcsi_curve_options run_curve_options(const lrcsi_sigma *run, lrcsi_meter *meter)
 {
     return (lrcsi_curve_options){&run->plan, run->options->tolerance, meter, run->stack,
-                                 run->moments};
+                                 run->derivatives};
 }
 
 static const lrcsi_proximity_band *run_band(const lrcsi_sigma *run)
@@ -168,7 +175,7 @@ static const lrcsi_proximity_band *run_band(const lrcsi_sigma *run)
 static lrcsi_total run_total(const lrcsi_sigma *run, lrcs_facet_record *records)
 {
     const lrcsi_areas areas = {run->visible, run->answer, run->moment};
-    const lrcsi_total_details details = {records, run->options->part_error_m2, run->corrected};
+    const lrcsi_total_details details = {records, run->part_error, run->corrected};
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
     return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run_band(run), &run->clear,
                             &details);
@@ -642,6 +649,10 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     if (status == LRCS_OK) { /* nothing can fail from here on: outputs may be touched */
         if (records) {
             run.outcome.total = run_total(&run, records);
+        }
+        if (run.part_error) {
+            memcpy(options->part_error_m2, run.part_error,
+                   prepared->scene->part_count * sizeof *run.part_error);
         }
         *result = answer;
     }

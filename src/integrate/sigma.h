@@ -29,7 +29,7 @@ typedef struct lrcsi_sigma {
     lrcs_work *work;
     lrcs_image *image; /* NULL: no picture is requested */
     int last;          /* lrcsi_sigma_stage: the run ends after it */
-    int moments;       /* 1: curved normals are integrated with moments, for derivatives */
+    int derivatives;   /* 1: integrals over curved normals include what derivatives need */
 
     lrcsi_view view;
     lrcsi_meter meter; /* limit on the steps of the visibility computation */
@@ -43,6 +43,7 @@ typedef struct lrcsi_sigma {
     lrcsi_moment *moment_memory; /* [facet_count]; NULL: moments are not wanted */
     const lrcsi_moment *moment;  /* as in lrcsi_areas */
     unsigned char *corrected;    /* as in lrcsi_total_details */
+    double *part_error;          /* [part_count]; NULL: not asked for */
     lrcsi_curved *curved;        /* [facet_count]; NULL: all normals are flat */
     lrcsi_cubature_cell *stack;  /* NULL: all normals are flat */
     lrcsi_outcome outcome;

@@ -15,15 +15,15 @@
    - It is hidden except for a fraction h: 0 <= M <= S h F_i and 0 <= T <= (1 + a) S (g + h) sup F.
    - Otherwise, T - M = Int_U (F - F_i) v + F_i (Int_U v - Int_f w), where the first term is at most
      (1 + a) S sup |F - F_i| in size and the second between -F_i S (a + (1 + a) l) and F_i S (a + (1
-     + a) g); and |T - M| <= (1 + a) S sup F. Where neither facet of the sector is hidden or unlit,
-     the first term of both together is at most the integral of F - F_i over some region of both
+     + a) g); and |T - M| <= (1 + a) S sup F. Where neither facet of the sector is hidden or faces
+   away, the first term of both together is at most the integral of F - F_i over some region of both
      patches. And v is 1 on at most a fraction q of the patch: g, plus the fraction of the facet
      that may be visible. The first term is at most (1 + a) S q sup |F - F_i|, and the part of the
      second that is due to a is at most F_i S a q.
    - All but a fraction h of it is visible: T - M = Int_U (F - F_i) - Int_U F (1 - v) + F_i Int_f (1
      - w), where 0 <= Int_f (1 - w) <= S h, and 0 <= Int_U F (1 - v) <= (1 + a) S (h + l) sup F.
-   - The facet faces away from the laser: M is 0. Its patch may be lit in part, and T is at most the
-     deviation.
+   - The facet faces away from the laser: M is 0. Its patch may face the laser in part, and T is at
+   most the deviation.
    - The laser may see parts of a patch from its other side. On a two-sided part that is not closed
      these reflect as well, even if the facet is hidden: T exceeds the bounds above by at most
      (1 + a) S sup F of that side.
@@ -39,8 +39,8 @@
    proximity band are visible over their whole length or nowhere (visibility/proximity_band.h):
    these are a fraction q <= 1. The other rows are a fraction m of the area, at most twice their
    fraction of the height, since no row of a trapezoid is longer than twice the mean. Together, for
-   a sector of which no facet is hidden or unlit: T - M <= S (whole + m region + F_i (m a + (1 + a)
-   g)), and M - T likewise with l.
+   a sector of which no facet is hidden or faces away: T - M <= S (whole + m region + F_i (m a + (1
+   + a) g)), and M - T likewise with l.
 
    A facet that is partly visible, or whose sector is, may be summed with a linear function l of
    position on the facets in place of F_i (integrate/linear.h): M' = Int_f l w. It exceeds M by the
@@ -50,12 +50,13 @@
    things:
    - Over a whole row of a straight wall l - F_i is antisymmetric, so that its integral is 0, and
      what was said of rows holds.
-   - If the other facet of the sector is hidden or unlit, the integral of F - l over a region of
-     this facet's patch alone still has the bound of the whole sector: per unit of this facet's
+   - If the other facet of the sector is hidden or faces away, the integral of F - l over a region
+   of this facet's patch alone still has the bound of the whole sector: per unit of this facet's
      area, it is the sector's area divided by this facet's times as large.
    The correction is made where neither bound, above or below, becomes larger by it: then no sum of
-   bounds does. Both facets of a sector must do the same if none of them is hidden or unlit, since
-   the bound of a region is that of both together; there the sums of their bounds are compared.
+   bounds does. Both facets of a sector must do the same if none of them is hidden or faces away,
+   since the bound of a region is that of both together; there the sums of their bounds are
+   compared.
 
    Without a proximity band the facets count as visible: the bounds of the visible areas then
    include what may be hidden, both of the true surface and of the facets. */
@@ -67,26 +68,26 @@
 #include "mesh/profile.h"
 
 /* The turn that flat facets count as having: it is larger than the error of their angles. */
-#define FLAT_TILT 1e-12
+#define FLAT_TURN 1e-12
 
 /* The curvature of a facet's patch: that of the curved wall, or of a disc that rounding in placing
    may have tilted. */
 static lrcs_curvature patch_curvature(const lrcs_prepared *p, uint32_t facet)
 {
     const lrcs_part *part = lrcsi_patch_part(p, facet);
-    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
+    const lrcs_curvature flat = {FLAT_TURN, 0, 0, 0};
     if (p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0) {
         return part->curvature;
     }
     return part->normal_err > 0 ? lrcsi_profile_rounded(&flat, part->normal_err) : flat;
 }
 
-/* The error, per unit of area, of an unlit facet of a closed part whose inside seems to be visible
-   because of rounding. */
+/* The error, per unit of area, of a facet of a closed part that faces away, whose inside seems to
+   be visible because of rounding. */
 static double inside_error(const lrcsi_tessellation_input *in, uint32_t facet,
                            const lrcs_brdf *brdf, const lrcsi_incidence *incidence)
 {
-    const lrcs_curvature flat = {FLAT_TILT, 0, 0, 0};
+    const lrcs_curvature flat = {FLAT_TURN, 0, 0, 0};
     const lrcsi_view *view = in->view;
     if (!in->band || view->facing[facet] >= 0 || !lrcsi_view_reflects(view, facet) ||
         !(in->visible[facet].high > 0)) {
@@ -103,7 +104,7 @@ static double other_side(const lrcsi_tessellation_input *in, uint32_t facet, con
                          const lrcsi_incidence *incidence, const lrcs_curvature *c)
 {
     const lrcs_prepared *p = in->view->prepared;
-    if (!(c->turn > FLAT_TILT) || lrcsi_patch_part(p, facet)->solid ||
+    if (!(c->turn > FLAT_TURN) || lrcsi_patch_part(p, facet)->solid ||
         !lrcsi_prepared_material(p, facet)->two_sided ||
         (in->band && in->band->hidden[in->band->region[facet]])) {
         return 0;
@@ -138,7 +139,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
     const lrcs_prepared *p = view->prepared;
     const lrcs_brdf brdf = lrcsi_plan_brdf(in->plan, lrcsi_prepared_material(p, facet));
     const lrcs_curvature c = patch_curvature(p, facet);
-    int is_curved = c.turn > FLAT_TILT;
+    int is_curved = c.turn > FLAT_TURN;
     int state = lrcsi_patch_state_of(view, facet, in->visible, in->band);
     int is_certain = !in->band || in->band->mismatch[facet] == 0;
     double area = 0.5 * p->normal[facet].length;
@@ -147,7 +148,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
                       : 0;
     lrcsi_tessellation error = {0, 0, 0, 0, 0};
     error.above = area * other_side(in, facet, &brdf, incidence, &c); /* 1 */
-    if (state == LRCSI_PATCH_UNLIT) {
+    if (state == LRCSI_PATCH_AWAY) {
         error.below = area * inside_error(in, facet, &brdf, incidence);
     }
     if (is_certain && seen == 0 && (!is_curved || state == LRCSI_PATCH_HIDDEN)) { /* 2 */
@@ -170,7 +171,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
                            .partner = partner,
                            .pair = {*incidence, *incidence},
                            .fractions = {0, 0, 0, 1}};
-    if (state == LRCSI_PATCH_UNLIT) {
+    if (state == LRCSI_PATCH_AWAY) {
         at.deviation.of_f = lrcsi_deviation_make(&brdf, incidence->cos_theta, incidence->tan2, &c);
     } else {
         at.deviation = lrcsi_patch_deviation_make(in, facet, incidence, &c, patches);
@@ -182,7 +183,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
         at.fractions.gain += seen;
         at.fractions.loss += seen;
         uint32_t first = lrcsi_patch_sector(p, facet);
-        if (lrcsi_patch_is_lit(state) && lrcsi_patch_is_lit(partner)) {
+        if (lrcsi_patch_is_visible(state) && lrcsi_patch_is_visible(partner)) {
             uint32_t other = facet == first;
             at.pair[other] = lrcsi_view_incidence(view, first + other);
         }
@@ -203,8 +204,8 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
    image, |Int_U F c v - F_i Int_f k w| <= Int_U |F - F_i| c v + F_i |Int_U c v - Int_f k w|
                                      <= S [(1 + a) sup |F - F_i| m + F_i (a m + (1 + a) d)],
    and both integrals are at most (1 + a) S sup F m. On a flat facet F = F_i and a = 0. A facet that
-   is not lit adds nothing beyond `whole`, and the truth in an interval is at most the whole truth.
-   The bound of the whole patch may hold only for the two facets of a sector together. */
+   is not visible adds nothing beyond `whole`, and the truth in an interval is at most the whole
+   truth. The bound of the whole patch may hold only for the two facets of a sector together. */
 lrcsi_interval_error lrcsi_tessellation_interval(const lrcsi_tessellation_input *in, uint32_t facet,
                                                  const lrcsi_incidence *incidence,
                                                  lrcsi_patches *patches)
@@ -212,18 +213,18 @@ lrcsi_interval_error lrcsi_tessellation_interval(const lrcsi_tessellation_input 
     const lrcs_prepared *p = in->view->prepared;
     const lrcs_part *part = lrcsi_patch_part(p, facet);
     const lrcs_curvature c = patch_curvature(p, facet);
-    int is_curved = c.turn > FLAT_TILT;
+    int is_curved = c.turn > FLAT_TURN;
     lrcsi_tessellation error = lrcsi_tessellation_error(in, facet, incidence, patches);
-    lrcsi_interval_error e = {
-        .whole = fmax(error.above, error.below),
-        .lit = lrcsi_patch_is_lit(lrcsi_patch_state_of(in->view, facet, in->visible, in->band)),
-        .mismatch = in->band ? in->band->mismatch[facet] : 0,
-        .partner = facet};
+    lrcsi_interval_error e = {.whole = fmax(error.above, error.below),
+                              .visible = lrcsi_patch_is_visible(
+                                  lrcsi_patch_state_of(in->view, facet, in->visible, in->band)),
+                              .mismatch = in->band ? in->band->mismatch[facet] : 0,
+                              .partner = facet};
     uint32_t partner = lrcsi_patch_partner(p, facet);
     if (is_curved && partner < part->first_facet + part->facet_count && !p->skip[partner]) {
         e.partner = partner;
     }
-    if (e.lit) {
+    if (e.visible) {
         lrcsi_patch_deviation d = lrcsi_patch_deviation_make(in, facet, incidence, &c, patches);
         double area = 0.5 * p->normal[facet].length;
         double a = is_curved ? lrcsi_patch_area_err(p, facet, &c) : 0;

@@ -21,7 +21,7 @@ lrcsi_tessellation lrcsi_tessellation_error(const lrcsi_tessellation_input *in, 
    the part's reach. Scaled, without the factor 4 pi. */
 typedef struct lrcsi_interval_error {
     double whole;     /* the error of the whole facet: the larger of `above` and `below` */
-    int lit;          /* 1: the facet is visible, at least in part; 0: only `whole` is valid, and
+    int visible;      /* 1: the facet is visible, at least in part; 0: only `whole` is valid, and
                               holds for any interval */
     double deviation; /* the difference between F on the patch and on the facet; to be multiplied
                          by the fraction of the facet whose points may be in the interval */

@@ -24,7 +24,7 @@
 
 /* The remainders of all patches together are to be at most this fraction of the tolerance: small,
    so that bounds change little. */
-#define REMAINDER_SHARE 0x1p-10
+#define REMAINDER_FRACTION 0x1p-10
 
 /* --- curved shapes ---------------------------------------------------------------------------- */
 
@@ -59,10 +59,10 @@ static lrcs_brdf brdf_widened(const lrcs_brdf *brdf, double turn)
     return wide;
 }
 
-/* The remainder that can be neglected in the mean over a patch: REMAINDER_SHARE of the tolerance,
-   divided among the patches by area. Where the glint is dim, or reaches only one end of a patch,
-   this saves most of the work. Sigma is estimated from the normals of facets. This is a choice
-   without a proof: the remainders are part of the bound, whatever they are. */
+/* The remainder that can be neglected in the mean over a patch: REMAINDER_FRACTION of the
+   tolerance, divided among the patches by area. Where the glint is dim, or reaches only one end of
+   a patch, this saves most of the work. Sigma is estimated from the normals of facets. This is a
+   choice without a proof: the remainders are part of the bound, whatever they are. */
 static double negligible_remainder(const lrcsi_total_run *run)
 {
     const lrcs_prepared *p = run->view->prepared;
@@ -89,7 +89,7 @@ static double negligible_remainder(const lrcsi_total_run *run)
         sum += (f.glint + f.diffuse) * (visible / cosine);
         areas += has_patch ? b->area[at] : 0;
     }
-    return areas > 0 && isfinite(sum) ? REMAINDER_SHARE * run->plan->tolerance * sum / areas : 0;
+    return areas > 0 && isfinite(sum) ? REMAINDER_FRACTION * run->plan->tolerance * sum / areas : 0;
 }
 
 /* Divides the sigma of a clear part among its facets that face the laser: each of its terms in
@@ -97,29 +97,29 @@ static double negligible_remainder(const lrcsi_total_run *run)
 static void record_shape(const lrcsi_total_run *run, const lrcs_part *part,
                          const lrcsi_shape_terms *terms)
 {
-    lrcs_facet_record *records = run->details.records;
     lrcsi_shape_terms flat = {0, 0, 0, 0, 0};
     lrcsi_patches patches = {.negligible = run->patches.negligible};
     uint32_t end = part->first_facet + part->facet_count;
-    for (uint32_t f = part->first_facet; f < end; f++) {
-        lrcsi_incidence incidence = lrcsi_view_incidence(run->view, f);
-        lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
-        if (run->view->facing[f] > 0) {
+    for (int adding = 1; adding >= 0; adding--) { /* first the sums, then the shares of each */
+        for (uint32_t f = part->first_facet; f < end; f++) {
+            if (run->view->facing[f] <= 0) {
+                continue;
+            }
+            lrcsi_incidence incidence = lrcsi_view_incidence(run->view, f);
+            double area = incidence.projected;
+            lrcsi_visible whole = {area, area, area, 0, 0};
             lrcsi_facet_terms facet =
                 lrcsi_facet_terms_make(run->view, run->plan, f, &incidence, &whole, &patches);
-            records[f].sigma_glint_m2 = facet.glint; /* scaled, until the second loop */
-            records[f].sigma_m2 = facet.diffuse;
-            flat.glint += facet.glint;
-            flat.diffuse += facet.diffuse;
-            flat.silhouette += incidence.projected;
-        }
-    }
-    for (uint32_t f = part->first_facet; f < end; f++) {
-        if (run->view->facing[f] > 0) {
-            double by_area = lrcsi_view_projected(run->view, f) / flat.silhouette;
-            double glint = flat.glint > 0 ? records[f].sigma_glint_m2 / flat.glint : by_area;
-            double diffuse = flat.diffuse > 0 ? records[f].sigma_m2 / flat.diffuse : by_area;
-            lrcsi_total_record(run, f, glint * terms->glint, diffuse * terms->diffuse);
+            if (adding) {
+                flat.glint += facet.glint;
+                flat.diffuse += facet.diffuse;
+                flat.silhouette += area;
+            } else {
+                double by_area = area / flat.silhouette;
+                double glint = flat.glint > 0 ? facet.glint / flat.glint : by_area;
+                double diffuse = flat.diffuse > 0 ? facet.diffuse / flat.diffuse : by_area;
+                lrcsi_total_record(run, f, glint * terms->glint, diffuse * terms->diffuse);
+            }
         }
     }
 }

@@ -295,7 +295,8 @@ static void select_facets(const lrcsi_total_run *run, const total_batch *batch, 
    2. collects front sides for a block;
    3. collects back sides too if they reflect; otherwise adds their areas;
    4. adds the others one by one: facets near grazing incidence or in the bright lobe of a narrow
-      glint, and those of curved walls. */
+      glint, and those of curved walls; for these also the tessellation error, while run->patches
+      holds their patch. */
 static void add_lanes(lrcsi_total_run *run, total_batch *batch, uint32_t start, uint32_t count)
 {
     const uint32_t *facet = run->view->prepared->batches.facet + start;
@@ -319,8 +320,7 @@ static void add_lanes(lrcsi_total_run *run, total_batch *batch, uint32_t start, 
     for (uint32_t i = 0; pick.any_other >> 63 && i < count; i++) {
         if (!((pick.front[i] | pick.back[i]) >> 63)) {
             lrcsi_total_add_facet(run, facet[i]);
-            if (run->tessellation &&
-                lrcsi_patch_exists(run->view->prepared, facet[i])) { /* run->patch is its patch */
+            if (run->tessellation && lrcsi_patch_exists(run->view->prepared, facet[i])) {
                 lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet[i]);
                 lrcsi_total_add_tessellation(run, facet[i], &incidence);
             }

@@ -418,7 +418,7 @@ static int run_node(const lrcs_prepared *prepared, const lrcs_pose *pose,
     size_t mark = work->used;
     lrcs_scene scene = *prepared->scene;
     lrcs_prepared other = *prepared;
-    lrcsi_sigma run = {.options = options, .work = work, .last = LRCSI_SIGMA_SUM, .moments = 1};
+    lrcsi_sigma run = {.options = options, .work = work, .last = LRCSI_SIGMA_SUM, .derivatives = 1};
     for (uint32_t i = 0; i < scene.material_count; i++) {
         memory->material[i] = prepared->scene->material[i];
         memory->material[i].brdf = memory->brdf[i];

@@ -73,9 +73,11 @@ lrcsi_patch_deviation lrcsi_patch_deviation_make(const lrcsi_tessellation_input 
                            lrcsi_patch_make(in->view, in->plan, &brdf, facet, patches));
 }
 
-/* --- a sector of which no facet is hidden or unlit -------------------------------------------- */
+/* --- a sector of which no facet is hidden or faces away
+ * -------------------------------------------- */
 
-/* The alternative bounds for a sector of which no facet is hidden or unlit, by what they use. */
+/* The alternative bounds for a sector of which no facet is hidden or faces away, by what they use.
+ */
 enum sector_method {
     BY_REGION, /* the deviation over any region of both patches */
     BY_POINT,  /* the deviation at any point, times what is visible of the facet */
@@ -87,6 +89,19 @@ typedef struct sector_bound {
     double rows;  /* BY_ROWS: the fraction of the sector in rows that meet a proximity band */
     double error; /* the larger error of both facets, per unit of area */
 } sector_bound;
+
+/* The error per unit of area, but for gain and loss: by the deviation over any region; by that at
+   any point, times the visible fraction. */
+static double bound_by_region(const lrcsi_deviation *deviation, double stretch)
+{
+    return deviation->region + stretch * deviation->value;
+}
+
+static double bound_by_point(const lrcsi_deviation *deviation, double stretch, double a,
+                             double visible)
+{
+    return visible * ((1 + a) * deviation->point + stretch * deviation->value);
+}
 
 /* An upper bound of the fraction of a facet's sector in rows that meet a proximity band; 1 if it
    has no rows. Each facet of a cone has a sector of its own. */
@@ -117,11 +132,11 @@ static sector_bound sector_choose(const lrcsi_tessellation_input *in, const lrcs
     double rows = sector_rows(p, is_cone ? at->facet : first, in->band);
     double b = fmax(fmax(one.gain, one.loss), fmax(two.gain, two.loss));
     double by_hidden = deviation->whole + (1 + a) * hidden * deviation->value_max;
-    double by_rows = deviation->whole + rows * (deviation->region + stretch * deviation->value) +
+    double by_rows = deviation->whole + rows * bound_by_region(deviation, stretch) +
                      (1 + a) * b * deviation->value;
-    double lit = fmax(one.lit, two.lit);
-    double by_region = deviation->region + stretch * deviation->value;
-    double by_point = lit * ((1 + a) * deviation->point + stretch * deviation->value);
+    double visible = fmax(one.visible, two.visible);
+    double by_region = bound_by_region(deviation, stretch);
+    double by_point = bound_by_point(deviation, stretch, a, visible);
     double either = fmin(by_region, by_point);
     double by_either =
         fmin(either + (1 + a) * b * deviation->value, (1 + a) * deviation->value_max);
@@ -137,18 +152,19 @@ static sector_bound sector_choose(const lrcsi_tessellation_input *in, const lrcs
 }
 
 /* The error of a facet, per unit of its area, by the bound that was chosen for its sector, which
-   counts only if both facets are lit. Given: the deviation of F from F_i, or from l. */
+   counts only if something of both facets is visible. Given: the deviation of F from F_i, or from
+   l. */
 static lrcsi_tessellation error_by(const lrcsi_patch_fractions *f, double a, int state, int partner,
                                    const lrcsi_deviation *deviation, double stretch,
                                    const sector_bound *bound)
 {
     double sup = (1 + a) * deviation->value_max;
-    double lit = f->lit * ((1 + a) * deviation->point + stretch * deviation->value);
+    double either = bound_by_point(deviation, stretch, a, f->visible);
     if (state == LRCSI_PATCH_HIDDEN) {
         return (lrcsi_tessellation){f->gain * sup, f->loss * sup, 0, 0, 0};
     }
-    if (state == LRCSI_PATCH_UNLIT) {
-        return (lrcsi_tessellation){partner == LRCSI_PATCH_UNLIT ? deviation->whole : sup, 0, 0, 0,
+    if (state == LRCSI_PATCH_AWAY) {
+        return (lrcsi_tessellation){partner == LRCSI_PATCH_AWAY ? deviation->whole : sup, 0, 0, 0,
                                     0};
     }
     if (state == LRCSI_PATCH_VISIBLE && partner == LRCSI_PATCH_VISIBLE) {
@@ -159,13 +175,13 @@ static lrcsi_tessellation error_by(const lrcsi_patch_fractions *f, double a, int
                                     deviation->whole + fmin(1, f->hidden + f->loss) * sup, 0, 0, 0};
     }
     if (bound->method == BY_ROWS) {
-        lit = deviation->whole + bound->rows * (deviation->region + stretch * deviation->value);
+        either = deviation->whole + bound->rows * bound_by_region(deviation, stretch);
         sup = HUGE_VAL;
     } else if (bound->method == BY_REGION) {
-        lit = deviation->region + stretch * deviation->value;
+        either = bound_by_region(deviation, stretch);
     }
-    return (lrcsi_tessellation){fmin(lit + deviation->value * (1 + a) * f->gain, sup),
-                                fmin(lit + deviation->value * (1 + a) * f->loss, sup), 0, 0, 0};
+    return (lrcsi_tessellation){fmin(either + deviation->value * (1 + a) * f->gain, sup),
+                                fmin(either + deviation->value * (1 + a) * f->loss, sup), 0, 0, 0};
 }
 
 /* --- linear functions ------------------------------------------------------------------------- */
@@ -233,7 +249,7 @@ static lrcsi_tessellation sector_error(const lrcsi_tessellation_input *in,
     return sum;
 }
 
-/* What the two facets of a sector use together, if both are lit and one of them is partly visible
+/* What the two facets of a sector use together, if something of both is visible, but not all
    (joint); else only of the facet. */
 typedef struct wall_sector {
     int joint;
@@ -271,9 +287,8 @@ static int corrected_error(const lrcsi_tessellation_input *in, const lrcsi_wall_
         choice = sector_choose(in, at, &both, stretch);
     } else {
         deviation.region *= own.ratio;
-        double by_region = deviation.region + stretch * deviation.value;
-        double by_point =
-            at->fractions.lit * ((1 + a) * deviation.point + stretch * deviation.value);
+        double by_region = bound_by_region(&deviation, stretch);
+        double by_point = bound_by_point(&deviation, stretch, a, at->fractions.visible);
         choice.method = by_region < by_point ? BY_REGION : BY_POINT;
     }
     *error = error_by(&at->fractions, a, at->state, at->partner, &deviation, stretch, &choice);
@@ -298,8 +313,8 @@ lrcsi_tessellation lrcsi_wall_error(const lrcsi_tessellation_input *in, const lr
                       (patch && patch->at.facets == 1); /* in its sector */
     const uint32_t first = alone ? at->facet : lrcsi_patch_sector(p, at->facet);
     const int whole = at->state == LRCSI_PATCH_VISIBLE && at->partner == LRCSI_PATCH_VISIBLE;
-    wall_sector sector = {.joint = lrcsi_patch_is_lit(at->state) &&
-                                   lrcsi_patch_is_lit(at->partner) && !whole,
+    wall_sector sector = {.joint = lrcsi_patch_is_visible(at->state) &&
+                                   lrcsi_patch_is_visible(at->partner) && !whole,
                           .deviation = at->deviation.of_f,
                           .bound = {BY_POINT, 1, 0}};
     if (sector.joint) {
@@ -315,7 +330,7 @@ lrcsi_tessellation lrcsi_wall_error(const lrcsi_tessellation_input *in, const lr
     lrcsi_tessellation error = error_by(&at->fractions, at->area_err, at->state, at->partner,
                                         &at->deviation.of_f, at->deviation.stretch, &sector.bound);
     lrcsi_tessellation corrected;
-    return in->moment && in->band && patch && lrcsi_patch_is_lit(at->state) && !whole &&
+    return in->moment && in->band && patch && lrcsi_patch_is_visible(at->state) && !whole &&
                    corrected_error(in, at, &sector, &error, &corrected)
                ? corrected
                : error;

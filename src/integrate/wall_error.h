@@ -56,15 +56,16 @@ typedef struct lrcsi_wall_facet {
     lrcs_curvature curvature;
     double area_err;    /* lrcsi_patch_area_err */
     int state, partner; /* lrcsi_patch_state, of the facet and of the other one of its sector */
-    lrcsi_incidence pair[2]; /* of both, in their order; that of the other only if both are lit */
+    lrcsi_incidence
+        pair[2]; /* of both, in their order; that of the other only if both are visible */
     lrcsi_patch_fractions fractions; /* if the facet is hidden, gain and loss include what may be
                                         visible of it */
     lrcsi_patch_deviation deviation;
 } lrcsi_wall_facet;
 
 /* The error of such a facet per unit of its area, and its correction. If both facets of the sector
-   are lit and one of them is partly visible, they choose the same bound, and both are corrected or
-   neither is. */
+   are visible and one of them is partly visible, they choose the same bound, and both are corrected
+   or neither is. */
 lrcsi_tessellation lrcsi_wall_error(const lrcsi_tessellation_input *in, const lrcsi_wall_facet *at);
 
 #endif

@@ -275,7 +275,7 @@ static void moments_of_one_incidence_are_products(void **state)
     for (int i = 0; i < 4; i++) {
         const lrcs_brdf brdf = {i % 2, i / 2, i == 3 ? 0.4 : 0.02, i == 3 ? 2 : 1e4};
         lrcsi_cubature sum = start(&brdf, normal, 1e-6);
-        sum.moments = 1;
+        sum.derivatives = 1;
         lrcsi_cubature_add(&sum, normal, 1);
         double glint = lrcsi_sum_value(&sum.glint);
         double diffuse = lrcsi_sum_value(&sum.diffuse);
