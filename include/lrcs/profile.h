@@ -41,8 +41,9 @@ typedef struct lrcs_profile {
     double range_err_m;     /* proved: bound on the error of the range of a point within its bin */
 } lrcs_profile;
 
-/* Bytes of work area, an upper bound for ordinary scenes. Where it does not suffice,
-   lrcs_profile_run returns LRCS_E_MEMORY, and work->peak is what it needed up to that point. */
+/* Bytes of work area, an upper bound for ordinary scenes; 0 if bin_m is not > 0. Where it does not
+   suffice, lrcs_profile_run returns LRCS_E_MEMORY, and work->peak is what it needed up to that
+   point. */
 size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m);
 
 /* The range profile of a pose, by exact visibility.

@@ -32,8 +32,10 @@ const char *lrcs_flag_text(int bit); /* "tolerance_not_met", ... Never NULL. */
 
 /* Notices: facts worth knowing that do not degrade the answer. */
 enum lrcs_notice {
-    LRCS_NOTICE_BACK_SIDES_VISIBLE = 1 << 0,  /* open or inverted mesh */
-    LRCS_NOTICE_TESSELLATION_UNKNOWN = 1 << 1 /* a curved shape no larger than rounding errors */
+    LRCS_NOTICE_BACK_SIDES_VISIBLE = 1 << 0, /* open or inverted mesh */
+    LRCS_NOTICE_TESSELLATION_UNKNOWN =
+        1 << 1 /* no bound holds for facets in the place of curved shapes: one is no larger than
+                  rounding errors, or back-face casters were left out */
 };
 const char *lrcs_notice_text(int bit); /* one sentence; never NULL */
 
@@ -58,7 +60,8 @@ typedef struct lrcs_result {
     double sigma_m2, sigma_glint_m2, sigma_diffuse_m2;
     double bound_m2; /* proved: |sigma - truth| <= bound, truth being Eq. 2 over the placed
                         facets (over the true shapes where the tessellation is known), their
-                        normals curved where the scene's are: note 2 of lrcs_sigma_run */
+                        normals curved where the scene's are: notes 1 and 2 of
+                        lrcs_sigma_run */
     lrcs_budget budget;
     double estimate_m2;           /* estimated error of a raster's answer; negative: none */
     double curvature_estimate_m2; /* estimated error of the cubature over curved normals, not in the
@@ -97,8 +100,8 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
 
 /* sigma for a pose.
    Given: prepared; pose; options; work.
-   Returned: result; records[facet_count] unless NULL; image unless NULL: then a raster is drawn for
-   every method, image->size > 0 is its size, and image->facet has room for it.
+   Returned: result; records[facet_count] unless NULL; image unless NULL or image->size is 0: then a
+   raster of that size is drawn for every method; image->facet has room for it.
    Status: LRCS_OK; LRCS_E_ARGUMENT (options, the image's size or the pose); LRCS_E_MEMORY;
    LRCS_E_NUMBER (the pose, or sigma beyond double range); LRCS_E_LIMIT (more than 2^32 - 2
    candidates in a grid); LRCS_E_UNSUPPORTED (this thread's arithmetic, as lrcs_prepare_run).

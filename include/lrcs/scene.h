@@ -51,7 +51,7 @@ typedef struct lrcs_part {
     int articulated;        /* has a joint */
     int smoothed;           /* its model has smoothing groups or vertex normals */
     int rigid;        /* an engine-made shape placed by rotations, reflections and one scale for all
-                         axes: the fields below are valid, and its closed form may be used */
+                         axes: shape to axis_exact are valid, and its closed form may be used */
     lrcs_shape shape; /* in its own units */
     lrcs_divisions divisions; /* of its mesh */
     double unit;              /* metres per unit */

@@ -19,7 +19,8 @@ typedef struct lrcs_sensitivity {
 
 /* The material uncertainty of sigma: a statistical estimate, not a bound. */
 typedef struct lrcs_uncertainty {
-    int stated;             /* 1: some material has errors; else all that follows is 0 */
+    int stated;             /* 1: some material has errors. 0: none has; deviations are 0, low and
+                               high equal sigma, sample_m2 is -1 */
     double deviation_m2;    /* one standard deviation of sigma: by first order, or sampled */
     double low_m2, high_m2; /* 68.27 % interval: sigma -+ deviation, or the sample's quantiles */
     int sampled;            /* 1: the three above are the sample's: note 3 */
@@ -46,8 +47,8 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
    order; uncertainty.
    Status: as lrcs_sigma_run; LRCS_E_ARGUMENT (draws); LRCS_E_NUMBER (a material's errors fail
    lrcs_brdf_error_check, a derivative beyond double range).
-   Work: that of the pose, and a sum over the facets for each of at most 18 sets of parameters;
-   with curved normals 10 more poses instead, the cubature being made anew for each. Nothing stays
+   Work: that of the pose, and a sum over the facets for each of at most 17 sets of parameters;
+   with curved normals 9 more poses instead, the cubature being made anew for each. Nothing stays
    in the work area.
    Notes: 1. Derivatives of flat facets are analytic, and as accurate as sigma itself: their areas
    are those of sigma, and rounding adds less than 1e-12 of the sum of their terms without signs. So

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The work area: memory provided by the caller, from which the library allocates in order and never
-   frees. The library has no heap of its own. What a function leaves in the work area (a mesh, a
-   scene) is valid as long as those bytes are. */
+/* The work area: memory provided by the caller, from which the library allocates in order. The
+   library has no heap of its own. A function releases its scratch memory before it returns; what it
+   leaves in the work area (a mesh, a scene) is valid until the caller sets `used` back to an
+   earlier value. A function that fails leaves nothing. */
 #ifndef LRCS_WORK_H
 #define LRCS_WORK_H
 

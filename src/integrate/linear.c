@@ -32,8 +32,8 @@
    In the view plane. A vector q in the plane of the facets has grad . q_xy = G . q if, with n in
    the axes of the view, grad = G_xy - G_z n_xy / n_z.
 
-   Rounding. The unit vectors and the direction have errors of NORMAL_ERR together, and so have
-   c = |cos theta| and both components of grad F, divided by dF/dc. With u = tan^2, dF/dc is
+   Rounding. The unit vectors and the direction have errors of LRCSI_PATCH_NORMAL_ERR together, and
+   so have c = |cos theta| and both components of grad F, divided by dF/dc. With u = tan^2, dF/dc is
        glint (2 / (s^2 c^3) - 4 / c) + diffuse (m + 2) / c.
    u has the error du of integrate/patch.c, which changes the terms as there; `error` of
    lrcsi_reflect is added. An error of grad F counts gamma times, as N's part perpendicular to n is
@@ -51,9 +51,6 @@
 #include "base/length.h"
 #include "base/range.h"
 
-/* The error of a unit vector and the direction together. */
-#define LINEAR_NORMAL_ERR (64 * LRCSI_U)
-
 /* One term of F: dF/dc, a bound on its error, and its derivative in s or m. */
 typedef struct linear_term {
     double slope, err, derivative;
@@ -63,15 +60,12 @@ typedef struct linear_term {
 static int linear_terms(const lrcs_brdf *brdf, double c, double p, linear_term *glint,
                         linear_term *diffuse)
 {
-    const double e = LINEAR_NORMAL_ERR;
     const double s = brdf->s;
     double u = p * p / (c * c);
-    double du = 1.01 * (2 * p * e + e * e + 2 * u * c * e) / (c * c);
     lrcsi_reflection at = lrcsi_reflect(brdf, u, 0);
-    double glint_err = brdf->A > 0 ? du * (2 + 1 / (s * s)) : 0;
-    double diffuse_err = du * (0.5 * brdf->m + 1);
-    double factor_err = 8 * e / c; /* of 1/c and 1/c^3, relative */
-    if (!(glint_err <= 1 && diffuse_err <= 1 && factor_err <= 1)) {
+    const lrcsi_term_errors err = lrcsi_patch_term_errors(brdf, u, c, p);
+    double factor_err = 8 * LRCSI_PATCH_NORMAL_ERR / c; /* of 1/c and 1/c^3, relative */
+    if (!(err.glint <= 1 && err.diffuse <= 1 && factor_err <= 1)) {
         return 0;
     }
     double steep = brdf->A > 0 ? 2 / (s * s * c * c * c) : 0;
@@ -79,11 +73,11 @@ static int linear_terms(const lrcs_brdf *brdf, double c, double p, linear_term *
     *glint = (linear_term){
         .slope = at.glint * (steep - 4 / c),
         .err = (steep + 4 / c) *
-               (at.glint * (2 * glint_err + 2 * factor_err) + 2 * (brdf->A > 0 ? at.error : 0)),
+               (at.glint * (2 * err.glint + 2 * factor_err) + 2 * (brdf->A > 0 ? at.error : 0)),
         .derivative = brdf->A > 0 ? 2 * at.glint * (u / s / s * (steep - 4 / c) - steep) / s : 0};
     *diffuse =
         (linear_term){.slope = at.diffuse * flat,
-                      .err = flat * (at.diffuse * (2 * diffuse_err + 2 * factor_err) +
+                      .err = flat * (at.diffuse * (2 * err.diffuse + 2 * factor_err) +
                                      2 * (brdf->B > 0 ? at.error : 0)),
                       .derivative = at.diffuse * (1 - 0.5 * lrcsi_log1p(u).hi * (brdf->m + 2)) / c};
     return 1;
@@ -151,7 +145,7 @@ static double gradients_make(const linear_patch *at, const linear_term term[2],
         double slope = fabs(term[k].slope) + term[k].err;
         double varies =
             slope * (fabs(at->toward[0]) * at->reach[0] + fabs(at->toward[1]) * at->reach[1]);
-        double turned = slope * (at->p + 2 * LINEAR_NORMAL_ERR);
+        double turned = slope * (at->p + 2 * LRCSI_PATCH_NORMAL_ERR);
         int flank = !(varies <= mean[k]);
         steepest += turned;
         if (flank) {
@@ -159,8 +153,8 @@ static double gradients_make(const linear_patch *at, const linear_term term[2],
             linear->point += turned * c->turn;
         } else {
             kept += term[k].slope;
-            linear->rounding += (term[k].err * at->p + slope * (2 * LINEAR_NORMAL_ERR)) * c->turn *
-                                (1 + c->area_error);
+            linear->rounding += (term[k].err * at->p + slope * (2 * LRCSI_PATCH_NORMAL_ERR)) *
+                                c->turn * (1 + c->area_error);
         }
         for (int j = 0; j < 2; j++) {
             gradient[k][j] = flank ? 0 : term[k].slope * across[j];
@@ -222,8 +216,7 @@ lrcsi_linear_moment lrcsi_linear_moment_make(const lrcsi_view *view, uint32_t fa
                                              const lrcsi_moment *moment)
 {
     const lrcs_prepared *p = view->prepared;
-    uint32_t begin = p->scene->part[patch->part].first_facet;
-    uint32_t other = begin + ((facet - begin) ^ 1);
+    uint32_t other = lrcsi_patch_partner(p, facet);
     lrcsi_linear_moment m = {{moment->first[0], moment->first[1]}, 1.5 * moment->error, 1};
     if (patch->at.facets != 2 || p->skip[other]) {
         return m;

@@ -49,10 +49,9 @@
    weight (n . n)^(1/2). In the bounds above 1 becomes n . n, which lies between two bounds:
        nu^2 - 2 nu kappa - kappa^2 <= |n . n| <= (nu + kappa)^2.
 
-   Rounding. N and g together have an error of at most e = PATCH_NORMAL_ERR: azimuths and angles
-   below 7 are accurate to 4 u of that, a sine or cosine to 2 u, axes and direction to a few u. So c
-   and p have the same error, and u has one of at most
-       du = (2 p e + e^2 + 2 u c e) / c^2,
+   Rounding. N and g together have an error of at most e = LRCSI_PATCH_NORMAL_ERR: azimuths and
+   angles below 7 are accurate to 4 u of that, a sine or cosine to 2 u, axes and direction to a few
+   u. So c and p have the same error, and u has one of at most du = (2 p e + e^2 + 2 u c e) / c^2,
    up to 1 %. Since |d log glint / du| <= 2 + 1/s^2 and |d log diffuse / du| <= m/2 + 1, each term
    changes by at most the factor exp of that times du. Areas, weights and sums are accurate to
    PATCH_AREA_ERR, relative, nu to e / nu, and a paraboloid's to that divided by cos alpha.
@@ -66,8 +65,7 @@
 #include "mesh/profile.h"
 #include "optics/reflect.h"
 
-#define PATCH_NORMAL_ERR (64 * LRCSI_U)
-#define PATCH_AREA_ERR   (512 * LRCSI_U)
+#define PATCH_AREA_ERR (512 * LRCSI_U)
 /* The remainder that a rule should have, relative to F in the middle of the patch; but a remainder
    that is negligible (lrcsi_patches) is small enough. */
 #define REMAINDER_TARGET 0x1p-26
@@ -132,9 +130,26 @@ typedef struct patch_frame {
     int derivatives;    /* lrcsi_patches */
 } patch_frame;
 
+const lrcs_part *lrcsi_patch_part(const lrcs_prepared *p, uint32_t facet)
+{
+    return &p->scene->part[p->scene->facet_part[facet]];
+}
+
+uint32_t lrcsi_patch_sector(const lrcs_prepared *p, uint32_t facet)
+{
+    uint32_t begin = lrcsi_patch_part(p, facet)->first_facet;
+    return begin + ((facet - begin) & ~UINT32_C(1));
+}
+
+uint32_t lrcsi_patch_partner(const lrcs_prepared *p, uint32_t facet)
+{
+    uint32_t begin = lrcsi_patch_part(p, facet)->first_facet;
+    return begin + ((facet - begin) ^ 1);
+}
+
 int lrcsi_patch_exists(const lrcs_prepared *p, uint32_t facet)
 {
-    const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
+    const lrcs_part *part = lrcsi_patch_part(p, facet);
     return p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0 && part->normals_known &&
            part->curvature_known;
 }
@@ -196,7 +211,7 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, const lrcsi_patche
     double unit = ldexp(part->unit, -prepared->exponent);
     double facets = 0.5 * prepared->normal[facet].length;
     if (at->facets == 2) {
-        uint32_t other = part->first_facet + ((facet - part->first_facet) ^ 1);
+        uint32_t other = lrcsi_patch_partner(prepared, facet);
         facets += prepared->skip[other] ? 0 : 0.5 * prepared->normal[other].length;
     }
     f->axis = part->rigid ? NULL : (const double(*)[3])part->normal_axis;
@@ -242,9 +257,9 @@ static double normal_shift(const patch_frame *f, double a, double exp_a, double 
         double s_max = f->sine * (exp_a - sinh_a) + fabs(f->cosine) * sinh_a;
         return (exp_a - sinh_a - 1) * f->nu + sinh_a * f->along_image +
                s_max * ((exp_b - sinh_b - 1) * f->radial_image + sinh_b * f->around_image) +
-               PATCH_NORMAL_ERR;
+               LRCSI_PATCH_NORMAL_ERR;
     }
-    return (exp_b - 1) * (f->sine + a) * exp_a + (exp_a - 1) + PATCH_NORMAL_ERR;
+    return (exp_b - 1) * (f->sine + a) * exp_a + (exp_a - 1) + LRCSI_PATCH_NORMAL_ERR;
 }
 
 /* M, with the weights; infinite if the surface may be edge-on to the laser somewhere in the
@@ -312,6 +327,14 @@ static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf
     return &rules[n];
 }
 
+lrcsi_term_errors lrcsi_patch_term_errors(const lrcs_brdf *brdf, double u, double c, double p)
+{
+    const double e = LRCSI_PATCH_NORMAL_ERR;
+    double du = 1.01 * (2 * p * e + e * e + 2 * u * c * e) / (c * c);
+    return (lrcsi_term_errors){brdf->A > 0 ? du * (2 + 1 / (brdf->s * brdf->s)) : 0,
+                               du * (0.5 * brdf->m + 1)};
+}
+
 /* --- the mean --------------------------------------------------------------------------------- */
 
 /* Adds F at one normal, given sines and cosines as patch_tan2. Returns 0 if its rounding error is
@@ -323,14 +346,9 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double s
     double p;
     double nu;
     double u = patch_tan2(f, sine, cosine, azimuth, &c, &p, &nu);
-    double du = 1.01 *
-                (2 * p * PATCH_NORMAL_ERR + PATCH_NORMAL_ERR * PATCH_NORMAL_ERR +
-                 2 * u * c * PATCH_NORMAL_ERR) /
-                (c * c);
-    double glint_err = brdf->A > 0 ? du * (2 + 1 / (brdf->s * brdf->s)) : 0;
-    double diffuse_err = du * (0.5 * brdf->m + 1);
-    double nu_err = f->axis ? PATCH_NORMAL_ERR / nu : 0;
-    if (!(glint_err <= 1 && diffuse_err <= 1 && nu_err <= 1)) {
+    const lrcsi_term_errors err = lrcsi_patch_term_errors(brdf, u, c, p);
+    double nu_err = f->axis ? LRCSI_PATCH_NORMAL_ERR / nu : 0;
+    if (!(err.glint <= 1 && err.diffuse <= 1 && nu_err <= 1)) {
         return 0;
     }
     lrcsi_reflection at = lrcsi_reflect(brdf, u, 0);
@@ -342,8 +360,8 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double s
         patch->diffuse_log += weight * at.diffuse * lrcsi_log1p(u).hi;
     }
     patch->rounding += weight * (1 + nu_err) *
-                       (at.error + at.glint * (glint_err + glint_err * glint_err + nu_err) +
-                        at.diffuse * (diffuse_err + diffuse_err * diffuse_err + nu_err));
+                       (at.error + at.glint * (err.glint + err.glint * err.glint + nu_err) +
+                        at.diffuse * (err.diffuse + err.diffuse * err.diffuse + nu_err));
     return 1;
 }
 

@@ -4,6 +4,7 @@
 #ifndef LRCSI_PATCH_H
 #define LRCSI_PATCH_H
 
+#include "base/constant.h"
 #include "integrate/plan.h"
 #include "mesh/tessellate.h"
 
@@ -30,6 +31,18 @@ typedef struct lrcsi_patches {
     lrcsi_patch last;  /* side = 0: none yet */
 } lrcsi_patches;
 
+/* The part of a facet. */
+const lrcs_part *lrcsi_patch_part(const lrcs_prepared *prepared, uint32_t facet);
+
+/* The first facet of a sector, of which the given one is the first or the second: the two are
+   neighbours in the part's list of facets, in which every strip of a wall begins at an even index
+   (mesh/tessellate.c). In a strip that ends in an apex each facet has a sector of its own; the two
+   are neighbours in the list all the same. */
+uint32_t lrcsi_patch_sector(const lrcs_prepared *prepared, uint32_t facet);
+
+/* The other facet of the sector. */
+uint32_t lrcsi_patch_partner(const lrcs_prepared *prepared, uint32_t facet);
+
 /* 1 if a facet may represent a patch: it is on the curved wall of a shape. */
 int lrcsi_patch_exists(const lrcs_prepared *prepared, uint32_t facet);
 
@@ -39,5 +52,14 @@ int lrcsi_patch_exists(const lrcs_prepared *prepared, uint32_t facet);
    is too large for the rules. */
 const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                     const lrcs_brdf *brdf, uint32_t facet, lrcsi_patches *patches);
+
+/* The error of a normal of the true surface and the direction to the laser together, and what it
+   changes in both terms of f_r cos^2, relative, up to the factor exp of it (integrate/patch.c).
+   Given: u = tan^2, cosine and sine of the incidence angle. */
+#define LRCSI_PATCH_NORMAL_ERR (64 * LRCSI_U)
+typedef struct lrcsi_term_errors {
+    double glint, diffuse;
+} lrcsi_term_errors;
+lrcsi_term_errors lrcsi_patch_term_errors(const lrcs_brdf *brdf, double u, double c, double p);
 
 #endif

@@ -11,23 +11,6 @@
    is then part of its error. */
 #define HIDDEN_FRACTION 0x1p-20
 
-const lrcs_part *lrcsi_patch_part(const lrcs_prepared *p, uint32_t facet)
-{
-    return &p->scene->part[p->scene->facet_part[facet]];
-}
-
-uint32_t lrcsi_patch_sector(const lrcs_prepared *p, uint32_t facet)
-{
-    uint32_t begin = lrcsi_patch_part(p, facet)->first_facet;
-    return begin + ((facet - begin) & ~UINT32_C(1));
-}
-
-uint32_t lrcsi_patch_partner(const lrcs_prepared *p, uint32_t facet)
-{
-    uint32_t begin = lrcsi_patch_part(p, facet)->first_facet;
-    return begin + ((facet - begin) ^ 1);
-}
-
 /* Does the back of a facet face the laser and reflect? The inside of a closed curved part is always
    hidden, even if rounding has turned a facet of it towards the laser. */
 static int back_reflects(const lrcsi_view *view, uint32_t facet)

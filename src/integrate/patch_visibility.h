@@ -6,6 +6,7 @@
 #ifndef LRCSI_PATCH_VISIBILITY_H
 #define LRCSI_PATCH_VISIBILITY_H
 
+#include "integrate/patch.h"
 #include "visibility/proximity_band.h"
 #include "visibility/visible_area.h"
 
@@ -23,18 +24,6 @@ typedef struct lrcsi_patch_fractions {
                           what is visible lost */
     double visible;    /* visible on the true surface */
 } lrcsi_patch_fractions;
-
-/* The part of a facet. */
-const lrcs_part *lrcsi_patch_part(const lrcs_prepared *prepared, uint32_t facet);
-
-/* The first facet of a sector, of which the given one is the first or the second: the two are
-   neighbours in the part's list of facets, in which every strip of a wall begins at an even index
-   (mesh/tessellate.c). In a strip that ends in an apex each facet has a sector of its own; the two
-   are neighbours in the list all the same. */
-uint32_t lrcsi_patch_sector(const lrcs_prepared *prepared, uint32_t facet);
-
-/* The other facet of the sector. */
-uint32_t lrcsi_patch_partner(const lrcs_prepared *prepared, uint32_t facet);
 
 /* The state of a facet that is not skipped, a lrcsi_patch_state; that of its partner, which counts
    as hidden if it is skipped. */

@@ -104,7 +104,7 @@ lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
 {
     const lrcs_prepared *p = view->prepared;
     lrcsi_plan plan = {0};
-    plan.unshadowed = p->convex;
+    plan.fronts_visible = p->convex;
     plan.grazing_cos = p->convex ? p->grazing_cos : 1;
     plan.no_back_hidden = !view->backs.cast || view->front == 0 || view->back == 0;
     plan.nothing_hidden = p->convex && plan.no_back_hidden;
@@ -144,7 +144,7 @@ static lrcs_effect shadowing_effect(const lrcs_prepared *p, const lrcsi_plan *pl
     if (plan->nothing_hidden) {
         return (lrcs_effect){1, "on request, though proved convex and alone"};
     }
-    if (plan->unshadowed) {
+    if (plan->fronts_visible) {
         return (lrcs_effect){1, p->solid ? "convex: fronts hide backs, searched on request"
                                          : "an open convex surface: fronts hide backs"};
     }

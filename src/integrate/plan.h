@@ -17,15 +17,16 @@ enum lrcsi_term_use {
 
 typedef struct lrcsi_plan {
     int method;         /* FACET, ZBUFFER, EXACT: the first to try; or CLOSED */
-    uint32_t size;      /* of the first raster, if one is drawn */
+    uint32_t size;      /* of the first raster, if one is drawn, unless `previews` */
     const char *reason; /* why this method */
     int previews;       /* auto, and the estimate of a raster may be accepted: the method that is
                            estimated to cost less comes first (integrate/cost.h) */
     int samples_only; /* the areas of a raster are taken from its samples alone, without a proof */
-    int unshadowed;   /* proved: in this view no front facet with cos(theta) > grazing_cos is
+    int fronts_visible; /* proved: in this view no front facet with cos(theta) > grazing_cos is
                          hidden */
-    double grazing_cos; /* of the scene if unshadowed, else 1 */
-    int nothing_hidden; /* proved: nothing hides a front (unshadowed) or a back that may be seen */
+    double grazing_cos; /* of the scene if fronts_visible, else 1 */
+    int nothing_hidden; /* proved: nothing hides a front (fronts_visible) or a back that may be seen
+                         */
     int shadows_forced; /* shadows are searched for even if nothing is hidden */
     int no_back_hidden; /* no facet hides a back side that could be visible */
     int proximity_band; /* differences in visibility between curved shapes and their facets are

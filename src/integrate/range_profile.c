@@ -31,7 +31,7 @@
    - (5) Where facets replace curved shapes, the difference between facets and shapes in a bin. A
      point of the shape is within its part's reach of its image on the facet:
      lrcsi_tessellation_interval. If both facets of a sector are entirely visible and lie in one
-   bin, reach included, it is the error of the whole patches.
+     bin, reach included, it is the error of the whole patches.
 
    The error of the sum of all bins has only the parts (1), (2), (4) and the error of the whole
    patches.
@@ -201,7 +201,7 @@ static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t 
 {
     double corner_err = 2 * LRCSI_U * f->range_max + 1.01 * f->range_dd_err;
     const double(*normal)[3] = f->curve ? (const double(*)[3])f->curve->normal : NULL;
-    if (run->plan.unshadowed && run->view->facing[facet] > 0) {
+    if (run->plan.fronts_visible && run->view->facing[facet] > 0) {
         lrcsi_visible known = lrcsi_visible_unshadowed(incidence, run->plan.grazing_cos);
         lrcsi_range_add_triangle(&run->bins, f, known.area, f->range, normal, corner_err);
         if (run->visible) {
@@ -370,6 +370,9 @@ static double max_reach(const lrcs_prepared *prepared)
 
 size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
 {
+    if (!(bin_m > 0)) {
+        return 0;
+    }
     double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent) +
                    2 * max_reach(prepared); /* of the scene, in any pose */
     double bins_max = depth / bin_m + 4;

@@ -201,7 +201,7 @@ static void run_unshadowed(lrcsi_sigma *run)
 /* Are there proofs about the visible areas of the pose that the methods do not use? */
 static int run_has_proofs(const lrcsi_sigma *run)
 {
-    return run->plan.unshadowed || run->clear.count > 0 ||
+    return run->plan.fronts_visible || run->clear.count > 0 ||
            (run->view.prepared->solid && run->view.backs.cast);
 }
 
@@ -220,7 +220,7 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         lrcsi_visible *visible = &run->visible[f];
         int front = view->facing[f] > 0;
-        if (front && run->plan.unshadowed) {
+        if (front && run->plan.fronts_visible) {
             lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
             lrcsi_visible known = lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos);
             if (run->plan.shadows_forced) {
@@ -305,7 +305,7 @@ static int run_clip(lrcsi_sigma *run, lrcsi_meter *meter)
         /* Moments must belong to the areas (areas_apply_proofs). Where steps ran out, areas are
            uncertain, and corrections by moments would make bounds grow where more steps are left.
          */
-        run->moment = run->plan.unshadowed || meter->spent ? NULL : run->moment_memory;
+        run->moment = run->plan.fronts_visible || meter->spent ? NULL : run->moment_memory;
     }
     run->outcome.size = 0;
     return status;

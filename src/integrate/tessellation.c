@@ -116,12 +116,12 @@ static double other_side(const lrcsi_tessellation_input *in, uint32_t facet, con
 
 int lrcsi_tessellation_known(const lrcs_prepared *p, const lrcsi_plan *plan)
 {
-    for (uint32_t i = 0; i < p->scene->part_count && plan->unshadowed; i++) {
+    for (uint32_t i = 0; i < p->scene->part_count && plan->fronts_visible; i++) {
         if (p->scene->part[i].facet_count != 0 && !p->scene->part[i].curvature_known) {
             return 0;
         }
     }
-    return plan->unshadowed || plan->proximity_band ||
+    return plan->fronts_visible || plan->proximity_band ||
            (p->proximity.reach && plan->method == LRCS_METHOD_FACET);
 }
 

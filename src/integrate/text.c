@@ -77,9 +77,9 @@ const char *lrcs_notice_text(int bit)
         return "back sides of one-sided facets are visible: the mesh is open or inverted; they "
                "contribute nothing";
     case LRCS_NOTICE_TESSELLATION_UNKNOWN:
-        return "a curved shape whose curvature is not known (it is as small as the rounding errors "
-               "of its position, or its placement is not a rotation): the bound refers to its "
-               "facets, not to the true shape";
+        return "no bound is known for facets in the place of a curved shape (it is as small as the "
+               "rounding errors of its position, its placement is not a rotation, or back-face "
+               "casters are left out): the bound refers to the facets, not to the true shape";
     default:
         return "unknown notice";
     }

@@ -78,7 +78,7 @@ static double negligible_remainder(const lrcsi_total_run *run)
             (run->areas->visible && !lrcsi_areas_may_be_visible(run->areas, facet))) {
             continue;
         }
-        const lrcs_part *part = &p->scene->part[p->scene->facet_part[facet]];
+        const lrcs_part *part = lrcsi_patch_part(p, facet);
         int has_patch = lrcsi_patch_exists(p, facet);
         lrcs_brdf brdf = lrcsi_plan_brdf(run->plan, lrcsi_prepared_material(p, facet));
         brdf = brdf_widened(&brdf, has_patch ? part->curvature.turn : 0);

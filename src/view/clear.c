@@ -29,7 +29,7 @@ static int is_separating(const lrcsi_body *P, const lrcsi_body *Q, const double 
     lrcsi_gap gap = lrcsi_gap_make(P, Q, d, n, 0);
     *slab = gap.separates ? 0 : lrcsi_body_slab(P, gap.height);
     return gap.separates ||
-           (has_slab && gap.touches && lrcsi_body_support(P, n) - gap.low > 4 * gap.height);
+           (has_slab && gap.contact && lrcsi_body_support(P, n) - gap.low > 4 * gap.height);
 }
 
 /* Tries planes across n and -n, unless these face away from the laser; n need not have length 1. */

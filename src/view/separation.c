@@ -123,9 +123,12 @@ double lrcsi_body_support_all(const lrcsi_body *body, const double n[3])
                      support_curved(body, n, body->vertex_ratio) + body->beyond);
 }
 
+/* The wall between two heights is at most `height` times the largest 2 pi r sqrt(1 + r'^2), r the
+   radius and r' its derivative along the axis, where sqrt(1 + r'^2) <= 1 + |r'|. On a sphere or
+   dome r sqrt(1 + r'^2) is the radius; on a cone or frustum r' is constant; on a paraboloid of
+   radius R and length H, r r' = R^2 / (2 H). The factor 1.001 exceeds all rounding. */
 double lrcsi_body_slab(const lrcsi_body *body, double height)
 {
-    const double two_pi = 6.2832; /* rounded up */
     double radius = lrcsi_max(body->solid.radius, body->solid.radius2);
     double slant = 1;
     if (body->part->kind == LRCS_SHAPE_CONE || body->part->kind == LRCS_SHAPE_FRUSTUM) {
@@ -135,7 +138,7 @@ double lrcsi_body_slab(const lrcsi_body *body, double height)
     } else if (body->part->kind == LRCS_SHAPE_PARABOLOID) {
         slant += 0.5 * radius / body->solid.length;
     }
-    return 1.001 * two_pi * radius * slant * height + 32 * LRCSI_U * radius * radius;
+    return 1.001 * (2 * LRCS_PI) * radius * slant * height + 32 * LRCSI_U * radius * radius;
 }
 
 lrcsi_gap lrcsi_gap_make(const lrcsi_body *P, const lrcsi_body *Q, const double d[3],

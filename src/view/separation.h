@@ -35,17 +35,18 @@ double lrcsi_body_support(const lrcsi_body *body, const double n[3]);
 /* That of the true shape and its facets together. */
 double lrcsi_body_support_all(const lrcsi_body *body, const double n[3]);
 
-/* A bound on the lit area of a curved body within `height` of an end along its axis, or of a sphere
-   in any direction: rings of the wall, each at most as long as the longest, and a term for the face
-   at the end, which is edge-on to within rounding. There F is below B (20 u)^2 if s is at most
-   LRCSI_SLAB_GLINT_SLOPE_MAX. */
+/* A bound on the area of a curved body's wall within `height` of an end along its axis, or of a
+   sphere in any direction; and more than that by 32 u times the square of its radius, for the face
+   at the end, which is then edge-on to within rounding: if s is at most LRCSI_SLAB_GLINT_SLOPE_MAX,
+   F is there below B (20 u)^2, so that this much area times the largest F of the wall exceeds what
+   the face reflects. */
 double lrcsi_body_slab(const lrcsi_body *body, double height);
 #define LRCSI_SLAB_GLINT_SLOPE_MAX 0x1p20
 
 /* Does a plane across n separate P, in front of it, from Q, behind it? */
 typedef struct lrcsi_gap {
     int separates; /* 1: it does, so that Q hides nothing of P */
-    int touches;   /* 1: to within rounding P and Q touch the plane: Q may hide only points of P at
+    int contact;   /* 1: to within rounding P and Q touch the plane: Q may hide only points of P at
                       which n . x < low + height */
     double low;    /* the lowest n . x over P */
     double height;

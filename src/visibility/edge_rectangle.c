@@ -115,6 +115,10 @@ lrcsi_slice lrcsi_edge_rectangle_half(lrcsi_slice slice, const lrcsi_edge_rectan
     return slice;
 }
 
+/* Let q be a point of the edge and y one of the facet, at most `slack` apart in projection, q - y =
+   w - t d with |w| <= slack and w perpendicular to d, and n the facet's unit normal, n . d > 0. If
+   both ends of the edge are more than 3 slack below the plane, 3 slack < -n . (q - y) = t n . d -
+   n . w <= t + slack, so t > 2 slack: q is at least 2 slack behind y. */
 int lrcsi_edge_rectangle_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
                                 double slack)
 {

@@ -41,8 +41,9 @@ lrcsi_slice lrcsi_edge_rectangle_half(lrcsi_slice slice, const lrcsi_edge_rectan
 int lrcsi_edge_rectangle_behind(const lrcsi_view *view, uint32_t facet, const lrcsi_edge *edge,
                                 double slack);
 
-/* The errors of positions computed here and of what is compared with them, as a multiple of the
-   error of view coordinates. */
+/* The errors of positions computed here, of their differences and of what these are compared with,
+   as a multiple of the error of view coordinates: at most two positions, three products and three
+   sums in each, which add less than the positions' own errors. */
 #define LRCSI_EDGE_RECTANGLE_ERR 8.0
 
 #endif

@@ -12,12 +12,12 @@
      S        the part's facets; a map takes W onto S
      e        the part's reach (lrcs_part.reach): the map moves no point by more than e. For plates,
               boxes and models e = 0, and W is S
-     k        the part's Hausdorff distance (lrcs_part.hausdorff). If the part is closed or flat:
-   every point of B is within k of the solid that S encloses (or of S, if it is flat), and every
-              point of that is within k of B. If it is open: every point of W is within k of S,
-   every point of S is within k of W, and every rim of W is within k of an event edge of S. For
-              plates, boxes and models k = 0. It is smaller than e, because nearest points need not
-              preserve areas
+     k        the part's Hausdorff distance (lrcs_part.hausdorff). If it is closed or flat, every
+              point of B is within k of the solid that S encloses (of S, if flat), and every
+              point of that within k of B. If it is open, every point of W is within k of S, every
+              point of S within k of W, and every rim of W within k of an event edge of S. For
+              plates, boxes and models k = 0. It is smaller than e, because nearest points need
+              not preserve areas
      x, y     a point of the true surface of P, and its image on a facet of P
      r        the slack of P and Q (lrcsi_proximity_slack), at least e_P + k_Q, and if Q is open at
               least k_Q + max(e_P, k_Q)
