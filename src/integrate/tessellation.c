@@ -67,7 +67,8 @@
 #include "base/constant.h"
 #include "mesh/profile.h"
 
-/* The turn that flat facets count as having: it is larger than the error of their angles. */
+/* The turn, rad, that flat facets count as having: more than the error of their unit normals, which
+   are computed in double-double and rounded. */
 #define FLAT_TURN 1e-12
 
 /* The curvature of a facet's patch: that of the curved wall, or of a disc that rounding in placing

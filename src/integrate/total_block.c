@@ -122,7 +122,7 @@ static void add_block(lrcsi_total_run *run, total_batch *batch)
     } else if (threshold > 0 && threshold < 1) {
         for (uint32_t i = 0; i < count; i++) {
             double per_area = shades->glint[i] + shades->diffuse[i];
-            int proved = shades->cosine[i] > threshold + 0x1p-40;
+            int proved = shades->cosine[i] > threshold + 0x1p-40; /* its error is below 2^-48 */
             run->sums.visibility += proved ? 0 : per_area * batch->area[i];
         }
     }
@@ -267,7 +267,7 @@ static void select_facets(const lrcsi_total_run *run, const total_batch *batch, 
     const double d[3] = {run->view->unit[0], run->view->unit[1], run->view->unit[2]};
     const double low = batch->lobes.low;
     const double high = batch->lobes.high;
-    const double back_high = batch->back_reflects ? high : 2;
+    const double back_high = batch->back_reflects ? high : 2; /* 2: no cosine exceeds it */
     uint64_t fronts = 0;
     uint64_t backs = 0;
     uint64_t others = 0;

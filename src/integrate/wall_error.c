@@ -38,6 +38,7 @@ static void deviation_about_mean(const lrcs_prepared *p, uint32_t facet,
     lrcsi_deviation *of_f = &deviation->of_f;
     double mean = patch->glint + patch->diffuse;
     double error = patch->remainder + patch->rounding;
+    /* The factor of optics/deviation.c, 1 + 1e-10, is part of `value`, twice at most. */
     double difference = fabs(mean - of_f->value) + error + 2e-10 * of_f->value;
     of_f->whole = fmin(patch->remainder, of_f->whole + difference);
     of_f->region += error;

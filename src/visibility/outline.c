@@ -18,7 +18,8 @@
 #define BISECTIONS 20
 /* An edge that is shorter than this many Hausdorff distances is not used. */
 #define LENGTH_MIN 8.0
-/* Cosines larger than this have the sign that they seem to have. */
+/* Cosines larger than this have the sign that they seem to have: axes and directions are accurate
+   to some 30 u. */
 #define OPENING_COS_MIN 1e-6
 
 lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
@@ -155,7 +156,8 @@ static double slope_until(const edge_frame *edge, int side, double until)
         return 0;
     }
     for (int i = 0; i < BISECTIONS; i++) {
-        /* slopes of all magnitudes: the mean of logarithms first */
+        /* slopes of all magnitudes: the mean of logarithms first. Any slope serves; a better one
+           gives narrower bounds */
         double middle = i < 8 ? sqrt(lrcsi_max(low, 1e-6) * high) : 0.5 * (low + high);
         if (side * outline_point_at(edge, side * middle).t >= side * until) {
             high = middle;

@@ -15,9 +15,12 @@
 #include "visibility/edge_rectangle.h"
 #include "visibility/outline.h"
 
-/* More than the rounding error of a facet's cosine. */
+/* More than the rounding error of a facet's cosine, of the unit normals and the direction: some 30
+   u (facets that rounding may have turned further count as grazing: lrcsi_proximity.grazing_cos).
+ */
 #define COS_ERR 1e-9
-/* The projected areas of facets with a larger cosine than this are accurate to COS_ERR. */
+/* The projected areas of facets with a larger cosine than this are accurate to COS_ERR, relative:
+   30 u / 1e-4 is below 1e-10. */
 #define COS_MIN 1e-4
 /* The number of cells of the grid for each event edge: the many short edges of a rim lie in few
    cells. */
@@ -527,7 +530,7 @@ static void facet_fractions(band_job *job, uint32_t facet)
     }
     add_events(job, facet, &search);
     if (reach > 0 && fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
-                         p->proximity.grazing_cos[band_part(job, facet)] + COS_ERR * COS_ERR) {
+                         p->proximity.grazing_cos[band_part(job, facet)] + COS_ERR) {
         add_both(job, facet, 1, LRCSI_PART_SET_ALL);
     }
 }
