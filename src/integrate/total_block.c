@@ -36,8 +36,6 @@ typedef struct total_batch {
     uint32_t element[2 * LRCSI_LANES]; /* their indices in prepared->batches */
     signed char side[2 * LRCSI_LANES]; /* 1 or, if back sides reflect, -1 for those */
     lrcsi_shades shades;
-    double area[LRCSI_LANES]; /* S, then S cos(theta), then the visible part of that */
-    double high[LRCSI_LANES]; /* upper bounds of the visible areas, where areas were found */
     lrcsi_sum_lanes glint, diffuse, projected, back_side;
     double error[LRCSI_SUM_LANES];
 } total_batch;
@@ -45,21 +43,22 @@ typedef struct total_batch {
 /* Fills the block with the unit normals, on the side towards the laser, and the areas of the first
    `count` facets collected. Unused lanes get the direction to the laser as their normal, and area
    0. */
-static void block_gather(const lrcsi_total_run *run, total_batch *batch, uint32_t count)
+static void block_gather(const lrcsi_total_run *run, total_batch *batch, uint32_t count,
+                         double area[LRCSI_LANES])
 {
     const lrcsi_view *view = run->view;
     const lrcsi_batches *b = &view->prepared->batches;
     const double *x = b->normal[0];
     const double *y = b->normal[1];
     const double *z = b->normal[2];
-    const double *area = b->area;
+    const double *areas = b->area;
     lrcsi_shades *shades = &batch->shades;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t at = batch->element[i];
         shades->normal[0][i] = x[at];
         shades->normal[1][i] = y[at];
         shades->normal[2][i] = z[at];
-        batch->area[i] = area[at];
+        area[i] = areas[at];
     }
     for (uint32_t i = 0; batch->back_reflects && i < count; i++) {
         shades->normal[0][i] *= batch->side[i];
@@ -70,27 +69,27 @@ static void block_gather(const lrcsi_total_run *run, total_batch *batch, uint32_
         for (int k = 0; k < 3; k++) {
             shades->normal[k][i] = view->unit[k];
         }
-        batch->area[i] = 0;
+        area[i] = 0;
     }
 }
 
-/* Replaces S cos(theta) by the visible areas of facets that have no answer, and adds the errors due
-   to these areas. */
-static void block_visible(lrcsi_total_run *run, total_batch *batch, uint32_t count)
+/* Replaces the projected areas by the visible ones for facets that have no answer, also their upper
+   bounds, and adds the errors due to these areas. */
+static void block_visible(lrcsi_total_run *run, const total_batch *batch, uint32_t count,
+                          double visible[LRCSI_LANES], double high[LRCSI_LANES])
 {
     const lrcsi_shades *shades = &batch->shades;
-    memcpy(batch->high, batch->area, sizeof batch->high);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t facet = run->view->prepared->batches.facet[batch->element[i]];
         if (lrcsi_areas_answered(run->areas, facet)) {
             continue;
         }
-        const lrcsi_visible *visible = &run->areas->visible[facet];
-        batch->area[i] = visible->area;
-        batch->high[i] = lrcsi_max(visible->high, visible->area);
-        if (visible->low < visible->high) {
-            lrcsi_total_add_area_error(&run->sums, shades->glint[i] + shades->diffuse[i], visible);
-            lrcsi_total_count(&run->total, lrcsi_view_projected(run->view, facet), visible);
+        const lrcsi_visible *found = &run->areas->visible[facet];
+        visible[i] = found->area;
+        high[i] = lrcsi_max(found->high, found->area);
+        if (found->low < found->high) {
+            lrcsi_total_add_area_error(&run->sums, shades->glint[i] + shades->diffuse[i], found);
+            lrcsi_total_count(&run->total, lrcsi_view_projected(run->view, facet), found);
         }
     }
 }
@@ -106,36 +105,38 @@ static void add_block(lrcsi_total_run *run, total_batch *batch)
 {
     const lrcsi_view *view = run->view;
     const double threshold = run->plan->grazing_cos;
-    const double *high = run->areas->visible ? batch->high : batch->area;
     lrcsi_shades *shades = &batch->shades;
     uint32_t count = batch->waiting < LRCSI_LANES ? batch->waiting : LRCSI_LANES;
+    double area[LRCSI_LANES];
+    double visible[LRCSI_LANES];
+    double high[LRCSI_LANES];
     double glint[LRCSI_LANES];
     double diffuse[LRCSI_LANES];
     double error[LRCSI_LANES];
-    block_gather(run, batch, count);
-    lrcsi_shade(&batch->lobes, view->unit, view->unit_low, shades);
-    for (int i = 0; i < LRCSI_LANES; i++) {
-        batch->area[i] *= shades->cosine[i];
+    block_gather(run, batch, count, area);                          /* 1 */
+    lrcsi_shade(&batch->lobes, view->unit, view->unit_low, shades); /* 2 */
+    for (int i = 0; i < LRCSI_LANES; i++) {                         /* 3 */
+        visible[i] = high[i] = area[i] * shades->cosine[i];
     }
     if (run->areas->visible) {
-        block_visible(run, batch, count);
+        block_visible(run, batch, count, visible, high);
     } else if (threshold > 0 && threshold < 1) {
         for (uint32_t i = 0; i < count; i++) {
             double per_area = shades->glint[i] + shades->diffuse[i];
             int proved = shades->cosine[i] > threshold + 0x1p-40; /* its error is below 2^-48 */
-            run->sums.visibility += proved ? 0 : per_area * batch->area[i];
+            run->sums.visibility += proved ? 0 : per_area * visible[i];
         }
     }
-    for (int i = 0; i < LRCSI_LANES; i++) {
-        glint[i] = shades->glint[i] * batch->area[i];
-        diffuse[i] = shades->diffuse[i] * batch->area[i];
+    for (int i = 0; i < LRCSI_LANES; i++) { /* 4 */
+        glint[i] = shades->glint[i] * visible[i];
+        diffuse[i] = shades->diffuse[i] * visible[i];
         error[i] = shades->error[i] * high[i];
     }
     lrcsi_sum_lanes_add(&batch->glint, glint);
     lrcsi_sum_lanes_add(&batch->diffuse, diffuse);
-    lrcsi_sum_lanes_add(&batch->projected, batch->area);
+    lrcsi_sum_lanes_add(&batch->projected, visible);
     lrcsi_lanes_add(batch->error, error);
-    for (uint32_t i = 0; run->details.records && i < count; i++) {
+    for (uint32_t i = 0; run->details.records && i < count; i++) { /* 5 */
         lrcsi_total_record(run, view->prepared->batches.facet[batch->element[i]], glint[i],
                            diffuse[i]);
     }
