@@ -236,7 +236,7 @@ const char *cli_material_source(const lrcs_material *material);
 const char *cli_base_name(const char *path);                     /* without its folders */
 void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json); /* keys A, B, s, m */
 int cli_errors_stated(const lrcs_scene *scene);                  /* 1 if some material has errors */
-int cli_materials_open(const lrcs_scene *scene);         /* 1 if some are illustrative or default */
+int cli_materials_assumed(const lrcs_scene *scene);      /* 1 if some are illustrative or default */
 void cli_version_json(lrcs_host_json *json);             /* schema and version */
 void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* hash of the scene */
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);

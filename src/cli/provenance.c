@@ -49,7 +49,7 @@ int cli_errors_stated(const lrcs_scene *scene)
     return 0;
 }
 
-int cli_materials_open(const lrcs_scene *scene)
+int cli_materials_assumed(const lrcs_scene *scene)
 {
     for (uint32_t i = 0; i < scene->facet_count; i++) {
         const lrcs_material *material = &scene->material[scene->facet_material[i]];

@@ -17,7 +17,7 @@ typedef struct report_statement {
     char text[256];
 } report_statement;
 
-int cli_fit_open(const lrcs_fit *fit)
+int cli_fit_undetermined(const lrcs_fit *fit)
 {
     int open = 0;
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
@@ -77,7 +77,7 @@ static void statements_print(const lrcs_fit *fit)
             printf("%s %s\n", report_name[p], statement.text);
         }
     }
-    if (cli_fit_open(fit) == 0) {
+    if (cli_fit_undetermined(fit) == 0) {
         printf("all four parameters are determined\n");
     }
     if (fit->angles < LRCS_FIT_PARAMETERS) {
@@ -242,7 +242,7 @@ static void material_json(const fit_material *material, lrcs_host_json *json)
                            one->value, one->error, one->low, one->high,
                            one->verdict == LRCS_FIT_DETERMINED, statement.text);
     }
-    lrcs_host_json_put(json, "} all_determined=%d correlation=[\n", cli_fit_open(fit) == 0);
+    lrcs_host_json_put(json, "} all_determined=%d correlation=[\n", cli_fit_undetermined(fit) == 0);
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         lrcs_host_json_numbers(json, NULL, fit->correlation[p], LRCS_FIT_PARAMETERS);
     }

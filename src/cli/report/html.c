@@ -30,7 +30,7 @@ int cli_report_bytes_end(FILE *out)
 
 /* ---- words and numbers ---- */
 
-void cli_page_say(FILE *out, const char *format, ...)
+void cli_page_text(FILE *out, const char *format, ...)
 {
     char text[2048];
     va_list list;

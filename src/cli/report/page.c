@@ -73,7 +73,7 @@ static void page_lead(FILE *out, const report_job *job)
              "in the direction (%.6g, %.6g, %.6g).</p>\n",
              atan2(d[1], d[0]) * CLI_DEGREES, atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES,
              d[0] / length, d[1] / length, d[2] / length);
-    cli_report_verdict(out, job);
+    cli_report_summary(out, job);
     fputs("</header>\n", out);
 }
 
@@ -104,12 +104,12 @@ int cli_report_page(FILE *out, const void *context, lrcs_host_error *error)
     fputs("</div>\n", out);
     cli_report_sigma(out, job);
     cli_report_notices(out, job);
-    cli_report_curves(out, job);
+    cli_report_charts(out, job);
     cli_report_shares(out, job);
     cli_report_scene(out, job);
     cli_report_effects(out, job);
     cli_report_accuracy(out, job);
-    cli_report_again(out, job);
+    cli_report_reproduce(out, job);
     cli_page(out,
              "</main>\n<footer><p>Made by lrcs %s. A <em>bound</em> is proved: the error is no "
              "larger. An <em>estimate</em> says what is "

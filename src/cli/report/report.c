@@ -151,7 +151,7 @@ static int report_measure(report_job *job, int explore)
     }
     cli_watch_stage("pose and pictures", &job->scene);
     code = code ? code : cli_report_run(job);
-    code = code ? code : cli_report_verdict_make(job);
+    code = code ? code : cli_report_summary_make(job);
     code = code ? code : cli_report_sweeps(job);
     cli_watch_stage("comparing accuracy", NULL);
     return code ? code : report_compare(job);
@@ -173,7 +173,7 @@ static void report_free(report_job *job)
     }
     lrcs_host_convergence_free(&job->converge.all);
     free(job->chart.bytes);
-    free(job->verdict.bytes);
+    free(job->summary.bytes);
     free(job->records);
     free(job->image.facet);
     lrcs_host_shares_free(&job->shares);

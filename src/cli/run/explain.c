@@ -34,8 +34,8 @@ int cli_run_explain(run_job *job)
                           explained, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    if (job->open.back_area_m2 > 0.0) {
-        explained->effect[LRCS_EFFECT_TWO_SIDED].sigma_m2 = job->open.back_sigma_m2;
+    if (job->caveats.back_area_m2 > 0.0) {
+        explained->effect[LRCS_EFFECT_TWO_SIDED].sigma_m2 = job->caveats.back_sigma_m2;
     }
     return 0;
 }

@@ -175,7 +175,7 @@ void cli_run_json(const run_job *job)
     lrcs_host_scene_box(&job->scene.scene, box[0], box[1]);
     lrcs_host_json_numbers(&json, "box_min_m", box[0], 3);
     lrcs_host_json_numbers(&json, "box_max_m", box[1], 3);
-    cli_run_open_json(job, &json);
+    cli_run_caveats_json(job, &json);
     cli_provenance_json(job->args, &job->scene, &json);
     if (job->shares_asked) {
         cli_shares_json(&job->shares, &json);

@@ -266,7 +266,7 @@ static void run_judge(run_job *job)
 /* Files come first: a table on stdout that mentions a picture must be true. */
 static int run_outputs(run_job *job)
 {
-    int code = cli_run_open(job);
+    int code = cli_run_caveats(job);
     code = code ? code : cli_run_outputs_write(job);
     code = code == 0 && job->explain ? cli_run_explain(job) : code;
     cli_watch_end();

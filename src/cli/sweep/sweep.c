@@ -294,7 +294,7 @@ static int job_run(sweep_job *job)
 /* ---- the command ---- */
 
 /* Prints a summary for people; the rows contain all of it too. */
-static void job_say(const sweep_job *job)
+static void job_summary(const sweep_job *job)
 {
     const lrcs_host_tally *tally = &job->file.tally;
     for (uint32_t bits = job->notices; bits != 0; bits &= bits - 1) {
@@ -333,61 +333,9 @@ static void job_say(const sweep_job *job)
     }
 }
 
-static int job_rows(sweep_job *job)
+/* Prints where the error of the glint may exceed the bound. */
+static void coarse_print(const sweep_job *job)
 {
-    const lrcs_host_tally *tally = &job->file.tally;
-    const cli_args *args = job->args;
-    signals_watch(); /* before the existing rows are read, which may take seconds */
-    cli_watch_stage("rows that are there", NULL);
-    int plotted = cli_value(args, "plot") != NULL;
-    if (plotted || job->brightest > 0 || job->stats) { /* what depends on all rows */
-        int banded = (plotted || job->stats) && job->head.fields.materials;
-        job->file.row = job->plot.row = job->row = calloc(job->plan.rows, sizeof *job->row);
-        job->band = banded ? calloc(job->plan.rows, sizeof *job->band) : NULL;
-        job->file.band = job->plot.band = job->band;
-        if (!job->row || (banded && !job->band)) {
-            return cli_out_of_memory();
-        }
-    }
-    lrcs_host_error error;
-    int resume = cli_value(args, "resume") != NULL;
-    if (lrcs_host_sweep_output_open(&job->file, resume, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    int code = job_run(job);
-    int closed = lrcs_host_sweep_output_close(&job->file, code == 0, &error);
-    /* cli_finish checks standard output */
-    closed = closed == LRCS_OK || !job->file.path ? 0 : cli_failed(&error);
-    if (code != 0 && job->file.next > job->file.first && job->file.path && closed == 0) {
-        fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume goes on with them\n",
-                job->file.partial, (unsigned long long)(job->file.next - job->file.first),
-                (unsigned long long)(job->file.end - job->file.first));
-    }
-    code = code ? code : closed;
-    const double(*row)[2] = (const double(*)[2])job->row;
-    code = code == 0 && plotted ? cli_plot_write(args, &job->plot, 1) : code;
-    if (code == 0 && job->stats) { /* stdout is for the rows if no file is given */
-        code = cli_stats_write(args, job->file.path ? stdout : stderr, &job->plan, &job->head, row,
-                               (const double(*)[2])job->band);
-    }
-    if (code == 0 && job->brightest > 0) {
-        code = cli_brightest_print(&job->plan, row, job->brightest, &job->scene, &job->options,
-                                   &job->load.build, job->coarse, job->coarse_count);
-    }
-    if (code != 0) {
-        return code;
-    }
-    job_say(job);
-    return tally->count[LRCS_HOST_TALLY_MISSED] > 0 || tally->count[LRCS_HOST_TALLY_STARVED] > 0
-               ? CLI_DEGRADED
-               : CLI_DONE;
-}
-
-/* Prints where the error of the glint may exceed the bound; completes the plan, and computes and
-   writes the rows. */
-static int scene_sweep(sweep_job *job)
-{
-    const cli_args *args = job->args;
     uint32_t coarse = 0;
     double worst = 0.0;
     for (uint32_t i = 0; i < job->coarse_count; i++) {
@@ -402,14 +350,72 @@ static int scene_sweep(sweep_job *job)
             "auto)\n",
             (unsigned long)coarse, coarse == 1 ? " is" : "s are", 100.0 * worst);
     }
+}
+
+/* Computes the rows, and writes them and what is made of them.
+   1. The first lines of the rows; signals are caught before the rows of an existing file are read,
+      which may take seconds.
+   2. Memory for what depends on all rows: plots, statistics, peaks.
+   3. The rows: those of an existing file, then those that are computed.
+   4. Plots, statistics, peaks, the summary. */
+static int job_rows(sweep_job *job)
+{
+    const lrcs_host_tally *tally = &job->file.tally;
+    const cli_args *args = job->args;
+    lrcs_host_error error;
     job->file.plan = &job->plan;
     job->file.head = &job->head;
     job->plot.head = &job->head;
-    job->plot.open = cli_materials_open(&job->scene.scene);
+    job->plot.open = cli_materials_assumed(&job->scene.scene);
     job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));
-    int code = cli_head_make(args, &job->plan, &job->options, &job->scene, job->coarse_count > 0,
-                             &job->head);
-    return code ? code : job_rows(job);
+    int code = cli_rows_head_make(args, &job->plan, &job->options, &job->scene,
+                                  job->coarse_count > 0, &job->head); /* 1 */
+    if (code != 0) {
+        return code;
+    }
+    signals_watch();
+    cli_watch_stage("rows that are there", NULL);
+    int plotted = cli_value(args, "plot") != NULL;
+    if (plotted || job->brightest > 0 || job->stats) { /* 2 */
+        int banded = (plotted || job->stats) && job->head.fields.materials;
+        job->file.row = job->plot.row = job->row = calloc(job->plan.rows, sizeof *job->row);
+        job->band = banded ? calloc(job->plan.rows, sizeof *job->band) : NULL;
+        job->file.band = job->plot.band = job->band;
+        if (!job->row || (banded && !job->band)) {
+            return cli_out_of_memory();
+        }
+    }
+    int resume = cli_value(args, "resume") != NULL; /* 3 */
+    if (lrcs_host_sweep_output_open(&job->file, resume, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    code = job_run(job);
+    int closed = lrcs_host_sweep_output_close(&job->file, code == 0, &error);
+    /* cli_finish checks standard output */
+    closed = closed == LRCS_OK || !job->file.path ? 0 : cli_failed(&error);
+    if (code != 0 && job->file.next > job->file.first && job->file.path && closed == 0) {
+        fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume goes on with them\n",
+                job->file.partial, (unsigned long long)(job->file.next - job->file.first),
+                (unsigned long long)(job->file.end - job->file.first));
+    }
+    code = code ? code : closed;
+    const double(*row)[2] = (const double(*)[2])job->row; /* 4 */
+    code = code == 0 && plotted ? cli_plot_write(args, &job->plot, 1) : code;
+    if (code == 0 && job->stats) { /* stdout is for the rows if no file is given */
+        code = cli_stats_write(args, job->file.path ? stdout : stderr, &job->plan, &job->head, row,
+                               (const double(*)[2])job->band);
+    }
+    if (code == 0 && job->brightest > 0) {
+        code = cli_brightest_print(&job->plan, row, job->brightest, &job->scene, &job->options,
+                                   &job->load.build, job->coarse, job->coarse_count);
+    }
+    if (code != 0) {
+        return code;
+    }
+    job_summary(job);
+    return tally->count[LRCS_HOST_TALLY_MISSED] > 0 || tally->count[LRCS_HOST_TALLY_STARVED] > 0
+               ? CLI_DEGRADED
+               : CLI_DONE;
 }
 
 static int sweep_command(const cli_args *args)
@@ -432,8 +438,9 @@ static int sweep_command(const cli_args *args)
                                    &job->coarse, &job->coarse_count, &error) != LRCS_OK) {
             code = cli_failed(&error);
         }
+        coarse_print(job);
     }
-    code = code ? code : scene_sweep(job);
+    code = code ? code : job_rows(job);
     free(job->row);
     free(job->band);
     free(job->coarse);

@@ -34,7 +34,7 @@ static void extremes_say(FILE *out, const report_sweep *sweep)
     cli_page(out, " \xcf\x83 is proved to within %.2e m\xc2\xb2 or better%s.", bound,
              sweep->plot.open ? " for its materials, which are illustrative" : "");
     if (sweep->band && most > 0.0) {
-        cli_page_say(
+        cli_page_text(
             out,
             " Errors of its materials (68\xc2\xa0%%%s): \xc2\xb1%.2g\xc2\xa0%% of \xcf\x83 in the "
             "median, \xc2\xb1%.2g\xc2\xa0%% at most.",
@@ -136,7 +136,7 @@ static void peaks_section(FILE *out, const report_job *job)
     fputs("</section>\n", out);
 }
 
-void cli_report_curves(FILE *out, const report_job *job)
+void cli_report_charts(FILE *out, const report_job *job)
 {
     const report_sweep *map = &job->sweep[REPORT_MAP];
     cli_page_section(out, "map", "All directions");
@@ -159,9 +159,9 @@ void cli_report_accuracy(FILE *out, const report_job *job)
     cli_page(out, "<p>%s</p>\n", sentence.text);
     cli_page_figure(out, &job->chart, "Chart of error and bound against the time of a pose",
                     chart_box);
-    cli_page_say(out, "Against %s: \xcf\x83 = %.9g m\xc2\xb2%s%s%s%s.", compare->truth.text,
-                 compare->truth.sigma_m2, compare->left_out[0] ? "; " : "", compare->left_out,
-                 compare->busy[0] ? "; " : "", compare->busy);
+    cli_page_text(out, "Against %s: \xcf\x83 = %.9g m\xc2\xb2%s%s%s%s.", compare->truth.text,
+                  compare->truth.sigma_m2, compare->left_out[0] ? "; " : "", compare->left_out,
+                  compare->busy[0] ? "; " : "", compare->busy);
     cli_page_figure_end(out);
     cli_page_fold(out, "All settings");
     cli_page_table(out, "Accuracy against time",

@@ -81,7 +81,7 @@ static void method_words(FILE *out, const report_job *job)
     }
     cli_page(out, "%s%s", job->options.method == LRCS_METHOD_AUTO ? ", chosen by auto: " : ": ",
              r->method_reason);
-    cli_page_say(
+    cli_page_text(
         out,
         ". Normals are %s. Of %lu facets %lu face the laser; of those that could reflect %lu "
         "are hidden and %lu partly hidden. The pose took %.3g ms, preparing the scene %.3g "
