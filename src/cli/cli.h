@@ -151,8 +151,9 @@ int cli_finish(int code);
 /* The pose that the options specify; 0 or CLI_USAGE. */
 int cli_pose_read(const cli_args *args, lrcs_pose *pose);
 
-/* Its direction to the laser, a unit vector. */
+/* Its direction to the laser: a unit vector; azimuth and elevation, deg. */
 void cli_pose_unit(const lrcs_pose *pose, double s_hat[3]);
+void cli_pose_azel(const lrcs_pose *pose, double azel_deg[2]);
 
 /* --tolerance, --accept, --method and --resolution; --normals. 0 or CLI_USAGE. */
 int cli_accuracy_read(const cli_args *args, lrcs_run_options *options);
@@ -178,6 +179,9 @@ int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uin
    messages. */
 int cli_brdf_read(const cli_command *command, const char *text, const char *option,
                   lrcs_brdf *brdf);
+
+/* The library material that has these numbers; NULL if there is none. */
+const lrcs_brdf_entry *cli_brdf_entry(const lrcs_brdf *brdf);
 
 /* Prints a notice for each warning about a BRDF, as of a material of that name. */
 void cli_brdf_warnings_print(const char *name, const lrcs_brdf *brdf);

@@ -150,26 +150,7 @@ static const char *option_words(const char *name)
                                           : NULL;
 }
 
-static void completion_values(const cli_command *command)
-{
-    for (const cli_option *o = command->option; o->name; o++) {
-        if (option_words(o->name)) {
-            printf("        %s,%s%s) values='%s' ;;\n", command->name, cli_dashes(o->name), o->name,
-                   option_words(o->name));
-        } else if (strcmp(o->name, "material") == 0) {
-            const lrcs_brdf_entry *entry;
-            printf("        %s,%s%s) values='", command->name, cli_dashes(o->name), o->name);
-            for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
-                printf("%s ", entry->name);
-            }
-            puts("' ;;");
-        } else if (o->has_value) {
-            printf("        %s,%s%s) values=' ' ;;\n", command->name, cli_dashes(o->name), o->name);
-        }
-    }
-}
-
-static void manual_completion(void)
+static void bash_completion(void)
 {
     puts("# bash completion for lrcs\n"
          "_lrcs() {\n"
@@ -185,7 +166,22 @@ static void manual_completion(void)
     puts("help --help --version' -- \"$word\"))\n        return\n    fi\n"
          "    case ${COMP_WORDS[1]},$before in");
     for (size_t i = 0; i < MAIN_COMMANDS; i++) {
-        completion_values(main_commands[i]);
+        const char *name = main_commands[i]->name;
+        for (const cli_option *o = main_commands[i]->option; o->name; o++) {
+            if (option_words(o->name)) {
+                printf("        %s,%s%s) values='%s' ;;\n", name, cli_dashes(o->name), o->name,
+                       option_words(o->name));
+            } else if (strcmp(o->name, "material") == 0) {
+                const lrcs_brdf_entry *entry;
+                printf("        %s,%s%s) values='", name, cli_dashes(o->name), o->name);
+                for (uint32_t k = 0; (entry = lrcs_brdf_library(k)) != NULL; k++) {
+                    printf("%s ", entry->name);
+                }
+                puts("' ;;");
+            } else if (o->has_value) {
+                printf("        %s,%s%s) values=' ' ;;\n", name, cli_dashes(o->name), o->name);
+            }
+        }
     }
     puts("    esac\n    case ${COMP_WORDS[1]} in");
     for (size_t i = 0; i < MAIN_COMMANDS; i++) {
@@ -223,7 +219,7 @@ static int help_command(int count, char **word)
     if (strcmp(word[0], "--man") == 0) {
         manual_page();
     } else if (strcmp(word[0], "--bash") == 0) {
-        manual_completion();
+        bash_completion();
     } else if (word[0][0] == '-') {
         return cli_usage(NULL, "help: expected a command, --man or --bash, found '%s'", word[0]);
     } else {

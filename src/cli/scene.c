@@ -212,15 +212,12 @@ static void model_put(const scene_job *job, const char *unnamed, FILE *out)
 static void brdf_put(const lrcs_material *material, FILE *out)
 {
     const lrcs_brdf *brdf = &material->brdf;
-    const lrcs_brdf_entry *entry = NULL;
-    for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
-        if (entry->brdf.A == brdf->A && entry->brdf.B == brdf->B && entry->brdf.s == brdf->s &&
-            entry->brdf.m == brdf->m) {
-            fprintf(out, "like = \"%s\"   # %sA=%g, B=%g, s=%g, m=%g, %s\n", entry->name,
-                    entry->source ? "" : "GUESS: ", brdf->A, brdf->B, brdf->s, brdf->m,
-                    entry->source ? entry->source : "illustrative");
-            return;
-        }
+    const lrcs_brdf_entry *entry = cli_brdf_entry(brdf);
+    if (entry) {
+        fprintf(out, "like = \"%s\"   # %sA=%g, B=%g, s=%g, m=%g, %s\n", entry->name,
+                entry->source ? "" : "GUESS: ", brdf->A, brdf->B, brdf->s, brdf->m,
+                entry->source ? entry->source : "illustrative");
+        return;
     }
     if (!material->bound) {
         const char *like = suggestion(material->name);

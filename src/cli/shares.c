@@ -19,6 +19,15 @@ double cli_share_of(const cli_shares *shares, double part_m2)
     return shares->sigma_m2 > 0.0 ? part_m2 / shares->sigma_m2 : (double)NAN;
 }
 
+double cli_shares_glint(const cli_shares *shares)
+{
+    double glint = 0.0;
+    for (uint32_t i = 0; i < shares->parts; i++) {
+        glint += shares->part[i].glint_m2;
+    }
+    return glint;
+}
+
 uint32_t cli_shares_shown(const shares_row *row, uint32_t count)
 {
     uint32_t shown = 0;

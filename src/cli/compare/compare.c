@@ -87,6 +87,17 @@ static int options_read(compare_job *job, const char **folder)
 
 /* ---- the command ---- */
 
+void cli_compare_tier(const lrcs_host_judgement *judgement, uint32_t tier, unsigned long *cases,
+                      unsigned long *failed)
+{
+    *cases = *failed = 0;
+    for (uint32_t i = 0; i < judgement->kit.cases; i++) {
+        const compare_case *one = &judgement->kit.list[i];
+        *cases += (uint32_t)one->tier == tier;
+        *failed += (uint32_t)one->tier == tier && lrcs_host_judge_failed(judgement, one);
+    }
+}
+
 static int compare_make(compare_job *job, const char *folder)
 {
     lrcs_host_error error;

@@ -14,7 +14,7 @@ static const double chart_box[4] = {0.0, LRCS_HOST_CHART_TITLE, LRCS_HOST_CHART_
                                     LRCS_HOST_CHART_HEIGHT - LRCS_HOST_CHART_TITLE};
 
 /* The smallest and largest sigma, and the largest bound, of a sweep. */
-static void extremes_say(FILE *out, const report_sweep *sweep)
+static void extremes_write(FILE *out, const report_sweep *sweep)
 {
     double least = HUGE_VAL;
     double most = 0.0;
@@ -74,7 +74,7 @@ static void cuts_section(FILE *out, const report_job *job)
                  cut[i].plane);
         figure_begin(out, sweep, label, polar_box);
         fprintf(out, "<b>Plane of %s</b>; %s.", cut[i].plane, cut[i].angle);
-        extremes_say(out, sweep);
+        extremes_write(out, sweep);
         cli_page_figure_end(out);
     }
     fputs("</div>\n</section>\n", out);
@@ -106,15 +106,11 @@ static void peak_row(FILE *out, const report_job *job, uint32_t i)
     const report_sweep *map = &job->sweep[REPORT_MAP];
     const cli_shares *shares = &job->peak_shares[i];
     double value[LRCS_HOST_PLAN_COLUMNS];
-    double glint = 0.0;
     lrcs_host_plan_values(&map->plan, job->peak[i], value);
-    for (uint32_t k = 0; k < shares->parts; k++) {
-        glint += shares->part[k].glint_m2;
-    }
     double sigma_m2 = map->row[job->peak[i]][0];
     fputs("\n<tr>", out);
     cli_page_cells(out, "%.6g%.6g%.5g%.4g", value[0], value[1], sigma_m2, cli_dbsm(sigma_m2));
-    cli_page(out, "<td class=\"n\">%f</td>", cli_share_of(shares, glint));
+    cli_page(out, "<td class=\"n\">%f</td>", cli_share_of(shares, cli_shares_glint(shares)));
     most_cell(out, shares, shares->part, shares->parts, "(no name)");
     most_cell(out, shares, shares->material, shares->materials, "(default)");
     fputs("</tr>", out);
@@ -142,7 +138,7 @@ void cli_report_charts(FILE *out, const report_job *job)
     cli_page_section(out, "map", "All directions");
     figure_begin(out, map, "Map of sigma in dBsm over azimuth and elevation", chart_box);
     cli_page(out, "Steps of %u\xc2\xb0.", job->map_step);
-    extremes_say(out, map);
+    extremes_write(out, map);
     cli_page_figure_end(out);
     fputs("</section>\n", out);
     peaks_section(out, job);

@@ -123,7 +123,7 @@ static int options_read(run_job *job)
 
 /* Prints a notice, once, if shapes became very many facets and the run takes long, unless the time
    that it may take was given. */
-static void run_patience(run_job *job)
+static void long_run_notice(run_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
     if (scene->facet_count > RUN_MANY && lrcs_host_scene_tessellated(scene) &&
@@ -138,33 +138,27 @@ static void run_patience(run_job *job)
 
 static int run_prepare(run_job *job)
 {
-    run_patience(job);
+    long_run_notice(job);
     cli_watch_stage("preparing", &job->scene);
     return cli_scene_prepare(&job->scene) != 0 ? CLI_FAILED : 0;
 }
 
-/* Are the records of facets needed: for an output, or for what the bound does not include? Of
-   shapes with closed surfaces no back side is visible, and their facets stand for the true surface;
-   their records would take longer than sigma. */
-static int run_needs_records(const run_job *job)
+/* Allocates memory for the records of facets, if they are needed: for an output, or for what the
+   bound does not include. Of shapes with closed surfaces no back side is visible, and their facets
+   stand for the true surface; their records would take longer than sigma. */
+static int run_records(run_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
     int needed = job->facets || job->image_path || job->shares_asked || job->emulation.asked;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         needed |= scene->part[i].kind < 0 || !scene->part[i].solid;
     }
-    return needed;
-}
-
-/* Allocates memory for the scene's records, if they are needed. */
-static int run_records(run_job *job)
-{
     free(job->records);
     job->records = NULL;
-    if (!run_needs_records(job)) {
+    if (!needed) {
         return 0;
     }
-    job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
+    job->records = calloc((size_t)scene->facet_count + 1, sizeof *job->records);
     return job->records ? 0 : cli_out_of_memory();
 }
 
@@ -221,7 +215,7 @@ int cli_run_divide(run_job *job)
         finer =
             code == 0 && lrcs_host_scene_refine(scene, &options, &job->result, &job->load.build);
         if (finer) {
-            run_patience(job);
+            long_run_notice(job);
         }
     }
     free(part_error);
