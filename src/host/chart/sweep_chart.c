@@ -206,7 +206,7 @@ int lrcs_host_sweep_chart_band(const lrcs_host_sweep_chart *plot, double part[2]
     uint64_t count = 0;
     double *half = malloc((plot->plan->rows + 1) * sizeof *half);
     if (!half) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     for (uint64_t i = 0; i < plot->plan->rows; i++) {
         if (plot->row[i][0] > 0.0) {
@@ -481,7 +481,7 @@ static int values_fill(const lrcs_host_sweep_chart *plot, plot_values *values,
     uint64_t cells = plot->x.count * plot->y.count;
     values->x = malloc((3 * cells + plot->x.count + plot->y.count) * sizeof(double));
     if (!values->x) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     values->y = values->x + plot->x.count;
     values->z = values->y + plot->y.count;

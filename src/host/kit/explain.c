@@ -487,7 +487,7 @@ int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *err
     int status = search.failing && search.passing && search.answer && search.other_answer &&
                          search.room && search.explains
                      ? findings_make(&search)
-                     : lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+                     : lrcsi_host_out_of_memory(error);
     free(search.failing);
     free(search.passing);
     free(search.answer);

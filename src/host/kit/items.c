@@ -76,7 +76,7 @@ static int facets_lost(const lrcs_scene *scene, const items_image *truth, const 
 {
     uint32_t *lost = calloc((size_t)scene->facet_count + 1, sizeof *lost);
     if (!lost) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     for (uint32_t i = 0; i < truth->side * truth->side; i++) {
         uint32_t a = item_at(truth, i / truth->side, i % truth->side);

@@ -235,7 +235,7 @@ int lrcsi_vectors_mesh_make(const lrcsi_vectors_scene *scene, lrcsi_vectors_mesh
         }
         mesh_item(&build);
     }
-    return mesh->failed ? lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory") : LRCS_OK;
+    return mesh->failed ? lrcsi_host_out_of_memory(error) : LRCS_OK;
 }
 
 void lrcsi_vectors_mesh_free(lrcsi_vectors_mesh *mesh)

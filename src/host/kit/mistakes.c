@@ -444,7 +444,7 @@ static int run_wrong_coplanar(const lrcs_host_kit *kit, const lrcs_host_kit_case
     if (!vertex || !facet) {
         free(vertex);
         free(facet);
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     lrcs_host_scene moved = {.scene = *from};
     moved.scene.vertex = vertex;
@@ -484,7 +484,7 @@ static int mistake_view_make(const lrcs_host_kit *kit, lrcs_host_kit_case *one,
     }
     *own = calloc((size_t)facets + 1, sizeof **own);
     if (!*own) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     view->records = *own;
     if (mistake->wrong_coplanar) {

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "host/files/file.h"
 #include "host/kit/vectors.h"
 
 int lrcsi_vectors_write(const char *prefix, const lrcsi_vectors_file *file, int count,
@@ -23,9 +24,7 @@ int lrcsi_vectors_write(const char *prefix, const lrcsi_vectors_file *file, int 
         status = status == LRCS_OK ? lrcs_host_output_open(path, &out, error) : status;
         if (status == LRCS_OK) {
             status = file[i].write(out.stream, context, error);
-            int good = status == LRCS_OK;
-            int closed = lrcs_host_output_close(&out, good, good ? error : NULL);
-            status = good ? closed : status;
+            status = lrcsi_host_output_end(&out, status, error);
         }
     }
     return status;
@@ -126,7 +125,7 @@ static int job_room(lrcsi_vectors_job *job, lrcs_host_error *error)
     job->list = calloc(scenes * attitudes + 1, sizeof *job->list);
     job->binding = calloc(materials + 1, sizeof *job->binding);
     if (!job->list || !job->binding) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     for (; job->bindings < materials; job->bindings++, material++) {
         job->binding[job->bindings] = (lrcs_binding){.kind = LRCS_BIND_NAME,

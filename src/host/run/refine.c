@@ -121,12 +121,6 @@ typedef struct part_choice {
     int fixed;     /* it is not divided any finer */
 } part_choice;
 
-static int part_is_round(const lrcs_part *part)
-{
-    return part->kind == LRCS_SHAPE_SPHERE || part->kind == LRCS_SHAPE_DOME ||
-           part->kind == LRCS_SHAPE_PARABOLOID;
-}
-
 /* The errors of the parts, in total that of the tessellation; where these are not known, all curved
    parts have the same. */
 static void choices_start(const lrcs_scene *scene, const lrcs_run_options *options,
@@ -136,8 +130,10 @@ static void choices_start(const lrcs_scene *scene, const lrcs_run_options *optio
     for (uint32_t i = 0; i < scene->part_count; i++) {
         const lrcs_part *part = &scene->part[i];
         double error = options->part_error_m2 ? options->part_error_m2[i] : 1.0;
+        int doubly_curved = part->kind == LRCS_SHAPE_SPHERE || part->kind == LRCS_SHAPE_DOME ||
+                            part->kind == LRCS_SHAPE_PARABOLOID;
         choice[i] = (part_choice){part->reach > 0.0 ? error : 0.0, part->facet_count,
-                                  part_is_round(part) ? 2.0 : sqrt(2.0), !(part->reach > 0.0)};
+                                  doubly_curved ? 2.0 : sqrt(2.0), !(part->reach > 0.0)};
         sum += choice[i].error;
     }
     for (uint32_t i = 0; i < scene->part_count; i++) {

@@ -210,15 +210,6 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
     return all ? LRCS_OK : lrcsi_host_fail_memory(error, capacity * sizeof *edges);
 }
 
-/* The entry of a facet's part and material, or NULL. The list is in the order of entry_order. */
-static const lrcs_host_glint *entry_of(const lrcs_scene *scene, uint32_t facet,
-                                       const lrcs_host_glint *list, uint32_t count)
-{
-    const lrcs_host_glint key = {.part = scene->facet_part[facet],
-                                 .material = scene->facet_material[facet]};
-    return count > 0 ? bsearch(&key, list, count, sizeof *list, entry_order) : NULL;
-}
-
 /* The glint of all facets of the same part and material in the plane of this facet, or nearly. */
 static double face_glint(const lrcs_scene *scene, const lrcs_facet_record *records, uint32_t facet)
 {
@@ -246,7 +237,9 @@ void lrcs_host_glint_sum_make(const lrcs_scene *scene, const lrcs_facet_record *
         if (i == 0 || scene->facet_part[i] != scene->facet_part[i - 1] ||
             scene->facet_material[i] != scene->facet_material[i - 1]) {
             double s = scene->material[scene->facet_material[i]].brdf.s;
-            entry = entry_of(scene, i, list, count);
+            const lrcs_host_glint key = {.part = scene->facet_part[i],
+                                         .material = scene->facet_material[i]};
+            entry = count > 0 ? bsearch(&key, list, count, sizeof *list, entry_order) : NULL;
             error = !entry          ? 0.0
                     : s == entry->s ? entry->error
                                     : lrcsi_aliasing_error(entry->turn, s);

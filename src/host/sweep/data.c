@@ -84,7 +84,7 @@ static int data_plan(const char *path, const lrcs_host_rows *rows, const char *c
         }
         if (!track.row || !track.joint) {
             lrcs_host_track_free(&track);
-            return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+            return lrcsi_host_out_of_memory(error);
         }
     }
     int status =
@@ -169,7 +169,7 @@ static int data_read(const char *path, lrcs_host_rows *rows, const lrcs_host_swe
     data->band = banded ? calloc(rows->rows + 1, sizeof *data->band) : NULL;
     if (!data->row || (banded && !data->band) ||
         lrcsi_rows_head_read(rows, &data->words, &data->head, column) != LRCS_OK) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     int status = data_plan(path, rows, column, data, error);
     return status == LRCS_OK ? data_rows(path, rows, map, data, error) : status;

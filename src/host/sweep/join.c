@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/fail.h"
+#include "host/files/file.h"
 #include "host/sweep/read.h"
 
 int lrcs_host_sweep_part_read(const char *path, const lrcs_host_sweep_part *other,
@@ -107,7 +107,7 @@ static int join_write(FILE *out, join_rows *join, lrcs_host_error *error)
         size_t size = 0;
         FILE *text = open_memstream(&mean, &size);
         if (!text) {
-            return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+            return lrcsi_host_out_of_memory(error);
         }
         lrcs_host_rows_mean_write(text, head->format, &tally);
         fclose(text);
@@ -137,7 +137,5 @@ int lrcs_host_sweep_join(lrcs_host_sweep_part *part, uint32_t count, const char 
         return status;
     }
     status = join_write(out.stream, &join, error);
-    int good = status == LRCS_OK;
-    int closed = lrcs_host_output_close(&out, good, good ? error : NULL);
-    return good ? closed : status;
+    return lrcsi_host_output_end(&out, status, error);
 }
