@@ -366,7 +366,7 @@ static int finding_make(lrcsi_search *search, const search_score *best)
     finding->rest = lrcsi_search_upper_median(search->room, count);
     /* 4. Mistakes that explain them equally well; what a wrong pose moves out of the window. */
     status = ties_say(search, best, finding);
-    if (status == LRCS_OK && best->first->turn) {
+    if (status == LRCS_OK && best->first->pose) {
         clipped_say(search, best, finding);
     }
     return status;
@@ -431,7 +431,7 @@ static int finding_next(lrcsi_search *search, int *found)
     int pairs = status == LRCS_OK && best.score < PAIRS_BELOW;
     for (const lrcsi_mistake *a = list + 1; pairs && a->name && status == LRCS_OK; a++) {
         for (const lrcsi_mistake *b = list + 1; b->name && status == LRCS_OK; b++) {
-            status = a->area && !a->turn && b->shade ? mistake_try(search, a, b, &best) : LRCS_OK;
+            status = a->area && !a->pose && b->shade ? mistake_try(search, a, b, &best) : LRCS_OK;
         }
     }
     if (status != LRCS_OK) {

@@ -65,15 +65,15 @@ enum mistake_area {
     AREA_LAST
 };
 /* What is wrong in the pose. */
-enum mistake_turn {
-    TURN_NONE,
-    TURN_AXES,
-    TURN_TRANSPOSED,
-    TURN_ALONG,
-    TURN_SCALAR_LAST,
-    TURN_RADIANS,
-    TURN_POLAR,
-    TURN_EXCHANGED
+enum mistake_pose {
+    POSE_NONE,
+    POSE_AXES,
+    POSE_TRANSPOSED,
+    POSE_ALONG,
+    POSE_SCALAR_LAST,
+    POSE_RADIANS,
+    POSE_POLAR,
+    POSE_EXCHANGED
 };
 
 /* ---- shading: f_r cos theta ---- */
@@ -249,31 +249,31 @@ static int pose_at(double az, double el, lrcs_pose *pose)
 }
 
 /* The pose that is used. Status: as lrcs_pose_from_quaternion. */
-static int mistake_turn(const lrcsi_mistake *mistake, const lrcs_host_kit_case *one,
-                        lrcs_pose *pose)
+static int mistake_pose_make(const lrcsi_mistake *mistake, const lrcs_host_kit_case *one,
+                             lrcs_pose *pose)
 {
     const double *q = one->quaternion;
     const double scalar_last[4] = {q[3], q[0], q[1], q[2]};
     double az = one->azel_deg[0];
     double el = one->azel_deg[1];
     double s[3] = {one->pose.R[0][2], one->pose.R[1][2], one->pose.R[2][2]}; /* transposed */
-    switch (mistake->turn) {
-    case TURN_SCALAR_LAST:
+    switch (mistake->pose) {
+    case POSE_SCALAR_LAST:
         return lrcs_pose_from_quaternion(scalar_last, pose);
-    case TURN_AXES: /* components of s_hat exchanged and mirrored */
+    case POSE_AXES: /* components of s_hat exchanged and mirrored */
         for (int k = 0; k < 3; k++) {
             int axis = mistake->axes[k];
             s[k] = (axis < 0 ? -1.0 : 1.0) * one->direction[abs(axis) - 1];
         }
         break;
-    case TURN_ALONG: /* the laser on another axis of the observation frame */
+    case POSE_ALONG: /* the laser on another axis of the observation frame */
         memcpy(s, one->pose.R[mistake->axes[0] - 1], sizeof s);
         break;
-    case TURN_RADIANS:
+    case POSE_RADIANS:
         return pose_at(az, el, pose);
-    case TURN_POLAR:
+    case POSE_POLAR:
         return pose_at(az / DEGREES_PER_RADIAN, 0.5 * LRCS_PI - el / DEGREES_PER_RADIAN, pose);
-    case TURN_EXCHANGED:
+    case POSE_EXCHANGED:
         return pose_at(el / DEGREES_PER_RADIAN, az / DEGREES_PER_RADIAN, pose);
     default:
         break;
@@ -352,53 +352,53 @@ const lrcsi_mistake lrcsi_mistakes[] = {
     {"clamped", "f_r cos is clamped at 1", .shade = SHADE_CLAMPED, .parameter = 1.0},
     {"farthest",
      "inverted depth: the farthest facet is seen, not the nearest (depth test, or the sign of z)",
-     .turn = TURN_AXES, .axes = {-1, -2, -3}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {-1, -2, -3}, .area = AREA_FLIPPED},
     {"transposed", "wrong frame: R in place of its transpose (or the conjugate quaternion)",
-     .turn = TURN_TRANSPOSED},
-    {"negated", "wrong frame: the laser on the other side, -s_hat", .turn = TURN_AXES,
+     .pose = POSE_TRANSPOSED},
+    {"negated", "wrong frame: the laser on the other side, -s_hat", .pose = POSE_AXES,
      .axes = {-1, -2, -3}},
-    {"mirror-x", "wrong handedness: x mirrored", .turn = TURN_AXES, .axes = {-1, 2, 3}},
-    {"mirror-y", "wrong handedness: y mirrored", .turn = TURN_AXES, .axes = {1, -2, 3}},
-    {"mirror-z", "wrong handedness: z mirrored", .turn = TURN_AXES, .axes = {1, 2, -3}},
-    {"swap-xy", "wrong handedness: x and y exchanged", .turn = TURN_AXES, .axes = {2, 1, 3}},
-    {"swap-yz", "wrong handedness: y and z exchanged", .turn = TURN_AXES, .axes = {1, 3, 2}},
-    {"swap-zx", "wrong handedness: z and x exchanged", .turn = TURN_AXES, .axes = {3, 2, 1}},
-    {"y-up", "wrong frame: turned by 90 deg about x (y up, or z?)", .turn = TURN_AXES,
+    {"mirror-x", "wrong handedness: x mirrored", .pose = POSE_AXES, .axes = {-1, 2, 3}},
+    {"mirror-y", "wrong handedness: y mirrored", .pose = POSE_AXES, .axes = {1, -2, 3}},
+    {"mirror-z", "wrong handedness: z mirrored", .pose = POSE_AXES, .axes = {1, 2, -3}},
+    {"swap-xy", "wrong handedness: x and y exchanged", .pose = POSE_AXES, .axes = {2, 1, 3}},
+    {"swap-yz", "wrong handedness: y and z exchanged", .pose = POSE_AXES, .axes = {1, 3, 2}},
+    {"swap-zx", "wrong handedness: z and x exchanged", .pose = POSE_AXES, .axes = {3, 2, 1}},
+    {"y-up", "wrong frame: turned by 90 deg about x (y up, or z?)", .pose = POSE_AXES,
      .axes = {1, 3, -2}},
-    {"z-up", "wrong frame: turned by -90 deg about x (y up, or z?)", .turn = TURN_AXES,
+    {"z-up", "wrong frame: turned by -90 deg about x (y up, or z?)", .pose = POSE_AXES,
      .axes = {1, -3, 2}},
-    {"yzx", "wrong frame: x, y, z taken for y, z, x", .turn = TURN_AXES, .axes = {2, 3, 1}},
-    {"zxy", "wrong frame: x, y, z taken for z, x, y", .turn = TURN_AXES, .axes = {3, 1, 2}},
+    {"yzx", "wrong frame: x, y, z taken for y, z, x", .pose = POSE_AXES, .axes = {2, 3, 1}},
+    {"zxy", "wrong frame: x, y, z taken for z, x, y", .pose = POSE_AXES, .axes = {3, 1, 2}},
     {"along-x", "wrong frame: the laser along x of the observation frame, not z",
-     .turn = TURN_ALONG, .axes = {1, 0, 0}},
+     .pose = POSE_ALONG, .axes = {1, 0, 0}},
     {"along-y", "wrong frame: the laser along y of the observation frame, not z",
-     .turn = TURN_ALONG, .axes = {2, 0, 0}},
+     .pose = POSE_ALONG, .axes = {2, 0, 0}},
     {"mirror-x-winding", "wrong handedness: x mirrored, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {-1, 2, 3}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {-1, 2, 3}, .area = AREA_FLIPPED},
     {"mirror-y-winding", "wrong handedness: y mirrored, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {1, -2, 3}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {1, -2, 3}, .area = AREA_FLIPPED},
     {"mirror-z-winding", "wrong handedness: z mirrored, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {1, 2, -3}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {1, 2, -3}, .area = AREA_FLIPPED},
     {"swap-xy-winding", "wrong handedness: x and y exchanged, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {2, 1, 3}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {2, 1, 3}, .area = AREA_FLIPPED},
     {"swap-yz-winding", "wrong handedness: y and z exchanged, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {1, 3, 2}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {1, 3, 2}, .area = AREA_FLIPPED},
     {"swap-zx-winding", "wrong handedness: z and x exchanged, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {3, 2, 1}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {3, 2, 1}, .area = AREA_FLIPPED},
     {"along-x-winding",
      "wrong handedness: x and z of the observation frame exchanged, which turns the winding as "
      "well",
-     .turn = TURN_ALONG, .axes = {1, 0, 0}, .area = AREA_FLIPPED},
+     .pose = POSE_ALONG, .axes = {1, 0, 0}, .area = AREA_FLIPPED},
     {"along-y-winding",
      "wrong handedness: y and z of the observation frame exchanged, which turns the winding as "
      "well",
-     .turn = TURN_ALONG, .axes = {2, 0, 0}, .area = AREA_FLIPPED},
-    {"scalar-last", "wrong frame: the quaternion read as (x, y, z, w)", .turn = TURN_SCALAR_LAST},
+     .pose = POSE_ALONG, .axes = {2, 0, 0}, .area = AREA_FLIPPED},
+    {"scalar-last", "wrong frame: the quaternion read as (x, y, z, w)", .pose = POSE_SCALAR_LAST},
     {"azel-radians", "degrees for radians: azimuth and elevation in degrees taken for radians",
-     .turn = TURN_RADIANS},
-    {"azel-exchanged", "wrong frame: azimuth and elevation exchanged", .turn = TURN_EXCHANGED},
+     .pose = POSE_RADIANS},
+    {"azel-exchanged", "wrong frame: azimuth and elevation exchanged", .pose = POSE_EXCHANGED},
     {"polar-angle", "wrong frame: elevation taken for an angle from the z axis",
-     .turn = TURN_POLAR},
+     .pose = POSE_POLAR},
     {.name = NULL}};
 
 /* ---- a scene in which the wrong one of coplanar facets is seen ---- */
@@ -479,7 +479,7 @@ static int mistake_view_make(const lrcs_host_kit *kit, lrcs_host_kit_case *one,
         }
     }
     one->peak = fmax(one->peak, peak);
-    if (status != LRCS_OK || (!mistake->turn && !mistake->without && !mistake->wrong_coplanar)) {
+    if (status != LRCS_OK || (!mistake->pose && !mistake->without && !mistake->wrong_coplanar)) {
         return status;
     }
     *own = calloc((size_t)facets + 1, sizeof **own);
@@ -490,7 +490,7 @@ static int mistake_view_make(const lrcs_host_kit *kit, lrcs_host_kit_case *one,
     if (mistake->wrong_coplanar) {
         return run_wrong_coplanar(kit, one, *own, error);
     }
-    if (mistake->turn && mistake_turn(mistake, one, &pose) != LRCS_OK) {
+    if (mistake->pose && mistake_pose_make(mistake, one, &pose) != LRCS_OK) {
         pose = one->pose;
     }
     return lrcsi_kit_run(&view->scene->host, &pose, mistake->without, *own, error);

@@ -11,9 +11,9 @@
 /* A mistake: whatever is not 0 differs from the truth. */
 typedef struct lrcsi_mistake {
     const char *name, *text;
-    int shade, area, turn; /* mistakes.c: enum mistake_shade, ... */
+    int shade, area, pose; /* mistakes.c: enum mistake_shade, ... */
     double parameter;      /* of the mistake in the shading, as enum mistake_shade states */
-    int axes[3]; /* of turn: for x, y, z of s_hat, the component that is used, 1 .. 3, negative to
+    int axes[3]; /* of pose: for x, y, z of s_hat, the component that is used, 1 .. 3, negative to
                     mirror it */
     int corners; /* 3 if the facet is the mean of the values at its corners */
     uint32_t without;   /* effects that are left out, lrcs_run_options.without */

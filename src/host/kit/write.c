@@ -93,7 +93,7 @@ static int cases_add(lrcsi_vectors_job *job, const lrcsi_vectors_scene *scene)
     int status = LRCS_OK;
     int pictures = job->resolution > 0;
     unsigned shown =
-        scene->attitudes & LRCSI_VECTORS_TURNS ? LRCSI_VECTORS_TURNS : ~LRCSI_VECTORS_EDGES;
+        scene->attitudes & LRCSI_VECTORS_OBLIQUE ? LRCSI_VECTORS_OBLIQUE : ~LRCSI_VECTORS_EDGES;
     for (const lrcsi_vectors_attitude *a = lrcsi_vectors_attitudes; a->name && status == LRCS_OK;
          a++) {
         if (a->set & scene->attitudes) {
