@@ -21,11 +21,11 @@ enum cli_exit {
 
 /* The pose options, which cli_pose_read reads, for a help text and for an option list. */
 #define CLI_POSE_HELP                                                                              \
-    "pose: one of these; without any, the laser stands on +z\n"                                    \
-    "  --direction x,y,z     to the laser, body frame, any length\n"                               \
+    "pose: one of these; without any, the laser is on the +z axis\n"                               \
+    "  --direction x,y,z     direction to the laser in the body frame, of any length\n"            \
     "  --azel AZ,EL          the same as azimuth and elevation, deg\n"                             \
-    "  --euler SEQ:a,b,c     deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"           \
-    "  --quaternion w,x,y,z  body to observation frame\n"
+    "  --euler SEQ:a,b,c     angles, deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"   \
+    "  --quaternion w,x,y,z  rotation from the body frame to the observation frame\n"
 #define CLI_POSE_OPTIONS                                                                           \
     {"direction", 1, 0}, {"azel", 1, 0}, {"euler", 1, 0},                                          \
     {                                                                                              \
@@ -35,33 +35,32 @@ enum cli_exit {
 /* The options for a run's accuracy (cli_accuracy_read, cli_normals_read) and for reading a scene
    (cli_scene_options_read), likewise. */
 #define CLI_ACCURACY_HELP                                                                          \
-    "  --tolerance REL       relative error asked for (1e-4; with a --method, none unless "        \
-    "given); "                                                                                     \
-    "exit 3\n"                                                                                     \
-    "                        where the bound, or what curved normals may add, exceeds it\n"        \
-    "  --accept WHAT         what must meet it: bound (default); estimate: a raster's likely "     \
-    "error, a\n"                                                                                   \
-    "                        guess, serves too; any: the first answer, no tolerance is missed\n"   \
+    "  --tolerance REL       relative error that is allowed (default 1e-4; if --method is\n"       \
+    "                        given, there is no tolerance unless REL is given too). Exit 3 if\n"   \
+    "                        the bound, or the estimated error of curved normals, exceeds it\n"    \
+    "  --accept WHAT         what must meet the tolerance: bound (default): the proved bound;\n"   \
+    "                        estimate: the bound, or the estimated error of a raster; any:\n"      \
+    "                        nothing, the first answer is accepted\n"                              \
     "  --method M            auto (default), facet, zbuffer or exact\n"                            \
-    "  --resolution N        raster N x N (default: from the tolerance)\n"                         \
-    "  --normals N           flat (default); smooth: curved, from smoothing groups and vertex "    \
-    "normals;\n"                                                                                   \
-    "                        auto: only where flat facets are too coarse for their glint\n"
+    "  --resolution N        a raster of N x N samples (default: chosen from the tolerance)\n"     \
+    "  --normals N           flat (default); smooth: curved normals, from smoothing groups and\n"  \
+    "                        vertex normals; auto: curved only where flat facets are too coarse\n" \
+    "                        for their glint\n"
 #define CLI_ACCURACY_OPTIONS                                                                       \
     {"tolerance", 1, 0}, {"accept", 1, 0}, {"method", 1, 0}, {"resolution", 1, 0},                 \
     {                                                                                              \
         "normals", 1, 0                                                                            \
     }
 #define CLI_SCENE_HELP                                                                             \
-    "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"    \
-    "  --material [WHAT=]BRDF  repeatable; WHAT is a material's name (* and ? serve) or "          \
-    "'#RRGGBB',\n"                                                                                 \
-    "                        all else if missing; BRDF is A,B,s,m (A, B in 1/sr), each with\n"     \
-    "                        +-DEVIATION or without, or a library material\n"                      \
-    "  --two-sided WHAT      reflects from both sides: all, open (what is no closed surface), a "  \
-    "part\n"                                                                                       \
-    "                        or a material\n"                                                      \
-    "  --keep-transparent    keep facets that the file calls fully transparent\n"
+    "  --unit U              unit of a model: mm, cm, m (default), in, ft or metres per unit\n"    \
+    "  --material [WHAT=]BRDF  a BRDF for some materials; repeatable. WHAT is the name of a\n"     \
+    "                        material, in which * and ? are wildcards, or a colour '#RRGGBB';\n"   \
+    "                        without it, all other materials. BRDF is A,B,s,m (A, B in 1/sr),\n"   \
+    "                        each with or without +-DEVIATION, or the name of a library\n"         \
+    "                        material\n"                                                           \
+    "  --two-sided WHAT      what reflects from both sides: all, open (surfaces that are not\n"    \
+    "                        closed), a part or a material\n"                                      \
+    "  --keep-transparent    keeps facets that the file declares fully transparent\n"
 #define CLI_SCENE_OPTIONS                                                                          \
     {"unit", 1, 0}, {"material", 1, 1}, {"two-sided", 1, 0},                                       \
     {                                                                                              \

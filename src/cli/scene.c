@@ -14,21 +14,21 @@
 static const char scene_help[] =
     "usage: lrcs scene MODEL -o FILE.toml [options]\n"
     "\n"
-    "Writes a scene file for MODEL, a .3ds, .obj or .stl model, to edit: the model as a part,\n"
-    "its unit, every material with its colour, facets and area, and its numbers A, B, s, m.\n"
-    "What nobody has given is marked as assumed and stands at its default. lrcs run takes\n"
-    "the file as it is, and finds the same sigma as for MODEL.\n"
+    "Writes a scene file for MODEL, a .3ds, .obj or .stl model, to edit: the model as a part\n"
+    "with its unit, and every material with its colour, facets and area, and its numbers A,\n"
+    "B, s, m. Numbers that nobody has given are marked as assumed, and have their default\n"
+    "values. lrcs run accepts the file unchanged, and computes the same sigma as for MODEL.\n"
     "\n"
     "output\n"
-    "  -o FILE.toml          the scene file, a new one ('-': standard output)\n"
+    "  -o FILE.toml          the scene file, which must not exist yet ('-': standard output)\n"
     "\n"
     "options\n"
-    "  --unit U              of the model: mm, cm, m (default), in, ft or metres per unit\n"
-    "  --material [WHAT=]BRDF  repeatable; WHAT is a material's name (* and ? serve) or "
-    "'#RRGGBB',\n"
-    "                        all else if missing; BRDF is A,B,s,m (A, B in 1/sr) or a library\n"
-    "                        material\n"
-    "  --keep-transparent    keep facets that the file calls fully transparent\n"
+    "  --unit U              unit of the model: mm, cm, m (default), in, ft or metres per unit\n"
+    "  --material [WHAT=]BRDF  a BRDF for some materials; repeatable. WHAT is the name of a\n"
+    "                        material, in which * and ? are wildcards, or a colour '#RRGGBB';\n"
+    "                        without it, all other materials. BRDF is A,B,s,m (A, B in 1/sr) or\n"
+    "                        the name of a library material\n"
+    "  --keep-transparent    keeps facets that the file declares fully transparent\n"
     "\n"
     "examples\n"
     "  lrcs scene aura.3ds --unit in -o aura.toml\n"
@@ -330,7 +330,7 @@ static int scene_read(scene_job *job)
     }
     if (strcmp(job->path, "-") != 0 && access(job->path, F_OK) == 0) {
         return cli_usage(args->command,
-                         "-o: '%s' is there, and may have been edited: give a new name", job->path);
+                         "-o: '%s' exists, and may have been edited: give another name", job->path);
     }
     int code = cli_scene_options_read(args, &job->load);
     code = code ? code : cli_scene_read(args, &job->load, &job->scene);

@@ -108,7 +108,7 @@ static void facets_table(const cli_shares *shares)
 
 void cli_shares_table(const cli_shares *shares)
 {
-    printf("shares       who makes sigma; the brightest first\n");
+    printf("shares       what contributes to sigma; the largest first\n");
     rows_table(shares, "part", shares->part, shares->parts);
     rows_table(shares, "material", shares->material, shares->materials);
     facets_table(shares);

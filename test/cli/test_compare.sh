@@ -94,7 +94,7 @@ mkdir images
 ./raster kit 96 items=images >theirs.csv
 mkdir mixed && cp images/box.a.item.u32 mixed && cp images/box.a.item.u32 mixed/comb.a.item.u32
 run compare kit theirs.csv --pixels 96 --items images
-why images_that_are_right_agree 0 '16 of 16 images handed in; 0 differ'
+why images_that_are_right_agree 0 '16 of 16 images found; 0 differ'
 for file in images/*.u32; do # rows of 384 bytes, the last one first
     i=96
     while [ $i -gt 0 ]; do

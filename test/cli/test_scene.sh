@@ -44,7 +44,7 @@ usage_error it_asks_for_a_file "give -o FILE.toml" scene deep/m.obj
 usage_error a_scene_is_toml "-o: expected FILE.toml, found 'x.txt'" scene deep/m.obj -o x.txt
 usage_error a_scene_file_needs_no_other "expected a model, found a scene file" scene demo -o x.toml
 : >there.toml
-usage_error what_is_there_is_not_lost "'there.toml' is there, and may have been edited" scene deep/m.obj -o there.toml
+usage_error what_is_there_is_not_lost "'there.toml' exists, and may have been edited" scene deep/m.obj -o there.toml
 failure a_model_must_be_there "none.obj" scene none.obj -o x.toml
 same nothing_was_written "$(ls x.toml 2>&1 >/dev/null | wc -l) $(wc -c <there.toml | tr -d ' ')" "1 0"
 

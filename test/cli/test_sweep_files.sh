@@ -126,7 +126,7 @@ rm -f again.csv
 # shellcheck disable=SC2086
 head -c 800 whole.csv >again.csv.partial && cp again.csv.partial before.csv
 # shellcheck disable=SC2086
-failure work_of_hours_is_not_overwritten "--resume goes on with it; or remove it" sweep $what -o again.csv
+failure work_of_hours_is_not_overwritten "--resume continues it; or remove it" sweep $what -o again.csv
 failure another_sweep_is_not_resumed "is of another sweep" sweep box.toml --az 0:90:10 --el -20:20:20 -o again.csv --resume
 # shellcheck disable=SC2086
 failure another_shard_is_not_resumed "is of another sweep" sweep $what -o again.csv --resume --shard 2/2

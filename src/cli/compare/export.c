@@ -132,7 +132,7 @@ static void tier_junit(FILE *out, const lrcs_host_judgement *job, uint32_t tier)
             xml_text(out, one->explained ? job->finding[one->explained - 1].text : "unexplained");
             fputs("\"/>", out);
         } else if (lrcs_host_judge_failed(job, one)) {
-            fputs("<failure message=\"not handed in\"/>", out);
+            fputs("<failure message=\"not answered\"/>", out);
         }
         fputs("</testcase>\n", out);
     }

@@ -160,7 +160,7 @@ static void facets_print(const lrcs_host_judgement *job, const lrcs_host_kit_fac
 static void items_print(const lrcs_host_judgement *job, const lrcs_host_kit_items *items,
                         const char *folder)
 {
-    printf("items        in %s: %lu of %lu images handed in; %lu differ\n", folder,
+    printf("items        in %s: %lu of %lu images found; %lu differ\n", folder,
            (unsigned long)items->handed, (unsigned long)items->images,
            (unsigned long)items->differ);
     for (int way = 0; way < (int)LRCS_HOST_IMAGE_WAYS; way++) {

@@ -118,7 +118,7 @@ static void peak_row(FILE *out, const report_job *job, uint32_t i)
 
 static void peaks_section(FILE *out, const report_job *job)
 {
-    cli_page_section(out, "peaks", "The brightest directions, and who makes them");
+    cli_page_section(out, "peaks", "The brightest directions, and what contributes to them");
     fputs("<p>Peaks of the map: directions that outshine all their neighbours.", out);
     fputs(job->peaks > 0 ? "</p>\n" : " There are none: nothing returns.</p>\n", out);
     if (job->peaks > 0) {

@@ -107,7 +107,7 @@ static void lines_write(FILE *out, const void *context)
 
 void cli_report_reproduce(FILE *out, const report_job *job)
 {
-    cli_page_section(out, "again", "How to make it again");
+    cli_page_section(out, "again", "How to reproduce it");
     fputs("<dl class=\"facts\">\n", out);
     cli_page_fact(out, "Version", "lrcs %s", lrcs_version());
     for (const lrcs_host_input *input = job->scene.input; input; input = input->next) {
@@ -118,7 +118,7 @@ void cli_report_reproduce(FILE *out, const report_job *job)
     fprintf(out,
             "<div><dt>Scene hash</dt><dd><code id=\"scene_hash\">%016llx</code></dd></div>\n"
             "</dl>\n"
-            "<p>The first line makes this page again, the others what stands on it, one by "
+            "<p>The first line reproduces this page, the others what is on it, one by "
             "one.</p>\n",
             (unsigned long long)lrcs_scene_hash(&job->scene.scene));
     char *lines = cli_text_of(lines_write, job);

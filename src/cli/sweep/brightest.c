@@ -26,7 +26,7 @@ int cli_brightest_read(const cli_args *args, const lrcs_host_plan *plan,
                          "--brightest needs -o FILE: standard output is for its table");
     }
     if (cli_value(args, "shard")) {
-        return cli_usage(args->command, "--brightest is of whole sweeps: not with --shard");
+        return cli_usage(args->command, "--brightest needs the whole sweep: leave out --shard");
     }
     if (plan->rows > BRIGHTEST_ROWS) {
         return cli_usage(args->command, "--brightest: at most 2^28 rows, found %llu",

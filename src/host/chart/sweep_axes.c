@@ -145,7 +145,7 @@ int lrcs_host_sweep_chart_check(lrcs_host_sweep_chart *plot, lrcs_host_error *er
     }
     if (!sphere && (count < 1 || count > 2)) {
         return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                               "plot draws one or two things that vary, found %lu",
+                               "plot draws one or two quantities that vary, found %lu",
                                (unsigned long)count);
     }
     if (plan->rows > PLOT_ROWS) {
@@ -158,11 +158,12 @@ int lrcs_host_sweep_chart_check(lrcs_host_sweep_chart *plot, lrcs_host_error *er
     }
     if (plot->polar && !lrcsi_axis_is_angle(&plot->x)) {
         return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                               "polar: curves turn with an angle, found '%s'", plot->x.name);
+                               "polar: the values along the curves must be angles, found '%s'",
+                               plot->x.name);
     }
     if (plot->map && !ascends) {
         return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                               "plot: a map wants poses whose time ascends");
+                               "plot: a map needs poses in the order of their times");
     }
     if (plot->mollweide && !mollweide_fits(plan, plot)) {
         return lrcsi_host_fail(error, LRCS_E_ARGUMENT,

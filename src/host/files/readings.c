@@ -84,7 +84,7 @@ static int header_read(readings_table *table)
                                  role == ROLE_ANGLE
                                      ? "one column of angles (monostatic readings: laser and "
                                        "detector at the same angle)"
-                                     : "one column of a kind");
+                                     : "only one such column");
         }
         if (role == ROLE_ANGLE && field_has(field, "rad")) {
             return column_refuse(table, LRCS_E_NAME, i, "angles in degrees");

@@ -223,11 +223,10 @@ static void depth_try(lrcsi_search *search)
     }
     if (coarsest < SKINS_TOUCH &&
         2 * lrcsi_search_explained_cases(search) > search->failing_count) {
-        lrcsi_search_finding_add(
-            search, "depth-precision",
-            "depth precision: skins 2^-%d m apart in a scene 8 m deep are not told "
-            "apart: a depth of some %d bits or fewer",
-            coarsest, coarsest + 3);
+        lrcsi_search_finding_add(search, "depth-precision",
+                                 "depth precision: skins 2^-%d m apart in a scene 8 m deep are not "
+                                 "distinguished: a depth of some %d bits or fewer",
+                                 coarsest, coarsest + 3);
     }
 }
 
@@ -313,8 +312,8 @@ static void bias_try(lrcsi_search *search)
     }
     lrcs_host_finding *finding = lrcsi_search_finding_add(
         search, lrcsi_factor_name(median),
-        "all answers are %.6g times the truth: most are within their allowance, but %.0f %% lean "
-        "the same way, which errors of a raster do not: %s",
+        "all answers are %.6g times the truth: most are within their allowance, but %.0f %% differ "
+        "in the same direction, which errors of a raster do not: %s",
         median, 100.0 * nearer / count, lrcsi_factor_text(median, job->pixels));
     if (finding) {
         job->biased = 1;

@@ -77,7 +77,7 @@ static int case_run(truth_run *run, lrcsi_vectors_case *one, lrcs_host_error *er
     }
     if (one->result.method != LRCS_METHOD_EXACT ||
         (one->result.flags & LRCS_FLAG_MEMORY_FALLBACK)) {
-        return lrcsi_host_fail(error, LRCS_E_UNSUPPORTED, "%s, %s: no exact truth here",
+        return lrcsi_host_fail(error, LRCS_E_UNSUPPORTED, "%s, %s: no exact truth is known",
                                one->scene->name, one->attitude->name);
     }
     one->window[0] = run->image.left_m;

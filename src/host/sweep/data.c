@@ -155,7 +155,7 @@ static int data_rows(const char *path, const lrcs_host_rows *rows, const lrcs_ho
     return status != LRCS_OK || count == rows->rows
                ? status
                : lrcsi_host_fail(error, LRCS_E_INDEX,
-                                 "%s: holds %llu of %llu rows: lrcs merge makes shards whole", path,
+                                 "%s: holds %llu of %llu rows: lrcs merge joins shards", path,
                                  (unsigned long long)count, (unsigned long long)rows->rows);
 }
 

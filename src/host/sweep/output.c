@@ -363,8 +363,8 @@ int lrcs_host_sweep_output_open(lrcs_host_sweep_output *file, int resume, lrcs_h
             fwrite(text[file->format], 1, size[file->format], file->stream);
         } else if (errno == EEXIST) {
             status = lrcsi_host_fail(error, LRCS_E_SYSTEM,
-                                     "%s: is there from a sweep that was stopped: --resume goes on "
-                                     "with it; or remove it",
+                                     "%s: exists from a sweep that was stopped: --resume continues "
+                                     "it; or remove it",
                                      file->partial);
         } else {
             status = lrcsi_host_fail_file(error, file->partial, "write");

@@ -328,6 +328,6 @@ int lrcsi_rows_read(const char *path, const lrcs_host_rows *rows, const lrcs_hos
     return end == 1 ? LRCS_OK
                     : lrcsi_host_fail(error, LRCS_E_TRUNCATED,
                                       "%s: ends without its checksum: was its sweep stopped? "
-                                      "--resume goes on with it",
+                                      "--resume continues it",
                                       path);
 }
