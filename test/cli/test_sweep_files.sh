@@ -159,7 +159,7 @@ if command -v timeout >/dev/null; then
         while kill -0 $first 2>/dev/null && [ "$(lines cut.csv.partial)" -lt $((before + 2000)) ]; do sleep 0.02; done
         kill -s $signal $first
         wait $first
-        same "sig${signal}_says_how_to_go_on" "$(grep -c 'cut.csv.partial holds .* --resume goes on' stop.txt)" 1
+        same "sig${signal}_says_how_to_go_on" "$(grep -c 'cut.csv.partial holds .* --resume continues with them' stop.txt)" 1
         same "sig${signal}_leaves_no_file" "$([ -e cut.csv ] && echo there)" ""
         rows=$(grep -c '^[0-9]' cut.csv.partial)
         same "sig${signal}_leaves_whole_rows" "$(tail -c 1 cut.csv.partial | od -An -c | tr -d ' ') $(grep -vc '^#\|^index\|^[0-9]*,[^,]*,0,[^,]*,[^,]*,[^,]*,[^,]*,[^,]*,[a-z_]*$' cut.csv.partial)" '\n 0'
