@@ -258,7 +258,7 @@ static void material_put(const scene_job *job, uint32_t index, const char *unnam
                name);
     putc('\n', out);
     brdf_put(material, out);
-    int two_sided = 1; /* are all materials of that name, of which the key makes all so */
+    int two_sided = 1; /* 1 if all materials of that name are: the key applies to each of them */
     for (uint32_t i = 0; i < scene->material_count; i++) {
         two_sided &=
             strcmp(scene->material[i].name, material->name) != 0 || scene->material[i].two_sided;

@@ -87,13 +87,15 @@ static void rows_table(const cli_shares *shares, const char *what, const shares_
     }
 }
 
-static void facets_table(const cli_shares *shares)
+void cli_shares_table(const cli_shares *shares)
 {
-    if (shares->facets == 0) {
-        return;
+    printf("shares       what contributes to sigma; the largest first\n");
+    rows_table(shares, "part", shares->part, shares->parts);
+    rows_table(shares, "material", shares->material, shares->materials);
+    if (shares->facets > 0) {
+        printf("  %-10s %-*s %-20s %9s %12s %12s %9s\n", "facet", NAME_WIDTH, "part", "material",
+               "theta deg", "visible m2", "sigma m2", "share");
     }
-    printf("  %-10s %-*s %-20s %9s %12s %12s %9s\n", "facet", NAME_WIDTH, "part", "material",
-           "theta deg", "visible m2", "sigma m2", "share");
     for (uint32_t i = 0; i < shares->facets; i++) {
         const shares_facet *facet = &shares->facet[i];
         printf("  %-10lu ", (unsigned long)facet->facet);
@@ -104,14 +106,6 @@ static void facets_table(const cli_shares *shares)
         percent_cell(cli_share_of(shares, facet->sigma_m2));
         putchar('\n');
     }
-}
-
-void cli_shares_table(const cli_shares *shares)
-{
-    printf("shares       what contributes to sigma; the largest first\n");
-    rows_table(shares, "part", shares->part, shares->parts);
-    rows_table(shares, "material", shares->material, shares->materials);
-    facets_table(shares);
 }
 
 /* ---- JSON ---- */

@@ -63,7 +63,8 @@ typedef struct plot_job {
     int stats;
 } plot_job;
 
-/* Appends to the list the options of `head` that `other` lacks, or, if `values`, has otherwise. */
+/* Appends to the list the options of `head` that `other` lacks or, if `values` is 1, gives with
+   another value. */
 static void differences_list(const lrcs_host_rows_head *head, const lrcs_host_rows_head *other,
                              int values, char *list, size_t size)
 {

@@ -15,7 +15,7 @@ static double total_sigma(const profile_job *job)
     return job->profile.list.sigma_glint_m2 + job->profile.list.sigma_diffuse_m2;
 }
 
-/* 1 if some normals are curved: then what their integral may be off by is estimated. */
+/* 1 if some normals are curved: then the error of their integral is estimated. */
 static int is_curved(const profile_job *job)
 {
     return job->profile.list.curvature_estimate_m2 >= 0.0;

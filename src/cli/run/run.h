@@ -36,7 +36,8 @@ typedef struct run_caveats {
     lrcs_host_glint_sum glint; /* their glint, and an estimate of its error */
 } run_caveats;
 
-/* A search for the best settings divides scenes of more parts anew for the answer that it keeps. */
+/* A search for the best settings keeps the division of a scene of up to this many parts; one of
+   more parts is divided again for the answer. */
 #define RUN_BUDGET_PARTS 1024u
 
 /* The inputs and results of a run. */

@@ -275,7 +275,10 @@ static void contours_between(const map_layout *layout, uint32_t column, uint32_t
             layout->plotter->line(layout->plotter, point, 2, &style);
         } else if (count == 4) {
             int middle = 0.25 * (z[0] + z[1] + z[2] + z[3]) >= level;
-            int separate = middle == (z[0] >= level); /* corners 1 and 3 are, not 0 and 2 */
+            int separate =
+                middle ==
+                (z[0] >=
+                 level); /* 1: contours separate corners 1 and 3 from the rest, else 0 and 2 */
             const lrcsi_plot_point pair[4] = {point[separate ? 0 : 3], point[separate ? 1 : 0],
                                               point[separate ? 2 : 1], point[separate ? 3 : 2]};
             layout->plotter->line(layout->plotter, pair, 2, &style);

@@ -141,19 +141,21 @@ int lrcs_host_sweep_chart_check(lrcs_host_sweep_chart *plot, lrcs_host_error *er
     }
     if (sphere && (count > 0 || plot->polar)) {
         return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                               "plot draws the directions of --sphere as a map, of one scene");
+                               "plot: the directions of --sphere are drawn as a map of one scene");
     }
     if (!sphere && (count < 1 || count > 2)) {
         return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                               "plot draws one or two quantities that vary, found %lu",
+                               "plot: expected one or two quantities that vary, found %lu",
                                (unsigned long)count);
     }
     if (plan->rows > PLOT_ROWS) {
-        return lrcsi_host_fail(error, LRCS_E_ARGUMENT, "plot: at most 2^28 rows, found %llu",
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
+                               "plot: expected at most 2^28 rows, found %llu",
                                (unsigned long long)plan->rows);
     }
     if (plot->polar && plot->y.count > LRCS_HOST_SWEEP_CURVES) {
-        return lrcsi_host_fail(error, LRCS_E_ARGUMENT, "polar draws at most %u curves, found %llu",
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
+                               "polar: expected at most %u curves, found %llu",
                                LRCS_HOST_SWEEP_CURVES, (unsigned long long)plot->y.count);
     }
     if (plot->polar && !lrcsi_axis_is_angle(&plot->x)) {
@@ -167,8 +169,8 @@ int lrcs_host_sweep_chart_check(lrcs_host_sweep_chart *plot, lrcs_host_error *er
     }
     if (plot->mollweide && !mollweide_fits(plan, plot)) {
         return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                               "projection mollweide draws a map over azimuth and elevation, of at "
-                               "most a turn and within -90 .. 90 deg, or --sphere");
+                               "projection mollweide needs azimuths over at most 360 deg and "
+                               "elevations within -90 .. 90 deg, or --sphere");
     }
     return LRCS_OK;
 }

@@ -180,7 +180,7 @@ static int drawing_curves(FILE *out, const plot_drawing *drawing, int png, lrcs_
         const plot_values *values = &drawing->values[k];
         for (uint32_t i = 0; i < one->y.count; i++, curves++) {
             int marked = one->x.count < PLOT_MARKS;
-            char value[192] = ""; /* the name has the sweep, its value along y, or both */
+            char value[192] = ""; /* a curve is named by its sweep, its value along y, or both */
             if (one->y.count > 1) {
                 lrcsi_axis_value_text(one->y.name, values->y[i], value);
             }

@@ -256,7 +256,7 @@ static int table_read(readings_table *table)
         return more;
     }
     if (table->out->count == 0) {
-        return lrcsi_host_fail(table->error, LRCS_E_EMPTY, "%s: no readings in it",
+        return lrcsi_host_fail(table->error, LRCS_E_EMPTY, "%s: contains no readings",
                                table->text.path);
     }
     if (table->left_out > 0) {

@@ -160,7 +160,7 @@ int lrcs_host_kit_read(const char *folder, lrcs_host_kit *kit, lrcs_host_error *
     }
     if (access(path, F_OK) != 0) {
         return lrcsi_host_fail(error, LRCS_E_SYSTEM,
-                               "%s: not a kit's folder (lrcs vectors DIR makes one)", folder);
+                               "%s: not the folder of a kit (lrcs vectors DIR makes one)", folder);
     }
     status = kit_table_read(folder, 0, kit, error);
     return status != LRCS_OK ? status : kit_table_read(folder, 1, kit, error);

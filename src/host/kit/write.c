@@ -47,7 +47,7 @@ static int folders_make(const char *path, lrcs_host_error *error)
     int status = lrcsi_kit_path(inside, error, "%s/scenes", path);
     if (status == LRCS_OK && entries > 2 && stat(inside, &about) != 0) { /* "." and ".." */
         return lrcsi_host_fail(error, LRCS_E_SYSTEM,
-                               "%s: holds other files, and no kit: give an empty folder", path);
+                               "%s: contains other files but no kit: choose an empty folder", path);
     }
     for (int i = 0; i < 3 && status == LRCS_OK; i++) {
         status = lrcsi_kit_path(inside, error, "%s%s", path, name[i]);

@@ -169,7 +169,7 @@ static void materials_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plot
     }
 }
 
-/* ---- the strip ---- */
+/* ---- the whole legend ---- */
 
 double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, double height_max)
 {

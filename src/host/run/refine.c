@@ -26,7 +26,8 @@
 #define KEPT_FACETS_MAX (UINT32_C(1) << 19)
 /* All parts are divided alike if that takes at most this many times the facets. */
 #define SHARED_MAX 1.1
-/* How far errors are reduced beside those of parts that cannot be divided any further. */
+/* If the parts that cannot be divided any further have more error than is allowed, that of the
+   others is reduced to this fraction of it. */
 #define FIXED_FRACTION 0.1
 /* The cost of a halving is at least that of so many facets. */
 #define COST_MIN 16.0
@@ -179,10 +180,10 @@ static void choice_halve(const struct lrcsi_host_levels *levels, double toleranc
     choice->error *= HALVING_FACTOR;
 }
 
-/* Halves parts until their errors together are allowed, or no part can be halved: all parts at a
-   time, or the best one each time. Where parts that cannot be halved have more error than is
-   allowed, that of the others is reduced to FIXED_FRACTION of theirs. Returns the number of facets.
- */
+/* Halves parts, all of them or the best one each time, until their total error is allowed, or no
+   part can be halved any further. If the parts that cannot be halved have more error than is
+   allowed, the error of the others is reduced to FIXED_FRACTION of that. Returns the number of
+   facets. */
 static double choices_halve(const struct lrcsi_host_levels *levels, double tolerance,
                             double allowed, int all, part_choice *choice, unsigned char *halvings)
 {
@@ -205,10 +206,11 @@ static double choices_halve(const struct lrcsi_host_levels *levels, double toler
     }
 }
 
-/* The halvings with which the tolerance is likely to be met, or all that are allowed: of the parts
-   that the error is due to; but of all parts alike, which more poses share, if that takes about as
-   few facets. There is room for twice as many. Returns 0 if they are those of `from`, or if one
-   part that cannot be halved has more error than is allowed: the tolerance is out of reach. */
+/* Chooses the halvings with which the tolerance is likely to be met, or all that are allowed. Only
+   the parts that cause the error are halved; but all parts alike, if that takes about as few
+   facets, because more poses can then share the division. The array has room for twice the number
+   of parts. Returns 0 if the halvings are those of `from`, or if a single part that cannot be
+   halved has more error than is allowed: the tolerance is then out of reach. */
 static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_scene *scene,
                            const lrcs_run_options *options, const lrcs_result *result,
                            const unsigned char *from, unsigned char *halvings)
@@ -262,7 +264,7 @@ static lrcs_host_scene *level_build(const lrcs_host_scene *base,
     return scene;
 }
 
-/* Frees the levels that were not asked for the longest time, until few enough are left. */
+/* Frees levels, the least recently used first, until few enough are left. */
 static void levels_limit(struct lrcsi_host_levels *levels)
 {
     for (;;) {

@@ -26,10 +26,11 @@ int lrcs_host_sweep_part_read(const char *path, const lrcs_host_sweep_part *othe
     }
     if (other && (rows->head_size != other->rows.head_size ||
                   memcmp(rows->head, other->rows.head, rows->head_size) != 0)) {
-        return lrcsi_host_fail(error, LRCS_E_SYNTAX,
-                               "%s: is of another sweep (its first lines differ from those of the "
-                               "first file)",
-                               path);
+        return lrcsi_host_fail(
+            error, LRCS_E_SYNTAX,
+            "%s: belongs to another sweep (its first lines differ from those of the "
+            "first file)",
+            path);
     }
     return lrcsi_rows_read(path, rows, NULL, NULL, NULL, &part->first, &part->count, error);
 }
@@ -53,8 +54,8 @@ static int parts_check(const lrcs_host_sweep_part *part, uint32_t count, lrcs_ho
     uint64_t next = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (part[i].count > 0 && part[i].first < next) {
-            return lrcsi_host_fail(error, LRCS_E_INDEX, "%s: holds rows that another file holds",
-                                   part[i].path);
+            return lrcsi_host_fail(error, LRCS_E_INDEX,
+                                   "%s: holds rows that another file holds too", part[i].path);
         }
         if (part[i].count > 0 && part[i].first > next) {
             break;

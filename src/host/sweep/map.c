@@ -64,7 +64,7 @@ static int map_head_write(const char *path, const char *map, const lrcs_host_row
     lrcs_host_file made;
     lrcs_host_output head;
     if ((size_t)snprintf(name, sizeof name, "%s" MAP_HEAD, path) >= sizeof name) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: a name that is too long", path);
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: the name is too long", path);
     }
     int status = lrcs_host_file_read(map, &made, error);
     if (status != LRCS_OK) {

@@ -64,7 +64,7 @@ static int lock_take(lrcs_host_sweep_output *file, lrcs_host_error *error)
             close(file->lock);
             file->lock = -1;
             return lrcsi_host_fail(error, LRCS_E_SYSTEM,
-                                   "%s: is being written by %s: wait for its end, or stop it",
+                                   "%s: is being written by %s: wait until it ends, or stop it",
                                    file->path, holder[0] ? holder : "another process");
         }
     } while (locked && !file_is_named(file->lock, file->lock_path, &held));
@@ -255,8 +255,8 @@ static int partial_continue(lrcs_host_sweep_output *file, const char *head, size
     lrcs_host_file_free(&there);
     if (status == LRCS_OK && !same) {
         return lrcsi_host_fail(error, LRCS_E_SYNTAX,
-                               "%s: is of another sweep (scene, options, shard or version): remove "
-                               "it, or give the same",
+                               "%s: belongs to another sweep (scene, options, shard or version): "
+                               "remove it, or give the same ones",
                                file->partial);
     }
     if (status != LRCS_OK) {
@@ -293,8 +293,8 @@ static int map_recover(lrcs_host_sweep_output *file, char *const head[2], const 
     return same;
 }
 
-/* FILE exists, and is never replaced by a sweep that goes on: LRCS_OK if it is complete and belongs
-   to this very sweep, with its rows recovered. */
+/* Recovers the rows of FILE, which exists and is never replaced by a sweep that is resumed. LRCS_OK
+   if it is complete and belongs to this very sweep. */
 static int whole_recover(lrcs_host_sweep_output *file, char *const head[2], const size_t size[2],
                          lrcs_host_error *error)
 {
@@ -314,10 +314,12 @@ static int whole_recover(lrcs_host_sweep_output *file, char *const head[2], cons
         lrcs_host_file_free(&there);
     }
     if (status == LRCS_OK && !same) {
-        return lrcsi_host_fail(error, LRCS_E_SYNTAX,
-                               "%s: is not of this sweep (scene, options, shard or version)%s: "
-                               "--resume replaces no whole file: remove it, or give another name",
-                               file->path, file->npy ? ", or is not what its .head says" : "");
+        return lrcsi_host_fail(
+            error, LRCS_E_SYNTAX,
+            "%s: is not a file of this sweep (scene, options, shard or version)%s; "
+            "--resume does not replace a complete file: remove it, or give "
+            "another name",
+            file->path, file->npy ? ", or differs from its .head" : "");
     }
     if (status == LRCS_OK && (!summed || file->next != file->end)) {
         return lrcsi_host_fail(
@@ -458,8 +460,8 @@ int lrcs_host_sweep_output_close(lrcs_host_sweep_output *file, int all, lrcs_hos
     if (!ours) {
         return lrcsi_host_fail(
             error, LRCS_E_SYSTEM,
-            "%s: was changed or removed by another program while it was written: "
-            "it does not become %s",
+            "%s: was changed or removed by another program while it was written, so that it is not "
+            "renamed to %s",
             file->partial, file->path);
     }
     if (all && file->npy) {
