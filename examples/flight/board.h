@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the task's surroundings give it: a line out, how deep the stack ever was, and a clock. */
+/* What a board provides for the task: a line of output, the greatest depth of the stack so far, and
+   a clock. */
 #ifndef FLIGHT_BOARD_H
 #define FLIGHT_BOARD_H
 
@@ -8,7 +9,7 @@
 
 void board_write(const char *text);
 size_t board_stack_peak(void); /* bytes; 0: not known here */
-uint32_t board_ticks(void);    /* a clock of 24 bits, of the processor's ticks; 0: none here */
+uint32_t board_ticks(void);    /* a counter of 24 bits of processor cycles; 0 if there is none */
 
 int flight_main(void);
 

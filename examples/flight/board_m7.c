@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A Cortex-M7 with double-precision FPU as the board: start, semihosting, and a painted stack. No
-   C library starts here, and nothing is linked that could ask for a heap. */
+   start-up code of a C library is used, and nothing that is linked needs a heap. */
 #include "board.h"
 
 #include <stdint.h>
@@ -83,7 +83,7 @@ void board_fault(void)
     board_exit(2);
 }
 
-/* The vector table's head: stack, reset, NMI and the faults. */
+/* The beginning of the vector table: stack, reset, NMI and the faults. */
 __attribute__((section(".vectors"), used)) static const struct {
     uint32_t *stack;
     void (*handler[6])(void);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Drives the task through a slow tumble with two broken attitudes in it, and writes a line of
-   telemetry every cycle, by its own means: no stdio, no locale. */
+/* Runs the task through a slow tumble that includes two invalid attitudes, and writes a line of
+   telemetry after each cycle, without stdio or a locale. */
 #include "board.h"
 #include "task.h"
 

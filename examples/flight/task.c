@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The task: memory is fixed when it is linked, the scene is read and prepared once, and each cycle
-   takes what it needs above that and gives it back. A cycle that fails leaves the last good answer,
-   says how old that is, and what was wrong; nothing it is given can do worse. */
+/* The task. Its memory is fixed at link time; the scene is read and prepared once, and each cycle
+   uses the rest of the memory and releases it. A cycle that fails keeps the last good answer, and
+   reports its age and the cause; no input can do more harm. */
 #include "task.h"
 
 #include <lrcs/lrcs.h>
@@ -12,7 +12,7 @@
 #define FLIGHT_MEMORY (512u << 10)
 #endif
 
-/* The scene lies in read-only memory; shapes are divided once, by flight_start. */
+/* The scene is in read-only memory; shapes are divided once, by flight_start. */
 static const char scene_text[] =
     "[[part]]\nname = 'bus'\nshape = 'box'\nsize = [1.2, 1.2, 1.8]\n"
     "material = 'mli-gold'\n"
@@ -48,7 +48,7 @@ int32_t flight_start(void)
     if (status == LRCS_OK) {
         status = lrcs_prepare_run(&scene, &work, &prepared);
     }
-    /* Refuse now what a cycle might refuse later: from here on no attitude lacks memory. */
+    /* Fail here rather than in a later cycle: after this no attitude lacks memory. */
     if (status == LRCS_OK && lrcs_sigma_need(prepared, &options) > work.size - work.used) {
         status = LRCS_E_MEMORY;
         prepared = NULL;

@@ -5,8 +5,8 @@
 
 #include <stdint.h>
 
-/* Steps that a cycle may take; where they do not suffice, the answer comes all the same, its bound
- * holds what they left open, and its flags say so. */
+/* Steps that a cycle may take. If they do not suffice, there is an answer nevertheless; its bound
+   includes what was left undecided, and a flag is set. */
 #ifndef FLIGHT_STEPS
 #define FLIGHT_STEPS 150000u
 #endif
@@ -16,7 +16,7 @@ _Static_assert(FLIGHT_STEPS > 0 && FLIGHT_STEPS <= UINT32_MAX, "0 would be no li
 typedef struct flight_telemetry {
     uint32_t cycle;
     int32_t status;    /* of this cycle: 0, or an lrcs_status */
-    uint32_t stale;    /* cycles since sigma and bound were good; 0: they are this cycle's */
+    uint32_t stale;    /* cycles since sigma and bound were computed; 0: in this cycle */
     uint32_t failures; /* since start */
     uint32_t flags;    /* lrcs_flag: how the last good answer is degraded */
     uint32_t notices;  /* lrcs_notice: what it refers to */
@@ -27,11 +27,12 @@ typedef struct flight_telemetry {
     uint32_t memory_peak; /* that were ever in use */
 } flight_telemetry;
 
-/* Once, before the first cycle. Returns 0, or the lrcs_status that forbids to go on. */
+/* To be called once, before the first cycle. Returns 0, or the lrcs_status that prevents the task
+   from running. */
 int32_t flight_start(void);
 
-/* One cycle; without a flight_start that returned 0 its status is LRCS_E_EMPTY. Attitude:
- * quaternion (w, x, y, z), body to observation frame; not trusted. */
+/* Runs one cycle; its status is LRCS_E_EMPTY unless flight_start returned 0. Attitude: quaternion
+   (w, x, y, z), body to observation frame; it is checked. */
 void flight_cycle(const double attitude[4], flight_telemetry *telemetry);
 
 #endif

@@ -52,15 +52,15 @@
 #define GL_DECLARE(type, name) extern type name;
 GL_FUNCTIONS(GL_DECLARE)
 
-/* Makes a context current on the first device that has OpenGL 3.3; 0 where none does. */
+/* Makes a context current on the first device that has OpenGL 3.3; returns 0 if there is none. */
 int gl_start(void);
 
 /* A program, or 0 with the compiler's words on stderr. */
 GLuint gl_program(const char *vertex_shader, const char *fragment_shader);
 
-/* Draws from now on into size x size pixels of two colours and a depth: the item buffer of whole
-   numbers, shades as floats (8-bit colours would round the glint away), a float's depth. 0 where
-   there are no such buffers. */
+/* Selects size x size pixels to draw to, with two colours and a depth: facets as whole numbers (the
+   item buffer), shades as floats (8-bit colours would round the glint away), and a depth as float.
+   Returns 0 if there are no such buffers. */
 int gl_target(GLsizei size);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads the kit's tables and OBJ files. It trusts them: a kit is written by lrcs vectors. */
+/* Reads the kit's tables and OBJ files. It does not check them, because lrcs vectors wrote them. */
 #include "kit.h"
 
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #define LINE    2048
 #define COLUMNS 32
 
-/* A table being read: the names of its columns, and the fields of the line at hand. */
+/* A table being read: the names of its columns, and the fields of the current line. */
 typedef struct table {
     FILE *file;
     char head[LINE], line[LINE];

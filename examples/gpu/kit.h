@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What lrcs vectors writes, as far as a code needs it to take part: cases, scenes, materials. */
+/* What lrcs vectors writes, as far as an implementation needs it: cases, scenes, materials. */
 #ifndef EXAMPLE_KIT_H
 #define EXAMPLE_KIT_H
 
@@ -36,7 +36,7 @@ typedef struct kit {
     int facets;
 } kit;
 
-/* Both end the program with a message where they fail: an example. */
+/* Both end the program with a message if they fail, which suffices for an example. */
 kit kit_read(const char *folder);
 void kit_scene(kit *k, const char *scene);
 

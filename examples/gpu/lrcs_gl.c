@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The paper's method on a GPU: draw the facets, let the depth test decide who is seen, shade every
+/* The paper's method on a GPU: draw the facets, let the depth test decide what is seen, shade every
    pixel with f_r cos(theta), add the pixels up. It takes part in the conformance kit:
 
      cc -O2 lrcs_gl.c gl.c kit.c -o lrcs_gl -lEGL -lm      (Debian: libegl-dev, libgl1-mesa-dri)
@@ -9,7 +9,7 @@
 
    usage: lrcs_gl KIT [N [FACETS.csv]]
    N x N pixels, 512 if not given; sigma of every case on stdout, the visible area of every facet in
-   FACETS.csv. Exit 77 where there is no OpenGL 3.3 to draw with. The method is in the two shaders,
+   FACETS.csv. Exit 77 if there is no OpenGL 3.3. The method is in the two shaders,
    in draw and in sigma_of; nothing of lrcs is linked. */
 #include "gl.h"
 #include "kit.h"
@@ -52,7 +52,7 @@ static const char vertex_shader[] =
     "}\n";
 
 /* The tangent comes from the normal's components: 1 / c^2 - 1 would lose a narrow glint to
-   cancellation. Beyond x = 9 a float has no glint left, and 0 / 0 must not come in its place. */
+   cancellation. Beyond x = 9 the glint is 0 in float, and must not become 0 / 0. */
 static const char fragment_shader[] =
     "#version 330 core\n"
     "flat in vec3 n;\n"
@@ -103,8 +103,8 @@ static void layout_make(void)
     }
 }
 
-/* Where the scene stands. Its box's centre is taken off in double precision before anything is
-   rounded to float: a scene far from the origin then loses nothing. */
+/* The position of the scene. The centre of its box is subtracted in double precision before
+   anything is rounded to float, so that a scene far from the origin loses no accuracy. */
 typedef struct body {
     double centre[3], reach;
 } body;
@@ -197,7 +197,7 @@ static void depth_range(const kit *k, const body *b, const double axis[3], doubl
     }
 }
 
-/* The square of the case fills the raster; in depth the scene leaves a little free at both ends. */
+/* The square of the case fills the raster; in depth there is a small margin at both ends. */
 static void pose_upload(const kit *k, const kit_case *c, const body *b, GLuint program)
 {
     double R[3][3];
@@ -224,9 +224,10 @@ static void pose_upload(const kit *k, const kit_case *c, const body *b, GLuint p
     glUniform3fv(glGetUniformLocation(program, "move"), 1, move);
 }
 
-/* Back sides hide, too; but where a front lies in their plane, that is what is seen (panels are
-   often two skins back to back). So fronts are drawn first, and backs a little behind themselves:
-   of two triangles in one plane the depths differ by rounding. */
+/* Backs hide what is behind them too; but a front in the same plane is seen instead of a back
+   (panels often consist of two faces in one place). Therefore fronts are drawn first, and backs
+   slightly behind their true position: rounding makes the depths of two triangles in one plane
+   differ. */
 static void draw(int facets)
 {
     static const GLuint nobody[4] = {NO_FACET, 0, 0, 0};
@@ -264,8 +265,8 @@ static void read_back(pixels *p, const kit_case *c)
     glReadPixels(0, 0, p->size, p->size, GL_RED, GL_FLOAT, p->shade);
 }
 
-/* sigma = 4 pi sum f_r cos(theta) * area of a pixel. The sum is a double: a float that a million
-   pixels are added to one by one loses far more than everything else here. */
+/* sigma = 4 pi sum f_r cos(theta) * area of a pixel. The sum is a double: a float to which a
+   million pixels are added one by one would lose far more accuracy than all other steps. */
 static double sigma_of(const pixels *p)
 {
     double sum = 0;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A small code of its own that takes part in the conformance kit: it draws, tests depths, shades
-   and sums, as a GPU would. It knows the kit's README.md and nothing of lrcs.
+/* A small independent implementation that takes part in the conformance kit: it draws, tests
+   depths, shades and sums, as a GPU would. It is written from the kit's README.md alone and uses
+   nothing of lrcs.
 
      lrcs vectors kit
      cc -O2 -o raster examples/kit/raster.c -lm
@@ -8,7 +9,7 @@
      lrcs compare kit theirs.csv --pixels 512
 
    raster KIT N [MISTAKE] [items=DIR]: N x N pixels, 0: no raster, whole facets (tiers 1 and 2).
-   With a MISTAKE it is wrong on purpose, so that the judge can be judged:
+   With a MISTAKE it is wrong on purpose, so that lrcs compare can be tested:
      shadows backs hand mirror winding farthest frame degrees tan radians 4pi cos pixel colour glint
      depth fight float
    and several at once, shadows+cos. */
@@ -57,7 +58,7 @@ static int is(const char *name)
     return strstr(mistake, name) != NULL;
 }
 
-/* What is left of a number in the precision that the code works in. */
+/* Rounds a number to the precision in which the code works. */
 static double keep(double x)
 {
     return is("float") ? (double)(float)x : x;
@@ -191,9 +192,9 @@ static double of3(double (*best)(double, double), const double *a, const double 
     return best(a[k], best(b[k], c[k]));
 }
 
-/* Draws a facet over the pixels whose centres it covers; returns how many that are. A pixel changes
-   hands only where the facet is nearer by more than rounding: of skins in one place the first
-   drawn stays. */
+/* Draws a facet over the pixels whose centres it covers; returns their number. A pixel gets the
+   facet only if this is nearer by more than rounding errors: of coincident facets the one that was
+   drawn first stays. */
 static long draw(int i, const double window[3], int N, double *depth, uint32_t *item)
 {
     const double *a = seen[facet[i][0] - 1];
@@ -241,7 +242,8 @@ static void make_window(double window[3])
     window[1] = (low[1] + high[1] + window[2]) / 2; /* top */
 }
 
-/* sigma by pixels: fronts are drawn first, so that they win over backs in the same place. */
+/* sigma by pixels: fronts are drawn first, so that they have precedence over backs in the same
+   place. */
 static double sigma_raster(const double s[3], int N, double *depth, uint32_t *item)
 {
     double window[3];

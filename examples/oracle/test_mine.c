@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The library as the oracle of a unit test: an implementation of one's own, here a loop in float
-   over a convex box, must agree with it to what float can hold, and the oracle says how far it can
-   be wrong itself. build: cc test_mine.c -I../../include ../../build/liblrcs.a -lcmocka -lm
-   -pthread */
+   over a convex box, must agree with it to within the accuracy of float; the oracle states the
+   largest possible error of its own answer. build: cc test_mine.c -I../../include
+   ../../build/liblrcs.a -lcmocka -lm -pthread */
 #include <lrcs/host.h>
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Angles at which sigma has fallen to half or to another sigma: between two aspects that are proved
-   to enclose such an angle, sigma being continuous. */
+   to enclose such an angle, because sigma is continuous. */
 #include "study.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ typedef struct angle_search {
     double from_deg, side;
 } angle_search;
 
-/* 1: above the level for certain, -1: below, 0: the bounds do not tell. */
+/* 1: certainly above the level, -1: certainly below, 0: the bounds do not decide. */
 static int level_side(study_job *job, const angle_search *search, double angle)
 {
     double aspect = search->from_deg + search->side * angle;
@@ -24,7 +24,7 @@ static int level_side(study_job *job, const angle_search *search, double angle)
                                                                    : 0;
 }
 
-/* The farthest angle that bisection finds on one side for certain. */
+/* The farthest angle that bisection proves to be on one side. */
 static double level_edge(study_job *job, const angle_search *search, double sure, double unsure,
                          int side)
 {
@@ -39,8 +39,9 @@ static double level_edge(study_job *job, const angle_search *search, double sure
     return sure;
 }
 
-/* Between an angle certainly above and a larger one certainly below sigma, being continuous, meets
-   the level. The sum of an aspect and an angle, below 256 deg, is rounded by 2^-46 deg at most. */
+/* Sigma is continuous: it equals the level between an angle at which it is certainly above and a
+   larger one at which it is certainly below. The sum of an aspect and an angle, below 256 deg, is
+   rounded by 2^-46 deg at most. */
 static study_number level_angle(study_job *job, const angle_search *search, double most)
 {
     double above = level_edge(job, search, 0.0, most, 1);

@@ -28,7 +28,7 @@ static void attitude_fill(study_job *job, study_table *table, uint32_t column,
     }
 }
 
-/* What is drawn and what it is made of, a parameter that varies left aside. */
+/* What is drawn, and its material except for a parameter that varies. */
 static void material_note(study_table *table, const char *what, const lrcs_brdf *brdf, char varies)
 {
     static const char name[] = {'A', 'B', 's', 'm'};
@@ -50,7 +50,7 @@ static const char *const finish_title[STUDY_FINISHES] = {
     "Attitude, purely diffuse surface", "Attitude, purely specular (glint) surface",
     "Attitude, mixed surface"};
 
-/* Cube and cylinder show faces of the same size, whose curves lie on each other. */
+/* Cube and cylinder show faces of the same size, whose curves coincide. */
 static const int body_dash[STUDY_KINDS] = {[STUDY_DISC] = LRCS_HOST_DOTTED,
                                            [STUDY_CYLINDER] = LRCS_HOST_DASHED,
                                            [STUDY_SPHERE] = LRCS_HOST_DOTTED};

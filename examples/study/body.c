@@ -151,8 +151,9 @@ study_number study_sigma(study_job *job, const lrcs_shape *shape, const lrcs_brd
     return study_sigma_at(job, shape, brdf, &aspect);
 }
 
-/* Lengths are square roots of quotients with pi, a sine among them: each is within 5 * 2^-53 of
-   itself, libm's sine being within 2 ulp, and sigma goes with products of two. */
+/* Lengths are square roots of quotients with pi, and in one case with a sine. The relative error of
+   each is at most 5 * 2^-53 if libm's sine is within 2 ulp; sigma is proportional to products of
+   two. */
 study_number study_meant(study_number sigma)
 {
     sigma.bound += 16.0 * 0x1p-53 * fabs(sigma.value);

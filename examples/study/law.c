@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* How a law stands or falls: each comparison with its limits and bound, the closest one kept. It
-   decides no law. */
+/* How a law is judged: each comparison with its limits and its bound; the closest one is kept.
+   Other files state the laws. */
 #include "study.h"
 
 #include <math.h>
@@ -16,14 +16,14 @@ study_law *study_law_add(study_job *job, const char *name, const char *quantity)
     return law;
 }
 
-/* The bound a little enlarged: then the sign of a rounded difference less it is that of the truth.
- */
+/* The bound, slightly enlarged: then the sign of a rounded difference minus this bound is that of
+   the exact one. */
 static double law_bound(study_number number)
 {
     return number.bound * (1.0 + 0x1p-48);
 }
 
-/* What is not a number stays: no later comparison mends it. */
+/* A NaN stays: no later comparison replaces it. */
 static void law_take(study_law *law, double slack, study_number number, double least, double most)
 {
     if (law->checks == 0 || isnan(slack) || slack < law->slack) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The laws of size and shape, each with its comparisons on sigma computed here and now. The
+/* The laws of size and shape, each with its comparisons of sigma, which this run computes. The
    sentences are completed with numbers of the run. */
 #include "study.h"
 

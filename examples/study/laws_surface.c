@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The laws of the surface, A, B, s and m, each with its comparisons on sigma computed here and
-   now. */
+/* The laws of the surface, A, B, s and m, each with its comparisons of sigma, which this run
+   computes. */
 #include "study.h"
 
 #include <math.h>
@@ -179,8 +179,8 @@ static void height_law(study_job *job)
 
 /* ---- a cone's band ---- */
 
-/* A cone's band in the middle: higher than s^2 rad to either side, and 1/cos(half-angle) times a
-   cylinder's. Returns that gain. */
+/* The middle of a cone's band: higher than s^2 rad to either side, and 1/cos(half-angle) times that
+   of a cylinder. Returns that gain. */
 static double band_checks(study_job *job, study_law *law, double half_angle, double s)
 {
     const lrcs_shape cone = study_wall(STUDY_CONE, half_angle);
@@ -294,7 +294,7 @@ static void crossing_law(study_job *job)
         const lrcs_brdf glint = study_with(study_finish(job, STUDY_GLINT), 's', slopes[i]);
         const lrcs_brdf diffuse = study_with(study_finish(job, STUDY_DIFFUSE), 's', slopes[i]);
         study_number angle = study_crossing(job, &disc, &glint, &diffuse);
-        /* twice what the angle's bound makes, which holds the tangent's rounding */
+        /* twice the effect of the angle's bound, which includes the rounding of the tangent */
         study_number tangent = {tan(angle.value * LRCS_PI / 180.0), 0.0};
         tangent.bound = (1.0 + tangent.value * tangent.value) * angle.bound * LRCS_PI / 90.0;
         study_number expected = {slopes[i] * first, 0x1p-50 * slopes[i] * first};

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #define MEAN_NODES 12  /* of a Gauss-Legendre rule on each panel */
-#define MEAN_SLOPE 0.2 /* glints as narrow want the least number of panels, narrower ones more */
+#define MEAN_SLOPE 0.2 /* the narrowest glint that the smallest number of panels suffices for */
 
 typedef struct mean_rule {
     double node[MEAN_NODES], weight[MEAN_NODES]; /* on -1 .. 1 */
@@ -42,7 +42,7 @@ static mean_rule rule_make(void)
     return rule;
 }
 
-/* Where the node of a chain of panels lies, in halves of a panel. */
+/* The position of a node in a chain of panels, in halves of a panel. */
 static double rule_place(const mean_rule *rule, int node)
 {
     int panel = node / MEAN_NODES;
@@ -66,8 +66,8 @@ static study_number mean_turned(study_job *job, const lrcs_shape *shape, const l
     return mean;
 }
 
-/* The mean over an eighth of all directions, the other seven being alike: over polar angle, by the
-   sine of which a direction counts, and azimuth. */
+/* The mean over an eighth of all directions, which is that over the other seven too: over azimuth
+   and polar angle, weighted by the sine of the polar angle. */
 static study_number mean_octant(study_job *job, study_look *look, const void *what, int panels)
 {
     const mean_rule rule = rule_make();
@@ -88,7 +88,8 @@ static study_number mean_octant(study_job *job, study_look *look, const void *wh
     return mean;
 }
 
-/* The estimate: what twice as many panels change, and some units of rounding of the rule itself. */
+/* The estimated error: the change that twice as many panels make, and some roundings of the rule
+   itself. */
 static study_number mean_refined(study_number coarse, study_number fine)
 {
     fine.bound += fabs(fine.value - coarse.value) + 0x1p-46 * fine.value;

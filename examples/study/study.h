@@ -7,8 +7,9 @@
 
 #include <stdio.h>
 
+/* The cone's half-angle is the one with which its slant height equals its base's diameter. */
 #define STUDY_SURFACE 6.0  /* m2: that of a cube of 1 m, which every body has */
-#define STUDY_HALF    30.0 /* deg: the cone's half-angle; its slant is then its base's diameter */
+#define STUDY_HALF    30.0 /* deg: the cone's half-angle */
 #define STUDY_ROWS    181u
 #define STUDY_COLUMNS 9u
 #define STUDY_TABLES  24u
@@ -54,7 +55,7 @@ typedef struct study_table {
     const char *title, *x_id, *x_name, *y_name;
     const char *maker; /* what made it */
     char note[160];
-    double floor; /* m2: plots in dBsm, and what is said of relative bounds, end there */
+    double floor; /* m2: plots in dBsm and statements about relative bounds end there */
     int chart, polar, estimate; /* polar: drawn about a pole too; estimate: a quadrature's error
                                    is in its bounds, which are then no proof */
     uint32_t columns, rows;
@@ -72,10 +73,11 @@ typedef struct study_law {
     char text[640];
     char range[480];
     int checks, estimate; /* estimate: as a table's */
-    double slack;         /* the least room within the limits that any comparison left, its bound
-                             taken off; negative or not a number: not supported */
-    study_number worst;   /* of that comparison */
-    double least, most;   /* and its limits */
+    /* The smallest distance of any comparison from its limits, minus its bound; negative or NaN:
+       not supported. */
+    double slack;
+    study_number worst; /* of that comparison */
+    double least, most; /* and its limits */
 } study_law;
 
 typedef struct study_job {
@@ -116,7 +118,7 @@ study_number study_sigma(study_job *job, const lrcs_shape *shape, const lrcs_brd
 /* That of such a wall at such an aspect. */
 study_number study_wall_sigma(study_job *job, int kind, double half_angle_deg,
                               const lrcs_brdf *brdf);
-/* The same sigma for the lengths that were meant, which the bodies above have but for rounding. */
+/* Sigma for the exact lengths, which the bodies above have except for rounding. */
 study_number study_meant(study_number sigma);
 study_number study_sigma_at(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf,
                             const lrcs_aspect *aspect);
@@ -129,13 +131,13 @@ study_number study_half_power(study_job *job, const lrcs_shape *shape, const lrc
 /* The angle at which that of one material has fallen to that of another, likewise. */
 study_number study_crossing(study_job *job, const lrcs_shape *shape, const lrcs_brdf *falling,
                             const lrcs_brdf *other);
-/* The part of all attitudes from which a glint is at least half of what it is at normal incidence
-   (one face of the disc). */
+/* The fraction of all attitudes from which a glint is at least half of what it is at normal
+   incidence (one face of the disc). */
 study_number study_share(study_job *job, int kind, double half_angle_deg, const lrcs_brdf *brdf);
 /* The mean over all attitudes. Its bound holds the quadrature's error, an estimate. */
 study_number study_mean(study_job *job, const lrcs_shape *shape, const lrcs_brdf *brdf);
-/* The same of what looks alike in all eight octants, with some panels each way of one of them, an
-   even number: `look` says its sigma from a direction. */
+/* The same for a body that is alike in all eight octants, with an even number of panels in each
+   direction of one octant; `look` returns its sigma for a direction. */
 typedef study_number study_look(study_job *job, const void *what, const double direction[3]);
 study_number study_octant(study_job *job, study_look *look, const void *what, int panels);
 
@@ -150,15 +152,15 @@ study_number study_shaded(study_job *job, const lrcs_brdf *brdf, double *surface
 
 /* ---- tables ---- */
 
-/* A new one; what else it says is the caller's to fill in. A column of it, and a value. */
+/* Adds a table, of which the caller fills in the rest; a column of it; a value. */
 study_table *study_table_add(study_job *job, const char *stem, const char *title);
 uint32_t study_column_add(study_table *table, const char *id, const char *name, int colour,
                           int dash);
 void study_put(study_table *table, uint32_t column, uint32_t row, study_number number);
-/* That of a stem; never NULL for those of study_..._tables. */
+/* The table with a stem; never NULL for those of study_..._tables. */
 const study_table *study_find(const study_job *job, const char *stem);
 
-/* The tables there are; what fails says so in job->status. */
+/* Make all tables; a failure is stored in job->status. */
 void study_attitude_tables(study_job *job);
 void study_surface_tables(study_job *job);
 void study_body_tables(study_job *job);
@@ -170,7 +172,7 @@ void study_engine_laws(study_job *job);
 
 /* A new one; its sentences are the caller's to fill in. */
 study_law *study_law_add(study_job *job, const char *name, const char *quantity);
-/* How a comparison enters it: within limits, bound included; or equal to within the bound. */
+/* Adds a comparison: within limits, the bound included; or equal to within the bound. */
 void study_within(study_law *law, study_number number, double least, double most);
 void study_equal(study_law *law, study_number number, double expected);
 /* The first is the larger. */

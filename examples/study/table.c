@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables of a study: how they fill, and how they are written as CSV and as charts. What stands in
-   them, and which there are, is decided where they are made. */
+/* Tables of a study: how they fill, and how they are written as CSV and as charts. Other files
+   decide which tables there are and what they contain. */
 #include "study.h"
 
 #include <math.h>
@@ -105,7 +105,7 @@ static void curve_take(const study_table *table, uint32_t column, int polar, cha
     }
 }
 
-/* A curve ends where it meets the floor: there stands the first point below, the others go. */
+/* A curve ends at the floor: the first point below it is moved there, the others are dropped. */
 static void curve_clip(chart_curve *curve, double floor)
 {
     double before = HUGE_VAL;

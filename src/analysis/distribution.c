@@ -126,9 +126,9 @@ static void percentiles_at(const lrcs_distribution_row *row, lrcs_distribution_r
     qsort(end, d->rows, sizeof *end, by_rising_sigma);
     double below = 0.0;
     uint64_t at = 0;
-    for (int k = 0; k < LRCS_DISTRIBUTION_PERCENTS; k++) { /* the first row that reaches the part */
-        double part = d->percent[k] * d->weight / 100.0;
-        while (at + 1 < d->rows && below + end[at].weight < part + slack) {
+    for (int k = 0; k < LRCS_DISTRIBUTION_PERCENTS; k++) { /* the first row that reaches it */
+        double target = d->percent[k] * d->weight / 100.0;
+        while (at + 1 < d->rows && below + end[at].weight < target + slack) {
             below += end[at++].weight;
         }
         d->percentile_m2[k].at[which] = end[at].sigma_m2;

@@ -61,13 +61,13 @@ static gpu_shade shade_make(const lrcsi_gpu *gpu, uint32_t facet)
     const lrcsi_normal *normal = &view->prepared->normal[facet];
     double n[3];
     for (int k = 0; k < 3; k++) { /* 1 */
-        double part[3];
+        double product[3];
         for (int j = 0; j < 3; j++) {
-            part[j] =
+            product[j] =
                 lrcsi_single(single, lrcsi_single(single, view->R[k][j]) *
                                          lrcsi_single(single, normal->high[j] / normal->length));
         }
-        n[k] = lrcsi_single(single, lrcsi_single(single, part[0] + part[1]) + part[2]);
+        n[k] = lrcsi_single(single, lrcsi_single(single, product[0] + product[1]) + product[2]);
     }
     double across2 = /* 2 */
         lrcsi_single(single, lrcsi_single(single, n[0] * n[0]) + lrcsi_single(single, n[1] * n[1]));

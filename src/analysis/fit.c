@@ -198,7 +198,7 @@ static void full_fit(fit_job *job)
 
 /* The fit that is reported: without the less significant term if that is not significant, or else
    without the other term if that is not significant, or else with both. */
-static void parts_choose(fit_job *job)
+static void terms_choose(fit_job *job)
 {
     lrcsi_fit_parameters without[2];
     int known = job->noise == LRCS_FIT_GIVEN &&
@@ -272,7 +272,7 @@ static void fit_make(fit_job *job)
     job->full = first;
     for (int repeat = 0; repeat < FIT_REPEATS && !done; repeat++) {
         full_fit(job);
-        parts_choose(job);
+        terms_choose(job);
         errors_estimate(job);
         int known = job->noise == LRCS_FIT_GIVEN && job->error < 1.0;
         unsigned fixed = (job->absent[0] ? 1u << LRCS_FIT_A | 1u << LRCS_FIT_S : 0u) |

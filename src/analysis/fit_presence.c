@@ -29,10 +29,10 @@
    usable. */
 #define PRESENCE_ROUNDING 1e-12
 
-/* The term's vector at given s and m, made orthogonal to the other term's and normalised, in
-   residual[]. Returns 0 if it is zero to within rounding. */
+/* The term's vector v over the readings at given s and m, made orthogonal to the other term's and
+   normalised. Returns 0 if it is zero to within rounding. */
 static int presence_vector(const lrcsi_fit_data *data, int term,
-                           const lrcsi_fit_parameters *parameters)
+                           const lrcsi_fit_parameters *parameters, double *v)
 {
     int other = term == LRCS_FIT_A ? LRCS_FIT_B : LRCS_FIT_A;
     int shape = other + LRCS_FIT_S;
@@ -51,15 +51,14 @@ static int presence_vector(const lrcsi_fit_data *data, int term,
     }
     double square = 0.0;
     for (uint32_t i = 0; i < data->count; i++) {
-        double v = data->column[term][i] - x * data->column[other][i] - y * data->column[shape][i];
-        data->residual[i] = v;
-        square += v * v;
+        v[i] = data->column[term][i] - x * data->column[other][i] - y * data->column[shape][i];
+        square += v[i] * v[i];
     }
     if (!(square > PRESENCE_ROUNDING * normal.gram[term][term])) {
         return 0;
     }
     for (uint32_t i = 0; i < data->count; i++) {
-        data->residual[i] /= sqrt(square);
+        v[i] /= sqrt(square);
     }
     return 1;
 }
@@ -69,6 +68,8 @@ static double presence_arc(const lrcsi_fit_data *data, int term,
                            const lrcsi_fit_parameters *without)
 {
     int shape = term + LRCS_FIT_S;
+    double *v = data->residual;
+    double *last = data->spare; /* the vector of the step before */
     int before = 0;
     double arc = 0.0;
     lrcsi_fit_parameters parameters = *without;
@@ -76,13 +77,13 @@ static double presence_arc(const lrcsi_fit_data *data, int term,
         double chord = 0.0;
         double fraction = (double)k / PRESENCE_STEPS;
         parameters.at[shape] = data->low[shape] + fraction * (data->high[shape] - data->low[shape]);
-        if (!presence_vector(data, term, &parameters)) {
+        if (!presence_vector(data, term, &parameters, v)) {
             continue;
         }
         for (uint32_t i = 0; i < data->count; i++) {
-            double change = data->residual[i] - data->spare[i];
+            double change = v[i] - last[i];
             chord += change * change;
-            data->spare[i] = data->residual[i];
+            last[i] = v[i];
         }
         arc += before ? 2.0 * asin(lrcsi_min(1.0, 0.5 * sqrt(chord))) : 0.0;
         before = 1;

@@ -77,29 +77,29 @@ void lrcsi_fit_noise(const lrcsi_fit_data *data, int noise, const lrcsi_fit_para
     }
 }
 
-/* Computes |y - f| * inverse into spare[] and its sum. Returns the size below which such a value
-   may be due to rounding alone. */
-static double deviations_fill(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters,
-                              double *sum)
+/* Computes |y - f| * inverse for each reading, and the sum. Returns the size below which such a
+   value may be due to rounding alone. */
+static double deviations_make(const lrcsi_fit_data *data, const lrcsi_fit_parameters *parameters,
+                              double *deviation, double *sum)
 {
     double size = 0.0;
     *sum = 0.0;
     lrcsi_fit_residuals(data, parameters);
     for (uint32_t i = 0; i < data->count; i++) {
-        data->spare[i] = fabs(data->residual[i]) * data->inverse[i];
+        deviation[i] = fabs(data->residual[i]) * data->inverse[i];
         size = lrcsi_max(size, fabs(data->y[i]) * data->inverse[i]);
-        *sum += data->spare[i];
+        *sum += deviation[i];
     }
     return ROBUST_ROUNDING * size;
 }
 
-/* The standard deviation of the values in spare[], from their median. A fit with nearly as many
-   parameters as readings leaves small residuals; the factor 1 + 5/(n - p) corrects for that
+/* The standard deviation of such values, from their median; changes their order. A fit with nearly
+   as many parameters as readings leaves small residuals; the factor 1 + 5/(n - p) corrects for that
    (Rousseeuw and Leroy 1987, ch. 5, Eq. 1.3). */
-static double deviations_scale(const lrcsi_fit_data *data, double rounding)
+static double deviations_scale(double *deviation, uint32_t count, double rounding)
 {
-    double few = 1.0 + 5.0 / (data->count - LRCS_FIT_PARAMETERS);
-    double median = value_ranked(data->spare, data->count, data->count / 2);
+    double few = 1.0 + 5.0 / (count - LRCS_FIT_PARAMETERS);
+    double median = value_ranked(deviation, count, count / 2);
     return lrcsi_max(ROBUST_NORMAL * few * median, rounding);
 }
 
@@ -107,8 +107,8 @@ double lrcsi_fit_huber(const lrcsi_fit_data *data, int noise, lrcsi_fit_paramete
 {
     double sum = 0.0;
     for (int round = 0; round < ROBUST_ROUNDS; round++) {
-        double rounding = deviations_fill(data, parameters, &sum);
-        double limit = ROBUST_HUBER * deviations_scale(data, rounding);
+        double rounding = deviations_make(data, parameters, data->spare, &sum);
+        double limit = ROBUST_HUBER * deviations_scale(data->spare, data->count, rounding);
         for (uint32_t i = 0; i < data->count; i++) {
             double deviation = fabs(data->residual[i]) * data->inverse[i];
             data->weight[i] =
@@ -117,7 +117,7 @@ double lrcsi_fit_huber(const lrcsi_fit_data *data, int noise, lrcsi_fit_paramete
         lrcsi_fit_minimize(data, 0, parameters);
         lrcsi_fit_noise(data, noise, parameters);
     }
-    deviations_fill(data, parameters, &sum);
+    deviations_make(data, parameters, data->spare, &sum);
     return sum;
 }
 
@@ -126,9 +126,9 @@ int lrcsi_fit_trim(const lrcsi_fit_data *data, const lrcsi_fit_parameters *param
     double sum = 0.0;
     int changed = 0;
     double limit = HUGE_VAL;
-    double rounding = deviations_fill(data, parameters, &sum);
+    double rounding = deviations_make(data, parameters, data->spare, &sum);
     if (data->count >= ROBUST_COUNT_MIN) {
-        limit = ROBUST_CUT * deviations_scale(data, rounding);
+        limit = ROBUST_CUT * deviations_scale(data->spare, data->count, rounding);
         /* If more than half of the readings agree to the last digit, the others are not
            necessarily outliers: seven of ten readings are kept in any case. */
         uint32_t seven = (uint32_t)((7 * (uint64_t)data->count + 9) / 10) - 1;

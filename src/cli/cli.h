@@ -21,11 +21,11 @@ enum cli_exit {
 
 /* The pose options, which cli_pose_read reads, for a help text and for an option list. */
 #define CLI_POSE_HELP                                                                              \
-    "pose: one of these; without any, the laser stands on +z\n"                                    \
-    "  --direction x,y,z     to the laser, body frame, any length\n"                               \
+    "pose: one of these; without any, the laser is on the +z axis\n"                               \
+    "  --direction x,y,z     direction to the laser in the body frame, of any length\n"            \
     "  --azel AZ,EL          the same as azimuth and elevation, deg\n"                             \
-    "  --euler SEQ:a,b,c     deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"           \
-    "  --quaternion w,x,y,z  body to observation frame\n"
+    "  --euler SEQ:a,b,c     angles, deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"   \
+    "  --quaternion w,x,y,z  rotation from the body frame to the observation frame\n"
 #define CLI_POSE_OPTIONS                                                                           \
     {"direction", 1, 0}, {"azel", 1, 0}, {"euler", 1, 0},                                          \
     {                                                                                              \
@@ -35,41 +35,40 @@ enum cli_exit {
 /* The options for a run's accuracy (cli_accuracy_read, cli_normals_read) and for reading a scene
    (cli_scene_options_read), likewise. */
 #define CLI_ACCURACY_HELP                                                                          \
-    "  --tolerance REL       relative error asked for (1e-4; with a --method, none unless "        \
-    "given); "                                                                                     \
-    "exit 3\n"                                                                                     \
-    "                        where the bound, or what curved normals may add, exceeds it\n"        \
-    "  --accept WHAT         what must meet it: bound (default); estimate: a raster's likely "     \
-    "error, a\n"                                                                                   \
-    "                        guess, serves too; any: the first answer, no tolerance is missed\n"   \
+    "  --tolerance REL       relative error that is allowed (default 1e-4; if --method is\n"       \
+    "                        given, there is no tolerance unless REL is given too). Exit 3 if\n"   \
+    "                        the bound, or the estimated error of curved normals, exceeds it\n"    \
+    "  --accept WHAT         what must meet the tolerance: bound (default): the proved bound;\n"   \
+    "                        estimate: the bound, or the estimated error of a raster; any:\n"      \
+    "                        nothing, the first answer is accepted\n"                              \
     "  --method M            auto (default), facet, zbuffer or exact\n"                            \
-    "  --resolution N        raster N x N (default: from the tolerance)\n"                         \
-    "  --normals N           flat (default); smooth: curved, from smoothing groups and vertex "    \
-    "normals;\n"                                                                                   \
-    "                        auto: only where flat facets are too coarse for their glint\n"
+    "  --resolution N        a raster of N x N samples (default: chosen from the tolerance)\n"     \
+    "  --normals N           flat (default); smooth: curved normals, from smoothing groups and\n"  \
+    "                        vertex normals; auto: curved only where flat facets are too coarse\n" \
+    "                        for their glint\n"
 #define CLI_ACCURACY_OPTIONS                                                                       \
     {"tolerance", 1, 0}, {"accept", 1, 0}, {"method", 1, 0}, {"resolution", 1, 0},                 \
     {                                                                                              \
         "normals", 1, 0                                                                            \
     }
 #define CLI_SCENE_HELP                                                                             \
-    "  --unit U              of a model file: mm, cm, m (default), in, ft or metres per unit\n"    \
-    "  --material [WHAT=]BRDF  repeatable; WHAT is a material's name (* and ? serve) or "          \
-    "'#RRGGBB',\n"                                                                                 \
-    "                        all else if missing; BRDF is A,B,s,m (A, B in 1/sr), each with\n"     \
-    "                        +-DEVIATION or without, or a library material\n"                      \
-    "  --two-sided WHAT      reflects from both sides: all, open (what is no closed surface), a "  \
-    "part\n"                                                                                       \
-    "                        or a material\n"                                                      \
-    "  --keep-transparent    keep facets that the file calls fully transparent\n"
+    "  --unit U              unit of a model: mm, cm, m (default), in, ft or metres per unit\n"    \
+    "  --material [WHAT=]BRDF  a BRDF for some materials; repeatable. WHAT is the name of a\n"     \
+    "                        material, in which * and ? are wildcards, or a colour '#RRGGBB';\n"   \
+    "                        without it, all other materials. BRDF is A,B,s,m (A, B in 1/sr),\n"   \
+    "                        each with or without +-DEVIATION, or the name of a library\n"         \
+    "                        material\n"                                                           \
+    "  --two-sided WHAT      what reflects from both sides: all, open (surfaces that are not\n"    \
+    "                        closed), a part or a material\n"                                      \
+    "  --keep-transparent    keeps facets that the file declares fully transparent\n"
 #define CLI_SCENE_OPTIONS                                                                          \
     {"unit", 1, 0}, {"material", 1, 1}, {"two-sided", 1, 0},                                       \
     {                                                                                              \
         "keep-transparent", 0, 0                                                                   \
     }
 
-/* What an option takes, beside nothing (0) and a value (1): the name of a file to write, of any
-   kind or a chart, FILE.svg or FILE.png. */
+/* What an option takes, if it is not nothing (0) or a value (1): the name of a file to write, of
+   any kind; or that of a chart, FILE.svg or FILE.png. */
 #define CLI_FILE  2
 #define CLI_CHART 3
 
@@ -151,8 +150,9 @@ int cli_finish(int code);
 /* The pose that the options specify; 0 or CLI_USAGE. */
 int cli_pose_read(const cli_args *args, lrcs_pose *pose);
 
-/* Its direction to the laser, a unit vector. */
+/* Its direction to the laser: a unit vector; azimuth and elevation, deg. */
 void cli_pose_unit(const lrcs_pose *pose, double s_hat[3]);
+void cli_pose_azel(const lrcs_pose *pose, double azel_deg[2]);
 
 /* --tolerance, --accept, --method and --resolution; --normals. 0 or CLI_USAGE. */
 int cli_accuracy_read(const cli_args *args, lrcs_run_options *options);
@@ -179,6 +179,9 @@ int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uin
 int cli_brdf_read(const cli_command *command, const char *text, const char *option,
                   lrcs_brdf *brdf);
 
+/* The library material that has these numbers; NULL if there is none. */
+const lrcs_brdf_entry *cli_brdf_entry(const lrcs_brdf *brdf);
+
 /* Prints a notice for each warning about a BRDF, as of a material of that name. */
 void cli_brdf_warnings_print(const char *name, const lrcs_brdf *brdf);
 
@@ -191,11 +194,12 @@ const char *cli_colour_text(const unsigned char rgb[3], char text[CLI_COLOUR_TEX
 int cli_scene_options_read(const cli_args *args, lrcs_host_options *options);
 void cli_scene_options_free(lrcs_host_options *options);
 
-/* Loads the command's scene; 0, CLI_FAILED or CLI_USAGE with the message printed. A binding that
-   matches nothing is a usage error. The same code for a scene that was read with that status. */
+/* Reads the command's scene: 0, or CLI_FAILED or CLI_USAGE with the message printed. A --material
+   that matches no facet is a usage error. cli_scene_code returns the same code for a scene that was
+   read elsewhere with `status` and `error`. */
+int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene);
 int cli_scene_code(const cli_args *args, const lrcs_host_options *options, int status,
                    const lrcs_host_error *error, const lrcs_host_scene *scene);
-int cli_scene_read(const cli_args *args, const lrcs_host_options *options, lrcs_host_scene *scene);
 
 /* A unit of length (lrcs_host_input.unit_m) in words: "mm", .., metres per unit, "m assumed", or
    NULL for none. The unit of the scene's own coordinates: the one given for a model file, NULL if
@@ -210,14 +214,24 @@ int cli_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
                   const lrcs_run_options *options, lrcs_result *result, lrcs_facet_record *records,
                   lrcs_image *image, double *seconds);
 
-/* What a result was made from: the scene's title, or the operand; the origin of a material's
-   numbers, "given", "illustrative" or "published" (the library), "default" or "assumed" (as the
-   scene file states); the last name of a path; and, as keys of an open object: the files, the
-   title, the assigned materials and the options given. */
+/* ---- what a result was made from ---- */
+
+/* The title of the scene, or the operand if it has none. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 
-/* What a table was made from, the beginning of its first line after "# ": "lrcs VERSION COMMAND;
-   key=text; ..". The caller ends the line. */
+/* The origin of a material's numbers: "given", "illustrative" or "published" (in the library),
+   "default", or "assumed" (the scene file says so). */
+const char *cli_material_source(const lrcs_material *material);
+
+/* 1 if some material states errors; 1 if the numbers of some are illustrative or default. */
+int cli_errors_stated(const lrcs_scene *scene);
+int cli_materials_assumed(const lrcs_scene *scene);
+
+/* A path without its folders. */
+const char *cli_base_name(const char *path);
+
+/* The beginning of the first line of a table, after "# ": "lrcs VERSION COMMAND; key=text; ..". The
+   caller ends the line. */
 void cli_table_head(FILE *out, const cli_args *args, const char *title,
                     const lrcs_host_scene *scene, const double direction[3]);
 
@@ -232,29 +246,33 @@ void cli_file_text(const lrcs_host_input *input, char text[CLI_FILE_TEXT]);
 /* What a writer writes, as a text that the caller frees; NULL without memory. */
 typedef void cli_text_writer(FILE *out, const void *context);
 char *cli_text_of(cli_text_writer *write, const void *context);
-const char *cli_material_source(const lrcs_material *material);
-const char *cli_base_name(const char *path);                     /* without its folders */
-void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json); /* keys A, B, s, m */
-int cli_errors_stated(const lrcs_scene *scene);                  /* 1 if some material has errors */
-int cli_materials_open(const lrcs_scene *scene);         /* 1 if some are illustrative or default */
-void cli_version_json(lrcs_host_json *json);             /* schema and version */
-void cli_hash_json(uint64_t hash, lrcs_host_json *json); /* hash of the scene */
+
+/* Keys of the object that is open: A, B, s, m of a BRDF; the schema and the version; the hash of
+   the scene; its files; the operand as "files"; the options that were given; the direction to the
+   laser; all of a scene: files, title, materials and options. */
+void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json);
+void cli_version_json(lrcs_host_json *json);
+void cli_hash_json(uint64_t hash, lrcs_host_json *json);
 void cli_files_json(const lrcs_host_scene *scene, lrcs_host_json *json);
-/* The same for pictures, which do not depend on the command, and the materials; without a scene
-   (NULL), the operand as the file. NULL without memory; the caller frees it. */
-char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene);
-void cli_provenance_json(const cli_args *args, const lrcs_host_scene *host, lrcs_host_json *json);
-void cli_options_json(const cli_args *args, lrcs_host_json *json); /* only the options given */
-void cli_operand_json(const cli_args *args, lrcs_host_json *json); /* the operand as "files" */
+void cli_operand_json(const cli_args *args, lrcs_host_json *json);
+void cli_options_json(const cli_args *args, lrcs_host_json *json);
 void cli_direction_json(const lrcs_pose *pose, lrcs_host_json *json);
-/* Writes them beside a file of numbers whose format has no place for them, as FILE.json (FILE.csv
-   .json), with the hash of that file; nothing beside standard output or a device. scene, pose and
-   about, the first line that a table would have, may be NULL. 0 or CLI_FAILED. */
+void cli_provenance_json(const cli_args *args, const lrcs_host_scene *host, lrcs_host_json *json);
+
+/* What a picture states that it was made from, as a text that the caller frees; NULL without
+   memory. Without a scene (NULL) it names the operand as the file. */
+char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene);
+
+/* Writes what a file of numbers was made from, and the hash of that file, to a file beside it,
+   because its format has no place for that: PATH.json. Nothing is written beside standard output or
+   a device. scene, pose, and about (the first line that a table would have) may be NULL. 0 or
+   CLI_FAILED. cli_beside_name: the name of that file, which the caller frees; NULL without memory.
+ */
 #define CLI_BESIDE ".json"
 #define CLI_ABOUT  "about"
-char *cli_beside_name(const char *path); /* NULL without memory; the caller frees it */
 int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
                           const lrcs_pose *pose, const char *about);
+char *cli_beside_name(const char *path);
 
 /* The name of a scene's material as it is printed: "(default)" if it has none. */
 const char *cli_material_name(const lrcs_material *material);
@@ -279,11 +297,11 @@ void cli_column_to(FILE *out, const char *text, int width); /* the same on `out`
 double cli_seconds(void);
 
 /* Shows the stage of a command that takes more than two seconds, on stderr if that is a terminal,
-   and says what remains after a Ctrl-C. Every command is watched from its start. It names its
-   stages (texts that stay valid; with a scene that is being prepared, the number of completed
-   stages is shown; NULL shows nothing, because something else is shown). It may report how many of
-   its parts are done, or let a run report its progress (lrcs_run_options.progress), and it ends the
-   watch before it prints. */
+   and says what remains after a Ctrl-C. Every command is watched from its start.
+   cli_watch_stage names a stage by a text that stays valid; with a scene that is being prepared,
+   the number of completed stages is shown too. NULL shows nothing, because something else is shown.
+   cli_watch_count reports how many parts of the work are done; cli_watch_run lets a run report its
+   progress (lrcs_run_options.progress). A command ends the watch before it prints. */
 void cli_watch_begin(const char *stage);
 void cli_watch_stage(const char *stage, const lrcs_host_scene *scene);
 void cli_watch_clear(void); /* call before a line is printed to stderr; the watch continues */

@@ -20,27 +20,29 @@ static const char main_help[] =
     "\n"
     "usage: lrcs COMMAND [operand] [options]\n"
     "\n"
-    "  scene MODEL     a scene file to edit: its materials, and what is assumed of them\n"
-    "  run SCENE       sigma from a pose, its bound, what was simulated\n"
+    "  scene MODEL     writes a scene file to edit: materials, and what is assumed of them\n"
+    "  run SCENE       sigma for one pose, its bound, and what was simulated\n"
     "  image SCENE     what the laser sees: pictures, vector graphics, VTK for ParaView\n"
-    "  profile SCENE   which part of sigma comes from which range, in bins, and to a pulse\n"
+    "  profile SCENE   sigma over range, in bins, and the response to a pulse\n"
     "  info SCENE      what a model holds: parts, materials, area, volume, defects\n"
     "  shape KIND      sigma of a simple body from its closed form\n"
-    "  verify          the engine against closed forms on this machine\n"
+    "  verify          checks the engine against closed forms on this machine\n"
     "  converge SCENE  what accuracy costs in time: every method against the truth\n"
     "  sweep SCENE     sigma over attitudes, joints, materials: tables and maps, in threads\n"
-    "  merge FILE...   the shards of a sweep made whole\n"
-    "  plot FILE...    charts drawn again from files of sweep, profile, converge; statistics\n"
-    "  report SCENE    all of it on one page of HTML, with pictures and charts inside\n"
-    "  fit DATA.csv    a material's A, B, s, m from measured BRDF against angle\n"
-    "  vectors DIR     a conformance kit for other implementations: scenes, attitudes, truth\n"
-    "  compare DIR ..  what another implementation answered to a kit: a verdict, and why\n"
+    "  merge FILE...   joins the shards of a sweep\n"
+    "  plot FILE...    draws files of sweep, profile and converge again; statistics\n"
+    "  report SCENE    all of this on one HTML page, with its pictures and charts\n"
+    "  fit DATA.csv    fits a material's A, B, s, m to measured BRDF against angle\n"
+    "  vectors DIR     writes a conformance kit for other implementations\n"
+    "  compare DIR ..  judges the answers of another implementation to a kit, and explains them\n"
     "  help COMMAND    options, units and examples of one command; --man: all as a manual page;\n"
     "                  --bash: completion for bash\n"
     "\n"
     "SCENE is a .3ds, .obj or .stl model, a scene file (.toml), or 'demo', which is built in.\n"
-    "Options take '--name value' or '--name=value'. --version prints the version.\n"
-    "Exit: 0 done, 1 failed, 2 usage, 3 done but tolerance not met or memory short.\n"
+    "Options are given as '--name value' or '--name=value'. --version prints the version.\n"
+    "Exit: 0 done, 1 failed, 2 wrong usage, 3 done, but a tolerance was not met, memory was "
+    "short,\n"
+    "or a fit leaves parameters undetermined.\n"
     "\n"
     "examples:\n"
     "  lrcs run demo\n"
@@ -78,7 +80,7 @@ static int help_print(const cli_command *command)
         if (strcmp(o->name, "material") != 0) {
             continue;
         }
-        printf("\nlibrary materials (A,B,s,m are ILLUSTRATIVE, not measured, but for B where a "
+        printf("\nlibrary materials (A,B,s,m are ILLUSTRATIVE, not measured, except B where a "
                "source is named):\n");
         for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
             printf("  %-20s %.5g,%.5g,%.5g,%.5g  %s\n", entry->name, entry->brdf.A, entry->brdf.B,
@@ -150,26 +152,7 @@ static const char *option_words(const char *name)
                                           : NULL;
 }
 
-static void completion_values(const cli_command *command)
-{
-    for (const cli_option *o = command->option; o->name; o++) {
-        if (option_words(o->name)) {
-            printf("        %s,%s%s) values='%s' ;;\n", command->name, cli_dashes(o->name), o->name,
-                   option_words(o->name));
-        } else if (strcmp(o->name, "material") == 0) {
-            const lrcs_brdf_entry *entry;
-            printf("        %s,%s%s) values='", command->name, cli_dashes(o->name), o->name);
-            for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
-                printf("%s ", entry->name);
-            }
-            puts("' ;;");
-        } else if (o->has_value) {
-            printf("        %s,%s%s) values=' ' ;;\n", command->name, cli_dashes(o->name), o->name);
-        }
-    }
-}
-
-static void manual_completion(void)
+static void bash_completion(void)
 {
     puts("# bash completion for lrcs\n"
          "_lrcs() {\n"
@@ -185,7 +168,22 @@ static void manual_completion(void)
     puts("help --help --version' -- \"$word\"))\n        return\n    fi\n"
          "    case ${COMP_WORDS[1]},$before in");
     for (size_t i = 0; i < MAIN_COMMANDS; i++) {
-        completion_values(main_commands[i]);
+        const char *name = main_commands[i]->name;
+        for (const cli_option *o = main_commands[i]->option; o->name; o++) {
+            if (option_words(o->name)) {
+                printf("        %s,%s%s) values='%s' ;;\n", name, cli_dashes(o->name), o->name,
+                       option_words(o->name));
+            } else if (strcmp(o->name, "material") == 0) {
+                const lrcs_brdf_entry *entry;
+                printf("        %s,%s%s) values='", name, cli_dashes(o->name), o->name);
+                for (uint32_t k = 0; (entry = lrcs_brdf_library(k)) != NULL; k++) {
+                    printf("%s ", entry->name);
+                }
+                puts("' ;;");
+            } else if (o->has_value) {
+                printf("        %s,%s%s) values=' ' ;;\n", name, cli_dashes(o->name), o->name);
+            }
+        }
     }
     puts("    esac\n    case ${COMP_WORDS[1]} in");
     for (size_t i = 0; i < MAIN_COMMANDS; i++) {
@@ -223,7 +221,7 @@ static int help_command(int count, char **word)
     if (strcmp(word[0], "--man") == 0) {
         manual_page();
     } else if (strcmp(word[0], "--bash") == 0) {
-        manual_completion();
+        bash_completion();
     } else if (word[0][0] == '-') {
         return cli_usage(NULL, "help: expected a command, --man or --bash, found '%s'", word[0]);
     } else {

@@ -52,40 +52,39 @@ int cli_is_output(const cli_command *command, const char *option)
     return option_kind(command, option) >= CLI_FILE;
 }
 
-/* Checks one output against those given before it. */
-static int output_check(const cli_args *args, int index)
-{
-    const cli_command *command = args->command;
-    const char *name = args->given[index].name;
-    const char *path = args->given[index].value;
-    if (option_kind(command, name) == CLI_CHART && !cli_extension(path, ".svg") &&
-        !cli_extension(path, ".png")) {
-        return cli_usage(command, "%s%s: expected FILE.svg or FILE.png, found '%s'",
-                         cli_dashes(name), name, path);
-    }
-    for (int i = 0; i < index; i++) {
-        const cli_given *other = &args->given[i];
-        if (cli_is_output(command, other->name) && lrcs_host_output_same(other->value, path)) {
-            return cli_usage(command, "%s%s and %s%s name the same file: '%s', '%s'",
-                             cli_dashes(other->name), other->name, cli_dashes(name), name,
-                             other->value, path);
-        }
-    }
-    /* -o is what a command writes in any case, in the form that --json may choose */
-    int flag = cli_value(args, "json") && !cli_is_output(command, "json");
-    if (flag && strcmp(path, "-") == 0 && strcmp(name, "o") != 0) {
-        return cli_usage(command, "--%s - and --json both want standard output", name);
-    }
-    return output_place(path);
-}
-
 int cli_outputs_check(const cli_args *args)
 {
-    int code = 0;
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        code = cli_is_output(args->command, args->given[i].name) ? output_check(args, i) : 0;
+    const cli_command *command = args->command;
+    const int json = cli_value(args, "json") && !cli_is_output(command, "json");
+    for (int i = 0; i < args->given_count; i++) {
+        const char *name = args->given[i].name;
+        const char *path = args->given[i].value;
+        const int kind = option_kind(command, name);
+        if (kind < CLI_FILE) {
+            continue;
+        }
+        if (kind == CLI_CHART && !cli_extension(path, ".svg") && !cli_extension(path, ".png")) {
+            return cli_usage(command, "%s%s: expected FILE.svg or FILE.png, found '%s'",
+                             cli_dashes(name), name, path);
+        }
+        for (int k = 0; k < i; k++) {
+            const cli_given *other = &args->given[k];
+            if (cli_is_output(command, other->name) && lrcs_host_output_same(other->value, path)) {
+                return cli_usage(command, "%s%s and %s%s name the same file: '%s', '%s'",
+                                 cli_dashes(other->name), other->name, cli_dashes(name), name,
+                                 other->value, path);
+            }
+        }
+        /* -o is what a command writes in any case, in the form that --json may choose */
+        if (json && strcmp(path, "-") == 0 && strcmp(name, "o") != 0) {
+            return cli_usage(command, "--%s - and --json both want standard output", name);
+        }
+        int code = output_place(path);
+        if (code != 0) {
+            return code;
+        }
     }
-    return code;
+    return 0;
 }
 
 int cli_outputs_spare(const cli_args *args, const lrcs_host_scene *scene)

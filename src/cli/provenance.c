@@ -19,19 +19,23 @@ static int brdf_same(const lrcs_brdf *a, const lrcs_brdf *b)
     return a->A == b->A && a->B == b->B && a->s == b->s && a->m == b->m;
 }
 
+const lrcs_brdf_entry *cli_brdf_entry(const lrcs_brdf *brdf)
+{
+    const lrcs_brdf_entry *entry = lrcs_brdf_library(0);
+    for (uint32_t i = 1; entry && !brdf_same(brdf, &entry->brdf); i++) {
+        entry = lrcs_brdf_library(i);
+    }
+    return entry;
+}
+
 const char *cli_material_source(const lrcs_material *material)
 {
-    const lrcs_brdf_entry *entry;
     const lrcs_brdf other = lrcs_brdf_default();
     if (!material->bound) {
         return brdf_same(&material->brdf, &other) ? "default" : "assumed";
     }
-    for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
-        if (brdf_same(&material->brdf, &entry->brdf)) {
-            return entry->source ? "published" : "illustrative";
-        }
-    }
-    return "given";
+    const lrcs_brdf_entry *entry = cli_brdf_entry(&material->brdf);
+    return !entry ? "given" : entry->source ? "published" : "illustrative";
 }
 
 static int error_stated(const lrcs_brdf_error *e)
@@ -49,7 +53,7 @@ int cli_errors_stated(const lrcs_scene *scene)
     return 0;
 }
 
-int cli_materials_open(const lrcs_scene *scene)
+int cli_materials_assumed(const lrcs_scene *scene)
 {
     for (uint32_t i = 0; i < scene->facet_count; i++) {
         const lrcs_material *material = &scene->material[scene->facet_material[i]];
@@ -195,16 +199,6 @@ void cli_brdf_json(const lrcs_brdf *brdf, lrcs_host_json *json)
     lrcs_host_json_put(json, "A=%g B=%g s=%g m=%g", brdf->A, brdf->B, brdf->s, brdf->m);
 }
 
-/* The keys of errors, A_error and so on, with their correlations; none if all are 0. */
-static void brdf_error_json(const lrcs_brdf_error *error, lrcs_host_json *json)
-{
-    if (error_stated(error)) {
-        lrcs_host_json_put(json, "A_error=%g B_error=%g s_error=%g m_error=%g", error->A, error->B,
-                           error->s, error->m);
-        lrcs_host_json_numbers(json, "correlation", error->correlation, 6);
-    }
-}
-
 void cli_options_json(const cli_args *args, lrcs_host_json *json)
 {
     char word[1200];
@@ -231,7 +225,12 @@ void cli_provenance_json(const cli_args *args, const lrcs_host_scene *host, lrcs
         if (facets > 0 && !material->omitted) {
             lrcs_host_json_put(json, "{name=%s", material->name);
             cli_brdf_json(&material->brdf, json);
-            brdf_error_json(&material->error, json);
+            const lrcs_brdf_error *error = &material->error;
+            if (error_stated(error)) {
+                lrcs_host_json_put(json, "A_error=%g B_error=%g s_error=%g m_error=%g", error->A,
+                                   error->B, error->s, error->m);
+                lrcs_host_json_numbers(json, "correlation", error->correlation, 6);
+            }
             lrcs_host_json_put(json, "two_sided=%d source=%s facets=%u}", material->two_sided,
                                cli_material_source(material), facets);
         }

@@ -14,21 +14,21 @@
 static const char scene_help[] =
     "usage: lrcs scene MODEL -o FILE.toml [options]\n"
     "\n"
-    "Writes a scene file for MODEL, a .3ds, .obj or .stl model, to edit: the model as a part,\n"
-    "its unit, every material with its colour, facets and area, and its numbers A, B, s, m.\n"
-    "What nobody has given is marked as assumed and stands at its default. lrcs run takes\n"
-    "the file as it is, and finds the same sigma as for MODEL.\n"
+    "Writes a scene file for MODEL, a .3ds, .obj or .stl model, to edit: the model as a part\n"
+    "with its unit, and every material with its colour, facets and area, and its numbers A,\n"
+    "B, s, m. Numbers that nobody has given are marked as assumed, and have their default\n"
+    "values. lrcs run accepts the file unchanged, and computes the same sigma as for MODEL.\n"
     "\n"
     "output\n"
-    "  -o FILE.toml          the scene file, a new one ('-': standard output)\n"
+    "  -o FILE.toml          the scene file, which must not exist yet ('-': standard output)\n"
     "\n"
     "options\n"
-    "  --unit U              of the model: mm, cm, m (default), in, ft or metres per unit\n"
-    "  --material [WHAT=]BRDF  repeatable; WHAT is a material's name (* and ? serve) or "
-    "'#RRGGBB',\n"
-    "                        all else if missing; BRDF is A,B,s,m (A, B in 1/sr) or a library\n"
-    "                        material\n"
-    "  --keep-transparent    keep facets that the file calls fully transparent\n"
+    "  --unit U              unit of the model: mm, cm, m (default), in, ft or metres per unit\n"
+    "  --material [WHAT=]BRDF  a BRDF for some materials; repeatable. WHAT is the name of a\n"
+    "                        material, in which * and ? are wildcards, or a colour '#RRGGBB';\n"
+    "                        without it, all other materials. BRDF is A,B,s,m (A, B in 1/sr) or\n"
+    "                        the name of a library material\n"
+    "  --keep-transparent    keeps facets that the file declares fully transparent\n"
     "\n"
     "examples\n"
     "  lrcs scene aura.3ds --unit in -o aura.toml\n"
@@ -148,8 +148,11 @@ static const char *suggestion(const char *name)
 
 /* ---- the parts of the file ---- */
 
-static void head_put(const scene_job *job, const char *unnamed, FILE *out)
+/* Writes the beginning of the file, and the model as a part, with the names of its objects.
+   `unnamed`: the name of the material of facets without one, or NULL. */
+static void model_put(const scene_job *job, const char *unnamed, FILE *out)
 {
+    const lrcs_mesh *model = &job->scene.model[0];
     const char *operand = job->args->operand;
     const char *unit = cli_value(job->args, "unit");
     char *path = path_from(operand, job->path);
@@ -187,23 +190,18 @@ static void head_put(const scene_job *job, const char *unnamed, FILE *out)
     fputs("# translate = [0, 0, 0]   # m; rotate_euler = \"XYZ\" with rotate_deg = [0, 0, 0] turns "
           "it\n",
           out);
-}
-
-/* Writes the objects of the model: names that --two-sided takes; their facets belong to the
-   part. */
-static void objects_put(const scene_job *job, FILE *out)
-{
-    const lrcs_mesh *model = &job->scene.model[0];
-    if (model->part_count == 0) {
+    /* the objects: their facets belong to the part */
+    uint32_t *count = calloc((size_t)model->part_count + 1, sizeof *count);
+    if (!count || model->part_count == 0) {
+        free(count);
         return;
     }
     fprintf(out, "#\n# The model's %lu object%s (run --two-sided takes these names):\n",
             (unsigned long)model->part_count, model->part_count > 1 ? "s" : "");
-    uint32_t *count = calloc(model->part_count, sizeof *count);
-    for (uint32_t i = 0; count && i < model->facet_count; i++) {
+    for (uint32_t i = 0; i < model->facet_count; i++) {
         count[model->facet_part[i]]++;
     }
-    for (uint32_t k = 0; count && k < model->part_count; k++) {
+    for (uint32_t k = 0; k < model->part_count; k++) {
         fprintf(out, "#   %8lu facets  ", (unsigned long)count[k]);
         cli_line_put(out, "", model->part[k]);
         putc('\n', out);
@@ -214,15 +212,12 @@ static void objects_put(const scene_job *job, FILE *out)
 static void brdf_put(const lrcs_material *material, FILE *out)
 {
     const lrcs_brdf *brdf = &material->brdf;
-    const lrcs_brdf_entry *entry = NULL;
-    for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
-        if (entry->brdf.A == brdf->A && entry->brdf.B == brdf->B && entry->brdf.s == brdf->s &&
-            entry->brdf.m == brdf->m) {
-            fprintf(out, "like = \"%s\"   # %sA=%g, B=%g, s=%g, m=%g, %s\n", entry->name,
-                    entry->source ? "" : "GUESS: ", brdf->A, brdf->B, brdf->s, brdf->m,
-                    entry->source ? entry->source : "illustrative");
-            return;
-        }
+    const lrcs_brdf_entry *entry = cli_brdf_entry(brdf);
+    if (entry) {
+        fprintf(out, "like = \"%s\"   # %sA=%g, B=%g, s=%g, m=%g, %s\n", entry->name,
+                entry->source ? "" : "GUESS: ", brdf->A, brdf->B, brdf->s, brdf->m,
+                entry->source ? entry->source : "illustrative");
+        return;
     }
     if (!material->bound) {
         const char *like = suggestion(material->name);
@@ -245,21 +240,12 @@ static void brdf_put(const lrcs_material *material, FILE *out)
     }
 }
 
-/* 1 if all materials of a name are two-sided; the key makes them all so. */
-static int two_sided_all(const lrcs_scene *scene, const char *name)
-{
-    int all = 1;
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        all &= strcmp(scene->material[i].name, name) != 0 || scene->material[i].two_sided;
-    }
-    return all;
-}
-
 /* Writes a material of the model, with a mapping from its name; if `unnamed` is not NULL, as the
    material of facets without a name, without a mapping. */
 static void material_put(const scene_job *job, uint32_t index, const char *unnamed, FILE *out)
 {
-    const lrcs_material *material = &job->scene.scene.material[index];
+    const lrcs_scene *scene = &job->scene.scene;
+    const lrcs_material *material = &scene->material[index];
     const char *name = unnamed ? unnamed : material->name;
     fprintf(out, "\n# %lu facets, %.4g m2", (unsigned long)job->facets[index], job->area[index]);
     if (material->has_colour) {
@@ -272,9 +258,13 @@ static void material_put(const scene_job *job, uint32_t index, const char *unnam
                name);
     putc('\n', out);
     brdf_put(material, out);
-    fputs(two_sided_all(&job->scene.scene, material->name)
-              ? "two_sided = true  # as the model says\n"
-              : "# two_sided = true   # if its back reflects, too\n",
+    int two_sided = 1; /* 1 if all materials of that name are: the key applies to each of them */
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        two_sided &=
+            strcmp(scene->material[i].name, material->name) != 0 || scene->material[i].two_sided;
+    }
+    fputs(two_sided ? "two_sided = true  # as the model says\n"
+                    : "# two_sided = true   # if its back reflects, too\n",
           out);
     if (!unnamed) {
         string_put(out, "[[map]]\nname = ", name);
@@ -300,8 +290,7 @@ static void scene_put(const scene_job *job, FILE *out)
         }
     }
     /* 2. The model. */
-    head_put(job, any ? unnamed : NULL, out);
-    objects_put(job, out);
+    model_put(job, any ? unnamed : NULL, out);
     /* 3. The materials: the first of each name, which stands for all that have it. */
     fputs(
         "\n# Materials: f_r = A / cos^6 exp(-tan^2 / s^2) + B cos^m, A and B in 1/sr. Names of the "
@@ -341,7 +330,7 @@ static int scene_read(scene_job *job)
     }
     if (strcmp(job->path, "-") != 0 && access(job->path, F_OK) == 0) {
         return cli_usage(args->command,
-                         "-o: '%s' is there, and may have been edited: give a new name", job->path);
+                         "-o: '%s' exists, and may have been edited: give another name", job->path);
     }
     int code = cli_scene_options_read(args, &job->load);
     code = code ? code : cli_scene_read(args, &job->load, &job->scene);

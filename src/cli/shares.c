@@ -19,6 +19,15 @@ double cli_share_of(const cli_shares *shares, double part_m2)
     return shares->sigma_m2 > 0.0 ? part_m2 / shares->sigma_m2 : (double)NAN;
 }
 
+double cli_shares_glint(const cli_shares *shares)
+{
+    double glint = 0.0;
+    for (uint32_t i = 0; i < shares->parts; i++) {
+        glint += shares->part[i].glint_m2;
+    }
+    return glint;
+}
+
 uint32_t cli_shares_shown(const shares_row *row, uint32_t count)
 {
     uint32_t shown = 0;
@@ -78,13 +87,15 @@ static void rows_table(const cli_shares *shares, const char *what, const shares_
     }
 }
 
-static void facets_table(const cli_shares *shares)
+void cli_shares_table(const cli_shares *shares)
 {
-    if (shares->facets == 0) {
-        return;
+    printf("shares       what contributes to sigma; the largest first\n");
+    rows_table(shares, "part", shares->part, shares->parts);
+    rows_table(shares, "material", shares->material, shares->materials);
+    if (shares->facets > 0) {
+        printf("  %-10s %-*s %-20s %9s %12s %12s %9s\n", "facet", NAME_WIDTH, "part", "material",
+               "theta deg", "visible m2", "sigma m2", "share");
     }
-    printf("  %-10s %-*s %-20s %9s %12s %12s %9s\n", "facet", NAME_WIDTH, "part", "material",
-           "theta deg", "visible m2", "sigma m2", "share");
     for (uint32_t i = 0; i < shares->facets; i++) {
         const shares_facet *facet = &shares->facet[i];
         printf("  %-10lu ", (unsigned long)facet->facet);
@@ -95,14 +106,6 @@ static void facets_table(const cli_shares *shares)
         percent_cell(cli_share_of(shares, facet->sigma_m2));
         putchar('\n');
     }
-}
-
-void cli_shares_table(const cli_shares *shares)
-{
-    printf("shares       who makes sigma; the brightest first\n");
-    rows_table(shares, "part", shares->part, shares->parts);
-    rows_table(shares, "material", shares->material, shares->materials);
-    facets_table(shares);
 }
 
 /* ---- JSON ---- */

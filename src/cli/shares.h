@@ -21,6 +21,9 @@ int cli_shares_make(const lrcs_host_scene *base, const lrcs_scene *scene,
 /* A part of sigma as a share of sigma; NAN if sigma is 0. */
 double cli_share_of(const cli_shares *shares, double part_m2);
 
+/* The glint of all parts together, m2. */
+double cli_shares_glint(const cli_shares *shares);
+
 /* The number of rows of a list that are shown: at most SHARES_ROWS, only those that contribute.
    The number named in one line: at most three, until they make 95 % of sigma. */
 uint32_t cli_shares_shown(const shares_row *row, uint32_t count);

@@ -10,9 +10,10 @@
 static const char verify_help[] =
     "usage: lrcs verify [--json]\n"
     "\n"
-    "Tessellates simple bodies, computes sigma of the facets, and compares with the closed form\n"
-    "of the body, for shapes x aspects x materials. Every error must lie within the bound that\n"
-    "the engine states (plus the closed form's own); then the exit code is 0, else 1.\n"
+    "Tessellates simple bodies, computes sigma of their facets, and compares it with the\n"
+    "closed form of the body, for all combinations of shapes, aspects and materials. Every\n"
+    "error must lie within the bound that the engine states, plus that of the closed form:\n"
+    "exit 0 if so, otherwise 1.\n"
     "\n"
     "options\n"
     "  --json   the same as JSON\n"

@@ -41,6 +41,11 @@ int lrcsi_host_fail_memory(lrcs_host_error *error, size_t bytes)
     return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory: no room for %zu bytes", bytes);
 }
 
+int lrcsi_host_out_of_memory(lrcs_host_error *error)
+{
+    return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+}
+
 int lrcsi_host_fail_where(lrcs_host_error *error, int status, const char *path,
                           const lrcs_where *where)
 {

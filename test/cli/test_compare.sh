@@ -94,7 +94,7 @@ mkdir images
 ./raster kit 96 items=images >theirs.csv
 mkdir mixed && cp images/box.a.item.u32 mixed && cp images/box.a.item.u32 mixed/comb.a.item.u32
 run compare kit theirs.csv --pixels 96 --items images
-why images_that_are_right_agree 0 '16 of 16 images handed in; 0 differ'
+why images_that_are_right_agree 0 '16 of 16 images found; 0 differ'
 for file in images/*.u32; do # rows of 384 bytes, the last one first
     i=96
     while [ $i -gt 0 ]; do
@@ -240,7 +240,7 @@ refused a_name_that_is_a_path "expected a name of a-z" 'scene,attitude,sigma_m2\
 refused bytes_that_are_no_text "found '\\x01\\xff', expected a number" 'scene,attitude,sigma_m2\nbox,a,\0001\0377\n'
 refused a_name_without_end 'expected a name of 1 .. 31 bytes' "scene,attitude,sigma_m2\n$(printf 'x%.0s' $(seq 300)),a,1\n"
 failure a_table_that_is_not_there 'none.csv' compare kit none.csv
-failure a_folder_that_is_no_kit "images: not a kit's folder (lrcs vectors DIR makes one)" compare images theirs.csv
+failure a_folder_that_is_no_kit "images: not the folder of a kit (lrcs vectors DIR makes one)" compare images theirs.csv
 failure a_folder_of_images_that_is_not_there 'nodir: cannot open folder' compare kit kit/cases.csv --items nodir
 ./raster kit 96 shadow >raster.out 2>&1
 same the_raster_code_refuses_what_it_cannot_do "$? $(grep -c 'no mistake of mine is called shadow; these are: none shadows' raster.out)" "2 1"

@@ -129,8 +129,8 @@ refused() { # NAME TEXT LINES...
     failure "$1" "$2" fit bad.csv
 }
 rows='10,1\n20,1\n30,1\n40,1\n50,1'
-refused empty_table "bad.csv: no readings in it" '# nothing'
-refused names_alone "bad.csv: no readings in it" 'angle,brdf'
+refused empty_table "bad.csv: contains no readings" '# nothing'
+refused names_alone "bad.csv: contains no readings" 'angle,brdf'
 refused too_few_readings "bad: found 2 readings, expected 5 or more" '1,1\n2,1'
 refused all_readings_zero "no reading is above 0" "$(echo "$rows" | sed 's/,1/,0/g')"
 refused value_that_is_no_number "line 6, column 2: found 'x1', expected a reading" "$rows\n60,x1"

@@ -46,14 +46,14 @@ rm -f x.svg
 usage_error maps_are_drawn_one_by_one "map.csv is a map: maps are drawn one by one" plot curve.csv map.csv -o x.svg
 usage_error axes_must_be_the_same "runs along 'az_deg' and turn.csv along 'rotate_deg': they do not fit" plot curve.csv turn.csv -o x.svg
 usage_error no_more_than_seven "at most 7 curves in one chart, found 9" plot few.csv few.csv few.csv -o x.svg
-usage_error statistics_are_of_one_file "--stats are of one file, found 2" plot curve.csv bus.csv --stats
+usage_error statistics_are_of_one_file "--stats needs a single file, found 2" plot curve.csv bus.csv --stats
 usage_error nothing_to_do "nothing to do: give -o OUT.svg, --stats or --stats-file" plot curve.csv
 usage_error not_over_its_input "would overwrite what is read" plot curve.csv --stats-file ./curve.csv
 usage_error a_form_is_needed "-o: expected FILE.svg or FILE.png, found 'x.pdf'" plot curve.csv -o x.pdf
 usage_error projections_are_two "--projection: expected flat or mollweide, found 'mercator'" plot map.csv -o x.svg --projection mercator
-usage_error a_curve_has_no_projection "--projection mollweide draws a map over azimuth and elevation" plot curve.csv -o x.svg --projection mollweide
+usage_error a_curve_has_no_projection "--projection mollweide needs azimuths over at most 360 deg" plot curve.csv -o x.svg --projection mollweide
 usage_error polar_draws_no_map "--polar draws curves, --projection maps: give one" plot map.csv -o x.svg --projection mollweide --polar
-usage_error a_sphere_has_no_angle "--plot draws the directions of --sphere as a map" plot sphere.csv -o x.svg --polar
+usage_error a_sphere_has_no_angle "--plot: the directions of --sphere are drawn as a map" plot sphere.csv -o x.svg --polar
 
 # What is no whole sweep.
 failure no_sweep "expected what lrcs sweep writes" plot pair.toml -o x.svg
@@ -65,7 +65,7 @@ failure a_changed_angle "moved.csv: is damaged: line 8, az_deg: found '26', expe
 sed '$d' curve.csv >short.csv
 failure a_file_without_its_end "short.csv: ends without its checksum" plot short.csv -o x.svg
 run sweep pair.toml --az 0:90:5 --el 10 --tolerance 0.01 --shard 2/3 -o part.csv
-failure a_shard "part.csv: holds 6 of 19 rows: lrcs merge makes shards whole" plot part.csv -o x.svg
+failure a_shard "part.csv: holds 6 of 19 rows: join the shards with lrcs merge" plot part.csv -o x.svg
 cp map.npy bent.npy
 cp map.npy.head bent.npy.head
 printf 'x' | dd of=bent.npy bs=1 seek=600 conv=notrunc 2>/dev/null

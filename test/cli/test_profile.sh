@@ -31,7 +31,7 @@ usage_error no_chart_of_another_kind "--plot: expected FILE.svg or FILE.png, fou
 usage_error not_twice_to_stdout "--csv - and --json both want standard output" profile demo --bin 1 --csv - --json
 usage_error not_over_the_scene "--csv pair.toml: would overwrite pair.toml" profile pair.toml --bin 1 --csv pair.toml
 usage_error not_two_files_of_one_name "name the same file" profile demo --bin 1 --csv a.svg --plot a.svg
-failure not_too_many_bins "more than the 1048576 that a profile may have" profile demo --bin 1e-7
+failure not_too_many_bins "there would be more than 1048576" profile demo --bin 1e-7
 failure not_a_pulse_over_too_many "pulse of 1e+06 m reaches over more bins" profile demo --bin 1 --pulse-fwhm 1e6
 run profile pair.toml --azel 50,40 --bin 0.1 --tolerance 1e-30 --json
 same a_tolerance_given_and_missed_is_exit_3 "$rc $(printf '%s\n' "$out" | grep -c '"met": false')" "3 1"

@@ -115,7 +115,7 @@ same names_bind_without_a_material_file "$(printf '%s\n' "$out" | grep -c "Paint
 printf 'newmtl red\nKd 0 1 0\n' >mats/m.mtl
 run info mats/m.obj --json
 same stem_mtl_is_the_fallback "$(printf '%s\n' "$out" | grep -c '"colour": "#00FF00"')" 1
-same the_fallback_is_noticed "$(printf '%s\n' "$out" | grep -c "'m.mtl' taken instead")" 1
+same the_fallback_is_noticed "$(printf '%s\n' "$out" | grep -c "'m.mtl' is used instead")" 1
 run run mats/m.obj --json --material '#00fF00=0,0.3,0.2,1'
 same a_colour_binds "$rc" 0
 printf '[[part]]\nname = "a"\nfile = "m.obj"\n' >mats/scene.toml

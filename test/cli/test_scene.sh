@@ -44,7 +44,7 @@ usage_error it_asks_for_a_file "give -o FILE.toml" scene deep/m.obj
 usage_error a_scene_is_toml "-o: expected FILE.toml, found 'x.txt'" scene deep/m.obj -o x.txt
 usage_error a_scene_file_needs_no_other "expected a model, found a scene file" scene demo -o x.toml
 : >there.toml
-usage_error what_is_there_is_not_lost "'there.toml' is there, and may have been edited" scene deep/m.obj -o there.toml
+usage_error what_is_there_is_not_lost "'there.toml' exists, and may have been edited" scene deep/m.obj -o there.toml
 failure a_model_must_be_there "none.obj" scene none.obj -o x.toml
 same nothing_was_written "$(ls x.toml 2>&1 >/dev/null | wc -l) $(wc -c <there.toml | tr -d ' ')" "1 0"
 
@@ -102,7 +102,7 @@ same an_edited_material_is_given "$(printf '%s\n' "$out" | grep -c '"source": "g
 sed 's/^A = 1$/A = 0.5/' a.toml >half.toml
 run run half.toml --method facet
 same assumed_numbers_stay_assumed "$(printf '%s\n' "$out" | grep -c 'assumed, as the scene file says')" 1
-same and_are_told "$(printf '%s\n' "$err" | grep -c '^notice: 5 of 9 facets have a material that the scene file calls assumed')" 1
+same and_are_told "$(printf '%s\n' "$err" | grep -c '^notice: 5 of 9 facets have a material that the scene file marks as assumed')" 1
 
 if python3 -c 'import tomllib' 2>/dev/null; then
     python3 - <<'END' || not_ok the_python_ends_well

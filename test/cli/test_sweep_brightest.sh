@@ -13,7 +13,7 @@ pair_scene >pair.toml
 cut="sweep pair.toml --tolerance 0.01 --az 0:360:10 --el 10"
 usage_error brightest_wants_a_file "--brightest needs -o FILE" $cut --brightest 3
 usage_error brightest_is_a_count "--brightest: expected a whole number 1 .. 1000" $cut -o x.csv --brightest 0
-usage_error brightest_is_of_whole_sweeps "not with --shard" $cut -o x.csv --shard 1/2 --brightest 3
+usage_error brightest_is_of_whole_sweeps "leave out --shard" $cut -o x.csv --shard 1/2 --brightest 3
 same nothing_was_written "$(ls x.csv* 2>/dev/null)" ""
 
 # listed NAME ARGUMENTS...: sweeps into NAME.csv, and keeps the table.

@@ -55,29 +55,29 @@ for kind in csv jsonl npy; do
     same "and_its_missed_rows_of_${kind}_are_told" "$(printf '%s\n' "$err" | grep -c '10 of 10 rows miss the tolerance')" 1
 done
 
-# What is there but is of another sweep stays: --resume replaces no whole file.
+# A file of another sweep stays: --resume does not replace a complete file.
 for shard in 1/2 1/100; do
     cp whole.csv again.csv
     # shellcheck disable=SC2086
-    failure "a_whole_sweep_is_no_shard_$(echo $shard | tr / _)" "again.csv: is not of this sweep" sweep $what --shard $shard -o again.csv --resume
+    failure "a_whole_sweep_is_no_shard_$(echo $shard | tr / _)" "again.csv: is not a file of this sweep" sweep $what --shard $shard -o again.csv --resume
     equal "and_stays_beside_$(echo $shard | tr / _)" again.csv whole.csv
 done
 for kind in csv jsonl npy; do
     cp whole.$kind again.$kind
     [ $kind != npy ] || cp whole.npy.head again.npy.head
-    failure "a_whole_${kind}_of_another_sweep_stays" "is not of this sweep" sweep box.toml --az 0:90:10 --el -20:20:10 --tolerance 1e-2 -o again.$kind --resume
+    failure "a_whole_${kind}_of_another_sweep_stays" "is not a file of this sweep" sweep box.toml --az 0:90:10 --el -20:20:10 --tolerance 1e-2 -o again.$kind --resume
     equal "the_${kind}_is_as_it_was" again.$kind whole.$kind
     printf x | dd of=again.$kind bs=1 seek=900 conv=notrunc 2>/dev/null
     # shellcheck disable=SC2086
     run sweep $what -o again.$kind --resume
-    same "a_damaged_${kind}_is_not_taken_for_whole" "$rc $(printf '%s\n' "$err" | grep -c 'is damaged: line .* found .* expected\|is not what its .head says')" "1 1"
+    same "a_damaged_${kind}_is_not_taken_for_whole" "$rc $(printf '%s\n' "$err" | grep -c 'is damaged: line .* found .* expected\|differs from its .head')" "1 1"
     same "a_damaged_${kind}_has_one_message" "$(printf '%s\n' "$err" | grep -c '^lrcs: ')" 1
     rm again.$kind
 done
 cp whole.npy again.npy
 rm again.npy.head
 # shellcheck disable=SC2086
-failure a_map_without_its_head_is_not_known "again.npy: is not of this sweep" sweep $what -o again.npy --resume
+failure a_map_without_its_head_is_not_known "again.npy: is not a file of this sweep" sweep $what -o again.npy --resume
 rm again.npy
 same a_map_says_of_which_sweep_it_is "$(sed -n 1,2p whole.npy.head) $(sed -n 3p whole.npy.head | sed 's/=fnv1a:[0-9a-f]*;/=H;/')" "$(sed -n 1,2p whole.csv) # map=H; missed=0; starved=0; estimated=0; unjudged=0"
 
@@ -126,14 +126,14 @@ rm -f again.csv
 # shellcheck disable=SC2086
 head -c 800 whole.csv >again.csv.partial && cp again.csv.partial before.csv
 # shellcheck disable=SC2086
-failure work_of_hours_is_not_overwritten "--resume goes on with it; or remove it" sweep $what -o again.csv
-failure another_sweep_is_not_resumed "is of another sweep" sweep box.toml --az 0:90:10 --el -20:20:20 -o again.csv --resume
+failure work_of_hours_is_not_overwritten "--resume continues it; or remove it" sweep $what -o again.csv
+failure another_sweep_is_not_resumed "belongs to another sweep" sweep box.toml --az 0:90:10 --el -20:20:20 -o again.csv --resume
 # shellcheck disable=SC2086
-failure another_shard_is_not_resumed "is of another sweep" sweep $what -o again.csv --resume --shard 2/2
+failure another_shard_is_not_resumed "belongs to another sweep" sweep $what -o again.csv --resume --shard 2/2
 # shellcheck disable=SC2086
-failure nor_a_longer_one "is of another sweep" sweep $what -o again.csv --resume --shard 1/25
+failure nor_a_longer_one "belongs to another sweep" sweep $what -o again.csv --resume --shard 1/25
 # shellcheck disable=SC2086
-failure nor_another_material "is of another sweep" sweep $what -o again.csv --resume --material 0,0.3,0.2,1
+failure nor_another_material "belongs to another sweep" sweep $what -o again.csv --resume --material 0,0.3,0.2,1
 equal and_the_rows_are_still_there again.csv.partial before.csv
 rm again.csv.partial
 # shellcheck disable=SC2086
@@ -159,7 +159,7 @@ if command -v timeout >/dev/null; then
         while kill -0 $first 2>/dev/null && [ "$(lines cut.csv.partial)" -lt $((before + 2000)) ]; do sleep 0.02; done
         kill -s $signal $first
         wait $first
-        same "sig${signal}_says_how_to_go_on" "$(grep -c 'cut.csv.partial holds .* --resume goes on' stop.txt)" 1
+        same "sig${signal}_says_how_to_go_on" "$(grep -c 'cut.csv.partial holds .* --resume continues with them' stop.txt)" 1
         same "sig${signal}_leaves_no_file" "$([ -e cut.csv ] && echo there)" ""
         rows=$(grep -c '^[0-9]' cut.csv.partial)
         same "sig${signal}_leaves_whole_rows" "$(tail -c 1 cut.csv.partial | od -An -c | tr -d ' ') $(grep -vc '^#\|^index\|^[0-9]*,[^,]*,0,[^,]*,[^,]*,[^,]*,[^,]*,[^,]*,[a-z_]*$' cut.csv.partial)" '\n 0'
@@ -244,9 +244,9 @@ for kind in csv jsonl; do
 done
 
 failure a_shard_missing "row 28 of 50 is in none of the files" merge part.[1-4].csv part.[67].csv -o x.csv
-failure a_shard_twice "part.2.csv: holds rows that another file holds" merge part.*.csv ./part.2.csv -o x.csv
-failure a_shard_of_another_sweep "half.1.csv: is of another sweep" merge part.1.csv half.1.csv -o x.csv
-failure a_shard_of_another_form "part.2.jsonl: is of another sweep" merge part.1.csv part.2.jsonl -o x.csv
+failure a_shard_twice "part.2.csv: holds rows that another file holds too" merge part.*.csv ./part.2.csv -o x.csv
+failure a_shard_of_another_sweep "half.1.csv: belongs to another sweep" merge part.1.csv half.1.csv -o x.csv
+failure a_shard_of_another_form "part.2.jsonl: belongs to another sweep" merge part.1.csv part.2.jsonl -o x.csv
 head -c 400 part.2.csv >torn.csv
 failure a_torn_shard "torn.csv: ends without its checksum" merge part.1.csv torn.csv -o x.csv
 failure what_is_no_sweep "box.toml: expected rows of lrcs sweep" merge box.toml -o x.csv

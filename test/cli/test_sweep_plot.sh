@@ -11,17 +11,17 @@ cut="sweep box.toml --tolerance 0.01 --az 0:90:2 --el 10"
 usage_error a_plot_is_svg_or_png "--plot: expected FILE.svg or FILE.png, found 'x.pdf'" $cut --plot x.pdf
 usage_error dbsm_wants_a_plot "--dbsm needs --plot" $cut --dbsm
 usage_error polar_wants_a_plot "--polar needs --plot" $cut --polar
-usage_error a_sphere_is_a_map "--plot draws the directions of --sphere as a map" sweep box.toml --sphere 10 --plot x.svg --polar
-usage_error a_shard_is_not_whole "--plot draws whole sweeps: not with --shard" $cut --shard 1/2 --plot x.svg
-usage_error three_things_are_too_many "--plot draws one or two things that vary, found 3" \
+usage_error a_sphere_is_a_map "--plot: the directions of --sphere are drawn as a map" sweep box.toml --sphere 10 --plot x.svg --polar
+usage_error a_shard_is_not_whole "--plot needs the whole sweep: leave out --shard" $cut --shard 1/2 --plot x.svg
+usage_error three_things_are_too_many "--plot: expected one or two quantities that vary, found 3" \
     sweep box.toml --az 0:4:2 --el 0:4:2 --vary bus.size_x:1:2:1 --plot x.svg
-usage_error one_row_is_no_curve "--plot draws one or two things that vary, found 0" sweep box.toml --az 0 --plot x.svg
-usage_error a_polar_map_is_too_much "--polar draws at most 7 curves, found 8" \
+usage_error one_row_is_no_curve "--plot: expected one or two quantities that vary, found 0" sweep box.toml --az 0 --plot x.svg
+usage_error a_polar_map_is_too_much "--polar: expected at most 7 curves, found 8" \
     sweep box.toml --az 0:90:10 --el 0:70:10 --polar --plot x.svg
-usage_error polar_wants_an_angle "--polar: curves turn with an angle, found 'bus.size_x'" \
+usage_error polar_wants_an_angle "--polar: the values along the curves must be angles, found 'bus.size_x'" \
     sweep box.toml --vary bus.size_x:1:2:0.5 --polar --plot x.svg
 { echo time,x,y,z; for t in 1 2 3 4 5 7 6 8; do echo "$t,1,$t,0"; done; } >turned.csv
-usage_error a_map_wants_times_that_ascend "--plot: a map wants poses whose time ascends" \
+usage_error a_map_wants_times_that_ascend "--plot: a map needs poses in the order of their times" \
     sweep box.toml --poses turned.csv --vary bus.size_x:1:9:1 --plot x.svg
 usage_error not_one_plot_twice "--plot and --plot name the same file" $cut --plot x.svg --plot ./x.svg
 printf 'time,x,y,z\n0,1,0,0\n1,1,1,0\n3,0,1,0.5\n' >track.csv

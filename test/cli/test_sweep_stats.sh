@@ -25,7 +25,7 @@ run sweep box.toml --az 0 --el -90:270:30 --stats
 same a_cut_is_weighed_alike "$(printf '%s\n' "$err" | grep -c 'rows, all alike: a cut stands for no solid angle')" 1
 usage_error a_statistics_file_has_a_form "--stats-file: expected FILE.json, .csv, .svg or .png, found 'x.pdf'" sweep box.toml --sphere 9 --stats-file x.pdf
 usage_error rows_and_statistics_are_two_files "name the same file" sweep box.toml --sphere 9 -o x.csv --stats-file ./x.csv
-usage_error of_a_shard_nothing_is_known "--stats is of whole sweeps" sweep box.toml --az 0:90:10 --shard 1/2 --stats
+usage_error of_a_shard_nothing_is_known "--stats needs the whole sweep: leave out --shard" sweep box.toml --az 0:90:10 --shard 1/2 --stats
 
 # A ball returns the same everywhere; a plate returns 4 pi B cos^2 on one half of all directions, of
 # which cos is spread evenly: a share (1 + sqrt(sigma / 4 pi B)) / 2 is at most sigma.

@@ -19,7 +19,7 @@ same no_images_where_none_are_asked "$(find small -name '*.png' -o -name '*.u32'
 
 mkdir other
 echo precious >other/file
-failure other_peoples_folders_are_left_alone "holds other files, and no kit" vectors other
+failure other_peoples_folders_are_left_alone "contains other files but no kit" vectors other
 same nothing_was_added_to_them "$(ls other)" file
 echo flat >flat
 failure a_file_is_no_folder "flat" vectors flat

@@ -58,9 +58,9 @@ static void labels_cover_nothing(void **state)
     for (int i = 0; i < 200; i++) {
         seed = seed * 1664525u + 1013904223u;
         lrcsi_plot_point at = {(seed >> 8) % 300, (seed >> 18) % 200};
-        lrcsi_label_block_point(&labels, at, 4.0);
+        lrcsi_label_avoid_point(&labels, at, 4.0);
         if (i % 3 == 0) {
-            lrcsi_label_block_line(&labels, at, (lrcsi_plot_point){at.x + 20.0, at.y + 9.0});
+            lrcsi_label_avoid_line(&labels, at, (lrcsi_plot_point){at.x + 20.0, at.y + 9.0});
         }
         uint32_t before = labels.count;
         lrcsi_plot_point left;
@@ -87,7 +87,7 @@ static void a_full_board_forgets_and_goes_on(void **state)
     static lrcsi_label_area labels;
     labels = (lrcsi_label_area){.frame = {0.0F, 0.0F, 9.0F, 9.0F}};
     for (uint32_t i = 0; i < LRCSI_LABEL_BOXES + 10; i++) {
-        lrcsi_label_block_point(&labels, (lrcsi_plot_point){5.0, 5.0}, 1.0);
+        lrcsi_label_avoid_point(&labels, (lrcsi_plot_point){5.0, 5.0}, 1.0);
     }
     assert_int_equal(labels.count, LRCSI_LABEL_BOXES);
 }

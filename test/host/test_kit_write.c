@@ -164,7 +164,7 @@ static void what_cannot_be_written_is_refused(void **state)
     assert_int_equal(mkdir("other", 0777), 0);
     fclose(fopen("other/file", "wb"));
     assert_int_equal(lrcs_host_kit_write("other", &options, NULL, &error), LRCS_E_SYSTEM);
-    assert_non_null(strstr(error.text, "holds other files"));
+    assert_non_null(strstr(error.text, "contains other files"));
     assert_int_equal(lrcs_host_kit_write("none/kit", &options, NULL, &error), LRCS_E_SYSTEM);
     assert_non_null(strstr(error.text, "cannot make this folder"));
     memset(path, 'a', sizeof path);

@@ -45,7 +45,7 @@ static void many_values_along_both_axes_make_a_map(void **state)
     assert_true(chart.map);
     chart.polar = 1;
     assert_int_equal(lrcs_host_sweep_chart_check(&chart, &error), LRCS_E_ARGUMENT);
-    assert_string_equal(error.text, "polar draws at most 7 curves, found 9");
+    assert_string_equal(error.text, "polar: expected at most 7 curves, found 9");
     chart = chart_of("0:720:30", "-80:80:20");
     chart.mollweide = 1;
     assert_int_equal(lrcs_host_sweep_chart_check(&chart, &error), LRCS_E_ARGUMENT);

@@ -11,28 +11,28 @@
 static const char compare_help[] =
     "usage: lrcs compare DIR THEIRS.csv [options]\n"
     "\n"
-    "Judges what another implementation answered to the kit in DIR (lrcs vectors). THEIRS.csv "
-    "names\n"
-    "its columns in its first line: scene, attitude, and sigma_m2 or sigma_dbsm. Each case falls "
-    "into\n"
-    "a class: exact, float (single precision), raster (N x N pixels) or fail; DIR/README.md says\n"
-    "what they allow. Where cases fail, compare computes what a code with a certain mistake would\n"
-    "have answered, and names those mistakes that explain the failures. Facets and images explain\n"
-    "too; the verdict is by sigma alone.\n"
+    "Judges the answers of another implementation to the kit in DIR (lrcs vectors). The first\n"
+    "line of THEIRS.csv names its columns: scene, attitude, and sigma_m2 or sigma_dbsm. Each\n"
+    "case falls into a class: exact, float (single precision), raster (N x N pixels) or fail;\n"
+    "DIR/README.md says what errors they allow. If cases fail, compare computes what a code\n"
+    "with a certain mistake would have answered, and names the mistakes that explain the\n"
+    "failures. Facets and images explain too; the verdict depends on sigma alone.\n"
     "\n"
     "options\n"
-    "  --tier K              asks for tiers 1 .. K (5)\n"
-    "  --class C             asks for that class or better: exact, float, raster (the default)\n"
-    "  --pixels N            the side of their raster, for class raster (512)\n"
-    "  --facets FILE.csv     their scene, attitude, facet, visible_area_m2 and perhaps cos_theta:\n"
-    "                        names the facets that differ\n"
-    "  --items DIR           their item images, NAME.ATTITUDE.item.u32 as in the kit: finds "
-    "flips,\n"
-    "                        shifted numbers, facets lost or seen through\n"
-    "  --json FILE           all of it as JSON, every case ('-': instead of the table)\n"
-    "  --junit FILE.xml      a test suite a tier, a test case a case ('-' likewise)\n"
+    "  --tier K              judges tiers 1 .. K (default 5)\n"
+    "  --class C             requires that class or better: exact, float, raster (default)\n"
+    "  --pixels N            side of their raster, for class raster (default 512)\n"
+    "  --facets FILE.csv     their scene, attitude, facet, visible_area_m2 and optionally\n"
+    "                        cos_theta: names the facets that differ\n"
+    "  --items DIR           their item images, NAME.ATTITUDE.item.u32 as in the kit: finds\n"
+    "                        images that are mirrored or rotated, shifted numbers, facets that\n"
+    "                        are lost or shown although hidden\n"
+    "  --json FILE           everything as JSON, every case ('-': on standard output, instead\n"
+    "                        of the table)\n"
+    "  --junit FILE.xml      JUnit XML: a test suite for each tier, a test case for each case\n"
+    "                        ('-' likewise)\n"
     "\n"
-    "Exit: 0 every case of the tiers asked for was handed in and passed, 1 otherwise.\n"
+    "Exit: 0 if every case of these tiers was answered and passed, otherwise 1.\n"
     "\n"
     "examples\n"
     "  lrcs compare kit theirs.csv --tier 1\n"
@@ -86,6 +86,17 @@ static int options_read(compare_job *job, const char **folder)
 }
 
 /* ---- the command ---- */
+
+void cli_compare_tier(const lrcs_host_judgement *judgement, uint32_t tier, unsigned long *cases,
+                      unsigned long *failed)
+{
+    *cases = *failed = 0;
+    for (uint32_t i = 0; i < judgement->kit.cases; i++) {
+        const compare_case *one = &judgement->kit.list[i];
+        *cases += (uint32_t)one->tier == tier;
+        *failed += (uint32_t)one->tier == tier && lrcs_host_judge_failed(judgement, one);
+    }
+}
 
 static int compare_make(compare_job *job, const char *folder)
 {

@@ -15,6 +15,10 @@ typedef struct compare_job {
     lrcs_host_judgement judgement;
 } compare_job;
 
+/* The cases of a tier, and how many of them failed. */
+void cli_compare_tier(const lrcs_host_judgement *judgement, uint32_t tier, unsigned long *cases,
+                      unsigned long *failed);
+
 /* The reports: a table on stdout, and JSON and JUnit XML, whose context is the job. */
 void cli_compare_table(const compare_job *job);
 cli_text_writer cli_compare_json;

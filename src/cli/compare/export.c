@@ -111,20 +111,16 @@ static void xml_text(FILE *out, const char *text)
     }
 }
 
-static void tier_junit(FILE *out, const lrcs_host_judgement *job, int tier)
+static void tier_junit(FILE *out, const lrcs_host_judgement *job, uint32_t tier)
 {
-    unsigned long cases = 0;
-    unsigned long failed = 0;
+    unsigned long cases;
+    unsigned long failed;
+    cli_compare_tier(job, tier, &cases, &failed);
+    fprintf(out, "<testsuite name=\"tier %lu\" tests=\"%lu\" failures=\"%lu\">\n",
+            (unsigned long)tier, cases, failed);
     for (uint32_t i = 0; i < job->kit.cases; i++) {
         const compare_case *one = &job->kit.list[i];
-        cases += one->tier == tier;
-        failed += one->tier == tier && lrcs_host_judge_failed(job, one);
-    }
-    fprintf(out, "<testsuite name=\"tier %d\" tests=\"%lu\" failures=\"%lu\">\n", tier, cases,
-            failed);
-    for (uint32_t i = 0; i < job->kit.cases; i++) {
-        const compare_case *one = &job->kit.list[i];
-        if (one->tier != tier) {
+        if ((uint32_t)one->tier != tier) {
             continue;
         }
         fprintf(out, "<testcase classname=\"%s\" name=\"%s\">", job->kit.scene[one->scene].name,
@@ -136,7 +132,7 @@ static void tier_junit(FILE *out, const lrcs_host_judgement *job, int tier)
             xml_text(out, one->explained ? job->finding[one->explained - 1].text : "unexplained");
             fputs("\"/>", out);
         } else if (lrcs_host_judge_failed(job, one)) {
-            fputs("<failure message=\"not handed in\"/>", out);
+            fputs("<failure message=\"not answered\"/>", out);
         }
         fputs("</testcase>\n", out);
     }
@@ -152,7 +148,7 @@ void cli_compare_junit(FILE *out, const void *context)
             (unsigned long)job->asked + (job->biased ? 1 : 0),
             (unsigned long)job->failed + (job->biased ? 1 : 0));
     for (uint32_t tier = 1; tier <= job->tier; tier++) {
-        tier_junit(out, job, (int)tier);
+        tier_junit(out, job, tier);
     }
     if (job->biased) { /* a test case that stands for all cases together */
         fputs("<testsuite name=\"all tiers\" tests=\"1\" failures=\"1\">\n"

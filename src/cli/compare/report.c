@@ -43,20 +43,6 @@ static void scene_print(const lrcs_host_judgement *job, const lrcs_host_kit_scen
     putchar('\n');
 }
 
-/* The tiers that a finding concerns: " in tiers 1 2". */
-static void finding_tiers(const lrcs_host_judgement *job, int mark)
-{
-    for (int tier = 1; tier <= LRCS_HOST_KIT_TIERS; tier++) {
-        for (uint32_t i = 0; i < job->kit.cases; i++) {
-            const compare_case *one = &job->kit.list[i];
-            if (one->tier == tier && one->explained == mark && lrcs_host_judge_failed(job, one)) {
-                printf(" %d", tier);
-                break;
-            }
-        }
-    }
-}
-
 static const char *plural(uint32_t count)
 {
     return count == 1 ? "" : "s";
@@ -73,7 +59,17 @@ static void findings_print(const lrcs_host_judgement *job)
         }
         printf("             explains %lu of %lu failing case%s, in tiers",
                (unsigned long)finding->explained, (unsigned long)failed, plural(failed));
-        finding_tiers(job, (int)i + 1);
+        for (int tier = 1; tier <= LRCS_HOST_KIT_TIERS; tier++) {
+            int concerned = 0;
+            for (uint32_t k = 0; k < job->kit.cases; k++) {
+                const compare_case *one = &job->kit.list[k];
+                concerned |= one->tier == tier && one->explained == (int)i + 1 &&
+                             lrcs_host_judge_failed(job, one);
+            }
+            if (concerned) {
+                printf(" %d", tier);
+            }
+        }
         if (finding->rest < 1.0) {
             printf("; leaves %.2g %% of their differences", 100.0 * finding->rest);
         }
@@ -164,7 +160,7 @@ static void facets_print(const lrcs_host_judgement *job, const lrcs_host_kit_fac
 static void items_print(const lrcs_host_judgement *job, const lrcs_host_kit_items *items,
                         const char *folder)
 {
-    printf("items        in %s: %lu of %lu images handed in; %lu differ\n", folder,
+    printf("items        in %s: %lu of %lu images found; %lu differ\n", folder,
            (unsigned long)items->handed, (unsigned long)items->images,
            (unsigned long)items->differ);
     for (int way = 0; way < (int)LRCS_HOST_IMAGE_WAYS; way++) {
@@ -205,13 +201,9 @@ void cli_compare_table(const compare_job *asked)
     }
     putchar('\n');
     for (uint32_t tier = 1; tier <= job->tier; tier++) {
-        unsigned long cases = 0;
-        unsigned long failed = 0;
-        for (uint32_t i = 0; i < job->kit.cases; i++) {
-            const compare_case *one = &job->kit.list[i];
-            cases += (uint32_t)one->tier == tier;
-            failed += (uint32_t)one->tier == tier && lrcs_host_judge_failed(job, one);
-        }
+        unsigned long cases;
+        unsigned long failed;
+        cli_compare_tier(job, tier, &cases, &failed);
         if (cases > 0 && failed == 0) {
             printf("tier %lu       passed, %lu cases\n", (unsigned long)tier, cases);
         } else if (cases > 0) {

@@ -90,22 +90,6 @@ static void curve_add(const lrcs_host_convergence *job, chart_curves *all, int d
              position, what[quantity]);
 }
 
-/* Adds the curves of a kind of setting; the upper one has the settings' names. A preview has the
-   bound of its raster, which is no reason to choose it. */
-static void dial_add(const lrcs_host_convergence *job, chart_curves *all, int dial)
-{
-    int bounds = dial != LRCS_HOST_DIAL_PREVIEW && curve_known(job, dial, CHART_BOUND);
-    if (bounds) {
-        curve_add(job, all, dial, CHART_BOUND, 1);
-    }
-    if (curve_known(job, dial, CHART_ESTIMATE)) {
-        curve_add(job, all, dial, CHART_ESTIMATE, dial == LRCS_HOST_DIAL_PREVIEW);
-    }
-    if (curve_known(job, dial, CHART_ERROR)) {
-        curve_add(job, all, dial, CHART_ERROR, !bounds && dial != LRCS_HOST_DIAL_PREVIEW);
-    }
-}
-
 /* "256" for a raster, "1e-3" for a mesh. */
 static void short_names(const lrcs_host_convergence *job, chart_curves *all)
 {
@@ -128,20 +112,32 @@ int cli_converge_chart(FILE *out, const void *context, int png, lrcs_host_error 
     const converge_job *from = context;
     const lrcs_host_convergence *job = &from->all;
     chart_curves all = {.count = 0};
-    const double *d = job->pose.direction;
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double s_hat[3];
+    cli_pose_unit(&job->pose, s_hat);
     char title[256];
     char note[256];
     snprintf(title, sizeof title, "What accuracy costs in time: %s", cli_base_name(from->title));
     snprintf(note, sizeof note, "truth: %s; sigma = %.9g m2; laser at (%.3g, %.3g, %.3g)",
-             job->truth.text, job->truth.sigma_m2, d[0] / length, d[1] / length, d[2] / length);
+             job->truth.text, job->truth.sigma_m2, s_hat[0], s_hat[1], s_hat[2]);
     /* the smallest value of the axis: the uncertainty of the truth, or of a double; never 0, which
        a logarithmic axis cannot show */
     double floor = lrcs_host_convergence_relative(job, job->truth.bound_m2);
     floor = job->truth.sigma_m2 > 0.0 ? fmax(floor, 0x1p-53) : floor > 0.0 ? floor : 1e-16;
     short_names(job, &all);
     for (int dial = 0; dial < LRCS_HOST_DIALS; dial++) {
-        dial_add(job, &all, dial);
+        /* the upper curve has the settings' names; a preview has the bound of its raster, which is
+           no reason to choose it */
+        int preview = dial == LRCS_HOST_DIAL_PREVIEW;
+        int bounds = !preview && curve_known(job, dial, CHART_BOUND);
+        if (bounds) {
+            curve_add(job, &all, dial, CHART_BOUND, 1);
+        }
+        if (curve_known(job, dial, CHART_ESTIMATE)) {
+            curve_add(job, &all, dial, CHART_ESTIMATE, preview);
+        }
+        if (curve_known(job, dial, CHART_ERROR)) {
+            curve_add(job, &all, dial, CHART_ERROR, !bounds && !preview);
+        }
     }
     const lrcs_host_chart chart = {
         .title = title,

@@ -123,7 +123,7 @@ static const char *const number_name[NUMBERS] = {
     "pose_ms",        "sigma_m2",       "error_m2",         "bound_m2",    "estimate_m2",
     "relative_error", "relative_bound", "relative_estimate"};
 
-/* NaN where a number is not known, or none. */
+/* A number that is not known, or that a setting does not have, is NaN. */
 static void numbers_make(const lrcs_host_convergence *all, const lrcs_host_convergence_setting *one,
                          double number[NUMBERS])
 {

@@ -27,7 +27,7 @@ typedef struct fit_job {
 } fit_job;
 
 /* The number of parameters, of four, that are not determined. */
-int cli_fit_open(const lrcs_fit *fit);
+int cli_fit_undetermined(const lrcs_fit *fit);
 
 /* The reports: the table or JSON on stdout, CSV, and charts of the fit or of its residuals, which
    are written to a file: 0 or CLI_FAILED with the message printed. */

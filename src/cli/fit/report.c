@@ -17,7 +17,7 @@ typedef struct report_statement {
     char text[256];
 } report_statement;
 
-int cli_fit_open(const lrcs_fit *fit)
+int cli_fit_undetermined(const lrcs_fit *fit)
 {
     int open = 0;
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
@@ -55,20 +55,6 @@ static void cell_print(double value, int width, const char *none)
     }
 }
 
-static void parameters_print(const lrcs_fit *fit)
-{
-    printf("\n%8s  %12s  %12s  %12s  %12s\n", "", "value", "std error", "low, 95 %", "high, 95 %");
-    for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
-        const lrcs_fit_parameter *one = &fit->parameter[p];
-        printf("%s %-6s", report_name[p], p < LRCS_FIT_S ? "1/sr" : "");
-        cell_print(one->value, 12, "");
-        cell_print(one->error, 12, "-");
-        cell_print(one->low, 12, "");
-        cell_print(one->high, 12, "no limit");
-        putchar('\n');
-    }
-}
-
 static void statements_print(const lrcs_fit *fit)
 {
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
@@ -77,7 +63,7 @@ static void statements_print(const lrcs_fit *fit)
             printf("%s %s\n", report_name[p], statement.text);
         }
     }
-    if (cli_fit_open(fit) == 0) {
+    if (cli_fit_undetermined(fit) == 0) {
         printf("all four parameters are determined\n");
     }
     if (fit->angles < LRCS_FIT_PARAMETERS) {
@@ -196,7 +182,17 @@ void cli_fit_table(const fit_job *job)
         cli_column(material->name, 0);
         putchar('\n');
         readings_print(job, material);
-        parameters_print(&material->fit);
+        printf("\n%8s  %12s  %12s  %12s  %12s\n", "", "value", "std error", "low, 95 %",
+               "high, 95 %");
+        for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
+            const lrcs_fit_parameter *one = &material->fit.parameter[p];
+            printf("%s %-6s", report_name[p], p < LRCS_FIT_S ? "1/sr" : "");
+            cell_print(one->value, 12, "");
+            cell_print(one->error, 12, "-");
+            cell_print(one->low, 12, "");
+            cell_print(one->high, 12, "no limit");
+            putchar('\n');
+        }
         putchar('\n');
         statements_print(&material->fit);
         material_print(material);
@@ -242,7 +238,7 @@ static void material_json(const fit_material *material, lrcs_host_json *json)
                            one->value, one->error, one->low, one->high,
                            one->verdict == LRCS_FIT_DETERMINED, statement.text);
     }
-    lrcs_host_json_put(json, "} all_determined=%d correlation=[\n", cli_fit_open(fit) == 0);
+    lrcs_host_json_put(json, "} all_determined=%d correlation=[\n", cli_fit_undetermined(fit) == 0);
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         lrcs_host_json_numbers(json, NULL, fit->correlation[p], LRCS_FIT_PARAMETERS);
     }

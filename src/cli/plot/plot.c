@@ -11,31 +11,32 @@
 static const char plot_help[] =
     "usage: lrcs plot FILE... -o OUT [options]\n"
     "\n"
-    "Draws without computing what other commands wrote: of lrcs sweep FILE.csv, FILE.jsonl, or\n"
-    "FILE.npy with its FILE.npy.head; of lrcs profile FILE.csv, and of lrcs converge FILE.csv "
-    "with\n"
-    "its FILE.csv.json, one at a time, as their --plot does.\n"
-    "Files of sweeps are checked as sweep --resume checks them: one that is damaged, or a shard\n"
-    "(lrcs merge), is refused. Curves of several sweeps along the same axis are drawn together; "
-    "if\n"
-    "the files differ in scene, options or version, a notice says in what.\n"
+    "Draws again what other commands wrote, as their --plot does, without computing:\n"
+    "  lrcs sweep            FILE.csv, FILE.jsonl, or FILE.npy with its FILE.npy.head; curves of\n"
+    "                        several sweeps along the same axis are drawn together\n"
+    "  lrcs profile          one FILE.csv\n"
+    "  lrcs converge         one FILE.csv with its FILE.csv.json\n"
+    "Files of sweeps are checked as by sweep --resume: one that is damaged, or a single shard\n"
+    "(lrcs merge joins them), is refused. If the files differ in scene, options or version, a\n"
+    "notice lists the differences.\n"
     "\n"
     "options\n"
     "  -o OUT                OUT.svg or OUT.png, repeatable: up to 7 curves, or a map\n"
-    "of sweeps only:\n"
-    "  --dbsm                sigma in dBsm (default: m2); sigma 0 is left out, or grey\n"
+    "for sweeps only:\n"
+    "  --dbsm                sigma in dBsm (default: m2); where sigma is 0, curves have a gap,\n"
+    "                        and maps are grey\n"
     "  --polar               curves about a pole: the angle counter-clockwise from the right\n"
     "  --projection KIND     of a map over azimuth and elevation: flat (default), or mollweide,\n"
-    "                        which keeps areas; 0 deg is in the middle\n"
-    "  --stats               of one file: mean by solid angle, percentiles, least and most,\n"
-    "                        histogram, as a table on stdout\n"
+    "                        which preserves areas; 0 deg is in the middle\n"
+    "  --stats               of one file: mean by solid angle, percentiles, minimum, maximum,\n"
+    "                        histogram, as a table on standard output\n"
     "  --stats-file OUT      the same as OUT.json, .csv, .svg or .png; repeatable\n"
     "\n"
     "Directions of sweep --sphere are drawn as a map: each place shows the nearest of them.\n"
-    "Statistics are those of the rows. Each number stands with the least and most that it can be\n"
-    "where sigma of every row is within its bound; where materials have errors, with a 68 % band "
-    "of\n"
-    "these, as if they moved all rows together: an estimate that is seldom too narrow.\n"
+    "Statistics are those of the rows. Each number is printed with the least and the most\n"
+    "that it can be if sigma of every row is within its bound; and, if materials state\n"
+    "errors, with a 68 % band, as if these errors moved all rows together: an estimate that\n"
+    "is seldom too narrow.\n"
     "\n"
     "examples\n"
     "  lrcs plot map.npy -o sky.svg --projection mollweide --dbsm\n"
@@ -62,7 +63,8 @@ typedef struct plot_job {
     int stats;
 } plot_job;
 
-/* Appends to the list the options of `head` that `other` lacks, or, if `values`, has otherwise. */
+/* Appends to the list the options of `head` that `other` lacks or, if `values` is 1, gives with
+   another value. */
 static void differences_list(const lrcs_host_rows_head *head, const lrcs_host_rows_head *other,
                              int values, char *list, size_t size)
 {
@@ -167,7 +169,7 @@ static int job_run(plot_job *job)
         return cli_usage(args->command, "nothing to do: give -o OUT.svg, --stats or --stats-file");
     }
     if (code == 0 && job->stats && job->count > 1) {
-        return cli_usage(args->command, "--stats are of one file, found %lu",
+        return cli_usage(args->command, "--stats needs a single file, found %lu",
                          (unsigned long)job->count);
     }
     if (code == 0 && plotted) {

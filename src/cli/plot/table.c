@@ -22,7 +22,7 @@ typedef struct table_job {
     int kind;
     lrcs_host_file file;
     lrcs_host_table table;
-    char *text;  /* a copy of what holds the next, terminated */
+    char *text;  /* a copy of the text that `about` is in, with a NUL at its end */
     char *about; /* "lrcs VERSION COMMAND; key=text; .." */
     char title[TABLE_TEXT];
     profile_job profile;

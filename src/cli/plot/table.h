@@ -5,13 +5,13 @@
 
 #include "cli/cli.h"
 
-/* What the first line of a file says that it is; TABLE_NONE for everything else. */
+/* The kind of a file by its first line; TABLE_NONE for any other file. */
 enum table_kind { TABLE_NONE, TABLE_PROFILE, TABLE_CONVERGE, TABLE_STATISTICS };
 
 int cli_table_kind(const char *path);
 
-/* Draws a range profile or a comparison of lrcs converge as every -o. 0, or CLI_FAILED with the
-   message printed. */
+/* Draws a range profile or a comparison of lrcs converge, to every file named by -o. 0, or
+   CLI_FAILED with the message printed. */
 int cli_table_draw(const cli_args *args, const char *path, int kind);
 
 #endif

@@ -15,7 +15,7 @@ static double total_sigma(const profile_job *job)
     return job->profile.list.sigma_glint_m2 + job->profile.list.sigma_diffuse_m2;
 }
 
-/* 1 if some normals are curved: then what their integral may be off by is estimated. */
+/* 1 if some normals are curved: then the error of their integral is estimated. */
 static int is_curved(const profile_job *job)
 {
     return job->profile.list.curvature_estimate_m2 >= 0.0;
@@ -105,16 +105,18 @@ void cli_profile_csv(FILE *out, const void *context)
 
 /* ---- JSON ---- */
 
-static void json_head(const profile_job *job, lrcs_host_json *json)
+void cli_profile_json(const profile_job *job)
 {
     const lrcs_profile *p = &job->profile.list;
-    cli_version_json(json);
-    cli_hash_json(lrcs_scene_hash(&job->scene.scene), json);
-    cli_files_json(&job->scene, json);
-    lrcs_host_json_put(json, "unit=%s", cli_scene_unit(job->args, &job->scene));
-    cli_direction_json(&job->pose, json);
+    lrcs_host_json json = lrcs_host_json_make(stdout);
+    lrcs_host_json_put(&json, "{\n");
+    cli_version_json(&json);
+    cli_hash_json(lrcs_scene_hash(&job->scene.scene), &json);
+    cli_files_json(&job->scene, &json);
+    lrcs_host_json_put(&json, "unit=%s", cli_scene_unit(job->args, &job->scene));
+    cli_direction_json(&job->pose, &json);
     lrcs_host_json_put(
-        json,
+        &json,
         "bin_m=%g pulse_fwhm_m=%g sigma_m2=%g sigma_glint_m2=%g sigma_diffuse_m2=%g bound_m2=%g "
         "normals=%s curvature_estimate_m2=%g bound_refers_to=%s",
         job->bin_m, job->fwhm_m > 0.0 ? job->fwhm_m : (double)NAN, total_sigma(job),
@@ -124,20 +126,13 @@ static void json_head(const profile_job *job, lrcs_host_json *json)
         p->tessellation_known ? "the facets of models, and true curved shapes"
                               : "the facets, also those that stand for curved shapes");
     if (job->asked > 0.0) {
-        lrcs_host_json_put(json, "tolerance={asked=%g met=%d}", job->asked, job->met);
+        lrcs_host_json_put(&json, "tolerance={asked=%g met=%d}", job->asked, job->met);
     } else {
-        lrcs_host_json_put(json, "tolerance={asked=null met=null}");
+        lrcs_host_json_put(&json, "tolerance={asked=null met=null}");
     }
-    lrcs_host_json_put(json, "notices=[\n");
-    cli_notices_json(&job->scene.notices, json);
-    lrcs_host_json_put(json, "]");
-}
-
-void cli_profile_json(const profile_job *job)
-{
-    lrcs_host_json json = lrcs_host_json_make(stdout);
-    lrcs_host_json_put(&json, "{\n");
-    json_head(job, &json);
+    lrcs_host_json_put(&json, "notices=[\n");
+    cli_notices_json(&job->scene.notices, &json);
+    lrcs_host_json_put(&json, "]");
     cli_provenance_json(job->args, &job->scene, &json);
     lrcs_host_json_put(&json, "bins=[\n");
     for (uint32_t i = 0; i < job->rows; i++) {
@@ -202,7 +197,7 @@ static void rows_print(const profile_job *job)
     free(sorted);
 }
 
-static void verdict_print(const profile_job *job)
+static void summary_print(const profile_job *job)
 {
     const lrcs_profile *p = &job->profile.list;
     char bin[LRCS_HOST_BOUND_SIZE];
@@ -265,5 +260,5 @@ void cli_profile_table(const profile_job *job)
             printf("chart        %s\n", job->args->given[i].value);
         }
     }
-    verdict_print(job);
+    summary_print(job);
 }

@@ -193,7 +193,7 @@ static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
 {
     const report_sweep *map = &job->sweep[REPORT_MAP];
     const lrcs_scene *scene = &job->scene.scene;
-    const double *d = job->pose.direction;
+    double azel_deg[2];
     double least[3];
     double most[3];
     double side = 0.0;
@@ -215,8 +215,9 @@ static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
         }
     }
     fputs("<script type=\"application/json\" id=\"data\">{", out);
-    lrcs_host_number_put(out, "\"start\":[", atan2(d[1], d[0]) * CLI_DEGREES);
-    lrcs_host_number_put(out, ",", atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES);
+    cli_pose_azel(&job->pose, azel_deg);
+    lrcs_host_number_put(out, "\"start\":[", azel_deg[0]);
+    lrcs_host_number_put(out, ",", azel_deg[1]);
     lrcs_host_number_put(out, "],\n\"radius\":", radius > 0.0 ? radius : 1.0);
     lrcs_host_number_put(out, ",\n\"centre\":[", 0.5 * (least[0] + most[0]));
     lrcs_host_number_put(out, ",", 0.5 * (least[1] + most[1]));

@@ -30,7 +30,7 @@ int cli_report_bytes_end(FILE *out)
 
 /* ---- words and numbers ---- */
 
-void cli_page_say(FILE *out, const char *format, ...)
+void cli_page_text(FILE *out, const char *format, ...)
 {
     char text[2048];
     va_list list;
@@ -95,19 +95,6 @@ void cli_page_bound(FILE *out, const char *id, double bound, int digits)
     }
 }
 
-static void percent_put(FILE *out, double share)
-{
-    if (share > 0.0 && share < 0.0005) {
-        fputs("&lt;\xc2\xa0"
-              "0.1\xc2\xa0%",
-              out);
-    } else if (isfinite(share)) {
-        fprintf(out, "%.1f\xc2\xa0%%", 100.0 * share);
-    } else {
-        fputs("\xe2\x80\x93", out);
-    }
-}
-
 /* ---- markup with values ---- */
 
 /* Writes a value that is no text, of the conversion at `at` after its '%'. Returns the value of a
@@ -126,7 +113,15 @@ static double value_put(FILE *out, const char *at, va_list *list)
         break;
     case 'f':
         share = va_arg(*list, double);
-        percent_put(out, share);
+        if (share > 0.0 && share < 0.0005) {
+            fputs("&lt;\xc2\xa0"
+                  "0.1\xc2\xa0%",
+                  out);
+        } else if (isfinite(share)) {
+            fprintf(out, "%.1f\xc2\xa0%%", 100.0 * share);
+        } else {
+            fputs("\xe2\x80\x93", out);
+        }
         break;
     default:
         fprintf(out, "%u", va_arg(*list, unsigned));

@@ -2,8 +2,6 @@
 /* The page as a whole: its head, the summary, the navigation between sections, its foot. */
 #include "cli/report/report.h"
 
-#include <math.h>
-
 static const char page_style[] = {
 #include "style.inc"
 };
@@ -56,8 +54,10 @@ static void lead_sigma(FILE *out, const report_job *job)
 /* sigma, what its materials leave open, where the laser stands, the verdict. */
 static void page_lead(FILE *out, const report_job *job)
 {
-    const double *d = job->pose.direction;
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double s_hat[3];
+    double azel_deg[2];
+    cli_pose_unit(&job->pose, s_hat);
+    cli_pose_azel(&job->pose, azel_deg);
     double deviation = job->uncertainty.deviation_m2;
     lead_sigma(out, job);
     if (job->uncertainty.stated) {
@@ -71,9 +71,8 @@ static void page_lead(FILE *out, const report_job *job)
     cli_page(out,
              " The laser stands at azimuth %.6g\xc2\xb0, elevation %.6g\xc2\xb0 of the body frame, "
              "in the direction (%.6g, %.6g, %.6g).</p>\n",
-             atan2(d[1], d[0]) * CLI_DEGREES, atan2(d[2], hypot(d[0], d[1])) * CLI_DEGREES,
-             d[0] / length, d[1] / length, d[2] / length);
-    cli_report_verdict(out, job);
+             azel_deg[0], azel_deg[1], s_hat[0], s_hat[1], s_hat[2]);
+    cli_report_summary(out, job);
     fputs("</header>\n", out);
 }
 
@@ -104,12 +103,12 @@ int cli_report_page(FILE *out, const void *context, lrcs_host_error *error)
     fputs("</div>\n", out);
     cli_report_sigma(out, job);
     cli_report_notices(out, job);
-    cli_report_curves(out, job);
+    cli_report_charts(out, job);
     cli_report_shares(out, job);
     cli_report_scene(out, job);
     cli_report_effects(out, job);
     cli_report_accuracy(out, job);
-    cli_report_again(out, job);
+    cli_report_reproduce(out, job);
     cli_page(out,
              "</main>\n<footer><p>Made by lrcs %s. A <em>bound</em> is proved: the error is no "
              "larger. An <em>estimate</em> says what is "

@@ -10,35 +10,34 @@ static const char report_help[] =
     "usage: lrcs report SCENE [pose] -o FILE.html [options]\n"
     "\n"
     "Writes one page about SCENE, a .3ds, .obj or .stl model, a scene file, or 'demo': what\n"
-    "it holds, what the laser sees, sigma (m2) with its certificate, who makes it, what was\n"
-    "simulated and why, cuts through three planes and a map of all directions (dBsm), the\n"
-    "peaks and who makes them, what accuracy costs in time, and the commands that make all\n"
-    "of it again. The page is one file for any browser, with its pictures inside and no\n"
-    "scripts.\n"
+    "it holds, what the laser sees, sigma (m2) with its certificate, what contributes to it,\n"
+    "what was simulated and why, cuts through three planes and a map of all directions\n"
+    "(dBsm), the peaks and what contributes to them, what accuracy costs in time, and the\n"
+    "commands that reproduce all of it. The page is one file for any browser, with its\n"
+    "pictures inside and no scripts.\n"
     "\n" CLI_POSE_HELP "\n"
     "output\n"
     "  -o FILE.html          the page ('-': standard output)\n"
     "\n"
     "options\n"
-    "  --explore             the page is interactive instead: the body turns, and a map says what\n"
-    "                        sigma is there; it holds its script, and loads nothing. Above 20000\n"
-    "                        facets the body is drawn reduced\n"
-    "  --seconds S           time for cuts, map and comparison, about (40): it decides\n"
-    "                        their steps and is exceeded where a pose takes seconds\n"
-    "  --cut-step DEG        of the cuts, a divisor of 90, in place of what time allows\n"
-    "  --map-step DEG        of the map, likewise\n"
-    "  --jobs N              threads for cuts and map (one for each processor)\n"
+    "  --explore             writes an interactive page instead: the body can be rotated,\n"
+    "                        beside a map of sigma. It holds its script, and loads nothing. A\n"
+    "                        body of more than 20000 facets is drawn simplified\n"
+    "  --seconds S           approximate time for cuts, map and comparison (default 40): it\n"
+    "                        decides their steps, and is exceeded if a pose takes seconds\n"
+    "  --cut-step DEG        step of the cuts, a divisor of 90 (default: as the time allows)\n"
+    "  --map-step DEG        step of the map, likewise\n"
+    "  --jobs N              number of threads for cuts and map (default: one for each\n"
+    "                        processor)\n"
     "\n"
     "run and scene\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
-    "Cuts and map are drawn to a tolerance of 0.01, or REL where that is coarser: their\n"
-    "shapes are tessellated for it. Exit 3 where the run at the pose misses its own\n"
-    "tolerance.\n"
+    "Cuts and map are computed to a tolerance of 0.01, or REL if that is larger, for which\n"
+    "their shapes are tessellated. Exit 3 if the run at the pose misses its own tolerance.\n"
     "\n"
     "examples\n"
     "  lrcs report demo --azel 50,40 -o demo.html\n"
     "  lrcs report aura.3ds --unit in --azel 30,20 --material solar=solar-cell -o aura.html\n"
-    "  lrcs report examples/satellites/lander.toml --tolerance 0.003 --seconds 300 "
-    "-o lander.html\n";
+    "  lrcs report examples/satellites/lander.toml --tolerance 0.003 -o lander.html\n";
 
 static const cli_option report_options[] = {
     CLI_POSE_OPTIONS,  CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS,  {"o", CLI_FILE, 0},
@@ -151,7 +150,7 @@ static int report_measure(report_job *job, int explore)
     }
     cli_watch_stage("pose and pictures", &job->scene);
     code = code ? code : cli_report_run(job);
-    code = code ? code : cli_report_verdict_make(job);
+    code = code ? code : cli_report_summary_make(job);
     code = code ? code : cli_report_sweeps(job);
     cli_watch_stage("comparing accuracy", NULL);
     return code ? code : report_compare(job);
@@ -173,7 +172,7 @@ static void report_free(report_job *job)
     }
     lrcs_host_convergence_free(&job->converge.all);
     free(job->chart.bytes);
-    free(job->verdict.bytes);
+    free(job->summary.bytes);
     free(job->records);
     free(job->image.facet);
     lrcs_host_shares_free(&job->shares);

@@ -63,7 +63,7 @@ typedef struct report_job {
     uint32_t peaks;
     converge_job converge;
     report_bytes chart;
-    report_bytes verdict;         /* as printed by lrcs run */
+    report_bytes summary;         /* the verdict that lrcs run prints */
     lrcs_uncertainty uncertainty; /* of sigma, by the errors of materials */
 } report_job;
 
@@ -107,7 +107,7 @@ __attribute__((format(printf, 2, 3))) void cli_page(FILE *out, const char *forma
 
 /* Writes formatted text, which is escaped as a whole; a name, or a replacement if there is none; a
    number and a bound as above, which a script finds by the id. */
-__attribute__((format(printf, 2, 3))) void cli_page_say(FILE *out, const char *format, ...);
+__attribute__((format(printf, 2, 3))) void cli_page_text(FILE *out, const char *format, ...);
 void cli_page_name(FILE *out, const char *name, const char *nameless);
 void cli_page_number(FILE *out, const char *id, double value, int digits);
 void cli_page_bound(FILE *out, const char *id, double bound, int digits);
@@ -138,8 +138,8 @@ void cli_page_figure_end(FILE *out);
 
 /* Computes the verdict of lrcs run for the run of the page, 0 or an exit code; writes it as
    markup. */
-int cli_report_verdict_make(report_job *job);
-void cli_report_verdict(FILE *out, const report_job *job);
+int cli_report_summary_make(report_job *job);
+void cli_report_summary(FILE *out, const report_job *job);
 
 /* The sections. */
 void cli_report_notices(FILE *out, const report_job *job);
@@ -147,8 +147,8 @@ void cli_report_scene(FILE *out, const report_job *job);
 void cli_report_sigma(FILE *out, const report_job *job);
 void cli_report_effects(FILE *out, const report_job *job);
 void cli_report_shares(FILE *out, const report_job *job);
-void cli_report_curves(FILE *out, const report_job *job);
+void cli_report_charts(FILE *out, const report_job *job);
 void cli_report_accuracy(FILE *out, const report_job *job);
-void cli_report_again(FILE *out, const report_job *job);
+void cli_report_reproduce(FILE *out, const report_job *job);
 
 #endif

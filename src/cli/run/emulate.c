@@ -33,14 +33,6 @@ static int emulation_alone(const run_job *job)
     return 0;
 }
 
-static int depth_read(const cli_args *args, uint32_t *bits)
-{
-    int place = -1;
-    int code = cli_choice(args, "depth-bits", "16, 24 or 32", &place);
-    *bits = place >= 0 ? 16 + 8 * (uint32_t)place : *bits;
-    return code;
-}
-
 int cli_run_emulation_read(run_job *job)
 {
     const cli_args *args = job->args;
@@ -61,7 +53,9 @@ int cli_run_emulation_read(run_job *job)
     options->resolution = job->options.resolution ? job->options.resolution : options->resolution;
     job->options.resolution = options->resolution;
     job->options.method = LRCS_METHOD_ZBUFFER;
-    int code = depth_read(args, &options->depth_bits);
+    int place = -1;
+    int code = cli_choice(args, "depth-bits", "16, 24 or 32", &place);
+    options->depth_bits = place >= 0 ? 16 + 8 * (uint32_t)place : options->depth_bits;
     return code ? code : emulation_alone(job);
 }
 
@@ -93,19 +87,9 @@ static void result_replace(run_job *job)
     r->flags |= met ? 0u : LRCS_FLAG_TOLERANCE_NOT_MET;
 }
 
-static int emulate_reference(run_job *job, lrcs_host_error *error)
-{
-    lrcs_run_options options = job->options;
-    options.method = LRCS_METHOD_EXACT;
-    options.resolution = 0;
-    int status = lrcs_host_scene_run(&job->scene, &job->pose, &options, &job->result, NULL, NULL,
-                                     NULL, error);
-    job->emulation.reference_m2 = job->result.sigma_m2;
-    job->emulation.reference_bound_m2 = job->result.bound_m2;
-    job->emulation.reference_method = job->result.method;
-    return status;
-}
-
+/* 1. The reference, by method exact.
+   2. The emulation with double arithmetic and full depth, then with the precision asked for, then
+      with the depth asked for: what each adds to the error. */
 int cli_run_emulate(run_job *job)
 {
     lrcs_host_error error;
@@ -114,7 +98,14 @@ int cli_run_emulate(run_job *job)
     lrcs_emulation_options deep = e->options;
     sampled.precision = LRCS_PRECISION_FLOAT64;
     sampled.depth_bits = deep.depth_bits = 64;
-    int status = emulate_reference(job, &error);
+    lrcs_run_options options = job->options;
+    options.method = LRCS_METHOD_EXACT;
+    options.resolution = 0;
+    int status = lrcs_host_scene_run(&job->scene, &job->pose, &options, &job->result, NULL, NULL,
+                                     NULL, &error);
+    e->reference_m2 = job->result.sigma_m2;
+    e->reference_bound_m2 = job->result.bound_m2;
+    e->reference_method = job->result.method;
     if (status == LRCS_OK) {
         status = lrcs_host_scene_emulate(&job->scene, &job->pose, &sampled, &e->sampled, NULL, NULL,
                                          &error);

@@ -34,8 +34,8 @@ int cli_run_explain(run_job *job)
                           explained, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    if (job->open.back_area_m2 > 0.0) {
-        explained->effect[LRCS_EFFECT_TWO_SIDED].sigma_m2 = job->open.back_sigma_m2;
+    if (job->caveats.back_area_m2 > 0.0) {
+        explained->effect[LRCS_EFFECT_TWO_SIDED].sigma_m2 = job->caveats.back_sigma_m2;
     }
     return 0;
 }
@@ -87,19 +87,6 @@ static void print_wrapped(const char *text, int from, int to)
     putchar('\n');
 }
 
-/* The change of sigma if the effect is flipped. */
-static void sigma_column(const run_job *job, double flipped)
-{
-    char text[32] = "same";
-    double sigma = job->result.sigma_m2;
-    if (flipped != sigma && sigma > 0.0) {
-        snprintf(text, sizeof text, "%+.3g %%", 100.0 * (flipped - sigma) / sigma);
-    } else if (flipped != sigma) {
-        snprintf(text, sizeof text, "%+.3g m2", flipped);
-    }
-    cli_column(text, 14);
-}
-
 /* Decimals: two significant digits, below 0.1 down to 1e-4. */
 static int decimals(double value)
 {
@@ -117,12 +104,22 @@ static void measure_column(double value, int lost, int on, const char *unit, int
     cli_column(text, width);
 }
 
-static void time_columns(const run_job *job, int on, const lrcs_host_explained_effect *e)
+/* The columns of an effect: its time, in ms and as a share of the pose, and the change of sigma if
+   the effect is flipped. */
+static void effect_columns(const run_job *job, int on, const lrcs_host_explained_effect *e)
 {
+    char change[32] = "same";
+    double sigma = job->result.sigma_m2;
     int lost = !(e->seconds > 2.0 * e->scatter);
     double seconds = lost ? fmax(fabs(e->seconds), 2.0 * e->scatter) : e->seconds;
     measure_column(1e3 * seconds, lost, on, "ms", 15);
     measure_column(100.0 * seconds / job->explained.pose, lost, on, "%", 13);
+    if (e->sigma_m2 != sigma && sigma > 0.0) {
+        snprintf(change, sizeof change, "%+.3g %%", 100.0 * (e->sigma_m2 - sigma) / sigma);
+    } else if (e->sigma_m2 != sigma) {
+        snprintf(change, sizeof change, "%+.3g m2", e->sigma_m2);
+    }
+    cli_column(change, 14);
 }
 
 static void stage_print(const char *name, double seconds, double all)
@@ -174,8 +171,7 @@ void cli_run_explain_table(const run_job *job)
         const lrcs_effect *effect = &job->result.effect[i];
         printf("  %-18s %-4s", lrcs_effect_text(i), effect->on ? "on" : "off");
         if (is_switched(i)) {
-            time_columns(job, effect->on, &job->explained.effect[i]);
-            sigma_column(job, job->explained.effect[i].sigma_m2);
+            effect_columns(job, effect->on, &job->explained.effect[i]);
         } else {
             printf("%-15s%-13s%-14s", "-", "-", "-");
         }

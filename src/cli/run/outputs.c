@@ -4,7 +4,6 @@
 #include "cli/run/run.h"
 
 #include <stdlib.h>
-
 #include <string.h>
 
 static int to_stdout(const char *path)
@@ -12,57 +11,20 @@ static int to_stdout(const char *path)
     return path && strcmp(path, "-") == 0;
 }
 
-/* Checks that no output is standard output beside what --explain or --shares print there. */
-static int files_apart(const run_job *job)
-{
-    static const char *const file[] = {"facets", "polygons"};
-    const char *table = cli_value(job->args, "explain")  ? "explain"
-                        : cli_value(job->args, "shares") ? "shares"
-                                                         : NULL;
-    for (int i = 0; table && i < 2; i++) {
-        if (to_stdout(cli_value(job->args, file[i]))) {
-            return cli_usage(job->args->command, "--%s - and --%s both want standard output",
-                             file[i], table);
-        }
-    }
-    return 0;
-}
-
-/* A picture is a PNG file: with the extension of another format no program could open it. */
-static int image_check(const cli_args *args, const char *path)
-{
-    static const char *const other[] = {".jpg", ".jpeg", ".gif", ".svg", ".pdf"};
-    for (size_t i = 0; path && i < sizeof other / sizeof other[0]; i++) {
-        if (cli_extension(path, other[i])) {
-            return cli_expected(args, "image", "FILE.png");
-        }
-    }
-    return 0;
-}
-
-/* Checks that no table has the name of what stands beside the other one. */
-static int besides_check(const run_job *job)
-{
-    const char *table[2] = {job->facets, job->polygons_path};
-    for (int i = 0; table[0] && table[1] && i < 2; i++) {
-        size_t size = strlen(table[i]);
-        if (strncmp(table[1 - i], table[i], size) == 0 &&
-            strcmp(table[1 - i] + size, CLI_BESIDE) == 0) {
-            return cli_usage(job->args->command,
-                             "%s is the file that names what '%s' was made from", table[1 - i],
-                             table[i]);
-        }
-    }
-    return 0;
-}
-
 int cli_run_outputs_read(run_job *job)
 {
+    static const char *const not_png[] = {".jpg", ".jpeg", ".gif", ".svg", ".pdf"};
     const cli_args *args = job->args;
+    const char *table = cli_value(args, "explain")  ? "explain"
+                        : cli_value(args, "shares") ? "shares"
+                                                    : NULL;
     int method = job->options.method;
     job->facets = cli_value(args, "facets");
     job->polygons_path = cli_value(args, "polygons");
     job->image_path = cli_value(args, "image");
+
+    /* 1. The picture is a PNG file: with the extension of another format no program could open it.
+     */
     if (to_stdout(job->image_path)) {
         return cli_usage(args->command, "--image: a picture does not go to standard output");
     }
@@ -72,16 +34,38 @@ int cli_run_outputs_read(run_job *job)
                          "--method %s",
                          lrcs_method_text(method));
     }
-    int code = image_check(args, job->image_path);
-    code = code ? code : files_apart(job);
-    code = code ? code : besides_check(job);
-    if (code == 0 && cli_value(args, "image-size") && !job->image_path) {
+    for (size_t i = 0; job->image_path && i < sizeof not_png / sizeof not_png[0]; i++) {
+        if (cli_extension(job->image_path, not_png[i])) {
+            return cli_expected(args, "image", "FILE.png");
+        }
+    }
+
+    /* 2. No file is standard output beside what --explain or --shares print there. */
+    const char *const option[2] = {"facets", "polygons"};
+    const char *const path[2] = {job->facets, job->polygons_path};
+    for (int i = 0; table && i < 2; i++) {
+        if (to_stdout(path[i])) {
+            return cli_usage(args->command, "--%s - and --%s both want standard output", option[i],
+                             table);
+        }
+    }
+
+    /* 3. Neither file has the name of what stands beside the other one. */
+    for (int i = 0; path[0] && path[1] && i < 2; i++) {
+        size_t size = strlen(path[i]);
+        if (strncmp(path[1 - i], path[i], size) == 0 &&
+            strcmp(path[1 - i] + size, CLI_BESIDE) == 0) {
+            return cli_usage(args->command, "%s is the file that names what '%s' was made from",
+                             path[1 - i], path[i]);
+        }
+    }
+
+    /* 4. The size of the picture. */
+    if (cli_value(args, "image-size") && !job->image_path) {
         return cli_usage(args->command, "--image-size needs --image FILE.png");
     }
     job->image_size = CLI_PICTURE_DEFAULT;
-    return code ? code
-                : cli_whole(args, "image-size", CLI_PICTURE_LEAST, CLI_PICTURE_MOST,
-                            &job->image_size);
+    return cli_whole(args, "image-size", CLI_PICTURE_LEAST, CLI_PICTURE_MOST, &job->image_size);
 }
 
 int cli_run_outputs_stdout(const run_job *job)

@@ -66,54 +66,11 @@ static void json_head(const run_job *job, lrcs_host_json *json)
     lrcs_host_json_put(json, "]");
 }
 
-static void json_effects(const run_job *job, lrcs_host_json *json)
-{
-    const lrcs_result *result = &job->result;
-    lrcs_host_json_put(json, "effects=[\n");
-    for (int i = 0; i < LRCS_EFFECTS; i++) {
-        lrcs_host_json_put(json, "{name=%s on=%d reason=%s", lrcs_effect_text(i),
-                           result->effect[i].on, result->effect[i].reason);
-        if (job->explain) {
-            cli_run_explain_json(job, i, json);
-        }
-        lrcs_host_json_put(json, "}");
-    }
-    lrcs_host_json_put(json, "]");
-    cli_flags_json(json, result->flags);
-}
-
-static void json_tail(const run_job *job, lrcs_host_json *json)
-{
-    const lrcs_result *result = &job->result;
-    lrcs_host_json_put(json, "facets={total=%u front=%u hidden=%u partial=%u}",
-                       result->facets_total, result->facets_front, result->facets_hidden,
-                       result->facets_partial);
-    cli_direction_json(&job->pose, json);
-    lrcs_host_json_put(json, "seconds={load=%g prepare=%g pose=%g", job->scene.seconds_load,
-                       job->scene.seconds_prepare, job->seconds);
-    if (job->explain) {
-        cli_run_explain_stages_json(job, json);
-    }
-    lrcs_host_json_put(json, "}");
-}
-
 static void table_bound(const char *label, double bound)
 {
     char text[LRCS_HOST_BOUND_SIZE];
     lrcs_host_bound_text(bound, 3, text);
     printf("%s%s m2", label, text);
-}
-
-static void table_budget(const lrcs_budget *budget)
-{
-    table_bound("  visibility ", budget->visibility_m2);
-    if (budget->tessellation_m2 >= 0.0) {
-        table_bound("\n  tessellation ", budget->tessellation_m2);
-    } else {
-        printf("\n  tessellation not known");
-    }
-    table_bound("\n  rounding   ", budget->rounding_m2);
-    putchar('\n');
 }
 
 static void table_sigma(const run_job *job)
@@ -139,7 +96,14 @@ static void table_sigma(const run_job *job)
                                                          : "NOT met");
     }
     putchar('\n');
-    table_budget(&r->budget);
+    table_bound("  visibility ", r->budget.visibility_m2);
+    if (r->budget.tessellation_m2 >= 0.0) {
+        table_bound("\n  tessellation ", r->budget.tessellation_m2);
+    } else {
+        printf("\n  tessellation not known");
+    }
+    table_bound("\n  rounding   ", r->budget.rounding_m2);
+    putchar('\n');
     if (r->estimate_m2 >= 0.0) {
         printf("estimate     %.3g m2   likely error, not a bound\n", r->estimate_m2);
     }
@@ -170,12 +134,31 @@ void cli_run_json(const run_job *job)
     lrcs_host_json_put(&json, "projected_area_m2=%g method=%s method_reason=%s",
                        result->projected_area_m2, lrcs_method_text(result->method),
                        result->method_reason);
-    json_effects(job, &json);
-    json_tail(job, &json);
+    lrcs_host_json_put(&json, "effects=[\n");
+    for (int i = 0; i < LRCS_EFFECTS; i++) {
+        lrcs_host_json_put(&json, "{name=%s on=%d reason=%s", lrcs_effect_text(i),
+                           result->effect[i].on, result->effect[i].reason);
+        if (job->explain) {
+            cli_run_explain_json(job, i, &json);
+        }
+        lrcs_host_json_put(&json, "}");
+    }
+    lrcs_host_json_put(&json, "]");
+    cli_flags_json(&json, result->flags);
+    lrcs_host_json_put(&json, "facets={total=%u front=%u hidden=%u partial=%u}",
+                       result->facets_total, result->facets_front, result->facets_hidden,
+                       result->facets_partial);
+    cli_direction_json(&job->pose, &json);
+    lrcs_host_json_put(&json, "seconds={load=%g prepare=%g pose=%g", job->scene.seconds_load,
+                       job->scene.seconds_prepare, job->seconds);
+    if (job->explain) {
+        cli_run_explain_stages_json(job, &json);
+    }
+    lrcs_host_json_put(&json, "}");
     lrcs_host_scene_box(&job->scene.scene, box[0], box[1]);
     lrcs_host_json_numbers(&json, "box_min_m", box[0], 3);
     lrcs_host_json_numbers(&json, "box_max_m", box[1], 3);
-    cli_run_open_json(job, &json);
+    cli_run_caveats_json(job, &json);
     cli_provenance_json(job->args, &job->scene, &json);
     if (job->shares_asked) {
         cli_shares_json(&job->shares, &json);

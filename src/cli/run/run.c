@@ -18,53 +18,50 @@ static const char run_help[] =
     "\n"
     "Computes sigma (m2) of SCENE: a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
     "\n" CLI_POSE_HELP "\n"
-    "options\n" CLI_ACCURACY_HELP "  --time-budget MS      instead of these: the best answer of "
-    "the settings that MS milliseconds\n"
-    "                        suffice for, loading and preparing included. Tried first is no "
-    "self-\n"
-    "                        shadowing; then, the quickest first as far as it can be forecast, "
-    "rasters\n"
-    "                        of 256, 512 and 1024 with their bound or by their estimate, and "
-    "method\n"
-    "                        exact (or tolerances 1e-1 to 1e-12, if these change anything), "
-    "which\n"
-    "                        comes before rasters where time for it is ample (two to four times "
-    "as\n"
-    "                        much as expected).\n"
-    "                        What is expected to take less than the answer was completed, except\n"
-    "                        rasters where exact answers. No completed setting has a smaller "
-    "bound\n"
-    "                        (or estimate, where the bound exceeds sigma / 10). Prints the "
-    "options\n"
-    "                        that reproduce the answer. Exit 3 if it took longer, misses a\n"
+    "options\n" CLI_ACCURACY_HELP
+    "  --time-budget MS      instead of these: the best answer that is complete within MS\n"
+    "                        milliseconds, loading and preparing included. Settings are tried\n"
+    "                        one after the other: first without self-shadowing; then, in the\n"
+    "                        order of their expected times, rasters of 256, 512 and 1024 with\n"
+    "                        their bound or accepted by their estimate, and method exact (or\n"
+    "                        tolerances 1e-1 to 1e-12, if these change anything). Method exact\n"
+    "                        comes before rasters if two to four times its expected time is\n"
+    "                        left. Every setting that is expected to take less time than that\n"
+    "                        of the answer was completed, except rasters if the answer is\n"
+    "                        exact. No completed setting has a smaller bound (or estimate,\n"
+    "                        where the bound exceeds sigma / 10). Prints the options that\n"
+    "                        reproduce the answer. Exit 3 if it took longer, misses a\n"
     "                        --tolerance, or the bound exceeds sigma\n"
-    "  --steps N             at most N steps of finding what is seen, counted the same on every\n"
-    "                        machine; what they leave open is in the bound. A raster's pixels are\n"
-    "                        not counted\n" CLI_SCENE_HELP;
+    "  --steps N             limits the work of finding what is visible to N steps, which are\n"
+    "                        counted the same on every machine; what they leave undecided is in\n"
+    "                        the bound. The pixels of a raster are not counted\n" CLI_SCENE_HELP;
 
 static const char run_help_more[] =
-    "  --precision P         float32 or float64: graphics hardware emulated, a z-buffer of "
-    "--resolution N\n"
-    "                        (1024 if not given); sigma is what it gives, bound what method exact\n"
-    "                        proves of it, with what sampling, precision, depth, sum each cost\n"
-    "  --depth-bits B        16, 24 or 32 of its depth buffer (default: all that P holds); alone "
-    "it\n"
-    "                        means --precision float64\n"
-    "  --explain             what each effect takes and does: each in turn left out, or simulated\n"
-    "                        where it is off; and what each stage of preparing and of the pose\n"
-    "                        takes; runs the pose for some 2 s more, or once for each\n"
-    "  --sensitivity         derivatives in each material's A, B, s, m and in attitude\n"
-    "  --draws N, --seed N   sample that checks the material uncertainty, where errors are stated\n"
-    "  --shares              who makes sigma: parts, materials, and the ten brightest facets\n"
+    "  --precision P         float32 or float64: emulates graphics hardware, a z-buffer of\n"
+    "                        --resolution N (default 1024). sigma is what that hardware\n"
+    "                        computes, bound is proved for it by method exact; the\n"
+    "                        contributions of sampling, precision, depth and summation to its\n"
+    "                        error are printed\n"
+    "  --depth-bits B        16, 24 or 32 bits of its depth buffer (default: all that P holds);\n"
+    "                        without --precision, P is float64\n"
+    "  --explain             the time and the change of sigma that each effect causes, measured\n"
+    "                        by leaving it out, or by simulating it if it is off; and the time\n"
+    "                        of each stage of preparing and of the pose. Runs the pose\n"
+    "                        repeatedly, for about 2 s or once for each effect\n"
+    "  --sensitivity         derivatives of sigma in each material's A, B, s, m and in attitude\n"
+    "  --draws N, --seed N   size and seed of the sample that checks the material uncertainty,\n"
+    "                        if materials state errors\n"
+    "  --shares              what contributes to sigma: parts, materials, and the ten brightest\n"
+    "                        facets\n"
     "  --json                the result as JSON, notices included\n"
-    "  --facets FILE.csv     one row for every facet ('-': instead of the table); what it was "
-    "made\n"
-    "                        from goes into FILE.csv.json\n"
-    "  --polygons FILE.csv   what is visible, as convex rings on each facet, one row a point; by\n"
-    "                        exact visibility, whichever method auto took ('-' and FILE.csv.json\n"
-    "                        as for --facets)\n"
-    "  --image FILE.png      what the laser sees, coloured by sigma per projected area\n"
-    "  --image-size N        its side in pixels (512)\n"
+    "  --facets FILE.csv     one row for each facet ('-': on standard output, instead of the\n"
+    "                        table); FILE.csv.json states what it was made from\n"
+    "  --polygons FILE.csv   the visible part of each facet as convex rings, one row for each\n"
+    "                        point, by exact visibility whichever method auto chooses ('-' and\n"
+    "                        FILE.csv.json as for --facets)\n"
+    "  --image FILE.png      a picture of what the laser sees, coloured by sigma per projected\n"
+    "                        area\n"
+    "  --image-size N        side of the picture in pixels (default 512)\n"
     "\n"
     "examples\n"
     "  lrcs run demo --image demo.png\n"
@@ -123,7 +120,7 @@ static int options_read(run_job *job)
 
 /* Prints a notice, once, if shapes became very many facets and the run takes long, unless the time
    that it may take was given. */
-static void run_patience(run_job *job)
+static void long_run_notice(run_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
     if (scene->facet_count > RUN_MANY && lrcs_host_scene_tessellated(scene) &&
@@ -138,33 +135,27 @@ static void run_patience(run_job *job)
 
 static int run_prepare(run_job *job)
 {
-    run_patience(job);
+    long_run_notice(job);
     cli_watch_stage("preparing", &job->scene);
     return cli_scene_prepare(&job->scene) != 0 ? CLI_FAILED : 0;
 }
 
-/* Are the records of facets needed: for an output, or for what the bound does not include? Of
-   shapes with closed surfaces no back side is visible, and their facets stand for the true surface;
-   their records would take longer than sigma. */
-static int run_needs_records(const run_job *job)
+/* Allocates memory for the records of facets, if they are needed: for an output, or for what the
+   bound does not include. Of shapes with closed surfaces no back side is visible, and their facets
+   stand for the true surface; their records would take longer than sigma. */
+static int run_records(run_job *job)
 {
     const lrcs_scene *scene = &job->scene.scene;
     int needed = job->facets || job->image_path || job->shares_asked || job->emulation.asked;
     for (uint32_t i = 0; i < scene->part_count; i++) {
         needed |= scene->part[i].kind < 0 || !scene->part[i].solid;
     }
-    return needed;
-}
-
-/* Allocates memory for the scene's records, if they are needed. */
-static int run_records(run_job *job)
-{
     free(job->records);
     job->records = NULL;
-    if (!run_needs_records(job)) {
+    if (!needed) {
         return 0;
     }
-    job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
+    job->records = calloc((size_t)scene->facet_count + 1, sizeof *job->records);
     return job->records ? 0 : cli_out_of_memory();
 }
 
@@ -221,7 +212,7 @@ int cli_run_divide(run_job *job)
         finer =
             code == 0 && lrcs_host_scene_refine(scene, &options, &job->result, &job->load.build);
         if (finer) {
-            run_patience(job);
+            long_run_notice(job);
         }
     }
     free(part_error);
@@ -266,7 +257,7 @@ static void run_judge(run_job *job)
 /* Files come first: a table on stdout that mentions a picture must be true. */
 static int run_outputs(run_job *job)
 {
-    int code = cli_run_open(job);
+    int code = cli_run_caveats(job);
     code = code ? code : cli_run_outputs_write(job);
     code = code == 0 && job->explain ? cli_run_explain(job) : code;
     cli_watch_end();

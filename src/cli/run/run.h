@@ -27,18 +27,20 @@ typedef struct run_emulation {
     int reference_method;
 } run_emulation;
 
-/* What the bound does not include, and its size. */
-typedef struct run_open {
+/* What the bound does not include, and the size of it. */
+typedef struct run_caveats {
     double back_area_m2,
         back_share; /* area of one-sided backs that are visible; their share of the silhouette */
     double back_sigma_m2; /* sigma if they reflected; NAN if not known */
     uint32_t coarse;      /* number of curved parts whose facets are too coarse for their glint */
     lrcs_host_glint_sum glint; /* their glint, and an estimate of its error */
-} run_open;
+} run_caveats;
+
+/* A search for the best settings keeps the division of a scene of up to this many parts; one of
+   more parts is divided again for the answer. */
+#define RUN_BUDGET_PARTS 1024u
 
 /* The inputs and results of a run. */
-/* A search for the best settings divides scenes of more parts anew for the answer that it keeps. */
-#define RUN_BUDGET_PARTS 1024u
 
 typedef struct run_job {
     const cli_args *args;
@@ -65,7 +67,7 @@ typedef struct run_job {
     run_emulation emulation;
     int shares_asked;
     cli_shares shares;
-    run_open open;
+    run_caveats caveats;
     int sensitivity_asked;
     lrcs_uncertainty_options sampling;
     lrcs_uncertainty uncertainty;  /* not stated if no material has errors */
@@ -113,10 +115,10 @@ int cli_run_emulate(run_job *job);
 void cli_run_emulation_json(const run_job *job, lrcs_host_json *json);
 void cli_run_emulation_table(const run_job *job);
 
-/* Finds what the bound does not include, 0 or CLI_FAILED; writes it as keys of an open object, and
-   as the verdict in words, the last lines of a table. */
-int cli_run_open(run_job *job);
-void cli_run_open_json(const run_job *job, lrcs_host_json *json);
+/* Finds what the bound does not include, 0 or CLI_FAILED; writes it as keys of an open object; and,
+   with what is proved, as the verdict, the last lines of a table. */
+int cli_run_caveats(run_job *job);
+void cli_run_caveats_json(const run_job *job, lrcs_host_json *json);
 void cli_run_verdict(const run_job *job, FILE *out);
 
 /* --sensitivity, --draws and --seed: reads their values, 0 or CLI_USAGE; computes the material

@@ -26,7 +26,7 @@ int cli_brightest_read(const cli_args *args, const lrcs_host_plan *plan,
                          "--brightest needs -o FILE: standard output is for its table");
     }
     if (cli_value(args, "shard")) {
-        return cli_usage(args->command, "--brightest is of whole sweeps: not with --shard");
+        return cli_usage(args->command, "--brightest needs the whole sweep: leave out --shard");
     }
     if (plan->rows > BRIGHTEST_ROWS) {
         return cli_usage(args->command, "--brightest: at most 2^28 rows, found %llu",
@@ -86,18 +86,14 @@ static void numbers_print(const lrcs_host_plan *plan, uint32_t rank, uint64_t ro
 {
     double value[LRCS_HOST_PLAN_COLUMNS];
     char bound[LRCS_HOST_BOUND_SIZE];
-    double glint = 0.0;
     lrcs_host_plan_values(plan, row, value);
-    for (uint32_t i = 0; i < shares->parts; i++) {
-        glint += shares->part[i].glint_m2;
-    }
     printf("%4lu %10llu", (unsigned long)rank + 1, (unsigned long long)row);
     for (uint32_t i = 0; i < plan->columns; i++) {
         printf(" %*.9g", column_width(plan, i), value[i]);
     }
     lrcs_host_bound_text(sigma[1], 2, bound);
     printf(" %12.6g %9.3f %9s %6.1f %%\n", sigma[0], cli_dbsm(sigma[0]), bound,
-           100.0 * cli_share_of(shares, glint));
+           100.0 * cli_share_of(shares, cli_shares_glint(shares)));
 }
 
 /* Names the first rows of a list, until their share suffices, and sums up the others. */

@@ -129,7 +129,7 @@ int cli_rows_output_read(const cli_args *args, lrcs_host_sweep_output *output)
     path = path && strcmp(path, "-") == 0 ? NULL : path;
     lrcs_host_sweep_output_make(NULL, format, 0, output, NULL);
     if (!path && cli_value(args, "resume")) {
-        return cli_usage(args->command, "--resume needs -o FILE: it goes on with that file");
+        return cli_usage(args->command, "--resume needs -o FILE: it continues that file");
     }
     if (path && lines) {
         return cli_usage(args->command, "--json is for standard output; -o FILE.jsonl writes it");

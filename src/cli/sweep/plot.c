@@ -35,7 +35,7 @@ int cli_plot_read(const cli_args *args, const lrcs_host_plan *plan, lrcs_host_sw
         return cli_usage(args->command, "--%s", error.text);
     }
     return code == 0 && asked && cli_value(args, "shard")
-               ? cli_usage(args->command, "--plot draws whole sweeps: not with --shard")
+               ? cli_usage(args->command, "--plot needs the whole sweep: leave out --shard")
                : code;
 }
 

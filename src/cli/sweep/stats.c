@@ -376,33 +376,31 @@ static int stats_make(const double (*row)[2], const double (*band)[2], sweep_sta
     return status == LRCS_OK ? 0 : cli_fail("statistics: %s", lrcs_status_text(status));
 }
 
-/* One --stats-file. */
-static int file_write(const char *path, const sweep_stats *stats)
-{
-    stats_chart chart;
-    if (cli_extension(path, ".json") || cli_extension(path, ".csv")) {
-        return cli_text_write(path, cli_extension(path, ".csv") ? stats_csv : stats_json, stats);
-    }
-    if (stats->all.bins == 0) {
-        return cli_fail("%s: nothing to draw: sigma of every row is 0", path);
-    }
-    int code = chart_make(stats, &chart);
-    code = code ? code : cli_chart_write(path, chart_write, &chart);
-    free(chart.x);
-    return code;
-}
-
 int cli_stats_write(const cli_args *args, FILE *out, const lrcs_host_plan *plan,
                     const lrcs_host_rows_head *head, const double (*row)[2],
                     const double (*band)[2])
 {
     sweep_stats stats = {.plan = plan, .head = head};
+    stats_chart chart;
     int code = stats_make(row, band, &stats);
     if (code == 0 && cli_value(args, "stats")) {
         stats_print(out, &stats);
     }
     for (int i = 0; i < args->given_count && code == 0; i++) {
-        code = is_stats_file(&args->given[i]) ? file_write(args->given[i].value, &stats) : 0;
+        const char *path = args->given[i].value;
+        if (!is_stats_file(&args->given[i])) {
+            continue;
+        }
+        if (cli_extension(path, ".json") || cli_extension(path, ".csv")) {
+            code =
+                cli_text_write(path, cli_extension(path, ".csv") ? stats_csv : stats_json, &stats);
+        } else if (stats.all.bins == 0) {
+            code = cli_fail("%s: nothing to draw: sigma of every row is 0", path);
+        } else {
+            code = chart_make(&stats, &chart);
+            code = code ? code : cli_chart_write(path, chart_write, &chart);
+            free(chart.x);
+        }
     }
     free(stats.row);
     return code;

@@ -11,56 +11,60 @@ static const char sweep_help[] =
     "usage: lrcs sweep SCENE WHAT [options]\n"
     "\n"
     "Computes sigma (m2) and its bound for all combinations of what varies, the last axis\n"
-    "fastest; the same bytes for any number of threads.\n"
+    "fastest. The output has the same bytes for any number of threads.\n"
     "\n"
     "what varies: RANGE is A:B:STEP, both ends included, or one number\n"
-    "  --az RANGE, --el RANGE  azimuth and elevation of the laser, deg, body frame\n"
-    "  --euler SEQ:a,b,c     deg, each a RANGE; XYZ: R = Rx(a) Ry(b) Rz(c)\n"
-    "  --rotate AXIS:RANGE   turns about the body's x, y, z or u,v,w, deg; from the pose of\n"
-    "                        --direction, --azel, .., else laser on +z\n"
-    "  --sphere N            N near-uniform directions, and their mean with its standard error\n"
-    "  --poses FILE.csv      rows time,w,x,y,z (quaternion, body to observation) or time,x,y,z\n"
-    "                        (direction to the laser, body frame); time: seconds, or dates\n"
-    "                        2026-11-22T20:15:30.5Z; joint:PART columns: deg\n"
-    "  --joint PART:RANGE    the joint's angle, deg; several as NAME,NAME or '*' turn together\n"
+    "  --az RANGE, --el RANGE  azimuth and elevation of the laser in the body frame, deg\n"
+    "  --euler SEQ:a,b,c     Euler angles, deg, each a RANGE; XYZ: R = Rx(a) Ry(b) Rz(c)\n"
+    "  --rotate AXIS:RANGE   rotation about the body's x, y, z or u,v,w, deg; from the pose of\n"
+    "                        --direction, --azel, .. (default: laser on the +z axis)\n"
+    "  --sphere N            N nearly uniform directions, and their mean with its standard\n"
+    "                        error\n"
+    "  --poses FILE.csv      rows time,w,x,y,z (quaternion, body to observation frame) or\n"
+    "                        time,x,y,z (direction to the laser, body frame). Times are\n"
+    "                        seconds, or dates such as 2026-11-22T20:15:30.5Z; columns\n"
+    "                        joint:PART are angles of joints, deg\n"
+    "  --joint PART:RANGE    angle of a joint, deg; several, NAME,NAME or '*', turn together\n"
     "  --vary MATERIAL.KEY:RANGE  A, B, s or m of a material\n"
     "  --vary PART.KEY:RANGE  of a shape: size_x, size_y, size_z, radius, radius2, length (m),\n"
     "                        half_angle_deg\n"
     "\n"
     "output\n"
-    "  -o FILE               FILE.csv, FILE.jsonl or FILE.npy (NumPy: sigma, bound; with\n"
-    "                        FILE.npy.head); without it CSV on stdout\n"
-    "  --json                JSON lines on stdout\n"
-    "  --resume              go on with FILE.partial, its rows checked; never replaces a whole "
-    "FILE\n"
+    "  -o FILE               FILE.csv, FILE.jsonl or FILE.npy (NumPy: sigma and bound; with\n"
+    "                        FILE.npy.head); without it CSV on standard output\n"
+    "  --json                JSON lines on standard output\n"
+    "  --resume              continues FILE.partial, whose rows are checked; never replaces a\n"
+    "                        complete FILE\n"
     "  --shard K/N           only the K-th of N parts of the rows; lrcs merge joins the files\n"
-    "  --jobs N              threads (one for each processor, or fewer)\n"
-    "  --plot FILE           FILE.svg or .png, repeatable: up to 7 curves, or a map (lrcs plot)\n"
-    "  --dbsm                sigma in dBsm there (default: m2); sigma 0 is left out, or grey\n"
+    "  --jobs N              number of threads (default: one for each processor, or fewer)\n"
+    "  --plot FILE           a chart, FILE.svg or FILE.png: up to 7 curves, or a map (lrcs\n"
+    "                        plot); repeatable\n"
+    "  --dbsm                the chart shows sigma in dBsm (default: m2); where sigma is 0,\n"
+    "                        curves have a gap, and maps are grey\n"
     "  --polar               curves about a pole, the angle counter-clockwise\n"
-    "  --projection KIND     of a map: flat (default), or mollweide, which keeps areas\n"
-    "  --stats               mean by solid angle, percentiles, least and most, histogram;\n"
-    "                        with bands where materials have errors\n"
+    "  --projection KIND     of a map: flat (default), or mollweide, which preserves areas\n"
+    "  --stats               mean by solid angle, percentiles, minimum, maximum, histogram;\n"
+    "                        with bands if materials state errors\n"
     "  --stats-file FILE     the same as FILE.json, .csv, .svg or .png; repeatable\n"
-    "  --brightest N         with -o FILE: the N brightest peaks (rows that outshine those one\n"
-    "                        step away) and who makes each, on stdout; marked where it is the\n"
-    "                        normal of a facet that is too coarse for its glint\n"
+    "  --brightest N         with -o FILE: prints the N brightest peaks (rows brighter than all\n"
+    "                        those one step away) and what contributes to each, with a mark if\n"
+    "                        it is the normal of a facet that is too coarse for its glint\n"
     "\n"
-    "options\n" CLI_ACCURACY_HELP CLI_SCENE_HELP;
+    "options\n" CLI_ACCURACY_HELP;
 
-static const char sweep_help_more[] =
+static const char sweep_help_more[] = CLI_SCENE_HELP
     "\n"
     "Columns: index, what varies, sigma_m2, sigma_dbsm, bound_m2, sigma_glint_m2,\n"
-    "sigma_diffuse_m2, flags; last a checksum; JSON lines without an index are no rows. Exit 3\n"
-    "where rows miss the tolerance. With --accept, .npy has a third number: 1 by estimate, 2 by\n"
-    "any, 0 by bound, -1 missed. Before the flags, in CSV and JSON lines:\n"
+    "sigma_diffuse_m2, flags; the last line is a checksum. JSON lines without an index are\n"
+    "not rows. Exit 3 if rows miss the tolerance. With --accept, .npy has a third number: 1\n"
+    "accepted by estimate, 2 by any, 0 by bound, -1 missed. Before the flags, in CSV and JSON\n"
+    "lines:\n"
     "  material_deviation_m2, material_low_m2, material_high_m2, material_sampled\n"
-    "                        where materials state errors: their uncertainty\n"
+    "                        if materials state errors: the material uncertainty\n"
     "  glint_error_estimate_m2, one_facet_dominates\n"
-    "                        where parts of a model are too coarse for their glint (lrcs info), "
-    "or\n"
-    "                        may be as --vary changes it: the estimated error, not in the bound,\n"
-    "                        and 1 where one flat face of a curved part makes most of sigma\n"
+    "                        if parts of a model are too coarse for their glint (lrcs info), or\n"
+    "                        may become so by --vary: the estimated error, which is not in the\n"
+    "                        bound, and 1 if one flat face of a curved part makes most of sigma\n"
     "\n"
     "examples\n"
     "  lrcs sweep demo --az 0:360:1 --el -30:30:30 -o cuts.csv --plot cuts.svg --polar --dbsm\n"
@@ -155,7 +159,7 @@ static int job_read(sweep_job *job)
     code = code ? code : cli_brightest_read(args, &job->plan, &job->file, &job->brightest);
     code = code ? code : cli_stats_read(args, &job->stats);
     if (code == 0 && job->stats && cli_value(args, "shard")) {
-        return cli_usage(args->command, "--stats is of whole sweeps: not with --shard");
+        return cli_usage(args->command, "--stats needs the whole sweep: leave out --shard");
     }
     job->load.build.tolerance = job->options.tolerance;
     job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
@@ -294,7 +298,7 @@ static int job_run(sweep_job *job)
 /* ---- the command ---- */
 
 /* Prints a summary for people; the rows contain all of it too. */
-static void job_say(const sweep_job *job)
+static void job_summary(const sweep_job *job)
 {
     const lrcs_host_tally *tally = &job->file.tally;
     for (uint32_t bits = job->notices; bits != 0; bits &= bits - 1) {
@@ -333,61 +337,9 @@ static void job_say(const sweep_job *job)
     }
 }
 
-static int job_rows(sweep_job *job)
+/* Prints where the error of the glint may exceed the bound. */
+static void coarse_print(const sweep_job *job)
 {
-    const lrcs_host_tally *tally = &job->file.tally;
-    const cli_args *args = job->args;
-    signals_watch(); /* before the existing rows are read, which may take seconds */
-    cli_watch_stage("rows that are there", NULL);
-    int plotted = cli_value(args, "plot") != NULL;
-    if (plotted || job->brightest > 0 || job->stats) { /* what depends on all rows */
-        int banded = (plotted || job->stats) && job->head.fields.materials;
-        job->file.row = job->plot.row = job->row = calloc(job->plan.rows, sizeof *job->row);
-        job->band = banded ? calloc(job->plan.rows, sizeof *job->band) : NULL;
-        job->file.band = job->plot.band = job->band;
-        if (!job->row || (banded && !job->band)) {
-            return cli_out_of_memory();
-        }
-    }
-    lrcs_host_error error;
-    int resume = cli_value(args, "resume") != NULL;
-    if (lrcs_host_sweep_output_open(&job->file, resume, &error) != LRCS_OK) {
-        return cli_failed(&error);
-    }
-    int code = job_run(job);
-    int closed = lrcs_host_sweep_output_close(&job->file, code == 0, &error);
-    /* cli_finish checks standard output */
-    closed = closed == LRCS_OK || !job->file.path ? 0 : cli_failed(&error);
-    if (code != 0 && job->file.next > job->file.first && job->file.path && closed == 0) {
-        fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume goes on with them\n",
-                job->file.partial, (unsigned long long)(job->file.next - job->file.first),
-                (unsigned long long)(job->file.end - job->file.first));
-    }
-    code = code ? code : closed;
-    const double(*row)[2] = (const double(*)[2])job->row;
-    code = code == 0 && plotted ? cli_plot_write(args, &job->plot, 1) : code;
-    if (code == 0 && job->stats) { /* stdout is for the rows if no file is given */
-        code = cli_stats_write(args, job->file.path ? stdout : stderr, &job->plan, &job->head, row,
-                               (const double(*)[2])job->band);
-    }
-    if (code == 0 && job->brightest > 0) {
-        code = cli_brightest_print(&job->plan, row, job->brightest, &job->scene, &job->options,
-                                   &job->load.build, job->coarse, job->coarse_count);
-    }
-    if (code != 0) {
-        return code;
-    }
-    job_say(job);
-    return tally->count[LRCS_HOST_TALLY_MISSED] > 0 || tally->count[LRCS_HOST_TALLY_STARVED] > 0
-               ? CLI_DEGRADED
-               : CLI_DONE;
-}
-
-/* Prints where the error of the glint may exceed the bound; completes the plan, and computes and
-   writes the rows. */
-static int scene_sweep(sweep_job *job)
-{
-    const cli_args *args = job->args;
     uint32_t coarse = 0;
     double worst = 0.0;
     for (uint32_t i = 0; i < job->coarse_count; i++) {
@@ -402,14 +354,72 @@ static int scene_sweep(sweep_job *job)
             "auto)\n",
             (unsigned long)coarse, coarse == 1 ? " is" : "s are", 100.0 * worst);
     }
+}
+
+/* Computes the rows, and writes them and what is made of them.
+   1. The first lines of the rows; signals are caught before the rows of an existing file are read,
+      which may take seconds.
+   2. Memory for what depends on all rows: plots, statistics, peaks.
+   3. The rows: those of an existing file, then those that are computed.
+   4. Plots, statistics, peaks, the summary. */
+static int job_rows(sweep_job *job)
+{
+    const lrcs_host_tally *tally = &job->file.tally;
+    const cli_args *args = job->args;
+    lrcs_host_error error;
     job->file.plan = &job->plan;
     job->file.head = &job->head;
     job->plot.head = &job->head;
-    job->plot.open = cli_materials_open(&job->scene.scene);
+    job->plot.open = cli_materials_assumed(&job->scene.scene);
     job->plot.title = cli_base_name(cli_scene_title(args, &job->scene));
-    int code = cli_head_make(args, &job->plan, &job->options, &job->scene, job->coarse_count > 0,
-                             &job->head);
-    return code ? code : job_rows(job);
+    int code = cli_rows_head_make(args, &job->plan, &job->options, &job->scene,
+                                  job->coarse_count > 0, &job->head); /* 1 */
+    if (code != 0) {
+        return code;
+    }
+    signals_watch();
+    cli_watch_stage("existing rows", NULL);
+    int plotted = cli_value(args, "plot") != NULL;
+    if (plotted || job->brightest > 0 || job->stats) { /* 2 */
+        int banded = (plotted || job->stats) && job->head.fields.materials;
+        job->file.row = job->plot.row = job->row = calloc(job->plan.rows, sizeof *job->row);
+        job->band = banded ? calloc(job->plan.rows, sizeof *job->band) : NULL;
+        job->file.band = job->plot.band = job->band;
+        if (!job->row || (banded && !job->band)) {
+            return cli_out_of_memory();
+        }
+    }
+    int resume = cli_value(args, "resume") != NULL; /* 3 */
+    if (lrcs_host_sweep_output_open(&job->file, resume, &error) != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    code = job_run(job);
+    int closed = lrcs_host_sweep_output_close(&job->file, code == 0, &error);
+    /* cli_finish checks standard output */
+    closed = closed == LRCS_OK || !job->file.path ? 0 : cli_failed(&error);
+    if (code != 0 && job->file.next > job->file.first && job->file.path && closed == 0) {
+        fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume continues with them\n",
+                job->file.partial, (unsigned long long)(job->file.next - job->file.first),
+                (unsigned long long)(job->file.end - job->file.first));
+    }
+    code = code ? code : closed;
+    const double(*row)[2] = (const double(*)[2])job->row; /* 4 */
+    code = code == 0 && plotted ? cli_plot_write(args, &job->plot, 1) : code;
+    if (code == 0 && job->stats) { /* stdout is for the rows if no file is given */
+        code = cli_stats_write(args, job->file.path ? stdout : stderr, &job->plan, &job->head, row,
+                               (const double(*)[2])job->band);
+    }
+    if (code == 0 && job->brightest > 0) {
+        code = cli_brightest_print(&job->plan, row, job->brightest, &job->scene, &job->options,
+                                   &job->load.build, job->coarse, job->coarse_count);
+    }
+    if (code != 0) {
+        return code;
+    }
+    job_summary(job);
+    return tally->count[LRCS_HOST_TALLY_MISSED] > 0 || tally->count[LRCS_HOST_TALLY_STARVED] > 0
+               ? CLI_DEGRADED
+               : CLI_DONE;
 }
 
 static int sweep_command(const cli_args *args)
@@ -432,8 +442,9 @@ static int sweep_command(const cli_args *args)
                                    &job->coarse, &job->coarse_count, &error) != LRCS_OK) {
             code = cli_failed(&error);
         }
+        coarse_print(job);
     }
-    code = code ? code : scene_sweep(job);
+    code = code ? code : job_rows(job);
     free(job->row);
     free(job->band);
     free(job->coarse);

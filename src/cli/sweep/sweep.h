@@ -27,8 +27,9 @@ int cli_shard_read(const cli_args *args, const lrcs_host_plan *plan, uint64_t *f
                    uint64_t *end);
 
 /* The first lines of the rows: the options that they depend on. 0 or CLI_USAGE. */
-int cli_head_make(const cli_args *args, const lrcs_host_plan *plan, const lrcs_run_options *options,
-                  const lrcs_host_scene *scene, int coarse, lrcs_host_rows_head *head);
+int cli_rows_head_make(const cli_args *args, const lrcs_host_plan *plan,
+                       const lrcs_run_options *options, const lrcs_host_scene *scene, int coarse,
+                       lrcs_host_rows_head *head);
 
 /* -o and --json: where rows go; 0, CLI_FAILED or CLI_USAGE. The caller frees the output in any
    case. */

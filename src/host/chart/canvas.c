@@ -13,7 +13,7 @@
 
 #define CANVAS_SLICES     4   /* of a pixel's height, in areas */
 #define STROKE_POINTS_MAX 64  /* points of a stroke: the font's longest has 44 */
-#define STROKE_PIECES     5   /* straight pieces from point to point */
+#define STROKE_SEGMENTS   5   /* straight segments from point to point */
 #define STROKE_CORNER     0.6 /* cosine: strokes that turn more have a corner there */
 
 static uint32_t canvas_clamp(double value, uint32_t high)
@@ -23,16 +23,16 @@ static uint32_t canvas_clamp(double value, uint32_t high)
 
 /* Extends the box of the stroke by `bounds`: x0, y0, x1, y1 in pixels. Returned: the part of these
    bounds that is on the canvas. */
-static void canvas_extend(lrcsi_canvas *canvas, const double bounds[4], uint32_t part[4])
+static void canvas_extend(lrcsi_canvas *canvas, const double bounds[4], uint32_t range[4])
 {
     uint32_t *box = canvas->box;
-    part[0] = canvas_clamp(floor(bounds[0]), canvas->width);
-    part[1] = canvas_clamp(floor(bounds[1]), canvas->height);
-    part[2] = canvas_clamp(ceil(bounds[2]), canvas->width);
-    part[3] = canvas_clamp(ceil(bounds[3]), canvas->height);
+    range[0] = canvas_clamp(floor(bounds[0]), canvas->width);
+    range[1] = canvas_clamp(floor(bounds[1]), canvas->height);
+    range[2] = canvas_clamp(ceil(bounds[2]), canvas->width);
+    range[3] = canvas_clamp(ceil(bounds[3]), canvas->height);
     for (int k = 0; k < 2; k++) {
-        box[k] = part[k] < box[k] ? part[k] : box[k];
-        box[k + 2] = part[k + 2] > box[k + 2] ? part[k + 2] : box[k + 2];
+        box[k] = range[k] < box[k] ? range[k] : box[k];
+        box[k + 2] = range[k + 2] > box[k + 2] ? range[k + 2] : box[k + 2];
     }
 }
 
@@ -45,10 +45,10 @@ static void canvas_composite(lrcsi_canvas *canvas, uint32_t colour)
     for (uint32_t y = box[1]; y < box[3]; y++) {
         for (uint32_t x = box[0]; x < box[2]; x++) {
             size_t at = (size_t)y * canvas->width + x;
-            double part = fmin((double)canvas->cover[at], 1.0);
+            double cover = fmin((double)canvas->cover[at], 1.0);
             unsigned char *pixel = canvas->rgb + 3 * at;
-            for (int k = 0; part > 0.0 && k < 3; k++) {
-                pixel[k] = (unsigned char)(pixel[k] + part * (rgb[k] - pixel[k]) + 0.5);
+            for (int k = 0; cover > 0.0 && k < 3; k++) {
+                pixel[k] = (unsigned char)(pixel[k] + cover * (rgb[k] - pixel[k]) + 0.5);
             }
             canvas->cover[at] = 0.0f;
         }
@@ -68,10 +68,10 @@ static void canvas_segment(lrcsi_canvas *canvas, lrcsi_plot_point a, lrcsi_plot_
     double dx = b.x - a.x;
     double dy = b.y - a.y;
     double square = dx * dx + dy * dy;
-    uint32_t part[4];
-    canvas_extend(canvas, bounds, part);
-    for (uint32_t y = part[1]; y < part[3]; y++) {
-        for (uint32_t x = part[0]; x < part[2]; x++) {
+    uint32_t range[4];
+    canvas_extend(canvas, bounds, range);
+    for (uint32_t y = range[1]; y < range[3]; y++) {
+        for (uint32_t x = range[0]; x < range[2]; x++) {
             double px = x + 0.5 - a.x;
             double py = y + 0.5 - a.y;
             double along = square > 0.0 ? (px * dx + py * dy) / square : 0.0;
@@ -144,19 +144,19 @@ static void canvas_area(lrcsi_plotter *plotter, const lrcsi_plot_point *point, u
 {
     lrcsi_canvas *canvas = (lrcsi_canvas *)plotter;
     double bounds[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    uint32_t part[4];
+    uint32_t range[4];
     for (uint32_t i = 0; i < count; i++) {
         bounds[0] = fmin(bounds[0], point[i].x * canvas->scale);
         bounds[1] = fmin(bounds[1], point[i].y * canvas->scale);
         bounds[2] = fmax(bounds[2], point[i].x * canvas->scale);
         bounds[3] = fmax(bounds[3], point[i].y * canvas->scale);
     }
-    canvas_extend(canvas, bounds, part);
-    for (uint32_t i = part[1] * CANVAS_SLICES; i < part[3] * CANVAS_SLICES; i++) {
+    canvas_extend(canvas, bounds, range);
+    for (uint32_t i = range[1] * CANVAS_SLICES; i < range[3] * CANVAS_SLICES; i++) {
         double span[2];
         float *row = canvas->cover + (size_t)(i / CANVAS_SLICES) * canvas->width;
         area_span(point, count, canvas->scale, (i + 0.5) / CANVAS_SLICES, span);
-        for (uint32_t x = part[0]; x < part[2]; x++) {
+        for (uint32_t x = range[0]; x < range[2]; x++) {
             double in = fmin(span[1], x + 1.0) - fmax(span[0], x);
             row[x] += (float)(fmax(in, 0.0) / CANVAS_SLICES);
         }
@@ -180,7 +180,7 @@ static lrcsi_plot_point stroke_tangent(lrcsi_plot_point a, lrcsi_plot_point b, l
 }
 
 /* A stroke of a letter: the font gives points on a curve, which cubics join where they turn little,
-   and corners, which stay corners. A straight piece between two corners stays straight. */
+   and corners, which stay corners. A straight segment between two corners stays straight. */
 static void canvas_stroke(lrcsi_canvas *canvas, const lrcsi_plot_point *point, uint32_t count,
                           double half)
 {
@@ -203,8 +203,8 @@ static void canvas_stroke(lrcsi_canvas *canvas, const lrcsi_plot_point *point, u
                                     1.5 * (b.y - a.y) / chord - 0.5 * ta.y};
         }
         lrcsi_plot_point last = a;
-        for (int k = 1; k <= STROKE_PIECES && chord > 0.0; k++) {
-            double t = (double)k / STROKE_PIECES;
+        for (int k = 1; k <= STROKE_SEGMENTS && chord > 0.0; k++) {
+            double t = (double)k / STROKE_SEGMENTS;
             double fa = t * (1.0 - t) * (1.0 - t) * chord; /* Hermite's cubics */
             double fb = t * t * (t - 1.0) * chord;
             double to = t * t * (3.0 - 2.0 * t);

@@ -13,12 +13,12 @@
 
 #define GRID_TICKS_MAX 60u /* ticks */
 
-typedef struct chart_plan {
+typedef struct chart_layout {
     const lrcs_host_chart *chart;
     lrcsi_plotter *plotter;
     lrcsi_chart_axes axes; /* the legend is to the right of them */
     lrcsi_label_area *labels;
-} chart_plan;
+} chart_layout;
 
 /* ---- positions ---- */
 
@@ -31,16 +31,16 @@ static int chart_shows(int log, double floor, double *value)
     return fabs(*value) <= 0.1 * LRCSI_AXIS_MAX && (!log || *value >= 10.0 * LRCSI_AXIS_MIN);
 }
 
-static int chart_point(const chart_plan *plan, const lrcs_host_series *series, uint32_t i,
+static int chart_point(const chart_layout *layout, const lrcs_host_series *series, uint32_t i,
                        lrcsi_plot_point *point)
 {
-    const lrcs_host_chart *chart = plan->chart;
+    const lrcs_host_chart *chart = layout->chart;
     double x = series->x[i];
     double y = series->y[i];
     if (!chart_shows(chart->x_log, 0.0, &x) || !chart_shows(chart->y_log, chart->floor, &y)) {
         return 0;
     }
-    *point = (lrcsi_plot_point){lrcsi_chart_x(&plan->axes, x), lrcsi_chart_y(&plan->axes, y)};
+    *point = (lrcsi_plot_point){lrcsi_chart_x(&layout->axes, x), lrcsi_chart_y(&layout->axes, y)};
     return 1;
 }
 
@@ -82,125 +82,126 @@ static void chart_range(const lrcs_host_chart *chart, int vertical, double range
 /* ---- the frame ---- */
 
 /* Lines at the major ticks, or at the minor ones if these are not too dense. */
-static void chart_grid(const chart_plan *plan, int major)
+static void chart_grid(const chart_layout *layout, int major)
 {
     uint32_t colour = major ? LRCSI_COLOUR_GRID : LRCSI_COLOUR_MINOR;
     double width = major ? 0.9 : 0.7;
-    for (uint32_t i = 0; i < plan->axes.x.count; i++) {
-        double x = lrcsi_chart_x(&plan->axes, plan->axes.x.tick[i].value);
-        if (plan->axes.x.tick[i].major == major &&
-            (major || plan->axes.x.count <= GRID_TICKS_MAX)) {
-            lrcsi_plot_line(plan->plotter, x, LRCSI_CHART_TOP, x, LRCSI_CHART_BOTTOM, colour,
+    for (uint32_t i = 0; i < layout->axes.x.count; i++) {
+        double x = lrcsi_chart_x(&layout->axes, layout->axes.x.tick[i].value);
+        if (layout->axes.x.tick[i].major == major &&
+            (major || layout->axes.x.count <= GRID_TICKS_MAX)) {
+            lrcsi_plot_line(layout->plotter, x, LRCSI_CHART_TOP, x, LRCSI_CHART_BOTTOM, colour,
                             width);
         }
     }
-    for (uint32_t i = 0; i < plan->axes.y.count; i++) {
-        double y = lrcsi_chart_y(&plan->axes, plan->axes.y.tick[i].value);
-        if (plan->axes.y.tick[i].major == major &&
-            (major || plan->axes.y.count <= GRID_TICKS_MAX)) {
-            lrcsi_plot_line(plan->plotter, LRCSI_CHART_LEFT, y, plan->axes.right, y, colour, width);
+    for (uint32_t i = 0; i < layout->axes.y.count; i++) {
+        double y = lrcsi_chart_y(&layout->axes, layout->axes.y.tick[i].value);
+        if (layout->axes.y.tick[i].major == major &&
+            (major || layout->axes.y.count <= GRID_TICKS_MAX)) {
+            lrcsi_plot_line(layout->plotter, LRCSI_CHART_LEFT, y, layout->axes.right, y, colour,
+                            width);
         }
     }
 }
 
 /* ---- the data ---- */
 
-static void run_draw(const chart_plan *plan, const lrcs_host_series *series,
-                     const lrcsi_plot_point *point, uint32_t count)
+static void polyline_draw(const chart_layout *layout, const lrcs_host_series *series,
+                          const lrcsi_plot_point *point, uint32_t count)
 {
     const lrcsi_line_style style = lrcsi_series_ink(series);
     int joined = series->dash != LRCS_HOST_NO_LINE;
     if (count > 1 && joined) {
-        plan->plotter->line(plan->plotter, point, count, &style);
+        layout->plotter->line(layout->plotter, point, count, &style);
     }
     for (uint32_t i = 0; i < count; i++) {
-        lrcsi_label_block_point(plan->labels, point[i], LRCSI_CHART_RING);
-        lrcsi_label_block_line(plan->labels, point[i > 0 && joined ? i - 1 : i], point[i]);
+        lrcsi_label_avoid_point(layout->labels, point[i], LRCSI_CHART_RING);
+        lrcsi_label_avoid_line(layout->labels, point[i > 0 && joined ? i - 1 : i], point[i]);
     }
 }
 
-/* A series' line, in runs; dashes restart with each run. Values that cannot be shown leave a
-   gap. */
-static void series_line(const chart_plan *plan, const lrcs_host_series *series)
+/* A series' line, in polylines of at most 256 points; dashes restart with each. Values that cannot
+   be shown leave a gap. */
+static void series_line(const chart_layout *layout, const lrcs_host_series *series)
 {
-    lrcsi_plot_point run[256];
+    lrcsi_plot_point point[256];
     uint32_t count = 0;
     for (uint32_t i = 0; i < series->count; i++) {
-        if (!chart_point(plan, series, i, &run[count])) {
-            run_draw(plan, series, run, count);
+        if (!chart_point(layout, series, i, &point[count])) {
+            polyline_draw(layout, series, point, count);
             count = 0;
-        } else if (++count == sizeof run / sizeof run[0]) {
-            run_draw(plan, series, run, count);
-            run[0] = run[count - 1];
+        } else if (++count == sizeof point / sizeof point[0]) {
+            polyline_draw(layout, series, point, count);
+            point[0] = point[count - 1];
             count = 1;
         }
     }
-    run_draw(plan, series, run, count);
+    polyline_draw(layout, series, point, count);
 }
 
 /* The mark for a point that lies below the floor. */
-static void arrow_draw(const chart_plan *plan, uint32_t colour, lrcsi_plot_point at)
+static void arrow_draw(const chart_layout *layout, uint32_t colour, lrcsi_plot_point at)
 {
     const lrcsi_plot_point head[3] = {
         {at.x - 3.2, at.y + 9.5}, {at.x + 3.2, at.y + 9.5}, {at.x, at.y + 14.5}};
-    lrcsi_plot_line(plan->plotter, at.x, at.y + LRCSI_CHART_MARK, at.x, at.y + 10.0, colour, 1.4);
-    plan->plotter->area(plan->plotter, head, 3, colour);
-    lrcsi_label_block_line(plan->labels, at, head[2]);
+    lrcsi_plot_line(layout->plotter, at.x, at.y + LRCSI_CHART_MARK, at.x, at.y + 10.0, colour, 1.4);
+    layout->plotter->area(layout->plotter, head, 3, colour);
+    lrcsi_label_avoid_line(layout->labels, at, head[2]);
 }
 
-static void series_marks(const chart_plan *plan, const lrcs_host_series *series)
+static void series_marks(const chart_layout *layout, const lrcs_host_series *series)
 {
     for (uint32_t i = 0; i < series->count; i++) {
         lrcsi_plot_point at;
-        if (!chart_point(plan, series, i, &at)) {
+        if (!chart_point(layout, series, i, &at)) {
             continue;
         }
-        if (plan->chart->y_log && series->y[i] < plan->chart->floor &&
+        if (layout->chart->y_log && series->y[i] < layout->chart->floor &&
             series->marker != LRCS_HOST_NO_MARKER) {
-            arrow_draw(plan, lrcsi_palette_named(series->colour), at);
+            arrow_draw(layout, lrcsi_palette_named(series->colour), at);
         }
-        lrcsi_series_marker(plan->plotter, series, at);
+        lrcsi_series_marker(layout->plotter, series, at);
     }
 }
 
-static void series_labels(const chart_plan *plan, const lrcs_host_series *series)
+static void series_labels(const chart_layout *layout, const lrcs_host_series *series)
 {
     for (uint32_t i = 0; series->label && i < series->count; i++) {
         lrcsi_plot_point at;
         lrcsi_plot_text label = {
             .text = series->label[i], .size = 10.5, .colour = lrcsi_palette_named(series->colour)};
-        if (label.text && chart_point(plan, series, i, &at) &&
-            lrcsi_label_place(plan->labels, at, 8.0, label.text, label.size, &label.at)) {
-            plan->plotter->text(plan->plotter, &label);
+        if (label.text && chart_point(layout, series, i, &at) &&
+            lrcsi_label_place(layout->labels, at, 8.0, label.text, label.size, &label.at)) {
+            layout->plotter->text(layout->plotter, &label);
         }
     }
 }
 
 /* The position of an end of a band, clamped to the frame. */
-static double band_y(const chart_plan *plan, double value)
+static double band_y(const chart_layout *layout, double value)
 {
-    int shown = chart_shows(plan->chart->y_log, plan->chart->floor, &value);
-    double y = shown         ? lrcsi_chart_y(&plan->axes, value)
+    int shown = chart_shows(layout->chart->y_log, layout->chart->floor, &value);
+    double y = shown         ? lrcsi_chart_y(&layout->axes, value)
                : value > 0.0 ? LRCSI_CHART_TOP
                              : LRCSI_CHART_BOTTOM;
     return fmin(LRCSI_CHART_BOTTOM, fmax(LRCSI_CHART_TOP, y));
 }
 
 /* A series' band, from point to point. */
-static void series_band(const chart_plan *plan, const lrcs_host_series *series)
+static void series_band(const chart_layout *layout, const lrcs_host_series *series)
 {
     for (uint32_t i = 1; series->low && series->high && i < series->count; i++) {
         double x[2] = {series->x[i - 1], series->x[i]};
-        if (!chart_shows(plan->chart->x_log, 0.0, &x[0]) ||
-            !chart_shows(plan->chart->x_log, 0.0, &x[1])) {
+        if (!chart_shows(layout->chart->x_log, 0.0, &x[0]) ||
+            !chart_shows(layout->chart->x_log, 0.0, &x[1])) {
             continue;
         }
         const lrcsi_plot_point corner[4] = {
-            {lrcsi_chart_x(&plan->axes, x[0]), band_y(plan, series->low[i - 1])},
-            {lrcsi_chart_x(&plan->axes, x[0]), band_y(plan, series->high[i - 1])},
-            {lrcsi_chart_x(&plan->axes, x[1]), band_y(plan, series->high[i])},
-            {lrcsi_chart_x(&plan->axes, x[1]), band_y(plan, series->low[i])}};
-        lrcsi_series_band(plan->plotter, series, corner);
+            {lrcsi_chart_x(&layout->axes, x[0]), band_y(layout, series->low[i - 1])},
+            {lrcsi_chart_x(&layout->axes, x[0]), band_y(layout, series->high[i - 1])},
+            {lrcsi_chart_x(&layout->axes, x[1]), band_y(layout, series->high[i])},
+            {lrcsi_chart_x(&layout->axes, x[1]), band_y(layout, series->low[i])}};
+        lrcsi_series_band(layout->plotter, series, corner);
     }
 }
 
@@ -219,40 +220,40 @@ static void chart_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
     right = fmax(right, 0.5 * LRCSI_CHART_WIDTH); /* a longer legend is cut */
     lrcsi_label_area labels = {.frame = {(float)LRCSI_CHART_LEFT, (float)LRCSI_CHART_TOP,
                                          (float)right, (float)LRCSI_CHART_BOTTOM}};
-    chart_plan plan = {
+    chart_layout layout = {
         .chart = chart, .plotter = plotter, .axes = {.right = right}, .labels = &labels};
     double range[2];
     int kind = chart->x_log ? LRCSI_AXIS_LOG : chart->x_deg ? LRCSI_AXIS_DEG : LRCSI_AXIS_LINEAR;
     chart_range(chart, 0, range);
-    plan.axes.x = lrcsi_axis_make(kind, range[0], range[1], (right - LRCSI_CHART_LEFT) / 55.0);
+    layout.axes.x = lrcsi_axis_make(kind, range[0], range[1], (right - LRCSI_CHART_LEFT) / 55.0);
     chart_range(chart, 1, range);
-    plan.axes.y = lrcsi_axis_make(chart->y_log, range[0], range[1],
-                                  (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP) / 26.0);
+    layout.axes.y = lrcsi_axis_make(chart->y_log, range[0], range[1],
+                                    (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP) / 26.0);
     int floor = chart->y_log && chart->floor > 0.0; /* 2 */
-    double floor_y = floor ? lrcsi_chart_y(&plan.axes, chart->floor) : LRCSI_CHART_BOTTOM;
+    double floor_y = floor ? lrcsi_chart_y(&layout.axes, chart->floor) : LRCSI_CHART_BOTTOM;
     if (floor) {
         lrcsi_plot_rectangle(plotter, LRCSI_CHART_LEFT, floor_y, right, LRCSI_CHART_BOTTOM,
                              LRCSI_COLOUR_FLOOR);
     }
-    chart_grid(&plan, 0);
-    chart_grid(&plan, 1);
+    chart_grid(&layout, 0);
+    chart_grid(&layout, 1);
     if (floor) {
         lrcsi_plot_line(plotter, LRCSI_CHART_LEFT, floor_y, right, floor_y, LRCSI_COLOUR_FAINT,
                         1.2);
     }
     for (uint32_t i = 0; i < chart->series_count; i++) { /* 3 */
-        series_band(&plan, &chart->series[i]);
+        series_band(&layout, &chart->series[i]);
     }
     for (uint32_t i = 0; i < chart->series_count; i++) {
-        series_line(&plan, &chart->series[i]);
+        series_line(&layout, &chart->series[i]);
     }
     for (uint32_t i = 0; i < chart->series_count; i++) {
-        series_marks(&plan, &chart->series[i]);
+        series_marks(&layout, &chart->series[i]);
     }
     for (uint32_t i = 0; i < chart->series_count; i++) {
-        series_labels(&plan, &chart->series[i]);
+        series_labels(&layout, &chart->series[i]);
     }
-    lrcsi_chart_frame(plotter, &plan.axes); /* 4 */
+    lrcsi_chart_frame(plotter, &layout.axes); /* 4 */
     lrcsi_chart_title(plotter, chart->title, chart->note);
     lrcsi_chart_names(plotter, right, chart->x_name, chart->y_name);
     double x = right + LRCSI_CHART_MARGIN; /* 5 */
@@ -262,7 +263,7 @@ static void chart_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
                              LRCSI_COLOUR_FLOOR);
         lrcsi_plot_line(plotter, x, y - 5.0, x + LRCSI_CHART_SAMPLE, y - 5.0, LRCSI_COLOUR_FAINT,
                         1.2);
-        arrow_draw(&plan, LRCSI_COLOUR_FAINT,
+        arrow_draw(&layout, LRCSI_COLOUR_FAINT,
                    (lrcsi_plot_point){x + 0.5 * LRCSI_CHART_SAMPLE, y - 8.5});
         lrcsi_chart_number(plotter, chart->floor_name,
                            (lrcsi_plot_point){x + LRCSI_CHART_SAMPLE + 8.0, y}, LRCSI_CHART_SMALL,

@@ -22,18 +22,18 @@ static lrcsi_label_box label_box(double x, double y, double half_x, double half_
                              (float)(y + half_y)};
 }
 
-void lrcsi_label_block_point(lrcsi_label_area *area, lrcsi_plot_point point, double half)
+void lrcsi_label_avoid_point(lrcsi_label_area *area, lrcsi_plot_point point, double half)
 {
     label_occupy(area, label_box(point.x, point.y, half, half));
 }
 
-void lrcsi_label_block_line(lrcsi_label_area *area, lrcsi_plot_point a, lrcsi_plot_point b)
+void lrcsi_label_avoid_line(lrcsi_label_area *area, lrcsi_plot_point a, lrcsi_plot_point b)
 {
     int steps = 1 + (int)(hypot(b.x - a.x, b.y - a.y) / LABEL_STEP);
     for (int i = 0; i <= steps; i++) {
-        double part = (double)i / steps;
-        lrcsi_plot_point at = {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
-        lrcsi_label_block_point(area, at, 1.0);
+        double fraction = (double)i / steps;
+        lrcsi_plot_point at = {a.x + fraction * (b.x - a.x), a.y + fraction * (b.y - a.y)};
+        lrcsi_label_avoid_point(area, at, 1.0);
     }
 }
 

@@ -19,8 +19,8 @@ typedef struct lrcsi_label_area {
 } lrcsi_label_area;
 
 /* Marks as occupied a square about a point, and squares along a line. */
-void lrcsi_label_block_point(lrcsi_label_area *area, lrcsi_plot_point point, double half);
-void lrcsi_label_block_line(lrcsi_label_area *area, lrcsi_plot_point a, lrcsi_plot_point b);
+void lrcsi_label_avoid_point(lrcsi_label_area *area, lrcsi_plot_point point, double half);
+void lrcsi_label_avoid_line(lrcsi_label_area *area, lrcsi_plot_point a, lrcsi_plot_point b);
 
 /* Finds a place for a text of the given size beside a point, at least `clear` away, and marks it as
    occupied. Returned: its left end on the base line. Returns 0 if there is no free place. */

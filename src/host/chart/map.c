@@ -25,17 +25,17 @@
 #define ELLIPSE_Y     (0.5 * (LRCSI_CHART_TOP + LRCSI_CHART_BOTTOM))
 #define ELLIPSE_A     (0.5 * (MAP_RIGHT - LRCSI_CHART_LEFT))
 #define ELLIPSE_B     (0.5 * ELLIPSE_A)
-#define ELLIPSE_STRIP 3.0 /* deg of latitude over which a meridian is drawn straight */
+#define ELLIPSE_STEP  3.0 /* deg of latitude over which a meridian is drawn straight */
 #define ELLIPSE_EMPTY 0xf0f0f0u
 
-typedef struct map_plan {
+typedef struct map_layout {
     const lrcs_host_map *map;
     lrcsi_plotter *plotter;
     lrcsi_chart_axes axes;  /* of a map in a rectangle */
     lrcsi_axis z;           /* the scale of colours */
     uint32_t columns, rows; /* cells */
     uint32_t wide, high;    /* points of a cell, each way */
-} map_plan;
+} map_layout;
 
 /* ---- cells ---- */
 
@@ -48,14 +48,14 @@ static double cell_place(const double *place, uint32_t cell, uint32_t each, uint
     return 0.5 * (place[first] + place[last]);
 }
 
-static double cell_value(const map_plan *plan, uint32_t column, uint32_t row)
+static double cell_value(const map_layout *layout, uint32_t column, uint32_t row)
 {
-    const lrcs_host_map *map = plan->map;
+    const lrcs_host_map *map = layout->map;
     double sum = 0.0;
     uint32_t count = 0;
-    for (uint32_t i = row * plan->high; i < (row + 1) * plan->high && i < map->rows; i++) {
-        for (uint32_t k = column * plan->wide; k < (column + 1) * plan->wide && k < map->columns;
-             k++) {
+    for (uint32_t i = row * layout->high; i < (row + 1) * layout->high && i < map->rows; i++) {
+        for (uint32_t k = column * layout->wide;
+             k < (column + 1) * layout->wide && k < map->columns; k++) {
             double z = map->z[(size_t)i * map->columns + k];
             sum += isfinite(z) ? z : 0.0;
             count += isfinite(z) != 0;
@@ -110,10 +110,10 @@ static double longitude_shift(double longitude)
     return -360.0 * floor((longitude + 180.0) / 360.0);
 }
 
-/* A piece of a row of cells. Each overlaps the next one to the right and above, which is drawn
- * later. */
-static void ellipse_piece(const map_plan *plan, double west, double east, const double height[2],
-                          uint32_t colour)
+/* A quadrilateral of a row of cells. Each overlaps the next one to the right and above, which is
+ * drawn later. */
+static void ellipse_quad(const map_layout *layout, double west, double east, const double height[2],
+                         uint32_t colour)
 {
     double low = height[0];
     double high = fmin(height[1] + MAP_OVERLAP / ELLIPSE_B, 1.0);
@@ -121,41 +121,41 @@ static void ellipse_piece(const map_plan *plan, double west, double east, const 
     east = fmin(east + overlap, 180.0);
     const lrcsi_plot_point corner[4] = {ellipse_point(west, low), ellipse_point(east, low),
                                         ellipse_point(east, high), ellipse_point(west, high)};
-    plan->plotter->area(plan->plotter, corner, 4, colour);
+    layout->plotter->area(layout->plotter, corner, 4, colour);
 }
 
 /* Cells of one colour between two longitudes and two latitudes: cut at 180 degrees, where the map
-   ends, and divided into strips with straight sides. */
-static void ellipse_cells(const map_plan *plan, double west, double east, const double latitude[2],
-                          uint32_t colour)
+   ends, and divided into steps of latitude with straight sides. */
+static void ellipse_cells(const map_layout *layout, double west, double east,
+                          const double latitude[2], uint32_t colour)
 {
-    int strips = (int)ceil((latitude[1] - latitude[0]) / ELLIPSE_STRIP);
+    int steps = (int)ceil((latitude[1] - latitude[0]) / ELLIPSE_STEP);
     double shift = longitude_shift(west);
     west += shift;
     east += shift;
-    for (int i = 0; i < strips; i++) {
-        double each = (latitude[1] - latitude[0]) / strips;
+    for (int i = 0; i < steps; i++) {
+        double each = (latitude[1] - latitude[0]) / steps;
         const double height[2] = {ellipse_height(latitude[0] + i * each),
                                   ellipse_height(latitude[0] + (i + 1) * each)};
-        ellipse_piece(plan, west, fmin(east, 180.0), height, colour);
+        ellipse_quad(layout, west, fmin(east, 180.0), height, colour);
         if (east > 180.0) {
-            ellipse_piece(plan, -180.0, east - 360.0, height, colour);
+            ellipse_quad(layout, -180.0, east - 360.0, height, colour);
         }
     }
 }
 
-static void ellipse_line(const map_plan *plan, double longitude, uint32_t colour, double width)
+static void ellipse_line(const map_layout *layout, double longitude, uint32_t colour, double width)
 {
     lrcsi_plot_point point[61];
     const lrcsi_line_style style = {colour, width, {0.0, 0.0}};
     for (int i = 0; i <= 60; i++) {
         point[i] = ellipse_point(longitude, sin(LRCS_PI * (i - 30) / 60.0));
     }
-    plan->plotter->line(plan->plotter, point, 61, &style);
+    layout->plotter->line(layout->plotter, point, 61, &style);
 }
 
 /* The background below the cells, for what they do not cover. */
-static void ellipse_background(const map_plan *plan)
+static void ellipse_background(const map_layout *layout)
 {
     lrcsi_plot_point point[120];
     for (int i = 0; i < 120; i++) {
@@ -163,68 +163,68 @@ static void ellipse_background(const map_plan *plan)
         point[i] =
             (lrcsi_plot_point){ELLIPSE_X + ELLIPSE_A * cos(t), ELLIPSE_Y - ELLIPSE_B * sin(t)};
     }
-    plan->plotter->area(plan->plotter, point, 120, ELLIPSE_EMPTY);
+    layout->plotter->area(layout->plotter, point, 120, ELLIPSE_EMPTY);
 }
 
 /* Meridians and parallels every 30 degrees, with numbers along the equator and on the left. */
-static void ellipse_graticule(const map_plan *plan)
+static void ellipse_graticule(const map_layout *layout)
 {
     char text[16];
     for (int degrees = -150; degrees <= 150; degrees += 30) {
-        ellipse_line(plan, degrees, 0x777777u, 0.5);
+        ellipse_line(layout, degrees, 0x777777u, 0.5);
     }
     for (int degrees = -60; degrees <= 60; degrees += 30) {
         double height = ellipse_height(degrees);
         lrcsi_plot_point left = ellipse_point(-180.0, height);
         lrcsi_plot_point right = ellipse_point(180.0, height);
-        lrcsi_plot_line(plan->plotter, left.x, left.y, right.x, right.y, 0x777777u, 0.5);
+        lrcsi_plot_line(layout->plotter, left.x, left.y, right.x, right.y, 0x777777u, 0.5);
         left.x -= 8.0;
         snprintf(text, sizeof text, "%d", degrees);
-        lrcsi_chart_number(plan->plotter, text, left, LRCSI_CHART_SMALL, LRCSI_ANCHOR_RIGHT);
+        lrcsi_chart_number(layout->plotter, text, left, LRCSI_CHART_SMALL, LRCSI_ANCHOR_RIGHT);
     }
     for (int degrees = -120; degrees <= 120; degrees += 60) {
         snprintf(text, sizeof text, "%d", degrees);
-        lrcsi_chart_number_over(plan->plotter, text, ellipse_point(degrees, 0.0),
+        lrcsi_chart_number_over(layout->plotter, text, ellipse_point(degrees, 0.0),
                                 LRCSI_CHART_SMALL);
     }
-    ellipse_line(plan, -180.0, LRCSI_COLOUR_TEXT, 0.9);
-    ellipse_line(plan, 180.0, LRCSI_COLOUR_TEXT, 0.9);
+    ellipse_line(layout, -180.0, LRCSI_COLOUR_TEXT, 0.9);
+    ellipse_line(layout, 180.0, LRCSI_COLOUR_TEXT, 0.9);
 }
 
 /* ---- rows of cells ---- */
 
 /* Colours in steps, so that neighbours of equal colour are merged. */
-static uint32_t cell_colour_of(const map_plan *plan, uint32_t column, uint32_t row)
+static uint32_t cell_colour_of(const map_layout *layout, uint32_t column, uint32_t row)
 {
-    double value = cell_value(plan, column, row);
+    double value = cell_value(layout, column, row);
     if (!isfinite(value)) {
         return MAP_COLOUR_MISSING;
     }
-    double part = fmin(fmax(lrcsi_axis_at(&plan->z, value), 0.0), 1.0);
-    return lrcsi_palette_viridis(floor(part * MAP_STEPS + 0.5) / MAP_STEPS);
+    double fraction = fmin(fmax(lrcsi_axis_at(&layout->z, value), 0.0), 1.0);
+    return lrcsi_palette_viridis(floor(fraction * MAP_STEPS + 0.5) / MAP_STEPS);
 }
 
-static void row_draw(const map_plan *plan, uint32_t row)
+static void row_draw(const map_layout *layout, uint32_t row)
 {
-    const lrcs_host_map *map = plan->map;
-    const double side[2] = {cell_begin(map->y, row, plan->high, map->rows),
-                            cell_begin(map->y, row + 1, plan->high, map->rows)};
-    double low = lrcsi_chart_y(&plan->axes, side[0]);
-    double high = lrcsi_chart_y(&plan->axes, side[1]);
-    double top = fmax(high - MAP_OVERLAP, lrcsi_chart_y(&plan->axes, map->y[map->rows - 1]));
-    double end = lrcsi_chart_x(&plan->axes, map->x[map->columns - 1]);
-    for (uint32_t column = 0; column < plan->columns;) {
-        uint32_t colour = cell_colour_of(plan, column, row);
-        double from = cell_begin(map->x, column, plan->wide, map->columns);
+    const lrcs_host_map *map = layout->map;
+    const double side[2] = {cell_begin(map->y, row, layout->high, map->rows),
+                            cell_begin(map->y, row + 1, layout->high, map->rows)};
+    double low = lrcsi_chart_y(&layout->axes, side[0]);
+    double high = lrcsi_chart_y(&layout->axes, side[1]);
+    double top = fmax(high - MAP_OVERLAP, lrcsi_chart_y(&layout->axes, map->y[map->rows - 1]));
+    double end = lrcsi_chart_x(&layout->axes, map->x[map->columns - 1]);
+    for (uint32_t column = 0; column < layout->columns;) {
+        uint32_t colour = cell_colour_of(layout, column, row);
+        double from = cell_begin(map->x, column, layout->wide, map->columns);
         do {
             column++;
-        } while (column < plan->columns && cell_colour_of(plan, column, row) == colour);
-        double to = cell_begin(map->x, column, plan->wide, map->columns);
+        } while (column < layout->columns && cell_colour_of(layout, column, row) == colour);
+        double to = cell_begin(map->x, column, layout->wide, map->columns);
         if (map->mollweide) {
-            ellipse_cells(plan, from, to, side, colour);
+            ellipse_cells(layout, from, to, side, colour);
         } else {
-            lrcsi_plot_rectangle(plan->plotter, lrcsi_chart_x(&plan->axes, from), top,
-                                 fmin(lrcsi_chart_x(&plan->axes, to) + MAP_OVERLAP, end), low,
+            lrcsi_plot_rectangle(layout->plotter, lrcsi_chart_x(&layout->axes, from), top,
+                                 fmin(lrcsi_chart_x(&layout->axes, to) + MAP_OVERLAP, end), low,
                                  colour);
         }
     }
@@ -233,35 +233,35 @@ static void row_draw(const map_plan *plan, uint32_t row)
 /* ---- contours ---- */
 
 /* Draws the contours between the middles of four cells, by marching squares. At a saddle a level is
-   crossed on all four sides, and the contour has two pieces; the mean of the four values decides
+   crossed on all four sides, and there are two contours; the mean of the four values decides
    which corners they separate. */
-static void contours_between(const map_plan *plan, uint32_t column, uint32_t row)
+static void contours_between(const map_layout *layout, uint32_t column, uint32_t row)
 {
     static const uint32_t step[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    const lrcs_host_map *map = plan->map;
+    const lrcs_host_map *map = layout->map;
     lrcsi_plot_point corner[4];
     double z[4];
-    double shift = longitude_shift(cell_place(map->x, column, plan->wide, map->columns));
+    double shift = longitude_shift(cell_place(map->x, column, layout->wide, map->columns));
     for (int k = 0; k < 4; k++) {
         uint32_t c = column + step[k][0];
         uint32_t r = row + step[k][1];
-        double x = cell_place(map->x, c, plan->wide, map->columns);
-        double y = cell_place(map->y, r, plan->high, map->rows);
-        z[k] = cell_value(plan, c, r);
+        double x = cell_place(map->x, c, layout->wide, map->columns);
+        double y = cell_place(map->y, r, layout->high, map->rows);
+        z[k] = cell_value(layout, c, r);
         corner[k] = map->mollweide ? ellipse_point(x + shift, ellipse_height(y))
-                                   : (lrcsi_plot_point){lrcsi_chart_x(&plan->axes, x),
-                                                        lrcsi_chart_y(&plan->axes, y)};
+                                   : (lrcsi_plot_point){lrcsi_chart_x(&layout->axes, x),
+                                                        lrcsi_chart_y(&layout->axes, y)};
         if (!isfinite(z[k]) || (map->mollweide && x + shift > 180.0)) {
             return; /* nothing there, or on both sides of the map */
         }
     }
-    for (uint32_t i = 0; i < plan->z.count; i++) {
-        double level = plan->z.tick[i].value;
-        double part = lrcsi_axis_at(&plan->z, level);
-        const lrcsi_line_style style = {part < 0.6 ? 0xffffffu : 0x333333u, 0.7, {0.0, 0.0}};
+    for (uint32_t i = 0; i < layout->z.count; i++) {
+        double level = layout->z.tick[i].value;
+        double fraction = lrcsi_axis_at(&layout->z, level);
+        const lrcsi_line_style style = {fraction < 0.6 ? 0xffffffu : 0x333333u, 0.7, {0.0, 0.0}};
         lrcsi_plot_point point[4]; /* where the level is crossed, side by side */
         int count = 0;
-        for (int k = 0; k < 4 && plan->z.tick[i].major && part > 0.0 && part < 1.0; k++) {
+        for (int k = 0; k < 4 && layout->z.tick[i].major && fraction > 0.0 && fraction < 1.0; k++) {
             const lrcsi_plot_point *a = &corner[k];
             const lrcsi_plot_point *b = &corner[(k + 1) % 4];
             double to = z[(k + 1) % 4];
@@ -272,14 +272,17 @@ static void contours_between(const map_plan *plan, uint32_t column, uint32_t row
             }
         }
         if (count == 2) {
-            plan->plotter->line(plan->plotter, point, 2, &style);
+            layout->plotter->line(layout->plotter, point, 2, &style);
         } else if (count == 4) {
             int middle = 0.25 * (z[0] + z[1] + z[2] + z[3]) >= level;
-            int separate = middle == (z[0] >= level); /* corners 1 and 3 are, not 0 and 2 */
+            int separate =
+                middle ==
+                (z[0] >=
+                 level); /* 1: contours separate corners 1 and 3 from the rest, else 0 and 2 */
             const lrcsi_plot_point pair[4] = {point[separate ? 0 : 3], point[separate ? 1 : 0],
                                               point[separate ? 2 : 1], point[separate ? 3 : 2]};
-            plan->plotter->line(plan->plotter, pair, 2, &style);
-            plan->plotter->line(plan->plotter, pair + 2, 2, &style);
+            layout->plotter->line(layout->plotter, pair, 2, &style);
+            layout->plotter->line(layout->plotter, pair + 2, 2, &style);
         }
     }
 }
@@ -287,44 +290,44 @@ static void contours_between(const map_plan *plan, uint32_t column, uint32_t row
 /* ---- scale, frame and titles ---- */
 
 /* The scale of colours, with the levels of the contours. */
-static void map_scale(const map_plan *plan)
+static void map_scale(const map_layout *layout)
 {
     double left = MAP_RIGHT + 24.0;
     double high = LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP;
     for (int i = MAP_STEPS; i-- > 0;) { /* each begins at the bottom, so that there are no gaps */
-        lrcsi_plot_rectangle(plan->plotter, left, LRCSI_CHART_BOTTOM - high * (i + 1) / MAP_STEPS,
+        lrcsi_plot_rectangle(layout->plotter, left, LRCSI_CHART_BOTTOM - high * (i + 1) / MAP_STEPS,
                              left + MAP_BAR, LRCSI_CHART_BOTTOM,
                              lrcsi_palette_viridis((i + 0.5) / MAP_STEPS));
     }
-    lrcsi_chart_box(plan->plotter, left, left + MAP_BAR);
-    for (uint32_t i = 0; i < plan->z.count; i++) {
-        const lrcsi_tick *tick = &plan->z.tick[i];
-        double y = LRCSI_CHART_BOTTOM - high * lrcsi_axis_at(&plan->z, tick->value);
+    lrcsi_chart_box(layout->plotter, left, left + MAP_BAR);
+    for (uint32_t i = 0; i < layout->z.count; i++) {
+        const lrcsi_tick *tick = &layout->z.tick[i];
+        double y = LRCSI_CHART_BOTTOM - high * lrcsi_axis_at(&layout->z, tick->value);
         double x = left + MAP_BAR;
         if (tick->major) {
-            lrcsi_plot_line(plan->plotter, x, y, x + 5.0, y, LRCSI_COLOUR_TEXT, 0.9);
-            lrcsi_chart_number(plan->plotter, tick->text, (lrcsi_plot_point){x + 8.0, y},
+            lrcsi_plot_line(layout->plotter, x, y, x + 5.0, y, LRCSI_COLOUR_TEXT, 0.9);
+            lrcsi_chart_number(layout->plotter, tick->text, (lrcsi_plot_point){x + 8.0, y},
                                LRCSI_CHART_SMALL, LRCSI_ANCHOR_LEFT);
         }
     }
     const lrcsi_plot_text name = {
-        .text = plan->map->z_name,
+        .text = layout->map->z_name,
         .at = {LRCSI_CHART_WIDTH - 14.0, 0.5 * (LRCSI_CHART_TOP + LRCSI_CHART_BOTTOM)},
         .size = LRCSI_CHART_NAMES,
         .anchor = LRCSI_ANCHOR_MIDDLE,
         .upwards = 1,
         .colour = LRCSI_COLOUR_TEXT};
-    lrcsi_letters_fit(plan->plotter, name, high);
+    lrcsi_letters_fit(layout->plotter, name, high);
 }
 
-static map_plan map_place(const lrcs_host_map *map, lrcsi_plotter *plotter)
+static map_layout map_place(const lrcs_host_map *map, lrcsi_plotter *plotter)
 {
-    map_plan plan = {.map = map, .plotter = plotter};
+    map_layout layout = {.map = map, .plotter = plotter};
     double range[2] = {HUGE_VAL, -HUGE_VAL};
-    plan.wide = (map->columns + MAP_COLUMNS - 1) / MAP_COLUMNS;
-    plan.high = (map->rows + MAP_ROWS - 1) / MAP_ROWS;
-    plan.columns = (map->columns + plan.wide - 1) / plan.wide;
-    plan.rows = (map->rows + plan.high - 1) / plan.high;
+    layout.wide = (map->columns + MAP_COLUMNS - 1) / MAP_COLUMNS;
+    layout.high = (map->rows + MAP_ROWS - 1) / MAP_ROWS;
+    layout.columns = (map->columns + layout.wide - 1) / layout.wide;
+    layout.rows = (map->rows + layout.high - 1) / layout.high;
     for (size_t i = 0; i < (size_t)map->columns * map->rows; i++) {
         if (isfinite(map->z[i])) {
             range[0] = fmin(range[0], map->z[i]);
@@ -334,37 +337,39 @@ static map_plan map_place(const lrcs_host_map *map, lrcsi_plotter *plotter)
     if (map->deep > 0.0) {
         range[0] = fmax(range[0], range[1] - map->deep);
     }
-    plan.axes.right = MAP_RIGHT;
-    plan.axes.x = lrcsi_axis_make(map->x_deg ? LRCSI_AXIS_DEG : 0, map->x[0],
-                                  map->x[map->columns - 1], (MAP_RIGHT - LRCSI_CHART_LEFT) / 50.0);
-    plan.axes.y = lrcsi_axis_make(map->y_deg ? LRCSI_AXIS_DEG : 0, map->y[0], map->y[map->rows - 1],
-                                  (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP) / 30.0);
-    plan.z = lrcsi_axis_make(0, range[0], range[1], MAP_LABELS);
-    return plan;
+    layout.axes.right = MAP_RIGHT;
+    layout.axes.x =
+        lrcsi_axis_make(map->x_deg ? LRCSI_AXIS_DEG : 0, map->x[0], map->x[map->columns - 1],
+                        (MAP_RIGHT - LRCSI_CHART_LEFT) / 50.0);
+    layout.axes.y =
+        lrcsi_axis_make(map->y_deg ? LRCSI_AXIS_DEG : 0, map->y[0], map->y[map->rows - 1],
+                        (LRCSI_CHART_BOTTOM - LRCSI_CHART_TOP) / 30.0);
+    layout.z = lrcsi_axis_make(0, range[0], range[1], MAP_LABELS);
+    return layout;
 }
 
 static void map_draw(const lrcs_host_map *map, lrcsi_plotter *plotter)
 {
-    map_plan plan = map_place(map, plotter);
+    map_layout layout = map_place(map, plotter);
     if (map->mollweide) {
-        ellipse_background(&plan);
+        ellipse_background(&layout);
     }
-    for (uint32_t row = 0; row < plan.rows; row++) {
-        row_draw(&plan, row);
+    for (uint32_t row = 0; row < layout.rows; row++) {
+        row_draw(&layout, row);
     }
-    for (uint32_t row = 0; row + 1 < plan.rows && !map->cells; row++) {
-        for (uint32_t column = 0; column + 1 < plan.columns; column++) {
-            contours_between(&plan, column, row);
+    for (uint32_t row = 0; row + 1 < layout.rows && !map->cells; row++) {
+        for (uint32_t column = 0; column + 1 < layout.columns; column++) {
+            contours_between(&layout, column, row);
         }
     }
     if (map->mollweide) {
-        ellipse_graticule(&plan);
+        ellipse_graticule(&layout);
     } else {
-        lrcsi_chart_frame(plotter, &plan.axes);
+        lrcsi_chart_frame(plotter, &layout.axes);
     }
     lrcsi_chart_title(plotter, map->title, map->note);
     lrcsi_chart_names(plotter, MAP_RIGHT, map->x_name, map->y_name);
-    map_scale(&plan);
+    map_scale(&layout);
 }
 
 /* ---- in public ---- */

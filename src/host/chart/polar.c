@@ -13,19 +13,19 @@
 #define POLAR_ROOM  26.0 /* for the spokes' names */
 #define POLAR_RAD   (LRCS_PI / 180.0)
 
-typedef struct polar_plan {
+typedef struct polar_layout {
     const lrcs_host_chart *chart;
     lrcsi_plotter *plotter;
     lrcsi_axis axis;
     lrcsi_plot_point pole;
     double radius;
-} polar_plan;
+} polar_layout;
 
-static lrcsi_plot_point polar_point(const polar_plan *plan, double deg, double part)
+static lrcsi_plot_point polar_point(const polar_layout *layout, double deg, double fraction)
 {
-    double away = plan->radius * part;
-    return (lrcsi_plot_point){plan->pole.x + away * cos(deg * POLAR_RAD),
-                              plan->pole.y - away * sin(deg * POLAR_RAD)};
+    double away = layout->radius * fraction;
+    return (lrcsi_plot_point){layout->pole.x + away * cos(deg * POLAR_RAD),
+                              layout->pole.y - away * sin(deg * POLAR_RAD)};
 }
 
 /* The range of distances to be shown; unless it begins at 0, at most POLAR_DEPTH. */
@@ -50,95 +50,96 @@ static void polar_range(const lrcs_host_chart *chart, double range[2])
 }
 
 /* Spokes with their angles, and a ring at each labelled distance. */
-static void polar_background(const polar_plan *plan)
+static void polar_background(const polar_layout *layout)
 {
     for (int deg = 0; deg < 360; deg += POLAR_SPOKE) {
         char text[16];
-        lrcsi_plot_point end = polar_point(plan, deg, 1.0);
+        lrcsi_plot_point end = polar_point(layout, deg, 1.0);
         snprintf(text, sizeof text, "%d", deg);
-        lrcsi_plot_line(plan->plotter, plan->pole.x, plan->pole.y, end.x, end.y, LRCSI_COLOUR_GRID,
-                        0.9);
-        lrcsi_chart_number(plan->plotter, text, polar_point(plan, deg, 1.0 + 15.0 / plan->radius),
-                           LRCSI_CHART_SMALL, LRCSI_ANCHOR_MIDDLE);
+        lrcsi_plot_line(layout->plotter, layout->pole.x, layout->pole.y, end.x, end.y,
+                        LRCSI_COLOUR_GRID, 0.9);
+        lrcsi_chart_number(layout->plotter, text,
+                           polar_point(layout, deg, 1.0 + 15.0 / layout->radius), LRCSI_CHART_SMALL,
+                           LRCSI_ANCHOR_MIDDLE);
     }
-    for (uint32_t i = 0; i < plan->axis.count; i++) {
-        const lrcsi_tick *tick = &plan->axis.tick[i];
-        double part = lrcsi_axis_at(&plan->axis, tick->value);
-        if (!tick->major || !(part > 0.0)) {
+    for (uint32_t i = 0; i < layout->axis.count; i++) {
+        const lrcsi_tick *tick = &layout->axis.tick[i];
+        double fraction = lrcsi_axis_at(&layout->axis, tick->value);
+        if (!tick->major || !(fraction > 0.0)) {
             continue;
         }
-        int last = i + 1 == plan->axis.count;
+        int last = i + 1 == layout->axis.count;
         const lrcsi_line_style style = {
             last ? LRCSI_COLOUR_TEXT : LRCSI_COLOUR_GRID, 0.9, {0.0, 0.0}};
         lrcsi_plot_point ring[181];
         for (int k = 0; k <= 180; k++) {
-            ring[k] = polar_point(plan, 2.0 * k, part);
+            ring[k] = polar_point(layout, 2.0 * k, fraction);
         }
-        plan->plotter->line(plan->plotter, ring, 181, &style);
+        layout->plotter->line(layout->plotter, ring, 181, &style);
     }
 }
 
 /* A point at an angle and a distance; distances that lie below the pole are drawn at it. */
-static lrcsi_plot_point polar_place(const polar_plan *plan, double deg, double value)
+static lrcsi_plot_point polar_place(const polar_layout *layout, double deg, double value)
 {
-    double part = isfinite(value) ? fmax(lrcsi_axis_at(&plan->axis, value), 0.0) : 0.0;
-    return polar_point(plan, deg, part);
+    double fraction = isfinite(value) ? fmax(lrcsi_axis_at(&layout->axis, value), 0.0) : 0.0;
+    return polar_point(layout, deg, fraction);
 }
 
 /* A series' band, from point to point. */
-static void polar_band(const polar_plan *plan, const lrcs_host_series *series)
+static void polar_band(const polar_layout *layout, const lrcs_host_series *series)
 {
     for (uint32_t i = 1; series->low && series->high && i < series->count; i++) {
         const double *x = &series->x[i - 1];
         if (isfinite(x[0]) && isfinite(x[1])) {
-            const lrcsi_plot_point corner[4] = {polar_place(plan, x[0], series->low[i - 1]),
-                                                polar_place(plan, x[0], series->high[i - 1]),
-                                                polar_place(plan, x[1], series->high[i]),
-                                                polar_place(plan, x[1], series->low[i])};
-            lrcsi_series_band(plan->plotter, series, corner);
+            const lrcsi_plot_point corner[4] = {polar_place(layout, x[0], series->low[i - 1]),
+                                                polar_place(layout, x[0], series->high[i - 1]),
+                                                polar_place(layout, x[1], series->high[i]),
+                                                polar_place(layout, x[1], series->low[i])};
+            lrcsi_series_band(layout->plotter, series, corner);
         }
     }
 }
 
 /* A line as long as its points can be shown; points below the pole are drawn at it. */
-static void polar_line(const polar_plan *plan, const lrcs_host_series *series)
+static void polar_line(const polar_layout *layout, const lrcs_host_series *series)
 {
     const lrcsi_line_style style = lrcsi_series_ink(series);
-    lrcsi_plot_point run[256];
+    lrcsi_plot_point point[256];
     uint32_t count = 0;
     for (uint32_t i = 0; i < series->count; i++) {
         int shown = isfinite(series->x[i]) && isfinite(series->y[i]);
         if (shown) {
-            run[count++] = polar_place(plan, series->x[i], series->y[i]);
+            point[count++] = polar_place(layout, series->x[i], series->y[i]);
         }
-        if (shown && count < sizeof run / sizeof run[0] && i + 1 < series->count) {
+        if (shown && count < sizeof point / sizeof point[0] && i + 1 < series->count) {
             continue;
         }
         if (count > 1) {
-            plan->plotter->line(plan->plotter, run, count, &style);
+            layout->plotter->line(layout->plotter, point, count, &style);
         }
         if (shown) { /* the line goes on from here */
-            run[0] = run[count - 1];
+            point[0] = point[count - 1];
         }
         count = shown ? 1 : 0;
     }
 }
 
 /* Numbers of the rings along a ray between two spokes, on a background that covers the lines. */
-static void polar_numbers(const polar_plan *plan)
+static void polar_numbers(const polar_layout *layout)
 {
-    for (uint32_t i = 0; i < plan->axis.count; i++) {
-        const lrcsi_tick *tick = &plan->axis.tick[i];
-        double part = lrcsi_axis_at(&plan->axis, tick->value);
-        if (tick->major && part > 0.0) {
-            lrcsi_chart_number_over(plan->plotter, tick->text, polar_point(plan, 75.0, part),
-                                    LRCSI_CHART_SMALL - 1.0);
+    for (uint32_t i = 0; i < layout->axis.count; i++) {
+        const lrcsi_tick *tick = &layout->axis.tick[i];
+        double fraction = lrcsi_axis_at(&layout->axis, tick->value);
+        if (tick->major && fraction > 0.0) {
+            lrcsi_chart_number_over(layout->plotter, tick->text,
+                                    polar_point(layout, 75.0, fraction), LRCSI_CHART_SMALL - 1.0);
         }
     }
 }
 
 /* The meaning of the distance and of the angle, as text beside the chart. */
-static void polar_names(const polar_plan *plan, double left)
+static void polar_names(const polar_layout *layout, double left)
 {
     char text[256];
     lrcsi_plot_text label = {.text = text,
@@ -146,12 +147,12 @@ static void polar_names(const polar_plan *plan, double left)
                              .size = LRCSI_CHART_NAMES,
                              .colour = LRCSI_COLOUR_TEXT};
     double room = LRCSI_CHART_WIDTH - left - LRCSI_CHART_MARGIN;
-    snprintf(text, sizeof text, "radius: %.100s, %s at the pole", plan->chart->y_name,
-             plan->axis.tick[0].text);
-    lrcsi_letters_fit(plan->plotter, label, room);
+    snprintf(text, sizeof text, "radius: %.100s, %s at the pole", layout->chart->y_name,
+             layout->axis.tick[0].text);
+    lrcsi_letters_fit(layout->plotter, label, room);
     label.at.y += 19.0;
-    snprintf(text, sizeof text, "angle: %.200s", plan->chart->x_name);
-    lrcsi_letters_fit(plan->plotter, label, room);
+    snprintf(text, sizeof text, "angle: %.200s", layout->chart->x_name);
+    lrcsi_letters_fit(layout->plotter, label, room);
 }
 
 void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
@@ -159,22 +160,22 @@ void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
     double range[2];
     polar_range(chart, range);
     double high = LRCSI_CHART_HEIGHT - LRCSI_CHART_TOP - LRCSI_CHART_MARGIN;
-    polar_plan plan = {.chart = chart,
-                       .plotter = plotter,
-                       .axis = lrcsi_axis_make(0, range[0], range[1], POLAR_RINGS),
-                       .radius = 0.5 * high - POLAR_ROOM};
-    plan.pole.x = LRCSI_CHART_LEFT + 0.5 * high;
-    plan.pole.y = LRCSI_CHART_TOP + 0.5 * high;
-    double right = plan.pole.x + 0.5 * high + LRCSI_CHART_MARGIN;
-    polar_background(&plan);
+    polar_layout layout = {.chart = chart,
+                           .plotter = plotter,
+                           .axis = lrcsi_axis_make(0, range[0], range[1], POLAR_RINGS),
+                           .radius = 0.5 * high - POLAR_ROOM};
+    layout.pole.x = LRCSI_CHART_LEFT + 0.5 * high;
+    layout.pole.y = LRCSI_CHART_TOP + 0.5 * high;
+    double right = layout.pole.x + 0.5 * high + LRCSI_CHART_MARGIN;
+    polar_background(&layout);
     for (uint32_t i = 0; i < chart->series_count; i++) {
-        polar_band(&plan, &chart->series[i]);
+        polar_band(&layout, &chart->series[i]);
     }
     for (uint32_t i = 0; i < chart->series_count; i++) {
-        polar_line(&plan, &chart->series[i]);
+        polar_line(&layout, &chart->series[i]);
     }
-    polar_numbers(&plan);
+    polar_numbers(&layout);
     lrcsi_chart_title(plotter, chart->title, chart->note);
-    polar_names(&plan, right);
+    polar_names(&layout, right);
     lrcsi_chart_legend(plotter, chart, right, LRCSI_CHART_TOP + 72.0);
 }

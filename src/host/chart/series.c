@@ -118,8 +118,8 @@ static uint32_t marker_corners(int marker, lrcsi_plot_point corner[24])
                                                                   : NULL;
     uint32_t count = !from ? 24 : from == triangle ? 3 : 4;
     for (uint32_t i = 0; i < count; i++) {
-        double turn = 2.0 * LRCS_PI * i / 24.0;
-        corner[i] = from ? from[i] : (lrcsi_plot_point){cos(turn), sin(turn)};
+        double angle = 2.0 * LRCS_PI * i / 24.0;
+        corner[i] = from ? from[i] : (lrcsi_plot_point){cos(angle), sin(angle)};
     }
     return count;
 }
@@ -151,8 +151,8 @@ void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series,
     plotter->line(plotter, corner, count + 1, &style);
 }
 
-/* In a light tint. A line covers the last side, where the next piece begins, because the
-   background would shine through where two pieces each cover a part of a pixel. */
+/* In a light tint. A line is drawn along the last side, which the next quadrilateral shares:
+   without it the background would be visible in pixels that each of the two covers in part. */
 void lrcsi_series_band(lrcsi_plotter *plotter, const lrcs_host_series *series,
                        const lrcsi_plot_point corner[4])
 {

@@ -35,7 +35,7 @@ lrcsi_line_style lrcsi_series_ink(const lrcs_host_series *series);
 void lrcsi_series_marker(lrcsi_plotter *plotter, const lrcs_host_series *series,
                          lrcsi_plot_point at);
 
-/* A piece of a series' band, from its first to its second point: low, high, high, low. */
+/* A quadrilateral of a series' band, from its first to its second point: low, high, high, low. */
 void lrcsi_series_band(lrcsi_plotter *plotter, const lrcs_host_series *series,
                        const lrcsi_plot_point corner[4]);
 

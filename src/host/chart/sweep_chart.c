@@ -1,202 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* Draws the rows of sweeps as curves, as a polar diagram, or as a map. This file decides which
-   quantity runs along which axis, and the texts; chart.c and map.c draw. */
+/* Draws the rows of sweeps as curves, as a polar diagram, or as a map. This file decides the values
+   and the texts; sweep_axes.c decides which quantity runs along which axis; chart.c and map.c draw.
+ */
 #include <lrcs/sweep_chart.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constant.h"
+#include "host/chart/sweep_axes.h"
 #include "host/fail.h"
 #include "host/run/median.h"
 
 #define PLOT_MARKS 40u  /* points are marked if there are fewer */
 #define PLOT_DEEP  60.0 /* the colours of a map span at most this many dB */
-#define PLOT_ROWS  ((uint64_t)1 << 28)
-
-#define PLOT_DEGREES (180.0 / LRCS_PI) /* degrees per radian */
-
-/* ---- words ---- */
-
-/* The name of an axis in words, and its unit or NULL. */
-typedef struct axis_words {
-    char text[160];
-    const char *unit;
-} axis_words;
-
-/* Converts "az_deg" to words and its unit; other names are unchanged. */
-static axis_words words_of(const char *name)
-{
-    static const char *const units[][2] = {{"_deg", "deg"},  {".A", "1/sr"},    {".B", "1/sr"},
-                                           {".size_x", "m"}, {".size_y", "m"},  {".size_z", "m"},
-                                           {".radius", "m"}, {".radius2", "m"}, {".length", "m"}};
-    static const char *const known[][2] = {{"az_deg", "azimuth"},
-                                           {"el_deg", "elevation"},
-                                           {"euler_a_deg", "Euler angle a"},
-                                           {"euler_b_deg", "Euler angle b"},
-                                           {"euler_c_deg", "Euler angle c"},
-                                           {"rotate_deg", "rotation"}};
-    axis_words words = {.unit = NULL};
-    size_t size = strlen(name);
-    snprintf(words.text, sizeof words.text, "%s", name);
-    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
-        size_t end = strlen(units[i][0]);
-        if (size > end && strcmp(name + size - end, units[i][0]) == 0) {
-            words.unit = units[i][1];
-            words.text[units[i][0][0] == '_' ? size - end : size] = '\0';
-        }
-    }
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        if (strcmp(name, known[i][0]) == 0) {
-            snprintf(words.text, sizeof words.text, "%s", known[i][1]);
-        }
-    }
-    return words;
-}
-
-static void value_text(const char *name, double value, char text[192])
-{
-    axis_words words = words_of(name);
-    snprintf(text, 192, "%s %.7g%s%s", words.text, value, words.unit ? " " : "",
-             words.unit ? words.unit : "");
-}
-
-static int is_angle(const lrcs_host_sweep_axis *axis)
-{
-    const char *unit = words_of(axis->name).unit;
-    return unit && strcmp(unit, "deg") == 0;
-}
-
-/* ---- what varies ---- */
-
-/* Lists everything with more than one value: the axes, and the time of a track. */
-static uint32_t varying_list(const lrcs_host_plan *plan,
-                             lrcs_host_sweep_axis axis[LRCS_HOST_PLAN_AXES + 1])
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < plan->axes; i++) {
-        if (plan->axis[i].range.count > 1) {
-            axis[count++] = (lrcs_host_sweep_axis){i, plan->axis[i].range.count, plan->column[i]};
-        }
-    }
-    if (plan->kind == LRCS_HOST_PLAN_TRACK) {
-        axis[count++] = (lrcs_host_sweep_axis){plan->axes, plan->track.count, "time"};
-    }
-    return count;
-}
-
-/* Curves run along the axis with more values (if equal, the faster one); a map's second axis is the
-   slower one. */
-static void plot_choose(const lrcs_host_sweep_axis *axis, uint32_t count,
-                        lrcs_host_sweep_chart *plot)
-{
-    plot->x = axis[0];
-    plot->y = count == 2 ? axis[1] : (lrcs_host_sweep_axis){0, 1, ""};
-    plot->swapped =
-        count == 2 && plot->x.count <= LRCS_HOST_SWEEP_CURVES && plot->y.count >= plot->x.count;
-    if (plot->swapped) {
-        plot->x = axis[1];
-        plot->y = axis[0];
-    }
-    if (plot->mollweide && count == 2 && strcmp(plot->x.name, "az_deg") != 0) {
-        lrcs_host_sweep_axis el = plot->x;
-        plot->x = plot->y;
-        plot->y = el;
-        plot->swapped = !plot->swapped;
-    }
-    plot->map = plot->mollweide || (plot->y.count > LRCS_HOST_SWEEP_CURVES && !plot->polar);
-}
-
-/* Directions of the whole sphere, as a map over azimuth and elevation whose step is a third of the
-   distance between them. */
-static void sphere_choose(const lrcs_host_plan *plan, lrcs_host_sweep_chart *plot)
-{
-    static const uint32_t step[] = {1, 2, 3, 5};
-    double apart = PLOT_DEGREES * sqrt(4.0 * (180.0 / PLOT_DEGREES) / (double)plan->rows);
-    uint32_t i = 0;
-    while (i < 3 && 3.0 * step[i + 1] <= apart) {
-        i++;
-    }
-    plot->x = (lrcs_host_sweep_axis){0, 360 / step[i] + 1, "az_deg"};
-    plot->y = (lrcs_host_sweep_axis){0, 180 / step[i] + 1, "el_deg"};
-    plot->map = 1;
-}
-
-/* 1 if azimuth spans at most a full turn and elevation at most pole to pole. */
-static int mollweide_fits(const lrcs_host_plan *plan, const lrcs_host_sweep_chart *plot)
-{
-    static const double most[2] = {360.0, 90.0};
-    for (int k = 0; k < 2 && plan->kind != LRCS_HOST_PLAN_SPHERE; k++) {
-        const lrcs_host_sweep_axis *axis = k == 0 ? &plot->x : &plot->y;
-        if (plan->kind != LRCS_HOST_PLAN_AZEL || axis->count < 2 || axis->column >= plan->axes ||
-            strcmp(axis->name, k == 0 ? "az_deg" : "el_deg") != 0) {
-            return 0;
-        }
-        const lrcs_host_range *range = &plan->axis[axis->column].range;
-        double first = lrcs_host_range_at(range, 0);
-        double last = lrcs_host_range_at(range, range->count - 1);
-        if (!(k == 0 ? fabs(last - first) <= most[0]
-                     : fabs(first) <= most[1] && fabs(last) <= most[1])) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-uint32_t lrcs_host_sweep_chart_choose(lrcs_host_sweep_chart *plot)
-{
-    lrcs_host_sweep_axis axis[LRCS_HOST_PLAN_AXES + 1];
-    uint32_t count = varying_list(plot->plan, axis);
-    if (plot->plan->kind == LRCS_HOST_PLAN_SPHERE) {
-        sphere_choose(plot->plan, plot);
-    } else if (count > 0) {
-        plot_choose(axis, count, plot);
-    }
-    return count;
-}
-
-int lrcs_host_sweep_chart_check(lrcs_host_sweep_chart *plot, lrcs_host_error *error)
-{
-    const lrcs_host_plan *plan = plot->plan;
-    uint32_t count = lrcs_host_sweep_chart_choose(plot);
-    int sphere = plan->kind == LRCS_HOST_PLAN_SPHERE;
-    int ascends = 1; /* the axes of a map must ascend; ranges do so, or are reversed */
-    for (uint64_t i = 1; plan->kind == LRCS_HOST_PLAN_TRACK && i < plan->track.count; i++) {
-        ascends &= plan->track.row[i][0] > plan->track.row[i - 1][0];
-    }
-    if (sphere && (count > 0 || plot->polar)) {
-        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                               "plot draws the directions of --sphere as a map, of one scene");
-    }
-    if (!sphere && (count < 1 || count > 2)) {
-        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                               "plot draws one or two things that vary, found %lu",
-                               (unsigned long)count);
-    }
-    if (plan->rows > PLOT_ROWS) {
-        return lrcsi_host_fail(error, LRCS_E_ARGUMENT, "plot: at most 2^28 rows, found %llu",
-                               (unsigned long long)plan->rows);
-    }
-    if (plot->polar && plot->y.count > LRCS_HOST_SWEEP_CURVES) {
-        return lrcsi_host_fail(error, LRCS_E_ARGUMENT, "polar draws at most %u curves, found %llu",
-                               LRCS_HOST_SWEEP_CURVES, (unsigned long long)plot->y.count);
-    }
-    if (plot->polar && !is_angle(&plot->x)) {
-        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                               "polar: curves turn with an angle, found '%s'", plot->x.name);
-    }
-    if (plot->map && !ascends) {
-        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                               "plot: a map wants poses whose time ascends");
-    }
-    if (plot->mollweide && !mollweide_fits(plan, plot)) {
-        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
-                               "projection mollweide draws a map over azimuth and elevation, of at "
-                               "most a turn and within -90 .. 90 deg, or --sphere");
-    }
-    return LRCS_OK;
-}
 
 /* ---- notes ---- */
 
@@ -206,7 +23,7 @@ int lrcs_host_sweep_chart_band(const lrcs_host_sweep_chart *plot, double part[2]
     uint64_t count = 0;
     double *half = malloc((plot->plan->rows + 1) * sizeof *half);
     if (!half) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     for (uint64_t i = 0; i < plot->plan->rows; i++) {
         if (plot->row[i][0] > 0.0) {
@@ -235,7 +52,8 @@ static int plot_note(const lrcs_host_sweep_chart *plots, uint32_t count, char no
     for (uint32_t i = 0; i < plan->axes && strlen(note) < 300 && count == 1; i++) {
         if (plan->axis[i].range.count == 1) {
             char text[192];
-            value_text(plan->column[i], lrcs_host_range_at(&plan->axis[i].range, 0), text);
+            lrcsi_axis_value_text(plan->column[i], lrcs_host_range_at(&plan->axis[i].range, 0),
+                                  text);
             lrcs_host_append(note, 512, "%s; ", text);
         }
     }
@@ -298,16 +116,6 @@ static uint64_t sphere_nearest(const lrcs_host_plan *plan, double az, double el)
     return best;
 }
 
-/* The row at a place along both axes. */
-static uint64_t plot_row(const lrcs_host_sweep_chart *plot, uint64_t x, uint64_t y)
-{
-    if (plot->plan->kind == LRCS_HOST_PLAN_SPHERE) {
-        double step = 360.0 / (double)(plot->x.count - 1);
-        return sphere_nearest(plot->plan, (double)x * step - 180.0, (double)y * step - 90.0);
-    }
-    return plot->swapped || plot->y.count == 1 ? y * plot->x.count + x : x * plot->y.count + y;
-}
-
 static double plot_shown(const lrcs_host_sweep_chart *plot, double sigma)
 {
     return plot->dbsm ? 10.0 * log10(sigma) : sigma; /* dBsm of 0 is not finite and not drawn */
@@ -333,7 +141,7 @@ static void time_title(const lrcs_host_sweep_chart *plot, const lrcs_host_sweep_
     const lrcs_host_plan *plan = plot->plan;
     if (plan->kind != LRCS_HOST_PLAN_TRACK || axis->column != plan->axes ||
         strcmp(axis->name, "time") != 0) {
-        axis_words words = words_of(axis->name);
+        lrcsi_axis_words words = lrcsi_axis_words_of(axis->name);
         snprintf(text, 192, words.unit ? "%s (%s)" : "%s", words.text, words.unit);
     } else if (plan->track.epoch[0]) {
         snprintf(text, 192, "time since %s (s)", plan->track.epoch);
@@ -358,17 +166,6 @@ typedef struct plot_drawing {
     char *about; /* what the sweeps were made from, for the file; owned */
 } plot_drawing;
 
-/* The name of a curve: its sweep, its value along y, or both. */
-static void curve_name(const lrcs_host_sweep_chart *plot, double y, char name[400])
-{
-    char value[192] = "";
-    if (plot->y.count > 1) {
-        value_text(plot->y.name, y, value);
-    }
-    snprintf(name, 400, "%.200s%s%s", plot->name ? plot->name : "",
-             plot->name && value[0] ? ", " : "", value);
-}
-
 static int drawing_curves(FILE *out, const plot_drawing *drawing, int png, lrcs_host_error *error)
 {
     static const int colour[LRCS_HOST_SWEEP_CURVES] = {
@@ -383,7 +180,12 @@ static int drawing_curves(FILE *out, const plot_drawing *drawing, int png, lrcs_
         const plot_values *values = &drawing->values[k];
         for (uint32_t i = 0; i < one->y.count; i++, curves++) {
             int marked = one->x.count < PLOT_MARKS;
-            curve_name(one, values->y[i], name[curves]);
+            char value[192] = ""; /* a curve is named by its sweep, its value along y, or both */
+            if (one->y.count > 1) {
+                lrcsi_axis_value_text(one->y.name, values->y[i], value);
+            }
+            snprintf(name[curves], sizeof name[curves], "%.200s%s%s", one->name ? one->name : "",
+                     one->name && value[0] ? ", " : "", value);
             series[curves] = (lrcs_host_series){
                 .name = name[curves][0] ? name[curves] : NULL,
                 .count = (uint32_t)one->x.count,
@@ -400,7 +202,7 @@ static int drawing_curves(FILE *out, const plot_drawing *drawing, int png, lrcs_
                                    .note = drawing->note,
                                    .x_name = drawing->x_name,
                                    .y_name = plot->dbsm ? "sigma (dBsm)" : "sigma (m2)",
-                                   .x_deg = is_angle(&plot->x),
+                                   .x_deg = lrcsi_axis_is_angle(&plot->x),
                                    .y_from_0 =
                                        !plot->dbsm && plot->plan->kind != LRCS_HOST_PLAN_TRACK,
                                    .polar = plot->polar,
@@ -455,8 +257,8 @@ static int drawing_map(FILE *out, const plot_drawing *drawing, int png, lrcs_hos
                          .y = drawing->values->y,
                          .z = drawing->values->z,
                          .deep = plot->dbsm ? PLOT_DEEP : 0.0,
-                         .x_deg = is_angle(&plot->x),
-                         .y_deg = is_angle(&plot->y),
+                         .x_deg = lrcsi_axis_is_angle(&plot->x),
+                         .y_deg = lrcsi_axis_is_angle(&plot->y),
                          .mollweide = plot->mollweide,
                          .about = drawing->about,
                          .cells = plot->plan->kind == LRCS_HOST_PLAN_SPHERE};
@@ -478,10 +280,12 @@ static int values_fill(const lrcs_host_sweep_chart *plot, plot_values *values,
 {
     const lrcs_host_sweep_axis *along[2] = {&plot->x, &plot->y};
     int back[2];
+    int sphere = plot->plan->kind == LRCS_HOST_PLAN_SPHERE;
+    double step = 360.0 / (double)(plot->x.count - 1); /* deg, of a sphere */
     uint64_t cells = plot->x.count * plot->y.count;
     values->x = malloc((3 * cells + plot->x.count + plot->y.count) * sizeof(double));
     if (!values->x) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     values->y = values->x + plot->x.count;
     values->z = values->y + plot->y.count;
@@ -497,12 +301,17 @@ static int values_fill(const lrcs_host_sweep_chart *plot, plot_values *values,
     }
     for (uint64_t y = 0; y < plot->y.count; y++) {
         for (uint64_t x = 0; x < plot->x.count; x++) {
-            uint64_t row = plot_row(plot, back[0] ? plot->x.count - 1 - x : x,
-                                    back[1] ? plot->y.count - 1 - y : y);
+            uint64_t i = back[0] ? plot->x.count - 1 - x : x;
+            uint64_t k = back[1] ? plot->y.count - 1 - y : y;
+            uint64_t row = sphere ? sphere_nearest(plot->plan, (double)i * step - 180.0,
+                                                   (double)k * step - 90.0)
+                           : plot->swapped || plot->y.count == 1 ? k * plot->x.count + i
+                                                                 : i * plot->y.count + k;
             uint64_t at = y * plot->x.count + x;
             values->z[at] = plot_shown(plot, plot->row[row][0]);
-            for (int k = 0; k < 2 && plot->band; k++) {
-                (k == 0 ? values->low : values->high)[at] = plot_shown(plot, plot->band[row][k]);
+            if (plot->band) {
+                values->low[at] = plot_shown(plot, plot->band[row][0]);
+                values->high[at] = plot_shown(plot, plot->band[row][1]);
             }
         }
     }

@@ -22,9 +22,7 @@ void lrcs_host_csv_text(FILE *out, const char *text, const char *special)
 static void numbers_write(FILE *out, const double *value, int count)
 {
     for (int k = 0; k < count; k++) {
-        char text[LRCS_HOST_NUMBER_SIZE];
-        lrcs_host_number_text(value[k], text);
-        fprintf(out, ",%s", text);
+        lrcs_host_number_put(out, ",", value[k]);
     }
     putc('\n', out);
 }

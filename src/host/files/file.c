@@ -179,6 +179,15 @@ int lrcs_host_output_close(lrcs_host_output *output, int keep, lrcs_host_error *
     return status;
 }
 
+int lrcsi_host_output_end(lrcs_host_output *output, int status, lrcs_host_error *error)
+{
+    if (status == LRCS_OK) {
+        return lrcs_host_output_close(output, 1, error);
+    }
+    lrcs_host_output_close(output, 0, NULL);
+    return status;
+}
+
 uint64_t lrcs_host_hash(uint64_t hash, const void *bytes, size_t size)
 {
     const unsigned char *at = bytes;

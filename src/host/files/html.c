@@ -7,23 +7,20 @@
 
 #include <string.h>
 
-/* U+FFFE and U+FFFF, which XML excludes. */
-static int html_is_none(const char *at, size_t count)
-{
-    return count == 3 && memcmp(at, "\xef\xbf", 2) == 0 && (unsigned char)at[2] >= 0xbe;
-}
-
 void lrcs_host_html_text(FILE *out, const char *text)
 {
     while (*text) {
         unsigned char byte = (unsigned char)*text;
         size_t count = lrcsi_text_sequence(text, LRCSI_TEXT_SEQUENCE_MAX);
+        /* U+FFFE and U+FFFF, which XML excludes */
+        int excluded =
+            count == 3 && memcmp(text, "\xef\xbf", 2) == 0 && (unsigned char)text[2] >= 0xbe;
         if (byte == '<' || byte == '>') {
             fputs(byte == '<' ? "&lt;" : "&gt;", out);
         } else if (byte == '&' || byte == '"') {
             fputs(byte == '&' ? "&amp;" : "&quot;", out);
         } else if (count == 0 || (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f ||
-                   html_is_none(text, count)) {
+                   excluded) {
             fputs("\xef\xbf\xbd", out);
         } else {
             fwrite(text, 1, count, out);

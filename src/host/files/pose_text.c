@@ -31,7 +31,7 @@ int lrcs_host_pose_read(const char *way, const char *text, lrcs_pose *pose, lrcs
         kind++;
     }
     if (kind == POSE_WAYS) {
-        return lrcsi_host_fail(error, LRCS_E_NAME, "%s: no such way to give a pose", way);
+        return lrcsi_host_fail(error, LRCS_E_NAME, "%s: not a kind of pose", way);
     }
     if (kind == POSE_EULER) {
         const char *colon = strchr(text, ':');

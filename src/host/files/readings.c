@@ -44,23 +44,21 @@ static int column_refuse(const readings_table *table, int status, uint32_t colum
     return lrcs_host_field_refuse(&table->text, status, column, expected, table->error);
 }
 
-static int field_role(const lrcs_host_field *field)
+/* 1 if the name of a column begins with one of the names of a role. */
+static int field_is_of(const lrcs_host_field *field, int role)
 {
-    for (int role = 0; role < ROLES; role++) {
-        for (int k = 0; k < 5 && role_names[role][k]; k++) {
-            if (lrcs_host_field_begins(field, role_names[role][k])) {
-                return role;
-            }
-        }
+    int found = 0;
+    for (int k = 0; k < 5 && role_names[role][k]; k++) {
+        found |= lrcs_host_field_begins(field, role_names[role][k]);
     }
-    return ROLE_NONE;
+    return found;
 }
 
-static int field_has(const lrcs_host_field *field, const char *part)
+static int field_has(const lrcs_host_field *field, const char *word)
 {
     for (size_t i = 0; i < field->size; i++) {
         lrcs_host_field rest = {field->text + i, field->size - i};
-        if (lrcs_host_field_begins(&rest, part)) {
+        if (lrcs_host_field_begins(&rest, word)) {
             return 1;
         }
     }
@@ -72,7 +70,10 @@ static int header_read(readings_table *table)
 {
     for (uint32_t i = 0; i < table->text.columns; i++) {
         const lrcs_host_field *field = &table->text.field[i];
-        int role = field_role(field);
+        int role = 0;
+        while (role < ROLES && !field_is_of(field, role)) {
+            role++;
+        }
         if (role == ROLE_NONE) {
             lrcsi_host_note(&table->out->notices, "%s: column '%.*s' is not used", table->text.path,
                             field->size < 64 ? (int)field->size : 64, field->text);
@@ -83,7 +84,7 @@ static int header_read(readings_table *table)
                                  role == ROLE_ANGLE
                                      ? "one column of angles (monostatic readings: laser and "
                                        "detector at the same angle)"
-                                     : "one column of a kind");
+                                     : "only one such column");
         }
         if (role == ROLE_ANGLE && field_has(field, "rad")) {
             return column_refuse(table, LRCS_E_NAME, i, "angles in degrees");
@@ -101,19 +102,19 @@ static int header_read(readings_table *table)
     return LRCS_OK;
 }
 
-/* Decides the roles of the columns from the first line. Returns 1 if that line holds names, else
-   0. */
-static int columns_read(readings_table *table)
+/* Decides the roles of the columns from the first line, and whether it holds their names. */
+static int columns_read(readings_table *table, int *named)
 {
     double number;
     for (int role = 0; role < ROLES; role++) {
         table->role[role] = LRCS_NONE;
     }
-    if (lrcs_host_number_read(table->text.field[0].text, table->text.field[0].size, &number) !=
-        LRCS_OK) {
+    *named = lrcs_host_number_read(table->text.field[0].text, table->text.field[0].size, &number) !=
+             LRCS_OK;
+    if (*named) {
         int status = header_read(table);
         lrcs_host_table_names(&table->text);
-        return status == LRCS_OK ? 1 : status;
+        return status;
     }
     if (table->text.columns < 2 || table->text.columns > 3) {
         return lrcsi_host_fail(table->error, LRCS_E_SYNTAX,
@@ -125,7 +126,7 @@ static int columns_read(readings_table *table)
     for (uint32_t i = 0; i < table->text.columns; i++) {
         table->role[i] = i; /* ROLE_ANGLE, ROLE_VALUE, ROLE_SIGMA */
     }
-    return 0;
+    return LRCS_OK;
 }
 
 /* ---- readings ---- */
@@ -147,14 +148,16 @@ static int value_is_missing(const lrcs_host_field *field)
     return 0;
 }
 
-/* Fills a reading from the fields. Returns 1; 0 for a line to leave out; or a failure. */
-static int reading_read(readings_table *table, lrcs_fit_reading *reading)
+/* Fills a reading from the fields. *kept is 0 for a line to leave out: without a value, or with the
+   weight 0. */
+static int reading_read(readings_table *table, lrcs_fit_reading *reading, int *kept)
 {
     double weight = 1.0;
     *reading = (lrcs_fit_reading){0.0, 0.0, 0.0};
-    if (value_is_missing(&table->text.field[table->role[ROLE_VALUE]])) {
+    *kept = !value_is_missing(&table->text.field[table->role[ROLE_VALUE]]);
+    if (!*kept) {
         table->first_left_out = table->left_out++ ? table->first_left_out : table->text.line;
-        return 0;
+        return LRCS_OK;
     }
     int status = role_read(table, ROLE_ANGLE, "an angle in degrees", &reading->angle_deg);
     if (status == LRCS_OK && !(fabs(reading->angle_deg) < 90.0)) {
@@ -178,7 +181,8 @@ static int reading_read(readings_table *table, lrcs_fit_reading *reading)
         }
         reading->sigma = weight > 0.0 ? 1.0 / sqrt(weight) : 0.0;
     }
-    return status != LRCS_OK ? status : weight > 0.0;
+    *kept = weight > 0.0;
+    return status;
 }
 
 /* The index of a material's name, entered if it is new; LRCS_NONE without memory. */
@@ -202,37 +206,28 @@ static uint32_t name_index(lrcs_host_readings *out, const char *text, size_t siz
     return out->name_count++;
 }
 
-static int readings_grow(readings_table *table)
-{
-    lrcs_host_readings *out = table->out;
-    if (out->count < table->room) {
-        return LRCS_OK;
-    }
-    if (table->room >= UINT32_MAX / 2) {
-        return lrcsi_host_fail(table->error, LRCS_E_LIMIT, "%s: too many readings",
-                               table->text.path);
-    }
-    table->room = table->room ? 2 * table->room : 256;
-    size_t bytes = table->room * sizeof *out->reading;
-    lrcs_host_reading *grown = realloc(out->reading, bytes);
-    if (!grown) {
-        return lrcsi_host_fail_memory(table->error, bytes);
-    }
-    out->reading = grown;
-    return LRCS_OK;
-}
-
+/* Adds the reading of a line, unless it is left out. */
 static int reading_add(readings_table *table)
 {
     lrcs_host_reading reading = {.line = (uint32_t)table->text.line};
     lrcs_host_readings *out = table->out;
-    int status = reading_read(table, &reading.fit);
-    if (status <= 0) {
+    int kept;
+    int status = reading_read(table, &reading.fit, &kept);
+    if (status != LRCS_OK || !kept) {
         return status;
     }
-    status = readings_grow(table);
-    if (status != LRCS_OK) {
-        return status;
+    if (out->count == table->room) {
+        if (table->room >= UINT32_MAX / 2) {
+            return lrcsi_host_fail(table->error, LRCS_E_LIMIT, "%s: too many readings",
+                                   table->text.path);
+        }
+        table->room = table->room ? 2 * table->room : 256;
+        size_t bytes = table->room * sizeof *out->reading;
+        lrcs_host_reading *grown = realloc(out->reading, bytes);
+        if (!grown) {
+            return lrcsi_host_fail_memory(table->error, bytes);
+        }
+        out->reading = grown;
     }
     uint32_t column = table->role[ROLE_MATERIAL];
     lrcs_host_field name =
@@ -247,19 +242,21 @@ static int reading_add(readings_table *table)
 
 static int table_read(readings_table *table)
 {
-    int status = lrcs_host_table_read(&table->text, table->error);
-    if (status == 1) {
-        status = columns_read(table);
-        status = status == 0 ? reading_add(table) : status;
+    int more = lrcs_host_table_read(&table->text, table->error);
+    for (int first = 1; more == 1; first = 0) {
+        int named = 0;
+        int status = first ? columns_read(table, &named) : LRCS_OK;
+        status = status == LRCS_OK && !named ? reading_add(table) : status;
+        if (status != LRCS_OK) {
+            return status;
+        }
+        more = lrcs_host_table_read(&table->text, table->error);
     }
-    while (status >= 0 && (status = lrcs_host_table_read(&table->text, table->error)) == 1) {
-        status = reading_add(table);
-    }
-    if (status != LRCS_OK) {
-        return status;
+    if (more < 0) {
+        return more;
     }
     if (table->out->count == 0) {
-        return lrcsi_host_fail(table->error, LRCS_E_EMPTY, "%s: no readings in it",
+        return lrcsi_host_fail(table->error, LRCS_E_EMPTY, "%s: contains no readings",
                                table->text.path);
     }
     if (table->left_out > 0) {

@@ -273,7 +273,7 @@ int lrcs_host_track_read(const char *path, lrcs_host_track *track, lrcs_host_err
     reader.table = lrcs_host_table_make(path, &file);
     int more = 0;
     if (!track->row || !track->joint) {
-        status = lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        status = lrcsi_host_out_of_memory(error);
     } else {
         more = lrcs_host_table_read(&reader.table, error);
     }

@@ -139,9 +139,7 @@ static void xml_array(FILE *out, const lrcs_host_picture *picture, const vtk_arr
             array->whole ? "Int64" : "Float64", array->name, (unsigned long)array->each,
             array->kind == VTK_DIRECTION ? " NumberOfTuples=\"1\"" : "");
     for (size_t i = 0; i < array->count * array->each; i++) {
-        char text[LRCS_HOST_NUMBER_SIZE];
-        lrcs_host_number_text(vtk_number(picture, array, i), text);
-        fputs(text, out);
+        lrcs_host_number_put(out, "", vtk_number(picture, array, i));
         putc(i % 3 == 2 ? '\n' : ' ', out);
     }
     fputs("</DataArray>\n", out);

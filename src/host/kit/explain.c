@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constant.h"
 #include "base/sort.h"
 #include "host/fail.h"
 
@@ -21,7 +20,6 @@
 #define PRECISE        0.6  /* fraction of the cases changed by a mistake that it must explain */
 #define PASSING_SAMPLE 64u  /* number of passing cases that a mistake must not change */
 #define ENOUGH         3u   /* number of cases that suffice for a finding */
-#define FACTOR_NEAR    0.02 /* a ratio this near to a known number is taken for that number */
 #define TIED           2e-3 /* scores that differ by less are equally good */
 #define TIES_MOST      3u   /* number of named mistakes that explain equally well */
 #define CLIPPED        0.9  /* fraction of the remaining cases that lose something at the window */
@@ -31,55 +29,6 @@
 #define PENALTY        0.05 /* the gain by which a factor or a second mistake is justified */
 #define CERTAIN        0.94 /* a score above which the search for a better one stops */
 #define PAIRS_BELOW    0.9  /* if one mistake explains less than this, pairs are tried */
-
-/* ---- constant factors ---- */
-
-typedef struct factor_entry {
-    double value;
-    const char *name, *text;
-} factor_entry;
-
-static const factor_entry factors[] = {
-    {0.25 / LRCS_PI, "missing-4-pi", "4 pi is missing"},
-    {LRCS_FOUR_PI, "twice-4-pi", "4 pi counts twice"},
-    {0.25, "missing-4", "4 is missing of 4 pi"},
-    {1.0 / LRCS_PI, "missing-pi", "pi is missing of 4 pi, or f_r is divided by pi once more"},
-    {LRCS_PI, "twice-pi", "pi counts twice, or a reflectance in place of f_r"},
-    {0.5, "half", "2 pi in place of 4 pi, or half the area"},
-    {2.0, "twice", "something counts twice: both triangles, both sides?"},
-    {4.0, "four-times", "the side of a pixel or of the window is taken twice as long"},
-    {1e4, "centimetres", "cm2 in place of m2"},
-    {1e6, "millimetres", "mm2 in place of m2"},
-    {1e-4, "from-centimetres", "metres taken for centimetres"},
-    {1e-6, "from-millimetres", "metres taken for millimetres"}};
-
-static const factor_entry *factor_find(double factor)
-{
-    for (size_t i = 0; i < sizeof factors / sizeof factors[0]; i++) {
-        if (fabs(factor / factors[i].value - 1.0) <= FACTOR_NEAR) {
-            return &factors[i];
-        }
-    }
-    return NULL;
-}
-
-const char *lrcsi_factor_name(double factor)
-{
-    const factor_entry *entry = factor_find(factor);
-    return entry ? entry->name : "pixel-area";
-}
-
-const char *lrcsi_factor_text(const lrcs_host_judgement *job, double factor)
-{
-    const factor_entry *entry = factor_find(factor);
-    double n = job->pixels;
-    double off_by_one = (n / (n - 1.0)) * (n / (n - 1.0));
-    int fences =
-        fabs(factor / off_by_one - 1.0) < 0.2 / n || fabs(factor * off_by_one - 1.0) < 0.2 / n;
-    return entry    ? entry->text
-           : fences ? "pixel area: N - 1 in place of N pixels a side, or the reverse"
-                    : "pixel area, the side of the window, or a unit?";
-}
 
 /* ---- how well a mistake explains ---- */
 
@@ -98,7 +47,7 @@ static void list_shuffle(lrcs_host_kit_case **list, uint32_t count)
 
 /* Divides the cases asked for into those that fail without explanation so far, and a sample of
    those that pass. */
-static void search_part(lrcsi_search *search)
+static void cases_divide(lrcsi_search *search)
 {
     lrcs_host_judgement *job = search->job;
     search->failing_count = search->passing_count = 0;
@@ -123,7 +72,7 @@ static void search_part(lrcsi_search *search)
     search->passing_count = witnesses;
 }
 
-double lrcsi_search_median(double *value, uint32_t count)
+double lrcsi_search_upper_median(double *value, uint32_t count)
 {
     lrcsi_sort_ascending(value, count);
     return count > 0 ? value[count / 2] : 0.0;
@@ -160,8 +109,8 @@ typedef struct search_score {
     uint32_t explained;
 } search_score;
 
-/* How well a mistake's answers, times a factor, explain the submitted ones. */
-static search_score mistake_score(const lrcsi_search *search, double factor)
+/* How well the answers of a mistake, times a factor, explain the submitted ones. */
+static search_score mistake_score(const lrcsi_search *search, const double *answer, double factor)
 {
     search_score score = {.factor = factor};
     double changed = 0.0;
@@ -169,7 +118,7 @@ static search_score mistake_score(const lrcsi_search *search, double factor)
     uint32_t uninformative = 0;
     for (uint32_t i = 0; i < search->failing_count; i++) {
         const lrcs_host_kit_case *one = search->failing[i];
-        double expected = factor * search->answer[i];
+        double expected = factor * answer[i];
         double left = fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
         int right = lrcsi_search_explained(search, one, expected);
         score.explained += (uint32_t)right;
@@ -181,7 +130,7 @@ static search_score mistake_score(const lrcsi_search *search, double factor)
         removed += right ? 1.0 - 0.5 * fmin(left, 1.0) : 0.0;
     }
     for (uint32_t i = 0; i < search->passing_count; i++) {
-        double expected = factor * search->answer[search->failing_count + i];
+        double expected = factor * answer[search->failing_count + i];
         changed += case_touched(search, search->passing[i], expected) ? search->weight : 0.0;
     }
     uint32_t conclusive = score.explained - uninformative;
@@ -193,62 +142,47 @@ static search_score mistake_score(const lrcsi_search *search, double factor)
     return score;
 }
 
-/* The median ratio of submitted answers to those of the mistake, over the first failing cases; if
-   it is near a known number, that number. */
-static double factor_median(const lrcsi_search *search, uint32_t failing_count, int *known)
+/* The median ratio of submitted answers to those of a mistake, over the first failing cases; if it
+   is near a known factor, that factor. */
+static double factor_median(const lrcsi_search *search, const double *answer,
+                            uint32_t failing_count)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < failing_count; i++) {
-        if (search->answer[i] > 0.0 && search->failing[i]->theirs_m2 > 0.0) {
-            search->room[count++] = search->failing[i]->theirs_m2 / search->answer[i];
+        if (answer[i] > 0.0 && search->failing[i]->theirs_m2 > 0.0) {
+            search->room[count++] = search->failing[i]->theirs_m2 / answer[i];
         }
     }
-    double median = lrcsi_search_median(search->room, count);
-    const factor_entry *entry = factor_find(median);
-    *known = entry != NULL;
-    return entry ? entry->value : median;
+    double median = lrcsi_search_upper_median(search->room, count);
+    const lrcsi_factor *known = lrcsi_factor_find(median);
+    return known ? known->value : median;
 }
 
 /* ---- the answers of a mistake ---- */
 
-static uint32_t explained_count(const lrcsi_search *search, uint32_t failing_count, double factor)
+static uint32_t explained_count(const lrcsi_search *search, const double *answer,
+                                uint32_t failing_count, double factor)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < failing_count; i++) {
-        count += (uint32_t)lrcsi_search_explained(search, search->failing[i],
-                                                  factor * search->answer[i]);
+        count += (uint32_t)lrcsi_search_explained(search, search->failing[i], factor * answer[i]);
     }
     return count;
 }
 
-/* Computes the answer of a mistake to one of the failing cases or, counted after them, of the
-   passing ones. */
-static int answer_make(const lrcsi_search *search, const lrcsi_mistake *mistake, uint32_t i)
+/* Computes the answers of a mistake to the cases from `first` up to `end`: the failing ones are
+   counted first, then the passing ones. Status: as lrcs_host_judge. */
+static int answers_make(const lrcsi_search *search, const lrcsi_mistake *mistake, uint32_t first,
+                        uint32_t end, double *answer)
 {
-    uint32_t failing_count = search->failing_count;
-    lrcs_host_kit_case *one =
-        i < failing_count ? search->failing[i] : search->passing[i - failing_count];
-    return lrcsi_mistake_answer(&search->job->kit, one, mistake, &search->answer[i], search->error);
-}
-
-/* Computes all answers of a mistake, or gives up after a few if they explain hardly anything: 1, or
-   0 if it gave up. */
-static int answers_make(const lrcsi_search *search, const lrcsi_mistake *mistake, int give_up)
-{
-    uint32_t probe = search->failing_count < TRIAL_CASES ? search->failing_count : TRIAL_CASES;
-    for (uint32_t i = 0; i < search->failing_count + search->passing_count; i++) {
-        int status = answer_make(search, mistake, i);
-        if (status != LRCS_OK) {
-            return status;
-        }
-        int known;
-        double least = fmax(1.0, MIN_EXPLAINED * probe);
-        if (give_up && i + 1 == probe && explained_count(search, probe, 1.0) < least &&
-            explained_count(search, probe, factor_median(search, probe, &known)) < least) {
-            return 0;
-        }
+    int status = LRCS_OK;
+    for (uint32_t i = first; i < end && status == LRCS_OK; i++) {
+        lrcs_host_kit_case *one = i < search->failing_count
+                                      ? search->failing[i]
+                                      : search->passing[i - search->failing_count];
+        status = lrcsi_mistake_answer(&search->job->kit, one, mistake, &answer[i], search->error);
     }
-    return 1;
+    return status;
 }
 
 /* ---- a finding in words ---- */
@@ -265,7 +199,7 @@ __attribute__((format(printf, 2, 3))) static void finding_append(lrcs_host_findi
 }
 
 /* The next finding, empty; NULL if there is no room for one. */
-static lrcs_host_finding *finding_add(lrcs_host_judgement *job, const char *name)
+static lrcs_host_finding *finding_new(lrcs_host_judgement *job, const char *name)
 {
     if (job->findings == LRCS_HOST_FINDINGS) {
         return NULL;
@@ -275,7 +209,7 @@ static lrcs_host_finding *finding_add(lrcs_host_judgement *job, const char *name
     return finding;
 }
 
-uint32_t lrcsi_search_holds(const lrcsi_search *search)
+uint32_t lrcsi_search_explained_cases(const lrcsi_search *search)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < search->failing_count; i++) {
@@ -284,11 +218,11 @@ uint32_t lrcsi_search_holds(const lrcsi_search *search)
     return count;
 }
 
-lrcs_host_finding *lrcsi_search_find(lrcsi_search *search, const char *name, const char *format,
-                                     ...)
+lrcs_host_finding *lrcsi_search_finding_add(lrcsi_search *search, const char *name,
+                                            const char *format, ...)
 {
     va_list list;
-    lrcs_host_finding *finding = finding_add(search->job, name);
+    lrcs_host_finding *finding = finding_new(search->job, name);
     if (!finding) {
         return NULL;
     }
@@ -300,8 +234,8 @@ lrcs_host_finding *lrcsi_search_find(lrcsi_search *search, const char *name, con
             search->failing[i]->explained = (int)search->job->findings;
         }
     }
-    finding->explained = lrcsi_search_holds(search);
-    search_part(search);
+    finding->explained = lrcsi_search_explained_cases(search);
+    cases_divide(search);
     return finding;
 }
 
@@ -311,65 +245,27 @@ static lrcsi_mistake mistake_both(const lrcsi_mistake *first, const lrcsi_mistak
     lrcsi_mistake both = *first;
     if (second) {
         both.shade = second->shade;
-        both.at = second->at;
+        both.parameter = second->parameter;
     }
     return both;
 }
 
-/* The median share of the differences that remains in the cases that it explains; also marks these
-   cases. */
-static double finding_rest(const lrcsi_search *search, const search_score *best, int mark)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < search->failing_count; i++) {
-        lrcs_host_kit_case *one = search->failing[i];
-        double expected = best->factor * search->answer[i];
-        if (lrcsi_search_explained(search, one, expected)) {
-            search->room[count++] =
-                fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
-            one->explained = mark;
-        }
-    }
-    return lrcsi_search_median(search->room, count);
-}
-
-static void finding_say(const lrcs_host_judgement *job, const search_score *best,
-                        lrcs_host_finding *finding)
-{
-    finding->factor = best->factor;
-    if (best->first == lrcsi_mistakes) {
-        finding->name = lrcsi_factor_name(best->factor);
-        finding_append(finding, "%.6g times the truth everywhere: %s", best->factor,
-                       lrcsi_factor_text(job, best->factor));
-        return;
-    }
-    finding_append(finding, "%s", best->first->text);
-    if (best->second) {
-        finding_append(finding, "; and %s", best->second->text);
-    }
-    if (best->factor != 1.0) {
-        finding_append(finding, "; and %.6g times that: %s", best->factor,
-                       lrcsi_factor_text(job, best->factor));
-    }
-}
-
-/* Computes the answers of a mistake as long as it explains exactly the failing cases of a finding:
-   1 if it explains these and no others, 0 if not. */
+/* Decides whether a mistake explains exactly those failing cases that a finding does (`mark`).
+   Computes its answers only as long as it does. Status: as lrcs_host_judge. */
 static int mistake_fits(const lrcsi_search *search, const lrcsi_mistake *mistake, double factor,
-                        int mark)
+                        int mark, double *answer, int *fits)
 {
-    for (uint32_t i = 0; i < search->failing_count + search->passing_count; i++) {
-        int status = answer_make(search, mistake, i);
-        if (status != LRCS_OK) {
-            return status;
-        }
-        if (i < search->failing_count &&
-            lrcsi_search_explained(search, search->failing[i], factor * search->answer[i]) !=
-                (search->failing[i]->explained == mark)) {
-            return 0;
-        }
+    int status = LRCS_OK;
+    *fits = 1;
+    for (uint32_t i = 0; *fits && i < search->failing_count && status == LRCS_OK; i++) {
+        status = answers_make(search, mistake, i, i + 1, answer);
+        *fits = status == LRCS_OK &&
+                lrcsi_search_explained(search, search->failing[i], factor * answer[i]) ==
+                    (search->failing[i]->explained == mark);
     }
-    return 1;
+    return *fits ? answers_make(search, mistake, search->failing_count,
+                                search->failing_count + search->passing_count, answer)
+                 : status;
 }
 
 /* Names the other mistakes that explain the same cases equally well. */
@@ -378,23 +274,26 @@ static int ties_say(const lrcsi_search *search, const search_score *best,
 {
     uint32_t ties = 0;
     if (best->first == lrcsi_mistakes) {
-        return 0;
+        return LRCS_OK;
     }
     for (const lrcsi_mistake *a = lrcsi_mistakes + 1; a->name && ties < TIES_MOST; a++) {
         lrcsi_mistake both = mistake_both(a, best->second);
         int fits = 0;
         if (a != best->first && a != best->second) {
-            fits = mistake_fits(search, &both, best->factor, (int)search->job->findings);
+            int status = mistake_fits(search, &both, best->factor, (int)search->job->findings,
+                                      search->other_answer, &fits);
+            if (status != LRCS_OK) {
+                return status;
+            }
         }
-        if (fits < 0) {
-            return fits;
-        }
-        double score = fits ? mistake_score(search, best->factor).score - best->penalty : 0.0;
+        double score =
+            fits ? mistake_score(search, search->other_answer, best->factor).score - best->penalty
+                 : 0.0;
         if (fits && fabs(score - best->score) <= TIED) {
             finding_append(finding, "%s%s", ties++ > 0 ? "; " : "; or, equally well: ", a->text);
         }
     }
-    return 0;
+    return LRCS_OK;
 }
 
 /* If the frame is wrong, the kit's square no longer contains the scene: most of the remaining cases
@@ -424,27 +323,50 @@ static void clipped_say(const lrcsi_search *search, const search_score *best,
                    (unsigned long)less);
 }
 
-/* Makes the best explanation a finding and marks its cases. */
+/* Makes the best explanation a finding and marks its cases. Status: as lrcs_host_judge. */
 static int finding_make(lrcsi_search *search, const search_score *best)
 {
-    lrcsi_mistake both = mistake_both(best->first, best->second);
-    int made = answers_make(search, &both, 0);
-    if (made < 0) {
-        return made;
-    }
-    lrcs_host_finding *finding = finding_add(search->job, best->first->name);
+    const lrcs_host_judgement *job = search->job;
+    const lrcsi_mistake both = mistake_both(best->first, best->second);
+    /* 1. What the mistake answers. */
+    int status = answers_make(search, &both, 0, search->failing_count + search->passing_count,
+                              search->answer);
+    lrcs_host_finding *finding =
+        status == LRCS_OK ? finding_new(search->job, best->first->name) : NULL;
     if (!finding) {
-        return 0;
+        return status;
     }
     finding->explained = best->explained;
-    finding_say(search->job, best, finding);
-    finding->rest = finding_rest(search, best, (int)search->job->findings);
-    int status = ties_say(search, best, finding);
-    if (status == LRCS_OK && best->first->turn) {
-        made = answers_make(search, &both, 0);
-        if (made < 0) {
-            return made;
+    finding->factor = best->factor;
+    /* 2. The sentence: the mistakes and the factor, or the factor alone. */
+    const char *factor_text = lrcsi_factor_text(best->factor, job->pixels);
+    if (best->first == lrcsi_mistakes) {
+        finding->name = lrcsi_factor_name(best->factor);
+        finding_append(finding, "%.6g times the truth everywhere: %s", best->factor, factor_text);
+    } else {
+        finding_append(finding, "%s", best->first->text);
+        if (best->second) {
+            finding_append(finding, "; and %s", best->second->text);
         }
+        if (best->factor != 1.0) {
+            finding_append(finding, "; and %.6g times that: %s", best->factor, factor_text);
+        }
+    }
+    /* 3. The cases that it explains, and the median share of their differences that remains. */
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < search->failing_count; i++) {
+        lrcs_host_kit_case *one = search->failing[i];
+        double expected = best->factor * search->answer[i];
+        if (lrcsi_search_explained(search, one, expected)) {
+            search->room[count++] =
+                fabs(one->theirs_m2 - expected) / fabs(one->theirs_m2 - one->sigma_m2);
+            one->explained = (int)job->findings;
+        }
+    }
+    finding->rest = lrcsi_search_upper_median(search->room, count);
+    /* 4. Mistakes that explain them equally well; what a wrong pose moves out of the window. */
+    status = ties_say(search, best, finding);
+    if (status == LRCS_OK && best->first->pose) {
         clipped_say(search, best, finding);
     }
     return status;
@@ -452,21 +374,31 @@ static int finding_make(lrcsi_search *search, const search_score *best)
 
 /* ---- the best explanation ---- */
 
-/* Keeps the mistake if it explains more than the best one so far. */
+/* Keeps the mistake if it explains more than the best one so far. Gives up after a few cases if it
+   explains hardly any of them. Status: as lrcs_host_judge. */
 static int mistake_try(const lrcsi_search *search, const lrcsi_mistake *first,
                        const lrcsi_mistake *second, search_score *best)
 {
-    lrcsi_mistake both = mistake_both(first, second);
-    int worth = answers_make(search, &both, 1);
-    int known;
-    if (worth <= 0) {
-        return worth;
+    const lrcsi_mistake both = mistake_both(first, second);
+    double *answer = search->answer;
+    uint32_t trial = search->failing_count < TRIAL_CASES ? search->failing_count : TRIAL_CASES;
+    double least = fmax(1.0, MIN_EXPLAINED * trial);
+    int status = answers_make(search, &both, 0, trial, answer);
+    if (status != LRCS_OK ||
+        (explained_count(search, answer, trial, 1.0) < least &&
+         explained_count(search, answer, trial, factor_median(search, answer, trial)) < least)) {
+        return status;
     }
-    double factor = factor_median(search, search->failing_count, &known);
-    search_score try[2] = {mistake_score(search, 1.0), {.score = 0.0}};
+    status =
+        answers_make(search, &both, trial, search->failing_count + search->passing_count, answer);
+    if (status != LRCS_OK) {
+        return status;
+    }
+    double factor = factor_median(search, answer, search->failing_count);
+    search_score try[2] = {mistake_score(search, answer, 1.0), {.score = 0.0}};
     if (factor > 0.0) {
-        try[1] = mistake_score(search, factor);
-        try[1].penalty = known ? PENALTY : 2.0 * PENALTY;
+        try[1] = mistake_score(search, answer, factor);
+        try[1].penalty = lrcsi_factor_find(factor) ? PENALTY : 2.0 * PENALTY;
     }
     for (int i = 0; i < 2; i++) {
         try[i].penalty += second ? PENALTY : 0.0;
@@ -477,27 +409,29 @@ static int mistake_try(const lrcsi_search *search, const lrcsi_mistake *first,
             best->second = second;
         }
     }
-    return 0;
+    return LRCS_OK;
 }
 
-/* Finds the best explanation of the remaining failures and makes it a finding; 1 if there is one, 0
-   if not.
+/* Finds the best explanation of the remaining failures and makes it a finding; *found is 0 if there
+   is none.
    1. Single mistakes, until one is certain.
    2. If the best of them explains too little: pairs of a mistake in the areas and one in the
-      shading. Mistakes that need a run of their own for each case are left out. */
-static int finding_next(lrcsi_search *search)
+      shading. Mistakes that need a run of their own for each case are left out.
+   Status: as lrcs_host_judge. */
+static int finding_next(lrcsi_search *search, int *found)
 {
     lrcs_host_judgement *job = search->job;
     const lrcsi_mistake *list = lrcsi_mistakes;
     search_score best = {.first = list};
     int status = LRCS_OK;
+    *found = 0;
     for (const lrcsi_mistake *a = list; a->name && best.score < CERTAIN && status == LRCS_OK; a++) {
         status = mistake_try(search, a, NULL, &best);
     }
     int pairs = status == LRCS_OK && best.score < PAIRS_BELOW;
     for (const lrcsi_mistake *a = list + 1; pairs && a->name && status == LRCS_OK; a++) {
         for (const lrcsi_mistake *b = list + 1; b->name && status == LRCS_OK; b++) {
-            status = a->area && !a->turn && b->shade ? mistake_try(search, a, b, &best) : LRCS_OK;
+            status = a->area && !a->pose && b->shade ? mistake_try(search, a, b, &best) : LRCS_OK;
         }
     }
     if (status != LRCS_OK) {
@@ -506,10 +440,10 @@ static int finding_next(lrcsi_search *search)
     /* if only a few cases remain, some are explained by chance */
     int chance = job->findings > 0 && best.explained < LATER * job->failed;
     if (chance || best.score <= 0.0 || job->findings == LRCS_HOST_FINDINGS) {
-        return 0;
+        return LRCS_OK;
     }
-    status = finding_make(search, &best);
-    return status == LRCS_OK ? 1 : status;
+    *found = 1;
+    return finding_make(search, &best);
 }
 
 /* ---- the search ---- */
@@ -519,14 +453,15 @@ static int finding_next(lrcsi_search *search)
 static int findings_make(lrcsi_search *search)
 {
     lrcs_host_judgement *job = search->job;
-    int more = 1;
-    search_part(search);
+    int status = LRCS_OK;
+    int found = 1;
+    cases_divide(search);
     lrcsi_symptoms_format(search);
-    while (more > 0 && search->failing_count > 0) {
-        more = finding_next(search);
-        search_part(search);
+    while (found && status == LRCS_OK && search->failing_count > 0) {
+        status = finding_next(search, &found);
+        cases_divide(search);
     }
-    int status = more < 0 ? more : lrcsi_symptoms_rest(search);
+    status = status == LRCS_OK ? lrcsi_symptoms_rest(search) : status;
     if (status != LRCS_OK) {
         return status;
     }
@@ -546,14 +481,17 @@ int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *err
     search.failing = malloc(count * sizeof(lrcs_host_kit_case *));
     search.passing = malloc(count * sizeof(lrcs_host_kit_case *));
     search.answer = calloc(count, sizeof(double));
+    search.other_answer = calloc(count, sizeof(double));
     search.room = calloc(count, sizeof(double));
     search.explains = calloc(count, 1);
-    int status = search.failing && search.passing && search.answer && search.room && search.explains
+    int status = search.failing && search.passing && search.answer && search.other_answer &&
+                         search.room && search.explains
                      ? findings_make(&search)
-                     : lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+                     : lrcsi_host_out_of_memory(error);
     free(search.failing);
     free(search.passing);
     free(search.answer);
+    free(search.other_answer);
     free(search.room);
     free(search.explains);
     return status;

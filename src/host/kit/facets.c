@@ -40,7 +40,7 @@ static int facet_line(facets_read *facets, const lrcsi_kit_table *table)
     double **visible = &facets->visible[one - facets->job->kit.list];
     *visible = *visible ? *visible : calloc((size_t)count + 1, sizeof **visible);
     if (!*visible) {
-        return lrcsi_host_fail(table->error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(table->error);
     }
     status = lrcsi_kit_table_number(table, FACET_INDEX, &index);
     status = status == LRCS_OK ? lrcsi_kit_table_number(table, FACET_AREA, &area) : status;
@@ -136,7 +136,7 @@ int lrcs_host_judge_facets(lrcs_host_judgement *judgement, const char *path, lrc
     lrcsi_kit_table table;
     facets.visible = calloc((size_t)kit->cases + 1, sizeof *facets.visible);
     if (!facets.visible) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     int status = lrcsi_kit_table_open(path, name, FACET_COLUMNS, FACET_COSINE, &table, error);
     while (lrcsi_kit_table_next(&table, &status)) {

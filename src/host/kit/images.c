@@ -54,7 +54,7 @@ static int png_make(FILE *out, const images_case *file, uint32_t channels, lrcs_
     double range = file->nearest - file->farthest;
     unsigned char *pixels = malloc(count * channels);
     if (!pixels) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     for (size_t i = 0; i < count; i++) {
         uint32_t id = file->image->facet[i] + 1u;
@@ -132,7 +132,7 @@ int lrcsi_vectors_images_write(const lrcsi_vectors_job *job, const lrcsi_vectors
     }
     context.depth = malloc((size_t)image->size * image->size * sizeof *context.depth);
     if (!context.depth) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     depth_fill(&context);
     status = lrcsi_vectors_write(prefix, file, 4, &context, error);

@@ -76,7 +76,7 @@ static int facets_lost(const lrcs_scene *scene, const items_image *truth, const 
 {
     uint32_t *lost = calloc((size_t)scene->facet_count + 1, sizeof *lost);
     if (!lost) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     for (uint32_t i = 0; i < truth->side * truth->side; i++) {
         uint32_t a = item_at(truth, i / truth->side, i % truth->side);
@@ -96,14 +96,15 @@ static int facets_lost(const lrcs_scene *scene, const items_image *truth, const 
     return LRCS_OK;
 }
 
-/* Reads an image: 1 if it exists, 0 if not. */
-static int item_image_read(const char *path, uint32_t side, items_image *image,
+/* Reads an image if its file exists (*found). Status: as lrcs_host_judge. */
+static int item_image_read(const char *path, uint32_t side, items_image *image, int *found,
                            lrcs_host_error *error)
 {
     size_t size = 4 * (size_t)side * side;
     *image = (items_image){.side = side};
-    if (access(path, F_OK) != 0) {
-        return 0;
+    *found = access(path, F_OK) == 0;
+    if (!*found) {
+        return LRCS_OK;
     }
     int status = lrcs_host_file_read(path, &image->file, error);
     if (status != LRCS_OK) {
@@ -115,9 +116,8 @@ static int item_image_read(const char *path, uint32_t side, items_image *image,
                                  "%s: expected %lu x %lu pixels of 4 bytes, found %zu bytes", path,
                                  (unsigned long)side, (unsigned long)side, image->file.size);
         lrcs_host_file_free(&image->file);
-        return status;
     }
-    return 1;
+    return status;
 }
 
 static int image_judge(lrcs_host_judgement *job, const lrcs_host_kit_case *one,
@@ -145,36 +145,34 @@ static int image_judge(lrcs_host_judgement *job, const lrcs_host_kit_case *one,
     return facets_lost(&job->kit.scene[one->scene].host.scene, truth, theirs, image, error);
 }
 
-/* 1 if there is an image of a case, 0 if not. */
-static int item_case_judge(lrcs_host_judgement *job, const char *theirs,
-                           const lrcs_host_kit_case *one, lrcs_host_error *error)
+/* Judges the image of a case if there is one (*found). Status: as lrcs_host_judge. */
+static int item_case_judge(lrcs_host_judgement *job, const char *folder,
+                           const lrcs_host_kit_case *one, int *found, lrcs_host_error *error)
 {
-    char path[2][LRCSI_KIT_PATH];
-    const char *const folder[2] = {job->kit.folder, theirs};
-    const char *const inside[2] = {"truth/", ""};
+    char path[LRCSI_KIT_PATH];
     const char *name = job->kit.scene[one->scene].name;
-    items_image image[2];
-    for (int i = 0; i < 2; i++) {
-        int status = lrcsi_kit_path(path[i], error, "%s/%s%s.%s.item.u32", folder[i], inside[i],
-                                    name, one->attitude);
-        if (status != LRCS_OK) {
-            return status;
-        }
+    items_image truth = {.side = 0};
+    items_image theirs = {.side = 0};
+    int expected = 0;
+    *found = 0;
+    int status = lrcsi_kit_path(path, error, "%s/%s.%s.item.u32", folder, name, one->attitude);
+    status = status == LRCS_OK ? item_image_read(path, one->image, &theirs, found, error) : status;
+    if (status != LRCS_OK || !*found) {
+        return status;
     }
-    int found = item_image_read(path[1], one->image, &image[1], error);
-    if (found <= 0) {
-        return found;
+    status = lrcsi_kit_path(path, error, "%s/truth/%s.%s.item.u32", job->kit.folder, name,
+                            one->attitude);
+    status =
+        status == LRCS_OK ? item_image_read(path, one->image, &truth, &expected, error) : status;
+    if (status == LRCS_OK && !expected) {
+        status = lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: no such file", path);
     }
-    int status = item_image_read(path[0], one->image, &image[0], error);
-    if (status == 0) {
-        lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: not there", path[0]);
-        status = LRCS_E_SYSTEM;
-    }
-    status = status > 0 ? lrcsi_kit_scene(&job->kit, &job->kit.scene[one->scene], error) : status;
-    status = status == LRCS_OK ? image_judge(job, one, &image[0], &image[1], error) : status;
-    lrcs_host_file_free(&image[0].file);
-    lrcs_host_file_free(&image[1].file);
-    return status == LRCS_OK ? 1 : status;
+    status =
+        status == LRCS_OK ? lrcsi_kit_scene(&job->kit, &job->kit.scene[one->scene], error) : status;
+    status = status == LRCS_OK ? image_judge(job, one, &truth, &theirs, error) : status;
+    lrcs_host_file_free(&truth.file);
+    lrcs_host_file_free(&theirs.file);
+    return status;
 }
 
 int lrcs_host_judge_items(lrcs_host_judgement *judgement, const char *folder,
@@ -189,11 +187,12 @@ int lrcs_host_judge_items(lrcs_host_judgement *judgement, const char *folder,
     for (uint32_t i = 0; i < judgement->kit.cases; i++) {
         const lrcs_host_kit_case *one = &judgement->kit.list[i];
         if (one->image > 0 && lrcs_host_judge_asked(judgement, one)) {
-            int judged = item_case_judge(judgement, folder, one, error);
-            if (judged < 0) {
-                return judged;
+            int found;
+            int status = item_case_judge(judgement, folder, one, &found, error);
+            if (status != LRCS_OK) {
+                return status;
             }
-            judgement->by_item.handed += (uint32_t)judged;
+            judgement->by_item.handed += (uint32_t)found;
             judgement->by_item.images++;
         }
     }

@@ -141,8 +141,7 @@ static int kit_table_read(const char *folder, int materials, lrcs_host_kit *kit,
         kit->scene = calloc(room, sizeof *kit->scene);
     }
     int full = materials ? kit->binding && kit->material : kit->list && kit->scene;
-    status = status == LRCS_OK && !full ? lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory")
-                                        : status;
+    status = status == LRCS_OK && !full ? lrcsi_host_out_of_memory(error) : status;
     while (lrcsi_kit_table_next(&table, &status)) {
         status = materials ? kit_material_read(&table, kit) : kit_case_read(&table, kit);
     }
@@ -161,7 +160,7 @@ int lrcs_host_kit_read(const char *folder, lrcs_host_kit *kit, lrcs_host_error *
     }
     if (access(path, F_OK) != 0) {
         return lrcsi_host_fail(error, LRCS_E_SYSTEM,
-                               "%s: not a kit's folder (lrcs vectors DIR makes one)", folder);
+                               "%s: not the folder of a kit (lrcs vectors DIR makes one)", folder);
     }
     status = kit_table_read(folder, 0, kit, error);
     return status != LRCS_OK ? status : kit_table_read(folder, 1, kit, error);
@@ -240,7 +239,7 @@ int lrcsi_kit_scene(const lrcs_host_kit *kit, lrcs_host_kit_scene *scene, lrcs_h
     }
     scene->normal = calloc((size_t)mesh->vertex_count + 1, sizeof *scene->normal);
     if (!scene->normal) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     for (uint32_t i = 0; i < mesh->facet_count; i++) { /* means weighted by area */
         const uint32_t *v = mesh->facet[i].corner;
@@ -280,7 +279,7 @@ int lrcsi_kit_records(const lrcs_host_kit *kit, lrcs_host_kit_case *one, lrcs_ho
     }
     one->records = calloc((size_t)scene->host.scene.facet_count + 1, sizeof *one->records);
     return one->records ? lrcsi_kit_run(&scene->host, &one->pose, 0, one->records, error)
-                        : lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+                        : lrcsi_host_out_of_memory(error);
 }
 
 /* ---- lines of others ---- */

@@ -14,8 +14,8 @@ typedef struct mesh_build {
     lrcsi_vectors_mesh *mesh;
     const lrcsi_vectors_scene *scene;
     const lrcsi_vectors_item *item;
-    lrcs_pose turn;
-    uint32_t first; /* first vertex of the item: earlier ones are not shared */
+    lrcs_pose rotation; /* of the item */
+    uint32_t first;     /* first vertex of the item: earlier ones are not shared */
 } mesh_build;
 
 static void *room_grow(void *list, uint32_t *room, uint32_t used, size_t size)
@@ -38,7 +38,7 @@ static uint32_t mesh_point(mesh_build *build, const double p[3])
     lrcsi_vectors_mesh *mesh = build->mesh;
     lrcs_point placed;
     for (int k = 0; k < 3; k++) {
-        const double *row = build->turn.R[k];
+        const double *row = build->rotation.R[k];
         double at = build->item->at[k];
         double x = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + at;
         x = fabs(x) < 1e-12 && at == 0.0 ? 0.0 : x; /* rounding error of a rotation */
@@ -229,13 +229,13 @@ int lrcsi_vectors_mesh_make(const lrcsi_vectors_scene *scene, lrcsi_vectors_mesh
     memset(mesh, 0, sizeof *mesh);
     for (int i = 0; scene->item[i].kind != LRCSI_VECTORS_NONE; i++) {
         build.item = &scene->item[i];
-        int status = lrcs_pose_from_euler("XYZ", build.item->turn_deg, &build.turn);
+        int status = lrcs_pose_from_euler("XYZ", build.item->rotate_deg, &build.rotation);
         if (status != LRCS_OK) {
             return lrcsi_host_fail(error, status, "%s: %s", scene->name, lrcs_status_text(status));
         }
         mesh_item(&build);
     }
-    return mesh->failed ? lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory") : LRCS_OK;
+    return mesh->failed ? lrcsi_host_out_of_memory(error) : LRCS_OK;
 }
 
 void lrcsi_vectors_mesh_free(lrcsi_vectors_mesh *mesh)

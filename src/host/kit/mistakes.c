@@ -29,27 +29,29 @@ typedef struct mistake_view {
     const double *direction; /* unit */
 } mistake_view;
 
-/* What is wrong in the shading (f_r cos theta), in the projected area that is summed and how it is
-   shaded, in the pose. For shading, `at` is the power of the cosine; 1 for its magnitude; the power
-   in 1 / cos^6; a factor of tan^2, or 0 for tan^2 / s; the value of m; 0 without the glint, 1
-   without the diffuse term; the step in deg (twice); the brightest value of a channel of 8 bits, 0
-   for that of the case; the largest value. */
+/* What is wrong in the shading (f_r cos theta); what the parameter of a mistake means is stated
+   beside it. */
 enum mistake_shade {
     SHADE_RIGHT,
-    SHADE_COSINE,
-    SHADE_DEGREES,
-    SHADE_POWER,
-    SHADE_SLOPE,
-    SHADE_ONE_TERM,
-    SHADE_LAMBERT,
-    SHADE_LINES,
-    SHADE_STEPS,
-    SHADE_BITS,
-    SHADE_CLAMPED,
+    SHADE_COSINE,         /* f_r is multiplied by another power of the cosine: the power */
+    SHADE_DEGREES,        /* theta in degrees is taken for radians; a negative cosine counts as 0 */
+    SHADE_DEGREES_FOLDED, /* likewise, but with the magnitude of that cosine */
+    SHADE_POWER,          /* another power in 1 / cos^6: the power */
+    SHADE_EXPONENT_FACTOR,  /* the exponent tan^2 / s^2 has a factor: the factor */
+    SHADE_EXPONENT_PLAIN_S, /* the exponent is tan^2 / s */
+    SHADE_NO_GLINT,
+    SHADE_NO_DIFFUSE,
+    SHADE_DIFFUSE_M, /* another m: its value */
+    SHADE_TABLE,     /* f_r is interpolated in a table of angles: its step, deg */
+    SHADE_ROUNDED,   /* theta is rounded: the step, deg */
+    SHADE_BITS,      /* f_r cos in 8 bits: the value that the brightest one stands for */
+    SHADE_BITS_PEAK, /* likewise, the largest f_r cos of the case */
+    SHADE_CLAMPED,   /* f_r cos is clamped: the largest value */
     SHADE_SINE,
     SHADE_SMALL_ANGLE,
     SHADE_TAN_DEGREES
 };
+/* What is wrong in the projected area that is summed, and in how it is shaded. */
 enum mistake_area {
     AREA_RIGHT,
     AREA_UNSHADOWED,
@@ -62,15 +64,16 @@ enum mistake_area {
     AREA_SMOOTH,
     AREA_LAST
 };
-enum mistake_turn {
-    TURN_NONE,
-    TURN_AXES,
-    TURN_TRANSPOSED,
-    TURN_ALONG,
-    TURN_SCALAR_LAST,
-    TURN_RADIANS,
-    TURN_POLAR,
-    TURN_EXCHANGED
+/* What is wrong in the pose. */
+enum mistake_pose {
+    POSE_NONE,
+    POSE_AXES,
+    POSE_TRANSPOSED,
+    POSE_ALONG,
+    POSE_SCALAR_LAST,
+    POSE_RADIANS,
+    POSE_POLAR,
+    POSE_EXCHANGED
 };
 
 /* ---- shading: f_r cos theta ---- */
@@ -90,57 +93,69 @@ static double shade_as(lrcs_brdf brdf, double cosine, double c)
     return lrcs_brdf_eval(&brdf, cosine) * c;
 }
 
+/* f_r cos in 8 bits, of which the largest stands for `white`. */
+static double shade_quantised(double right, double white)
+{
+    double fraction = white > 0.0 ? fmin(right / white, 1.0) : 0.0;
+    return white * floor(255.0 * fraction + 0.5) / 255.0;
+}
+
 /* f_r cos. */
 static double mistake_shade(const lrcsi_mistake *mistake, const mistake_point *point)
 {
-    double at = mistake->at;
+    double parameter = mistake->parameter;
     double c = point->c;
     double s = point->brdf->s;
     double theta = acos(c);
+    double degrees = theta * DEGREES_PER_RADIAN;
     double tan2 = 1.0 / (c * c) - 1.0;
     double right = lrcs_brdf_eval(point->brdf, c) * c;
-    double white = at > 0.0 ? at : point->peak;
     double wrong, from, to;
     lrcs_brdf brdf = *point->brdf;
     switch (mistake->shade) {
     case SHADE_COSINE:
-        return lrcs_brdf_eval(point->brdf, c) * pow(c, at);
+        return lrcs_brdf_eval(point->brdf, c) * pow(c, parameter);
     case SHADE_DEGREES:
-        wrong = cos(theta * DEGREES_PER_RADIAN);
-        wrong = at > 0.0 ? fabs(wrong) : wrong;
+    case SHADE_DEGREES_FOLDED:
+        wrong = cos(degrees);
+        wrong = mistake->shade == SHADE_DEGREES_FOLDED ? fabs(wrong) : wrong;
         return wrong > 0.0 ? shade_as(brdf, wrong, c) : 0.0;
     case SHADE_TAN_DEGREES:
-        wrong = tan(theta * DEGREES_PER_RADIAN) / s;
+        wrong = tan(degrees) / s;
         return shade_terms(point, 6.0, wrong * wrong);
     case SHADE_POWER:
-        return shade_terms(point, at, tan2 / (s * s));
-    case SHADE_SLOPE:
-        return shade_terms(point, 6.0, tan2 * (at > 0.0 ? at / (s * s) : 1.0 / s));
+        return shade_terms(point, parameter, tan2 / (s * s));
+    case SHADE_EXPONENT_FACTOR:
+        return shade_terms(point, 6.0, tan2 * (parameter / (s * s)));
+    case SHADE_EXPONENT_PLAIN_S:
+        return shade_terms(point, 6.0, tan2 * (1.0 / s));
     case SHADE_SINE:
         return shade_terms(point, 6.0, (1.0 - c * c) / (s * s));
     case SHADE_SMALL_ANGLE:
         return shade_terms(point, 6.0, (theta / s) * (theta / s));
-    case SHADE_LAMBERT:
-        brdf.m = at;
+    case SHADE_DIFFUSE_M:
+        brdf.m = parameter;
         return shade_as(brdf, c, c);
-    case SHADE_ONE_TERM:
-        brdf.A *= at;
-        brdf.B *= 1.0 - at;
+    case SHADE_NO_GLINT:
+        brdf.A = 0.0;
         return shade_as(brdf, c, c);
-    case SHADE_LINES:
-        wrong = theta * DEGREES_PER_RADIAN /
-                at; /* f_r from a table in steps of `at` deg, interpolated */
-        from = lrcs_brdf_eval(&brdf, cos(at * floor(wrong) / DEGREES_PER_RADIAN));
-        to = lrcs_brdf_eval(&brdf, cos((at * floor(wrong) + at) / DEGREES_PER_RADIAN));
-        return (from + (theta * DEGREES_PER_RADIAN - at * floor(wrong)) / at * (to - from)) * c;
-    case SHADE_STEPS:
-        wrong = at * floor(theta * DEGREES_PER_RADIAN / at + 0.5);
+    case SHADE_NO_DIFFUSE:
+        brdf.B = 0.0;
+        return shade_as(brdf, c, c);
+    case SHADE_TABLE:
+        wrong = parameter * floor(degrees / parameter); /* the entry at or below theta */
+        from = lrcs_brdf_eval(&brdf, cos(wrong / DEGREES_PER_RADIAN));
+        to = lrcs_brdf_eval(&brdf, cos((wrong + parameter) / DEGREES_PER_RADIAN));
+        return (from + (degrees - wrong) / parameter * (to - from)) * c;
+    case SHADE_ROUNDED:
+        wrong = parameter * floor(degrees / parameter + 0.5);
         return shade_as(brdf, cos(wrong / DEGREES_PER_RADIAN), c);
     case SHADE_BITS:
-        wrong = white > 0.0 ? fmin(right / white, 1.0) : 0.0;
-        return white * floor(255.0 * wrong + 0.5) / 255.0;
+        return shade_quantised(right, parameter);
+    case SHADE_BITS_PEAK:
+        return shade_quantised(right, point->peak);
     case SHADE_CLAMPED:
-        return fmin(right, at);
+        return fmin(right, parameter);
     default:
         return right;
     }
@@ -234,31 +249,31 @@ static int pose_at(double az, double el, lrcs_pose *pose)
 }
 
 /* The pose that is used. Status: as lrcs_pose_from_quaternion. */
-static int mistake_turn(const lrcsi_mistake *mistake, const lrcs_host_kit_case *one,
-                        lrcs_pose *pose)
+static int mistake_pose_make(const lrcsi_mistake *mistake, const lrcs_host_kit_case *one,
+                             lrcs_pose *pose)
 {
     const double *q = one->quaternion;
     const double scalar_last[4] = {q[3], q[0], q[1], q[2]};
     double az = one->azel_deg[0];
     double el = one->azel_deg[1];
     double s[3] = {one->pose.R[0][2], one->pose.R[1][2], one->pose.R[2][2]}; /* transposed */
-    switch (mistake->turn) {
-    case TURN_SCALAR_LAST:
+    switch (mistake->pose) {
+    case POSE_SCALAR_LAST:
         return lrcs_pose_from_quaternion(scalar_last, pose);
-    case TURN_AXES: /* components of s_hat exchanged and mirrored */
+    case POSE_AXES: /* components of s_hat exchanged and mirrored */
         for (int k = 0; k < 3; k++) {
             int axis = mistake->axes[k];
             s[k] = (axis < 0 ? -1.0 : 1.0) * one->direction[abs(axis) - 1];
         }
         break;
-    case TURN_ALONG: /* the laser on another axis of the observation frame */
+    case POSE_ALONG: /* the laser on another axis of the observation frame */
         memcpy(s, one->pose.R[mistake->axes[0] - 1], sizeof s);
         break;
-    case TURN_RADIANS:
+    case POSE_RADIANS:
         return pose_at(az, el, pose);
-    case TURN_POLAR:
+    case POSE_POLAR:
         return pose_at(az / DEGREES_PER_RADIAN, 0.5 * LRCS_PI - el / DEGREES_PER_RADIAN, pose);
-    case TURN_EXCHANGED:
+    case POSE_EXCHANGED:
         return pose_at(el / DEGREES_PER_RADIAN, az / DEGREES_PER_RADIAN, pose);
     default:
         break;
@@ -291,96 +306,99 @@ const lrcsi_mistake lrcsi_mistakes[] = {
     {"last-wins", "of facets in one place the last one counts, not the first (depth test <= ?)",
      .area = AREA_LAST},
     {"missing-cosine", "missing cos: a sum of f_r, not of f_r cos theta, times projected area",
-     .shade = SHADE_COSINE, .at = 0.0},
+     .shade = SHADE_COSINE, .parameter = 0.0},
     {"missing-cosines", "missing cos twice: f_r times the facet's area, not its projected area",
-     .shade = SHADE_COSINE, .at = -1.0},
+     .shade = SHADE_COSINE, .parameter = -1.0},
     {"extra-cosine", "one cos too many: f_r cos^2 theta times projected area",
-     .shade = SHADE_COSINE, .at = 2.0},
+     .shade = SHADE_COSINE, .parameter = 2.0},
     {"theta-degrees", "degrees for radians: theta in degrees goes into cos or tan as radians",
-     .shade = SHADE_DEGREES, .at = 0.0},
+     .shade = SHADE_DEGREES},
     {"theta-degrees-folded",
      "degrees for radians: theta in degrees goes into |cos| or tan as radians",
-     .shade = SHADE_DEGREES, .at = 1.0},
-    {"no-cos6", "BRDF: the glint lacks 1 / cos^6", .shade = SHADE_POWER, .at = 0.0},
+     .shade = SHADE_DEGREES_FOLDED},
+    {"no-cos6", "BRDF: the glint lacks 1 / cos^6", .shade = SHADE_POWER, .parameter = 0.0},
     {"cos4", "BRDF: the glint has 1 / cos^4 in place of 1 / cos^6", .shade = SHADE_POWER,
-     .at = 4.0},
-    {"s-plain", "BRDF: tan^2 / s in place of tan^2 / s^2", .shade = SHADE_SLOPE, .at = 0.0},
-    {"s-twice", "BRDF: tan^2 / (2 s^2) in place of tan^2 / s^2", .shade = SHADE_SLOPE, .at = 0.5},
+     .parameter = 4.0},
+    {"s-plain", "BRDF: tan^2 / s in place of tan^2 / s^2", .shade = SHADE_EXPONENT_PLAIN_S},
+    {"s-twice", "BRDF: tan^2 / (2 s^2) in place of tan^2 / s^2", .shade = SHADE_EXPONENT_FACTOR,
+     .parameter = 0.5},
     {"sine", "BRDF: sin^2 / s^2 in place of tan^2 / s^2", .shade = SHADE_SINE},
     {"small-angle", "BRDF: theta^2 / s^2 in place of tan^2 / s^2", .shade = SHADE_SMALL_ANGLE},
     {"tan-degrees", "degrees for radians: theta in degrees goes into tan as radians, cos is right",
      .shade = SHADE_TAN_DEGREES},
-    {"lambert", "BRDF: the diffuse term lacks cos^m", .shade = SHADE_LAMBERT, .at = 0.0},
-    {"no-glint", "BRDF: the glint term is missing (A = 0)", .shade = SHADE_ONE_TERM, .at = 0.0},
-    {"no-diffuse", "BRDF: the diffuse term is missing (B = 0)", .shade = SHADE_ONE_TERM, .at = 1.0},
+    {"lambert", "BRDF: the diffuse term lacks cos^m", .shade = SHADE_DIFFUSE_M, .parameter = 0.0},
+    {"no-glint", "BRDF: the glint term is missing (A = 0)", .shade = SHADE_NO_GLINT},
+    {"no-diffuse", "BRDF: the diffuse term is missing (B = 0)", .shade = SHADE_NO_DIFFUSE},
     {"vertex-normals", "under-resolved glint: shaded by averaged normals at the corners",
      .area = AREA_SMOOTH, .corners = 3},
     {"angles-1", "under-resolved glint: f_r from a table in steps of 1 deg, lines between",
-     .shade = SHADE_LINES, .at = 1.0},
+     .shade = SHADE_TABLE, .parameter = 1.0},
     {"angles-5", "under-resolved glint: f_r from a table in steps of 5 deg, lines between",
-     .shade = SHADE_LINES, .at = 5.0},
+     .shade = SHADE_TABLE, .parameter = 5.0},
     {"angles-10", "under-resolved glint: f_r from a table in steps of 10 deg, lines between",
-     .shade = SHADE_LINES, .at = 10.0},
-    {"steps-1", "under-resolved glint: theta rounded to whole degrees", .shade = SHADE_STEPS,
-     .at = 1.0},
-    {"steps-5", "under-resolved glint: theta rounded to 5 deg", .shade = SHADE_STEPS, .at = 5.0},
-    {"steps-10", "under-resolved glint: theta rounded to 10 deg", .shade = SHADE_STEPS, .at = 10.0},
+     .shade = SHADE_TABLE, .parameter = 10.0},
+    {"steps-1", "under-resolved glint: theta rounded to whole degrees", .shade = SHADE_ROUNDED,
+     .parameter = 1.0},
+    {"steps-5", "under-resolved glint: theta rounded to 5 deg", .shade = SHADE_ROUNDED,
+     .parameter = 5.0},
+    {"steps-10", "under-resolved glint: theta rounded to 10 deg", .shade = SHADE_ROUNDED,
+     .parameter = 10.0},
     {"8-bits", "colour quantisation: f_r cos in 8 bits, 1 being the brightest", .shade = SHADE_BITS,
-     .at = 1.0},
+     .parameter = 1.0},
     {"8-bits-4pi", "colour quantisation: 4 pi f_r cos in 8 bits, 1 being the brightest",
-     .shade = SHADE_BITS, .at = 1.0 / LRCS_FOUR_PI},
+     .shade = SHADE_BITS, .parameter = 1.0 / LRCS_FOUR_PI},
     {"8-bits-peak", "colour quantisation: 8 bits of the brightest f_r cos of each case",
-     .shade = SHADE_BITS, .at = 0.0},
-    {"clamped", "f_r cos is clamped at 1", .shade = SHADE_CLAMPED, .at = 1.0},
+     .shade = SHADE_BITS_PEAK},
+    {"clamped", "f_r cos is clamped at 1", .shade = SHADE_CLAMPED, .parameter = 1.0},
     {"farthest",
      "inverted depth: the farthest facet is seen, not the nearest (depth test, or the sign of z)",
-     .turn = TURN_AXES, .axes = {-1, -2, -3}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {-1, -2, -3}, .area = AREA_FLIPPED},
     {"transposed", "wrong frame: R in place of its transpose (or the conjugate quaternion)",
-     .turn = TURN_TRANSPOSED},
-    {"negated", "wrong frame: the laser on the other side, -s_hat", .turn = TURN_AXES,
+     .pose = POSE_TRANSPOSED},
+    {"negated", "wrong frame: the laser on the other side, -s_hat", .pose = POSE_AXES,
      .axes = {-1, -2, -3}},
-    {"mirror-x", "wrong handedness: x mirrored", .turn = TURN_AXES, .axes = {-1, 2, 3}},
-    {"mirror-y", "wrong handedness: y mirrored", .turn = TURN_AXES, .axes = {1, -2, 3}},
-    {"mirror-z", "wrong handedness: z mirrored", .turn = TURN_AXES, .axes = {1, 2, -3}},
-    {"swap-xy", "wrong handedness: x and y exchanged", .turn = TURN_AXES, .axes = {2, 1, 3}},
-    {"swap-yz", "wrong handedness: y and z exchanged", .turn = TURN_AXES, .axes = {1, 3, 2}},
-    {"swap-zx", "wrong handedness: z and x exchanged", .turn = TURN_AXES, .axes = {3, 2, 1}},
-    {"y-up", "wrong frame: turned by 90 deg about x (y up, or z?)", .turn = TURN_AXES,
+    {"mirror-x", "wrong handedness: x mirrored", .pose = POSE_AXES, .axes = {-1, 2, 3}},
+    {"mirror-y", "wrong handedness: y mirrored", .pose = POSE_AXES, .axes = {1, -2, 3}},
+    {"mirror-z", "wrong handedness: z mirrored", .pose = POSE_AXES, .axes = {1, 2, -3}},
+    {"swap-xy", "wrong handedness: x and y exchanged", .pose = POSE_AXES, .axes = {2, 1, 3}},
+    {"swap-yz", "wrong handedness: y and z exchanged", .pose = POSE_AXES, .axes = {1, 3, 2}},
+    {"swap-zx", "wrong handedness: z and x exchanged", .pose = POSE_AXES, .axes = {3, 2, 1}},
+    {"y-up", "wrong frame: turned by 90 deg about x (y up, or z?)", .pose = POSE_AXES,
      .axes = {1, 3, -2}},
-    {"z-up", "wrong frame: turned by -90 deg about x (y up, or z?)", .turn = TURN_AXES,
+    {"z-up", "wrong frame: turned by -90 deg about x (y up, or z?)", .pose = POSE_AXES,
      .axes = {1, -3, 2}},
-    {"yzx", "wrong frame: x, y, z taken for y, z, x", .turn = TURN_AXES, .axes = {2, 3, 1}},
-    {"zxy", "wrong frame: x, y, z taken for z, x, y", .turn = TURN_AXES, .axes = {3, 1, 2}},
+    {"yzx", "wrong frame: x, y, z taken for y, z, x", .pose = POSE_AXES, .axes = {2, 3, 1}},
+    {"zxy", "wrong frame: x, y, z taken for z, x, y", .pose = POSE_AXES, .axes = {3, 1, 2}},
     {"along-x", "wrong frame: the laser along x of the observation frame, not z",
-     .turn = TURN_ALONG, .axes = {1, 0, 0}},
+     .pose = POSE_ALONG, .axes = {1, 0, 0}},
     {"along-y", "wrong frame: the laser along y of the observation frame, not z",
-     .turn = TURN_ALONG, .axes = {2, 0, 0}},
+     .pose = POSE_ALONG, .axes = {2, 0, 0}},
     {"mirror-x-winding", "wrong handedness: x mirrored, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {-1, 2, 3}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {-1, 2, 3}, .area = AREA_FLIPPED},
     {"mirror-y-winding", "wrong handedness: y mirrored, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {1, -2, 3}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {1, -2, 3}, .area = AREA_FLIPPED},
     {"mirror-z-winding", "wrong handedness: z mirrored, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {1, 2, -3}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {1, 2, -3}, .area = AREA_FLIPPED},
     {"swap-xy-winding", "wrong handedness: x and y exchanged, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {2, 1, 3}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {2, 1, 3}, .area = AREA_FLIPPED},
     {"swap-yz-winding", "wrong handedness: y and z exchanged, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {1, 3, 2}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {1, 3, 2}, .area = AREA_FLIPPED},
     {"swap-zx-winding", "wrong handedness: z and x exchanged, which turns the winding as well",
-     .turn = TURN_AXES, .axes = {3, 2, 1}, .area = AREA_FLIPPED},
+     .pose = POSE_AXES, .axes = {3, 2, 1}, .area = AREA_FLIPPED},
     {"along-x-winding",
      "wrong handedness: x and z of the observation frame exchanged, which turns the winding as "
      "well",
-     .turn = TURN_ALONG, .axes = {1, 0, 0}, .area = AREA_FLIPPED},
+     .pose = POSE_ALONG, .axes = {1, 0, 0}, .area = AREA_FLIPPED},
     {"along-y-winding",
      "wrong handedness: y and z of the observation frame exchanged, which turns the winding as "
      "well",
-     .turn = TURN_ALONG, .axes = {2, 0, 0}, .area = AREA_FLIPPED},
-    {"scalar-last", "wrong frame: the quaternion read as (x, y, z, w)", .turn = TURN_SCALAR_LAST},
+     .pose = POSE_ALONG, .axes = {2, 0, 0}, .area = AREA_FLIPPED},
+    {"scalar-last", "wrong frame: the quaternion read as (x, y, z, w)", .pose = POSE_SCALAR_LAST},
     {"azel-radians", "degrees for radians: azimuth and elevation in degrees taken for radians",
-     .turn = TURN_RADIANS},
-    {"azel-exchanged", "wrong frame: azimuth and elevation exchanged", .turn = TURN_EXCHANGED},
+     .pose = POSE_RADIANS},
+    {"azel-exchanged", "wrong frame: azimuth and elevation exchanged", .pose = POSE_EXCHANGED},
     {"polar-angle", "wrong frame: elevation taken for an angle from the z axis",
-     .turn = TURN_POLAR},
+     .pose = POSE_POLAR},
     {.name = NULL}};
 
 /* ---- a scene in which the wrong one of coplanar facets is seen ---- */
@@ -426,7 +444,7 @@ static int run_wrong_coplanar(const lrcs_host_kit *kit, const lrcs_host_kit_case
     if (!vertex || !facet) {
         free(vertex);
         free(facet);
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     lrcs_host_scene moved = {.scene = *from};
     moved.scene.vertex = vertex;
@@ -461,18 +479,18 @@ static int mistake_view_make(const lrcs_host_kit *kit, lrcs_host_kit_case *one,
         }
     }
     one->peak = fmax(one->peak, peak);
-    if (status != LRCS_OK || (!mistake->turn && !mistake->without && !mistake->wrong_coplanar)) {
+    if (status != LRCS_OK || (!mistake->pose && !mistake->without && !mistake->wrong_coplanar)) {
         return status;
     }
     *own = calloc((size_t)facets + 1, sizeof **own);
     if (!*own) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     view->records = *own;
     if (mistake->wrong_coplanar) {
         return run_wrong_coplanar(kit, one, *own, error);
     }
-    if (mistake->turn && mistake_turn(mistake, one, &pose) != LRCS_OK) {
+    if (mistake->pose && mistake_pose_make(mistake, one, &pose) != LRCS_OK) {
         pose = one->pose;
     }
     return lrcsi_kit_run(&view->scene->host, &pose, mistake->without, *own, error);

@@ -11,9 +11,9 @@
 /* A mistake: whatever is not 0 differs from the truth. */
 typedef struct lrcsi_mistake {
     const char *name, *text;
-    int shade, area, turn; /* mistakes.c: enum mistake_shade, ... */
-    double at;             /* of shade */
-    int axes[3]; /* of turn: for x, y, z of s_hat, the component that is used, 1 .. 3, negative to
+    int shade, area, pose; /* mistakes.c: enum mistake_shade, ... */
+    double parameter;      /* of the mistake in the shading, as enum mistake_shade states */
+    int axes[3]; /* of pose: for x, y, z of s_hat, the component that is used, 1 .. 3, negative to
                     mirror it */
     int corners; /* 3 if the facet is the mean of the values at its corners */
     uint32_t without;   /* effects that are left out, lrcs_run_options.without */
@@ -37,8 +37,10 @@ typedef struct lrcsi_search {
     uint32_t failing_count, passing_count;
     int any_nonzero; /* 1 if some failing case has an answer other than 0 */
     double weight;   /* number of passing cases that each of the sample stands for */
-    double *answer;  /* answers of a mistake: to the failing cases, then to the passing ones */
-    double *room;    /* for sorting */
+    /* Room, whose contents no function takes over from another one unless it is given them: */
+    double *answer, *other_answer; /* to the failing cases, then to the passing ones */
+    double *room;                  /* for sorting */
+    /* What the finders of causes fill in before they call those below: */
     unsigned char *explains; /* by failing case: 1 if the current cause explains it */
 } lrcsi_search;
 
@@ -47,19 +49,32 @@ int lrcsi_search_explained(const lrcsi_search *search, const lrcs_host_kit_case 
                            double expected);
 
 /* The number of failing cases that the current cause explains (search->explains). */
-uint32_t lrcsi_search_holds(const lrcsi_search *search);
+uint32_t lrcsi_search_explained_cases(const lrcsi_search *search);
 
 /* Makes that cause a finding with its sentence: its cases are marked and no longer unexplained.
    NULL if there is no room for one. */
 __attribute__((format(printf, 3, 4))) lrcs_host_finding *
-lrcsi_search_find(lrcsi_search *search, const char *name, const char *format, ...);
+lrcsi_search_finding_add(lrcsi_search *search, const char *name, const char *format, ...);
 
-/* The median, 0 of an empty list; sorts the values. */
-double lrcsi_search_median(double *value, uint32_t count);
+/* The median, the upper of the two middle values if their number is even; 0 of an empty list. Sorts
+   the values. */
+double lrcsi_search_upper_median(double *value, uint32_t count);
 
-/* The possible cause of a constant factor, and its name. */
-const char *lrcsi_factor_text(const lrcs_host_judgement *job, double factor);
+/* ---- constant factors ---- */
+
+typedef struct lrcsi_factor {
+    double value;
+    const char *name, *text;
+} lrcsi_factor;
+
+/* The known factor to which a ratio is near; NULL if there is none. */
+const lrcsi_factor *lrcsi_factor_find(double ratio);
+
+/* The possible cause of a factor, and its name; pixels: per side, of the images. */
+const char *lrcsi_factor_text(double factor, uint32_t pixels);
 const char *lrcsi_factor_name(double factor);
+
+/* ---- symptoms ---- */
 
 /* Finds causes that need no mistake of the catalogue: those visible in the table, before the
    search; those that are left, after it. Status: as lrcs_host_judge. */

@@ -9,18 +9,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST         0.9   /* share of the failing cases that a cause must explain */
-#define LEAST        5u    /* number of failing cases; fewer prove nothing */
-#define DIGITS       9     /* with this many digits rounding is harmless */
-#define SAME_DIGIT   1e-11 /* relative: a number this near to one with few digits is taken for it */
-#define FIGHTS_MOST  256u  /* scenes with more facets are not searched for coplanar facets */
-#define SKINS_TOUCH  60    /* a distance of 2^-60 m counts as none */
-#define COARSEST     16.0  /* pixels per side of the coarsest raster considered, */
-#define COARSE_SHARE 0.012 /* and the median share of the allowed difference: 0.02 is usual */
-#define BIAS_CASES   20u   /* a factor that all share: at least this many cases */
-#define BIAS_SHARE   0.75  /* of which this share lies nearer to the factor than to the truth, */
-#define BIAS_SPREADS 4.0   /* more than half by so many deviations of a fair coin, */
-#define BIAS_LEAST   1e-4  /* and the factor differs from 1 by this much */
+#define MOST            0.9 /* share of the failing cases that a cause must explain */
+#define LEAST           5u  /* number of failing cases; fewer prove nothing */
+#define DIGITS          9   /* with this many digits rounding is harmless */
+#define SAME_DIGIT      1e-11 /* relative: a number this near to one with few digits is taken for it */
+#define Z_FIGHTING_MOST 256u  /* scenes with more facets are not searched for coplanar facets */
+#define SKINS_TOUCH     60    /* a distance of 2^-60 m counts as none */
+#define COARSEST        16.0  /* pixels per side of the coarsest raster considered, */
+#define COARSE_SHARE    0.012 /* and the median share of the allowed difference: 0.02 is usual */
+#define BIAS_CASES      20u   /* a factor that all share: at least this many cases */
+#define BIAS_SHARE      0.75  /* of which this share lies nearer to the factor than to the truth, */
+#define BIAS_SPREADS    4.0   /* more than half by so many deviations of a fair coin, */
+#define BIAS_LEAST      1e-4  /* and the factor differs from 1 by this much */
 
 /* Another meaning of the submitted numbers: `decade` times log10 of m2 instead of what their column
    states (0: m2), in a line so many lines below. */
@@ -55,7 +55,7 @@ static int reading_matches(const lrcs_host_judgement *job, const lrcs_host_kit_c
 /* 1 if the current cause explains most of the failures. */
 static int holds_most(const lrcsi_search *search)
 {
-    uint32_t right = lrcsi_search_holds(search);
+    uint32_t right = lrcsi_search_explained_cases(search);
     return right >= LEAST && right >= MOST * search->failing_count;
 }
 
@@ -68,7 +68,8 @@ static void reading_try(lrcsi_search *search, const struct symptom_reading *read
         search->explains[i] = (unsigned char)reading_matches(job, search->failing[i], reading);
     }
     lrcs_host_finding *finding =
-        holds_most(search) ? lrcsi_search_find(search, reading->name, "%s", reading->text) : NULL;
+        holds_most(search) ? lrcsi_search_finding_add(search, reading->name, "%s", reading->text)
+                           : NULL;
     for (uint32_t i = 0; finding && i < job->kit.cases; i++) {
         lrcs_host_kit_case *one = &job->kit.list[i];
         if (one->given && !isfinite(one->theirs_m2) && one->explained == 0 &&
@@ -124,9 +125,10 @@ static void digits_try(lrcsi_search *search)
                                   room + lrcs_host_judge_allowed(one, job->grade, job->pixels);
         }
         if (digits < DIGITS && holds_most(search) &&
-            lrcsi_search_find(search, "few-digits",
-                              "few digits: every answer is rounded to %d %s%s: print %%.9g or more",
-                              digits, significant ? "digit" : "decimal", digits == 1 ? "" : "s")) {
+            lrcsi_search_finding_add(
+                search, "few-digits",
+                "few digits: every answer is rounded to %d %s%s: print %%.9g or more", digits,
+                significant ? "digit" : "decimal", digits == 1 ? "" : "s")) {
             return;
         }
     }
@@ -145,9 +147,10 @@ void lrcsi_symptoms_format(lrcsi_search *search)
     }
     if (given > 0 && blank) {
         memset(search->explains, 1, search->failing_count);
-        lrcsi_search_find(search, "blank",
-                          "every answer is 0: nothing drawn, everything culled or outside the "
-                          "window, or the buffer never read back");
+        lrcsi_search_finding_add(
+            search, "blank",
+            "every answer is 0: nothing drawn, everything culled or outside the "
+            "window, or the buffer never read back");
         return;
     }
     for (size_t i = 0; i < sizeof symptom_readings / sizeof symptom_readings[0]; i++) {
@@ -187,9 +190,9 @@ static void coarse_try(lrcsi_search *search)
             search->room[count++] = pixels / case_pixels(one);
         }
     }
-    if (2 * count > job->given && lrcsi_search_median(search->room, count) >= COARSE_SHARE) {
+    if (2 * count > job->given && lrcsi_search_upper_median(search->room, count) >= COARSE_SHARE) {
         memset(search->explains, 1, search->failing_count);
-        lrcsi_search_find(
+        lrcsi_search_finding_add(
             search, "coarse-raster",
             "a raster of fewer than %lu x %lu pixels: all these pass as one of %.0f x "
             "%.0f or fewer: give --pixels N, or render finer",
@@ -218,30 +221,30 @@ static void depth_try(lrcsi_search *search)
         coarsest = skins > 0 && skins < coarsest ? skins : coarsest;
         search->explains[i] = skins > 0;
     }
-    if (coarsest < SKINS_TOUCH && 2 * lrcsi_search_holds(search) > search->failing_count) {
-        lrcsi_search_find(search, "depth-precision",
-                          "depth precision: skins 2^-%d m apart in a scene 8 m deep are not told "
-                          "apart: a depth of some %d bits or fewer",
-                          coarsest, coarsest + 3);
+    if (coarsest < SKINS_TOUCH &&
+        2 * lrcsi_search_explained_cases(search) > search->failing_count) {
+        lrcsi_search_finding_add(search, "depth-precision",
+                                 "depth precision: skins 2^-%d m apart in a scene 8 m deep are not "
+                                 "distinguished: a depth of some %d bits or fewer",
+                                 coarsest, coarsest + 3);
     }
 }
 
 /* ---- facets in one plane ---- */
 
 /* Decides whether an answer lies between the truth and the answer in which the wrong one of
-   coplanar facets is seen: 1 or 0. */
-static int case_has_z_fighting(const lrcsi_search *search, lrcs_host_kit_case *one)
+   coplanar facets is seen. Status: as lrcs_host_judge. */
+static int case_is_z_fighting(const lrcsi_search *search, lrcs_host_kit_case *one,
+                              unsigned char *z_fighting)
 {
     static const lrcsi_mistake wrong = {.name = "skins", .text = "", .wrong_coplanar = 1};
     const lrcs_host_judgement *job = search->job;
     double allowed = lrcs_host_judge_allowed(one, job->grade, job->pixels);
     double other = 0.0;
+    *z_fighting = 0;
     int status = lrcsi_kit_records(&job->kit, one, search->error);
-    if (status != LRCS_OK) {
+    if (status != LRCS_OK || job->kit.scene[one->scene].host.scene.facet_count > Z_FIGHTING_MOST) {
         return status;
-    }
-    if (job->kit.scene[one->scene].host.scene.facet_count > FIGHTS_MOST) {
-        return 0;
     }
     status = lrcsi_mistake_answer(&job->kit, one, &wrong, &other, search->error);
     if (status != LRCS_OK) {
@@ -249,28 +252,31 @@ static int case_has_z_fighting(const lrcsi_search *search, lrcs_host_kit_case *o
     }
     double theirs = one->theirs_m2 - one->sigma_m2;
     double most = other - one->sigma_m2;
-    return fabs(most) > allowed && theirs / most > 0.0 && fabs(theirs) <= fabs(most) + allowed;
+    *z_fighting =
+        fabs(most) > allowed && theirs / most > 0.0 && fabs(theirs) <= fabs(most) + allowed;
+    return LRCS_OK;
 }
 
-/* Makes a finding of such cases. */
-static int fights_try(lrcsi_search *search)
+/* Makes a finding of such cases. Status: as lrcs_host_judge. */
+static int z_fighting_try(lrcsi_search *search)
 {
-    for (uint32_t i = 0;
-         i < search->failing_count && search->job->findings < (uint32_t)LRCS_HOST_FINDINGS; i++) {
-        int z_fighting = case_has_z_fighting(search, search->failing[i]);
-        if (z_fighting < 0) {
-            return z_fighting;
-        }
-        search->explains[i] = (unsigned char)z_fighting;
+    if (search->job->findings == LRCS_HOST_FINDINGS) {
+        return LRCS_OK;
     }
-    if (lrcsi_search_holds(search) > 0) {
-        lrcsi_search_find(
+    for (uint32_t i = 0; i < search->failing_count; i++) {
+        int status = case_is_z_fighting(search, search->failing[i], &search->explains[i]);
+        if (status != LRCS_OK) {
+            return status;
+        }
+    }
+    if (lrcsi_search_explained_cases(search) > 0) {
+        lrcsi_search_finding_add(
             search, "coincident-skins",
             "coincident skins, decided by rounding or by order (z-fighting): of facets "
             "in one plane a front has precedence over a back, then the lower index; push backs "
             "away by some roundings of the scene's size");
     }
-    return 0;
+    return LRCS_OK;
 }
 
 /* ---- a factor ---- */
@@ -291,7 +297,7 @@ static void bias_try(lrcsi_search *search)
             ratio[count++] = one->theirs_m2 / one->sigma_m2;
         }
     }
-    double median = lrcsi_search_median(ratio, count);
+    double median = lrcsi_search_upper_median(ratio, count);
     for (uint32_t i = 0; i < count; i++) {
         nearer += fabs(ratio[i] - median) < fabs(ratio[i] - 1.0);
     }
@@ -304,11 +310,11 @@ static void bias_try(lrcsi_search *search)
         search->explains[i] =
             (unsigned char)lrcsi_search_explained(search, one, median * one->sigma_m2);
     }
-    lrcs_host_finding *finding = lrcsi_search_find(
+    lrcs_host_finding *finding = lrcsi_search_finding_add(
         search, lrcsi_factor_name(median),
-        "all answers are %.6g times the truth: most are within their allowance, but %.0f %% lean "
-        "the same way, which errors of a raster do not: %s",
-        median, 100.0 * nearer / count, lrcsi_factor_text(job, median));
+        "all answers are %.6g times the truth: most are within their allowance, but %.0f %% differ "
+        "in the same direction, which errors of a raster do not: %s",
+        median, 100.0 * nearer / count, lrcsi_factor_text(median, job->pixels));
     if (finding) {
         job->biased = 1;
         finding->factor = median;
@@ -329,7 +335,7 @@ int lrcsi_symptoms_rest(lrcsi_search *search)
     }
     coarse_try(search);
     depth_try(search);
-    int status = fights_try(search);
+    int status = z_fighting_try(search);
     if (status != LRCS_OK) {
         return status;
     }
@@ -338,8 +344,8 @@ int lrcsi_symptoms_rest(lrcsi_search *search)
         for (uint32_t i = 0; i < search->failing_count; i++) {
             search->explains[i] = search->failing[i]->grade == class[k].grade;
         }
-        if (lrcsi_search_holds(search) > 0) {
-            lrcsi_search_find(search, class[k].name, "%s", class[k].text);
+        if (lrcsi_search_explained_cases(search) > 0) {
+            lrcsi_search_finding_add(search, class[k].name, "%s", class[k].text);
         }
     }
     return 0;

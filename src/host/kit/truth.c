@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/files/file.h"
+
 #define SINGLE 0x1p-24 /* unit roundoff of single precision */
 /* relative to this, the least normal number, 2^-126, is a few roundings */
 #define SINGLE_LEAST 0x1p-96
@@ -75,7 +77,7 @@ static int case_run(truth_run *run, lrcsi_vectors_case *one, lrcs_host_error *er
     }
     if (one->result.method != LRCS_METHOD_EXACT ||
         (one->result.flags & LRCS_FLAG_MEMORY_FALLBACK)) {
-        return lrcsi_host_fail(error, LRCS_E_UNSUPPORTED, "%s, %s: no exact truth here",
+        return lrcsi_host_fail(error, LRCS_E_UNSUPPORTED, "%s, %s: no exact truth is known",
                                one->scene->name, one->attitude->name);
     }
     one->window[0] = run->image.left_m;
@@ -115,9 +117,7 @@ static int truth_file(truth_run *run, lrcsi_vectors_job *job, const lrcsi_vector
     for (uint32_t i = 0; i < job->cases && status == LRCS_OK; i++) {
         status = job->list[i].scene == scene ? case_run(run, &job->list[i], error) : LRCS_OK;
     }
-    int good = status == LRCS_OK;
-    int closed = lrcs_host_output_close(&out, good, good ? error : NULL);
-    return good ? closed : status;
+    return lrcsi_host_output_end(&out, status, error);
 }
 
 int lrcsi_vectors_truth_write(lrcsi_vectors_job *job, const lrcsi_vectors_scene *scene,
@@ -131,9 +131,8 @@ int lrcsi_vectors_truth_write(lrcsi_vectors_job *job, const lrcsi_vectors_scene 
         run.image.size = side;
         run.image.facet = malloc((size_t)side * side * sizeof *run.image.facet);
         run.records = malloc(((size_t)run.host.scene.facet_count + 1) * sizeof *run.records);
-        status = run.image.facet && run.records
-                     ? truth_file(&run, job, scene, error)
-                     : lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        status = run.image.facet && run.records ? truth_file(&run, job, scene, error)
+                                                : lrcsi_host_out_of_memory(error);
     }
     free(run.image.facet);
     free(run.records);

@@ -33,7 +33,7 @@ typedef struct lrcsi_vectors_item {
     int kind;
     int count; /* number of divisions */
     double size[3], at[3];
-    double turn_deg[3]; /* rotations about X, Y, Z, applied before `at` */
+    double rotate_deg[3]; /* rotations about X, Y, Z, applied before `at` */
     const char *material;
 } lrcsi_vectors_item;
 
@@ -47,9 +47,9 @@ typedef struct lrcsi_vectors_scene {
     const char *about;              /* what it tests */
 } lrcsi_vectors_scene;
 
-#define LRCSI_VECTORS_TILTS 1u /* from the normal +z of a plate to grazing and beyond */
-#define LRCSI_VECTORS_TURNS 2u /* not symmetric to anything */
-#define LRCSI_VECTORS_EDGES 4u /* exactly along the axes of the body */
+#define LRCSI_VECTORS_TILTS   1u /* from the normal +z of a plate to grazing and beyond */
+#define LRCSI_VECTORS_OBLIQUE 2u /* not symmetric to anything */
+#define LRCSI_VECTORS_EDGES   4u /* exactly along the axes of the body */
 
 /* An attitude: a quaternion of integers, body to observation frame, of any length. */
 typedef struct lrcsi_vectors_attitude {

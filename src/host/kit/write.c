@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "host/files/file.h"
 #include "host/kit/vectors.h"
 
 int lrcsi_vectors_write(const char *prefix, const lrcsi_vectors_file *file, int count,
@@ -23,9 +24,7 @@ int lrcsi_vectors_write(const char *prefix, const lrcsi_vectors_file *file, int 
         status = status == LRCS_OK ? lrcs_host_output_open(path, &out, error) : status;
         if (status == LRCS_OK) {
             status = file[i].write(out.stream, context, error);
-            int good = status == LRCS_OK;
-            int closed = lrcs_host_output_close(&out, good, good ? error : NULL);
-            status = good ? closed : status;
+            status = lrcsi_host_output_end(&out, status, error);
         }
     }
     return status;
@@ -48,7 +47,7 @@ static int folders_make(const char *path, lrcs_host_error *error)
     int status = lrcsi_kit_path(inside, error, "%s/scenes", path);
     if (status == LRCS_OK && entries > 2 && stat(inside, &about) != 0) { /* "." and ".." */
         return lrcsi_host_fail(error, LRCS_E_SYSTEM,
-                               "%s: holds other files, and no kit: give an empty folder", path);
+                               "%s: contains other files but no kit: choose an empty folder", path);
     }
     for (int i = 0; i < 3 && status == LRCS_OK; i++) {
         status = lrcsi_kit_path(inside, error, "%s%s", path, name[i]);
@@ -94,7 +93,7 @@ static int cases_add(lrcsi_vectors_job *job, const lrcsi_vectors_scene *scene)
     int status = LRCS_OK;
     int pictures = job->resolution > 0;
     unsigned shown =
-        scene->attitudes & LRCSI_VECTORS_TURNS ? LRCSI_VECTORS_TURNS : ~LRCSI_VECTORS_EDGES;
+        scene->attitudes & LRCSI_VECTORS_OBLIQUE ? LRCSI_VECTORS_OBLIQUE : ~LRCSI_VECTORS_EDGES;
     for (const lrcsi_vectors_attitude *a = lrcsi_vectors_attitudes; a->name && status == LRCS_OK;
          a++) {
         if (a->set & scene->attitudes) {
@@ -126,7 +125,7 @@ static int job_room(lrcsi_vectors_job *job, lrcs_host_error *error)
     job->list = calloc(scenes * attitudes + 1, sizeof *job->list);
     job->binding = calloc(materials + 1, sizeof *job->binding);
     if (!job->list || !job->binding) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     for (; job->bindings < materials; job->bindings++, material++) {
         job->binding[job->bindings] = (lrcs_binding){.kind = LRCS_BIND_NAME,

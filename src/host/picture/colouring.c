@@ -172,20 +172,6 @@ static int material_alike(const lrcs_material *a, const lrcs_material *b)
            memcmp(a->rgb, b->rgb, sizeof a->rgb) == 0;
 }
 
-/* The index of a material among those that look different, or their number. */
-static uint32_t material_find(const lrcsi_colouring *colouring, uint32_t material)
-{
-    const lrcs_material *all = colouring->picture->scene->material;
-    uint32_t i = 0;
-    while (i < colouring->materials && material != colouring->material[i]) {
-        i++;
-    }
-    for (uint32_t k = 0; i == colouring->materials && k < colouring->materials; k++) {
-        i = material_alike(&all[colouring->material[k]], &all[material]) ? k : i;
-    }
-    return i;
-}
-
 /* Lists the materials assigned to facets, in the order of the scene's list, those that look the
    same once, each with its own colour. */
 static void materials_list(lrcsi_colouring *colouring)
@@ -218,7 +204,14 @@ const char *lrcsi_colouring_material_name(const lrcsi_colouring *colouring, uint
 
 uint32_t lrcsi_colouring_material(const lrcsi_colouring *colouring, uint32_t material)
 {
-    uint32_t place = material_find(colouring, material);
+    const lrcs_material *all = colouring->picture->scene->material;
+    uint32_t place = 0;
+    while (place < colouring->materials && material != colouring->material[place]) {
+        place++;
+    }
+    for (uint32_t k = 0; place == colouring->materials && k < colouring->materials; k++) {
+        place = material_alike(&all[colouring->material[k]], &all[material]) ? k : place;
+    }
     return place < colouring->materials ? colouring->hue[place] : lrcsi_palette_distinct(material);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The strip below a picture: a scale bar on the left; the colour scale beside it, or names of
-   materials above it. It decides the layout of that strip, not what colours mean. */
+/* The legend below a picture: a scale bar on the left; the colour scale beside it, or names of
+   materials above it. It decides its layout, not what colours mean. */
 #include "host/picture/legend.h"
 
 #include "host/chart/letters.h"
@@ -10,7 +10,7 @@
 
 #define LEGEND_MARGIN 16.0
 #define LEGEND_TYPE   12.0
-#define LEGEND_STRIP  48.0 /* the strip of the bars */
+#define LEGEND_BARS   48.0 /* height of the row of bars */
 #define LEGEND_ROW    18.0 /* of names */
 #define LEGEND_SWATCH 12.0
 #define LEGEND_STEPS  128 /* of the colour bar */
@@ -24,8 +24,8 @@
 static double length_choose(double limit, char name[32])
 {
     int decade = (int)floor(log10(limit) + 1e-9);
-    double part = limit / pow(10.0, decade);
-    int digit = part >= 5.0 ? 5 : part >= 2.0 ? 2 : 1;
+    double mantissa = limit / pow(10.0, decade);
+    int digit = mantissa >= 5.0 ? 5 : mantissa >= 2.0 ? 2 : 1;
     if (decade < -6 || decade > 6) {
         snprintf(name, 32, "%de%d m", digit, decade);
     } else if (decade >= 3) {
@@ -131,7 +131,7 @@ static legend_grid grid_make(const lrcsi_colouring *colouring, double width, dou
                                   colouring, colouring->material[i])));
     }
     double wanted = LEGEND_TYPE * widest + LEGEND_SWATCH + 18.0;
-    uint32_t room = (uint32_t)fmax((height_max - LEGEND_STRIP) / LEGEND_ROW, 0.0);
+    uint32_t room = (uint32_t)fmax((height_max - LEGEND_BARS) / LEGEND_ROW, 0.0);
     uint32_t items = colouring->materials + (colouring->more != 0);
     grid.columns = (uint32_t)fmin(fmax(floor(grid.column / wanted), 1.0), fmax(items, 1.0));
     grid.column /= grid.columns;
@@ -169,7 +169,7 @@ static void materials_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plot
     }
 }
 
-/* ---- the strip ---- */
+/* ---- the whole legend ---- */
 
 double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, double height_max)
 {
@@ -178,7 +178,7 @@ double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, doubl
         legend_grid grid = grid_make(colouring, width, height_max);
         rows = LEGEND_ROW * grid.rows;
     }
-    return rows + LEGEND_STRIP;
+    return rows + LEGEND_BARS;
 }
 
 void lrcsi_legend_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter, double top,

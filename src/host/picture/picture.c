@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The picture of a run as pixels: the position of the drawing, and the averaging of cells of the
-   run's image. colouring.c decides colours, legend.c the strip below. */
+   run's image. colouring.c decides colours, legend.c the legend below. */
 #include "host/chart/canvas.h"
 #include "host/picture/annotate.h"
 #include "host/picture/legend.h"
@@ -26,7 +26,7 @@ static picture_layout picture_place(const lrcs_host_picture *picture, uint32_t s
 {
     picture_layout at = {.unit = fmax(1.0, size / PICTURE_UNITS)};
     uint32_t margin = size / 32;
-    uint32_t strip = 0;
+    uint32_t above_and_below = 0;
     if (size >= LEGEND_FROM) {
         const lrcs_host_picture plain = {
             .scene = picture->scene, .pose = picture->pose, .colouring = picture->colouring};
@@ -34,9 +34,9 @@ static picture_layout picture_place(const lrcs_host_picture *picture, uint32_t s
         double side = size / at.unit;
         at.legend = lrcsi_legend_height(&colouring, side, LEGEND_FRACTION * side);
         at.title = picture->annotated ? LRCSI_ANNOTATE_TITLE : 0.0;
-        strip = (uint32_t)lround((at.legend + at.title) * at.unit);
+        above_and_below = (uint32_t)lround((at.legend + at.title) * at.unit);
     }
-    at.side = size - 2 * margin - strip;
+    at.side = size - 2 * margin - above_and_below;
     at.left = (size - at.side) / 2;
     at.top = margin + (uint32_t)lround(at.title * at.unit);
     return at;
@@ -64,27 +64,10 @@ static uint32_t cell_colour(const lrcsi_colouring *colouring, const lrcs_image *
     return edge ? lrcsi_palette_shade(colour, OUTLINE_LIGHT) : colour;
 }
 
-/* Averages the cells of a pixel. */
-static void pixel_make(const lrcsi_colouring *colouring, const lrcs_image *image, uint32_t x,
-                       uint32_t y, unsigned char rgb[3])
-{
-    uint32_t sum[3] = {0, 0, 0};
-    for (uint32_t i = 0; i < OVERSAMPLE * OVERSAMPLE; i++) {
-        uint32_t colour = cell_colour(colouring, image, (size_t)x * OVERSAMPLE + i % OVERSAMPLE,
-                                      (size_t)y * OVERSAMPLE + i / OVERSAMPLE);
-        for (int k = 0; k < 3; k++) {
-            sum[k] += colour >> (16 - 8 * k) & 255u;
-        }
-    }
-    for (int k = 0; k < 3; k++) {
-        rgb[k] =
-            (unsigned char)((sum[k] + OVERSAMPLE * OVERSAMPLE / 2) / (OVERSAMPLE * OVERSAMPLE));
-    }
-}
-
 static void picture_draw(const lrcsi_colouring *colouring, const lrcs_image *image,
                          const picture_layout *at, lrcsi_canvas *canvas)
 {
+    const uint32_t cells = OVERSAMPLE * OVERSAMPLE; /* of a pixel */
     uint32_t size = canvas->width;
     uint32_t background = lrcsi_colouring_background(colouring);
     for (size_t i = 0; i < 3 * (size_t)size * size; i++) {
@@ -92,8 +75,19 @@ static void picture_draw(const lrcsi_colouring *colouring, const lrcs_image *ima
     }
     for (uint32_t y = 0; y < at->side; y++) {
         for (uint32_t x = 0; x < at->side; x++) {
+            uint32_t sum[3] = {0, 0, 0}; /* a pixel is the mean of its cells */
+            for (uint32_t i = 0; i < cells; i++) {
+                uint32_t colour =
+                    cell_colour(colouring, image, (size_t)x * OVERSAMPLE + i % OVERSAMPLE,
+                                (size_t)y * OVERSAMPLE + i / OVERSAMPLE);
+                for (int k = 0; k < 3; k++) {
+                    sum[k] += colour >> (16 - 8 * k) & 255u;
+                }
+            }
             size_t pixel = (size_t)(at->top + y) * size + at->left + x;
-            pixel_make(colouring, image, x, y, canvas->rgb + 3 * pixel);
+            for (size_t k = 0; k < 3; k++) {
+                canvas->rgb[3 * pixel + k] = (unsigned char)((sum[k] + cells / 2) / cells);
+            }
         }
     }
     if (at->title > 0.0) {

@@ -193,7 +193,10 @@ int lrcs_host_png_write(FILE *out, const unsigned char *pixels, uint32_t width, 
     static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     static const unsigned char colour[5] = {0, 0, 4, 2, 6};
     if (width == 0 || height == 0 || channels == 0 || channels > 4) {
-        return lrcsi_host_fail(error, LRCS_E_ARGUMENT, "a picture of no size, or of %lu channels",
+        return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
+                               "expected a picture of at least one pixel and of 1 .. 4 channels, "
+                               "found %lu x %lu, %lu channels",
+                               (unsigned long)width, (unsigned long)height,
                                (unsigned long)channels);
     }
     uint64_t row = (uint64_t)width * channels;

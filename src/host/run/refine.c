@@ -26,7 +26,8 @@
 #define KEPT_FACETS_MAX (UINT32_C(1) << 19)
 /* All parts are divided alike if that takes at most this many times the facets. */
 #define SHARED_MAX 1.1
-/* How far errors are reduced beside those of parts that cannot be divided any further. */
+/* If the parts that cannot be divided any further have more error than is allowed, that of the
+   others is reduced to this fraction of it. */
 #define FIXED_FRACTION 0.1
 /* The cost of a halving is at least that of so many facets. */
 #define COST_MIN 16.0
@@ -121,12 +122,6 @@ typedef struct part_choice {
     int fixed;     /* it is not divided any finer */
 } part_choice;
 
-static int part_is_round(const lrcs_part *part)
-{
-    return part->kind == LRCS_SHAPE_SPHERE || part->kind == LRCS_SHAPE_DOME ||
-           part->kind == LRCS_SHAPE_PARABOLOID;
-}
-
 /* The errors of the parts, in total that of the tessellation; where these are not known, all curved
    parts have the same. */
 static void choices_start(const lrcs_scene *scene, const lrcs_run_options *options,
@@ -136,8 +131,10 @@ static void choices_start(const lrcs_scene *scene, const lrcs_run_options *optio
     for (uint32_t i = 0; i < scene->part_count; i++) {
         const lrcs_part *part = &scene->part[i];
         double error = options->part_error_m2 ? options->part_error_m2[i] : 1.0;
+        int doubly_curved = part->kind == LRCS_SHAPE_SPHERE || part->kind == LRCS_SHAPE_DOME ||
+                            part->kind == LRCS_SHAPE_PARABOLOID;
         choice[i] = (part_choice){part->reach > 0.0 ? error : 0.0, part->facet_count,
-                                  part_is_round(part) ? 2.0 : sqrt(2.0), !(part->reach > 0.0)};
+                                  doubly_curved ? 2.0 : sqrt(2.0), !(part->reach > 0.0)};
         sum += choice[i].error;
     }
     for (uint32_t i = 0; i < scene->part_count; i++) {
@@ -183,10 +180,10 @@ static void choice_halve(const struct lrcsi_host_levels *levels, double toleranc
     choice->error *= HALVING_FACTOR;
 }
 
-/* Halves parts until their errors together are allowed, or no part can be halved: all parts at a
-   time, or the best one each time. Where parts that cannot be halved have more error than is
-   allowed, that of the others is reduced to FIXED_FRACTION of theirs. Returns the number of facets.
- */
+/* Halves parts, all of them or the best one each time, until their total error is allowed, or no
+   part can be halved any further. If the parts that cannot be halved have more error than is
+   allowed, the error of the others is reduced to FIXED_FRACTION of that. Returns the number of
+   facets. */
 static double choices_halve(const struct lrcsi_host_levels *levels, double tolerance,
                             double allowed, int all, part_choice *choice, unsigned char *halvings)
 {
@@ -209,10 +206,11 @@ static double choices_halve(const struct lrcsi_host_levels *levels, double toler
     }
 }
 
-/* The halvings with which the tolerance is likely to be met, or all that are allowed: of the parts
-   that the error is due to; but of all parts alike, which more poses share, if that takes about as
-   few facets. There is room for twice as many. Returns 0 if they are those of `from`, or if one
-   part that cannot be halved has more error than is allowed: the tolerance is out of reach. */
+/* Chooses the halvings with which the tolerance is likely to be met, or all that are allowed. Only
+   the parts that cause the error are halved; but all parts alike, if that takes about as few
+   facets, because more poses can then share the division. The array has room for twice the number
+   of parts. Returns 0 if the halvings are those of `from`, or if a single part that cannot be
+   halved has more error than is allowed: the tolerance is then out of reach. */
 static int halvings_choose(const struct lrcsi_host_levels *levels, const lrcs_scene *scene,
                            const lrcs_run_options *options, const lrcs_result *result,
                            const unsigned char *from, unsigned char *halvings)
@@ -266,7 +264,7 @@ static lrcs_host_scene *level_build(const lrcs_host_scene *base,
     return scene;
 }
 
-/* Frees the levels that were not asked for the longest time, until few enough are left. */
+/* Frees levels, the least recently used first, until few enough are left. */
 static void levels_limit(struct lrcsi_host_levels *levels)
 {
     for (;;) {

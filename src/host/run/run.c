@@ -288,7 +288,8 @@ int lrcs_host_scene_emulate(const lrcs_host_scene *scene, const lrcs_pose *pose,
     lrcsi_host_area_free(&area);
     if (status == LRCS_E_NUMBER) {
         return lrcsi_host_fail(error, status,
-                               "emulating: sigma, or what one pixel adds to it, is beyond %s",
+                               "emulating: sigma, or the contribution of a pixel, is beyond the "
+                               "range of %s",
                                lrcs_precision_text(options->precision));
     }
     return run_fail(error, status, "emulating");
@@ -352,8 +353,8 @@ int lrcs_host_profile_make(const lrcs_host_scene *scene, const lrcs_pose *pose, 
     }
     if (status == LRCS_E_LIMIT) {
         return lrcsi_host_fail(error, status,
-                               "range profile: bins of %g m are more than the %lu that a profile "
-                               "may have, or too fine for the scene's distance from the origin",
+                               "range profile: bins of %g m: there would be more than %lu, or they "
+                               "are too fine for the scene's distance from the origin",
                                bin_m, (unsigned long)LRCS_PROFILE_BINS);
     }
     return run_fail(error, status, "range profile");

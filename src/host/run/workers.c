@@ -137,29 +137,9 @@ static uint32_t workers_start(workers_ring *ring, workers_thread *worker)
     return started;
 }
 
-/* Runs the work once the ring and its locks exist. Jobs done before a cancel are still handed
-   over. */
-static int workers_work(workers_ring *ring, workers_thread *worker)
-{
-    uint32_t started = workers_start(ring, worker);
-    int status = workers_lead(ring);
-    for (uint32_t i = 0; i < started; i++) {
-        pthread_join(worker[i].thread, NULL);
-    }
-    pthread_mutex_lock(&ring->lock);
-    int taken = LRCS_OK;
-    while (status == LRCS_E_CANCELLED && taken == LRCS_OK && ring->head < ring->next &&
-           ring->done[ring->head % ring->window]) {
-        taken = ring_take(ring);
-    }
-    int whole = ring->head == ring->end; /* nothing was left to cancel */
-    pthread_mutex_unlock(&ring->lock);
-    if (status != LRCS_E_CANCELLED) {
-        return status;
-    }
-    return taken != LRCS_OK ? taken : whole ? LRCS_OK : status;
-}
-
+/* 1. The ring and its threads.
+   2. The calling thread works, and hands over results, until all is taken or the work ends.
+   3. After a cancel, jobs that are done are still handed over. */
 int lrcsi_workers_run(const lrcsi_workers *workers, uint64_t *done, lrcs_host_error *error)
 {
     workers_ring ring = {.workers = workers,
@@ -174,8 +154,27 @@ int lrcsi_workers_run(const lrcsi_workers *workers, uint64_t *done, lrcs_host_er
     workers_thread *worker = calloc(workers->threads, sizeof *worker);
     ring.slot = calloc((size_t)ring.window, workers->slot_size);
     ring.done = calloc((size_t)ring.window, 1);
-    int status = worker && ring.slot && ring.done ? workers_work(&ring, worker)
-                                                  : lrcsi_host_fail_memory(error, bytes);
+    int status = LRCS_OK;
+    if (!worker || !ring.slot || !ring.done) {
+        status = lrcsi_host_fail_memory(error, bytes);
+    } else {
+        uint32_t started = workers_start(&ring, worker);
+        status = workers_lead(&ring); /* 2 */
+        for (uint32_t i = 0; i < started; i++) {
+            pthread_join(worker[i].thread, NULL);
+        }
+        pthread_mutex_lock(&ring.lock); /* 3 */
+        int taken = LRCS_OK;
+        while (status == LRCS_E_CANCELLED && taken == LRCS_OK && ring.head < ring.next &&
+               ring.done[ring.head % ring.window]) {
+            taken = ring_take(&ring);
+        }
+        int whole = ring.head == ring.end; /* nothing was left to cancel */
+        pthread_mutex_unlock(&ring.lock);
+        if (status == LRCS_E_CANCELLED) {
+            status = taken != LRCS_OK ? taken : whole ? LRCS_OK : status;
+        }
+    }
     *done = ring.head - workers->first;
     free(ring.done);
     free(ring.slot);

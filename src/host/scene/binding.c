@@ -26,20 +26,14 @@ typedef struct binding_match {
 
 /* ---- existing names ---- */
 
-static uint32_t names_count(const lrcs_host_scene *scene)
-{
-    const lrcs_recipe *recipe = &scene->recipe;
-    uint32_t count = recipe->part_count + recipe->material_count + recipe->binding_count;
-    for (uint32_t i = 0; i < recipe->part_count; i++) {
-        count += scene->model[i].material_count;
-    }
-    return count;
-}
-
 const char *const *lrcsi_host_binding_names(lrcs_host_scene *scene, int kind, uint32_t *count)
 {
     const lrcs_recipe *recipe = &scene->recipe;
-    const char **list = lrcsi_host_take(scene, (size_t)names_count(scene) + 1, sizeof *list);
+    uint32_t most = recipe->part_count + recipe->material_count + recipe->binding_count;
+    for (uint32_t i = 0; i < recipe->part_count; i++) {
+        most += scene->model[i].material_count;
+    }
+    const char **list = lrcsi_host_take(scene, (size_t)most + 1, sizeof *list);
     uint32_t used = 0;
     for (uint32_t i = 0; list && i < recipe->part_count; i++) {
         const lrcs_mesh *model = &scene->model[i];

@@ -14,8 +14,8 @@
 
 /* Neighbours that turn by less are treated as halves of one flat polygon; those that turn by more
    (60 deg), as faces of a box with a smoothing group. */
-#define FLAT_TURN  1e-3
-#define SHARP_TURN (LRCS_PI / 3.0)
+#define COPLANAR_TURN 1e-3
+#define SHARP_TURN    (LRCS_PI / 3.0)
 
 /* An edge of a facet, lower vertex first. */
 typedef struct glint_edge {
@@ -109,7 +109,7 @@ static size_t edge_turns(const lrcs_scene *scene, glint_edge *edges, glint_turn 
             continue;
         }
         double turn = facets_turn(scene, a, b);
-        if (turn > FLAT_TURN && turn < SHARP_TURN) {
+        if (turn > COPLANAR_TURN && turn < SHARP_TURN) {
             turns[count++] = (glint_turn){scene->facet_part[a], scene->facet_material[a], turn};
         }
     }
@@ -132,7 +132,7 @@ static size_t corner_turns(const lrcs_scene *scene, glint_turn *turns)
             turn = fmax(turn, 2.0 * asin(fmin(1.0, 0.5 * chord)));
         }
         if (scene->facet_smooth[i] == 0 && material->brdf.A > 0.0 && !material->omitted &&
-            turn > FLAT_TURN) {
+            turn > COPLANAR_TURN) {
             turns[count++] = (glint_turn){scene->facet_part[i], scene->facet_material[i], turn};
         }
     }
@@ -210,15 +210,6 @@ int lrcs_host_glint_check(const lrcs_scene *scene, lrcs_host_glint **list, uint3
     return all ? LRCS_OK : lrcsi_host_fail_memory(error, capacity * sizeof *edges);
 }
 
-/* The entry of a facet's part and material, or NULL. The list is in the order of entry_order. */
-static const lrcs_host_glint *entry_of(const lrcs_scene *scene, uint32_t facet,
-                                       const lrcs_host_glint *list, uint32_t count)
-{
-    const lrcs_host_glint key = {.part = scene->facet_part[facet],
-                                 .material = scene->facet_material[facet]};
-    return count > 0 ? bsearch(&key, list, count, sizeof *list, entry_order) : NULL;
-}
-
 /* The glint of all facets of the same part and material in the plane of this facet, or nearly. */
 static double face_glint(const lrcs_scene *scene, const lrcs_facet_record *records, uint32_t facet)
 {
@@ -227,8 +218,8 @@ static double face_glint(const lrcs_scene *scene, const lrcs_facet_record *recor
         /* cosines of incidence differ by at most the angle between the normals */
         if (records[i].sigma_glint_m2 > 0.0 && scene->facet_part[i] == scene->facet_part[facet] &&
             scene->facet_material[i] == scene->facet_material[facet] &&
-            fabs(records[i].cos_theta - records[facet].cos_theta) <= FLAT_TURN &&
-            facets_turn(scene, i, facet) <= FLAT_TURN) {
+            fabs(records[i].cos_theta - records[facet].cos_theta) <= COPLANAR_TURN &&
+            facets_turn(scene, i, facet) <= COPLANAR_TURN) {
             glint += records[i].sigma_glint_m2;
         }
     }
@@ -246,7 +237,9 @@ void lrcs_host_glint_sum_make(const lrcs_scene *scene, const lrcs_facet_record *
         if (i == 0 || scene->facet_part[i] != scene->facet_part[i - 1] ||
             scene->facet_material[i] != scene->facet_material[i - 1]) {
             double s = scene->material[scene->facet_material[i]].brdf.s;
-            entry = entry_of(scene, i, list, count);
+            const lrcs_host_glint key = {.part = scene->facet_part[i],
+                                         .material = scene->facet_material[i]};
+            entry = count > 0 ? bsearch(&key, list, count, sizeof *list, entry_order) : NULL;
             error = !entry          ? 0.0
                     : s == entry->s ? entry->error
                                     : lrcsi_aliasing_error(entry->turn, s);

@@ -129,7 +129,7 @@ int lrcs_host_surfaces_find(const lrcs_scene *scene, lrcs_host_surfaces *surface
     if (!surfaces->region) {
         surfaces->count = 0;
         return status == LRCS_OK || status == LRCS_E_SYSTEM
-                   ? lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory")
+                   ? lrcsi_host_out_of_memory(error)
                    : lrcsi_host_fail(error, status, "%s", lrcs_status_text(status));
     }
     for (uint32_t i = 0; i < surfaces->count; i++) {

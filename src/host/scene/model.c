@@ -83,7 +83,7 @@ static int materials_read(lrcs_host_scene *scene, const char *path, lrcs_mesh *m
         return LRCS_OK;
     }
     if (named && strcasecmp(lrcsi_host_basename(beside), lrcsi_host_basename(named)) != 0) {
-        lrcsi_host_note(&scene->notices, "%s: material file '%s' not found: '%s' taken instead",
+        lrcsi_host_note(&scene->notices, "%s: material file '%s' not found: '%s' is used instead",
                         label, named, lrcsi_host_basename(beside));
     }
     lrcs_host_file file;

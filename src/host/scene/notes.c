@@ -228,7 +228,7 @@ static void scene_notes(lrcs_host_scene *host)
     }
     if (assumed > 0) {
         lrcsi_host_note(&host->notices,
-                        "%llu of %lu facets have a material that the scene file calls assumed",
+                        "%llu of %lu facets have a material that the scene file marks as assumed",
                         (unsigned long long)assumed, (unsigned long)scene->facet_count);
     }
     if (scene->facet_count == 0) {

@@ -16,22 +16,6 @@ typedef struct sides_job {
     int matched;
 } sides_job;
 
-/* Is the surface of these facets closed? Status: LRCS_OK; LRCS_E_MEMORY; as lrcs_mesh_check. */
-static int facets_closed(const lrcs_scene *scene, const lrcs_facet *facet, uint32_t count,
-                         int *closed)
-{
-    lrcs_mesh_report report;
-    size_t need = lrcs_mesh_check_need(scene->vertex_count, count);
-    void *bytes = malloc(need);
-    lrcs_work work = lrcs_work_make(bytes, need);
-    int status =
-        bytes ? lrcs_mesh_check(scene->vertex, scene->vertex_count, facet, count, &work, &report)
-              : LRCS_E_MEMORY;
-    *closed = status == LRCS_OK && report.closed;
-    free(bytes);
-    return status;
-}
-
 /* One object of a part: its facets, gathered; marks those that are selected. */
 static int object_mark(sides_job *job, const char *name, const uint32_t *list, uint32_t count)
 {
@@ -40,14 +24,20 @@ static int object_mark(sides_job *job, const char *name, const uint32_t *list, u
     int selected = strcmp(job->what, name) == 0;
     int status = LRCS_OK;
     job->matched |= selected || open;
-    if (open && count > 0) {
+    if (open && count > 0) { /* is the surface of these facets closed? */
+        lrcs_mesh_report report;
+        size_t need = lrcs_mesh_check_need(scene->vertex_count, count);
         lrcs_facet *facet = malloc(count * sizeof *facet);
-        int closed = 0;
+        void *bytes = malloc(need);
+        lrcs_work work = lrcs_work_make(bytes, need);
         for (uint32_t i = 0; facet && i < count; i++) {
             facet[i] = scene->facet[list[i]];
         }
-        status = facet ? facets_closed(scene, facet, count, &closed) : LRCS_E_MEMORY;
-        selected = status == LRCS_OK && !closed;
+        status = facet && bytes ? lrcs_mesh_check(scene->vertex, scene->vertex_count, facet, count,
+                                                  &work, &report)
+                                : LRCS_E_MEMORY;
+        selected = status == LRCS_OK && !report.closed;
+        free(bytes);
         free(facet);
     }
     for (uint32_t i = 0; i < count && selected; i++) {

@@ -20,23 +20,7 @@ typedef struct range_number {
     int exponent;
 } range_number;
 
-/* The digits of a number that lrcs_host_number_read has accepted. */
-static const char *range_digits_read(const char *at, const char *end, range_number *number)
-{
-    int point = 0;
-    for (; at < end && *at != 'e' && *at != 'E'; at++) {
-        if (*at == '.') {
-            point = 1;
-        } else if (number->digits > RANGE_MOST / 10 - 1) {
-            return NULL;
-        } else if (*at >= '0' && *at <= '9') {
-            number->digits = 10 * number->digits + (*at - '0');
-            number->exponent -= point;
-        }
-    }
-    return at;
-}
-
+/* Reads a number exactly. Returns what is wrong, or NULL. */
 static const char *range_number_read(const char *text, size_t size, range_number *number)
 {
     double value;
@@ -45,9 +29,16 @@ static const char *range_number_read(const char *text, size_t size, range_number
     if (lrcs_host_number_read(text, size, &value) != LRCS_OK) {
         return range_form;
     }
-    const char *at = range_digits_read(text + strspn(text, " +-"), end, number);
-    if (!at) {
-        return range_long;
+    const char *at = text + strspn(text, " +-");
+    for (int point = 0; at < end && *at != 'e' && *at != 'E'; at++) {
+        if (*at == '.') {
+            point = 1;
+        } else if (number->digits > RANGE_MOST / 10 - 1) {
+            return range_long;
+        } else if (*at >= '0' && *at <= '9') {
+            number->digits = 10 * number->digits + (*at - '0');
+            number->exponent -= point;
+        }
     }
     if (at < end) {
         number->exponent += (int)strtol(at + 1, NULL, 10);

@@ -84,7 +84,7 @@ static int data_plan(const char *path, const lrcs_host_rows *rows, const char *c
         }
         if (!track.row || !track.joint) {
             lrcs_host_track_free(&track);
-            return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+            return lrcsi_host_out_of_memory(error);
         }
     }
     int status =
@@ -100,10 +100,11 @@ static int data_plan(const char *path, const lrcs_host_rows *rows, const char *c
         same = strcmp(data->plan.column[i], column[i]) == 0;
     }
     return same ? LRCS_OK
-                : lrcsi_host_fail(error, LRCS_E_SYNTAX,
-                                  "%s: its first lines do not tell what varies in its rows: was it "
-                                  "written by another version of lrcs?",
-                                  path);
+                : lrcsi_host_fail(
+                      error, LRCS_E_SYNTAX,
+                      "%s: its first lines do not state what varies from row to row: was "
+                      "it written by another version of lrcs?",
+                      path);
 }
 
 /* ---- the rows ---- */
@@ -155,8 +156,8 @@ static int data_rows(const char *path, const lrcs_host_rows *rows, const lrcs_ho
     return status != LRCS_OK || count == rows->rows
                ? status
                : lrcsi_host_fail(error, LRCS_E_INDEX,
-                                 "%s: holds %llu of %llu rows: lrcs merge makes shards whole", path,
-                                 (unsigned long long)count, (unsigned long long)rows->rows);
+                                 "%s: holds %llu of %llu rows: join the shards with lrcs merge",
+                                 path, (unsigned long long)count, (unsigned long long)rows->rows);
 }
 
 /* From opened rows: the plan, then all rows. */
@@ -169,7 +170,7 @@ static int data_read(const char *path, lrcs_host_rows *rows, const lrcs_host_swe
     data->band = banded ? calloc(rows->rows + 1, sizeof *data->band) : NULL;
     if (!data->row || (banded && !data->band) ||
         lrcsi_rows_head_read(rows, &data->words, &data->head, column) != LRCS_OK) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     int status = data_plan(path, rows, column, data, error);
     return status == LRCS_OK ? data_rows(path, rows, map, data, error) : status;

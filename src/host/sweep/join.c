@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/fail.h"
+#include "host/files/file.h"
 #include "host/sweep/read.h"
 
 int lrcs_host_sweep_part_read(const char *path, const lrcs_host_sweep_part *other,
@@ -26,10 +26,11 @@ int lrcs_host_sweep_part_read(const char *path, const lrcs_host_sweep_part *othe
     }
     if (other && (rows->head_size != other->rows.head_size ||
                   memcmp(rows->head, other->rows.head, rows->head_size) != 0)) {
-        return lrcsi_host_fail(error, LRCS_E_SYNTAX,
-                               "%s: is of another sweep (its first lines differ from those of the "
-                               "first file)",
-                               path);
+        return lrcsi_host_fail(
+            error, LRCS_E_SYNTAX,
+            "%s: belongs to another sweep (its first lines differ from those of the "
+            "first file)",
+            path);
     }
     return lrcsi_rows_read(path, rows, NULL, NULL, NULL, &part->first, &part->count, error);
 }
@@ -53,8 +54,8 @@ static int parts_check(const lrcs_host_sweep_part *part, uint32_t count, lrcs_ho
     uint64_t next = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (part[i].count > 0 && part[i].first < next) {
-            return lrcsi_host_fail(error, LRCS_E_INDEX, "%s: holds rows that another file holds",
-                                   part[i].path);
+            return lrcsi_host_fail(error, LRCS_E_INDEX,
+                                   "%s: holds rows that another file holds too", part[i].path);
         }
         if (part[i].count > 0 && part[i].first > next) {
             break;
@@ -107,7 +108,7 @@ static int join_write(FILE *out, join_rows *join, lrcs_host_error *error)
         size_t size = 0;
         FILE *text = open_memstream(&mean, &size);
         if (!text) {
-            return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+            return lrcsi_host_out_of_memory(error);
         }
         lrcs_host_rows_mean_write(text, head->format, &tally);
         fclose(text);
@@ -137,7 +138,5 @@ int lrcs_host_sweep_join(lrcs_host_sweep_part *part, uint32_t count, const char 
         return status;
     }
     status = join_write(out.stream, &join, error);
-    int good = status == LRCS_OK;
-    int closed = lrcs_host_output_close(&out, good, good ? error : NULL);
-    return good ? closed : status;
+    return lrcsi_host_output_end(&out, status, error);
 }

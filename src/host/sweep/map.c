@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/fail.h"
+#include "host/files/file.h"
 
 #define MAP_HEAD ".head"
 #define MAP_LINE 200u
@@ -64,7 +64,7 @@ static int map_head_write(const char *path, const char *map, const lrcs_host_row
     lrcs_host_file made;
     lrcs_host_output head;
     if ((size_t)snprintf(name, sizeof name, "%s" MAP_HEAD, path) >= sizeof name) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: a name that is too long", path);
+        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "%s: the name is too long", path);
     }
     int status = lrcs_host_file_read(map, &made, error);
     if (status != LRCS_OK) {
@@ -111,9 +111,7 @@ int lrcs_host_sweep_map_write(const char *path, const lrcs_host_rows *rows,
         status = map_head_write(path, map.temporary, rows, &tally, error);
     }
     /* 3. The map under its own name. */
-    int good = status == LRCS_OK;
-    int closed = lrcs_host_output_close(&map, good, good ? error : NULL);
-    return good ? closed : status;
+    return lrcsi_host_output_end(&map, status, error);
 }
 
 /* ---- a map that is there ---- */

@@ -64,7 +64,7 @@ static int lock_take(lrcs_host_sweep_output *file, lrcs_host_error *error)
             close(file->lock);
             file->lock = -1;
             return lrcsi_host_fail(error, LRCS_E_SYSTEM,
-                                   "%s: is being written by %s: wait for its end, or stop it",
+                                   "%s: is being written by %s: wait until it ends, or stop it",
                                    file->path, holder[0] ? holder : "another process");
         }
     } while (locked && !file_is_named(file->lock, file->lock_path, &held));
@@ -96,7 +96,7 @@ int lrcs_host_sweep_output_make(const char *path, int format, int npy, lrcs_host
     file->partial = malloc(room);
     file->lock_path = malloc(room);
     if (!file->path || !file->partial || !file->lock_path) {
-        return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        return lrcsi_host_out_of_memory(error);
     }
     snprintf(file->partial, room, "%s.partial", file->path);
     snprintf(file->lock_path, room, "%s.lock", file->path);
@@ -145,7 +145,7 @@ static int waiting_begin(lrcs_host_sweep_output *file, lrcs_host_error *error)
     free(file->waiting);
     file->waiting = NULL;
     file->stream = open_memstream(&file->waiting, &file->waiting_size);
-    return file->stream ? LRCS_OK : lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+    return file->stream ? LRCS_OK : lrcsi_host_out_of_memory(error);
 }
 
 static int bytes_place(int descriptor, const char *bytes, size_t size, uint64_t at)
@@ -190,28 +190,29 @@ static int waiting_flush(lrcs_host_sweep_output *file, int last, lrcs_host_error
 
 /* ---- what is there already ---- */
 
-enum { OTHER_SWEEP = 1 }; /* is no status: no sentence has been made yet */
-
-/* Recovers the rows of a file that begins with the right head. Returns LRCS_OK if they end
-   properly, in a checksum or in a truncated line; file->size and file->sum are then set to match;
-   OTHER_SWEEP, without a sentence, if the file is not of this sweep and shard; LRCS_E_SYNTAX if a
-   row is damaged. */
+/* Recovers the rows of a file that begins with the right head. Returned: same, 0 if the file is not
+   of this sweep and shard, which is no failure yet; summed, whether a checksum follows the rows, or
+   they end in a truncated line. file->size and file->sum are set to match.
+   Status: LRCS_OK; LRCS_E_SYNTAX (a row is damaged). */
 static int rows_recover(lrcs_host_sweep_output *file, const char *path, const lrcs_host_file *there,
-                        const char *head, size_t head_size, int *summed, lrcs_host_error *error)
+                        const char *head, size_t head_size, int *same, int *summed,
+                        lrcs_host_error *error)
 {
     lrcs_host_rows rows;
     lrcs_host_row row;
     lrcs_host_error fault;
     const char *bytes = (const char *)there->bytes;
-    if (there->size < head_size || memcmp(bytes, head, head_size) != 0 ||
-        lrcs_host_rows_open(bytes, there->size, &rows) != LRCS_OK) {
-        return OTHER_SWEEP;
+    *same = there->size >= head_size && memcmp(bytes, head, head_size) == 0 &&
+            lrcs_host_rows_open(bytes, there->size, &rows) == LRCS_OK;
+    if (!*same) {
+        return LRCS_OK;
     }
     const char *good = rows.at;
     int more;
     while ((more = lrcs_host_rows_next(&rows, file->plan, &row, &fault)) == 1) {
         if (row.index >= file->end || (row.index != file->next && good == bytes + head_size)) {
-            return OTHER_SWEEP; /* or of another shard */
+            *same = 0; /* or of another shard */
+            return LRCS_OK;
         }
         if (row.index != file->next) {
             return lrcsi_host_fail(error, LRCS_E_SYNTAX,
@@ -242,18 +243,20 @@ static int partial_continue(lrcs_host_sweep_output *file, const char *head, size
 {
     lrcs_host_file there = {NULL, 0};
     int summed;
+    int same = 1;
     int status = lrcs_host_file_read(file->partial, &there, error);
     if (status != LRCS_OK) {
         return status;
     }
     int torn = there.size < head_size && memcmp(there.bytes, head, there.size) == 0;
-    status =
-        torn ? LRCS_OK : rows_recover(file, file->partial, &there, head, head_size, &summed, error);
+    if (!torn) {
+        status = rows_recover(file, file->partial, &there, head, head_size, &same, &summed, error);
+    }
     lrcs_host_file_free(&there);
-    if (status == OTHER_SWEEP) {
+    if (status == LRCS_OK && !same) {
         return lrcsi_host_fail(error, LRCS_E_SYNTAX,
-                               "%s: is of another sweep (scene, options, shard or version): remove "
-                               "it, or give the same",
+                               "%s: belongs to another sweep (scene, options, shard or version): "
+                               "remove it, or give the same ones",
                                file->partial);
     }
     if (status != LRCS_OK) {
@@ -270,7 +273,7 @@ static int partial_continue(lrcs_host_sweep_output *file, const char *head, size
 }
 
 /* Adds the rows of FILE.npy if FILE.npy.head begins with one of these heads and has the map's
-   checksum. LRCS_OK, or OTHER_SWEEP with nothing added. */
+   checksum: 1; else nothing is added: 0. */
 static int map_recover(lrcs_host_sweep_output *file, char *const head[2], const size_t size[2])
 {
     lrcs_host_sweep_map map;
@@ -287,33 +290,36 @@ static int map_recover(lrcs_host_sweep_output *file, char *const head[2], const 
         memcpy(file->tally.count, map.tally.count, sizeof map.tally.count);
     }
     lrcs_host_sweep_map_close(&map);
-    return same ? LRCS_OK : OTHER_SWEEP;
+    return same;
 }
 
-/* FILE exists, and is never replaced by a sweep that goes on: LRCS_OK if it is complete and belongs
-   to this very sweep, with its rows recovered. */
+/* Recovers the rows of FILE, which exists and is never replaced by a sweep that is resumed. LRCS_OK
+   if it is complete and belongs to this very sweep. */
 static int whole_recover(lrcs_host_sweep_output *file, char *const head[2], const size_t size[2],
                          lrcs_host_error *error)
 {
     lrcs_host_file there;
     int summed = file->npy;
-    int status;
+    int status = LRCS_OK;
+    int same;
     if (file->npy) {
-        status = map_recover(file, head, size);
+        same = map_recover(file, head, size);
     } else {
         status = lrcs_host_file_read(file->path, &there, error);
         if (status != LRCS_OK) {
             return status;
         }
         status = rows_recover(file, file->path, &there, head[file->format], size[file->format],
-                              &summed, error);
+                              &same, &summed, error);
         lrcs_host_file_free(&there);
     }
-    if (status == OTHER_SWEEP) {
-        return lrcsi_host_fail(error, LRCS_E_SYNTAX,
-                               "%s: is not of this sweep (scene, options, shard or version)%s: "
-                               "--resume replaces no whole file: remove it, or give another name",
-                               file->path, file->npy ? ", or is not what its .head says" : "");
+    if (status == LRCS_OK && !same) {
+        return lrcsi_host_fail(
+            error, LRCS_E_SYNTAX,
+            "%s: is not a file of this sweep (scene, options, shard or version)%s; "
+            "--resume does not replace a complete file: remove it, or give "
+            "another name",
+            file->path, file->npy ? ", or differs from its .head" : "");
     }
     if (status == LRCS_OK && (!summed || file->next != file->end)) {
         return lrcsi_host_fail(
@@ -342,8 +348,7 @@ int lrcs_host_sweep_output_open(lrcs_host_sweep_output *file, int resume, lrcs_h
         if (out) {
             lrcs_host_rows_head_write(out, i, file->head, file->plan);
         }
-        status = out && fclose(out) == 0 ? LRCS_OK
-                                         : lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+        status = out && fclose(out) == 0 ? LRCS_OK : lrcsi_host_out_of_memory(error);
     }
     if (status != LRCS_OK) {
         free(text[0]);
@@ -360,8 +365,8 @@ int lrcs_host_sweep_output_open(lrcs_host_sweep_output *file, int resume, lrcs_h
             fwrite(text[file->format], 1, size[file->format], file->stream);
         } else if (errno == EEXIST) {
             status = lrcsi_host_fail(error, LRCS_E_SYSTEM,
-                                     "%s: is there from a sweep that was stopped: --resume goes on "
-                                     "with it; or remove it",
+                                     "%s: exists from a sweep that was stopped: --resume continues "
+                                     "it; or remove it",
                                      file->partial);
         } else {
             status = lrcsi_host_fail_file(error, file->partial, "write");
@@ -455,8 +460,8 @@ int lrcs_host_sweep_output_close(lrcs_host_sweep_output *file, int all, lrcs_hos
     if (!ours) {
         return lrcsi_host_fail(
             error, LRCS_E_SYSTEM,
-            "%s: was changed or removed by another program while it was written: "
-            "it does not become %s",
+            "%s: was changed or removed by another program while it was written, so that it is not "
+            "renamed to %s",
             file->partial, file->path);
     }
     if (all && file->npy) {

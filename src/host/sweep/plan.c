@@ -241,17 +241,17 @@ uint64_t lrcs_host_plan_place(const lrcs_host_plan *plan, uint64_t row, uint32_t
     return row / inner % plan->axis[axis].range.count;
 }
 
-/* Point i of a spherical Fibonacci lattice of N: z = 1 - (2 i + 1) / N, the azimuth a multiple of
-   the golden section of a turn, taken modulo 1 in whole numbers (2^64 / phi). Source: R. Swinbank,
-   R. J. Purser, Q. J. R. Meteorol. Soc. 132 (2006) 1769. */
+/* Point i of a spherical Fibonacci lattice of N: z = 1 - (2 i + 1) / N, and the azimuth is i times
+   the golden section of a full turn, in whole numbers of which 2^64 are a full turn: i (2^64 /
+   phi). Source: R. Swinbank, R. J. Purser, Q. J. R. Meteorol. Soc. 132 (2006) 1769. */
 static void sphere_point(uint64_t i, uint64_t count, double direction[3])
 {
-    uint64_t turn = i * 0x9e3779b97f4a7c15u;
+    uint64_t azimuth = i * 0x9e3779b97f4a7c15u;
     lrcs_pose around = lrcs_pose_default();
     double n = (double)count;
     double z = (n - 1.0 - 2.0 * (double)i) / n;
     double level = sqrt((1.0 - z) * (1.0 + z));
-    lrcs_pose_from_azel(360.0 * ((double)(turn >> 11) * 0x1p-53), 0.0, &around);
+    lrcs_pose_from_azel(360.0 * ((double)(azimuth >> 11) * 0x1p-53), 0.0, &around);
     direction[0] = level * around.direction[0];
     direction[1] = level * around.direction[1];
     direction[2] = z;
@@ -340,8 +340,8 @@ double lrcs_host_plan_weight(const lrcs_host_plan *plan, uint64_t row)
         double here = lrcs_host_range_at(range, place);
         double half = 0.5 * fabs(lrcs_host_range_at(range, 1) - first);
         if (plan->axis[i].key[0] == 'a') {
-            int turn = fabs(lrcs_host_range_at(range, last) - first) == 360.0;
-            weight *= turn && (place == 0 || place == last) ? 0.5 : 1.0;
+            int full_turn = fabs(lrcs_host_range_at(range, last) - first) == 360.0;
+            weight *= full_turn && (place == 0 || place == last) ? 0.5 : 1.0;
         } else {
             double width = sin(fmin(here + half, 90.0) / PLAN_DEGREES) -
                            sin(fmax(here - half, -90.0) / PLAN_DEGREES);

@@ -5,6 +5,9 @@
 
 #include <lrcs/rows.h>
 
+/* The most columns that a row has, with index and flags. */
+#define LRCSI_ROW_NAMES (LRCS_HOST_PLAN_COLUMNS + LRCS_HOST_ROW_FIELDS + 2)
+
 /* Reads the first lines of opened rows, and completes `rows`. Keys and names of columns are texts
    in `words`, a copy that the caller frees in any case. Status: as lrcs_host_rows_open. */
 int lrcsi_rows_head_read(lrcs_host_rows *rows, char **words, lrcs_host_rows_head *head,

@@ -304,7 +304,7 @@ int lrcs_host_plan_scene(const lrcs_host_plan *plan, uint64_t row, const lrcs_ho
     uint32_t bound = recipe.binding_count;
     recipe.part = calloc((size_t)recipe.part_count + 1, sizeof *recipe.part);
     recipe.binding = calloc((size_t)bound + LRCS_HOST_PLAN_AXES, sizeof *recipe.binding);
-    int status = lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
+    int status = lrcsi_host_out_of_memory(error);
     if (recipe.part && recipe.binding) {
         memcpy(recipe.part, base->recipe.part, recipe.part_count * sizeof *recipe.part);
         if (bound > 0) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The materials of facets as the command line assigns them: A,B,s,m or a library name, to all
-   facets, to a material name or to a colour. */
+/* The scene of a command: the materials and the unit that the command line gives it, and how it is
+   read, prepared and run, with the messages about failures. */
 #include "cli/cli.h"
 
 #include <stdlib.h>

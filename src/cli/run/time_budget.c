@@ -266,8 +266,8 @@ int cli_run_budget_read(run_job *job)
     }
     for (int i = 0; i < clashes; i++) {
         if (cli_value(args, clash[i])) {
-            return cli_usage(args->command, "--time-budget chooses for itself: leave out --%s",
-                             clash[i]);
+            return cli_usage(args->command,
+                             "--time-budget chooses the settings itself: leave out --%s", clash[i]);
         }
     }
     job->asked = cli_value(args, "tolerance") ? job->asked : 0.0;

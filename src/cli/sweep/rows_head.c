@@ -30,13 +30,18 @@ static int head_given(const cli_args *args, int (*meant)(const char *name),
     return 0;
 }
 
-/* Adds the options that rows depend on; the hash of the scene stands for all options of the
-   scene. */
-static int head_options(const cli_args *args, const lrcs_host_plan *plan,
-                        const lrcs_run_options *options, lrcs_host_rows_head *head)
+/* 1. The options that rows depend on; the hash of the scene stands for all options of the scene.
+   2. The origin of the scene: its files with their hashes, by their last names, which do not depend
+      on where the files are stored.
+   3. The options that changed the scene. */
+int cli_rows_head_make(const cli_args *args, const lrcs_host_plan *plan,
+                       const lrcs_run_options *options, const lrcs_host_scene *scene, int coarse,
+                       lrcs_host_rows_head *head)
 {
-    char text[64];
-    int code = head_given(args, lrcs_host_plan_takes, head);
+    char text[CLI_FILE_TEXT];
+    lrcs_host_rows_head_make(plan, lrcs_scene_hash(&scene->scene), cli_errors_stated(&scene->scene),
+                             coarse, head);
+    int code = head_given(args, lrcs_host_plan_takes, head); /* 1 */
     if (plan->kind == LRCS_HOST_PLAN_TRACK) {
         snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)plan->track.hash);
         lrcs_host_rows_head_add(head, "poses", text);
@@ -52,17 +57,9 @@ static int head_options(const cli_args *args, const lrcs_host_plan *plan,
     lrcs_host_rows_head_add(head, "method", lrcs_method_text(options->method));
     snprintf(text, sizeof text, "%lu", (unsigned long)options->resolution);
     lrcs_host_rows_head_add(head, "resolution", options->resolution ? text : "auto");
-    return code;
-}
-
-/* Adds the origin of the scene: its files with their hashes, by their last names, which do not
-   depend on where the files are stored; and the command-line options that changed it. */
-static int head_scene(const cli_args *args, const lrcs_host_scene *scene, lrcs_host_rows_head *head)
-{
-    char text[CLI_FILE_TEXT];
     lrcs_host_rows_head_add(head, "normals", lrcs_normals_text(scene->scene.normals));
-    lrcs_host_rows_head_add(head, "title", cli_base_name(cli_scene_title(args, scene)));
-    if (cli_materials_open(&scene->scene)) {
+    lrcs_host_rows_head_add(head, "title", cli_base_name(cli_scene_title(args, scene))); /* 2 */
+    if (cli_materials_assumed(&scene->scene)) {
         lrcs_host_rows_head_add(head, "materials", "illustrative or assumed");
     }
     for (const lrcs_host_input *input = scene->input; input; input = input->next) {
@@ -71,14 +68,5 @@ static int head_scene(const cli_args *args, const lrcs_host_scene *scene, lrcs_h
             break; /* the scene's hash stands for all of them */
         }
     }
-    return head_given(args, is_of_scene, head);
-}
-
-int cli_head_make(const cli_args *args, const lrcs_host_plan *plan, const lrcs_run_options *options,
-                  const lrcs_host_scene *scene, int coarse, lrcs_host_rows_head *head)
-{
-    lrcs_host_rows_head_make(plan, lrcs_scene_hash(&scene->scene), cli_errors_stated(&scene->scene),
-                             coarse, head);
-    int code = head_options(args, plan, options, head);
-    return code ? code : head_scene(args, scene, head);
+    return code ? code : head_given(args, is_of_scene, head); /* 3 */
 }

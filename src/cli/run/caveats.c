@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What a run's bound does not include: the unit that was assumed, back sides that reflect nothing,
-   glints of facets that are too coarse for them, the origin of the materials. Computed from the
-   records of the facets; printed as the last lines of a run, and as JSON. */
+/* The caveats of a run, which its bound does not include: the unit that was assumed, back sides
+   that reflect nothing, glints of facets that are too coarse for them, the origin of the materials.
+   The verdict, the last lines of a run, states what is proved, and then the caveats. */
 #include "cli/run/run.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 /* ---- what is found ---- */
 
 /* Finds visible backs of materials that are not two-sided, and what they would contribute. */
-static void backs_find(const run_job *job, run_open *open)
+static void backs_find(const run_job *job, run_caveats *caveats)
 {
     const lrcs_scene *scene = &job->scene.scene;
     double more = 0.0;
@@ -23,28 +23,29 @@ static void backs_find(const run_job *job, run_open *open)
             more += LRCS_FOUR_PI * f * -record->cos_theta * record->visible_area_m2;
         }
     }
-    open->back_area_m2 = job->result.back_side_area_m2;
-    open->back_share = job->result.projected_area_m2 > 0.0
-                           ? open->back_area_m2 / job->result.projected_area_m2
-                           : 0.0;
+    caveats->back_area_m2 = job->result.back_side_area_m2;
+    caveats->back_share = job->result.projected_area_m2 > 0.0
+                              ? caveats->back_area_m2 / job->result.projected_area_m2
+                              : 0.0;
     int known = job->records || !(job->result.back_side_area_m2 > 0.0);
-    open->back_sigma_m2 = known ? job->result.sigma_m2 + more : (double)NAN;
+    caveats->back_sigma_m2 = known ? job->result.sigma_m2 + more : (double)NAN;
 }
 
-int cli_run_open(run_job *job)
+int cli_run_caveats(run_job *job)
 {
-    run_open *open = &job->open;
+    run_caveats *caveats = &job->caveats;
     lrcs_host_glint *list = NULL;
-    memset(open, 0, sizeof *open);
-    backs_find(job, open);
+    memset(caveats, 0, sizeof *caveats);
+    backs_find(job, caveats);
     lrcs_host_error error;
     int status =
-        lrcs_host_glint_coarse(&job->scene, &job->load.build, 0, &list, &open->coarse, &error);
-    open->glint.facet = LRCS_NONE;
+        lrcs_host_glint_coarse(&job->scene, &job->load.build, 0, &list, &caveats->coarse, &error);
+    caveats->glint.facet = LRCS_NONE;
     if (job->records) {
-        lrcs_host_glint_sum_make(&job->scene.scene, job->records, list, open->coarse, &open->glint);
-    } else if (open->coarse > 0) {
-        open->glint.glint_m2 = open->glint.error_m2 = (double)NAN; /* not known */
+        lrcs_host_glint_sum_make(&job->scene.scene, job->records, list, caveats->coarse,
+                                 &caveats->glint);
+    } else if (caveats->coarse > 0) {
+        caveats->glint.glint_m2 = caveats->glint.error_m2 = (double)NAN; /* not known */
     }
     free(list);
     return status == LRCS_OK ? 0 : cli_failed(&error);
@@ -52,17 +53,17 @@ int cli_run_open(run_job *job)
 
 /* ---- as JSON ---- */
 
-void cli_run_open_json(const run_job *job, lrcs_host_json *json)
+void cli_run_caveats_json(const run_job *job, lrcs_host_json *json)
 {
-    const run_open *open = &job->open;
+    const run_caveats *caveats = &job->caveats;
     lrcs_host_json_put(json,
                        "back_sides={area_m2=%g share_of_silhouette=%g sigma_two_sided_m2=%g} "
                        "coarse_glint={parts=%u sigma_glint_m2=%g error_estimate_m2=%g",
-                       open->back_area_m2, open->back_share, open->back_sigma_m2, open->coarse,
-                       open->glint.glint_m2, open->glint.error_m2);
-    if (job->records || open->coarse == 0) {
+                       caveats->back_area_m2, caveats->back_share, caveats->back_sigma_m2,
+                       caveats->coarse, caveats->glint.glint_m2, caveats->glint.error_m2);
+    if (job->records || caveats->coarse == 0) {
         lrcs_host_json_put(json, "one_facet_dominates=%d}",
-                           lrcs_host_glint_dominates(&open->glint, job->result.sigma_m2));
+                           lrcs_host_glint_dominates(&caveats->glint, job->result.sigma_m2));
     } else {
         lrcs_host_json_put(json, "one_facet_dominates=null}"); /* not known */
     }
@@ -70,7 +71,7 @@ void cli_run_open_json(const run_job *job, lrcs_host_json *json)
 
 /* ---- in words ---- */
 
-static void unit_say(const run_job *job, FILE *out)
+static void unit_caveat(const run_job *job, FILE *out)
 {
     for (uint32_t i = 0; i < job->scene.recipe.part_count; i++) {
         const lrcs_recipe_part *part = &job->scene.recipe.part[i];
@@ -83,56 +84,57 @@ static void unit_say(const run_job *job, FILE *out)
     }
 }
 
-static void backs_say(const run_job *job, FILE *out)
+static void backs_caveat(const run_job *job, FILE *out)
 {
-    const run_open *open = &job->open;
-    if (!(open->back_area_m2 > 0.0)) {
+    const run_caveats *caveats = &job->caveats;
+    if (!(caveats->back_area_m2 > 0.0)) {
         return;
     }
     fprintf(out, "  back sides %.3g m2, %.3g %% of the silhouette, return nothing",
-            open->back_area_m2, 100.0 * open->back_share);
-    if (!isnan(open->back_sigma_m2)) {
+            caveats->back_area_m2, 100.0 * caveats->back_share);
+    if (!isnan(caveats->back_sigma_m2)) {
         fprintf(out, "; if they reflected, sigma would be\n             %.6g m2",
-                open->back_sigma_m2);
+                caveats->back_sigma_m2);
         if (job->result.sigma_m2 > 0.0) {
-            fprintf(out, " (%+.3g %%)",
-                    cli_percent(open->back_sigma_m2 - job->result.sigma_m2, job->result.sigma_m2));
+            fprintf(
+                out, " (%+.3g %%)",
+                cli_percent(caveats->back_sigma_m2 - job->result.sigma_m2, job->result.sigma_m2));
         }
         fprintf(out, ": --two-sided open, or all");
     }
     putc('\n', out);
 }
 
-static void glint_say(const run_job *job, FILE *out)
+static void glint_caveat(const run_job *job, FILE *out)
 {
-    const run_open *open = &job->open;
-    if (open->coarse > 0 && !job->records) {
+    const run_caveats *caveats = &job->caveats;
+    if (caveats->coarse > 0 && !job->records) {
         fprintf(out,
                 "  glint      %lu curved part%s too coarse for the slope of their material: "
                 "--normals auto\n",
-                (unsigned long)open->coarse, open->coarse == 1 ? " is" : "s are");
+                (unsigned long)caveats->coarse, caveats->coarse == 1 ? " is" : "s are");
         return;
     }
-    if (open->coarse == 0 || !(open->glint.error_m2 > job->result.bound_m2)) {
+    if (caveats->coarse == 0 || !(caveats->glint.error_m2 > job->result.bound_m2)) {
         return;
     }
     fprintf(out,
             "  glint      %.3g %% of sigma from facets too coarse for it: flat or curved differ by "
             "some "
             "%.2g %%\n             (an estimate): --normals auto\n",
-            cli_percent(open->glint.glint_m2, job->result.sigma_m2),
-            cli_percent(open->glint.error_m2, job->result.sigma_m2));
-    if (lrcs_host_glint_dominates(&open->glint, job->result.sigma_m2)) {
+            cli_percent(caveats->glint.glint_m2, job->result.sigma_m2),
+            cli_percent(caveats->glint.error_m2, job->result.sigma_m2));
+    if (lrcs_host_glint_dominates(&caveats->glint, job->result.sigma_m2)) {
         fprintf(out,
                 "             facet %lu and what lies in its plane make %.3g %% of sigma: its "
                 "normal is "
                 "the mesh's,\n             not the surface's\n",
-                (unsigned long)open->glint.facet,
-                cli_percent(open->glint.most_m2, job->result.sigma_m2));
+                (unsigned long)caveats->glint.facet,
+                cli_percent(caveats->glint.most_m2, job->result.sigma_m2));
     }
 }
 
-static void materials_say(const run_job *job, FILE *out)
+static void materials_caveat(const run_job *job, FILE *out)
 {
     static const char *const source[] = {"illustrative", "published", "default", "assumed",
                                          "given"};
@@ -179,9 +181,9 @@ void cli_run_verdict(const run_job *job, FILE *out)
         fprintf(out, "; likely error\n             %.2g m2, an estimate", r->estimate_m2);
     }
     fprintf(out, ".\n             Left open by the model:\n");
-    unit_say(job, out);
-    backs_say(job, out);
-    glint_say(job, out);
-    materials_say(job, out);
+    unit_caveat(job, out);
+    backs_caveat(job, out);
+    glint_caveat(job, out);
+    materials_caveat(job, out);
     cli_run_materials_verdict(job, out);
 }

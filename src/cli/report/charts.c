@@ -14,7 +14,7 @@ static const double chart_box[4] = {0.0, LRCS_HOST_CHART_TITLE, LRCS_HOST_CHART_
                                     LRCS_HOST_CHART_HEIGHT - LRCS_HOST_CHART_TITLE};
 
 /* The smallest and largest sigma, and the largest bound, of a sweep. */
-static void extremes_say(FILE *out, const report_sweep *sweep)
+static void extremes_write(FILE *out, const report_sweep *sweep)
 {
     double least = HUGE_VAL;
     double most = 0.0;
@@ -34,7 +34,7 @@ static void extremes_say(FILE *out, const report_sweep *sweep)
     cli_page(out, " \xcf\x83 is proved to within %.2e m\xc2\xb2 or better%s.", bound,
              sweep->plot.open ? " for its materials, which are illustrative" : "");
     if (sweep->band && most > 0.0) {
-        cli_page_say(
+        cli_page_text(
             out,
             " Errors of its materials (68\xc2\xa0%%%s): \xc2\xb1%.2g\xc2\xa0%% of \xcf\x83 in the "
             "median, \xc2\xb1%.2g\xc2\xa0%% at most.",
@@ -74,7 +74,7 @@ static void cuts_section(FILE *out, const report_job *job)
                  cut[i].plane);
         figure_begin(out, sweep, label, polar_box);
         fprintf(out, "<b>Plane of %s</b>; %s.", cut[i].plane, cut[i].angle);
-        extremes_say(out, sweep);
+        extremes_write(out, sweep);
         cli_page_figure_end(out);
     }
     fputs("</div>\n</section>\n", out);
@@ -106,15 +106,11 @@ static void peak_row(FILE *out, const report_job *job, uint32_t i)
     const report_sweep *map = &job->sweep[REPORT_MAP];
     const cli_shares *shares = &job->peak_shares[i];
     double value[LRCS_HOST_PLAN_COLUMNS];
-    double glint = 0.0;
     lrcs_host_plan_values(&map->plan, job->peak[i], value);
-    for (uint32_t k = 0; k < shares->parts; k++) {
-        glint += shares->part[k].glint_m2;
-    }
     double sigma_m2 = map->row[job->peak[i]][0];
     fputs("\n<tr>", out);
     cli_page_cells(out, "%.6g%.6g%.5g%.4g", value[0], value[1], sigma_m2, cli_dbsm(sigma_m2));
-    cli_page(out, "<td class=\"n\">%f</td>", cli_share_of(shares, glint));
+    cli_page(out, "<td class=\"n\">%f</td>", cli_share_of(shares, cli_shares_glint(shares)));
     most_cell(out, shares, shares->part, shares->parts, "(no name)");
     most_cell(out, shares, shares->material, shares->materials, "(default)");
     fputs("</tr>", out);
@@ -122,7 +118,7 @@ static void peak_row(FILE *out, const report_job *job, uint32_t i)
 
 static void peaks_section(FILE *out, const report_job *job)
 {
-    cli_page_section(out, "peaks", "The brightest directions, and who makes them");
+    cli_page_section(out, "peaks", "The brightest directions, and what contributes to them");
     fputs("<p>Peaks of the map: directions that outshine all their neighbours.", out);
     fputs(job->peaks > 0 ? "</p>\n" : " There are none: nothing returns.</p>\n", out);
     if (job->peaks > 0) {
@@ -136,13 +132,13 @@ static void peaks_section(FILE *out, const report_job *job)
     fputs("</section>\n", out);
 }
 
-void cli_report_curves(FILE *out, const report_job *job)
+void cli_report_charts(FILE *out, const report_job *job)
 {
     const report_sweep *map = &job->sweep[REPORT_MAP];
     cli_page_section(out, "map", "All directions");
     figure_begin(out, map, "Map of sigma in dBsm over azimuth and elevation", chart_box);
     cli_page(out, "Steps of %u\xc2\xb0.", job->map_step);
-    extremes_say(out, map);
+    extremes_write(out, map);
     cli_page_figure_end(out);
     fputs("</section>\n", out);
     peaks_section(out, job);
@@ -159,9 +155,9 @@ void cli_report_accuracy(FILE *out, const report_job *job)
     cli_page(out, "<p>%s</p>\n", sentence.text);
     cli_page_figure(out, &job->chart, "Chart of error and bound against the time of a pose",
                     chart_box);
-    cli_page_say(out, "Against %s: \xcf\x83 = %.9g m\xc2\xb2%s%s%s%s.", compare->truth.text,
-                 compare->truth.sigma_m2, compare->left_out[0] ? "; " : "", compare->left_out,
-                 compare->busy[0] ? "; " : "", compare->busy);
+    cli_page_text(out, "Against %s: \xcf\x83 = %.9g m\xc2\xb2%s%s%s%s.", compare->truth.text,
+                  compare->truth.sigma_m2, compare->left_out[0] ? "; " : "", compare->left_out,
+                  compare->busy[0] ? "; " : "", compare->busy);
     cli_page_figure_end(out);
     cli_page_fold(out, "All settings");
     cli_page_table(out, "Accuracy against time",

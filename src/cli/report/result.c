@@ -81,7 +81,7 @@ static void method_words(FILE *out, const report_job *job)
     }
     cli_page(out, "%s%s", job->options.method == LRCS_METHOD_AUTO ? ", chosen by auto: " : ": ",
              r->method_reason);
-    cli_page_say(
+    cli_page_text(
         out,
         ". Normals are %s. Of %lu facets %lu face the laser; of those that could reflect %lu "
         "are hidden and %lu partly hidden. The pose took %.3g ms, preparing the scene %.3g "
@@ -156,7 +156,7 @@ static void share_table(FILE *out, const cli_shares *shares, const char *label, 
 void cli_report_shares(FILE *out, const report_job *job)
 {
     const cli_shares *shares = &job->shares;
-    cli_page_section(out, "shares", "Who makes \xcf\x83");
+    cli_page_section(out, "shares", "What contributes to \xcf\x83");
     fputs("<h3>Parts</h3>\n", out);
     share_table(out, shares, "Shares of parts",
                 "Part|#Facets|#\xcf\x83, m\xc2\xb2|#Share||#Glint, m\xc2\xb2|#Diffuse, m\xc2\xb2",

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* The text beside sigma at the top of the page: the verdict of lrcs run, in its words. This file
-   decides how those lines become markup, not their text. */
+/* The summary at the top of the page: the verdict of lrcs run, in its words. This file decides how
+   those lines become markup, not their text. */
 #include "cli/report/report.h"
 #include "cli/run/run.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define VERDICT_INDENT 13u /* column of the text of a line, after its name */
+#define SUMMARY_INDENT 13u /* column of the text of a line, after its name */
 
-int cli_report_verdict_make(report_job *job)
+int cli_report_summary_make(report_job *job)
 {
     run_job *run = calloc(1, sizeof *run);
     if (!run) {
@@ -24,8 +24,8 @@ int cli_report_verdict_make(report_job *job)
     run->records = job->records;
     run->sampling = lrcs_uncertainty_options_default();
     int code = cli_run_materials(run);
-    code = code ? code : cli_run_open(run);
-    FILE *out = code == 0 ? cli_report_bytes_begin(&job->verdict) : NULL;
+    code = code ? code : cli_run_caveats(run);
+    FILE *out = code == 0 ? cli_report_bytes_begin(&job->summary) : NULL;
     if (out) {
         cli_run_verdict(run, out);
         code = cli_report_bytes_end(out);
@@ -40,24 +40,24 @@ int cli_report_verdict_make(report_job *job)
 
 /* Lines are "name       text"; a line without a name continues the previous one. The first is a
    paragraph, the others are a list. */
-void cli_report_verdict(FILE *out, const report_job *job)
+void cli_report_summary(FILE *out, const report_job *job)
 {
-    char *text = job->verdict.bytes;
+    char *text = job->summary.bytes;
     int items = 0;
     while (text && *text) {
         size_t size = strcspn(text, "\n");
         char *next = text[size] ? text + size + 1 : text + size;
         text[size] = '\0';
         size_t blank = strspn(text, " ");
-        const char *words = size > VERDICT_INDENT ? text + VERDICT_INDENT : text + blank;
-        if (blank >= VERDICT_INDENT || size <= VERDICT_INDENT) {
+        const char *words = size > SUMMARY_INDENT ? text + SUMMARY_INDENT : text + blank;
+        if (blank >= SUMMARY_INDENT || size <= SUMMARY_INDENT) {
             putc(' ', out);
         } else if (blank == 0) {
             fputs("<p class=\"verdict\"><b>Verdict:</b> ", out);
         } else {
-            char name[VERDICT_INDENT + 1] = "";
-            size_t used = VERDICT_INDENT;
-            memcpy(name, text, VERDICT_INDENT);
+            char name[SUMMARY_INDENT + 1] = "";
+            size_t used = SUMMARY_INDENT;
+            memcpy(name, text, SUMMARY_INDENT);
             while (used > 0 && name[used - 1] == ' ') {
                 name[--used] = '\0';
             }
@@ -67,5 +67,5 @@ void cli_report_verdict(FILE *out, const report_job *job)
         cli_page(out, "%s", words);
         text = next;
     }
-    fputs(items > 0 ? "</li>\n</ul>\n" : job->verdict.bytes ? "</p>\n" : "", out);
+    fputs(items > 0 ? "</li>\n</ul>\n" : job->summary.bytes ? "</p>\n" : "", out);
 }

@@ -40,11 +40,11 @@ static void given_add(FILE *out, const cli_args *args, const cli_option *list)
     }
 }
 
-static const cli_option again_pose[] = {CLI_POSE_OPTIONS, {NULL, 0, 0}};
-static const cli_option again_scene[] = {CLI_SCENE_OPTIONS, {NULL, 0, 0}};
-static const cli_option again_accuracy[] = {CLI_ACCURACY_OPTIONS, {NULL, 0, 0}};
-static const cli_option *const again_sweep = again_accuracy + 1; /* without the tolerance */
-static const cli_option again_report[] = {{"o", 1, 0}, {"seconds", 1, 0}, {NULL, 0, 0}};
+static const cli_option pose_list[] = {CLI_POSE_OPTIONS, {NULL, 0, 0}};
+static const cli_option scene_list[] = {CLI_SCENE_OPTIONS, {NULL, 0, 0}};
+static const cli_option accuracy_list[] = {CLI_ACCURACY_OPTIONS, {NULL, 0, 0}};
+static const cli_option *const sweep_list = accuracy_list + 1; /* without the tolerance */
+static const cli_option report_list[] = {{"o", 1, 0}, {"seconds", 1, 0}, {NULL, 0, 0}};
 
 /* "lrcs COMMAND SCENE" with the options of pose, accuracy and scene that were given. */
 static void line_begin(FILE *out, const report_job *job, const char *command, int pose,
@@ -53,12 +53,12 @@ static void line_begin(FILE *out, const report_job *job, const char *command, in
     fprintf(out, "lrcs %s", command);
     word_quote(out, job->args->operand);
     if (pose) {
-        given_add(out, job->args, again_pose);
+        given_add(out, job->args, pose_list);
     }
     if (accuracy) {
-        given_add(out, job->args, again_accuracy);
+        given_add(out, job->args, accuracy_list);
     }
-    given_add(out, job->args, again_scene);
+    given_add(out, job->args, scene_list);
 }
 
 static void sweep_line(FILE *out, const report_job *job, int kind)
@@ -69,8 +69,8 @@ static void sweep_line(FILE *out, const report_job *job, int kind)
     word_quote(out, job->args->operand);
     fprintf(out, " --az %s --el %s --tolerance %.15g", sweep->az, sweep->el,
             job->sweep_options.tolerance);
-    given_add(out, job->args, again_sweep);
-    given_add(out, job->args, again_scene);
+    given_add(out, job->args, sweep_list);
+    given_add(out, job->args, scene_list);
     fprintf(out, " --dbsm %s-o %s.csv --plot %s.svg", kind == REPORT_MAP ? "" : "--polar ",
             file[kind], file[kind]);
     if (kind == REPORT_MAP) {
@@ -83,7 +83,7 @@ static void lines_write(FILE *out, const void *context)
 {
     const report_job *job = context;
     line_begin(out, job, "report", 1, 1);
-    given_add(out, job->args, again_report);
+    given_add(out, job->args, report_list);
     fprintf(out, " --cut-step %lu --map-step %lu\n", (unsigned long)job->cut_step,
             (unsigned long)job->map_step);
     line_begin(out, job, "run", 1, 1);
@@ -105,9 +105,9 @@ static void lines_write(FILE *out, const void *context)
     fprintf(out, " --seconds %.3g --plot accuracy.svg\n", job->converge.all.seconds);
 }
 
-void cli_report_again(FILE *out, const report_job *job)
+void cli_report_reproduce(FILE *out, const report_job *job)
 {
-    cli_page_section(out, "again", "How to make it again");
+    cli_page_section(out, "again", "How to reproduce it");
     fputs("<dl class=\"facts\">\n", out);
     cli_page_fact(out, "Version", "lrcs %s", lrcs_version());
     for (const lrcs_host_input *input = job->scene.input; input; input = input->next) {
@@ -118,7 +118,7 @@ void cli_report_again(FILE *out, const report_job *job)
     fprintf(out,
             "<div><dt>Scene hash</dt><dd><code id=\"scene_hash\">%016llx</code></dd></div>\n"
             "</dl>\n"
-            "<p>The first line makes this page again, the others what stands on it, one by "
+            "<p>The first line reproduces this page, the others what is on it, one by "
             "one.</p>\n",
             (unsigned long long)lrcs_scene_hash(&job->scene.scene));
     char *lines = cli_text_of(lines_write, job);
