@@ -68,7 +68,7 @@
 /* The value of the rule on a cell. */
 typedef struct cubature_value {
     double glint, diffuse, rounding;
-    double glint_u, diffuse_log; /* if sum.derivatives */
+    double glint_u, diffuse_log; /* if sum.surface.derivatives */
     double weighted;             /* f_r cos times the caller's linear function; 0 without one */
 } cubature_value;
 
@@ -97,7 +97,7 @@ typedef struct lrcsi_cubature_cell cubature_cell;
 static double node_position_err(const lrcsi_cubature *sum, double u, double d,
                                 const cubature_value *at)
 {
-    const lrcs_brdf *brdf = sum->brdf;
+    const lrcs_brdf *brdf = sum->surface.brdf;
     double t = sqrt(u) + 2 * d * (1 + u);
     double glint_change = brdf->A > 0 ? d * t * (5 + 2 * ((1 + t * t) / brdf->s) / brdf->s) : 0;
     double diffuse_change = d * t * (brdf->m + 1);
@@ -118,16 +118,16 @@ static cubature_value node_value(const lrcsi_cubature *sum, const double n[3])
         return at;
     }
     double u = lrcsi_min(TAN2_MAX, (n[0] * n[0] + n[1] * n[1]) / n[2] / n[2]);
-    lrcsi_reflection reflection = lrcsi_reflect(sum->brdf, u, 0);
+    lrcsi_reflection reflection = lrcsi_reflect(sum->surface.brdf, u, 0);
     double secant = sqrt(1 + u);
     at.glint = reflection.glint * secant;
     at.diffuse = reflection.diffuse * secant;
-    if (sum->derivatives) {
+    if (sum->surface.derivatives) {
         at.glint_u = at.glint > 0 ? at.glint * u : 0;
         at.diffuse_log = at.diffuse > 0 ? at.diffuse * lrcsi_log1p(u).hi : 0;
     }
     at.rounding = reflection.error * secant + 4 * LRCSI_U * (at.glint + at.diffuse) +
-                  node_position_err(sum, u, sum->position_err / (n[2] * secant), &at);
+                  node_position_err(sum, u, sum->surface.position_err / (n[2] * secant), &at);
     return at;
 }
 
@@ -243,7 +243,7 @@ static double cell_turn(const cubature_cell *cell)
 /* Errors of f_r cos below this are accepted. */
 static double accepted_error(const lrcsi_cubature *sum)
 {
-    return lrcsi_max(sum->negligible, sum->tolerance * sum->reference);
+    return lrcsi_max(sum->surface.negligible, sum->tolerance * sum->surface.reference);
 }
 
 /* Decides whether the rule is trusted on the cell, and evaluates it if so:
@@ -252,7 +252,7 @@ static double accepted_error(const lrcsi_cubature *sum)
    3. the estimated error of the rule, from the turn relative to the widths of the terms. */
 static void cell_trust(const lrcsi_cubature *sum, cubature_cell *cell)
 {
-    const lrcs_brdf *brdf = sum->brdf;
+    const lrcs_brdf *brdf = sum->surface.brdf;
     double turn = cell_turn(cell);
     double cosine = cos(cell->theta);
     double t = fabs(tan(cell->theta));
@@ -268,9 +268,9 @@ static void cell_trust(const lrcsi_cubature *sum, cubature_cell *cell)
         cell->skipped = (glint_resolved ? 0 : bound.glint) + (diffuse_resolved ? 0 : bound.diffuse);
         double sum_so_far =
             lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse) + sum->estimate;
-        double scale = lrcsi_max(sum_so_far, sum->diffuse_min * sum->area);
+        double scale = lrcsi_max(sum_so_far, sum->surface.diffuse_min * sum->surface.area);
         is_trusted = cell->skipped <= accepted_error(sum) ||
-                     cell->skipped * sum->area <= sum->tolerance * scale;
+                     cell->skipped * sum->surface.area <= sum->tolerance * scale;
     }
     cell->trusted = turn <= TURN_MAX && is_trusted;
     double p = lrcsi_max(turn * sqrt(brdf->m + 1), 0.25 * turn * (brdf->m + 1) * t);
@@ -443,9 +443,9 @@ static double cell_shortest(const cubature_cell *cell)
    lie in a cone about their mean, and have errors of at most position_err. */
 static double cell_integral_bound(const lrcsi_cubature *sum, const cubature_cell *cell)
 {
-    double err = 2 * sum->position_err / cell_shortest(cell);
+    double err = 2 * sum->surface.position_err / cell_shortest(cell);
     double turn = err <= 1 ? cell_turn(cell) + err : LRCS_PI;
-    lrcsi_reflection bound = lrcsi_reflect_bound(sum->brdf, cell->theta, turn);
+    lrcsi_reflection bound = lrcsi_reflect_bound(sum->surface.brdf, cell->theta, turn);
     double area_err = 0;
     for (int i = 1; i + 1 < cell->count; i++) {
         area_err += fan_area_err(cell, i);
@@ -457,7 +457,7 @@ static double cell_integral_bound(const lrcsi_cubature *sum, const cubature_cell
    bound if no steps are left, else its estimate. */
 static void sum_add_error(lrcsi_cubature *sum, double bound, double estimate)
 {
-    if (lrcsi_meter_spent(sum->meter)) {
+    if (lrcsi_meter_spent(sum->surface.meter)) {
         sum->unresolved += bound;
     } else {
         sum->estimate += estimate;
@@ -513,7 +513,8 @@ static uint32_t cell_step(lrcsi_cubature *sum, cubature_cell *cell, int may_divi
         difference = largest > 0 ? lrcsi_max(difference, weighted / largest) : difference;
     }
     double sum_so_far = lrcsi_sum_value(&sum->glint) + lrcsi_sum_value(&sum->diffuse);
-    double allowed = sum->tolerance * (all.glint + all.diffuse + sum_so_far * (area / sum->area));
+    double allowed =
+        sum->tolerance * (all.glint + all.diffuse + sum_so_far * (area / sum->surface.area));
     int agree = difference <= allowed + accepted_error(sum) * area;
     if (may_divide && !agree) {
         return 4;
@@ -537,17 +538,17 @@ static void cells_add(lrcsi_cubature *sum, cubature_cell first)
     cubature_cell part[4];
     uint32_t top = 0;
     cell_finish(&first);
-    sum->stack[top++] = first;
+    sum->surface.stack[top++] = first;
     while (top > 0) {
-        cubature_cell cell = sum->stack[--top];
-        int left = lrcsi_meter_take(sum->meter, CELL_STEPS);
+        cubature_cell cell = sum->surface.stack[--top];
+        int left = lrcsi_meter_take(sum->surface.meter, CELL_STEPS);
         int may_divide =
             cell.depth == 0 || (left && cell.depth + 2 <= HALVINGS_MAX && sum->splits < SPLITS_MAX);
         uint32_t parts = cell_step(sum, &cell, may_divide, part);
         sum->splits += parts;
         for (uint32_t i = 0; i < parts; i++) {
             if (part[i].count >= 3 && cell_area(&part[i]) > 0) {
-                sum->stack[top++] = part[i];
+                sum->surface.stack[top++] = part[i];
             }
         }
     }
@@ -580,17 +581,17 @@ lrcsi_cubature_cell *lrcsi_cubature_stack(lrcs_work *work)
 lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
                                    double tolerance, lrcsi_cubature_cell *stack)
 {
-    lrcsi_cubature sum = {.brdf = brdf, .tolerance = tolerance, .stack = stack};
+    lrcsi_cubature sum = {.surface = {.brdf = brdf, .stack = stack}, .tolerance = tolerance};
     cubature_cell cell = cell_of(normal, NULL, 0);
     cell_measure(&cell);
-    sum.upper_bound = lrcsi_reflect_bound(brdf, cell.theta, cell_turn(&cell) + 0x1p-40);
+    sum.surface.upper_bound = lrcsi_reflect_bound(brdf, cell.theta, cell_turn(&cell) + 0x1p-40);
     double farthest = cell.theta + cell_turn(&cell);
-    sum.diffuse_min =
+    sum.surface.diffuse_min =
         farthest < LRCS_PI / 2 ? brdf->B * lrcsi_power(lrcsi_log(cos(farthest)), brdf->m + 1) : 0;
-    sum.negligible = NEGLIGIBLE * tolerance *
-                     (sum.upper_bound.glint * lrcsi_min(1, brdf->s * brdf->s) +
-                      sum.upper_bound.diffuse / (brdf->m + 1));
-    sum.negligible = lrcsi_max(sum.negligible, TERM_MIN * (brdf->A + brdf->B));
+    sum.surface.negligible = NEGLIGIBLE * tolerance *
+                             (sum.surface.upper_bound.glint * lrcsi_min(1, brdf->s * brdf->s) +
+                              sum.surface.upper_bound.diffuse / (brdf->m + 1));
+    sum.surface.negligible = lrcsi_max(sum.surface.negligible, TERM_MIN * (brdf->A + brdf->B));
     return sum;
 }
 
@@ -606,13 +607,14 @@ static double unlit_position_err(const lrcsi_cubature *sum, const cubature_cell 
         lowest = lrcsi_min(lowest, whole->normal[i][2]);
         highest = lrcsi_max(highest, whole->normal[i][2]);
     }
-    if (lowest > sum->position_err || highest < -sum->position_err) {
+    if (lowest > sum->surface.position_err || highest < -sum->surface.position_err) {
         return 0;
     }
     double turn = cell_turn(whole);
     double length = turn < LRCS_PI / 2 ? cell_shortest(whole) * cos(turn) : 0;
-    double err = 2 * sum->position_err / length;
-    lrcsi_reflection seen = lrcsi_reflect_bound(sum->brdf, LRCS_PI / 2, err <= 1 ? err : LRCS_PI);
+    double err = 2 * sum->surface.position_err / length;
+    lrcsi_reflection seen =
+        lrcsi_reflect_bound(sum->surface.brdf, LRCS_PI / 2, err <= 1 ? err : LRCS_PI);
     return seen.glint + seen.diffuse;
 }
 

@@ -13,31 +13,37 @@
 /* A part of a triangle that is still to be integrated. */
 typedef struct lrcsi_cubature_cell lrcsi_cubature_cell;
 
-/* A sum over triangles of one surface. Areas may be in any unit. */
-typedef struct lrcsi_cubature {
+/* The surface over which a sum is taken, and what is asked for. Areas may be in any unit. */
+typedef struct lrcsi_cubature_surface {
     const lrcs_brdf *brdf;
-    double tolerance;             /* the relative error aimed at; increased where the work would
-                                     exceed the limits */
-    double area;                  /* of all triangles that will be added, approximately */
-    double position_err;          /* bound on the error of normals where they are evaluated, rad */
     lrcsi_reflection upper_bound; /* of the two terms of f_r cos on the surface */
     double diffuse_min;           /* a lower bound of the diffuse term of f_r cos on the surface */
     double negligible;            /* errors of f_r cos below this are accepted */
-    double reference; /* f_r cos of the surfaces with which this one is summed: errors below the
-                         tolerance times this are accepted too */
+    lrcsi_cubature_cell *stack;   /* memory for cells; it holds nothing between triangles */
+    /* set by the caller: */
+    double area;         /* of all triangles that will be added, approximately */
+    double position_err; /* bound on the error of normals where they are evaluated, rad */
+    double reference;    /* f_r cos of the surfaces with which this one is summed: errors below the
+                            tolerance times this are accepted too */
+    int derivatives;     /* 1: compute glint_u and diffuse_log, too */
+    lrcsi_meter *meter;  /* once spent, no cell is divided further; NULL: no limit */
+} lrcsi_cubature_surface;
+
+/* A sum over triangles of one surface. */
+typedef struct lrcsi_cubature {
+    lrcsi_cubature_surface surface;
+    double tolerance; /* the relative error aimed at; increased where the work would exceed the
+                         limits */
     lrcsi_sum glint, diffuse;
-    int derivatives;                /* 1: compute the next two, too; set by the caller */
     lrcsi_sum glint_u, diffuse_log; /* the integral of the glint times tan^2, and that of the
-                                       diffuse term times log(1 + tan^2) */
-    const double *weight;           /* a linear function, as its values at the three corners of the
-                                       triangle to be added; set by the caller; NULL: none */
+                                       diffuse term times log(1 + tan^2), if asked for */
+    const double *weight;           /* set by the caller: a linear function, as its values at the
+                                       three corners of the triangle to be added; NULL: none */
     lrcsi_sum weighted;             /* f_r cos times that function */
     double estimate;                /* of the cubature's error */
-    double unresolved;          /* bound on the error where no steps were left to divide further */
-    double rounding;            /* bound on the rounding error of the sum */
-    uint32_t splits;            /* number of cells made so far by dividing others */
-    lrcsi_meter *meter;         /* once spent, no cell is divided further; NULL: no limit */
-    lrcsi_cubature_cell *stack; /* memory for cells; it holds nothing between triangles */
+    double unresolved;              /* bound on the error where no steps were left */
+    double rounding;                /* bound on the rounding error of the sum */
+    uint32_t splits;                /* number of cells made so far by dividing others */
 } lrcsi_cubature;
 
 /* Bytes of the stack; and takes the stack from a work area (NULL if that is too small). */
@@ -46,7 +52,7 @@ lrcsi_cubature_cell *lrcsi_cubature_stack(lrcs_work *work);
 
 /* An empty sum over a surface whose normals lie between the three given ones (as below). Several
    sums may share one stack. The caller sets area, position_err and meter and, if there are other
-   surfaces, negligible and reference. */
+   surfaces, increases negligible and sets reference. */
 lrcsi_cubature lrcsi_cubature_make(const lrcs_brdf *brdf, const double normal[3][3],
                                    double tolerance, lrcsi_cubature_cell *stack);
 

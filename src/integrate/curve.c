@@ -58,12 +58,13 @@ void lrcsi_curve_integral_make(const lrcsi_curve_context *context, uint32_t face
         lrcsi_plan_brdf(context->options->plan, lrcsi_prepared_material(view->prepared, facet));
     integral->sum = lrcsi_cubature_make(&integral->brdf, (const double(*)[3])integral->normal,
                                         cubature_tolerance, context->options->stack);
-    integral->sum.area = integral->incidence.projected;
-    integral->sum.position_err = NORMAL_ERR;
-    integral->sum.meter = context->options->meter;
-    integral->sum.derivatives = context->options->derivatives;
-    integral->sum.negligible = lrcsi_max(integral->sum.negligible, context->negligible);
-    integral->sum.reference =
+    integral->sum.surface.area = integral->incidence.projected;
+    integral->sum.surface.position_err = NORMAL_ERR;
+    integral->sum.surface.meter = context->options->meter;
+    integral->sum.surface.derivatives = context->options->derivatives;
+    integral->sum.surface.negligible =
+        lrcsi_max(integral->sum.surface.negligible, context->negligible);
+    integral->sum.surface.reference =
         context->sum > 0 ? context->sum / context->projected +
                                context->sum / context->count / integral->incidence.projected
                          : 0;
@@ -77,7 +78,7 @@ lrcsi_curve_context lrcsi_curve_context_make(const lrcsi_view *view,
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (lrcsi_curve_applies(view, f)) {
             lrcsi_curve_integral_make(&context, f, &integral);
-            context.negligible = integral.sum.negligible;
+            context.negligible = integral.sum.surface.negligible;
             context.projected += integral.incidence.projected;
             context.count++;
         }
@@ -92,7 +93,7 @@ void lrcsi_curve_context_add(lrcsi_curve_context *context, double sigma)
 
 double lrcsi_curve_upper_bound(const lrcsi_curve_integral *integral)
 {
-    return integral->sum.upper_bound.glint + integral->sum.upper_bound.diffuse;
+    return integral->sum.surface.upper_bound.glint + integral->sum.surface.upper_bound.diffuse;
 }
 
 /* The contribution of a facet: its integral times the visible fraction. */
@@ -206,7 +207,7 @@ static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occl
 {
     const lrcsi_target *target = &o->single.target;
     double area_err = 20 * LRCSI_U * target->reach * target->perimeter;
-    integral->sum.position_err = lrcsi_curve_position_err(integral, target);
+    integral->sum.surface.position_err = lrcsi_curve_position_err(integral, target);
     while (lrcsi_occlude_next(o)) {
         area_err += piece_add(integral, target, (const double(*)[2])o->single.piece.corner,
                               o->single.piece.count);

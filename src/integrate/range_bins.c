@@ -73,8 +73,8 @@ static void bin_add_smooth(lrcsi_range_bins *bins, const lrcsi_range_facet *f, u
 {
     double centre = centre_of(bins, i);
     const double weight[3] = {range[0] - centre, range[1] - centre, range[2] - centre};
-    lrcsi_cubature sum = f->curve->sum;
-    sum.area = area;
+    lrcsi_cubature sum = {.surface = f->curve->sum.surface, .tolerance = f->curve->sum.tolerance};
+    sum.surface.area = area;
     sum.weight = weight;
     lrcsi_cubature_add(&sum, normal, area);
     double glint = LRCS_FOUR_PI * lrcsi_sum_value(&sum.glint);

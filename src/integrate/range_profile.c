@@ -212,7 +212,7 @@ static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t 
     double area_err = 0;
     lrcsi_occlude_open(o, facet);
     if (f->curve && o->undecided) {
-        f->curve->sum.position_err = lrcsi_curve_position_err(f->curve, &o->single.target);
+        f->curve->sum.surface.position_err = lrcsi_curve_position_err(f->curve, &o->single.target);
     }
     while (lrcsi_occlude_next(o)) {
         const lrcsi_target *target = &o->single.target;

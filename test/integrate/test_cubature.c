@@ -23,8 +23,8 @@ static lrcsi_cubature start(const lrcs_brdf *brdf, const double normal[3][3], do
     lrcsi_cubature_cell *stack = lrcsi_cubature_stack(&work);
     assert_non_null(stack);
     lrcsi_cubature sum = lrcsi_cubature_make(brdf, normal, tolerance, stack);
-    sum.area = 1;
-    sum.position_err = 0x1p-44;
+    sum.surface.area = 1;
+    sum.surface.position_err = 0x1p-44;
     return sum;
 }
 
@@ -45,7 +45,7 @@ static void check_vector(const vector *v, double A, double B, double tolerance)
     check_abs(got, want, sum.estimate + sum.rounding + 1e-12 * want);
     check_most(sum.estimate, 3 * tolerance * want);
     double steep = 4 * ((A > 0 ? 1 / (v->s * v->s) : 0) + v->m + 5); /* for tan(theta) up to 2 */
-    check_most(sum.rounding, sum.position_err * steep * want + 1e-10 * want);
+    check_most(sum.rounding, sum.surface.position_err * steep * want + 1e-10 * want);
 }
 
 static void the_glint_is_within_its_estimate_and_that_within_the_tolerance(void **state)
@@ -109,11 +109,11 @@ static void beside_others_the_error_is_larger_and_within_its_estimate(void **sta
         lrcs_brdf brdf = {1, 0.25, v->s, v->m};
         double want = v->glint + 0.25 * v->diffuse;
         lrcsi_cubature sum = start(&brdf, v->normal, 1e-6);
-        sum.reference = pow(10, (double)(i % 8)) * want;
+        sum.surface.reference = pow(10, (double)(i % 8)) * want;
         lrcsi_cubature_add(&sum, v->normal, 1);
         double got = lrcsi_sum_value(&sum.glint) + lrcsi_sum_value(&sum.diffuse);
         check_abs(got, want, sum.estimate + sum.rounding + 1e-12 * want);
-        check_most(sum.estimate, 3e-6 * (want + sum.reference));
+        check_most(sum.estimate, 3e-6 * (want + sum.surface.reference));
         looser = fmax(looser, want > 0 ? sum.estimate / want : 0);
     }
     assert_true(looser > 1e-3);
@@ -135,7 +135,7 @@ static void a_dark_edge_is_within_its_estimate(void **state)
         const double normal[3][3] = {{1, 0, 0}, {1, 0, z}, {1, 0, z}};
         lrcs_brdf brdf = {0, 1, 0.2, edge[i % 4].m};
         lrcsi_cubature sum = start(&brdf, normal, 1e-5);
-        sum.reference = ldexp(edge[i % 4].want, i / 4 * 2 - 4);
+        sum.surface.reference = ldexp(edge[i % 4].want, i / 4 * 2 - 4);
         lrcsi_cubature_add(&sum, normal, 1);
         check_abs(lrcsi_sum_value(&sum.diffuse), edge[i % 4].want, sum.estimate + sum.rounding);
     }
@@ -191,8 +191,8 @@ static void normals_all_but_in_the_plane_may_see_what_the_slip_lets_them(void **
         const double normal[3][3] = {{1, 0, z}, {1, 0, z}, {1, 0, z}};
         lrcsi_cubature sum = integrate(&brdf, normal, 1e-5);
         double most = lrcsi_sum_value(&sum.diffuse) + sum.rounding;
-        check_most(value_at(&brdf, (const double[3]){1, 0, z + sum.position_err}), most);
-        check_most(most, 8 * sum.position_err);
+        check_most(value_at(&brdf, (const double[3]){1, 0, z + sum.surface.position_err}), most);
+        check_most(most, 8 * sum.surface.position_err);
     }
 }
 
@@ -211,8 +211,8 @@ static void without_steps_what_is_left_is_within_its_bound(void **state)
         }
         lrcsi_meter meter = {.limit = i % 4 < 2 ? 0 : 2000};
         lrcsi_cubature sum = start(&brdf, (const double(*)[3])normal, 1e-5);
-        sum.position_err = position_err;
-        sum.meter = &meter;
+        sum.surface.position_err = position_err;
+        sum.surface.meter = &meter;
         lrcsi_cubature_add(&sum, (const double(*)[3])normal, 1);
         double want = v->glint + 0.25 * v->diffuse;
         double got = lrcsi_sum_value(&sum.glint) + lrcsi_sum_value(&sum.diffuse);
@@ -256,8 +256,8 @@ static void the_most_is_above_every_value_and_near_the_largest(void **state)
                             (64 - a - b) * v->normal[2][k]) /
                            64;
                 }
-                check_most(value_at(&brdf, n),
-                           (1 + 1e-12) * (sum.upper_bound.glint + sum.upper_bound.diffuse));
+                check_most(value_at(&brdf, n), (1 + 1e-12) * (sum.surface.upper_bound.glint +
+                                                              sum.surface.upper_bound.diffuse));
             }
         }
     }
@@ -275,7 +275,7 @@ static void moments_of_one_incidence_are_products(void **state)
     for (int i = 0; i < 4; i++) {
         const lrcs_brdf brdf = {i % 2, i / 2, i == 3 ? 0.4 : 0.02, i == 3 ? 2 : 1e4};
         lrcsi_cubature sum = start(&brdf, normal, 1e-6);
-        sum.derivatives = 1;
+        sum.surface.derivatives = 1;
         lrcsi_cubature_add(&sum, normal, 1);
         double glint = lrcsi_sum_value(&sum.glint);
         double diffuse = lrcsi_sum_value(&sum.diffuse);
