@@ -221,9 +221,10 @@ static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occl
     return part;
 }
 
-int lrcsi_curve_from_pieces(lrcsi_classification *classification,
-                            const lrcsi_curve_options *options, int sampled, lrcs_work *work,
-                            lrcsi_visible *visible, lrcsi_curved *curved)
+/* Clips facets and integrates: all, or, with areas from samples, those with curved normals that are
+   partly visible. */
+static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_options *options,
+                      int sampled, lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved)
 {
     const lrcsi_view *view = classification->view;
     uint32_t count = view->prepared->scene->facet_count;
@@ -257,4 +258,18 @@ int lrcsi_curve_from_pieces(lrcsi_classification *classification,
     }
     work->used = mark;
     return status;
+}
+
+int lrcsi_curve_from_pieces(lrcsi_classification *classification,
+                            const lrcsi_curve_options *options, lrcs_work *work,
+                            lrcsi_visible *visible, lrcsi_curved *curved)
+{
+    return curve_clip(classification, options, 0, work, visible, curved);
+}
+
+int lrcsi_curve_from_samples(lrcsi_classification *classification,
+                             const lrcsi_curve_options *options, lrcs_work *work,
+                             lrcsi_visible *visible, lrcsi_curved *curved)
+{
+    return curve_clip(classification, options, 1, work, visible, curved);
 }

@@ -82,11 +82,17 @@ void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *o
                             const lrcsi_visible *visible, lrcsi_curved *curved);
 
 /* Clips every facet, as lrcsi_occlude_all, and integrates over the visible pieces of those to which
-   lrcsi_curve_applies. If `sampled` is 1, visible[] is given, from samples, which give the area but
-   not the region that is visible: then only facets with curved normals that are partly visible are
-   clipped. Status: as lrcsi_occlude_all. */
+   lrcsi_curve_applies. Returned: visible[facet_count], curved[facet_count]. Status: as
+   lrcsi_occlude_all. */
 int lrcsi_curve_from_pieces(lrcsi_classification *classification,
-                            const lrcsi_curve_options *options, int sampled, lrcs_work *work,
+                            const lrcsi_curve_options *options, lrcs_work *work,
                             lrcsi_visible *visible, lrcsi_curved *curved);
+
+/* The same with areas from samples, which give the area but not the region that is visible: only
+   facets with curved normals that are partly visible are clipped. Given: visible[facet_count], of
+   which the areas of clipped facets are replaced. */
+int lrcsi_curve_from_samples(lrcsi_classification *classification,
+                             const lrcsi_curve_options *options, lrcs_work *work,
+                             lrcsi_visible *visible, lrcsi_curved *curved);
 
 #endif

@@ -256,8 +256,8 @@ static void run_sum(lrcsi_sigma *run, lrcsi_meter *meter)
     }
     if (run->curved && sampled) {
         lrcsi_curve_options options = run_curve_options(run, meter);
-        int status = lrcsi_curve_from_pieces(&run->classification, &options, 1, run->work,
-                                             run->visible, run->curved);
+        int status = lrcsi_curve_from_samples(&run->classification, &options, run->work,
+                                              run->visible, run->curved);
         if (status != LRCS_OK) {
             lrcsi_curve_from_areas(&run->view, &options, run->visible, run->curved);
             run->outcome.flags |= LRCS_FLAG_MEMORY_FALLBACK;
@@ -295,7 +295,7 @@ static int run_clip(lrcsi_sigma *run, lrcsi_meter *meter)
     int status = run_classify(run, meter);
     if (status == LRCS_OK && run->curved) {
         lrcsi_curve_options options = run_curve_options(run, meter);
-        status = lrcsi_curve_from_pieces(&run->classification, &options, 0, run->work, run->visible,
+        status = lrcsi_curve_from_pieces(&run->classification, &options, run->work, run->visible,
                                          run->curved);
     } else if (status == LRCS_OK) {
         int sum_only = !run->view.prepared->curved && !run_has_proofs(run);
