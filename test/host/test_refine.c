@@ -260,6 +260,31 @@ static void a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is(void **sta
     }
 }
 
+/* A tolerance that even the finest divisions miss: the parts are divided as finely as they may be,
+   once or twice, and not again and again for the little that other parts would still gain. */
+static void a_tolerance_out_of_reach_is_given_up_soon(void **state)
+{
+    (void)state;
+    lrcs_host_scene scene;
+    lrcs_pose pose;
+    lrcs_result result;
+    lrcs_build_options build = lrcs_build_options_default();
+    lrcs_run_options options = lrcs_run_options_default();
+    options.tolerance = 1e-7;
+    assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
+    lrcs_host_options host = lrcs_host_options_default();
+    host.build.division = LRCS_HOST_DIVISION;
+    host.build.max_facets = 4096;
+    assert_int_equal(lrcs_host_scene_read("examples/satellites/lander.toml", &host, &scene, &error),
+                     LRCS_OK);
+    assert_int_equal(lrcs_host_scene_prepare(&scene, &error), LRCS_OK);
+    int times = refine(&scene, &pose, &options, 1, &result, &build);
+    assert_true(times == 1 || times == 2);
+    assert_true(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
+    assert_true(halvings_sum(&scene, &build) > 0);
+    lrcs_host_scene_free(&scene);
+}
+
 /* At this resolution the proof of a raster takes more than the tolerance, its estimate does not:
    only where that is accepted is there something left for finer facets. */
 static void an_accepted_estimate_leaves_room_for_finer_facets(void **state)
@@ -297,6 +322,7 @@ int main(void)
         cmocka_unit_test(only_the_parts_that_the_error_is_due_to_are_divided),
         cmocka_unit_test(an_accepted_estimate_leaves_room_for_finer_facets),
         cmocka_unit_test(a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is),
+        cmocka_unit_test(a_tolerance_out_of_reach_is_given_up_soon),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

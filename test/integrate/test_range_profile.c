@@ -627,6 +627,7 @@ static void widths_and_numbers_of_bins_have_limits(void **state)
     lrcs_profile before = profile;
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         assert_int_equal(profile_try(direction, wrong[i]), LRCS_E_ARGUMENT);
+        assert_true(wrong[i] > 0 || lrcs_profile_need(scene_prepare(&scene, &work), wrong[i]) == 0);
     }
     assert_int_equal(profile_try(direction, 1e-6), LRCS_E_LIMIT);
     assert_int_equal(profile_try(direction, 1e-300), LRCS_E_LIMIT);

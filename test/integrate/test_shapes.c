@@ -487,6 +487,35 @@ static void the_errors_of_parts_are_together_that_of_the_tessellation(void **sta
     }
 }
 
+/* What a run that fails was to return is as it was: here for lack of memory, at any point. */
+static void a_run_that_fails_leaves_the_errors_of_parts_alone(void **state)
+{
+    (void)state;
+    const lrcs_build_options coarse = {1e-9, 300, LRCS_NORMALS_FLAT, 1, 0, NULL};
+    const double d[3] = {0.48, 0.64, 0.6};
+    lrcs_run_options run = lrcs_run_options_default();
+    lrcs_pose pose;
+    lrcs_result result;
+    int failed = 0;
+    int status = LRCS_E_MEMORY;
+    shapes_scene s = scene_of(glossy, 0);
+    add(&s, bodies[0]);
+    const lrcs_prepared *prepared = shapes_prepare(&s, &coarse);
+    run.method = LRCS_METHOD_EXACT;
+    run.part_error_m2 = part_error;
+    assert_int_equal(lrcs_pose_from_direction(d, &pose), LRCS_OK);
+    for (size_t size = run_work.used; status == LRCS_E_MEMORY; size += 256) {
+        lrcs_work small = lrcs_work_make(run_area, size < sizeof run_area ? size : sizeof run_area);
+        small.used = run_work.used;
+        part_error[0] = -7;
+        status = lrcs_sigma_run(prepared, &pose, &run, &small, &result, NULL, NULL);
+        assert_true(status == LRCS_OK ? part_error[0] > 0 : part_error[0] == -7);
+        failed += status != LRCS_OK;
+    }
+    assert_int_equal(status, LRCS_OK);
+    assert_true(failed > 10);
+}
+
 /* A part that neither hides nor is hidden by others has the error that it has alone. */
 static void a_part_that_no_other_shadows_has_its_error_alone(void **state)
 {
@@ -528,6 +557,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(shapes_far_apart_are_all_closed_forms),
         cmocka_unit_test(random_scenes_agree_with_clipped_meshes),
         cmocka_unit_test(the_errors_of_parts_are_together_that_of_the_tessellation),
+        cmocka_unit_test(a_run_that_fails_leaves_the_errors_of_parts_alone),
         cmocka_unit_test(a_part_that_no_other_shadows_has_its_error_alone),
     };
     if (argc > 2) {
