@@ -326,13 +326,11 @@ static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
     run->answer = NULL;
     run->moment = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
-        status = known ? lrcsi_visible_sampled(known, size, run->work, &raster, run->visible)
-                       : lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
+        status =
+            known ? lrcsi_visible_sampled(known, size, run->work, &raster, run->visible, &undecided)
+                  : lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
         outcome->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         outcome->size = size;
-    }
-    if (status == LRCS_OK && known) {
-        undecided = memchr(raster.undecided, 1, run->view.prepared->scene->facet_count) != NULL;
     }
     outcome->flags |= status == LRCS_OK && undecided ? LRCS_FLAG_DEPTH_UNDECIDED : 0u;
     run->work->used = mark;

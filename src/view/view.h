@@ -115,8 +115,8 @@ static inline int lrcsi_view_casts(const lrcsi_view *view, uint32_t facet)
 {
     int facing = view->facing[facet];
     int redundant = view->prepared->redundant[facet];
-    return (facing > 0 && redundant < LRCSI_REDUNDANT) ||
-           (facing < 0 && redundant < LRCSI_REDUNDANT_FROM_BEHIND && view->backs.cast);
+    return (facing > 0 && redundant != LRCSI_REDUNDANT) ||
+           (facing < 0 && redundant == LRCSI_NOT_REDUNDANT && view->backs.cast);
 }
 
 /* 1 if a facet, if visible, reflects towards the laser; else 0. */

@@ -347,13 +347,15 @@ static void moment_report(const lrcsi_cells_work *c, uint32_t facet, int partly,
     }
 }
 
-/* Reports the areas that are accurate enough. Returns the number of facets that the cells decided,
-   but less accurately. */
-static uint32_t areas_report(const lrcsi_cells_work *c, int as_single, lrcsi_visible *visible)
+/* Reports the areas that are accurate enough and not found yet. Returns the number of facets that
+   the cells decided, but less accurately. */
+static uint32_t areas_report(const lrcsi_cells_work *c, int as_single, unsigned char *found,
+                             lrcsi_visible *visible)
 {
     uint32_t left = 0;
     for (uint32_t f = 0; f < c->view->prepared->scene->facet_count; f++) {
-        if (!c->wanted[f] || (c->state[f] & LRCSI_CELLS_UNDECIDED) != 0 || c->state[f] == 0) {
+        if (!c->wanted[f] || found[f] || (c->state[f] & LRCSI_CELLS_UNDECIDED) != 0 ||
+            c->state[f] == 0) {
             continue;
         }
         const lrcsi_cells_found *a = &c->area[f];
@@ -366,7 +368,7 @@ static uint32_t areas_report(const lrcsi_cells_work *c, int as_single, lrcsi_vis
         if (err <= ACCURACY_OF_FACET * whole || err <= facet_accuracy(c, f, whole, as_single)) {
             visible[f] =
                 (lrcsi_visible){area, lrcsi_max(0, area - err), lrcsi_min(whole, area + err), 0, 0};
-            c->wanted[f] = 0;
+            found[f] = 1;
             if (c->moment) {
                 moment_report(c, f, some_visible && some_hidden, err);
             }
@@ -443,14 +445,15 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
 }
 
 void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *meter,
-                       lrcs_work *work, const unsigned char *answer, unsigned char *open,
-                       lrcsi_visible *visible, lrcsi_moment *moment)
+                       lrcs_work *work, const unsigned char *answer, const unsigned char *wanted,
+                       unsigned char *found, lrcsi_visible *visible, lrcsi_moment *moment)
 {
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;
     size_t peak = work->peak; /* restored if memory does not suffice: it is no failure then */
     lrcsi_cells_work c = {
-        .view = view, .meter = meter, .frame = {.view = view}, .wanted = open, .moment = moment};
+        .view = view, .meter = meter, .frame = {.view = view}, .wanted = wanted, .moment = moment};
+    memset(found, 0, view->prepared->scene->facet_count);
     c.negligible =
         0x1p-10 * ACCURACY_OF_SCENE * extent_of(view->prepared) * extent_of(view->prepared);
     if (cells_allocate(classification, answer, work, &c)) {
@@ -462,9 +465,9 @@ void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *
         }
         /* Facets whose areas are not accurate enough are processed alone; if they are many, only
            those that are much more accurate alone. */
-        uint64_t left = areas_report(&c, 0, visible);
+        uint64_t left = areas_report(&c, 0, found, visible);
         if (left * view->prepared->scene->facet_count > MANY_LEFT) {
-            areas_report(&c, 1, visible);
+            areas_report(&c, 1, found, visible);
         }
     } else {
         work->peak = peak;

@@ -38,7 +38,7 @@ static size_t max_blocks(const lrcs_prepared *p)
 
 static void blocks_place(lrcsi_cells_grid *c, uint32_t cells)
 {
-    const lrcsi_grid *grid = &c->classification->grid;
+    const lrcsi_grid *grid = &c->classification->search.grid;
     const lrcsi_view *view = c->classification->view;
     double cell = grid->scale > 0 ? 1 / (grid->scale * view->scale) : 1;
     double window = grid->size * cell;

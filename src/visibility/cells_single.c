@@ -5,7 +5,7 @@
 
    The candidates are the facets that may be in front of f. The segments are all lines at which the
    visibility of f can change: the event edges that cross the interior of f and are nearer than f,
-   found exactly (visibility/classify.h); the contacts of f; and the sides of facets in the plane of
+   found exactly (visibility/crossing.h); the contacts of f; and the sides of facets in the plane of
    f that hide it. A sample finds which facets are in front of f at a point P of a cell. Let x be
    any other point of the cell.
      (1) If nothing is in front of f at P, and no segment is left in the cell, all of the cell is
@@ -313,9 +313,9 @@ static int list_single_segments(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
             return 0;
         }
     }
-    uint32_t crossings = lrcsi_classify_crossings(a->classification, a->facet, c->meter);
-    for (uint32_t i = 0; i < crossings; i++) {
-        if (!add_single_edge(a, a->classification->crossing[i])) {
+    lrcsi_crossings_find(&a->classification->search, a->facet, c->meter, &a->crossings);
+    for (uint32_t i = 0; i < a->crossings.count; i++) {
+        if (!add_single_edge(a, a->crossings.edge[i])) {
             return 0;
         }
     }
@@ -796,6 +796,7 @@ size_t lrcsi_cells_single_need(const lrcs_prepared *p)
                           lrcsi_work_bytes(segments, LRCSI_CELLS_SEGMENT_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(FACET_LISTS, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_crossings_need(p));
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_STACK, sizeof(lrcsi_cells_cell)));
 }
 
@@ -823,5 +824,5 @@ int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *m
         return LRCS_E_MEMORY;
     }
     a->cells = c;
-    return LRCS_OK;
+    return lrcsi_crossings_make(&classification->search, work, &a->crossings);
 }

@@ -26,6 +26,7 @@ typedef struct lrcsi_cells_single {
     uint32_t side_room;
     uint32_t *listed; /* facet: the search that last listed it */
     uint32_t *order;  /* facet that was listed: its depth order against f (cells_single.c) */
+    lrcsi_crossings crossings; /* of f, once they are needed */
     uint32_t facet;
     lrcsi_target target;      /* the frame of f along the axes of the view */
     lrcsi_target frame;       /* the frame of the cells: the same, or that of a needle */

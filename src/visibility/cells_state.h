@@ -81,9 +81,9 @@ typedef struct lrcsi_cells_work {
     lrcsi_meter *meter; /* limit on steps; NULL: none */
     lrcsi_cells_grid grid;
     lrcsi_cells_frame frame;
-    unsigned char *wanted; /* facet: 1 if its area is wanted */
-    unsigned char *state;  /* facet: what was found of it, as above */
-    unsigned char *kind;   /* facet: LRCSI_CELLS_COPLANAR and so on (visibility/cells_facet.h) */
+    const unsigned char *wanted; /* facet: 1 if its area is wanted */
+    unsigned char *state;        /* facet: what was found of it, as above */
+    unsigned char *kind; /* facet: LRCSI_CELLS_COPLANAR and so on (visibility/cells_facet.h) */
     lrcsi_cells_facet *facet;
     lrcsi_cells_found *area;
     lrcsi_moment *moment;   /* facet: of its visible region; NULL: not wanted */

@@ -22,36 +22,20 @@
 #ifndef LRCSI_CLASSIFY_H
 #define LRCSI_CLASSIFY_H
 
-#include "base/meter.h"
-#include "visibility/event.h"
-#include "visibility/grid.h"
-
-/* The box of an event edge in the view, and the last search that tested it. */
-typedef struct lrcsi_event_box {
-    lrcsi_view_box box;
-    uint32_t edge;
-    uint32_t last_search;
-} lrcsi_event_box;
+#include "visibility/crossing.h"
 
 typedef struct lrcsi_classification {
     const lrcsi_view *view;
     lrcsi_events events;
-    lrcsi_event_box *event; /* one for each event */
-    lrcsi_grid grid;        /* of events */
-    lrcsi_boxes boxes;      /* of facets: of undecided ones, and of others that were tested */
-    uint32_t searches;      /* scratch: the number of searches so far */
-    int event_along_side;   /* scratch: the last search met an event along a side of the facet */
-    uint32_t *crossing;     /* scratch: the `crossings` event edges that cross facet `crossed` */
-    uint32_t crossed, crossings;
+    lrcsi_event_search
+        search;        /* has the boxes of undecided facets, and of others that were tested */
+    signed char *cast; /* facet: its facing if it can hide others, otherwise 0 */
     uint32_t
-        *component;   /* facet: the first facet of its component; itself if it can hide nothing */
-    uint32_t *region; /* facet: the first facet of its region of uniform facets, once
-                         lrcsi_classify_regions has been called */
-    signed char *joinable; /* facet: its facing if it is uniform and nothing runs along its sides,
-                              otherwise 0; before facets are decided, its facing if it can hide
-                              others */
+        *component; /* facet: the first facet of its component; itself if it can hide nothing */
     unsigned char *undecided; /* facet: 1 undecided; 0 uniform, or it has no area in this view */
     uint32_t undecided_count;
+    signed char *joinable; /* facet: its facing if it is uniform and nothing runs along its sides,
+                              otherwise 0 */
 } lrcsi_classification;
 
 /* Bytes at most. */
@@ -62,19 +46,9 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared);
 int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
                         lrcsi_classification *classification);
 
-/* Makes classification->region. */
-void lrcsi_classify_regions(const lrcsi_classification *classification);
-
-/* Finds the event edges that cross the interior of a facet and are nearer than it somewhere.
-   Returns how many there are; classification->crossing lists them as topology edges. They are kept
-   until another facet is searched. Some may be missing if the meter is spent; NULL: no limit. */
-uint32_t lrcsi_classify_crossings(lrcsi_classification *classification, uint32_t facet,
-                                  lrcsi_meter *meter);
-
-/* Does an event edge of a component cross a facet, nearer than it somewhere? Returns 1 too if the
-   meter is spent. Cheaper than finding all crossings first. */
-int lrcsi_classify_crossed_by(lrcsi_classification *classification, uint32_t facet,
-                              uint32_t component, lrcsi_meter *meter);
+/* Finds regions of uniform facets: region[f] is the first facet of that of facet f; there are
+   lrcsi_runs_room entries. */
+void lrcsi_classify_regions(const lrcsi_classification *classification, uint32_t *region);
 
 /* Can the other facet of a contact hide a part of the facet? */
 int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,

@@ -133,6 +133,18 @@ static inline lrcsi_grid_items lrcsi_grid_row_items(const lrcsi_grid *grid, uint
     return (lrcsi_grid_items){row[x0], row[x1]};
 }
 
+/* Do these cells list any item? */
+static inline int lrcsi_grid_has_items(const lrcsi_grid *grid, lrcsi_cells cells)
+{
+    for (uint32_t y = cells.y0; y < cells.y1; y++) {
+        const lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
+        if (items.from != items.to) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* How often a facet is listed at most, on average. Facets that fill 16 cells fill at most 9 of
    twice the size: a coarser grid has lists little more than twice as long, and fewer of them per
    facet. */

@@ -22,7 +22,7 @@
 static lrcsi_visible uniform_area(const lrcsi_occlusion *o, uint32_t facet)
 {
     double whole = lrcsi_view_incidence(o->classification->view, facet).projected;
-    int answer = o->uniform[facet];
+    int answer = o->answer[facet];
     double low = answer == LRCSI_QUERY_VISIBLE ? whole : 0;
     double high = answer == LRCSI_QUERY_HIDDEN ? 0 : whole;
     return (lrcsi_visible){0.5 * (low + high), low, high, 0, 0};
@@ -31,16 +31,17 @@ static lrcsi_visible uniform_area(const lrcsi_occlusion *o, uint32_t facet)
 void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
 {
     lrcsi_classification *classification = o->classification;
-    o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
+    o->area = (lrcsi_visible){0, 0, 0, 0, 0};
     o->single.facet = o->single.target.facet = facet;
     o->undecided = o->whole = 0;
     if (!lrcsi_view_casts(classification->view, facet)) {
         return;
     }
     if (!classification->undecided[facet]) {
-        o->answer = uniform_area(o, facet);
-        o->whole = o->answer.low > 0;
-    } else if (!lrcsi_query_screened(classification, &o->facets, facet, o->meter)) {
+        o->area = uniform_area(o, facet);
+        o->whole = o->area.low > 0;
+    } else if (!lrcsi_query_screened(classification, &o->facets, facet, o->meter,
+                                     &o->single.crossings)) {
         o->undecided = 1;
         lrcsi_cells_single_open(&o->single, facet);
     }
@@ -59,7 +60,7 @@ int lrcsi_occlude_next(lrcsi_occlusion *o)
 
 lrcsi_visible lrcsi_occlude_close(lrcsi_occlusion *o)
 {
-    return o->undecided ? lrcsi_cells_single_close(&o->single) : o->answer;
+    return o->undecided ? lrcsi_cells_single_close(&o->single) : o->area;
 }
 
 lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o)
@@ -83,7 +84,7 @@ size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
     size_t need = 2 * lrcsi_work_bytes(prepared->scene->facet_count, 1);
     size_t single = lrcsi_cells_single_need(prepared);
     size_t cells = can_process_together(prepared) ? lrcsi_cells_need(prepared) : 0;
-    need = lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_query_need(prepared));
     return lrcsi_work_add(need, single > cells ? single : cells);
 }
 
@@ -94,9 +95,9 @@ static int occlude_begin(lrcsi_classification *classification, lrcsi_meter *mete
     memset(o, 0, sizeof *o); /* not a compound literal, which takes as much of the stack again */
     o->classification = classification;
     o->meter = meter;
-    o->uniform = lrcsi_work_take(work, classification->view->prepared->scene->facet_count, 1);
-    return o->uniform ? lrcsi_query_uniform(classification, meter, work, &o->facets, o->uniform)
-                      : LRCS_E_MEMORY;
+    o->answer = lrcsi_work_take(work, classification->view->prepared->scene->facet_count, 1);
+    return o->answer ? lrcsi_query_uniform(classification, meter, work, &o->facets, o->answer)
+                     : LRCS_E_MEMORY;
 }
 
 int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
@@ -113,78 +114,62 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
     return status;
 }
 
-/* The first facet from `from` on with this value, or `count`. */
-static uint32_t next_facet_with(const unsigned char *values, int value, uint32_t from,
-                                uint32_t count)
-{
-    const unsigned char *at = memchr(values + from, value, count - from);
-    return at ? (uint32_t)(at - values) : count;
-}
-
-/* Undecided facets: together if there are many; then one by one those that remain. */
-static int occlude_undecided(lrcsi_occlusion *o, lrcs_work *work, unsigned char *open,
-                             lrcsi_visible *visible, lrcsi_moment *moment)
-{
-    lrcsi_classification *classification = o->classification;
-    const lrcs_prepared *p = classification->view->prepared;
-    uint32_t count = p->scene->facet_count;
-    if (classification->undecided_count >= MIN_UNDECIDED &&
-        classification->undecided_count >= count / MIN_FRACTION && can_process_together(p)) {
-        lrcsi_cells_areas(classification, o->meter, work, o->uniform, open, visible, moment);
-    }
-    uint32_t f = next_facet_with(open, 1, 0, count);
-    if (f == count) {
-        return LRCS_OK;
-    }
-    int status = lrcsi_cells_single_make(classification, o->meter, &o->facets, work, &o->single);
-    for (; f < count && status == LRCS_OK; f = next_facet_with(open, 1, f + 1, count)) {
-        lrcsi_view_progress(classification->view, LRCS_PROGRESS_VISIBILITY, f, count);
-        lrcsi_occlude_open(o, f);
-        visible[f] = lrcsi_occlude_area(o);
-        if (moment) {
-            moment[f] = o->undecided ? o->single.moment : (lrcsi_moment){.error = 0};
-        }
-        if (visible[f].high == 0) {
-            o->uniform[f] = LRCSI_QUERY_HIDDEN;
-        }
-    }
-    return status;
-}
-
+/* 1. Queries of uniform facets. 2. Undecided facets together, if there are many. 3. One by one,
+   those of which no area was found. 4. Returns the answers, moved to the beginning of the work area
+   used here, or the areas of all facets. */
 int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
                       const unsigned char **answer, lrcsi_visible *visible, lrcsi_moment *moment)
 {
     const lrcsi_view *view = classification->view;
-    uint32_t count = view->prepared->scene->facet_count;
+    const lrcs_prepared *p = view->prepared;
+    uint32_t count = p->scene->facet_count;
+    uint32_t left = classification->undecided_count; /* undecided facets without an area */
     size_t mark = work->used;
     lrcsi_occlusion o;
     int status = occlude_begin(classification, meter, work, &o);
-    unsigned char *open = lrcsi_work_take(work, count, 1);
-    status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
+    unsigned char *found = lrcsi_work_take_zero(work, count, 1); /* facet: visible[] is its area */
+    status = status == LRCS_OK && !found ? LRCS_E_MEMORY : status;
     for (uint32_t f = 0; moment && f < count; f++) {
         moment[f] = (lrcsi_moment){.error = 0};
     }
-    if (status == LRCS_OK) { /* only facets that can hide others are ever undecided */
-        memcpy(open, classification->undecided, count);
-        for (uint32_t f = next_facet_with(o.uniform, LRCSI_QUERY_UNDECIDED, 0, count); f < count;
-             f = next_facet_with(o.uniform, LRCSI_QUERY_UNDECIDED, f + 1, count)) {
-            visible[f] = uniform_area(&o, f);
+    for (uint32_t f = 0; f < count && status == LRCS_OK; f++) {
+        if (o.answer[f] == LRCSI_QUERY_UNDECIDED && !classification->undecided[f]) {
+            visible[f] = uniform_area(&o, f); /* its query gave no answer */
             if (moment) {
                 moment[f].error = HUGE_VAL;
             }
         }
-        for (uint32_t f = next_facet_with(open, 1, 0, count); f < count;
-             f = next_facet_with(open, 1, f + 1, count)) {
-            o.uniform[f] = LRCSI_QUERY_UNDECIDED;
-        }
-        status = occlude_undecided(&o, work, open, visible, moment);
     }
-    /* Either the answers, moved to the beginning of the work area used here, or all areas. */
+    if (status == LRCS_OK && left >= MIN_UNDECIDED && left >= count / MIN_FRACTION &&
+        can_process_together(p)) {
+        lrcsi_cells_areas(classification, meter, work, o.answer, classification->undecided, found,
+                          visible, moment);
+        for (uint32_t f = 0; f < count; f++) {
+            left -= found[f];
+        }
+    }
+    if (status == LRCS_OK && left > 0) {
+        status = lrcsi_cells_single_make(classification, meter, &o.facets, work, &o.single);
+    }
+    for (uint32_t f = 0; f < count && left > 0 && status == LRCS_OK; f++) {
+        if (!classification->undecided[f] || found[f]) {
+            continue;
+        }
+        lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, f, count);
+        lrcsi_occlude_open(&o, f);
+        visible[f] = lrcsi_occlude_area(&o);
+        if (moment) {
+            moment[f] = o.undecided ? o.single.moment : (lrcsi_moment){.error = 0};
+        }
+        if (visible[f].high == 0) {
+            o.answer[f] = LRCSI_QUERY_HIDDEN;
+        }
+    }
     work->used = mark;
     if (status == LRCS_OK && answer) {
-        *answer = memmove(lrcsi_work_take(work, count, 1), o.uniform, count);
+        *answer = memmove(lrcsi_work_take(work, count, 1), o.answer, count);
     } else if (status == LRCS_OK) {
-        lrcsi_visible_answered(view, o.uniform, visible);
+        lrcsi_visible_answered(view, o.answer, visible);
     }
     return status;
 }

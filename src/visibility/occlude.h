@@ -10,12 +10,14 @@
 typedef struct lrcsi_occlusion {
     lrcsi_classification *classification;
     lrcsi_meter *meter;
-    lrcsi_grid facets;
-    unsigned char *uniform;    /* of each uniform facet: a lrcsi_query_answer */
-    lrcsi_cells_single single; /* target and piece of the current facet */
-    lrcsi_visible answer;      /* the area of a facet that is not undecided */
-    int undecided;
-    int whole; /* all of it is visible, and its piece has not been returned yet */
+    lrcsi_grid facets;     /* those that can hide others */
+    unsigned char *answer; /* facet: a lrcsi_query_answer; UNDECIDED too if it is undecided */
+    /* The current facet: */
+    lrcsi_cells_single single; /* its target, its piece, and, if it is undecided, its cells */
+    int undecided;             /* its pieces are found cell by cell; otherwise all of it is visible
+                                  or hidden */
+    lrcsi_visible area;        /* its area, unless it is undecided */
+    int whole;                 /* all of it is visible, and its piece has not been returned yet */
 } lrcsi_occlusion;
 
 /* Bytes at most. */

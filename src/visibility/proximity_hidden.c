@@ -83,7 +83,8 @@ void lrcsi_proximity_find_hidden(lrcsi_proximity_band *band, const lrcsi_visible
     if (candidate && group && mark_candidates(band, visible, candidate) > 0) {
         const lrcsi_grid_readers readers = {.undecided = candidate};
         lrcsi_proximity_band_join(band, candidate, group);
-        if (lrcsi_grid_facets(&c->grid, &c->boxes, &readers, work, &facets) == LRCS_OK) {
+        if (lrcsi_grid_facets(&c->search.grid, &c->search.boxes, &readers, work, &facets) ==
+            LRCS_OK) {
             find_hidden_groups(band, candidate, group, &facets, meter);
         }
     }

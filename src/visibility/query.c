@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/vec3.h"
+#include "base/work.h"
 #include "visibility/sample.h"
 
 /* A point whose line of sight passes through the interior of the facet; the point lies on the facet
@@ -196,53 +197,65 @@ int lrcsi_query_hidden_by_others(const lrcsi_grid *facets, uint32_t facet, lrcsi
     return 0;
 }
 
-/* 1. Makes a grid that lists only what the undecided facets and the first facet of each region
-   need.
-   2. Makes one query for each region, at its first facet. 3. If such a query is undecided, which is
-   rare, makes a complete grid, and a query for each facet of that region. */
+size_t lrcsi_query_need(const lrcs_prepared *prepared)
+{
+    size_t room = lrcsi_runs_room(prepared->scene->facet_count);
+    return lrcsi_work_add(lrcsi_work_bytes(room, sizeof(uint32_t)),
+                          lrcsi_grid_facets_need(prepared));
+}
+
+/* 1. Finds the regions, and makes a grid that lists only what the undecided facets and the first
+   facet of each region need. 2. Makes one query for each region, at its first facet. 3. If a query
+   gave no answer, which is rare, makes a complete grid, and a query for each facet of its region.
+ */
 int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter *meter,
                         lrcs_work *work, lrcsi_grid *facets, unsigned char *answer)
 {
-    size_t mark = work->used;
     const lrcs_prepared *p = classification->view->prepared;
+    const unsigned char *undecided = classification->undecided;
     uint32_t count = p->scene->facet_count;
-    uint32_t undecided = 0;
-    lrcsi_classify_regions(classification);
-    const lrcsi_grid_readers readers = {classification->undecided, classification->region,
-                                        classification->joinable};
-    int status =
-        lrcsi_grid_facets(&classification->grid, &classification->boxes, &readers, work, facets);
+    uint32_t unanswered = 0;
+    uint32_t *region = lrcsi_work_take(work, lrcsi_runs_room(count), sizeof *region);
+    size_t mark = work->used;
+    if (!region) {
+        return LRCS_E_MEMORY;
+    }
+    lrcsi_classify_regions(classification, region);
+    const lrcsi_grid_readers readers = {undecided, region, classification->joinable};
+    int status = lrcsi_grid_facets(&classification->search.grid, &classification->search.boxes,
+                                   &readers, work, facets);
     if (status != LRCS_OK) {
         return status;
     }
-    memset(answer, LRCSI_QUERY_HIDDEN, count);
     for (uint32_t r = 0; r < p->runs.count; r++) {
         uint32_t start = r * LRCSI_RUN;
         uint32_t end = lrcsi_run_end(start, count);
-        if (classification->boxes.state[r] == LRCSI_BOXES_NONE) {
-            continue; /* no facet of the run is visible */
-        }
         int one_region = lrcsi_events_joined(p, classification->joinable, r) == LRCSI_JOINED_ALL;
+        memset(answer + start, LRCSI_QUERY_HIDDEN, end - start);
+        if (classification->search.boxes.state[r] == LRCSI_BOXES_NONE) {
+            continue; /* no facet of the run can be visible */
+        }
         for (uint32_t f = start; f < (one_region ? start + 1 : end); f++) {
-            uint32_t first = classification->region[f];
-            if (first != f) {
-                answer[f] = answer[first];
-            } else if (lrcsi_view_casts(classification->view, f) && !classification->undecided[f]) {
+            if (undecided[f]) {
+                answer[f] = LRCSI_QUERY_UNDECIDED;
+            } else if (region[f] != f) {
+                answer[f] = answer[region[f]];
+            } else if (lrcsi_view_casts(classification->view, f)) {
                 answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
-                undecided += answer[f] == LRCSI_QUERY_UNDECIDED;
+                unanswered += answer[f] == LRCSI_QUERY_UNDECIDED;
             }
         }
         if (one_region) {
             memset(answer + start, answer[start], end - start);
         }
     }
-    if (undecided > 0) {
+    if (unanswered > 0) {
         work->used = mark;
-        status =
-            lrcsi_grid_facets(&classification->grid, &classification->boxes, NULL, work, facets);
+        status = lrcsi_grid_facets(&classification->search.grid, &classification->search.boxes,
+                                   NULL, work, facets);
     }
-    for (uint32_t f = 0; undecided > 0 && f < count && status == LRCS_OK; f++) {
-        if (answer[f] == LRCSI_QUERY_UNDECIDED) {
+    for (uint32_t f = 0; unanswered > 0 && f < count && status == LRCS_OK; f++) {
+        if (!undecided[f] && answer[f] == LRCSI_QUERY_UNDECIDED) {
             answer[f] = (unsigned char)lrcsi_query_facet(facets, f, meter);
         }
     }
@@ -263,17 +276,17 @@ static int in_contact(const lrcs_prepared *p, uint32_t facet, uint32_t other, lr
    Returns 0 too when the meter is spent. all: another component failed before; then all crossings
    of the facet are found at once. */
 static int component_covers(lrcsi_classification *classification, uint32_t component,
-                            uint32_t facet, int all, lrcsi_meter *meter)
+                            uint32_t facet, int all, lrcsi_meter *meter, lrcsi_crossings *crossings)
 {
     const lrcsi_intersections *contacts = &classification->view->prepared->intersections;
     if (all) {
-        uint32_t crossings = lrcsi_classify_crossings(classification, facet, meter);
-        if (!lrcsi_meter_take(meter, crossings)) {
+        lrcsi_crossings_find(&classification->search, facet, meter, crossings);
+        if (!lrcsi_meter_take(meter, crossings->count)) {
             return 0;
         }
     }
     if (!lrcsi_meter_take(meter, lrcsi_intersection_of(contacts, facet)) ||
-        lrcsi_classify_crossed_by(classification, facet, component, meter)) {
+        lrcsi_crossings_of_component(&classification->search, facet, component, meter, crossings)) {
         return 0;
     }
     for (uint32_t i = contacts->first[facet]; i < contacts->first[facet + 1]; i++) {
@@ -285,7 +298,7 @@ static int component_covers(lrcsi_classification *classification, uint32_t compo
 }
 
 int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid *facets,
-                         uint32_t facet, lrcsi_meter *meter)
+                         uint32_t facet, lrcsi_meter *meter, lrcsi_crossings *crossings)
 {
     query_line line;
     if (!line_start(&line, facets, facet, meter)) {
@@ -301,7 +314,7 @@ int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid 
             continue;
         }
         if (component_covers(classification, classification->component[other], facet,
-                             failed != LRCS_NONE, meter)) {
+                             failed != LRCS_NONE, meter, crossings)) {
             return 1;
         }
         failed = classification->component[other];

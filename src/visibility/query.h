@@ -44,16 +44,20 @@ static inline lrcsi_part_set lrcsi_part_set_of(uint32_t part)
 int lrcsi_query_hidden_by_others(const lrcsi_grid *facets, uint32_t facet, lrcsi_part_set parts,
                                  lrcsi_meter *meter);
 
+/* Bytes for lrcsi_query_uniform, at most. */
+size_t lrcsi_query_need(const lrcs_prepared *prepared);
+
 /* Makes a grid of facets for queries of undecided facets, and makes one query for each region of
-   uniform facets: answer[facet] is a lrcsi_query_answer.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
+   uniform facets. Returned: answer[facet], a lrcsi_query_answer: that of a uniform facet; UNDECIDED
+   for undecided facets; HIDDEN for those that cannot be visible.
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The grid stays in the work area. */
 int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter *meter,
                         lrcs_work *work, lrcsi_grid *facets, unsigned char *answer);
 
 /* Tries to prove that one surface component hides an undecided facet entirely. Returns 1 if that is
-   proved; 0 if not, or if the meter is spent. The classification may find the facet's crossings for
-   it (visibility/classify.h). */
+   proved; 0 if not, or if the meter is spent. If it needs the crossings of the facet, they are
+   returned. */
 int lrcsi_query_screened(lrcsi_classification *classification, const lrcsi_grid *facets,
-                         uint32_t facet, lrcsi_meter *meter);
+                         uint32_t facet, lrcsi_meter *meter, lrcsi_crossings *crossings);
 
 #endif

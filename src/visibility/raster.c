@@ -156,3 +156,28 @@ int lrcsi_raster_intersection(const lrcsi_raster *raster, const lrcsi_edge_funct
     b[1] = y - dy * distance - dx * extent;
     return 1;
 }
+
+lrcsi_raster_segment lrcsi_raster_edge(const lrcsi_raster *raster, uint32_t edge)
+{
+    const lrcsi_edge *e = &raster->view->prepared->topology.edge[edge];
+    lrcsi_raster_segment segment;
+    const double a_err = lrcsi_raster_point(raster, e->low, segment.a);
+    const double b_err = lrcsi_raster_point(raster, e->high, segment.b);
+    segment.err = lrcsi_max(a_err, b_err);
+    return segment;
+}
+
+int lrcsi_raster_contact(const lrcsi_raster *raster, const lrcsi_edge_functions *box,
+                         uint32_t facet, const lrcsi_intersection *contact,
+                         lrcsi_raster_segment segment[3])
+{
+    if (contact->kind == LRCSI_INTERSECTION_CROSS) {
+        return lrcsi_raster_intersection(raster, box, facet, contact->other, segment[0].a,
+                                         segment[0].b, &segment[0].err);
+    }
+    const uint32_t *side = raster->view->prepared->topology.facet_edge[contact->other].corner;
+    for (int k = 0; k < 3; k++) {
+        segment[k] = lrcsi_raster_edge(raster, side[k]);
+    }
+    return 3;
+}

@@ -93,6 +93,22 @@ int lrcsi_raster_intersection(const lrcsi_raster *raster, const lrcsi_edge_funct
 /* A vertex in pixel coordinates. Returns the error bound of each, including that of samples. */
 double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2]);
 
+/* A segment in pixels, from a to b; its points have errors of at most `err` along both axes. */
+typedef struct lrcsi_raster_segment {
+    double a[2], b[2], err;
+} lrcsi_raster_segment;
+
+/* An edge of the topology. */
+lrcsi_raster_segment lrcsi_raster_edge(const lrcsi_raster *raster, uint32_t edge);
+
+/* The segments on which a contact of a facet may begin or end to hide it: of a facet that passes
+   through it, the line in which their planes intersect (see lrcsi_raster_intersection; `err` is set
+   in any case); of one that lies in its plane or ends on it, the sides. Given: box, as above.
+   Returns how many there are. */
+int lrcsi_raster_contact(const lrcsi_raster *raster, const lrcsi_edge_functions *box,
+                         uint32_t facet, const lrcsi_intersection *contact,
+                         lrcsi_raster_segment segment[3]);
+
 /* The owner of a sample: LRCS_NONE if there is none, also outside active tiles. */
 static inline uint32_t lrcsi_raster_owner(const lrcsi_raster *raster, uint32_t x, uint32_t y)
 {

@@ -97,118 +97,83 @@ static double sampled_boundary(const sampled_facet *f, int axis, double along, d
                                                              : boundary;
 }
 
-/* Adds one step. Along a facet's own side every step counts. */
-static void offset_sum_add(offset_sum *s, double offset, int above, int below, int side)
-{
-    if (above != below || side != 0) {
-        s->sum += offset;
-        s->bias += above ? offset : -offset;
-        s->low = lrcsi_min(s->low, s->sum);
-        s->high = lrcsi_max(s->high, s->sum);
-    }
-}
-
-/* The error of the visible fraction that a side causes in one step: the facet's sample next to the
-   boundary has too large or too small a weight if the side passes on one or the other side of that
-   boundary. */
-static double side_weight_error(const sampled_facet *f, int axis, double along, double inner,
-                                double offset)
-{
-    double x = axis == 0 ? along : inner;
-    double y = axis == 0 ? inner : along;
-    const lrcsi_raster *r = f->raster;
-    if (!(x >= 0 && y >= 0 && x < r->size && y < r->size) || !sampled_covers(&f->edges, x, y)) {
-        return 0;
-    }
-    int owns = lrcsi_raster_owner(r, (uint32_t)x, (uint32_t)y) == f->facet;
-    return (owns - f->fraction) * offset;
-}
-
 /* Sums over the part of the segment a b that lies within the facet. side: 1 or -1 if the segment is
-   a side of the facet and the facet lies above or below it; otherwise 0. */
+   a side of the facet and the facet lies above or below it; otherwise 0. Along a side every step
+   counts. It also causes an error of the visible fraction: the facet's sample next to the boundary
+   has too large or too small a weight if the side passes on one or the other side of that boundary.
+ */
 static offset_sum offset_sum_along(const sampled_facet *f, const double a[2], const double b[2],
                                    int side)
 {
     offset_sum s = {0};
+    const lrcsi_raster *r = f->raster;
     double t[2] = {0, 1};
     int axis = fabs(b[1] - a[1]) > fabs(b[0] - a[0]);
-    double run = b[axis] - a[axis];
-    if (run == 0 || !lrcsi_span_clip(&f->edges, a, b, 0, t)) {
+    double length = b[axis] - a[axis];
+    if (length == 0 || !lrcsi_span_clip(&f->edges, a, b, 0, t)) {
         return s;
     }
-    double slope = (b[!axis] - a[!axis]) / run;
-    double from = a[axis] + lrcsi_min(t[0] * run, t[1] * run);
-    double to = a[axis] + lrcsi_max(t[0] * run, t[1] * run);
-    double last = lrcsi_min(to - 0.5, f->raster->size - 1.0);
+    double slope = (b[!axis] - a[!axis]) / length;
+    double from = a[axis] + lrcsi_min(t[0] * length, t[1] * length);
+    double to = a[axis] + lrcsi_max(t[0] * length, t[1] * length);
+    double last = lrcsi_min(to - 0.5, r->size - 1.0);
     for (double step = lrcsi_max(ceil(from - 0.5), 0); step <= last; step++) {
         double across = a[!axis] + slope * (step + 0.5 - a[axis]);
         double boundary = sampled_boundary(f, axis, step, across);
-        offset_sum_add(&s, across - boundary, sampled_shows(f, axis, step, boundary),
-                       sampled_shows(f, axis, step, boundary - 1), side);
-        if (side != 0) {
-            s.fraction_error +=
-                side * side_weight_error(f, axis, step, boundary - (side < 0), across - boundary);
+        double offset = across - boundary;
+        int above = sampled_shows(f, axis, step, boundary);
+        int below = sampled_shows(f, axis, step, boundary - 1);
+        if (above != below || side != 0) {
+            s.sum += offset;
+            s.bias += above ? offset : -offset;
+            s.low = lrcsi_min(s.low, s.sum);
+            s.high = lrcsi_max(s.high, s.sum);
+        }
+        double inner = boundary - (side < 0);
+        double x = axis == 0 ? step : inner;
+        double y = axis == 0 ? inner : step;
+        if (side != 0 && x >= 0 && y >= 0 && x < r->size && y < r->size &&
+            sampled_covers(&f->edges, x, y)) {
+            int owns = lrcsi_raster_owner(r, (uint32_t)x, (uint32_t)y) == f->facet;
+            s.fraction_error += side * ((owns - f->fraction) * offset);
         }
     }
     return s;
 }
 
 /* Adds the error of a line between the visible part and what another facet hides. */
-static void add_line_error(const sampled_facet *f, const double a[2], const double b[2],
+static void add_line_error(const sampled_facet *f, const lrcsi_raster_segment *line,
                            lrcsi_sampling_error *error)
 {
-    offset_sum s = offset_sum_along(f, a, b, 0);
+    offset_sum s = offset_sum_along(f, line->a, line->b, 0);
     error->square += PARTIAL_SUMS * (s.high - s.low) * (s.high - s.low);
     error->bias += s.bias;
 }
 
-static void add_edge_error(const sampled_facet *f, uint32_t edge, lrcsi_sampling_error *error)
+/* The error of a facet that owns some of its samples: 1. of event edges; 2. of contacts; 3. of its
+   own sides. */
+static lrcsi_sampling_error partial_error(const sampled_facet *f, const lrcsi_crossings *crossings)
 {
-    const lrcsi_edge *e = &f->raster->view->prepared->topology.edge[edge];
-    double a[2];
-    double b[2];
-    lrcsi_raster_point(f->raster, e->low, a);
-    lrcsi_raster_point(f->raster, e->high, b);
-    add_line_error(f, a, b, error);
-}
-
-/* Adds the line in which the planes of two facets intersect. */
-static void add_intersection_error(const sampled_facet *f, uint32_t other,
-                                   lrcsi_sampling_error *error)
-{
-    double a[2];
-    double b[2];
-    double err;
-    if (lrcsi_raster_intersection(f->raster, &f->edges, f->facet, other, a, b, &err)) {
-        add_line_error(f, a, b, error);
-    }
-}
-
-static void add_contact_errors(const sampled_facet *f, lrcsi_sampling_error *error)
-{
-    const lrcsi_view *view = f->raster->view;
-    const lrcsi_intersections *intersections = &view->prepared->intersections;
-    for (uint32_t i = intersections->first[f->facet]; i < intersections->first[f->facet + 1]; i++) {
-        const lrcsi_intersection *contact = &intersections->entry[i];
-        if (!lrcsi_intersection_hides(view, f->facet, contact)) {
-            continue;
-        }
-        if (contact->kind == LRCSI_INTERSECTION_CROSS) {
-            add_intersection_error(f, contact->other, error);
-            continue;
-        }
-        for (int k = 0; k < 3; k++) {
-            add_edge_error(f, view->prepared->topology.facet_edge[contact->other].corner[k], error);
-        }
-    }
-}
-
-static void add_side_errors(const sampled_facet *f, lrcsi_sampling_error *error)
-{
-    const uint32_t *corner = f->raster->view->prepared->scene->facet[f->facet].corner;
+    const lrcsi_raster *r = f->raster;
+    const lrcsi_intersections *contacts = &r->view->prepared->intersections;
+    const uint32_t *corner = r->view->prepared->scene->facet[f->facet].corner;
+    lrcsi_sampling_error error = {PARTIAL, 0};
+    lrcsi_raster_segment line[3];
     double p[3][2];
+    for (uint32_t i = 0; i < crossings->count; i++) {
+        line[0] = lrcsi_raster_edge(r, crossings->edge[i]);
+        add_line_error(f, &line[0], &error);
+    }
+    for (uint32_t i = contacts->first[f->facet]; i < contacts->first[f->facet + 1]; i++) {
+        if (lrcsi_intersection_hides(r->view, f->facet, &contacts->entry[i])) {
+            int lines = lrcsi_raster_contact(r, &f->edges, f->facet, &contacts->entry[i], line);
+            for (int k = 0; k < lines; k++) {
+                add_line_error(f, &line[k], &error);
+            }
+        }
+    }
     for (int k = 0; k < 3; k++) {
-        lrcsi_raster_point(f->raster, corner[k], p[k]);
+        lrcsi_raster_point(r, corner[k], p[k]);
     }
     for (int k = 0; k < 3; k++) {
         const double *a = p[k];
@@ -219,9 +184,10 @@ static void add_side_errors(const sampled_facet *f, lrcsi_sampling_error *error)
         int above = c[!axis] - a[!axis] > slope * (c[axis] - a[axis]);
         offset_sum s = offset_sum_along(f, a, b, above ? 1 : -1);
         double range = s.high - s.low;
-        error->square += SIDES * f->fraction * (1 - f->fraction) * range * range;
-        error->square += FRACTION_ERROR * s.fraction_error * s.fraction_error;
+        error.square += SIDES * f->fraction * (1 - f->fraction) * range * range;
+        error.square += FRACTION_ERROR * s.fraction_error * s.fraction_error;
     }
+    return error;
 }
 
 /* The projected area of a facet, in square pixels. */
@@ -233,13 +199,13 @@ static double area_in_pixels(const lrcsi_raster *raster, uint32_t facet)
 /* The area of the facets that may hide a part of a facet that owns all of its samples: the facets
    of the event edges that cross it (by half, since each crosses it with at least two edges), and
    the facets that intersect it. */
-static double occluder_area(const lrcsi_raster *raster, uint32_t facet, const uint32_t *crossing,
-                            uint32_t crossings)
+static double occluder_area(const lrcsi_raster *raster, uint32_t facet,
+                            const lrcsi_crossings *crossings)
 {
     const lrcs_prepared *p = raster->view->prepared;
     double area = 0;
-    for (uint32_t i = 0; i < crossings; i++) {
-        const lrcsi_edge *edge = &p->topology.edge[crossing[i]];
+    for (uint32_t i = 0; i < crossings->count; i++) {
+        const lrcsi_edge *edge = &p->topology.edge[crossings->edge[i]];
         for (uint32_t k = 0; k < edge->uses; k++) {
             area += 0.5 * area_in_pixels(raster, p->topology.use[edge->first_use + k].facet);
         }
@@ -252,7 +218,7 @@ static double occluder_area(const lrcsi_raster *raster, uint32_t facet, const ui
 
 lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
                                                 const lrcsi_raster *raster, uint32_t facet,
-                                                const uint32_t *crossing, uint32_t crossings)
+                                                const lrcsi_crossings *crossings)
 {
     sampled_facet f = {raster, lrcsi_raster_edge_functions(raster, facet), component, facet, 0};
     double area = area_in_pixels(raster, facet);
@@ -264,16 +230,11 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
     } else if (owned == 0) {
         error.square = lrcsi_min(error.square, NONE);
     } else if (owned == covered) {
-        double occluders = occluder_area(raster, facet, crossing, crossings);
+        double occluders = occluder_area(raster, facet, crossings);
         error.square = lrcsi_min(error.square, lrcsi_min(ALL, OCCLUDERS * occluders * occluders));
     } else {
         f.fraction = (double)owned / covered;
-        error.square = PARTIAL;
-        for (uint32_t i = 0; i < crossings; i++) {
-            add_edge_error(&f, crossing[i], &error);
-        }
-        add_contact_errors(&f, &error);
-        add_side_errors(&f, &error);
+        error = partial_error(&f, crossings);
         error.square = lrcsi_min(error.square, SMALL * area * area);
     }
     return error;

@@ -16,11 +16,10 @@ typedef struct lrcsi_sampling_error {
 } lrcsi_sampling_error;
 
 /* For an undecided facet.
-   Given: the surface component of each facet; the raster; crossing[crossings], the event edges (of
-   the topology) that cross the facet. */
+   Given: the surface component of each facet; the raster; the event edges that cross the facet. */
 lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
                                                 const lrcsi_raster *raster, uint32_t facet,
-                                                const uint32_t *crossing, uint32_t crossings);
+                                                const lrcsi_crossings *crossings);
 
 /* For a facet whose samples are pooled with those of its neighbours
    (visibility/visible_fraction.h). Given: its longest side, in pixels; fraction, the visible

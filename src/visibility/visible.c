@@ -16,9 +16,8 @@
    The driver is lrcsi_visible_sampled:
    1. lrcsi_raster_make_undecided: the samples of the tiles that undecided facets touch.
    2. lrcsi_visible_answered: the areas of facets that queries decided.
-   3. For each undecided facet: mark_mixed finds its mixed pixels; sum_pixels adds up the areas of
-      pixels that are decided; sampled_area finds the area within the bounds, and its estimated
-      error.
+   3. For each undecided facet: facet_pixels finds its mixed pixels, decides the others, and adds up
+      their areas; sampled_area finds the area within the bounds, and its estimated error.
    4. lrcsi_visible_fraction_correct: area that the bounds cut off goes to other facets of the
       component. */
 #include "visibility/visible.h"
@@ -46,7 +45,7 @@ void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
     }
 }
 
-/* --- mixed pixels ----------------------------------------------------------------------------- */
+/* --- the pixels of one facet ------------------------------------------------------------------ */
 
 /* The area of a facet that is certainly visible and the area that is certainly hidden, in pixels.
    Pixels that the facet covers entirely are counted, without error. The areas in other pixels are
@@ -132,87 +131,64 @@ static void mark_segment(const visible_job *job, const drawn_facet *f, const dou
     }
 }
 
-static void mark_edge(const visible_job *job, const drawn_facet *f, uint32_t edge)
+/* Marks all pixels of the facet that another one touches too. */
+static void mark_overlap(const visible_job *job, const drawn_facet *f,
+                         const lrcsi_edge_functions *other)
 {
-    const lrcsi_edge *e = &job->raster->view->prepared->topology.edge[edge];
-    double a[2];
-    double b[2];
-    const double a_err = lrcsi_raster_point(job->raster, e->low, a);
-    const double b_err = lrcsi_raster_point(job->raster, e->high, b);
-    mark_segment(job, f, a, b, 4 * lrcsi_max(a_err, b_err));
+    uint32_t y = other->bottom > f->edges.bottom ? other->bottom : f->edges.bottom;
+    for (; y < other->top && y < f->edges.top; y++) {
+        const lrcsi_pixel_span own = job->row[y].touched;
+        const lrcsi_pixel_span its = lrcsi_span_touched(other, y);
+        const uint32_t x0 = own.x0 > its.x0 ? own.x0 : its.x0;
+        const uint32_t x1 = own.x1 < its.x1 ? own.x1 : its.x1;
+        memset(job->mixed + pixel_index(job, x0, y), 1, x0 < x1 ? x1 - x0 : 0);
+    }
 }
 
-/* Marks the pixels of the facet in which another one may meet it: along the line in which their
-   planes intersect, as far as it may lie in the other facet. If the line is not known to an eighth
-   of a pixel, because their planes are close to parallel or the other facet to edge-on, these are
-   all pixels that both touch. */
-static void mark_intersection(const visible_job *job, const drawn_facet *f, uint32_t other)
+/* Marks the pixels that are mixed for a facet: along the event edges that cross it, and where
+   others are in contact with it. A facet that passes through it meets it on the line in which their
+   planes intersect, as far as that may lie in the other facet. If the line is not known to an
+   eighth of a pixel, because the planes are close to parallel or the other facet to edge-on, these
+   are all pixels that both touch. */
+static void mark_mixed(const visible_job *job, const drawn_facet *f,
+                       const lrcsi_crossings *crossings)
 {
-    double a[2];
-    double b[2];
-    double err;
-    double t[2] = {0, 1};
     const lrcsi_raster *r = job->raster;
-    const lrcsi_edge_functions edges = lrcsi_raster_edge_functions(r, other);
-    const int crosses = lrcsi_raster_intersection(r, &f->edges, f->facet, other, a, b, &err);
-    if (!(err <= 0.125)) {
-        uint32_t y = edges.bottom > f->edges.bottom ? edges.bottom : f->edges.bottom;
-        for (; y < edges.top && y < f->edges.top; y++) {
-            const lrcsi_pixel_span own = job->row[y].touched;
-            const lrcsi_pixel_span its = lrcsi_span_touched(&edges, y);
-            const uint32_t x0 = own.x0 > its.x0 ? own.x0 : its.x0;
-            const uint32_t x1 = own.x1 < its.x1 ? own.x1 : its.x1;
-            memset(job->mixed + pixel_index(job, x0, y), 1, x0 < x1 ? x1 - x0 : 0);
-        }
-    } else if (crosses && lrcsi_span_clip(&edges, a, b, err, t)) {
-        const double from[2] = {a[0] + t[0] * (b[0] - a[0]), a[1] + t[0] * (b[1] - a[1])};
-        const double to[2] = {a[0] + t[1] * (b[0] - a[0]), a[1] + t[1] * (b[1] - a[1])};
-        mark_segment(job, f, from, to, 4 * err);
-    }
-}
-
-/* The event edges that cross a facet; they may be those of classification->crossing. */
-static const uint32_t *known_crossings(const lrcsi_known *k, uint32_t facet, uint32_t *count)
-{
-    if (facet < k->listed) {
-        *count = k->list[facet].count;
-        return k->crossing + k->list[facet].first;
-    }
-    *count = lrcsi_classify_crossings(k->classification, facet, NULL);
-    return k->classification->crossing;
-}
-
-/* Marks the pixels that are mixed for a facet. */
-static void mark_mixed(const visible_job *job, const drawn_facet *f)
-{
-    const lrcsi_view *view = job->raster->view;
-    const lrcs_prepared *p = view->prepared;
+    const lrcsi_intersections *contacts = &r->view->prepared->intersections;
     for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
         const lrcsi_pixel_span touched = job->row[y].touched;
         memset(job->mixed + pixel_index(job, touched.x0, y), 0, touched.x1 - touched.x0);
     }
-    uint32_t crossings;
-    const uint32_t *crossing = known_crossings(job->known, f->facet, &crossings);
-    for (uint32_t i = 0; i < crossings; i++) {
-        mark_edge(job, f, crossing[i]);
+    for (uint32_t i = 0; i < crossings->count; i++) {
+        const lrcsi_raster_segment s = lrcsi_raster_edge(r, crossings->edge[i]);
+        mark_segment(job, f, s.a, s.b, 4 * s.err);
     }
-    const lrcsi_intersections *contacts = &p->intersections;
     for (uint32_t i = contacts->first[f->facet]; i < contacts->first[f->facet + 1]; i++) {
         const lrcsi_intersection *contact = &contacts->entry[i];
-        if (!lrcsi_intersection_hides(view, f->facet, contact)) {
+        lrcsi_raster_segment s[3];
+        if (!lrcsi_intersection_hides(r->view, f->facet, contact)) {
             continue;
         }
+        int segments = lrcsi_raster_contact(r, &f->edges, f->facet, contact, s);
         if (contact->kind == LRCSI_INTERSECTION_CROSS) {
-            mark_intersection(job, f, contact->other);
+            const lrcsi_edge_functions other = lrcsi_raster_edge_functions(r, contact->other);
+            const double *a = s[0].a;
+            const double *b = s[0].b;
+            double t[2] = {0, 1};
+            if (!(s[0].err <= 0.125)) {
+                mark_overlap(job, f, &other);
+            } else if (segments > 0 && lrcsi_span_clip(&other, a, b, s[0].err, t)) {
+                const double from[2] = {a[0] + t[0] * (b[0] - a[0]), a[1] + t[0] * (b[1] - a[1])};
+                const double to[2] = {a[0] + t[1] * (b[0] - a[0]), a[1] + t[1] * (b[1] - a[1])};
+                mark_segment(job, f, from, to, 4 * s[0].err);
+            }
             continue;
         }
-        for (int k = 0; k < 3; k++) {
-            mark_edge(job, f, p->topology.facet_edge[contact->other].corner[k]);
+        for (int k = 0; k < segments; k++) {
+            mark_segment(job, f, s[k].a, s[k].b, 4 * s[k].err);
         }
     }
 }
-
-/* --- decided pixels --------------------------------------------------------------------------- */
 
 /* The part of a unit square in which a linear function is positive. Given: its value at the centre,
    and how much it changes along the sides of the square, larger >= smaller >= 0. */
@@ -287,60 +263,6 @@ static int pixel_visibility(const visible_job *job, const drawn_facet *f, uint32
     return pixel_hidden(job, f, x, y) ? PIXEL_HIDDEN : PIXEL_UNRESOLVED;
 }
 
-/* Adds pixels x0 <= x < x1 of a row, which the facet covers entirely. Those that are not mixed are
-   visible if the facet owns their samples: *owned is reduced by the samples in mixed pixels. */
-static void sum_full(const visible_job *job, const drawn_facet *f, uint32_t y,
-                     lrcsi_pixel_span full, uint32_t *owned, pixel_sums *sums)
-{
-    const unsigned char *row = job->mixed + pixel_index(job, 0, y);
-    uint32_t decided = full.x1 - full.x0;
-    for (const unsigned char *at = row + full.x0;
-         (at = memchr(at, 1, (size_t)(row + full.x1 - at))); at++) {
-        uint32_t x = (uint32_t)(at - row);
-        *owned -= job->raster->owner[pixel_index(job, x, y)] == f->facet;
-        decided -= !pixel_hidden(job, f, x, y);
-    }
-    sums->full_hidden += decided;
-}
-
-/* Adds pixels x0 <= x < x1 of a row, which the facet may not cover entirely. *owned is reduced by
-   the samples that it owns. */
-static void sum_partial(const visible_job *job, const drawn_facet *f, uint32_t y, uint32_t x0,
-                        uint32_t x1, uint32_t *owned, pixel_sums *sums)
-{
-    for (uint32_t x = x0; x < x1; x++) {
-        *owned -= job->raster->owner[pixel_index(job, x, y)] == f->facet;
-        int visibility = pixel_visibility(job, f, x, y);
-        if (visibility == PIXEL_VISIBLE) {
-            sums->visible += pixel_area(f, x, y);
-        } else if (visibility == PIXEL_HIDDEN) {
-            sums->hidden += pixel_area(f, x, y);
-        }
-    }
-}
-
-/* Adds up the pixels of a facet that are decided. Of the pixels that it covers entirely, those that
-   are not mixed are not examined one by one: those that it owns are all samples that it owns, less
-   those in other pixels. */
-static pixel_sums sum_pixels(const visible_job *job, const drawn_facet *f)
-{
-    pixel_sums sums = {0, 0, 0, 0};
-    uint32_t owned = job->raster->owned[f->facet];
-    for (uint32_t y = f->edges.bottom; y < f->edges.top; y++) {
-        const lrcsi_pixel_span touched = job->row[y].touched;
-        lrcsi_pixel_span full = job->row[y].full;
-        if (full.x0 == full.x1) { /* an empty span may lie anywhere */
-            full = (lrcsi_pixel_span){touched.x1, touched.x1};
-        }
-        sum_partial(job, f, y, touched.x0, full.x0, &owned, &sums);
-        sum_full(job, f, y, full, &owned, &sums);
-        sum_partial(job, f, y, full.x1, touched.x1, &owned, &sums);
-    }
-    sums.full_visible = owned;
-    sums.full_hidden -= owned;
-    return sums;
-}
-
 /* Is all of a facet certainly hidden, pixel by pixel? */
 static int pixels_hide_facet(const visible_job *job, const drawn_facet *f)
 {
@@ -355,12 +277,63 @@ static int pixels_hide_facet(const visible_job *job, const drawn_facet *f)
     return 1;
 }
 
+/* Adds up the pixels of a facet that are decided, row by row. A pixel that it may not cover
+   entirely is examined alone. Of the pixels that it covers entirely, only mixed ones are: the
+   others are decided, and it owns the samples of those that are visible. So their number is that of
+   all samples that it owns, less those in the pixels that are examined. */
+static pixel_sums facet_pixels(const visible_job *job, uint32_t facet,
+                               const lrcsi_crossings *crossings)
+{
+    const lrcsi_raster *r = job->raster;
+    const drawn_facet f = drawn_facet_make(job, facet);
+    pixel_sums sums = {0, 0, 0, 0};
+    uint32_t decided = 0; /* pixels that it covers entirely */
+    uint32_t visible = r->owned[facet];
+    if (visible == 0 && pixels_hide_facet(job, &f)) {
+        sums.hidden = HUGE_VAL;
+        return sums;
+    }
+    mark_mixed(job, &f, crossings);
+    for (uint32_t y = f.edges.bottom; y < f.edges.top; y++) {
+        const uint32_t *owner = r->owner + pixel_index(job, 0, y);
+        const unsigned char *mixed = job->mixed + pixel_index(job, 0, y);
+        const lrcsi_pixel_span touched = job->row[y].touched;
+        lrcsi_pixel_span full = job->row[y].full;
+        if (full.x0 == full.x1) { /* an empty span may lie anywhere */
+            full = (lrcsi_pixel_span){touched.x1, touched.x1};
+        }
+        for (uint32_t x = touched.x0; x < touched.x1; x++) {
+            x = x == full.x0 ? full.x1 : x;
+            if (x >= touched.x1) {
+                break;
+            }
+            visible -= owner[x] == facet;
+            int visibility = pixel_visibility(job, &f, x, y);
+            if (visibility == PIXEL_VISIBLE) {
+                sums.visible += pixel_area(&f, x, y);
+            } else if (visibility == PIXEL_HIDDEN) {
+                sums.hidden += pixel_area(&f, x, y);
+            }
+        }
+        decided += full.x1 - full.x0;
+        for (const unsigned char *at = mixed + full.x0;
+             (at = memchr(at, 1, (size_t)(mixed + full.x1 - at))); at++) {
+            uint32_t x = (uint32_t)(at - mixed);
+            visible -= owner[x] == facet;
+            decided -= !pixel_hidden(job, &f, x, y);
+        }
+    }
+    sums.full_visible = visible;
+    sums.full_hidden = decided - visible;
+    return sums;
+}
+
 /* --- areas ------------------------------------------------------------------------------------ */
 
 /* The area of an undecided facet, its bounds and its estimated error. The area of a pixel is
    side^2 / N^2 within a few roundings, for which 1e-12 of it is subtracted. */
 static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, uint32_t facet,
-                         lrcsi_visible *v)
+                         const lrcsi_crossings *crossings, lrcsi_visible *v)
 {
     const lrcsi_raster *raster = pool->raster;
     const double area = lrcsi_view_projected(raster->view, facet);
@@ -370,10 +343,8 @@ static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, 
     if (!raster->undecided[facet] && fraction.pooled) {
         error = lrcsi_sampling_error_pooled(raster, facet, fraction.longest, fraction.fraction);
     } else if (!raster->undecided[facet]) {
-        uint32_t crossings;
-        const uint32_t *crossing = known_crossings(pool->known, facet, &crossings);
         error = lrcsi_sampling_error_facet(pool->known->classification->component, raster, facet,
-                                           crossing, crossings);
+                                           crossings);
     }
     v->low = lrcsi_min(area, (sums->full_visible + sums->visible) * pixel * (1 - 1e-12));
     v->high = lrcsi_max(v->low, area - (sums->full_hidden + sums->hidden) * pixel * (1 - 1e-12));
@@ -381,6 +352,17 @@ static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, 
     double gap = v->high - v->low;
     v->error_estimate = lrcsi_min(gap, sqrt(error.square) * pixel);
     v->bias = lrcsi_min(gap, lrcsi_max(-gap, error.bias * pixel));
+}
+
+/* The event edges that cross a facet: listed, or searched for. */
+static lrcsi_crossings known_crossings(const lrcsi_known *k, uint32_t facet,
+                                       lrcsi_crossings *search)
+{
+    if (facet < k->listed) {
+        return (lrcsi_crossings){facet, k->list[facet].count, k->crossing + k->list[facet].first};
+    }
+    lrcsi_crossings_find(&k->classification->search, facet, NULL, search);
+    return *search;
 }
 
 /* Room for crossings: more than ordinary scenes have. The crossings of facets beyond it are
@@ -396,7 +378,8 @@ size_t lrcsi_visible_known_need(const lrcs_prepared *prepared)
     size_t need = lrcsi_work_bytes(facets, 1);
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_known_list)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(known_room(prepared), sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_grid_facets_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_crossings_need(prepared));
+    return lrcsi_work_add(need, lrcsi_query_need(prepared));
 }
 
 /* Queries of uniform facets come first. For each of the others, one search for the event edges that
@@ -410,9 +393,10 @@ int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, l
     k.answer = lrcsi_work_take(work, count, 1);
     k.list = lrcsi_work_take(work, count, sizeof *k.list);
     k.crossing = lrcsi_work_take(work, known_room(p), sizeof *k.crossing);
-    int status = k.answer && k.list && k.crossing
-                     ? lrcsi_query_uniform(classification, NULL, work, &k.facets, k.answer)
-                     : LRCS_E_MEMORY;
+    int status = lrcsi_crossings_make(&classification->search, work, &k.search);
+    status = status == LRCS_OK && k.answer && k.list && k.crossing
+                 ? lrcsi_query_uniform(classification, NULL, work, &k.facets, k.answer)
+                 : LRCS_E_MEMORY;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
@@ -421,17 +405,20 @@ int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, l
     uint32_t used = 0; /* of crossing[] */
     k.listed = count;
     for (uint32_t f = 0; (f = lrcsi_query_next(undecided, f, count, 1)) < count; f++) {
-        if (lrcsi_query_screened(classification, &k.facets, f, NULL)) {
+        if (lrcsi_query_screened(classification, &k.facets, f, NULL, &k.search)) {
+            k.answer[f] = LRCSI_QUERY_HIDDEN;
             continue;
         }
-        k.answer[f] = LRCSI_QUERY_UNDECIDED;
-        uint32_t crossings = f < k.listed ? lrcsi_classify_crossings(classification, f, NULL) : 0;
-        if (crossings > known_room(p) - used) {
+        if (f > k.listed) {
+            continue;
+        }
+        lrcsi_crossings_find(&classification->search, f, NULL, &k.search);
+        if (k.search.count > known_room(p) - used) {
             k.listed = f;
-        } else if (f < k.listed) {
-            memcpy(k.crossing + used, classification->crossing, crossings * sizeof *k.crossing);
-            k.list[f] = (lrcsi_known_list){used, crossings};
-            used += crossings;
+        } else {
+            memcpy(k.crossing + used, k.search.edge, k.search.count * sizeof *k.crossing);
+            k.list[f] = (lrcsi_known_list){used, k.search.count};
+            used += k.search.count;
         }
     }
     *known = k;
@@ -446,44 +433,18 @@ size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
     return lrcsi_work_add(need, lrcsi_raster_undecided_need(prepared, size));
 }
 
-/* Finds the areas of the facets that queries left undecided. If the depth order of a facet could
-   not be decided, its sums are 0, and nothing is certain. */
-static void find_areas(const visible_job *job, const lrcsi_sample_pool *pool,
-                       lrcsi_visible *visible)
-{
-    const lrcsi_known *known = job->known;
-    const lrcsi_raster *raster = job->raster;
-    const uint32_t count = raster->view->prepared->scene->facet_count;
-    for (uint32_t f = 0;
-         (f = lrcsi_query_next(known->answer, f, count, LRCSI_QUERY_UNDECIDED)) < count; f++) {
-        if (!known->classification->undecided[f]) { /* uniform, but its query gave no answer */
-            double area = lrcsi_view_projected(raster->view, f);
-            raster->undecided[f] = 1;
-            visible[f] = (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
-            continue;
-        }
-        pixel_sums sums = {0, 0, 0, 0};
-        if (!raster->undecided[f]) {
-            const drawn_facet drawn = drawn_facet_make(job, f);
-            if (raster->owned[f] == 0 && pixels_hide_facet(job, &drawn)) {
-                sums.hidden = HUGE_VAL;
-            } else {
-                mark_mixed(job, &drawn);
-                sums = sum_pixels(job, &drawn);
-            }
-        }
-        sampled_area(pool, &sums, f, &visible[f]);
-    }
-}
-
+/* If the depth order of a facet could not be decided, its sums are 0, and nothing is certain. */
 int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
-                          lrcsi_raster *raster, lrcsi_visible *visible)
+                          lrcsi_raster *raster, lrcsi_visible *visible, int *undecided)
 {
-    const lrcsi_view *view = known->classification->view;
+    const lrcsi_classification *classification = known->classification;
+    const lrcsi_view *view = classification->view;
+    const uint32_t count = view->prepared->scene->facet_count;
     const size_t mark = work->used;
     int status = lrcsi_raster_make_undecided(view, size, known->answer, work, raster);
     const size_t end = work->used;
     visible_job job = {.known = known, .raster = raster};
+    lrcsi_crossings search = known->search;
     lrcsi_sample_pool pool;
     if (status == LRCS_OK) {
         job.mixed = lrcsi_work_take(work, lrcsi_work_square(size), 1);
@@ -496,7 +457,22 @@ int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *wo
         return status;
     }
     lrcsi_visible_answered(view, known->answer, visible);
-    find_areas(&job, &pool, visible);
+    *undecided = memchr(raster->undecided, 1, count) != NULL;
+    for (uint32_t f = 0;
+         (f = lrcsi_query_next(known->answer, f, count, LRCSI_QUERY_UNDECIDED)) < count; f++) {
+        if (!classification->undecided[f]) { /* uniform, but its query gave no answer */
+            double area = lrcsi_view_projected(view, f);
+            visible[f] = (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
+            *undecided = 1;
+            continue;
+        }
+        const lrcsi_crossings crossings = known_crossings(known, f, &search);
+        pixel_sums sums = {0, 0, 0, 0};
+        if (!raster->undecided[f]) {
+            sums = facet_pixels(&job, f, &crossings);
+        }
+        sampled_area(&pool, &sums, f, &crossings, &visible[f]);
+    }
     lrcsi_visible_fraction_correct(&pool, visible);
     work->used = end;
     return LRCS_OK;

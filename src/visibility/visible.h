@@ -47,9 +47,10 @@ size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size);
 /* Finds visible areas by exact decisions and samples. A uniform facet has its exact projected area,
    or 0. The area of an undecided facet follows from the fraction of its samples that it owns,
    within the bounds that follow from the pixels in which its visibility does not change. Only the
-   tiles around undecided facets are drawn.
+   tiles around undecided facets are drawn. *undecided: 1 if the depth order of some facets could
+   not be decided, or the query of a uniform facet had no answer; else 0.
    Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area. */
 int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
-                          lrcsi_raster *raster, lrcsi_visible *visible);
+                          lrcsi_raster *raster, lrcsi_visible *visible, int *undecided);
 
 #endif

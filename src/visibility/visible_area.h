@@ -14,11 +14,6 @@ typedef struct lrcsi_visible {
     double bias; /* the part of that error that has a sign: positive if the area is too large */
 } lrcsi_visible;
 
-/* Items first .. first + count - 1 of a list. */
-typedef struct lrcsi_known_list {
-    uint32_t first, count;
-} lrcsi_known_list;
-
 /* The first moment of a facet's visible region: the integral of x - c over its projection, c the
    facet's centroid in the view plane. 0 for a facet that is entirely visible or hidden. */
 typedef struct lrcsi_moment {
@@ -26,6 +21,11 @@ typedef struct lrcsi_moment {
     double error; /* bound on the error of either component; HUGE_VAL: the moment is not known */
     double reach; /* while it is computed: the largest distance from c of what counts as visible */
 } lrcsi_moment;
+
+/* Items first .. first + count - 1 of a list. */
+typedef struct lrcsi_known_list {
+    uint32_t first, count;
+} lrcsi_known_list;
 
 /* What exact queries decide about facets before samples are taken. */
 typedef struct lrcsi_known {
@@ -35,7 +35,8 @@ typedef struct lrcsi_known {
                                if samples have to decide */
     uint32_t listed;        /* facets below this have lists */
     lrcsi_known_list *list; /* facet, if its answer is undecided: the event edges that cross it */
-    uint32_t *crossing;
+    uint32_t *crossing;     /* the items of these lists: topology edges */
+    lrcsi_crossings search; /* room to search for the crossings of a facet without a list */
 } lrcsi_known;
 
 #endif

@@ -151,13 +151,13 @@ static void random_point(const lrcsi_raster *raster, uint32_t facet, double poin
    errors of many facets would then be equal. */
 static double fraction_of_point(const lrcsi_sample_pool *pool, uint32_t facet)
 {
-    static const double fraction[] = {0, 1, 0.5}; /* by lrcsi_query_answer */
     double point[3];
     random_point(pool->raster, facet, point);
     int answer = lrcsi_query_point(&pool->known->facets, facet, point, NULL);
-    return fraction[answer != LRCSI_QUERY_UNDECIDED
-                        ? answer
-                        : lrcsi_query_facet(&pool->known->facets, facet, NULL)];
+    if (answer == LRCSI_QUERY_UNDECIDED) {
+        answer = lrcsi_query_facet(&pool->known->facets, facet, NULL);
+    }
+    return answer == LRCSI_QUERY_VISIBLE ? 1 : answer == LRCSI_QUERY_HIDDEN ? 0 : 0.5;
 }
 
 lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sample_pool *pool, uint32_t facet)

@@ -301,7 +301,8 @@ static void check_bounds(const hostile_case *c, const lrcsi_view *view, uint32_t
 static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, const lrcs_pose *pose,
                       lrcs_work work)
 {
-    static unsigned char open[MOST];
+    static unsigned char wanted[MOST];
+    static unsigned char decided[MOST];
     static lrcsi_visible together[MOST];
     lrcsi_view view;
     lrcsi_classification classification;
@@ -314,16 +315,16 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
         return;
     }
     for (uint32_t f = 0; f < c->scene.facet_count; f++) {
-        open[f] = lrcsi_view_casts(&view, f) != 0;
-        if (open[f]) {
+        wanted[f] = lrcsi_view_casts(&view, f) != 0;
+        if (wanted[f]) {
             lrcsi_occlude_open(&o, f);
             lrcsi_visible alone = lrcsi_occlude_area(&o);
             check_bounds(c, &view, f, &alone, 0);
         }
     }
-    lrcsi_cells_areas(&classification, NULL, &work, o.uniform, open, together, NULL);
+    lrcsi_cells_areas(&classification, NULL, &work, o.answer, wanted, decided, together, NULL);
     for (uint32_t f = 0; f < c->scene.facet_count; f++) {
-        if (lrcsi_view_casts(&view, f) && !open[f]) {
+        if (decided[f]) {
             check_bounds(c, &view, f, &together[f], 1);
         }
     }

@@ -86,7 +86,8 @@ static void agree_facet(agree_way *way, int number, uint32_t facet, double proje
 
 /* One direction: all facets that can be seen by cells together, undecided ones each alone. */
 static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *work,
-                       unsigned char *open, lrcsi_visible *found, agree_sums *sums)
+                       unsigned char *wanted, unsigned char *decided, lrcsi_visible *found,
+                       agree_sums *sums)
 {
     lrcsi_view view;
     lrcsi_classification classification;
@@ -98,10 +99,10 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
     must(lrcsi_view_make(prepared, &pose, work, &view));
     must(lrcsi_classify_make(&view, NULL, work, &classification));
     for (uint32_t f = 0; f < count; f++) {
-        open[f] = lrcsi_view_casts(&view, f) != 0;
+        wanted[f] = lrcsi_view_casts(&view, f) != 0;
     }
     double start = now_ms();
-    lrcsi_cells_areas(&classification, NULL, work, NULL, open, found, NULL);
+    lrcsi_cells_areas(&classification, NULL, work, NULL, wanted, decided, found, NULL);
     sums->together.ms += now_ms() - start;
     must(ref_occlude_make(&classification, work, &o));
     must(lrcsi_cells_single_make(&classification, NULL, &o.cover.facets, work, &a));
@@ -114,8 +115,9 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
         must(ref_occlude_open(&o, f));
         lrcsi_visible clipped = ref_occlude_area(&o);
         sums->ms += now_ms() - start;
-        sums->together.left += open[f];
-        if (!open[f]) {
+        int found_together = !wanted[f] || decided[f];
+        sums->together.left += !found_together;
+        if (found_together) {
             agree_facet(&sums->together, number, f, projected, &found[f], &clipped);
         }
         if (classification.undecided[f]) {
@@ -158,20 +160,22 @@ int main(int argc, char **argv)
             return 2;
         }
         uint32_t count = scene.prepared->scene->facet_count;
-        unsigned char *open = malloc(count);
+        unsigned char *wanted = malloc(count);
+        unsigned char *decided = malloc(count);
         lrcsi_visible *found = malloc(count * sizeof *found);
-        if (!open || !found) {
+        if (!wanted || !decided || !found) {
             return 2;
         }
         for (int n = 0; n < directions; n++) {
-            agree_pose(scene.prepared, n, &work, open, found, &sums);
+            agree_pose(scene.prepared, n, &work, wanted, decided, found, &sums);
         }
         printf("%s: clipped in %.2f ms a pose\n", argv[i], sums.ms / directions);
         agree_print(&sums.together, directions);
         agree_print(&sums.alone, directions);
         fflush(stdout);
         status |= sums.together.apart + sums.alone.apart != 0;
-        free(open);
+        free(wanted);
+        free(decided);
         free(found);
         lrcs_host_scene_free(&scene);
     }

@@ -14,8 +14,10 @@ static lrcsi_view view;
 static lrcsi_classification classification;
 static lrcsi_visible found[SCENE_FACETS];
 static lrcsi_moment moment[SCENE_FACETS];
-static unsigned char open[SCENE_FACETS];
-static lrcsi_meter *limit; /* NULL: none */
+static unsigned char wanted[SCENE_FACETS];
+static unsigned char finished[SCENE_FACETS]; /* its area was found */
+static unsigned char open[SCENE_FACETS];     /* it was not, though wanted */
+static lrcsi_meter *limit;                   /* NULL: none */
 
 static void turned(const double direction[3])
 {
@@ -33,12 +35,13 @@ static uint32_t ask(uint32_t *left)
     uint32_t asked = 0;
     *left = 0;
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        open[f] = lrcsi_view_casts(&view, f) != 0;
-        asked += open[f];
+        wanted[f] = lrcsi_view_casts(&view, f) != 0;
+        asked += wanted[f];
     }
     memset(moment, 0, sizeof moment);
-    lrcsi_cells_areas(&classification, limit, &work, NULL, open, found, moment);
+    lrcsi_cells_areas(&classification, limit, &work, NULL, wanted, finished, found, moment);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
+        open[f] = wanted[f] && !finished[f];
         *left += open[f];
     }
     return asked;
@@ -597,9 +600,9 @@ static void hidden_facets_are_left_out_and_change_nothing(void **state)
     assert_int_equal(left, 0);
     memcpy(listed, found, sizeof listed);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        open[f] = 1;
+        wanted[f] = 1;
     }
-    lrcsi_cells_areas(&classification, NULL, &work, answer, open, found, NULL);
+    lrcsi_cells_areas(&classification, NULL, &work, answer, wanted, finished, found, NULL);
     uint32_t hidden = 0;
     uint32_t crossed = 0;
     double seen = 0;
@@ -608,11 +611,11 @@ static void hidden_facets_are_left_out_and_change_nothing(void **state)
         whole += lrcsi_view_projected(&view, f);
         if (!classification.undecided[f] && answer[f] == LRCSI_QUERY_HIDDEN) {
             hidden++;
-            assert_int_equal(open[f], 1);
+            assert_int_equal(finished[f], 0);
             check_abs(listed[f].high, 0, 0);
         } else {
             crossed += classification.undecided[f] != 0;
-            assert_int_equal(open[f], 0);
+            assert_int_equal(finished[f], 1);
             check_most(found[f].low, listed[f].high);
             check_most(listed[f].low, found[f].high);
             seen += found[f].area;

@@ -11,6 +11,8 @@ static test_scene scene;
 static lrcs_work work;
 static lrcsi_view view;
 static lrcsi_classification classification;
+static lrcsi_crossings crossings;
+static uint32_t region_of[SCENE_FACETS + LRCSI_RUN];
 static lrcsi_grid facets;
 
 static void look_from(double x, double y, double z)
@@ -20,10 +22,24 @@ static void look_from(double x, double y, double z)
     assert_int_equal(lrcs_pose_from_direction((const double[3]){x, y, z}, &pose), LRCS_OK);
     assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
     assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
-    lrcsi_classify_regions(&classification);
-    assert_int_equal(
-        lrcsi_grid_facets(&classification.grid, &classification.boxes, NULL, &work, &facets),
-        LRCS_OK);
+    assert_int_equal(lrcsi_crossings_make(&classification.search, &work, &crossings), LRCS_OK);
+    lrcsi_classify_regions(&classification, region_of);
+    assert_int_equal(lrcsi_grid_facets(&classification.search.grid, &classification.search.boxes,
+                                       NULL, &work, &facets),
+                     LRCS_OK);
+}
+
+/* How many event edges cross a facet. */
+static uint32_t crossing_count(uint32_t facet)
+{
+    lrcsi_crossings_find(&classification.search, facet, NULL, &crossings);
+    assert_int_equal(crossings.facet, facet);
+    return crossings.count;
+}
+
+static int screened(uint32_t facet)
+{
+    return lrcsi_query_screened(&classification, &facets, facet, NULL, &crossings);
 }
 
 /* A level square, front up: corner at (x, y, z). */
@@ -86,8 +102,8 @@ static void boundary_edges_in_front_make_facets_that_they_cross_undecided(void *
     assert_int_equal(classification.events.count, 8);
     assert_true(classification.undecided[0]);
     assert_false(classification.undecided[1]);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 1, NULL), 0);
+    assert_int_equal(crossing_count(0), 4);
+    assert_int_equal(crossing_count(1), 0);
     assert_int_equal(classification.undecided[2] + classification.undecided[3], 0); /* the nearer */
     assert_int_equal(lrcsi_query_facet(&facets, 1, NULL), LRCSI_QUERY_VISIBLE);
     look_from(0, 0, -1); /* from behind the large one hides the small one whole */
@@ -105,16 +121,16 @@ static void crossings_are_searched_for_once(void **state)
     square(2.5, 0.5, 1, 1);
     look_from(0, 0, 1);
     uint32_t found[4];
-    uint32_t before = classification.searches;
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
-    assert_int_equal(classification.searches, before + 1);
-    memcpy(found, classification.crossing, sizeof found);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 1, NULL), 0);
-    assert_int_equal(classification.searches, before + 2);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 4);
-    assert_memory_equal(classification.crossing, found, sizeof found);
-    assert_int_equal(classification.searches, before + 3);
+    uint32_t before = classification.search.searches;
+    assert_int_equal(crossing_count(0), 4);
+    assert_int_equal(crossing_count(0), 4);
+    assert_int_equal(classification.search.searches, before + 1);
+    memcpy(found, crossings.edge, sizeof found);
+    assert_int_equal(crossing_count(1), 0);
+    assert_int_equal(classification.search.searches, before + 2);
+    assert_int_equal(crossing_count(0), 4);
+    assert_memory_equal(crossings.edge, found, sizeof found);
+    assert_int_equal(classification.search.searches, before + 3);
 }
 
 /* A rim that projects exactly onto another plate's rim, or only touches it, crosses nothing. */
@@ -134,7 +150,7 @@ static void boundary_edges_behind_a_facet_do_not_make_it_undecided(void **state)
     scene_facet(&scene, v, v + 1, v + 2);
     look_from(0, 0, 1);
     assert_false(classification.undecided[0]);
-    assert_int_equal(lrcsi_classify_crossings(&classification, 0, NULL), 0);
+    assert_int_equal(crossing_count(0), 0);
     assert_true(classification.undecided[1]);
 }
 
@@ -169,7 +185,7 @@ static void piercing_and_overlapping_facets_make_each_other_undecided(void **sta
     look_from(0, 0, 1);
     assert_false(classification.undecided[0]);
     assert_true(classification.undecided[2] && classification.undecided[3]);
-    assert_true(lrcsi_query_screened(&classification, &facets, 2, NULL) == 0);
+    assert_true(screened(2) == 0);
 }
 
 /* Of every edge of the scene: it is listed as an event if it is one, and joins two facets into one
@@ -204,7 +220,7 @@ static void check_joins(void)
     assert_true(events > 0);
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         assert_int_equal(classification.component[f], lrcsi_disjoint_root(component, f));
-        assert_int_equal(classification.region[f], lrcsi_disjoint_root(region, f));
+        assert_int_equal(region_of[f], lrcsi_disjoint_root(region, f));
     }
 }
 
@@ -261,15 +277,15 @@ static void uniform_neighbours_form_regions(void **state)
     (void)state;
     roof();
     look_from(0, 0, 1);
-    assert_int_equal(classification.region[1], 0);
+    assert_int_equal(region_of[1], 0);
     assert_int_equal(region_answer(1), LRCSI_QUERY_VISIBLE);
     square(-3, -3, 2, 6); /* hides both */
     look_from(0, 0, 1);
-    assert_int_equal(classification.region[1], 0);
+    assert_int_equal(region_of[1], 0);
     assert_int_equal(region_answer(0), LRCSI_QUERY_HIDDEN);
     assert_int_equal(region_answer(1), LRCSI_QUERY_HIDDEN);
     look_from(1, 0, 0); /* the ridge is a contour now */
-    assert_int_equal(classification.region[1], 1);
+    assert_int_equal(region_of[1], 1);
 }
 
 /* A rim that ends right above the ridge crosses neither slope, yet hides one of them. */
@@ -281,7 +297,7 @@ static void a_rim_along_a_shared_edge_parts_regions(void **state)
                 (const double[3]){0, 3, 0});
     look_from(0, 0, 1);
     assert_int_equal(classification.undecided[0] + classification.undecided[1], 0);
-    assert_int_equal(classification.region[1], 1);
+    assert_int_equal(region_of[1], 1);
     assert_int_equal(region_answer(0), LRCSI_QUERY_VISIBLE);
     assert_int_equal(region_answer(1), LRCSI_QUERY_HIDDEN);
 }
@@ -295,7 +311,7 @@ static void a_plane_through_a_shared_edge_parts_regions(void **state)
                 (const double[3]){0, 4, 0});
     look_from(0, 0, 1);
     assert_int_equal(classification.undecided[0] + classification.undecided[1], 0);
-    assert_int_equal(classification.region[1], 1);
+    assert_int_equal(region_of[1], 1);
     assert_int_equal(region_answer(0), LRCSI_QUERY_HIDDEN);
     assert_int_equal(region_answer(1), LRCSI_QUERY_VISIBLE);
 }
@@ -333,8 +349,8 @@ static void whole_components_screen_and_others_do_not(void **state)
     uint32_t screen = square(-1, -1, 2, 6);
     look_from(0.125, 0, 1);
     assert_true(classification.undecided[low]);
-    assert_true(lrcsi_query_screened(&classification, &facets, low, NULL));
-    assert_false(lrcsi_query_screened(&classification, &facets, screen, NULL));
+    assert_true(screened(low));
+    assert_false(screened(screen));
 
     scene_start(&scene);
     low = square(0, 0, 0, 4);
@@ -344,7 +360,7 @@ static void whole_components_screen_and_others_do_not(void **state)
                 (const double[3]){0, 6, 0});
     look_from(0, 0, 1);
     assert_true(classification.undecided[low]);
-    assert_false(lrcsi_query_screened(&classification, &facets, low, NULL));
+    assert_false(screened(low));
 
     scene_start(&scene);
     low = scene_triangle(&scene, (const double[3]){0, 0, 0}, (const double[3]){4, 0, 0},
@@ -352,7 +368,7 @@ static void whole_components_screen_and_others_do_not(void **state)
     square(-1, -1, 2, 6); /* the tip looks out of it */
     look_from(0, -1, 3);
     assert_true(classification.undecided[low]);
-    assert_false(lrcsi_query_screened(&classification, &facets, low, NULL));
+    assert_false(screened(low));
 }
 
 static int listed(const lrcsi_grid *grid, const double xy[2], uint32_t item)
@@ -382,7 +398,7 @@ static void grids_list_every_item_wherever_it_stands(void **state)
         const double *b = view.point[edge->high].x;
         for (int i = 0; i <= 32; i++) {
             const double xy[2] = {a[0] + (b[0] - a[0]) * i / 32, a[1] + (b[1] - a[1]) * i / 32};
-            assert_true(listed(&classification.grid, xy, e));
+            assert_true(listed(&classification.search.grid, xy, e));
         }
     }
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
@@ -435,15 +451,15 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
         }
         const lrcsi_grid_readers readers = {reads, region, joinable};
         lrcs_work after = work;
-        assert_int_equal(
-            lrcsi_grid_facets(&classification.grid, &classification.boxes, &readers, &after, &some),
-            LRCS_OK);
+        assert_int_equal(lrcsi_grid_facets(&classification.search.grid,
+                                           &classification.search.boxes, &readers, &after, &some),
+                         LRCS_OK);
         size_t cells = (size_t)some.size * some.size;
         assert_true(every == 1 || some.first[cells] < facets.first[cells]);
         for (uint32_t f = 0; f < scene.scene.facet_count; f += every) {
             lrcsi_cells at =
                 lrcsi_view_casts(&view, f)
-                    ? lrcsi_grid_cells(&some, lrcsi_boxes_facet(&classification.boxes, f))
+                    ? lrcsi_grid_cells(&some, lrcsi_boxes_facet(&classification.search.boxes, f))
                     : (lrcsi_cells){0};
             for (uint32_t y = at.y0; y < at.y1; y++) {
                 for (uint32_t x = at.x0; x < at.x1; x++) {
@@ -465,7 +481,8 @@ static void events_stand_in_order_of_depth(void **state)
     look_from(0.3, 0.2, 0.9);
     assert_int_equal(classification.events.count, 160);
     for (uint32_t i = 1; i < classification.events.count; i++) {
-        assert_true(classification.event[i].box.high[2] <= classification.event[i - 1].box.high[2]);
+        assert_true(classification.search.event[i].box.high[2] <=
+                    classification.search.event[i - 1].box.high[2]);
     }
 }
 

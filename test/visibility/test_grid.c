@@ -105,12 +105,12 @@ static uint32_t check_grids(void)
     lrcsi_classification classification;
     lrcsi_grid facets;
     assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
-    assert_int_equal(
-        lrcsi_grid_facets(&classification.grid, &classification.boxes, NULL, &work, &facets),
-        LRCS_OK);
+    assert_int_equal(lrcsi_grid_facets(&classification.search.grid, &classification.search.boxes,
+                                       NULL, &work, &facets),
+                     LRCS_OK);
     const lrcs_prepared *p = view.prepared;
     assert_true(listed(&facets) <= LRCSI_GRID_FACET_CELLS * p->scene->facet_count);
-    assert_true(listed(&classification.grid) <= 8 * p->topology.edge_count);
+    assert_true(listed(&classification.search.grid) <= 8 * p->topology.edge_count);
     double at[2];
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
         lrcsi_view_box box = lrcsi_view_box_of(&view, p->scene->facet[f].corner, 3);
@@ -124,7 +124,7 @@ static uint32_t check_grids(void)
         const lrcsi_edge *edge = &p->topology.edge[classification.events.edge[i]];
         for (int k = 0; k < 20; k++) {
             place_on(&view, (const uint32_t[2]){edge->low, edge->high}, 2, at);
-            assert_true(lists(&classification.grid, at, i));
+            assert_true(lists(&classification.search.grid, at, i));
         }
     }
     return facets.size;
@@ -247,8 +247,8 @@ static int facets_in(const lrcsi_classification *classification, const lrcsi_gri
 {
     lrcsi_grid grid;
     lrcs_work work = lrcs_work_make(little, size);
-    int status =
-        lrcsi_grid_facets(&classification->grid, &classification->boxes, readers, &work, &grid);
+    int status = lrcsi_grid_facets(&classification->search.grid, &classification->search.boxes,
+                                   readers, &work, &grid);
     assert_int_equal(status, work.peak <= size ? LRCS_OK : LRCS_E_MEMORY);
     assert_true(status == LRCS_OK || work.used == 0);
     return status;

@@ -37,6 +37,8 @@ static lrcsi_view seen_from(int i)
 }
 
 /* The sampled run of a view, in memory that was all `untouched`. */
+static int undecided_order; /* as the last raster found */
+
 static lrcsi_raster sampled(const lrcsi_view *view, lrcsi_classification *classification,
                             lrcsi_known *known, lrcsi_visible *visible)
 {
@@ -47,7 +49,8 @@ static lrcsi_raster sampled(const lrcsi_view *view, lrcsi_classification *classi
     assert_true(work.size - work.used >= need);
     memset(work.bytes + work.used, untouched, need);
     size_t before = work.peak = work.used;
-    assert_int_equal(lrcsi_visible_sampled(known, N, &work, &raster, visible), LRCS_OK);
+    assert_int_equal(lrcsi_visible_sampled(known, N, &work, &raster, visible, &undecided_order),
+                     LRCS_OK);
     assert_true(work.peak - before <= need);
     return raster;
 }
@@ -191,7 +194,8 @@ static double check_bounds(const lrcsi_view *view, uint32_t size, unsigned *part
     assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, exact, NULL), LRCS_OK);
     work.used = mark;
     assert_int_equal(lrcsi_visible_known(&classification, &work, &known), LRCS_OK);
-    assert_int_equal(lrcsi_visible_sampled(&known, size, &work, &raster, visible), LRCS_OK);
+    assert_int_equal(lrcsi_visible_sampled(&known, size, &work, &raster, visible, &undecided_order),
+                     LRCS_OK);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         const lrcsi_visible *v = &visible[f];
         double rounding = 1e-14 * view->side * view->side;

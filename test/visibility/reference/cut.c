@@ -105,14 +105,14 @@ static void cuts_edge(ref_cuts *cuts, const lrcsi_classification *classification
 
 /* Those that cross it: not all of them where the view's meter is spent. */
 static void cuts_crossing(ref_cuts *cuts, const lrcsi_classification *classification,
-                          uint32_t crossings)
+                          const lrcsi_crossings *crossings)
 {
     const lrcsi_edge *edge = classification->view->prepared->topology.edge;
-    for (uint32_t i = 0; i < crossings; i++) {
-        if (!lrcsi_meter_take(NULL, edge[classification->crossing[i]].uses)) {
+    for (uint32_t i = 0; i < crossings->count; i++) {
+        if (!lrcsi_meter_take(NULL, edge[crossings->edge[i]].uses)) {
             return;
         }
-        cuts_edge(cuts, classification, classification->crossing[i]);
+        cuts_edge(cuts, classification, crossings->edge[i]);
     }
 }
 
@@ -172,13 +172,13 @@ size_t ref_cuts_need(const lrcs_prepared *prepared)
 }
 
 int ref_cuts_make(lrcsi_classification *classification, const lrcsi_target *target, lrcs_work *work,
-                  ref_cuts *cuts)
+                  lrcsi_crossings *crossings, ref_cuts *cuts)
 {
     const lrcsi_intersections *intersections = &target->view->prepared->intersections;
     uint32_t first = intersections->first[target->facet];
     uint32_t end = intersections->first[target->facet + 1];
-    uint32_t crossings = lrcsi_classify_crossings(classification, target->facet, NULL);
-    size_t room = crossings + 3 * (size_t)(end - first);
+    lrcsi_crossings_find(&classification->search, target->facet, NULL, crossings);
+    size_t room = crossings->count + 3 * (size_t)(end - first);
     *cuts = (ref_cuts){.target = target};
     cuts->cut = lrcsi_work_take(work, room, sizeof *cuts->cut);
     cuts->list = lrcsi_work_take(work, room, sizeof *cuts->list);

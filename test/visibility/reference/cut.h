@@ -37,7 +37,7 @@ size_t ref_cuts_need(const lrcs_prepared *prepared);
 /* Finds those of an undecided facet, not all of them where the view's meter is spent. They stay in
    the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int ref_cuts_make(lrcsi_classification *classification, const lrcsi_target *target, lrcs_work *work,
-                  ref_cuts *cuts);
+                  lrcsi_crossings *crossings, ref_cuts *cuts);
 
 /* Puts those of list[0 .. count) that may come near the shape first. Returns how many. */
 uint32_t ref_cuts_keep(ref_cuts *cuts, const lrcsi_clip_polygon *shape, uint32_t count);

@@ -318,7 +318,7 @@ static int cells_open(ref_occluding *o, uint32_t facet)
     lrcsi_target_make(o->classification->view, facet, &o->target);
     lrcsi_target_refine(&o->target, &o->needle, &o->frame);
     o->area = o->uncertainty[0] = o->uncertainty[1] = o->off = 0;
-    int status = ref_cuts_make(o->classification, &o->frame, o->work, &o->cuts);
+    int status = ref_cuts_make(o->classification, &o->frame, o->work, &o->crossings, &o->cuts);
     if (status == LRCS_OK) {
         ref_cover_start(&o->cover, &o->target);
         o->cells = PARTS_MOST + (uint64_t)PARTS_A_CUT * o->cuts.count;
@@ -378,7 +378,8 @@ int ref_occlude_open(ref_occluding *o, uint32_t facet)
         o->whole = o->answer.low > 0;
         return LRCS_OK;
     }
-    o->undecided = !lrcsi_query_screened(classification, &o->cover.facets, facet, NULL);
+    o->undecided =
+        !lrcsi_query_screened(classification, &o->cover.facets, facet, NULL, &o->crossings);
     int status = o->undecided ? cells_open(o, facet) : LRCS_OK;
     if (status != LRCS_OK) {
         o->work->used = o->mark;
@@ -442,6 +443,9 @@ int ref_occlude_make(lrcsi_classification *classification, lrcs_work *work, ref_
     if (status == LRCS_OK) {
         status = lrcsi_query_uniform(classification, NULL, work, &o->cover.facets, o->uniform);
     }
+    if (status == LRCS_OK) {
+        status = lrcsi_crossings_make(&classification->search, work, &o->crossings);
+    }
     if (status != LRCS_OK) {
         work->used = mark;
     }
@@ -460,22 +464,20 @@ int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work, lrcsi
         lrcsi_visible_answered(view, o.uniform, visible);
     }
     /* 1. Many undecided facets all together, by cells of the view plane. */
-    unsigned char *open = lrcsi_work_take(work, view->prepared->scene->facet_count, 1);
-    status = status == LRCS_OK && !open ? LRCS_E_MEMORY : status;
-    for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
-        open[f] = classification->undecided[f] && lrcsi_view_casts(view, f);
-    }
+    unsigned char *found = lrcsi_work_take_zero(work, view->prepared->scene->facet_count, 1);
+    status = status == LRCS_OK && !found ? LRCS_E_MEMORY : status;
     if (status == LRCS_OK && classification->undecided_count >= CELLS_LEAST &&
         classification->undecided_count >= view->prepared->scene->facet_count / CELLS_SHARE &&
         cells_serve(view->prepared)) {
-        lrcsi_cells_areas(classification, NULL, work, o.uniform, open, visible, NULL);
+        lrcsi_cells_areas(classification, NULL, work, o.uniform, classification->undecided, found,
+                          visible, NULL);
     }
     /* 2. One by one what that left open. */
     for (uint32_t f = 0; f < view->prepared->scene->facet_count && status == LRCS_OK; f++) {
-        int parted = open[f];
+        int parted = classification->undecided[f] && !found[f];
         if (parted && ref_occlude_open(&o, f) == LRCS_OK) {
             visible[f] = ref_occlude_area(&o);
-        } else if (parted || o.uniform[f] == LRCSI_QUERY_UNDECIDED) {
+        } else if (parted || (o.uniform[f] == LRCSI_QUERY_UNDECIDED && !found[f])) {
             visible[f] = ref_occlude_unknown(view, f);
             *starved += (uint32_t)parted;
         }

@@ -27,8 +27,9 @@ typedef struct ref_occluding {
     lrcsi_classification *classification;
     lrcs_work *work;
     ref_cover cover;
-    unsigned char *uniform;  /* facet: what a uniform one shows, a lrcsi_query_answer */
-    ref_occlude_cell *stack; /* of `top` cells yet to be done */
+    unsigned char *uniform;    /* facet: what a uniform one shows, a lrcsi_query_answer */
+    lrcsi_crossings crossings; /* of the facet, once they are needed */
+    ref_occlude_cell *stack;   /* of `top` cells yet to be done */
     uint32_t top;
 
     size_t mark;              /* of the work area, before the facet */
