@@ -152,60 +152,9 @@ static inline uint32_t group_entry(const lrcs_prepared *p, const signed char *jo
     return lrcsi_events_joined(p, joinable, run) == LRCSI_JOINED_ALL ? run * LRCSI_RUN : facet;
 }
 
-/* Joins the facets of a run among themselves. */
-static void join_within(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
-                        uint32_t *group)
-{
-    uint32_t start = run * LRCSI_RUN;
-    uint32_t end = lrcsi_run_end(start, p->scene->facet_count);
-    int alike = lrcsi_run_alike(joinable, run);
-    for (uint32_t f = start; f < end; f++) {
-        group[f] = alike ? start + p->runs.first[f] : f;
-        for (int k = 0; k < 3 && !alike && joinable[f] != 0; k++) {
-            uint32_t other = p->neighbours.facet[f].corner[k];
-            if (other >= start && other < f && joinable[other] == joinable[f]) {
-                lrcsi_disjoint_union(group, other, f);
-            }
-        }
-    }
-}
-
-/* Joins a run whose facets are all joined to earlier such runs around it. Returns 0 if a run of
-   another kind is around it: then its sides have to be joined one by one. */
-static int join_linked(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
-                       uint32_t *group)
-{
-    uint32_t start = run * LRCSI_RUN;
-    for (uint32_t i = p->runs.first_link[run]; i < p->runs.first_link[run + 1]; i++) {
-        uint32_t other = p->runs.link[i];
-        int joined = other < run ? lrcsi_events_joined(p, joinable, other) : LRCSI_JOINED_NONE;
-        if (joined == LRCSI_JOINED_SOME) {
-            return 0;
-        }
-        if (joined == LRCSI_JOINED_ALL && joinable[(size_t)other * LRCSI_RUN] == joinable[start]) {
-            lrcsi_disjoint_union(group, other * LRCSI_RUN, start);
-        }
-    }
-    return 1;
-}
-
-/* Joins the facets of a run to those of earlier runs, side by side. */
-static void join_sides(const lrcs_prepared *p, const signed char *joinable, uint32_t run,
-                       uint32_t *group)
-{
-    for (uint32_t i = p->runs.run[run].first_side; i < p->runs.run[run + 1].first_side; i++) {
-        const lrcsi_run_side *side = &p->runs.side[i];
-        if (side->other < side->facet && joinable[side->facet] != 0 &&
-            joinable[side->other] == joinable[side->facet]) {
-            lrcsi_disjoint_union(group, group_entry(p, joinable, side->other),
-                                 group_entry(p, joinable, side->facet));
-        }
-    }
-}
-
 /* Sets group[facet] to the first facet of its group. Groups are named by their first facets, which
    are in this run or in earlier runs that are finished already. */
-static void join_finish(const lrcs_prepared *p, const signed char *joinable, uint32_t *group)
+static void groups_name(const lrcs_prepared *p, const signed char *joinable, uint32_t *group)
 {
     uint32_t count = p->scene->facet_count;
     for (uint32_t r = 0; r < p->runs.count; r++) {
@@ -225,21 +174,48 @@ static void join_finish(const lrcs_prepared *p, const signed char *joinable, uin
     }
 }
 
-/* Run by run: each is joined within and then to earlier runs, while its facets are in the cache.
-   The groups do not depend on the order. */
+/* 1. Run by run, joins the facets of a run among themselves, and then to earlier runs, while they
+   are in the cache. The groups do not depend on the order. A run that is joined as a whole is
+   represented by its first facet. It is joined to the runs to which its sides lead; side by side
+   only if one of these is joined in part. 2. Joins facets across irregular edges. 3. Names the
+   groups. */
 void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group)
 {
     const lrcs_prepared *p = view->prepared;
-    for (uint32_t r = 0; r < p->runs.count; r++) {
-        uint32_t start = r * LRCSI_RUN;
-        int joined = lrcsi_events_joined(p, joinable, r);
+    const lrcsi_runs *runs = &p->runs;
+    for (uint32_t r = 0; r < runs->count; r++) {
+        const uint32_t start = r * LRCSI_RUN;
+        const uint32_t end = lrcsi_run_end(start, p->scene->facet_count);
+        const int joined = lrcsi_events_joined(p, joinable, r);
+        const int alike = lrcsi_run_alike(joinable, r);
+        int by_sides = joined == LRCSI_JOINED_SOME;
         group[start] = start;
-        if (joined == LRCSI_JOINED_SOME) {
-            join_within(p, joinable, r, group);
+        for (uint32_t f = start; f < end && joined == LRCSI_JOINED_SOME; f++) {
+            group[f] = alike ? start + runs->first[f] : f;
+            for (int k = 0; k < 3 && !alike && joinable[f] != 0; k++) {
+                uint32_t other = p->neighbours.facet[f].corner[k];
+                if (other >= start && other < f && joinable[other] == joinable[f]) {
+                    lrcsi_disjoint_union(group, other, f);
+                }
+            }
         }
-        if (joined == LRCSI_JOINED_SOME ||
-            (joined == LRCSI_JOINED_ALL && !join_linked(p, joinable, r, group))) {
-            join_sides(p, joinable, r, group);
+        for (uint32_t i = runs->first_link[r];
+             i < runs->first_link[r + 1] && joined == LRCSI_JOINED_ALL && !by_sides; i++) {
+            uint32_t other = runs->link[i];
+            int its = other < r ? lrcsi_events_joined(p, joinable, other) : LRCSI_JOINED_NONE;
+            by_sides = its == LRCSI_JOINED_SOME;
+            if (its == LRCSI_JOINED_ALL && joinable[(size_t)other * LRCSI_RUN] == joinable[start]) {
+                lrcsi_disjoint_union(group, other * LRCSI_RUN, start);
+            }
+        }
+        for (uint32_t i = runs->run[r].first_side; by_sides && i < runs->run[r + 1].first_side;
+             i++) {
+            const lrcsi_run_side *side = &runs->side[i];
+            if (side->other < side->facet && joinable[side->facet] != 0 &&
+                joinable[side->other] == joinable[side->facet]) {
+                lrcsi_disjoint_union(group, group_entry(p, joinable, side->other),
+                                     group_entry(p, joinable, side->facet));
+            }
         }
     }
     for (uint32_t i = 0; i < p->neighbours.irregular_count; i++) {
@@ -251,5 +227,5 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
                                  group_entry(p, joinable, pair[1]));
         }
     }
-    join_finish(p, joinable, group);
+    groups_name(p, joinable, group);
 }

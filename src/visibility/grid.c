@@ -232,34 +232,28 @@ lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *si
     return cells;
 }
 
-/* Counts or lists an edge. Returns the number of its cells. */
-static uint32_t grid_put_edge(lrcsi_grid *grid, uint32_t edge, uint32_t item)
+/* Counts or lists the edges. Returns the number of entries, or of those up to the first edge with
+   which they are more than `most`. */
+static uint64_t edges_put(lrcsi_grid *grid, const uint32_t *edge, uint32_t count, uint64_t most)
 {
-    const lrcsi_edge *e = &grid->view->prepared->topology.edge[edge];
-    const uint32_t ends[2] = {e->low, e->high};
-    lrcsi_view_box box = lrcsi_view_box_of(grid->view, ends, 2);
-    lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
-    if (cells.y1 - cells.y0 == 1) {
-        return grid_put(grid, cells.y0, cells.x0, cells.x1, item);
-    }
-    lrcsi_strip_segment segment;
-    lrcsi_grid_sides(grid, ends, 2, 0, &segment);
-    uint32_t count = 0;
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        lrcsi_cells row = lrcsi_grid_row(grid, &segment, 1, y);
-        count += grid_put(grid, y, row.x0, row.x1, item);
-    }
-    return count;
-}
-
-/* Counts or lists the edges. 0 if there are more than `most` entries. */
-static int grid_put_edges(lrcsi_grid *grid, const uint32_t *edge, uint32_t count, uint64_t most)
-{
+    const lrcsi_view *view = grid->view;
     uint64_t listed = 0;
     for (uint32_t i = 0; i < count && listed <= most; i++) {
-        listed += grid_put_edge(grid, edge[i], i);
+        const lrcsi_edge *e = &view->prepared->topology.edge[edge[i]];
+        const uint32_t ends[2] = {e->low, e->high};
+        const lrcsi_view_box box = lrcsi_view_box_of(view, ends, 2);
+        const lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
+        const int one_row = cells.y1 - cells.y0 == 1;
+        lrcsi_strip_segment segment;
+        if (!one_row) {
+            lrcsi_grid_sides(grid, ends, 2, 0, &segment);
+        }
+        for (uint32_t y = cells.y0; y < cells.y1; y++) {
+            const lrcsi_cells row = one_row ? cells : lrcsi_grid_row(grid, &segment, 1, y);
+            listed += grid_put(grid, y, row.x0, row.x1, i);
+        }
     }
-    return listed <= most;
+    return listed;
 }
 
 /* In one cell each edge is listed once: that is not too often. */
@@ -269,14 +263,14 @@ int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_w
     size_t mark = work->used;
     most = most > count ? most : count;
     int status = grid_start(grid, work);
-    while (status == LRCS_OK && !grid_put_edges(grid, edge, count, most)) {
+    while (status == LRCS_OK && edges_put(grid, edge, count, most) > most) {
         work->used = mark;
         grid_coarsen(grid);
         status = grid_start(grid, work);
     }
     status = status == LRCS_OK ? grid_room(work, grid) : status;
     if (status == LRCS_OK) {
-        grid_put_edges(grid, edge, count, most);
+        edges_put(grid, edge, count, most);
         lrcsi_lists_finish(grid->first, grid_count(grid));
     }
     return status;

@@ -46,17 +46,6 @@ typedef struct preview_job {
 
 /* --- counting --------------------------------------------------------------------------------- */
 
-/* Is there a border between owners a and b? Not if they are adjacent across a side of a. Either may
-   be LRCS_NONE. */
-static int is_border(const lrcs_prepared *p, uint32_t a, uint32_t b)
-{
-    if (a == LRCS_NONE || b == LRCS_NONE) {
-        return 1;
-    }
-    const uint32_t *across = p->neighbours.facet[a].corner;
-    return across[0] != b && across[1] != b && across[2] != b;
-}
-
 /* Does a facet cover the sample beyond a border, where another owner hides it? Only such borders
    cause errors of the visible fraction: at the facet's own sides, the numbers of its visible and of
    its covered samples have the same error. */
@@ -88,13 +77,16 @@ static int preview_reflects(const preview_job *job, uint32_t owner)
 }
 
 /* Counts the border between two adjacent samples of different owners; `position` is their pixel
-   along the border. */
+   along the border. There is none between facets that are adjacent across a side of a. */
 static void count_border(preview_job *job, preview_border *border, uint32_t position,
                          preview_owned a, preview_owned b)
 {
     job->outline += preview_reflects(job, a.facet) != preview_reflects(job, b.facet);
-    if (!is_border(job->view->prepared, a.facet, b.facet)) {
-        return;
+    if (a.facet != LRCS_NONE && b.facet != LRCS_NONE) {
+        const uint32_t *across = job->view->prepared->neighbours.facet[a.facet].corner;
+        if (across[0] == b.facet || across[1] == b.facet || across[2] == b.facet) {
+            return;
+        }
     }
     int continues =
         border->last + 1 == position && border->facet[0] == a.facet && border->facet[1] == b.facet;
@@ -123,7 +115,7 @@ static void count_samples(preview_job *job)
         const uint32_t *row = job->raster.owner + (size_t)y * size;
         const uint32_t *next = y + 1 < size ? row + size : row;
         preview_border along = {{LRCS_NONE, LRCS_NONE}, LRCS_NONE - 1, 0};
-        uint32_t from = 0; /* the first sample of a run of samples with the same owner */
+        uint32_t from = 0; /* the first of a span of samples with the same owner */
         for (uint32_t x = 0; x < size; x++) {
             uint32_t owner = row[x];
             if (next[x] != owner) {
@@ -172,32 +164,14 @@ static float fraction_by_depth(const preview_job *job, uint32_t facet)
     return middle[2] > height - r->pixel;
 }
 
-/* The visible fraction of a facet without samples: the mean over the neighbours whose fractions
-   were found in earlier rounds. Returns 0 if there are none. */
-static int fraction_by_neighbours(const preview_job *job, uint32_t facet, uint32_t round,
-                                  float *fraction)
-{
-    const lrcs_prepared *p = job->view->prepared;
-    const uint32_t *across = p->neighbours.facet[facet].corner;
-    float sum = 0;
-    float count = 0;
-    for (int k = 0; k < 3; k++) {
-        if (across[k] != facet && across[k] != p->scene->facet_count &&
-            job->counts[across[k]].round < round) {
-            sum += job->counts[across[k]].fraction;
-            count += 1;
-        }
-    }
-    *fraction = count > 0 ? sum / count : 0;
-    return count > 0;
-}
-
-/* The visible fractions of all facets: of facets with samples from these; of others from adjacent
-   facets, in rounds, so that the result does not depend on the order of facets; or, failing that,
-   from the depth of the centroid. */
+/* The visible fractions of all facets. 1. Of facets with samples from these. 2. Of others, the mean
+   over the adjacent facets whose fractions are known: in rounds, each from what earlier rounds
+   found, so that the result does not depend on the order of facets. 3. In the last round, of those
+   that remain, from the depth of the centroid. */
 static void find_fractions(preview_job *job)
 {
-    uint32_t facets = job->view->prepared->scene->facet_count;
+    const lrcs_prepared *p = job->view->prepared;
+    uint32_t facets = p->scene->facet_count;
     for (uint32_t f = 0; f < facets; f++) {
         preview_counts *c = &job->counts[f];
         uint32_t covered = job->raster.covered[f];
@@ -207,10 +181,23 @@ static void find_fractions(preview_job *job)
     for (uint32_t round = 1; round <= FRACTION_ROUNDS + 1; round++) {
         for (uint32_t f = 0; f < facets; f++) {
             preview_counts *c = &job->counts[f];
-            float fraction;
-            if (c->round == LRCS_NONE && lrcsi_view_casts(job->view, f) &&
-                (fraction_by_neighbours(job, f, round, &fraction) || round > FRACTION_ROUNDS)) {
-                c->fraction = round > FRACTION_ROUNDS ? fraction_by_depth(job, f) : fraction;
+            const uint32_t *across = p->neighbours.facet[f].corner;
+            float sum = 0;
+            float known = 0;
+            if (c->round != LRCS_NONE || !lrcsi_view_casts(job->view, f)) {
+                continue;
+            }
+            for (int k = 0; k < 3; k++) {
+                if (across[k] != f && across[k] != facets && job->counts[across[k]].round < round) {
+                    sum += job->counts[across[k]].fraction;
+                    known += 1;
+                }
+            }
+            if (round > FRACTION_ROUNDS) {
+                c->fraction = fraction_by_depth(job, f);
+                c->round = round;
+            } else if (known > 0) {
+                c->fraction = sum / known;
                 c->round = round;
             }
         }
@@ -238,13 +225,6 @@ typedef struct preview_bias {
         enlarge; /* added, relative to the hidden area of a facet of which something is visible */
     double remaining; /* the estimated remaining bias, relative to its visible area */
 } preview_bias;
-
-/* Is the facet corrected for bias? */
-static int few_samples(const preview_job *job, uint32_t facet)
-{
-    return job->raster.covered[facet] < FEW_SAMPLES && job->counts[facet].fraction > 0 &&
-           lrcsi_view_reflects(job->view, facet);
-}
 
 /* The correction of facets with few samples, from the difference described above. */
 static preview_bias bias_of_small_facets(const preview_job *job)
@@ -283,18 +263,18 @@ static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const 
     const preview_counts *c = &job->counts[facet];
     double area = lrcsi_view_projected(job->view, facet);
     double pixel = job->raster.pixel * job->raster.pixel;
+    uint32_t covered = job->raster.covered[facet];
+    uint32_t owned = job->raster.owned[facet];
     lrcsi_visible v = {0, 0, area, 0, 0};
     v.area = area * (double)c->fraction;
-    if (few_samples(job, facet)) {
+    if (covered < FEW_SAMPLES && c->fraction > 0 && lrcsi_view_reflects(job->view, facet)) {
         v.bias = bias->remaining * v.area;
         v.area += bias->enlarge * (area - v.area) - bias->reduce * v.area;
         v.area = lrcsi_min(area, lrcsi_max(0, v.area));
     }
-    uint32_t covered = job->raster.covered[facet];
-    uint32_t owned = job->raster.owned[facet];
     if (covered == 0) {
         v.error_estimate = sqrt(PIXEL_ERROR_SQUARE) * area;
-    } else if (owned != 0) { /* a facet that owns all: a strip at a border may be hidden */
+    } else if (owned != 0) { /* one that owns all: a part at a border may be hidden */
         double square = c->borders + (double)c->longest * c->longest;
         square = owned != covered ? square : c->bordered;
         v.error_estimate = lrcsi_min(area, sqrt(PIXEL_ERROR_SQUARE * square) * pixel);

@@ -75,14 +75,14 @@ static void activate_tiles(const lrcsi_raster *raster, uint32_t facet)
     }
 }
 
-/* The next run of pixels x0 <= x < x1 of a row, at or after *x and before `end`, whose tiles are
+/* The next span of pixels x0 <= x < x1 of a row, at or after *x and before `end`, whose tiles are
    active; none if empty. Advances *x to its end. */
-static inline lrcsi_pixel_span tile_run(const unsigned char *tiles, uint32_t *x, uint32_t end)
+static inline lrcsi_pixel_span tile_span(const unsigned char *tiles, uint32_t *x, uint32_t end)
 {
-    lrcsi_pixel_span run;
-    run.x0 = tile_next(tiles, *x, end, 1);
-    run.x1 = *x = tile_next(tiles, run.x0, end, 0);
-    return run;
+    lrcsi_pixel_span span;
+    span.x0 = tile_next(tiles, *x, end, 1);
+    span.x1 = *x = tile_next(tiles, span.x0, end, 0);
+    return span;
 }
 
 /* Samples of active tiles have no owner, and nothing is hidden in their pixels. */
@@ -92,12 +92,12 @@ static void clear_tiles(const lrcsi_raster *r)
         const unsigned char *tiles = tile_row(r, y);
         const size_t row = (size_t)y * r->size;
         uint32_t x = 0;
-        for (lrcsi_pixel_span run; run = tile_run(tiles, &x, r->size), run.x0 < run.x1;) {
-            memset(r->owner + row + run.x0, 0xff, (run.x1 - run.x0) * sizeof *r->owner);
-            for (size_t i = row + run.x0; i < row + run.x1; i++) {
+        for (lrcsi_pixel_span span; span = tile_span(tiles, &x, r->size), span.x0 < span.x1;) {
+            memset(r->owner + row + span.x0, 0xff, (span.x1 - span.x0) * sizeof *r->owner);
+            for (size_t i = row + span.x0; i < row + span.x1; i++) {
                 r->depth[i] = -HUGE_VALF;
             }
-            for (size_t i = row + run.x0; r->occluder && i < row + run.x1; i++) {
+            for (size_t i = row + span.x0; r->occluder && i < row + span.x1; i++) {
                 r->occluder[i] = -HUGE_VALF;
             }
         }
@@ -190,17 +190,6 @@ static int facet_nearer(const lrcsi_raster *r, raster_facet *f, uint32_t owner, 
     return nearer > 0;
 }
 
-/* Makes the facet the owner of a sample that it covers, if it is nearer than the owner so far. */
-static void draw_sample(const lrcsi_raster *r, raster_facet *f, uint32_t x, uint32_t y)
-{
-    size_t i = (size_t)y * r->size + x;
-    if (r->owner[i] == LRCS_NONE ||
-        (r->depth[i] < HUGE_VALF && facet_nearer(r, f, r->owner[i], x, y))) {
-        r->owner[i] = f->facet;
-        r->depth[i] = f->ordinary ? (float)plane_height(&f->plane, x, y) : 0;
-    }
-}
-
 /* The depth test for the first `count` of LANES samples: the facet becomes the owner of those at
    which it is certainly nearer. Its height at sample k is first + slope k. Returns 0 if the order
    is certain at all of them. Masks are used instead of branches, so that compilers vectorize the
@@ -231,7 +220,9 @@ static inline uint32_t draw_lanes(uint32_t *restrict owner, float *restrict dept
     return any;
 }
 
-/* Draws samples x0 <= x < x1 of a row, all of which the facet covers. Error of the float heights of
+/* Draws samples x0 <= x < x1 of a row, all of which the facet covers: it becomes the owner of those
+   at which it is nearer than the owner so far. First all of them in floats, several at once, if it
+   is ordinary; then, one by one, those that floats do not decide. Error of the float heights of
    an ordinary facet: with z the largest magnitude of a corner's depth, the heights of covered
    samples are at most z, and they change by at most 2 z along the span. Rounding the first height,
    the slope, two products and two sums adds less than 2^-21 z. */
@@ -247,10 +238,16 @@ static void draw_row_span(const lrcsi_raster *r, raster_facet *f, uint32_t y, ui
                                   first + slope * (float)(int32_t)i, slope, f->tolerance, f->facet,
                                   (int32_t)(x1 - x0 - i));
     }
-    for (uint32_t i = 0; i < x1 - x0 && uncertainty != 0; i++) { /* the undecided ones */
-        float ahead = first + slope * (float)(int32_t)i - r->depth[start + i];
-        if (r->owner[start + i] != f->facet && (!f->ordinary || ahead >= -f->tolerance)) {
-            draw_sample(r, f, x0 + i, y);
+    for (uint32_t x = x0; x < x1 && uncertainty != 0; x++) { /* the undecided ones */
+        size_t i = (size_t)y * r->size + x;
+        float ahead = first + slope * (float)(int32_t)(x - x0) - r->depth[i];
+        if (r->owner[i] == f->facet || (f->ordinary && ahead < -f->tolerance)) {
+            continue;
+        }
+        if (r->owner[i] == LRCS_NONE ||
+            (r->depth[i] < HUGE_VALF && facet_nearer(r, f, r->owner[i], x, y))) {
+            r->owner[i] = f->facet;
+            r->depth[i] = f->ordinary ? (float)plane_height(&f->plane, x, y) : 0;
         }
     }
     r->covered[f->facet] += x1 - x0;
@@ -360,8 +357,9 @@ static void fill_facet(const lrcsi_raster *r, uint32_t facet)
         const lrcsi_pixel_span full = lrcsi_span_full(&e, y, row.certain);
         const size_t first = (size_t)y * r->size;
         uint32_t x = row.possible.x0;
-        for (lrcsi_pixel_span run; run = tile_run(tiles, &x, row.possible.x1), run.x0 < run.x1;) {
-            for (uint32_t i = run.x0; i < run.x1; i++) {
+        for (lrcsi_pixel_span span;
+             span = tile_span(tiles, &x, row.possible.x1), span.x0 < span.x1;) {
+            for (uint32_t i = span.x0; i < span.x1; i++) {
                 if (lrcsi_span_has(row.certain, i) || sample_covered(r, facet, i, y)) {
                     r->owner[first + i] = facet;
                     r->depth[first + i] = HUGE_VALF;
@@ -386,26 +384,6 @@ static void fill_run(const lrcsi_raster *r, uint32_t run, const unsigned char *a
         for (uint32_t f = run * LRCSI_RUN; f < end; f++) {
             if (answer[f] == LRCSI_QUERY_VISIBLE) {
                 fill_facet(r, f);
-            }
-        }
-    }
-}
-
-/* Adds up the samples of active tiles that each facet owns. */
-static void count_owned(const lrcsi_raster *r)
-{
-    for (uint32_t y = 0; y < r->size; y++) {
-        const unsigned char *tiles = tile_row(r, y);
-        const uint32_t *owner = r->owner + (size_t)y * r->size;
-        uint32_t x = 0;
-        for (lrcsi_pixel_span run; run = tile_run(tiles, &x, r->size), run.x0 < run.x1;) {
-            for (uint32_t from = run.x0, i = run.x0 + 1; i <= run.x1; i++) {
-                if (i == run.x1 || owner[i] != owner[from]) {
-                    if (owner[from] != LRCS_NONE) {
-                        r->owned[owner[from]] += i - from;
-                    }
-                    from = i;
-                }
             }
         }
     }
@@ -509,8 +487,20 @@ int lrcsi_raster_make_undecided(const lrcsi_view *view, uint32_t size, const uns
                                 lrcs_work *work, lrcsi_raster *raster)
 {
     int status = raster_make(view, size, answer, work, raster);
-    if (status == LRCS_OK) {
-        count_owned(raster);
+    for (uint32_t y = 0; y < size && status == LRCS_OK; y++) { /* counts samples by their owners */
+        const unsigned char *tiles = tile_row(raster, y);
+        const uint32_t *owner = raster->owner + (size_t)y * size;
+        uint32_t x = 0;
+        for (lrcsi_pixel_span span; span = tile_span(tiles, &x, size), span.x0 < span.x1;) {
+            for (uint32_t from = span.x0, i = span.x0 + 1; i <= span.x1; i++) {
+                if (i == span.x1 || owner[i] != owner[from]) {
+                    if (owner[from] != LRCS_NONE) {
+                        raster->owned[owner[from]] += i - from;
+                    }
+                    from = i;
+                }
+            }
+        }
     }
     return status;
 }
