@@ -10,7 +10,7 @@
 #include "base/constant.h"
 #include "base/range.h"
 #include "base/work.h"
-#include "view/strip.h"
+#include "view/segment.h"
 #include "visibility/contact.h"
 #include "visibility/grid.h"
 #include "visibility/query.h"
@@ -85,7 +85,7 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b,
 {
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};
-    lrcsi_strip_segment side[3];
+    lrcsi_view_segment side[3];
     uint32_t x[2];
     uint32_t y[2];
     for (int i = 0; i < corners; i++) {
@@ -103,24 +103,19 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b,
     block_range(c, low[1], high[1], 1, &y[0], &y[1]);
     int several = y[1] - y[0] > 1 && x[1] - x[0] > 1; /* rows and columns */
     for (int i = 0; several && i < corners; i++) {
-        side[i] = lrcsi_strip_segment_make(corner[i], corner[(i + 1) % corners], 1, c->rounding);
+        side[i] = lrcsi_view_segment_make(corner[i], corner[(i + 1) % corners], 1, c->rounding);
     }
     for (uint32_t row = y[0]; row < y[1]; row++) {
-        double from = several ? HUGE_VAL : low[0];
-        double to = several ? -HUGE_VAL : high[0];
         double bottom = row > 0 ? block_edge(c, row, 1) - c->rounding : -HUGE_VAL;
         double top = row + 1 < c->side ? block_edge(c, row + 1, 1) + c->rounding : HUGE_VAL;
-        for (int i = 0; several && i < corners; i++) {
-            double range[2];
-            if (lrcsi_strip_range(&side[i], bottom, top, range)) {
-                from = lrcsi_min(from, range[0]);
-                to = lrcsi_max(to, range[1]);
-            }
+        double range[2];
+        if (several && !lrcsi_view_segments_range(side, corners, bottom, top, range)) {
+            continue;
         }
-        if (from <= to) {
-            block_range(c, from, to, 0, &x[0], &x[1]);
-            lrcsi_lists_put(b->first + (size_t)row * c->side, b->item, x[0], x[1], item);
+        if (several) {
+            block_range(c, range[0], range[1], 0, &x[0], &x[1]);
         }
+        lrcsi_lists_put(b->first + (size_t)row * c->side, b->item, x[0], x[1], item);
     }
 }
 

@@ -197,7 +197,7 @@ static void search_run(lrcsi_event_search *search, crossing_query *query, lrcsi_
     uint32_t tests_left = query->is_limited ? MAX_TESTED : LRCS_NONE;
     uint32_t count = 0;
     int more = 0; /* an event was not examined because a limit was reached */
-    lrcsi_strip_segment side[3];
+    lrcsi_view_segment side[3];
     if (slanted) { /* rows are limited to the cells between the sides */
         lrcsi_grid_sides(grid, view->prepared->scene->facet[facet].corner, 3, 0, side);
     }

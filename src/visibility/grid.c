@@ -199,35 +199,27 @@ static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1,
    t, rows, and the t at which a side enters a row), each less than 8 u of a coordinate between the
    side's and the window's; and the rounding of boxes by 2^-24 of the latter. */
 void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
-                      lrcsi_strip_segment *side)
+                      lrcsi_view_segment *side)
 {
     const lrcsi_view_vertex *point = grid->view->point;
     double rounding = 0x1p-23 * (fabs(grid->low[0]) + fabs(grid->low[1]) + grid->side);
     rounding += near * grid->view->scale;
     for (int k = 0; k < (count == 2 ? 1 : count); k++) {
-        side[k] = lrcsi_strip_segment_make(&point[corner[k]], &point[corner[(k + 1) % count]],
-                                           grid->view->scale, rounding);
+        side[k] = lrcsi_view_segment_make(&point[corner[k]], &point[corner[(k + 1) % count]],
+                                          grid->view->scale, rounding);
     }
 }
 
-lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *side, int sides,
+lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_view_segment *side, int sides,
                            uint32_t y)
 {
     double bottom = y > 0 ? grid->low[1] + y / grid->scale : -HUGE_VAL;
     double top = y + 1 < grid->size ? grid->low[1] + (y + 1) / grid->scale : HUGE_VAL;
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
-    for (int i = 0; i < sides; i++) {
-        double x[2];
-        if (lrcsi_strip_range(&side[i], bottom, top, x)) {
-            low = lrcsi_min(low, x[0]);
-            high = lrcsi_max(high, x[1]);
-        }
-    }
+    double x[2];
     lrcsi_cells cells = {0, 0, (uint16_t)y, (uint16_t)(y + 1)};
-    if (low <= high) {
-        cells.x0 = lrcsi_grid_cell(grid, low, 0);
-        cells.x1 = (uint16_t)(lrcsi_grid_cell(grid, high, 0) + 1);
+    if (lrcsi_view_segments_range(side, sides, bottom, top, x)) {
+        cells.x0 = lrcsi_grid_cell(grid, x[0], 0);
+        cells.x1 = (uint16_t)(lrcsi_grid_cell(grid, x[1], 0) + 1);
     }
     return cells;
 }
@@ -244,7 +236,7 @@ static uint64_t edges_put(lrcsi_grid *grid, const uint32_t *edge, uint32_t count
         const lrcsi_view_box box = lrcsi_view_box_of(view, ends, 2);
         const lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
         const int one_row = cells.y1 - cells.y0 == 1;
-        lrcsi_strip_segment segment;
+        lrcsi_view_segment segment;
         if (!one_row) {
             lrcsi_grid_sides(grid, ends, 2, 0, &segment);
         }

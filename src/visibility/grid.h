@@ -9,7 +9,7 @@
 
 #include "base/range.h"
 #include "view/box.h"
-#include "view/strip.h"
+#include "view/segment.h"
 #include "visibility/event.h"
 
 /* Boxes in the view of the facets that can hide something. One box for each run (scene/runs.h) is
@@ -112,11 +112,11 @@ static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_v
 /* The sides of a facet (count 3), or an edge (count 2, one side), for lrcsi_grid_row. near: rows
    include all cells within this distance of them. */
 void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
-                      lrcsi_strip_segment *side);
+                      lrcsi_view_segment *side);
 
 /* The cells of row y that a polygon with these sides, in the units of boxes, may meet; rows and
    columns on the border extend to infinity. Empty (x0 == x1) if there are none. */
-lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_strip_segment *side, int sides,
+lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_view_segment *side, int sides,
                            uint32_t y);
 
 /* A range of grid->item: from <= i < to. */

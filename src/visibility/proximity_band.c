@@ -187,7 +187,7 @@ static double event_slack(const band_job *job, uint32_t facet, uint32_t event, d
    sides event edges are too far away: there outward . x > limit, errors included. */
 typedef struct edge_search {
     double low[3], high[3];
-    lrcsi_strip_segment side[3];
+    lrcsi_view_segment side[3];
     double outward[3][2], limit[3];
     int first;  /* the side to try first: the one that excluded the last edge */
     int inside; /* the laser may see the facet through an opening of its own part */
