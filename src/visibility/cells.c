@@ -167,43 +167,6 @@ static const lrcsi_cells_segment *choose_cut(const lrcsi_cells_work *c,
     return best;
 }
 
-/* A sample: the facet nearest to the laser, the point, and its distance from the cell's border. */
-typedef struct cell_sample {
-    uint32_t nearest;
-    double at[2];
-    double clear;
-} cell_sample;
-
-/* Removes what is behind the component around the nearest facet, if it covers the cell, or else
-   behind a single facet that covers it. Returns 1 if the component covers the cell and no contact
-   of it crosses the cell; otherwise *cut is the segment of the component along which to cut, or
-   NULL. *uncertainty: the error of the area of any facet, if the cell is thin. */
-static int cover_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                      const cell_sample *sample, double *uncertainty,
-                      const lrcsi_cells_segment **cut)
-{
-    int covers = 0;
-    *cut = NULL;
-    for (int within = 0; within < 2 && !covers && !*cut; within++) {
-        covers = lrcsi_cells_component(c, cell, s, sample->nearest, within);
-        *cut = covers ? NULL : choose_cut(c, cell, s, CHOOSE_COMPONENT);
-    }
-    if (!covers && !lrcsi_cells_find_occluder(c, cell, s, sample->at)) {
-        return 0;
-    }
-    for (uint32_t i = 0; i < c->borders; i++) {
-        lrcsi_cells_charge_border(c, cell, s, &c->border[i]);
-    }
-    double thin = lrcsi_cells_thin_uncertainty(cell, s, sample->clear, cell->removed + c->borders,
-                                               c->facet_err);
-    lrcsi_cells_cull(c, cell, s, covers ? NULL : sample->at, thin);
-    if (covers) {
-        *uncertainty = thin;
-        *cut = choose_cut(c, cell, s, CHOOSE_COMPONENT);
-    }
-    return covers && !*cut;
-}
-
 /* Processes one cell. Returns 1 if it is decided; otherwise it is cut, or left undecided. */
 static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 {
@@ -215,24 +178,45 @@ static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     lrcsi_cells_filter_segments(c, cell, &s);
     c->components = 0;
 
-    /* 1. Take a sample. */
-    cell_sample sample = {.nearest = LRCS_NONE};
-    int answer = lrcsi_cells_nearest(c, cell, &s, &sample.nearest, sample.at, &sample.clear);
-    if (answer == LRCSI_CELLS_UNSURE && lrcsi_cells_charge_all(c, cell, &s)) {
+    /* 1. Take a sample: the facet nearest to the laser, the point, its distance from the border. */
+    uint32_t nearest = LRCS_NONE;
+    double at[2];
+    double clear = 0;
+    int sample = lrcsi_cells_nearest(c, cell, &s, &nearest, at, &clear);
+    if (sample == LRCSI_CELLS_UNSURE && lrcsi_cells_charge_all(c, cell, &s)) {
         return 0;
     }
 
-    /* 2. Find what covers the cell, and remove what is behind that. */
-    double uncertainty = 0;
+    /* 2. Does the component around the nearest facet cover the cell? If not, cut along one of its
+       segments. */
     const lrcsi_cells_segment *cut = NULL;
-    int covered = answer == LRCSI_CELLS_FOUND ? cover_cell(c, cell, &s, &sample, &uncertainty, &cut)
-                                              : answer == LRCSI_CELLS_NONE;
+    int covers = 0;
+    for (int within = 0; within < 2 && sample == LRCSI_CELLS_FOUND && !covers && !cut; within++) {
+        covers = lrcsi_cells_component(c, cell, &s, nearest, within);
+        cut = covers ? NULL : choose_cut(c, cell, &s, CHOOSE_COMPONENT);
+    }
 
-    /* 3. Decide the cell, or cut it. */
+    /* 3. Remove what is behind the component, if it covers the cell, or else behind a single facet
+       that covers it. The component alone is visible if no contact of it crosses the cell. */
+    double thin = 0; /* the error of the area of any facet, if the cell is thin */
+    if (covers || (sample == LRCSI_CELLS_FOUND && lrcsi_cells_find_occluder(c, cell, &s, at))) {
+        for (uint32_t i = 0; i < c->borders; i++) {
+            lrcsi_cells_charge_border(c, cell, &s, &c->border[i]);
+        }
+        thin =
+            lrcsi_cells_thin_uncertainty(cell, &s, clear, cell->removed + c->borders, c->facet_err);
+        lrcsi_cells_cull(c, cell, &s, covers ? NULL : at, thin);
+    }
+    if (covers) {
+        cut = choose_cut(c, cell, &s, CHOOSE_COMPONENT);
+    }
+
+    /* 4. Decide the cell if no event edge is left in it, or cut it. */
+    int alone = sample == LRCSI_CELLS_NONE || (covers && !cut);
     if (!cut) {
-        cut = choose_cut(c, cell, &s, covered ? CHOOSE_EDGES : CHOOSE_ANY);
-        if (!cut && covered) {
-            decide_cell(c, cell, &s, cell->uncertainty + uncertainty);
+        cut = choose_cut(c, cell, &s, alone ? CHOOSE_EDGES : CHOOSE_ANY);
+        if (!cut && alone) {
+            decide_cell(c, cell, &s, cell->uncertainty + thin);
             return 1;
         }
     }

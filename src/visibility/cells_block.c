@@ -352,48 +352,6 @@ static int add_contacts(lrcsi_cells_work *c, uint32_t facet)
     return 1;
 }
 
-/* Lists the facets of a block, and makes their records. The neighbours of a facet are the same in
-   all blocks, and found once. */
-static void list_facets(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
-{
-    const lrcsi_cells_lists *b = &c->grid.facets;
-    for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
-        uint32_t index = b->item[i];
-        lrcsi_cells_facet *f = &c->facet[index];
-        lrcsi_cells_facet_make(&c->frame, index, f);
-        c->state[index] |= f->sliver ? LRCSI_CELLS_UNDECIDED : 0;
-        for (int k = 0; k < 3 && (c->kind[index] & LRCSI_CELLS_NEIGHBOURS_FOUND) == 0; k++) {
-            f->neighbour[k] = lrcsi_cells_connected(c->view, c->kind, index,
-                                                    lrcsi_cells_side_number(c->view, index, k));
-        }
-        c->kind[index] |= LRCSI_CELLS_NEIGHBOURS_FOUND;
-        cell->facet[cell->facets++] = index;
-        c->listed[index] = c->stamp;
-        c->facet_err = lrcsi_max(c->facet_err, f->err);
-    }
-}
-
-/* Lists the segments of a block. 0 if there is no room. */
-static int list_segments(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
-{
-    const lrcsi_cells_lists *b = &c->grid.events;
-    for (uint32_t i = 0; i < cell->facets; i++) {
-        if (!add_contacts(c, cell->facet[i]) || !add_cell_events(c, cell->facet[i])) {
-            return 0;
-        }
-    }
-    for (uint32_t i = b->first[block]; i < b->first[block + 1]; i++) {
-        uint32_t edge = c->grid.classification->events.edge[b->item[i]];
-        /* An edge without a listed facet is hidden, or not near the block. */
-        if (lrcsi_topology_edge_has(&c->view->prepared->topology, edge, c->listed, c->stamp) &&
-            !add_edge(c, edge)) {
-            return 0;
-        }
-    }
-    lrcsi_cells_list_segments(c, cell);
-    return 1;
-}
-
 size_t lrcsi_cells_max_segments(const lrcsi_cells_work *c)
 {
     const lrcsi_intersections *intersections = &c->view->prepared->intersections;
@@ -412,11 +370,42 @@ size_t lrcsi_cells_max_segments(const lrcsi_cells_work *c)
     return max;
 }
 
+/* 1. Lists the facets of the block, and makes their records. The neighbours of a facet are the same
+   in all blocks, and found once. 2. Lists the segments. */
 int lrcsi_cells_begin(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
 {
+    const lrcsi_topology *topology = &c->view->prepared->topology;
+    const lrcsi_cells_lists *facets = &c->grid.facets;
+    const lrcsi_cells_lists *events = &c->grid.events;
     c->segment_count = 0;
     c->facet_err = 0;
     cell->facet = c->facets;
-    list_facets(c, block, cell);
-    return list_segments(c, block, cell);
+    for (uint32_t i = facets->first[block]; i < facets->first[block + 1]; i++) {
+        uint32_t index = facets->item[i];
+        lrcsi_cells_facet *f = &c->facet[index];
+        lrcsi_cells_facet_make(&c->frame, index, f);
+        c->state[index] |= f->sliver ? LRCSI_CELLS_UNDECIDED : 0;
+        for (int k = 0; k < 3 && (c->kind[index] & LRCSI_CELLS_NEIGHBOURS_FOUND) == 0; k++) {
+            f->neighbour[k] = lrcsi_cells_connected(c->view, c->kind, index,
+                                                    lrcsi_cells_side_number(c->view, index, k));
+        }
+        c->kind[index] |= LRCSI_CELLS_NEIGHBOURS_FOUND;
+        cell->facet[cell->facets++] = index;
+        c->listed[index] = c->stamp;
+        c->facet_err = lrcsi_max(c->facet_err, f->err);
+    }
+    for (uint32_t i = 0; i < cell->facets; i++) {
+        if (!add_contacts(c, cell->facet[i]) || !add_cell_events(c, cell->facet[i])) {
+            return 0;
+        }
+    }
+    for (uint32_t i = events->first[block]; i < events->first[block + 1]; i++) {
+        uint32_t edge = c->grid.classification->events.edge[events->item[i]];
+        /* An edge without a listed facet is hidden, or not near the block. */
+        if (lrcsi_topology_edge_has(topology, edge, c->listed, c->stamp) && !add_edge(c, edge)) {
+            return 0;
+        }
+    }
+    lrcsi_cells_list_segments(c, cell);
+    return 1;
 }

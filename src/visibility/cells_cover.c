@@ -206,7 +206,8 @@ int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 }
 
 /* Where side k of a facet of the component lies: a lrcsi_cells_location. Given: is the facet across
-   it removed from the list? Returned, unless it is outside: the side and its part near the cell. */
+   it removed from the list? Returned, unless it is outside: the side, and where it is near the
+   cell. */
 static int locate_side(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
                        const lrcsi_cells_facet *f, int k, int removed, lrcsi_cells_border *side)
 {
@@ -223,10 +224,11 @@ static int locate_side(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
     if (f->sliver) {
         lrcsi_line_through(p, q, side->line);
     }
-    int place = lrcsi_cells_locate_near(&cell->shape, s, p, q, side->line, w, line_w, &side->part);
+    int place =
+        lrcsi_cells_locate_near(&cell->shape, s, p, q, side->line, w, line_w, &side->interval);
     return place == LRCSI_CELLS_CROSSES && removed
                ? lrcsi_cells_locate_near(&cell->shape, s, p, q, side->line, w + cell->widest_strip,
-                                         line_w + cell->widest_strip, &side->part)
+                                         line_w + cell->widest_strip, &side->interval)
                : place;
 }
 
@@ -317,13 +319,13 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
     if (lrcsi_max(e->end[0][2], e->end[1][2]) + z_err < low) {
         return 1;
     }
-    lrcsi_cells_part part = {0, 1, 0};
-    lrcsi_cells_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w, w, &part);
+    lrcsi_cells_interval interval = {0, 1, 0};
+    lrcsi_cells_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w, w, &interval);
     double at[2][3];
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++) {
-            at[i][k] =
-                e->end[0][k] + (i == 0 ? part.from : part.to) * (e->end[1][k] - e->end[0][k]);
+            at[i][k] = e->end[0][k] +
+                       (i == 0 ? interval.from : interval.to) * (e->end[1][k] - e->end[0][k]);
         }
     }
     if (lrcsi_max(at[0][2], at[1][2]) + z_err < low) {

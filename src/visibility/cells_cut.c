@@ -125,8 +125,8 @@ static void facet_along(const lrcsi_cells_facet *f, const double line[3], const 
 void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
                                const lrcsi_cells_sides *s, const lrcsi_cells_border *e)
 {
-    double strip = e->part.strip_width;
-    double length = (e->part.to - e->part.from) * e->length;
+    double strip = e->interval.strip_width;
+    double length = (e->interval.to - e->interval.from) * e->length;
     double uncertainty = strip * (length + STRIP_OVERHANG * strip);
     if (uncertainty < 0x1p-58 * c->extent * c->extent || length < STRIP_OVERHANG * strip) {
         cell->uncertainty += uncertainty;
@@ -165,8 +165,8 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
             c->area[facet].strip_length +=
                 lrcsi_min(uncertainty / strip, lrcsi_max(0, along[1] - along[0]));
         }
-        if (along[1] > e->part.from * e->length - beyond &&
-            along[0] < e->part.to * e->length + beyond) {
+        if (along[1] > e->interval.from * e->length - beyond &&
+            along[0] < e->interval.to * e->length + beyond) {
             c->area[facet].uncertainty +=
                 lrcsi_min(uncertainty, strip * (along[1] - along[0] + 2 * far));
         }
@@ -259,19 +259,19 @@ void lrcsi_cells_filter_segments(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
             cell->segment[kept++] = cell->segment[i];
             continue;
         }
-        lrcsi_cells_part part;
+        lrcsi_cells_interval interval;
         int place = lrcsi_cells_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w,
-                                       e->line_err + s->tolerance, &part);
+                                       e->line_err + s->tolerance, &interval);
         if (place == LRCSI_CELLS_CROSSES) {
             cell->segment[kept++] = cell->segment[i];
         } else if (place == LRCSI_CELLS_BORDER) {
             cell->removed++;
-            cell->widest_strip = lrcsi_max(cell->widest_strip, part.strip_width);
+            cell->widest_strip = lrcsi_max(cell->widest_strip, interval.strip_width);
             lrcsi_cells_charge_border(c, cell, s,
                                       &(lrcsi_cells_border){{e->line[0], e->line[1], e->line[2]},
                                                             {e->end[0][0], e->end[0][1]},
                                                             e->length,
-                                                            part});
+                                                            interval});
         }
     }
     cell->segments = kept;
@@ -386,13 +386,13 @@ static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     middle_line(s, line);
     cut_strip strip = {along, 0, 0, 0, s->tolerance};
     if (along) {
-        lrcsi_cells_part part = {0, 1, 0};
+        lrcsi_cells_interval interval = {0, 1, 0};
         memcpy(line, along->line, sizeof line);
         strip.width = along->line_err + cell->shape_err + 12 * LRCSI_U * c->extent;
         lrcsi_cells_locate(&cell->shape, s, along->end[0], along->end[1], along->line,
-                           along->err + s->tolerance, along->err + s->tolerance, &part);
-        strip.from = part.from * along->length;
-        strip.to = part.to * along->length;
+                           along->err + s->tolerance, along->err + s->tolerance, &interval);
+        strip.from = interval.from * along->length;
+        strip.to = interval.to * along->length;
     }
     if (cell->cuts >= LRCSI_CELLS_MAX_CUTS || cell->shape.count + 2 > LRCSI_CLIP_SIDES ||
         c->top + 2 > LRCSI_CELLS_STACK || !has_list_room(c, cell)) {

@@ -61,11 +61,12 @@ typedef struct lrcsi_cells_found {
     double strip_length; /* of those strips */
 } lrcsi_cells_found;
 
-/* A segment at the border of a cell: its line, first end and length, and the part near the cell. */
+/* A segment at the border of a cell: its line, first end and length, and where it is near the cell.
+ */
 typedef struct lrcsi_cells_border {
     double line[3], start[2];
     double length;
-    lrcsi_cells_part part;
+    lrcsi_cells_interval interval;
 } lrcsi_cells_border;
 
 /* What was found of a facet, bits. */

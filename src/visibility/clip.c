@@ -159,7 +159,7 @@ void lrcsi_box_range(const double low[2], const double high[2], const double lin
 
 int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
                             const double p[2], const double q[2], const double line[3], double w,
-                            double line_w, lrcsi_cells_part *part)
+                            double line_w, lrcsi_cells_interval *interval)
 {
     double range[2];
     lrcsi_line_range(shape, line, range);
@@ -168,8 +168,8 @@ int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_s
         return LRCSI_CELLS_OUTSIDE;
     }
     double width = deep <= line_w ? line_w + lrcsi_max(0, deep) : HUGE_VAL;
-    part->from = 0;
-    part->to = 1;
+    interval->from = 0;
+    interval->to = 1;
     for (uint32_t i = 0; i < s->count; i++) {
         double a = lrcsi_line_at(s->line[i], p[0], p[1]);
         double b = lrcsi_line_at(s->line[i], q[0], q[1]);
@@ -180,27 +180,27 @@ int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_s
             }
         }
         if (a < -w) {
-            part->from = lrcsi_max(part->from, (-w - a) / (b - a));
+            interval->from = lrcsi_max(interval->from, (-w - a) / (b - a));
         } else if (b < -w) {
-            part->to = lrcsi_min(part->to, (-w - a) / (b - a));
+            interval->to = lrcsi_min(interval->to, (-w - a) / (b - a));
         }
     }
-    if (part->from > part->to) {
+    if (interval->from > interval->to) {
         return LRCSI_CELLS_OUTSIDE;
     }
     /* A short part may be in a corner of the cell, all of it near one side. Its ends have errors
        below w. */
-    if (part->to - part->from < SHORT_PART && !(width < HUGE_VAL)) {
+    if (interval->to - interval->from < SHORT_PART && !(width < HUGE_VAL)) {
         for (uint32_t i = 0; i < s->count; i++) {
             double a = lrcsi_line_at(s->line[i], p[0], p[1]);
             double b = lrcsi_line_at(s->line[i], q[0], q[1]);
-            double deepest = lrcsi_max(a + part->from * (b - a), a + part->to * (b - a));
+            double deepest = lrcsi_max(a + interval->from * (b - a), a + interval->to * (b - a));
             if (deepest < 2 * w) {
                 width = lrcsi_min(width, 2 * w + lrcsi_max(0, deepest));
             }
         }
     }
-    part->strip_width = width;
+    interval->strip_width = width;
     return width < HUGE_VAL ? LRCSI_CELLS_BORDER : LRCSI_CELLS_CROSSES;
 }
 

@@ -75,11 +75,11 @@ static inline void lrcsi_line_range(const lrcsi_clip_polygon *shape, const doubl
 void lrcsi_box_range(const double low[2], const double high[2], const double line[3],
                      double range[2]);
 
-/* The part of a segment in a cell or near it, between two fractions of its length; and, for a
-   segment at the border, the width of the undecided strip around it. */
-typedef struct lrcsi_cells_part {
+/* Where a segment is in a cell or near it: between two fractions of its length; and, if it is at
+   the border, the width of the undecided strip around it. */
+typedef struct lrcsi_cells_interval {
     double from, to, strip_width;
-} lrcsi_cells_part;
+} lrcsi_cells_interval;
 
 /* Is the box of a segment from p to q farther than w from that of the cell? */
 static inline int lrcsi_cells_box_outside(const lrcsi_cells_sides *s, const double p[2],
@@ -98,20 +98,20 @@ enum lrcsi_cells_location {
 };
 
 /* The position of a segment relative to a cell: a lrcsi_cells_location. Given: the ends p and q
-   with the error w, and their line with the error line_w. The part is returned unless it is
-   outside. */
+   with the error w, and their line with the error line_w. The interval is returned unless
+   it is outside. */
 int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
                             const double p[2], const double q[2], const double line[3], double w,
-                            double line_w, lrcsi_cells_part *part);
+                            double line_w, lrcsi_cells_interval *interval);
 
 /* The same; boxes are compared first. */
 static inline int lrcsi_cells_locate(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
                                      const double p[2], const double q[2], const double line[3],
-                                     double w, double line_w, lrcsi_cells_part *part)
+                                     double w, double line_w, lrcsi_cells_interval *interval)
 {
     return lrcsi_cells_box_outside(s, p, q, w)
                ? LRCSI_CELLS_OUTSIDE
-               : lrcsi_cells_locate_near(shape, s, p, q, line, w, line_w, part);
+               : lrcsi_cells_locate_near(shape, s, p, q, line, w, line_w, interval);
 }
 
 /* A lower bound of the distance of a point in the cell from the cell's border. */
