@@ -16,4 +16,15 @@ static inline double lrcsi_max(double a, double b)
     return a > b ? a : b;
 }
 
+/* The same of three. */
+static inline double lrcsi_min3(double a, double b, double c)
+{
+    return lrcsi_min(a, lrcsi_min(b, c));
+}
+
+static inline double lrcsi_max3(double a, double b, double c)
+{
+    return lrcsi_max(a, lrcsi_max(b, c));
+}
+
 #endif

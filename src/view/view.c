@@ -206,7 +206,7 @@ void lrcsi_view_unproject(const lrcsi_view *view, double x, double y, double poi
 double lrcsi_view_unproject_err(const lrcsi_view *view, double x, double y)
 {
     const double *o = view->prepared->origin;
-    double origin = lrcsi_max(fabs(o[0]), lrcsi_max(fabs(o[1]), fabs(o[2])));
+    double origin = lrcsi_max3(fabs(o[0]), fabs(o[1]), fabs(o[2]));
     return LRCSI_U * (8 * (fabs(x) + fabs(y)) + 2 * origin);
 }
 

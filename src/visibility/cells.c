@@ -77,7 +77,7 @@ static void add_visible_moment(lrcsi_moment *moment, const lrcsi_cells_facet *f,
     const double centre[2] = {(f->x[0] + f->x[1] + f->x[2]) / 3, (f->y[0] + f->y[1] + f->y[2]) / 3};
     double size = lrcsi_max(f->high[0] - f->low[0], f->high[1] - f->low[1]);
     double reach = lrcsi_clip_add_moment(piece, centre, moment->first);
-    moment->reach = lrcsi_max(moment->reach, lrcsi_max(reach, size));
+    moment->reach = lrcsi_max3(moment->reach, reach, size);
     moment->error += (2 * f->err + 4 * LRCSI_U * size) * lrcsi_max(0, lrcsi_clip_area(piece));
 }
 
@@ -283,7 +283,7 @@ static void process_block(lrcsi_cells_work *c, uint32_t x, uint32_t y)
 /* The extent of the bulk of a scene. */
 static double extent_of(const lrcs_prepared *p)
 {
-    return 2 * lrcsi_max(p->bulk[0], lrcsi_max(p->bulk[1], p->bulk[2]));
+    return 2 * lrcsi_max3(p->bulk[0], p->bulk[1], p->bulk[2]);
 }
 
 /* The largest error at which a facet's area is accepted: 1e-12 of the area or 1e-15 of the squared
@@ -300,7 +300,7 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double p
     for (int k = 0; k < 3; k++) {
         const double *p = c->view->point[corner[k]].x;
         const double *q = c->view->point[corner[(k + 1) % 3]].x;
-        diameter = lrcsi_max(diameter, lrcsi_max(fabs(p[0] - q[0]), fabs(p[1] - q[1])));
+        diameter = lrcsi_max3(diameter, fabs(p[0] - q[0]), fabs(p[1] - q[1]));
     }
     double extent = extent_of(c->view->prepared);
     const lrcs_scene *scene = c->view->prepared->scene;

@@ -181,7 +181,7 @@ double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y
         middle[k] = 0.5 * (low[k] + high[k]);
         low[k] -= middle[k];
         high[k] -= middle[k];
-        extent = lrcsi_max(extent, lrcsi_max(fabs(low[k]), fabs(high[k])));
+        extent = lrcsi_max3(extent, fabs(low[k]), fabs(high[k]));
     }
     *shape = (lrcsi_clip_polygon){
         .corner = {{low[0], low[1]}, {high[0], low[1]}, {high[0], high[1]}, {low[0], high[1]}},

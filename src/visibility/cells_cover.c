@@ -65,8 +65,8 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         const lrcsi_cells_facet *f = &c->facet[index];
         double w = f->err + s->tolerance;
         c->listed[index] = c->stamp;
-        double outside = lrcsi_max(lrcsi_max(f->low[0] - at[0], at[0] - f->high[0]),
-                                   lrcsi_max(f->low[1] - at[1], at[1] - f->high[1]));
+        double outside = lrcsi_max3(lrcsi_max(f->low[0] - at[0], at[0] - f->high[0]),
+                                    f->low[1] - at[1], at[1] - f->high[1]);
         if (outside > w) {
             continue;
         }

@@ -81,8 +81,8 @@ static inline void corners_along(const lrcsi_cells_facet *f, const double line[3
     double a = line[1] * f->x[0] - line[0] * f->y[0];
     double b = line[1] * f->x[1] - line[0] * f->y[1];
     double d = line[1] * f->x[2] - line[0] * f->y[2];
-    along[0] = lrcsi_min(a, lrcsi_min(b, d)) - from;
-    along[1] = lrcsi_max(a, lrcsi_max(b, d)) - from;
+    along[0] = lrcsi_min3(a, b, d) - from;
+    along[1] = lrcsi_max3(a, b, d) - from;
 }
 
 /* The same for the part of the facet within the distance `near` of the line; along[0] > along[1] if
@@ -114,8 +114,8 @@ static void facet_along(const lrcsi_cells_facet *f, const double line[3], const 
         }
         double p = t[k] + from * (t[n] - t[k]);
         double q = t[k] + to * (t[n] - t[k]);
-        along[0] = lrcsi_min(along[0], lrcsi_min(p, q));
-        along[1] = lrcsi_max(along[1], lrcsi_max(p, q));
+        along[0] = lrcsi_min3(along[0], p, q);
+        along[1] = lrcsi_max3(along[1], p, q);
     }
 }
 
@@ -155,8 +155,7 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
         for (int k = 0; k < 3; k++) {
             d[k] = lrcsi_line_at(e->line, f->x[k], f->y[k]);
         }
-        if (lrcsi_max(d[0], lrcsi_max(d[1], d[2])) < -far ||
-            lrcsi_min(d[0], lrcsi_min(d[1], d[2])) > far) {
+        if (lrcsi_max3(d[0], d[1], d[2]) < -far || lrcsi_min3(d[0], d[1], d[2]) > far) {
             continue;
         }
         corners_along(f, e->line, e->start, along);
@@ -283,8 +282,8 @@ static inline void facet_range(const lrcsi_cells_facet *f, const double line[3],
     double a = lrcsi_line_at(line, f->x[0], f->y[0]);
     double b = lrcsi_line_at(line, f->x[1], f->y[1]);
     double d = lrcsi_line_at(line, f->x[2], f->y[2]);
-    range[0] = lrcsi_min(a, lrcsi_min(b, d));
-    range[1] = lrcsi_max(a, lrcsi_max(b, d));
+    range[0] = lrcsi_min3(a, b, d);
+    range[1] = lrcsi_max3(a, b, d);
 }
 
 /* Are all corners of a cell beyond one side of a facet? Returns at the first corner after which
@@ -298,7 +297,7 @@ static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *sh
         max[0] = lrcsi_max(max[0], lrcsi_line_at(f->side[0], x, y));
         max[1] = lrcsi_max(max[1], lrcsi_line_at(f->side[1], x, y));
         max[2] = lrcsi_max(max[2], lrcsi_line_at(f->side[2], x, y));
-        if (!(lrcsi_min(max[0], lrcsi_min(max[1], max[2])) < -w)) {
+        if (!(lrcsi_min3(max[0], max[1], max[2]) < -w)) {
             return 0;
         }
     }

@@ -150,12 +150,11 @@ static void facet_make_plane(lrcsi_cells_facet *f, const double z[3])
     const double dx[2] = {f->x[1] - f->x[0], f->x[2] - f->x[0]};
     const double dy[2] = {f->y[1] - f->y[0], f->y[2] - f->y[0]};
     double twice = dx[0] * dy[1] - dx[1] * dy[0];
-    double longest = lrcsi_max(f->length[0], lrcsi_max(f->length[1], f->length[2]));
+    double longest = lrcsi_max3(f->length[0], f->length[1], f->length[2]);
     double height = twice / longest; /* the least */
-    double rise = lrcsi_max(z[0], lrcsi_max(z[1], z[2])) - lrcsi_min(z[0], lrcsi_min(z[1], z[2])) +
-                  4 * f->z_err;
-    f->z_low = lrcsi_min(z[0], lrcsi_min(z[1], z[2])) - f->z_err;
-    f->z_high = lrcsi_max(z[0], lrcsi_max(z[1], z[2])) + f->z_err;
+    double rise = lrcsi_max3(z[0], z[1], z[2]) - lrcsi_min3(z[0], z[1], z[2]) + 4 * f->z_err;
+    f->z_low = lrcsi_min3(z[0], z[1], z[2]) - f->z_err;
+    f->z_high = lrcsi_max3(z[0], z[1], z[2]) + f->z_err;
     f->z[0] = f->z[1] = f->z[2] = 0;
     f->plane_err[0] = f->plane_err[1] = HUGE_VAL;
     if (height > 64 * f->err && height > 0x1p-40 * longest) {
@@ -192,10 +191,10 @@ void lrcsi_cells_facet_make(lrcsi_cells_frame *c, uint32_t facet, lrcsi_cells_fa
     for (int k = 0; k < 3; k++) {
         f->length[k] = lrcsi_cells_line(p[k], p[k == 2 ? 0 : k + 1], f->side[k]) + 4 * f->err;
     }
-    f->low[0] = lrcsi_min(f->x[0], lrcsi_min(f->x[1], f->x[2]));
-    f->high[0] = lrcsi_max(f->x[0], lrcsi_max(f->x[1], f->x[2]));
-    f->low[1] = lrcsi_min(f->y[0], lrcsi_min(f->y[1], f->y[2]));
-    f->high[1] = lrcsi_max(f->y[0], lrcsi_max(f->y[1], f->y[2]));
+    f->low[0] = lrcsi_min3(f->x[0], f->x[1], f->x[2]);
+    f->high[0] = lrcsi_max3(f->x[0], f->x[1], f->x[2]);
+    f->low[1] = lrcsi_min3(f->y[0], f->y[1], f->y[2]);
+    f->high[1] = lrcsi_max3(f->y[0], f->y[1], f->y[2]);
     facet_make_plane(f, z);
     f->sliver = !(facet_min_height(f) > 16 * f->err);
     if (f->sliver) {

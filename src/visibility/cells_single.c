@@ -75,7 +75,7 @@ static int make_first_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
     *f = (lrcsi_cells_facet){.err = err, .line_err = err, .number = a->facet};
     lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell->shape);
     lrcsi_clip_box(&cell->shape, f->low, f->high);
-    c->extent = lrcsi_max(lrcsi_max(-f->low[0], -f->low[1]), lrcsi_max(f->high[0], f->high[1]));
+    c->extent = lrcsi_max3(lrcsi_max(-f->low[0], -f->low[1]), f->high[0], f->high[1]);
     for (int k = 0; k < 3; k++) {
         f->x[k] = frame->corner[k][0];
         f->y[k] = frame->corner[k][1];

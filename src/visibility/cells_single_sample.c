@@ -130,9 +130,9 @@ static void sides_make(const lrcsi_cells_single *a, uint32_t other, lrcsi_cells_
         lrcsi_line_through(corner[k], to, side[k].line);
         length[k] = lrcsi_length_flat(to[0] - corner[k][0], to[1] - corner[k][1]);
     }
-    double nearest = lrcsi_min(reach[0], lrcsi_min(reach[1], reach[2]));
-    double farthest = lrcsi_max(reach[0], lrcsi_max(reach[1], reach[2]));
-    double longest = lrcsi_max(length[0], lrcsi_max(length[1], length[2]));
+    double nearest = lrcsi_min3(reach[0], reach[1], reach[2]);
+    double farthest = lrcsi_max3(reach[0], reach[1], reach[2]);
+    double longest = lrcsi_max3(length[0], length[1], length[2]);
     double err = 20 * LRCSI_U * farthest;
     double twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
                    (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);

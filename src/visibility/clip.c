@@ -37,13 +37,35 @@ double lrcsi_clip_perimeter(const lrcsi_clip_polygon *polygon)
     return 2 * ((high[0] - low[0]) + (high[1] - low[1]));
 }
 
+int lrcsi_clip_longest_side(const double corner[3][2], double *square)
+{
+    int longest = 0;
+    *square = 0;
+    for (int k = 0; k < 3; k++) {
+        double x = corner[(k + 1) % 3][0] - corner[k][0];
+        double y = corner[(k + 1) % 3][1] - corner[k][1];
+        if (x * x + y * y > *square) {
+            *square = x * x + y * y;
+            longest = k;
+        }
+    }
+    return longest;
+}
+
+/* The signed area of triangle j, from 2, of the fan of triangles about the first corner. */
+static inline double fan_area(const double (*corner)[2], uint32_t j)
+{
+    const double *apex = corner[0];
+    const double *p = corner[j - 1];
+    const double *q = corner[j];
+    return 0.5 * ((p[0] - apex[0]) * (q[1] - apex[1]) - (p[1] - apex[1]) * (q[0] - apex[0]));
+}
+
 double lrcsi_clip_area(const lrcsi_clip_polygon *polygon)
 {
-    const double(*c)[2] = (const double(*)[2])polygon->corner;
     double area = 0;
     for (uint32_t j = 2; j < polygon->count; j++) {
-        area += 0.5 * ((c[j - 1][0] - c[0][0]) * (c[j][1] - c[0][1]) -
-                       (c[j - 1][1] - c[0][1]) * (c[j][0] - c[0][0]));
+        area += fan_area((const double(*)[2])polygon->corner, j);
     }
     return area;
 }
@@ -60,8 +82,7 @@ double lrcsi_clip_add_moment(const lrcsi_clip_polygon *polygon, const double abo
         square = lrcsi_max(square, x * x + y * y);
     }
     for (uint32_t j = 2; j < polygon->count; j++) {
-        double area = 0.5 * ((c[j - 1][0] - c[0][0]) * (c[j][1] - c[0][1]) -
-                             (c[j - 1][1] - c[0][1]) * (c[j][0] - c[0][0]));
+        double area = fan_area(c, j);
         for (int k = 0; k < 2; k++) {
             sum[k] +=
                 area *
@@ -174,7 +195,7 @@ int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_s
         double a = lrcsi_line_at(s->line[i], p[0], p[1]);
         double b = lrcsi_line_at(s->line[i], q[0], q[1]);
         if (a < w && b < w) {
-            width = lrcsi_min(width, w + lrcsi_max(0, lrcsi_max(a, b)));
+            width = lrcsi_min(width, w + lrcsi_max3(0, a, b));
             if (a < -w && b < -w) {
                 return LRCSI_CELLS_OUTSIDE;
             }

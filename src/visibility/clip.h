@@ -18,6 +18,10 @@ typedef struct lrcsi_clip_polygon {
 
 void lrcsi_clip_triangle(const double corner[3][2], lrcsi_clip_polygon *polygon);
 double lrcsi_clip_area(const lrcsi_clip_polygon *polygon);
+/* The longest side of a triangle: the number of the corner at which it begins. *square: its length,
+   squared. */
+int lrcsi_clip_longest_side(const double corner[3][2], double *square);
+
 /* Adds to first[] the integral of x - about over a polygon, and returns the largest distance of its
    corners from `about`. With n corners, the error of either component is at most 5 u n times that
    distance times the area of the polygon's box: each of its n - 2 triangles has an error of 4 u of

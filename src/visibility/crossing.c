@@ -84,7 +84,7 @@ static int segment_crosses_plainly(const lrcsi_view *view, uint32_t facet, uint3
     const double s[2] = {to->x[0] - from->x[0], mirror * (to->x[1] - from->x[1])};
     const double size = fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]) + fabs(c[0]) +
                         fabs(c[1]) + fabs(s[0]) + fabs(s[1]);
-    const double err = from->err + lrcsi_max(lrcsi_max(i->err, j->err), lrcsi_max(k->err, to->err));
+    const double err = from->err + lrcsi_max3(lrcsi_max(i->err, j->err), k->err, to->err);
     const double turn_err = 4 * err * (size + 2 * err);
     const double sa = lrcsi_vec2_cross(s, a);
     const double sb = lrcsi_vec2_cross(s, b);
@@ -96,8 +96,8 @@ static int segment_crosses_plainly(const lrcsi_view *view, uint32_t facet, uint3
     const double inside =
         lrcsi_min(lrcsi_max(ab, ab + (sa - sb)),
                   lrcsi_min(lrcsi_max(bc, bc + (sb - sc)), lrcsi_max(ca, ca + (sc - sa))));
-    const double most = lrcsi_max(sa, lrcsi_max(sb, sc));
-    const double least = lrcsi_min(sa, lrcsi_min(sb, sc));
+    const double most = lrcsi_max3(sa, sb, sc);
+    const double least = lrcsi_min3(sa, sb, sc);
     if (inside < -turn_err || most < -turn_err || least > turn_err) {
         return 0;
     }

@@ -50,10 +50,10 @@ lrcsi_edge_functions lrcsi_raster_edge_functions(const lrcsi_raster *raster, uin
     for (int k = 0; k < 3; k++) {
         e.position_err = lrcsi_max(e.position_err, lrcsi_raster_point(raster, corner[k], p[k]));
     }
-    double x0 = lrcsi_min(p[0][0], lrcsi_min(p[1][0], p[2][0]));
-    double x1 = lrcsi_max(p[0][0], lrcsi_max(p[1][0], p[2][0]));
-    double y0 = lrcsi_min(p[0][1], lrcsi_min(p[1][1], p[2][1]));
-    double y1 = lrcsi_max(p[0][1], lrcsi_max(p[1][1], p[2][1]));
+    double x0 = lrcsi_min3(p[0][0], p[1][0], p[2][0]);
+    double x1 = lrcsi_max3(p[0][0], p[1][0], p[2][0]);
+    double y0 = lrcsi_min3(p[0][1], p[1][1], p[2][1]);
+    double y1 = lrcsi_max3(p[0][1], p[1][1], p[2][1]);
     e.value_err = 8 * e.position_err * (x1 - x0 + y1 - y0 + 2);
     lrcsi_raster_centres(raster, x0, x1, e.position_err, &e.x0, &e.x1);
     lrcsi_raster_centres(raster, y0, y1, e.position_err, &e.y0, &e.y1);

@@ -231,7 +231,7 @@ lrcsi_sampling_error lrcsi_sampling_error_facet(const uint32_t *component,
         error.square = lrcsi_min(error.square, NONE);
     } else if (owned == covered) {
         double occluders = occluder_area(raster, facet, crossings);
-        error.square = lrcsi_min(error.square, lrcsi_min(ALL, OCCLUDERS * occluders * occluders));
+        error.square = lrcsi_min3(error.square, ALL, OCCLUDERS * occluders * occluders);
     } else {
         f.fraction = (double)owned / covered;
         error = partial_error(&f, crossings);

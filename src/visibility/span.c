@@ -121,16 +121,16 @@ static inline void row_crossings(const lrcsi_edge_functions *e, double y, double
 static inline void outer_ends(const double cross[4], const double margin[4], double x0, double x1,
                               double end[2])
 {
-    end[0] = lrcsi_max(x0, lrcsi_max(cross[0] - margin[0], cross[1] - margin[1]));
-    end[1] = lrcsi_min(x1, lrcsi_min(cross[2] + margin[2], cross[3] + margin[3]));
+    end[0] = lrcsi_max3(x0, cross[0] - margin[0], cross[1] - margin[1]);
+    end[1] = lrcsi_min3(x1, cross[2] + margin[2], cross[3] + margin[3]);
 }
 
 /* The same without uncertain pixels (certain, full). */
 static inline void inner_ends(const double cross[4], const double margin[4], double x0, double x1,
                               double end[2])
 {
-    end[0] = lrcsi_max(x0, lrcsi_max(cross[0] + margin[0], cross[1] + margin[1]));
-    end[1] = lrcsi_min(x1, lrcsi_min(cross[2] - margin[2], cross[3] - margin[3]));
+    end[0] = lrcsi_max3(x0, cross[0] + margin[0], cross[1] + margin[1]);
+    end[1] = lrcsi_min3(x1, cross[2] - margin[2], cross[3] - margin[3]);
 }
 
 /* The least of max(value at row y0, value at row y1) + pixels * variation over the sides that are

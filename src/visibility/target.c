@@ -10,6 +10,7 @@
 #include "base/length.h"
 #include "base/range.h"
 #include "view/product.h"
+#include "visibility/clip.h"
 
 /* A point counts as far if its distance is more than this many times that of the points with which
    it is compared. */
@@ -234,7 +235,7 @@ int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
 {
     double turn = corner[1][0] * corner[2][1] - corner[1][1] * corner[2][0];
     const double *bulk = view->prepared->bulk;
-    double large = lrcsi_max(bulk[0], lrcsi_max(bulk[1], bulk[2]));
+    double large = lrcsi_max3(bulk[0], bulk[1], bulk[2]);
     double ratio = reach > large ? NEEDLE_LARGE_RATIO : NEEDLE_MIN_RATIO;
     if (turn * ratio > reach * reach) {
         return 0;
@@ -403,22 +404,6 @@ static double clamped(double x, double low, double high)
     return lrcsi_max(low, lrcsi_min(x, high));
 }
 
-/* The first corner of the longest side, counter-clockwise. */
-static int longest_side_start(const lrcsi_target *t)
-{
-    int longest = 0;
-    double square = 0;
-    for (int k = 0; k < 3; k++) {
-        double x = t->corner[(k + 1) % 3][0] - t->corner[k][0];
-        double y = t->corner[(k + 1) % 3][1] - t->corner[k][1];
-        if (x * x + y * y > square) {
-            square = x * x + y * y;
-            longest = k;
-        }
-    }
-    return longest;
-}
-
 /* Barycentric coordinates with respect to the longest side, of length d. Along this side the
    position is as accurate as the given coordinates, also in a needle. Across it only the ratio of
    the point's height to that of the third corner is known, with an error of u d divided by the
@@ -430,7 +415,8 @@ static int longest_side_start(const lrcsi_target *t)
    at most 50 u d; d is at most twice the reach. */
 void lrcsi_target_weights(const lrcsi_target *t, const double at[2], double weight[3])
 {
-    int k = longest_side_start(t);
+    double longest; /* squared */
+    int k = lrcsi_clip_longest_side(t->corner, &longest);
     const double *from = t->corner[k];
     const double *third = t->corner[(k + 2) % 3];
     double b[3] = {0, 0, 1}; /* barycentric coordinates of corners k, k + 1, k + 2 */

@@ -22,6 +22,7 @@
 #include "base/fnv.h"
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/clip.h"
 #include "visibility/query.h"
 
 /* Fewer samples than this are few; for a long facet, fewer than four for each pixel of its length.
@@ -93,16 +94,11 @@ static double longest_in_pixels(const lrcsi_raster *raster, uint32_t facet)
 {
     const uint32_t *corner = raster->view->prepared->scene->facet[facet].corner;
     double p[3][2];
-    double square = 0;
+    double square;
     for (int k = 0; k < 3; k++) {
         lrcsi_raster_point(raster, corner[k], p[k]);
     }
-    for (int k = 0; k < 3; k++) {
-        const double *next = p[(k + 1) % 3];
-        double x = next[0] - p[k][0];
-        double y = next[1] - p[k][1];
-        square = lrcsi_max(square, y * y + x * x);
-    }
+    (void)lrcsi_clip_longest_side((const double(*)[2])p, &square);
     return sqrt(square);
 }
 
