@@ -211,7 +211,7 @@ double lrcsi_view_unproject_err(const lrcsi_view *view, double x, double y)
 }
 
 /* Facing is the sign of the dot product of unit vectors. It is computed exactly if the product may
-   have the wrong sign, which is so rare that one test per block suffices. */
+   have the wrong sign, which is so rare that one test for all lanes suffices. */
 static void view_facings(lrcsi_view *view)
 {
     const lrcs_prepared *p = view->prepared;

@@ -26,11 +26,11 @@ static uint64_t max_entries(const lrcs_prepared *p)
 
 /* Blocks are squares with BLOCK cells of the classification's grid along a side; twice or four
    times as many, and so on, if their lists would otherwise be too long. They fill the whole view
-   or, if that would take too many blocks, the window of the scene's bulk. A ring of blocks around
-   them holds what is outside. */
+   or, if that would take too many blocks, the window of the scene's bulk. Border blocks around
+   them hold what is outside. */
 #define BLOCK 4u
 
-/* The largest number of blocks, the ring included. */
+/* The largest number of blocks, border blocks included. */
 static size_t max_blocks(const lrcs_prepared *p)
 {
     return 2 * (size_t)p->scene->facet_count + 64;
@@ -157,9 +157,9 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
     return 1;
 }
 
-/* The ring extends beyond the window of the view, and beyond all facets with the errors of their
-   corners: if the view is no wider than these errors, as along a needle, a large part of a facet
-   may be outside its window. */
+/* Border blocks extend beyond the window of the view, and beyond all facets with the errors of
+   their corners: if the view is no wider than these errors, as along a needle, a large part of a
+   facet may be outside its window. */
 double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y,
                                lrcsi_clip_polygon *shape, double middle[2])
 {

@@ -60,8 +60,8 @@
 /* Leaves an area undecided: it counts as half visible. */
 static void leave_area_undecided(lrcsi_cells_single *a, double area)
 {
-    a->uncertainty[0] += 0.5 * area;
-    a->uncertainty[1] += 0.5 * area;
+    a->perhaps_hidden += 0.5 * area;
+    a->perhaps_visible += 0.5 * area;
 }
 
 /* Makes the record of f, the first cell, and the error along the sides of f. 0 if rounding may have
@@ -94,7 +94,7 @@ void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_cell cell = {.cuts = 0};
     a->facet = facet;
-    a->uncertainty[0] = a->uncertainty[1] = a->border_area = a->piece_err = 0;
+    a->perhaps_hidden = a->perhaps_visible = a->border_area = a->piece_err = 0;
     a->hidden = 0;
     a->wanted = 1;
     lrcsi_target_make(c->view, facet, &a->target);
@@ -177,8 +177,8 @@ static int process_single_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
     if (sample.cut ? !lrcsi_cells_divide(c, cell, &s, sample.cut)
                    : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(a->negligible, narrow) &&
                        lrcsi_cells_halve(c, cell, &s))) {
-        int seen = hidden < 0 ? !guess : !hidden;
-        a->uncertainty[seen] += lrcsi_clip_area(&cell->shape);
+        double *perhaps = (hidden < 0 ? guess : hidden) ? &a->perhaps_hidden : &a->perhaps_visible;
+        *perhaps += lrcsi_clip_area(&cell->shape);
     }
     return 0;
 }
@@ -210,7 +210,7 @@ int lrcsi_cells_single_next(lrcsi_cells_single *a)
 static void moment_close(lrcsi_cells_single *a, double err)
 {
     const lrcsi_target *t = &a->target;
-    double undecided = a->uncertainty[0] + a->uncertainty[1];
+    double undecided = a->perhaps_hidden + a->perhaps_visible;
     double differs = err + undecided + 40 * LRCSI_U * t->reach * t->perimeter;
     double reach = lrcsi_max(a->moment.reach, t->diameter);
     if (a->frame.needle) {
@@ -229,14 +229,14 @@ lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
     double whole = incidence.projected;
     double unit = a->frame.unit;
     double err = unit * (a->border_area + found->uncertainty + found->visible_err +
-                         64 * LRCSI_U * (found->visible + a->uncertainty[1]));
-    double seen = a->hidden || a->uncertainty[0] > 0
-                      ? lrcsi_min(whole, unit * (found->visible + a->uncertainty[1]))
+                         64 * LRCSI_U * (found->visible + a->perhaps_visible));
+    double seen = a->hidden || a->perhaps_hidden > 0
+                      ? lrcsi_min(whole, unit * (found->visible + a->perhaps_visible))
                       : whole;
     err += a->frame.needle ? incidence.error * whole : 0;
     moment_close(a, err);
-    return (lrcsi_visible){seen, lrcsi_max(0, seen - unit * a->uncertainty[1] - err),
-                           lrcsi_min(whole, seen + unit * a->uncertainty[0] + err), 0, 0};
+    return (lrcsi_visible){seen, lrcsi_max(0, seen - unit * a->perhaps_visible - err),
+                           lrcsi_min(whole, seen + unit * a->perhaps_hidden + err), 0, 0};
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */

@@ -37,7 +37,8 @@ typedef struct lrcsi_cells_single {
     double border_area;       /* area within the error of the sides of f */
     double piece_err;         /* additional error of the area of a needle's pieces */
     lrcsi_moment moment;      /* of the pieces; after `close` of the visible region */
-    double uncertainty[2];    /* undecided area: [0] probably hidden, [1] probably visible */
+    double perhaps_hidden;    /* undecided area that is more likely to be hidden */
+    double perhaps_visible;   /* the rest of the undecided area */
     int hidden;               /* 1 if some of f is hidden */
 } lrcsi_cells_single;
 

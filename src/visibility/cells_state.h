@@ -18,8 +18,8 @@ typedef struct lrcsi_cells_lists {
 typedef struct lrcsi_cells_grid {
     const lrcsi_classification *classification;
     const unsigned char *answer; /* of uniform facets (visibility/query.h), or NULL */
-    uint32_t side;          /* blocks along a side, with a ring of blocks for what is outside */
-    double low[2], high[2]; /* of the blocks within the ring */
+    uint32_t side;               /* blocks along a side; those on the border hold what is outside */
+    double low[2], high[2];      /* of the blocks within the border */
     double content_low[2], content_high[2]; /* of these and of all facets, with their errors */
     double size, inverse_size;              /* of a block */
     double rounding; /* more than the rounding errors of positions among the blocks */

@@ -127,7 +127,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
             }
             lrcsi_visible one = lrcsi_cells_single_close(&a);
             sums->alone.ms += now_ms() - start;
-            sums->alone.left += a.uncertainty[0] + a.uncertainty[1] > 0;
+            sums->alone.left += a.perhaps_hidden + a.perhaps_visible > 0;
             agree_facet(&sums->alone, number, f, projected, &one, &clipped);
         }
     }
