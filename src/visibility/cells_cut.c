@@ -73,6 +73,16 @@ typedef struct cut_strip {
 
 /* --- undecided area --------------------------------------------------------------------------- */
 
+/* The smallest and the largest signed distance of a facet's corners from a line. */
+static inline void facet_range(const lrcsi_cells_facet *f, const double line[3], double range[2])
+{
+    double a = lrcsi_line_at(line, f->x[0], f->y[0]);
+    double b = lrcsi_line_at(line, f->x[1], f->y[1]);
+    double d = lrcsi_line_at(line, f->x[2], f->y[2]);
+    range[0] = lrcsi_min3(a, b, d);
+    range[1] = lrcsi_max3(a, b, d);
+}
+
 /* The interval that a facet covers along a line, measured from `start`. */
 static inline void corners_along(const lrcsi_cells_facet *f, const double line[3],
                                  const double start[2], double along[2])
@@ -150,12 +160,10 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
             f->low[1] > box[1][1] + beyond || f->high[1] < box[0][1] - beyond) {
             continue;
         }
-        double d[3];
+        double range[2];
         double along[2];
-        for (int k = 0; k < 3; k++) {
-            d[k] = lrcsi_line_at(e->line, f->x[k], f->y[k]);
-        }
-        if (lrcsi_max3(d[0], d[1], d[2]) < -far || lrcsi_min3(d[0], d[1], d[2]) > far) {
+        facet_range(f, e->line, range);
+        if (range[1] < -far || range[0] > far) {
             continue;
         }
         corners_along(f, e->line, e->start, along);
@@ -274,16 +282,6 @@ void lrcsi_cells_filter_segments(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
         }
     }
     cell->segments = kept;
-}
-
-/* The smallest and the largest signed distance of a facet's corners from a line. */
-static inline void facet_range(const lrcsi_cells_facet *f, const double line[3], double range[2])
-{
-    double a = lrcsi_line_at(line, f->x[0], f->y[0]);
-    double b = lrcsi_line_at(line, f->x[1], f->y[1]);
-    double d = lrcsi_line_at(line, f->x[2], f->y[2]);
-    range[0] = lrcsi_min3(a, b, d);
-    range[1] = lrcsi_max3(a, b, d);
 }
 
 /* Are all corners of a cell beyond one side of a facet? Returns at the first corner after which

@@ -268,8 +268,8 @@ static int find_segment_dd(const contact_heights *h, contact_dd *f, lrcsi_contac
             memcpy(f->end[1], p, sizeof f->end[1]);
         }
     }
-    lrcsi_dd part[2];
-    lrcsi_needle_clip((const lrcsi_dd *)f->end[0], (const lrcsi_dd *)f->end[1], c->end, part);
+    lrcsi_dd interval[2];
+    lrcsi_needle_clip((const lrcsi_dd *)f->end[0], (const lrcsi_dd *)f->end[1], c->end, interval);
     return position_err_exceeds_width(c, 0.5 * cross_dd(side[0], side[1])) ? LRCSI_CONTACT_UNKNOWN
                                                                            : kind;
 }

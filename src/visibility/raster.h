@@ -101,7 +101,7 @@ typedef struct lrcsi_raster_segment {
 /* An edge of the topology. */
 lrcsi_raster_segment lrcsi_raster_edge(const lrcsi_raster *raster, uint32_t edge);
 
-/* The segments on which a contact of a facet may begin or end to hide it: of a facet that passes
+/* The segments on which a contact of a facet may begin or cease to hide it: of a facet that passes
    through it, the line in which their planes intersect (see lrcsi_raster_intersection; `err` is set
    in any case); of one that lies in its plane or ends on it, the sides. Given: box, as above.
    Returns how many there are. */

@@ -46,27 +46,6 @@ static double frame_point_deep(const lrcsi_view *view, const double *origin, con
     return fabs(out[0]) + fabs(out[1]) + 8 * LRCSI_U * length;
 }
 
-/* A scene point relative to the target's first corner, in the view plane. Returns a distance; the
-   position error is at most 10 u times it. */
-static double frame_point(const lrcsi_view *view, const double *origin, const double *x,
-                          double out[2])
-{
-    double p[3];
-    double square = 0;
-    for (int k = 0; k < 3; k++) {
-        p[k] = x[k] - origin[k];
-        square += p[k] * p[k];
-    }
-    for (int k = 0; k < 2; k++) {
-        out[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
-    }
-    double distance = sqrt(square);
-    return distance * view->scale > FAR_POINT &&
-                   distance > FAR_POINT * (fabs(out[0]) + fabs(out[1]))
-               ? frame_point_deep(view, origin, x, out)
-               : distance;
-}
-
 /* The corner that is the origin of a facet's frame: its first, unless that one is far from the bulk
    of the scene and another is not. With a far corner as origin, positions near the other corners
    would have errors in proportion to the distance. */
@@ -101,7 +80,21 @@ const double *lrcsi_target_frame_corner(const lrcsi_view *view, uint32_t facet, 
 
 double lrcsi_target_coordinates(const lrcsi_target *t, const double x[3], double out[2])
 {
-    return frame_point(t->view, t->origin, x, out);
+    const lrcsi_view *view = t->view;
+    double p[3];
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        p[k] = x[k] - t->origin[k];
+        square += p[k] * p[k];
+    }
+    for (int k = 0; k < 2; k++) {
+        out[k] = view->R[k][0] * p[0] + view->R[k][1] * p[1] + view->R[k][2] * p[2];
+    }
+    double distance = sqrt(square);
+    return distance * view->scale > FAR_POINT &&
+                   distance > FAR_POINT * (fabs(out[0]) + fabs(out[1]))
+               ? frame_point_deep(view, t->origin, x, out)
+               : distance;
 }
 
 /* Let n and f be the distances of the nearer and the farther end. The point at parameter t (0 .. 1)
@@ -267,9 +260,9 @@ double lrcsi_needle_coordinates(const lrcsi_needle *n, const double x[3], lrcsi_
     return n->relative_err * far;
 }
 
-/* Narrows the part of a segment, an interval of its parameter, to where sign (x - bound) >= 0 in
-   one coordinate. Returns 0 if nothing remains. */
-static int clip_coordinate(lrcsi_dd from, lrcsi_dd to, double bound, int sign, lrcsi_dd part[2])
+/* Narrows an interval of the parameter of a segment to where sign (x - bound) >= 0 in one
+   coordinate. Returns 0 if nothing remains. */
+static int clip_coordinate(lrcsi_dd from, lrcsi_dd to, double bound, int sign, lrcsi_dd interval[2])
 {
     lrcsi_dd limit = {bound, 0};
     lrcsi_dd a = lrcsi_dd_sub(from, limit);
@@ -280,28 +273,28 @@ static int clip_coordinate(lrcsi_dd from, lrcsi_dd to, double bound, int sign, l
     }
     if (out || sign * b.hi < 0) {
         lrcsi_dd at = lrcsi_needle_quotient(a, lrcsi_dd_sub(a, b));
-        double later = lrcsi_dd_sub(at, part[!out]).hi;
+        double later = lrcsi_dd_sub(at, interval[!out]).hi;
         if (out ? later > 0 : later < 0) {
-            part[!out] = at;
+            interval[!out] = at;
         }
     }
     return 1;
 }
 
 void lrcsi_needle_clip(const lrcsi_dd from[2], const lrcsi_dd to[2], double end[2][2],
-                       lrcsi_dd part[2])
+                       lrcsi_dd interval[2])
 {
     int in = 1;
-    part[0] = (lrcsi_dd){0, 0};
-    part[1] = (lrcsi_dd){1, 0};
+    interval[0] = (lrcsi_dd){0, 0};
+    interval[1] = (lrcsi_dd){1, 0};
     for (int k = 0; k < 2 && in; k++) {
-        in = clip_coordinate(from[k], to[k], -1, 1, part) &&
-             clip_coordinate(from[k], to[k], 2, -1, part);
+        in = clip_coordinate(from[k], to[k], -1, 1, interval) &&
+             clip_coordinate(from[k], to[k], 2, -1, interval);
     }
-    in = in && lrcsi_dd_sub(part[1], part[0]).hi >= 0;
+    in = in && lrcsi_dd_sub(interval[1], interval[0]).hi >= 0;
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 2; k++) {
-            lrcsi_dd along = lrcsi_dd_mul(part[i], lrcsi_dd_sub(to[k], from[k]));
+            lrcsi_dd along = lrcsi_dd_mul(interval[i], lrcsi_dd_sub(to[k], from[k]));
             end[i][k] = in ? lrcsi_dd_value(lrcsi_dd_add(from[k], along)) : 2;
         }
     }
@@ -312,17 +305,17 @@ double lrcsi_needle_segment(const lrcsi_needle *n, const double p[3], const doub
                             double end[2][2])
 {
     lrcsi_dd at[2][2];
-    lrcsi_dd part[2];
+    lrcsi_dd interval[2];
     double cut[2][2];
     const double err[2] = {lrcsi_needle_coordinates(n, p, at[0]),
                            lrcsi_needle_coordinates(n, q, at[1])};
     int far = err[1] > err[0];
-    lrcsi_needle_clip((const lrcsi_dd *)at[!far], (const lrcsi_dd *)at[far], cut, part);
+    lrcsi_needle_clip((const lrcsi_dd *)at[!far], (const lrcsi_dd *)at[far], cut, interval);
     for (int k = 0; k < 2; k++) {
         end[!far][k] = cut[0][k];
         end[far][k] = cut[1][k];
     }
-    double t = lrcsi_min(1, lrcsi_max(part[0].hi, part[1].hi));
+    double t = lrcsi_min(1, lrcsi_max(interval[0].hi, interval[1].hi));
     return err[!far] + t * err[far];
 }
 

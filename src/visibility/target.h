@@ -90,10 +90,10 @@ int lrcsi_needle_make(const lrcsi_view *view, const double *const point[3],
 double lrcsi_needle_coordinates(const lrcsi_needle *needle, const double x[3], lrcsi_dd out[2]);
 
 /* Clips a segment of the frame to the box -1 .. 2, which extends beyond the facet by 1 on all
-   sides. Returned: the ends, and their parameters along the segment; outside the box both ends are
-   the box's corner (2, 2). */
+   sides. Returned: the ends, and the interval of the segment's parameter between them; outside the
+   box both ends are the box's corner (2, 2). */
 void lrcsi_needle_clip(const lrcsi_dd from[2], const lrcsi_dd to[2], double end[2][2],
-                       lrcsi_dd part[2]);
+                       lrcsi_dd interval[2]);
 
 /* The same for a segment between scene points. Returns the position error of both ends. */
 double lrcsi_needle_segment(const lrcsi_needle *needle, const double p[3], const double q[3],

@@ -54,35 +54,32 @@ int lrcsi_visible_fraction_make(const lrcsi_known *known, const lrcsi_raster *ra
     return LRCS_OK;
 }
 
-/* Adds the samples of one facet, or its area in pixels if a query has decided its visibility. */
-static void samples_add(const lrcsi_sample_pool *pool, uint32_t facet, double *owned,
-                        double *covered)
-{
-    if (pool->known->answer[facet] == LRCSI_QUERY_UNDECIDED) {
-        *owned += pool->raster->owned[facet];
-        *covered += pool->raster->covered[facet];
-        return;
-    }
-    double area = lrcsi_view_projected(pool->raster->view, facet);
-    double pixels = area / (pool->raster->pixel * pool->raster->pixel);
-    *owned += pool->known->answer[facet] == LRCSI_QUERY_VISIBLE ? pixels : 0;
-    *covered += pixels;
-}
-
-/* Adds the samples of a facet's neighbours in its component. Returns the number of neighbours. */
+/* Adds the samples of a facet's neighbours in its component; if a query has decided the visibility
+   of a neighbour, its area in pixels instead. Returns the number of neighbours. */
 static uint32_t samples_add_neighbours(const lrcsi_sample_pool *pool, uint32_t facet, double *owned,
                                        double *covered)
 {
-    const lrcsi_topology *topology = &pool->raster->view->prepared->topology;
+    const lrcsi_raster *raster = pool->raster;
+    const lrcsi_topology *topology = &raster->view->prepared->topology;
     const uint32_t *component = pool->known->classification->component;
     uint32_t count = 0;
     for (int k = 0; k < 3; k++) {
         const lrcsi_edge *edge = &topology->edge[topology->facet_edge[facet].corner[k]];
         for (uint32_t i = 0; i < edge->uses; i++) {
             uint32_t other = topology->use[edge->first_use + i].facet;
-            if (other != facet && component[other] == component[facet]) {
-                samples_add(pool, other, owned, covered);
-                count++;
+            int answer = pool->known->answer[other];
+            if (other == facet || component[other] != component[facet]) {
+                continue;
+            }
+            count++;
+            if (answer == LRCSI_QUERY_UNDECIDED) {
+                *owned += raster->owned[other];
+                *covered += raster->covered[other];
+            } else {
+                double area = lrcsi_view_projected(raster->view, other);
+                double pixels = area / (raster->pixel * raster->pixel);
+                *owned += answer == LRCSI_QUERY_VISIBLE ? pixels : 0;
+                *covered += pixels;
             }
         }
     }
