@@ -16,7 +16,14 @@ static inline double lrcsi_max(double a, double b)
     return a > b ? a : b;
 }
 
-/* The same of three. */
+/* Extends the range low .. high to contain x. */
+static inline void lrcsi_range_extend(double x, double *low, double *high)
+{
+    *low = lrcsi_min(*low, x);
+    *high = lrcsi_max(*high, x);
+}
+
+/* The smallest and the largest of three. */
 static inline double lrcsi_min3(double a, double b, double c)
 {
     return lrcsi_min(a, lrcsi_min(b, c));

@@ -300,10 +300,8 @@ int lrcsi_view_project(lrcs_work *work, lrcsi_view *view)
         at.err = lrcsi_view_point_err(at.x);
         view->point[i] = at;
         if (p->referenced[i]) {
-            low[0] = lrcsi_min(low[0], at.x[0]);
-            low[1] = lrcsi_min(low[1], at.x[1]);
-            high[0] = lrcsi_max(high[0], at.x[0]);
-            high[1] = lrcsi_max(high[1], at.x[1]);
+            lrcsi_range_extend(at.x[0], &low[0], &high[0]);
+            lrcsi_range_extend(at.x[1], &low[1], &high[1]);
         }
     }
     if (p->live > 0) {

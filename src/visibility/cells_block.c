@@ -96,8 +96,8 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b,
         }
     }
     for (int k = 0; k < 2; k++) {
-        c->content_low[k] = lrcsi_min(c->content_low[k], low[k]);
-        c->content_high[k] = lrcsi_max(c->content_high[k], high[k]);
+        lrcsi_range_extend(low[k], &c->content_low[k], &c->content_high[k]);
+        lrcsi_range_extend(high[k], &c->content_low[k], &c->content_high[k]);
     }
     block_range(c, low[0], high[0], 0, &x[0], &x[1]);
     block_range(c, low[1], high[1], 1, &y[0], &y[1]);

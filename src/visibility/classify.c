@@ -136,8 +136,7 @@ static int event_beside_run(const lrcsi_view *view, const run_corners *corners, 
         double x = corners->x[i] - line.at[0];
         double y = corners->y[i] - line.at[1];
         double turn = line.to[0] * y - line.to[1] * x;
-        least = lrcsi_min(least, turn);
-        most = lrcsi_max(most, turn);
+        lrcsi_range_extend(turn, &least, &most);
         distance = lrcsi_max(distance, fabs(x) + fabs(y));
     }
     double err = line.at_err + corners->err;

@@ -22,9 +22,7 @@ void lrcsi_clip_box(const lrcsi_clip_polygon *polygon, double low[2], double hig
     for (int k = 0; k < 2; k++) {
         low[k] = high[k] = polygon->corner[0][k];
         for (uint32_t i = 1; i < polygon->count; i++) {
-            double x = polygon->corner[i][k];
-            low[k] = x < low[k] ? x : low[k];
-            high[k] = x > high[k] ? x : high[k];
+            lrcsi_range_extend(polygon->corner[i][k], &low[k], &high[k]);
         }
     }
 }

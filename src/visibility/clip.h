@@ -70,8 +70,7 @@ static inline void lrcsi_line_range(const lrcsi_clip_polygon *shape, const doubl
     range[1] = -HUGE_VAL;
     for (uint32_t i = 0; i < shape->count; i++) {
         double d = lrcsi_line_at(line, shape->corner[i][0], shape->corner[i][1]);
-        range[0] = lrcsi_min(range[0], d);
-        range[1] = lrcsi_max(range[1], d);
+        lrcsi_range_extend(d, &range[0], &range[1]);
     }
 }
 

@@ -126,8 +126,7 @@ static offset_sum offset_sum_along(const sampled_facet *f, const double a[2], co
         if (above != below || side != 0) {
             s.sum += offset;
             s.bias += above ? offset : -offset;
-            s.low = lrcsi_min(s.low, s.sum);
-            s.high = lrcsi_max(s.high, s.sum);
+            lrcsi_range_extend(s.sum, &s.low, &s.high);
         }
         double inner = boundary - (side < 0);
         double x = axis == 0 ? step : inner;
