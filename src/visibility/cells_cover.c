@@ -7,27 +7,31 @@
    for. Facets that have been removed from the list are nowhere the nearest: at every point of the
    cell that such a facet covers, a facet of the list is in front of it. (2) preserves this, and
    facets that are hidden everywhere need not be listed in the first place.
-     (1) Let K be a set of listed facets with this property: each of its edges that crosses the cell
+
+   (1) Let K be a set of listed facets with this property: each of its edges that crosses the cell
    is no event edge, and joins two facets of K. Then K covers x as many times as it covers P: along
    the path this number cannot change, because where one facet of K ends the next begins. So if
    exactly one facet of K certainly covers P, and the others certainly do not, K covers the cell
    once. It does not matter how K was found. At first K takes all listed neighbours of its facets,
    so that few edges need to be compared with the cell. Facets that are connected with it outside
    the cell only may then end in the cell, or cover P too. If so, and if there is no segment of K to
-   cut along, K is found again, across edges that may cross the cell only. (2) Let K cover the cell
-   once, and let G be a facet that is behind K at one point of the cell. If no contact between G and
-   a facet of K crosses the cell, G is behind K wherever it is in the cell, because the two do not
-   meet there and what G has in the cell is connected. So G can be removed, even if K meets other
-   facets. The same is true of an event edge that is behind K at one point of the cell, and has a
-   facet that no contact in the cell joins with K: K does not cross that edge. (3) Let K cover the
-   cell once and be nearest at P, and let no contact between a facet of K and another facet cross
-   the cell. If no event edge is left in the list, all of K is visible in the cell, and nothing else
-   is. For let y be the first point of the path at which K is no longer the nearest of all facets.
-   The facet H that is nearest just beyond y is listed. It begins at y at an edge, or passes through
-   K there at a contact; the latter is excluded. The edge is an event edge, since a facet that ended
-   there would have been in front of K before y. It is in front of K at y, and H has been listed all
-   the time, so the edge has not been removed from the list. (4) If no facet covers P, and no event
-   edge crosses the cell, no facet is visible in it.
+   cut along, K is found again, across edges that may cross the cell only.
+
+   (2) Let K cover the cell once, and let G be a facet that is behind K at one point of the cell. If
+   no contact between G and a facet of K crosses the cell, G is behind K wherever it is in the cell,
+   because the two do not meet there and what G has in the cell is connected. So G can be removed,
+   even if K meets other facets. The same is true of an event edge that is behind K at one point of
+   the cell, and has a facet that no contact in the cell joins with K: K does not cross that edge.
+
+   (3) Let K cover the cell once and be nearest at P, and let no contact between a facet of K and
+   another facet cross the cell. If no event edge is left in the list, all of K is visible in the
+   cell, and nothing else is. For let y be the first point of the path at which K is no longer the
+   nearest of all facets. The facet H that is nearest just beyond y is listed. It begins at y at an
+   edge, or passes through K there at a contact; the latter is excluded. The edge is an event edge,
+   since a facet that ended there would have been in front of K before y. It is in front of K at y,
+   and H has been listed all the time, so the edge has not been removed from the list.
+
+   (4) If no facet covers P, and no event edge crosses the cell, no facet is visible in it.
 
    A contact is where two facets meet in space other than along a common edge or in a point: along a
    segment in the interior of one (mesh/intersection.h), along parts of edges of both (the facets

@@ -6,16 +6,19 @@
    The candidates are the facets that may be in front of f. The segments are all lines at which the
    visibility of f can change: the event edges that cross the interior of f and are nearer than f,
    found exactly (visibility/crossing.h); the contacts of f; and the sides of facets in the plane of
-   f that hide it. A sample finds which facets are in front of f at a point P of a cell. Let x be
-   any other point of the cell.
-     (1) If nothing is in front of f at P, and no segment is left in the cell, all of the cell is
+   f that hide it (visibility/cells_single_candidate.c). A sample finds which facets are in front of
+   f at a point P of a cell (visibility/cells_single_sample.c). Let x be any other point of the
+   cell.
+
+   (1) If nothing is in front of f at P, and no segment is left in the cell, all of the cell is
    visible: nothing changes on the way from P to x.
-     (2) If a facet is in front of f at P, consider its component: all facets connected with it by
+
+   (2) If a facet is in front of f at P, consider its component: all facets connected with it by
    edges that are not events (visibility/classify.h). If no segment is left at which the component
    ends or meets f, the component continues on the way from P to x, and stays in front of f, because
    it would have to intersect f to pass behind it. So f is hidden in all of the cell.
-     (3) Otherwise the cell is cut along a segment of the component that has the fewest segments
-   left.
+
+   (3) Otherwise the cell is cut along a segment of the component that has the fewest segments left.
 
    A facet that intersects f may be behind f except in a strip no wider than its error. Within that
    strip it counts as in front of f. The strip can be long; it ends at event edges, which are

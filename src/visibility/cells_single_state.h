@@ -13,30 +13,37 @@ typedef struct lrcsi_cells_single_side {
 } lrcsi_cells_single_side;
 
 typedef struct lrcsi_cells_single {
+    /* Given: */
     lrcsi_classification *classification;
-    lrcsi_grid grid;                    /* of facets */
-    lrcsi_cells_work cells;             /* data that cells share, here with f as the only facet */
-    lrcsi_cells_facet shape;            /* f in its frame */
-    lrcsi_cells_found area;             /* the areas of f found so far */
-    unsigned char wanted;               /* cells.wanted: 1 */
-    uint32_t *candidate;                /* facets that may hide f */
-    uint32_t count;                     /* of candidates */
+    lrcsi_grid grid; /* of facets */
+
+    /* The current facet, f: */
+    uint32_t facet;
+    lrcsi_target target;     /* the frame of f along the axes of the view */
+    lrcsi_target frame;      /* the frame of the cells: the same, or that of a needle */
+    lrcsi_needle needle;     /* used if f is a needle */
+    lrcsi_cells_facet shape; /* f in its frame */
+    lrcsi_cells_work cells;  /* data that cells share, here with f as the only facet */
+    unsigned char wanted;    /* cells.wanted: 1 */
+    uint64_t cells_left;     /* the number of cells that may still be processed */
+    double negligible;       /* undecided area too small to be divided further */
+
+    /* What may hide f: */
+    uint32_t *candidate; /* facets */
+    uint32_t count;
     lrcsi_cells_single_side (*side)[3]; /* sides of the first side_room candidates */
     uint32_t side_room;
-    uint32_t *listed; /* facet: the search that last listed it */
-    uint32_t *order;  /* facet that was listed: its lrcsi_cells_order against f, or the number of a
-                         segment */
+    uint32_t *listed;          /* facet: the search that last listed it */
+    uint32_t *order;           /* facet that was listed: its lrcsi_cells_order against f, or the
+                                  number of a segment */
     lrcsi_crossings crossings; /* of f, once they are needed */
-    uint32_t facet;
-    lrcsi_target target;      /* the frame of f along the axes of the view */
-    lrcsi_target frame;       /* the frame of the cells: the same, or that of a needle */
-    lrcsi_needle needle;      /* used if f is a needle */
+
+    /* Found of f: */
     lrcsi_clip_polygon piece; /* the piece last found */
-    uint64_t cells_left;      /* the number of cells that may still be processed */
-    double negligible;        /* undecided area too small to be divided further */
+    lrcsi_cells_found area;   /* the areas found so far */
+    lrcsi_moment moment;      /* of the pieces; after `close` of the visible region */
     double border_area;       /* area within the error of the sides of f */
     double piece_err;         /* additional error of the area of a needle's pieces */
-    lrcsi_moment moment;      /* of the pieces; after `close` of the visible region */
     double perhaps_hidden;    /* undecided area that is more likely to be hidden */
     double perhaps_visible;   /* the rest of the undecided area */
     int hidden;               /* 1 if some of f is hidden */

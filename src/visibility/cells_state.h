@@ -78,35 +78,47 @@ enum {
 };
 
 typedef struct lrcsi_cells_work {
+    /* Given: */
     const lrcsi_view *view;
-    lrcsi_meter *meter; /* limit on steps; NULL: none */
+    lrcsi_meter *meter;          /* limit on steps; NULL: none */
+    const unsigned char *wanted; /* facet: 1 if its area is wanted */
+    double negligible; /* undecided area that is charged without computing it more closely */
+
+    /* Found: */
+    unsigned char *state; /* facet: what was found of it, as above */
+    lrcsi_cells_found *area;
+    lrcsi_moment *moment; /* facet: of its visible region; NULL: not wanted */
+
+    /* The blocks, and the vertices in them: */
     lrcsi_cells_grid grid;
     lrcsi_cells_frame frame;
-    const unsigned char *wanted; /* facet: 1 if its area is wanted */
-    unsigned char *state;        /* facet: what was found of it, as above */
     unsigned char *kind; /* facet: LRCSI_CELLS_COPLANAR and so on (visibility/cells_facet.h) */
-    lrcsi_cells_facet *facet;
-    lrcsi_cells_found *area;
-    lrcsi_moment *moment;   /* facet: of its visible region; NULL: not wanted */
-    uint32_t stamp;         /* the number of the sample; arrays marked with it need no clearing: */
+
+    /* The current block: */
+    lrcsi_cells_facet *facet; /* facet: its record, if it is listed in the block */
+    lrcsi_cells_segment *segment;
+    uint32_t segment_count, segment_room;
+    double extent;    /* the largest coordinate in the block, from its middle */
+    double facet_err; /* the largest position error of its facets */
+
+    /* The cells that wait: */
+    lrcsi_cells_cell *stack;
+    uint32_t top;
+    uint32_t *facets, *segments; /* the lists of facets and segments of all of them */
+    size_t facets_room, segments_room;
+
+    /* Scratch of the current cell. Arrays are marked with the number of its sample, so that they
+       need no clearing: */
+    uint32_t stamp;         /* that number */
     uint32_t *listed;       /* facet: the last sample in whose cell it was listed */
-    uint32_t *covers;       /* facet: 2 stamp + 1 if it certainly covers the sample, 2 stamp if it
-                               may */
+    uint32_t *covers;       /* facet: 2 stamp + 1 if it certainly covers the sample, 2 stamp
+                               if it may */
     uint32_t *in_component; /* facet: the last sample in whose component it was */
     uint32_t *contacts;     /* facet: the last sample whose component it met at a contact */
     uint32_t *component, components; /* facets of the component */
     uint32_t *hit, hits;             /* facets that may cover the sample */
     lrcsi_cells_border *border;      /* edges of the component at the border of the cell */
     uint32_t borders;
-    uint32_t *facets, *segments; /* the lists of facets and segments of all waiting cells */
-    size_t facets_room, segments_room;
-    lrcsi_cells_segment *segment;
-    uint32_t segment_count, segment_room;
-    lrcsi_cells_cell *stack;
-    uint32_t top;
-    double extent;     /* the largest coordinate in the block, from its middle */
-    double facet_err;  /* the largest position error of its facets */
-    double negligible; /* undecided area that is charged without computing it more closely */
 } lrcsi_cells_work;
 
 /* Statements about a cell hold for all points within this distance of it, as computed: its shape
