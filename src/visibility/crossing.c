@@ -239,9 +239,10 @@ static void search_run(lrcsi_event_search *search, crossing_query *query, lrcsi_
             }
         }
     }
-    lrcsi_meter_take(meter, allowed - left);
+    const uint32_t examined = allowed - left;
+    lrcsi_meter_take(meter, examined);
     query->count = count;
-    query->limit_reached = query->is_limited && (tests_left == 0 || limit - (allowed - left) == 0);
+    query->limit_reached = query->is_limited && (tests_left == 0 || examined == limit);
     if (more && !query->limit_reached) {
         lrcsi_meter_take(meter, 1); /* none is left: this marks the meter as spent */
     }

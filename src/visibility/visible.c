@@ -302,7 +302,7 @@ static pixel_sums facet_pixels(const visible_job *job, uint32_t facet,
         if (full.x0 == full.x1) { /* an empty span may lie anywhere */
             full = (lrcsi_pixel_span){touched.x1, touched.x1};
         }
-        for (uint32_t x = touched.x0; x < touched.x1; x++) {
+        for (uint32_t x = touched.x0;; x++) {
             x = x == full.x0 ? full.x1 : x;
             if (x >= touched.x1) {
                 break;
@@ -393,10 +393,12 @@ int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, l
     k.answer = lrcsi_work_take(work, count, 1);
     k.list = lrcsi_work_take(work, count, sizeof *k.list);
     k.crossing = lrcsi_work_take(work, known_room(p), sizeof *k.crossing);
-    int status = lrcsi_crossings_make(&classification->search, work, &k.search);
-    status = status == LRCS_OK && k.answer && k.list && k.crossing
+    int status = k.answer && k.list && k.crossing
+                     ? lrcsi_crossings_make(&classification->search, work, &k.search)
+                     : LRCS_E_MEMORY;
+    status = status == LRCS_OK
                  ? lrcsi_query_uniform(classification, NULL, work, &k.facets, k.answer)
-                 : LRCS_E_MEMORY;
+                 : status;
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
