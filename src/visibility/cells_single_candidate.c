@@ -60,7 +60,7 @@ int lrcsi_cells_single_candidates(lrcsi_cells_single *a)
     const lrcsi_grid *grid = &a->grid;
     lrcsi_cells_work *c = &a->cells;
     lrcsi_view_box box = *lrcsi_boxes_facet(&grid->boxes, a->facet);
-    lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
+    lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
     const uint32_t *corner = c->view->prepared->scene->facet[a->facet].corner;
     lrcsi_view_side side[3];
     for (int k = 0; k < 3; k++) {
@@ -69,8 +69,8 @@ int lrcsi_cells_single_candidates(lrcsi_cells_single *a)
     a->count = 0;
     a->listed[a->facet] = c->stamp;
     a->order[a->facet] = LRCSI_CELLS_ORDER_DISJOINT;
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
+    lrcsi_grid_items items;
+    while (lrcsi_grid_next_row(grid, &cells, &items)) {
         if (!lrcsi_meter_take(c->meter, items.to - items.from)) {
             return 0;
         }

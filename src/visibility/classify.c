@@ -154,13 +154,13 @@ static int run_clear(lrcsi_classification *c, uint32_t run, lrcsi_meter *meter)
     const lrcsi_grid *grid = &c->search.grid;
     const lrcsi_view_box box = c->search.boxes.run[run];
     const uint32_t search = ++c->search.searches;
-    lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
+    lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
     uint32_t steps = RUN_STEPS;
     run_corners corners;
     corners.count = 0;
     corners.err = 0;
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        const lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
+    lrcsi_grid_items items;
+    while (lrcsi_grid_next_row(grid, &cells, &items)) {
         const uint32_t listed = items.to - items.from;
         if (1 + listed > steps) {
             return 0;

@@ -187,7 +187,7 @@ static void search_run(lrcsi_event_search *search, crossing_query *query, lrcsi_
     const uint32_t facet = query->facet;
     const uint32_t component = query->component;
     const lrcsi_view_box box = *lrcsi_boxes_facet(&search->boxes, facet);
-    const lrcsi_cells all = lrcsi_grid_cells(grid, &box);
+    const lrcsi_grid_rect all = lrcsi_grid_cells(grid, &box);
     const int slanted = all.x1 - all.x0 >= MIN_ROWS && all.y1 - all.y0 >= MIN_ROWS;
     const uint32_t limit = query->is_limited ? MAX_LISTED : LRCS_NONE;
     const uint64_t metered = meter ? (meter->spent ? 0 : meter->limit - meter->taken) : limit;
@@ -203,7 +203,7 @@ static void search_run(lrcsi_event_search *search, crossing_query *query, lrcsi_
     }
     for (uint32_t y = all.y0; y < all.y1 && !more; y++) {
         const uint32_t *row = grid->first + (size_t)y * grid->size;
-        const lrcsi_cells range = slanted ? lrcsi_grid_row(grid, side, 3, y) : all;
+        const lrcsi_grid_rect range = slanted ? lrcsi_grid_row(grid, side, 3, y) : all;
         for (uint32_t x = range.x0; x < range.x1 && !more; x++) {
             for (uint32_t i = row[x]; i < row[x + 1] && count < query->most; i++) {
                 lrcsi_event_box *event = &search->event[grid->item[i]];

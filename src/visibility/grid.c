@@ -210,13 +210,13 @@ void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count,
     }
 }
 
-lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_view_segment *side, int sides,
-                           uint32_t y)
+lrcsi_grid_rect lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_view_segment *side, int sides,
+                               uint32_t y)
 {
     double bottom = y > 0 ? grid->low[1] + y / grid->scale : -HUGE_VAL;
     double top = y + 1 < grid->size ? grid->low[1] + (y + 1) / grid->scale : HUGE_VAL;
     double x[2];
-    lrcsi_cells cells = {0, 0, (uint16_t)y, (uint16_t)(y + 1)};
+    lrcsi_grid_rect cells = {0, 0, (uint16_t)y, (uint16_t)(y + 1)};
     if (lrcsi_view_segments_range(side, sides, bottom, top, x)) {
         cells.x0 = lrcsi_grid_cell(grid, x[0], 0);
         cells.x1 = (uint16_t)(lrcsi_grid_cell(grid, x[1], 0) + 1);
@@ -234,14 +234,14 @@ static uint64_t edges_put(lrcsi_grid *grid, const uint32_t *edge, uint32_t count
         const lrcsi_edge *e = &view->prepared->topology.edge[edge[i]];
         const uint32_t ends[2] = {e->low, e->high};
         const lrcsi_view_box box = lrcsi_view_box_of(view, ends, 2);
-        const lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
+        const lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
         const int one_row = cells.y1 - cells.y0 == 1;
         lrcsi_view_segment segment;
         if (!one_row) {
             lrcsi_grid_sides(grid, ends, 2, 0, &segment);
         }
         for (uint32_t y = cells.y0; y < cells.y1; y++) {
-            const lrcsi_cells row = one_row ? cells : lrcsi_grid_row(grid, &segment, 1, y);
+            const lrcsi_grid_rect row = one_row ? cells : lrcsi_grid_row(grid, &segment, 1, y);
             listed += grid_put(grid, y, row.x0, row.x1, i);
         }
     }
@@ -281,7 +281,7 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
             if (boxes->state[f / LRCSI_RUN] != LRCSI_BOXES_FACETS) {
                 f += LRCSI_RUN - 1;
             } else if (lrcsi_view_casts(grid->view, f)) {
-                lrcsi_cells cells = lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f));
+                lrcsi_grid_rect cells = lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f));
                 filled += (uint64_t)(cells.x1 - cells.x0) * (cells.y1 - cells.y0);
                 facets++;
             }
@@ -314,7 +314,7 @@ static uint32_t needed_bits(uint32_t word, uint32_t x0, uint32_t x1)
 }
 
 /* Marks these cells. */
-static void needed_mark(const needed_cells *needed, lrcsi_cells cells)
+static void needed_mark(const needed_cells *needed, lrcsi_grid_rect cells)
 {
     uint32_t last = (cells.x1 - 1u) / NEEDED_BITS;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
@@ -325,7 +325,7 @@ static void needed_mark(const needed_cells *needed, lrcsi_cells cells)
 }
 
 /* Is any of these cells marked? */
-static int needed_any(needed_cells needed, lrcsi_cells cells)
+static int needed_any(needed_cells needed, lrcsi_grid_rect cells)
 {
     uint32_t last = (cells.x1 - 1u) / NEEDED_BITS;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
@@ -408,7 +408,7 @@ static uint64_t facets_put(lrcsi_grid *grid, const uint32_t *facet, uint32_t sel
 {
     uint64_t listed = 0;
     for (uint32_t i = 0; i < selected; i++) {
-        lrcsi_cells cells = lrcsi_grid_cells(grid, lrcsi_boxes_facet(&grid->boxes, facet[i]));
+        lrcsi_grid_rect cells = lrcsi_grid_cells(grid, lrcsi_boxes_facet(&grid->boxes, facet[i]));
         for (uint32_t y = cells.y0; y < cells.y1; y++) {
             listed += grid_put(grid, y, cells.x0, cells.x1, facet[i]);
         }

@@ -88,9 +88,9 @@ static inline void lrcsi_lists_put(uint32_t *first, uint32_t *item, size_t from,
 }
 
 /* A rectangle of cells: x0 <= x < x1, y0 <= y < y1. */
-typedef struct lrcsi_cells {
+typedef struct lrcsi_grid_rect {
     uint16_t x0, x1, y0, y1;
-} lrcsi_cells;
+} lrcsi_grid_rect;
 
 /* The cell of a coordinate in units of boxes, kept within 0 .. size - 1; of two coordinates the
    larger is never in the lower cell. */
@@ -101,12 +101,12 @@ static inline uint16_t lrcsi_grid_cell(const lrcsi_grid *grid, double x, int axi
 }
 
 /* The cells that a box meets. */
-static inline lrcsi_cells lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_view_box *box)
+static inline lrcsi_grid_rect lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_view_box *box)
 {
-    return (lrcsi_cells){.x0 = lrcsi_grid_cell(grid, (double)box->low[0], 0),
-                         .x1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[0], 0) + 1),
-                         .y0 = lrcsi_grid_cell(grid, (double)box->low[1], 1),
-                         .y1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[1], 1) + 1)};
+    return (lrcsi_grid_rect){.x0 = lrcsi_grid_cell(grid, (double)box->low[0], 0),
+                             .x1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[0], 0) + 1),
+                             .y0 = lrcsi_grid_cell(grid, (double)box->low[1], 1),
+                             .y1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[1], 1) + 1)};
 }
 
 /* The sides of a facet (count 3), or an edge (count 2, one side), for lrcsi_grid_row. near: rows
@@ -116,8 +116,8 @@ void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count,
 
 /* The cells of row y that a polygon with these sides, in the units of boxes, may meet; rows and
    columns on the border extend to infinity. Empty (x0 == x1) if there are none. */
-lrcsi_cells lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_view_segment *side, int sides,
-                           uint32_t y);
+lrcsi_grid_rect lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_view_segment *side, int sides,
+                               uint32_t y);
 
 /* A range of grid->item: from <= i < to. */
 typedef struct lrcsi_grid_items {
@@ -133,11 +133,23 @@ static inline lrcsi_grid_items lrcsi_grid_row_items(const lrcsi_grid *grid, uint
     return (lrcsi_grid_items){row[x0], row[x1]};
 }
 
-/* Do these cells list any item? */
-static inline int lrcsi_grid_has_items(const lrcsi_grid *grid, lrcsi_cells cells)
+/* Walks over a rectangle of cells row by row: the items of its first row, which is then removed
+   from it. Returns 0 if no row is left. */
+static inline int lrcsi_grid_next_row(const lrcsi_grid *grid, lrcsi_grid_rect *rect,
+                                      lrcsi_grid_items *items)
 {
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        const lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, cells.x0, cells.x1);
+    if (rect->y0 == rect->y1) {
+        return 0;
+    }
+    *items = lrcsi_grid_row_items(grid, rect->y0++, rect->x0, rect->x1);
+    return 1;
+}
+
+/* Do these cells list any item? */
+static inline int lrcsi_grid_has_items(const lrcsi_grid *grid, lrcsi_grid_rect rect)
+{
+    lrcsi_grid_items items;
+    while (lrcsi_grid_next_row(grid, &rect, &items)) {
         if (items.from != items.to) {
             return 1;
         }

@@ -487,10 +487,10 @@ static void add_events(band_job *job, uint32_t facet, edge_search *search)
 {
     const lrcsi_grid *grid = &job->grid;
     lrcsi_view_box box = lrcsi_view_box_round(job->view, search->low, search->high);
-    lrcsi_cells cells = lrcsi_grid_cells(grid, &box);
+    lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
     int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        lrcsi_cells row = several ? lrcsi_grid_row(grid, search->side, 3, y) : cells;
+        lrcsi_grid_rect row = several ? lrcsi_grid_row(grid, search->side, 3, y) : cells;
         lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, row.x0, row.x1);
         if (!lrcsi_meter_take(job->meter, (uint64_t)1 + items.to - items.from)) {
             add_both(job, facet, 1, LRCSI_PART_SET_ALL);

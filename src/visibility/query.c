@@ -52,12 +52,11 @@ typedef struct query_line {
     lrcsi_meter *meter;
     uint32_t facet;
     double point[3];
-    double x[3], x_err; /* the point in view coordinates, and the error of each */
-    lrcsi_view_box at;  /* the line in the view; in depth, the whole facet */
-    int sense;          /* the sense of the infinitesimal by which it is moved */
-    lrcsi_cells cells;
-    uint32_t y;             /* the next row of cells */
-    lrcsi_grid_items items; /* of the row before it, those that remain */
+    double x[3], x_err;     /* the point in view coordinates, and the error of each */
+    lrcsi_view_box at;      /* the line in the view; in depth, the whole facet */
+    int sense;              /* the sense of the infinitesimal by which it is moved */
+    lrcsi_grid_rect cells;  /* in rows that are still to be searched */
+    lrcsi_grid_items items; /* of the current row, those that remain */
 } query_line;
 
 /* Finds the grid cells of the line through line->point. */
@@ -71,7 +70,6 @@ static void line_find_cells(query_line *line)
     line->at.low[2] = own->low[2];
     line->at.high[2] = own->high[2];
     line->cells = lrcsi_grid_cells(line->grid, &line->at);
-    line->y = line->cells.y0;
 }
 
 /* Returns 0 if no point inside the facet was found. */
@@ -131,11 +129,8 @@ static uint32_t line_next(query_line *line)
             }
         }
         line->items.from = line->items.to;
-        if (line->y == line->cells.y1) {
-            return LRCS_NONE;
-        }
-        line->items = lrcsi_grid_row_items(grid, line->y++, line->cells.x0, line->cells.x1);
-        if (!lrcsi_meter_take(line->meter, line->items.to - line->items.from)) {
+        if (!lrcsi_grid_next_row(grid, &line->cells, &line->items) ||
+            !lrcsi_meter_take(line->meter, line->items.to - line->items.from)) {
             return LRCS_NONE;
         }
     }

@@ -40,10 +40,10 @@ static inline uint32_t round_up(double x)
    margin in either coordinate. Rounding errors of x are less than 4 u of the x of the ends, and
    less than 4 u of y and of the y of the ends, along the segment: together less than another
    quarter. Beyond the ends, the line is clamped to low and high. */
-lrcsi_segment lrcsi_span_segment(const double *a, const double *b, double margin)
+lrcsi_pixel_segment lrcsi_span_segment(const double *a, const double *b, double margin)
 {
     double rise = b[1] - a[1];
-    lrcsi_segment s = {.low = lrcsi_min(a[0], b[0]), .high = lrcsi_max(a[0], b[0])};
+    lrcsi_pixel_segment s = {.low = lrcsi_min(a[0], b[0]), .high = lrcsi_max(a[0], b[0])};
     s.from = s.low;
     s.to = s.high;
     if (fabs(rise) > margin) {

@@ -44,16 +44,17 @@ typedef struct lrcsi_sample_spans {
 
 /* A line segment that is followed from row to row. In row y its x lies between from + slope y and
    to + slope y, and between low and high. */
-typedef struct lrcsi_segment {
+typedef struct lrcsi_pixel_segment {
     double slope, from, to, low, high;
-} lrcsi_segment;
+} lrcsi_pixel_segment;
 
 /* The segment from a to b. The position error of its ends is at most a quarter of `margin`, and
    `margin` is at least 128 u of their coordinates. */
-lrcsi_segment lrcsi_span_segment(const double *a, const double *b, double margin);
+lrcsi_pixel_segment lrcsi_span_segment(const double *a, const double *b, double margin);
 
 /* Narrows x0 <= x < x1, pixels of row y, to those that the segment may touch; none if x0 >= x1. */
-static inline void lrcsi_span_follow(const lrcsi_segment *s, uint32_t y, uint32_t *x0, uint32_t *x1)
+static inline void lrcsi_span_follow(const lrcsi_pixel_segment *s, uint32_t y, uint32_t *x0,
+                                     uint32_t *x1)
 {
     double from = lrcsi_max(s->low, lrcsi_min(s->high, s->from + s->slope * y));
     double to = lrcsi_max(s->low, lrcsi_min(s->high, s->to + s->slope * y));

@@ -118,7 +118,7 @@ static void mark_segment(const visible_job *job, const drawn_facet *f, const dou
 {
     const double bottom = f->edges.bottom;
     const double top = f->edges.top;
-    const lrcsi_segment s = lrcsi_span_segment(a, b, margin);
+    const lrcsi_pixel_segment s = lrcsi_span_segment(a, b, margin);
     const double y0 = lrcsi_max(bottom, lrcsi_min(a[1], b[1]) - margin);
     const double y1 = lrcsi_min(top, lrcsi_max(a[1], b[1]) + margin + 1);
     for (uint32_t y = (uint32_t)lrcsi_min(y0, top); y < (uint32_t)lrcsi_max(y1, bottom); y++) {

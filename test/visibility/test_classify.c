@@ -457,10 +457,10 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
         size_t cells = (size_t)some.size * some.size;
         assert_true(every == 1 || some.first[cells] < facets.first[cells]);
         for (uint32_t f = 0; f < scene.scene.facet_count; f += every) {
-            lrcsi_cells at =
+            lrcsi_grid_rect at =
                 lrcsi_view_casts(&view, f)
                     ? lrcsi_grid_cells(&some, lrcsi_boxes_facet(&classification.search.boxes, f))
-                    : (lrcsi_cells){0};
+                    : (lrcsi_grid_rect){0};
             for (uint32_t y = at.y0; y < at.y1; y++) {
                 for (uint32_t x = at.x0; x < at.x1; x++) {
                     assert_true(lists_agree(&some, &facets, (size_t)y * some.size + x));

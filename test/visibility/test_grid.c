@@ -235,7 +235,7 @@ static void grids_are_made_coarser_for_large_facets(void **state)
     assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 0);
     uint32_t cells = 0;
     for (uint32_t f = 0; f < 40; f++) {
-        lrcsi_cells at = lrcsi_grid_cells(&grid, lrcsi_boxes_facet(&boxes, f));
+        lrcsi_grid_rect at = lrcsi_grid_cells(&grid, lrcsi_boxes_facet(&boxes, f));
         cells += (uint32_t)(at.x1 - at.x0) * (uint32_t)(at.y1 - at.y0);
     }
     assert_true(grid.size < 64 && cells <= LRCSI_GRID_FACET_CELLS * 40);

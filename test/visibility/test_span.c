@@ -198,7 +198,7 @@ static unsigned check_segment(const int a[2], const int b[2])
 {
     const double from[2] = {a[0] / 8.0, a[1] / 8.0};
     const double to[2] = {b[0] / 8.0, b[1] / 8.0};
-    lrcsi_segment s = lrcsi_span_segment(from, to, 0x1p-40);
+    lrcsi_pixel_segment s = lrcsi_span_segment(from, to, 0x1p-40);
     unsigned met = 0;
     int bottom = a[1] < b[1] ? a[1] : b[1];
     int top = a[1] > b[1] ? a[1] : b[1];
