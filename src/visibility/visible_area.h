@@ -19,7 +19,7 @@ typedef struct lrcsi_visible {
 typedef struct lrcsi_moment {
     double first[2];
     double error; /* bound on the error of either component; HUGE_VAL: the moment is not known */
-    double reach; /* while it is computed: the largest distance from c of what counts as visible */
+    double reach; /* scratch of its computation: the largest distance from c of what is visible */
 } lrcsi_moment;
 
 /* Items first .. first + count - 1 of a list. */
