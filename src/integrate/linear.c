@@ -21,7 +21,7 @@
    that: at most the integral of |H|. This is `region`. At points |h| <= |H| + |mean of H|; the
    second is at most (1 + a) region, which the caller adds to `point`.
 
-   Areas. The facets' area differs from the patch's by at most the fraction a = area_error. Per unit
+   Areas. The facets' area differs from the patch's by at most the fraction a = area_err. Per unit
    of area of the facets the sum uses (patch area / facet area) m, but G as it is: so on the patch G
    is multiplied by a factor within a/(1 - a) of 1. That is an error of `variation` times a/(1 - a).
 
@@ -149,12 +149,12 @@ static double gradients_make(const linear_patch *at, const linear_term term[2],
         int flank = !(varies <= mean[k]);
         steepest += turned;
         if (flank) {
-            linear->region += turned * c->rms_turn * sqrt(1 + c->area_error);
+            linear->region += turned * c->rms_turn * sqrt(1 + c->area_err);
             linear->point += turned * c->turn;
         } else {
             kept += term[k].slope;
             linear->rounding += (term[k].err * at->p + slope * (2 * LRCSI_PATCH_NORMAL_ERR)) *
-                                c->turn * (1 + c->area_error);
+                                c->turn * (1 + c->area_err);
         }
         for (int j = 0; j < 2; j++) {
             gradient[k][j] = flank ? 0 : term[k].slope * across[j];
@@ -173,7 +173,7 @@ int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi
                       const lrcs_curvature *curvature, double second, lrcsi_linear *linear)
 {
     const lrcs_part *part = &view->prepared->scene->part[patch->part];
-    const double a = curvature->area_error;
+    const double a = curvature->area_err;
     lrcsi_profile profile = lrcsi_profile_make(&part->shape, &part->divisions);
     lrcsi_profile_normals normals = lrcsi_profile_normals_make(&profile, patch->at.row);
     double unit = ldexp(part->unit, -view->prepared->exponent);

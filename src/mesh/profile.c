@@ -283,9 +283,9 @@ static lrcs_curvature strip_curvature(const lrcsi_profile *profile, uint32_t i)
     c.rms_turn = sqrt(ratio * 2.0 * q * (fmax(0.0, 1.0 - part) + SLACK));
     double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
     c.bias = fabs(shift) + c.turn * c.rms_turn * c.rms_turn / 6.0;
-    c.area_error = fabs(ratio - 1.0);
+    c.area_err = fabs(ratio - 1.0);
     return lrcsi_profile_rounded(&c,
-                                 lrcsi_profile_rounding(profile, i) * (1.0 + c.area_error) + SLACK);
+                                 lrcsi_profile_rounding(profile, i) * (1.0 + c.area_err) + SLACK);
 }
 
 lrcsi_profile lrcsi_profile_make(const lrcs_shape *shape, const lrcs_divisions *divisions)
@@ -352,7 +352,7 @@ lrcs_curvature lrcsi_profile_curvature(const lrcsi_profile *profile)
     for (uint32_t i = 0; i < profile->strips; i++) {
         lrcs_curvature c = strip_curvature(profile, i);
         bound.turn = fmax(bound.turn, c.turn);
-        bound.area_error = fmax(bound.area_error, c.area_error);
+        bound.area_err = fmax(bound.area_err, c.area_err);
         bound.bias = fmax(bound.bias, c.bias);
         bound.rms_turn = fmax(bound.rms_turn, c.rms_turn);
     }
@@ -366,7 +366,7 @@ lrcs_curvature lrcsi_profile_rounded(const lrcs_curvature *c, double rounding)
     if (!(rounding <= ROUNDING_MAX)) {
         return (lrcs_curvature){LRCS_PI, UNBOUNDED, UNBOUNDED, sqrt(UNBOUNDED)};
     }
-    return (lrcs_curvature){fmin(c->turn + rounding, LRCS_PI), c->area_error + 2.0 * rounding,
+    return (lrcs_curvature){fmin(c->turn + rounding, LRCS_PI), c->area_err + 2.0 * rounding,
                             c->bias + 2.0 * rounding, c->rms_turn + 2.0 * rounding};
 }
 
@@ -392,14 +392,14 @@ lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, do
     double turn = fmin(k * c->turn, LRCS_PI);
     double outward = 1.0 + SLACK;
     if (!(G * c->turn <= 1.0)) {
-        double area = (1.0 + c->area_error) * k * outward;
+        double area = (1.0 + c->area_err) * k * outward;
         *uneven = k - 1.0;
         return (lrcs_curvature){turn, area, turn * area, turn * sqrt(area)};
     }
     double E = exp(G * c->turn);
     *uneven = (E - 1.0) * outward;
     return (lrcs_curvature){
-        turn * outward, (c->area_error + g * c->bias + (h + 0.5 * G * G * E) * square) * outward,
+        turn * outward, (c->area_err + g * c->bias + (h + 0.5 * G * G * E) * square) * outward,
         (k * c->bias + k * (g + G * E) * square) * outward, k * c->rms_turn * sqrt(E) * outward};
 }
 

@@ -160,7 +160,7 @@ static void assign_brdf(lrcs_material *material, const lrcs_brdf *brdf,
     material->brdf = *brdf;
     material->error = *error;
     material->source = source;
-    material->bound = !assumed;
+    material->brdf_given = !assumed;
     if (two_sided >= 0) {
         material->two_sided = two_sided != 0;
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The fingerprint of a scene. Decides what it includes: everything that sigma depends on, in the
-   scene's order, but not names, colours and whether a material was bound. */
+   scene's order, but not names, colours and whether a material's BRDF was given. */
 #include <lrcs/scene.h>
 
 #include <string.h>

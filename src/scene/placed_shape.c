@@ -91,13 +91,13 @@ static double smallest_altitude(const lrcs_scene *scene, const lrcs_part *part)
 /* Rounding in placing moves each of a facet's three corners by at most e. That tilts the facet by
    at most e divided by its altitude at that corner, and changes its area by at most that fraction.
    The curvature numbers are relative to the area of the facet; that of its patch is larger by at
-   most area_error. Nothing can be proved about a facet without area. */
+   most area_err. Nothing can be proved about a facet without area. */
 void lrcsi_placed_shape_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, double extent,
                              lrcs_part *part)
 {
     double e = lrcsi_placer_error(placer, extent, 0.0);
     if (part->reach > 0.0 && e > 0.0) {
-        double factor = 3.0 * (1.0 + part->curvature.area_error);
+        double factor = 3.0 * (1.0 + part->curvature.area_err);
         double altitude = smallest_altitude(scene, part);
         part->normal_err = 1.000001 * factor * e / altitude;
         part->curvature_known = part->curvature_known && altitude > 0.0;
@@ -119,7 +119,7 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     lrcsi_reach reach = lrcsi_tessellate_reach(shape, divisions);
     double smallest = fmin(fabs(scale[0]), fmin(fabs(scale[1]), fabs(scale[2])));
     double largest = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
-    int plane = curvature->turn == 0.0 && curvature->area_error == 0.0 && curvature->bias == 0.0 &&
+    int plane = curvature->turn == 0.0 && curvature->area_err == 0.0 && curvature->bias == 0.0 &&
                 curvature->rms_turn == 0.0;
     const double zero[3] = {0.0, 0.0, 0.0};
     double stretch;

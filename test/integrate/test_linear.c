@@ -195,7 +195,7 @@ static void patch_check(const linear_scene *s, const lrcs_brdf *brdf, const lrcs
     double centroid = (top + 2 * base) / (top + base) / 3; /* fraction from the top */
     double centre[3] = {at->swell * cos(at->h) * (at->upper + centroid * (at->lower - at->upper)),
                         0, at->high + centroid * (at->low - at->high)};
-    double point = linear->point + (1 + c->area_error) * linear->region + error;
+    double point = linear->point + (1 + c->area_err) * linear->region + error;
     double largest = 0;
     for (int i = 0; i < STEPS * STEPS; i++) {
         double fraction = (i / STEPS + 0.5) / STEPS;

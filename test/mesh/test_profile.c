@@ -52,7 +52,7 @@ static lrcs_curvature measure(const double facet[3], double normal[NORMALS][3],
         sum += area[i];
         square += area[i] * turn * turn;
     }
-    c.area_error = fabs(sum - 1);
+    c.area_err = fabs(sum - 1);
     c.bias = sqrt(dot(vector, vector));
     c.rms_turn = sqrt(square);
     return c;
@@ -109,7 +109,7 @@ static void a_mapped_patch_stays_within_the_mapped_numbers(void **state)
         unit(facet);
         lrcs_curvature after = measure(facet, normal, area);
         check_most(after.turn, bound.turn + 1e-14);
-        check_most(after.area_error, bound.area_error + 1e-14);
+        check_most(after.area_err, bound.area_err + 1e-14);
         check_most(after.bias, bound.bias + 1e-14);
         check_most(after.rms_turn, bound.rms_turn + 1e-14);
         tightest = fmax(tightest, after.rms_turn / bound.rms_turn);
