@@ -28,8 +28,8 @@
        sin^2(gamma/2) = sin^2((psi - nu)/2) + cos psi cos nu sin^2(phi/2), psi and nu the elevations
        of true and facet normal, phi the azimuth from the sector's middle: bounds gamma by `turn`;
        gamma^2 <= q 4 sin^2(gamma/2) = 2 q (1 - cos gamma), q = (turn/2)^2 / sin^2(turn/2), as
-       x / sin x grows: spread^2 = (A/A') 2 q D;
-       gamma - sin gamma <= gamma^3/6: bias = (A/A') T + turn spread^2 / 6.
+       x / sin x grows: rms_turn^2 = (A/A') 2 q D;
+       gamma - sin gamma <= gamma^3/6: bias = (A/A') T + turn rms_turn^2 / 6.
    Each is evaluated to a few units of rounding; SLACK covers those. `rounding` then adds what
    rounding the vertices does to a facet's plane and area.
 
@@ -380,7 +380,7 @@ lrcs_curvature lrcsi_profile_rounded(const lrcs_curvature *c, double rounding)
    So the turn vector tau, of length t, becomes D tau + r, |D| <= k, |r| <= k g t^2; and |N n| / |N
    f| = exp(x), |x - q.tau| <= h t^2, |q| <= g, |x| <= G t with G = g + h turn: with E = exp(G
    turn), |exp(x) - 1 - q.tau| <= (h + G^2 E / 2) t^2 and |exp(x) - 1| <= G E t. Integrated over the
-   patch, per unit of facet, tau gives `bias` and t^2 spread^2. If G turn exceeds 1, |N n| / |N f|
+   patch, per unit of facet, tau gives `bias` and t^2 rms_turn^2. If G turn exceeds 1, |N n| / |N f|
    within 1/k .. k is used instead. */
 lrcs_curvature lrcsi_profile_stretched(const lrcs_curvature *c, double ratio, double *uneven)
 {

@@ -10,14 +10,14 @@
    differentiable, also across 90 deg, where it becomes 0, and its second derivative is bounded,
    which suffices here. This is integrated over the patch, per unit of facet area, with the numbers
    of lrcs_curvature (a = area_err) and suprema over the angles within `turn` of theta_i:
-       second   a F_i + bias |G'_i| + spread^2/2 sup max(|G''|, |cot G'|)
-       first    a F_i + sqrt(1 + a) spread sup |G'|        (Cauchy-Schwarz on the integral of |t|)
+       second   a F_i + bias |G'_i| + rms_turn^2/2 sup max(|G''|, |cot G'|)
+       first    a F_i + sqrt(1 + a) rms_turn sup |G'|        (Cauchy-Schwarz on the integral of |t|)
        range    a F_i + (1 + a) max(sup G - F_i, F_i)      (inf G >= 0)
    All three bounds hold; the smallest is used. At single points |F - F_i| is at most turn sup |G'|,
    and at most max(sup G - F_i, F_i). Over any region of the patch the integral of h = F - F_i is at
    most that of its positive part or of its negative part over the whole patch: with h = g . t + R
    both are at most (Int |g . t| + |Int g . t|)/2 + Int |R|, that is
-       |G'_i| (sqrt(1 + a) spread + bias)/2 + spread^2/2 sup max(|G''|, |cot G'|).
+       |G'_i| (sqrt(1 + a) rms_turn + bias)/2 + rms_turn^2/2 sup max(|G''|, |cot G'|).
    If both sides of a surface reflect, F continues as G(180 deg - theta) beyond 90 deg. It is once
    continuously differentiable there too, with the same suprema; so each bound also holds if some
    points beyond 90 deg count and others do not.
