@@ -73,47 +73,45 @@ static int find_assigned(const scene_builder *builder, const lrcs_recipe_part *p
                                   part->material, strlen(part->material));
 }
 
-/* Chooses the divisions of a shape, which depend on its assigned material, and counts its mesh. */
-static int count_shape(const scene_builder *builder, const lrcs_recipe_part *part,
-                       lrcs_divisions *divisions, lrcs_mesh_counts *counts)
+/* What part i adds: the counts of its model's mesh; or of its shape's, for which it chooses the
+   divisions, which depend on the assigned material. */
+static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts *counts)
 {
+    const lrcs_recipe_part *part = &builder->recipe->part[i];
+    if (part->file) {
+        const lrcs_mesh *mesh = &builder->models[i];
+        *counts = (lrcs_mesh_counts){.vertices = mesh->vertex_count,
+                                     .facets = mesh->facet_count,
+                                     .materials = mesh->material_count,
+                                     .parts = mesh->part_count};
+        return LRCS_OK;
+    }
     uint32_t assigned;
     int status = find_assigned(builder, part, &assigned);
-    if (status == LRCS_OK) {
-        status = lrcs_shape_check(&part->shape, builder->where);
-        if (status != LRCS_OK && builder->where) {
+    if (status != LRCS_OK) {
+        return status;
+    }
+    status = lrcs_shape_check(&part->shape, builder->where);
+    if (status != LRCS_OK) {
+        if (builder->where) {
             builder->where->line = part->line;
         }
-    }
-    if (status != LRCS_OK) {
         return status;
     }
     lrcs_material material = lrcsi_binder_unassigned(&builder->binder, assigned);
     lrcsi_fineness fineness = builder->fineness;
     if (builder->options->halvings) {
-        fineness.halvings = builder->options->halvings[part - builder->recipe->part];
+        fineness.halvings = builder->options->halvings[i];
     }
-    status = lrcsi_fineness_divide(&fineness, part, &material, divisions, counts);
-    return status == LRCS_OK ? LRCS_OK
-                             : refuse_part(builder, status, part,
-                                           "a shape, material and "
-                                           "tolerance in their domains");
-}
-
-static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts *counts)
-{
-    const lrcs_recipe_part *part = &builder->recipe->part[i];
     lrcs_divisions divisions;
-    if (!part->file) {
-        int status = count_shape(builder, part, &divisions, counts);
-        if (status == LRCS_OK && builder->divisions) {
-            builder->divisions[i] = divisions;
-        }
-        return status;
+    status = lrcsi_fineness_divide(&fineness, part, &material, &divisions, counts);
+    if (status != LRCS_OK) {
+        return refuse_part(builder, status, part,
+                           "a shape, material and tolerance in their domains");
     }
-    const lrcs_mesh *mesh = &builder->models[i];
-    *counts = (lrcs_mesh_counts){
-        mesh->vertex_count, mesh->facet_count, mesh->material_count, mesh->part_count, 0, 0};
+    if (builder->divisions) {
+        builder->divisions[i] = divisions;
+    }
     return LRCS_OK;
 }
 
@@ -173,26 +171,6 @@ static int count_scene(scene_builder *builder, scene_totals *totals)
     return LRCS_OK;
 }
 
-/* Bytes of the scene's arrays, as scene_take takes them. */
-static size_t arrays_need(const scene_totals *totals, uint32_t parts)
-{
-    const size_t block[] = {
-        lrcsi_work_bytes((size_t)totals->vertices, sizeof(lrcs_point)),
-        lrcsi_work_bytes((size_t)totals->facets, sizeof(lrcs_facet)),
-        lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
-        lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
-        lrcsi_work_bytes((size_t)totals->facets, sizeof(uint32_t)),
-        lrcsi_work_bytes(totals->curved ? (size_t)totals->facets : 0, 3 * sizeof(lrcs_point)),
-        lrcsi_work_bytes((size_t)totals->materials, sizeof(lrcs_material)),
-        lrcsi_work_bytes(parts, sizeof(lrcs_part)),
-    };
-    size_t need = 0;
-    for (size_t i = 0; i < sizeof block / sizeof block[0]; i++) {
-        need = lrcsi_work_add(need, block[i]);
-    }
-    return need;
-}
-
 size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
                        const lrcs_build_options *options)
 {
@@ -202,15 +180,28 @@ size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
                              .binder = lrcsi_binder_plain(recipe)};
     scene_totals totals;
     count_scene(&builder, &totals); /* if it fails, building fails too, before it needs more */
-    size_t need = arrays_need(&totals, recipe->part_count);
-    need = lrcsi_work_add(need, lrcsi_work_bytes(recipe->part_count, sizeof(lrcs_divisions)));
-    need = lrcsi_work_add(need, lrcsi_binder_need(recipe));
-    need = lrcsi_work_add(need,
-                          lrcsi_work_bytes(lrcsi_binder_material_count(recipe), sizeof(uint32_t)));
-    return lrcsi_work_add(need, totals.scratch);
+    const size_t block[] = {
+        /* as scene_take takes them: */
+        lrcsi_work_bytes((size_t)totals.vertices, sizeof(lrcs_point)),
+        lrcsi_work_bytes((size_t)totals.facets, sizeof(lrcs_facet)),
+        lrcsi_work_bytes((size_t)totals.facets, sizeof(uint32_t)),
+        lrcsi_work_bytes((size_t)totals.facets, sizeof(uint32_t)),
+        lrcsi_work_bytes((size_t)totals.facets, sizeof(uint32_t)),
+        lrcsi_work_bytes(totals.curved ? (size_t)totals.facets : 0, 3 * sizeof(lrcs_point)),
+        lrcsi_work_bytes((size_t)totals.materials, sizeof(lrcs_material)),
+        lrcsi_work_bytes(recipe->part_count, sizeof(lrcs_part)),
+        /* and as build and its parts do: */
+        lrcsi_work_bytes(recipe->part_count, sizeof(lrcs_divisions)),
+        lrcsi_binder_need(recipe),
+        lrcsi_work_bytes(lrcsi_binder_material_count(recipe), sizeof(uint32_t)),
+        totals.scratch,
+    };
+    size_t need = 0;
+    for (size_t i = 0; i < sizeof block / sizeof block[0]; i++) {
+        need = lrcsi_work_add(need, block[i]);
+    }
+    return need;
 }
-
-/* --- materials ----------------------------------------------------------------------------- */
 
 static int add_material(const scene_builder *builder, const lrcs_material *material,
                         lrcs_scene *scene)
@@ -225,58 +216,17 @@ static int add_material(const scene_builder *builder, const lrcs_material *mater
     return LRCS_OK;
 }
 
-/* The index of the material of facets without a surface, which is added at the first use. */
-static int unassigned_entry(scene_builder *builder, uint32_t assigned, lrcs_scene *scene,
-                            uint32_t *entry)
-{
-    uint32_t *slot = assigned != LRCS_NONE ? &builder->entry[assigned] : &builder->unassigned;
-    int status = LRCS_OK;
-    if (*slot == LRCS_NONE) {
-        lrcs_material material = lrcsi_binder_unassigned(&builder->binder, assigned);
-        *slot = scene->material_count;
-        status = add_material(builder, &material, scene);
-    }
-    *entry = *slot;
-    return status;
-}
+/* --- parts --------------------------------------------------------------------------------- */
 
-static int add_surfaces(scene_builder *builder, const lrcs_mesh *mesh, scene_source *source,
-                        lrcs_scene *scene)
-{
-    source->surfaces = scene->material_count;
-    for (uint32_t i = 0; i < mesh->material_count; i++) {
-        lrcs_material material =
-            lrcsi_binder_surface(&builder->binder, source->assigned, &mesh->material[i]);
-        int status = add_material(builder, &material, scene);
-        if (status != LRCS_OK) {
-            return status;
-        }
-    }
-    return LRCS_OK;
-}
-
-/* --- geometry ------------------------------------------------------------------------------ */
-
-static int add_vertices(const scene_builder *builder, const lrcs_mesh *mesh,
-                        const scene_source *source, lrcs_scene *scene)
-{
-    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        double *placed = scene->vertex[scene->vertex_count + i].x;
-        lrcsi_placer_run(&source->placer, mesh->vertex[i].x, placed);
-        for (int k = 0; k < 3; k++) {
-            if (!(fabs(placed[k]) <= LRCSI_COORDINATE_MAX)) {
-                return refuse_part(builder, LRCS_E_NUMBER, source->part,
-                                   "coordinates of at most 1e100 m after placing");
-            }
-        }
-    }
-    return LRCS_OK;
-}
-
+/* Adds the facets of a mesh with their winding and materials; its vertices begin at the scene's
+   vertex_count. A facet without a surface gets the material of the part without one, which is added
+   at its first use. */
 static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene_source *source,
                       lrcs_scene *scene)
 {
     uint32_t base = scene->vertex_count;
+    uint32_t *entry =
+        source->assigned != LRCS_NONE ? &builder->entry[source->assigned] : &builder->unassigned;
     for (uint32_t i = 0; i < mesh->facet_count; i++) {
         uint32_t to = scene->facet_count + i;
         const uint32_t *corner = mesh->facet[i].corner;
@@ -287,25 +237,25 @@ static int add_facets(scene_builder *builder, const lrcs_mesh *mesh, const scene
             return refuse_part(builder, LRCS_E_INDEX, source->part,
                                "corners and materials that its mesh has");
         }
+        if (surface == LRCS_NONE && *entry == LRCS_NONE) {
+            lrcs_material material = lrcsi_binder_unassigned(&builder->binder, source->assigned);
+            *entry = scene->material_count;
+            int status = add_material(builder, &material, scene);
+            if (status != LRCS_OK) {
+                return status;
+            }
+        }
         int flip = source->placer.reflects;
         scene->facet[to] = (lrcs_facet){
             {base + corner[0], base + corner[flip ? 2 : 1], base + corner[flip ? 1 : 2]}};
         scene->facet_part[to] = scene->part_count;
         scene->facet_smooth[to] = mesh->facet_smooth[i];
-        scene->facet_material[to] = source->surfaces + surface;
-        if (surface == LRCS_NONE) {
-            int status =
-                unassigned_entry(builder, source->assigned, scene, &scene->facet_material[to]);
-            if (status != LRCS_OK) {
-                return status;
-            }
-        }
+        scene->facet_material[to] = surface == LRCS_NONE ? *entry : source->surfaces + surface;
     }
     return LRCS_OK;
 }
 
-/* --- parts --------------------------------------------------------------------------------- */
-
+/* Adds the mesh of a part: its materials, its vertices in metres, its facets. */
 static int add_mesh(scene_builder *builder, const lrcs_mesh *mesh, scene_source *source,
                     lrcs_scene *scene)
 {
@@ -314,19 +264,33 @@ static int add_mesh(scene_builder *builder, const lrcs_mesh *mesh, scene_source 
     part->first_facet = scene->facet_count;
     part->facet_count = mesh->facet_count;
     part->articulated = source->part->joint.used;
-    int status = add_surfaces(builder, mesh, source, scene);
-    if (status == LRCS_OK) {
-        status = add_vertices(builder, mesh, source, scene);
+    source->surfaces = scene->material_count;
+    for (uint32_t i = 0; i < mesh->material_count; i++) {
+        lrcs_material material =
+            lrcsi_binder_surface(&builder->binder, source->assigned, &mesh->material[i]);
+        int status = add_material(builder, &material, scene);
+        if (status != LRCS_OK) {
+            return status;
+        }
     }
-    if (status == LRCS_OK) {
-        status = add_facets(builder, mesh, source, scene);
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        double *placed = scene->vertex[scene->vertex_count + i].x;
+        lrcsi_placer_run(&source->placer, mesh->vertex[i].x, placed);
+        for (int k = 0; k < 3; k++) {
+            if (!(fabs(placed[k]) <= LRCSI_COORDINATE_MAX)) {
+                return refuse_part(builder, LRCS_E_NUMBER, source->part,
+                                   "coordinates of at most 1e100 m after placing");
+            }
+        }
     }
+    int status = add_facets(builder, mesh, source, scene);
     scene->vertex_count += mesh->vertex_count;
     scene->facet_count += mesh->facet_count;
     scene->part_count++;
     return status;
 }
 
+/* Adds a part that is a shape: tessellates it, and states what holds of its facets. */
 static int add_shape(scene_builder *builder, scene_source *source, const lrcs_divisions *divisions,
                      lrcs_work *work, lrcs_scene *scene)
 {
@@ -351,17 +315,7 @@ static int add_shape(scene_builder *builder, scene_source *source, const lrcs_di
     return status;
 }
 
-static int add_normals(const scene_builder *builder, uint32_t i, const scene_source *source,
-                       lrcs_work *work, lrcs_scene *scene)
-{
-    int status =
-        lrcsi_smooth_run(&builder->models[i], &source->placer, builder->options, work, scene);
-    return status == LRCS_OK ? LRCS_OK
-           : status == LRCS_E_MEMORY
-               ? refuse_memory(builder)
-               : refuse_part(builder, status, source->part, "normals that its mesh has");
-}
-
+/* Adds part i: a shape, or a model with the normals that it gives. */
 static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_scene *scene)
 {
     scene_source source;
@@ -384,9 +338,14 @@ static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_sc
     part->curvature_known = 1;
     part->smoothed = lrcsi_smooth_given(&builder->models[i]);
     status = add_mesh(builder, &builder->models[i], &source, scene);
-    return status == LRCS_OK && is_curved(builder, i)
-               ? add_normals(builder, i, &source, work, scene)
-               : status;
+    if (status != LRCS_OK || !is_curved(builder, i)) {
+        return status;
+    }
+    status = lrcsi_smooth_run(&builder->models[i], &source.placer, builder->options, work, scene);
+    return status == LRCS_OK ? LRCS_OK
+           : status == LRCS_E_MEMORY
+               ? refuse_memory(builder)
+               : refuse_part(builder, status, source.part, "normals that its mesh has");
 }
 
 static int scene_take(const scene_totals *totals, uint32_t parts, lrcs_work *work,
@@ -411,17 +370,6 @@ static int scene_take(const scene_totals *totals, uint32_t parts, lrcs_work *wor
                    (scene->corner_normal || !totals->curved)
                ? LRCS_OK
                : LRCS_E_MEMORY;
-}
-
-/* Drops the array of normals if every facet is flat. */
-static void drop_flat_normals(lrcs_scene *scene)
-{
-    int curved = 0;
-    for (uint32_t f = 0; scene->corner_normal && f < scene->facet_count && !curved; f++) {
-        const double *x = scene->corner_normal[3 * (size_t)f].x;
-        curved = x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0;
-    }
-    scene->corner_normal = curved ? scene->corner_normal : NULL;
 }
 
 /* Builds the scene; on failure the caller resets work->used. Called:
@@ -460,7 +408,12 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
     }
     scene->unmatched = lrcsi_binder_unmatched(&builder->binder);
     scene->normals = builder->options->normals;
-    drop_flat_normals(scene);
+    int curved = 0; /* normals are dropped if every facet is flat */
+    for (uint32_t f = 0; scene->corner_normal && f < scene->facet_count && !curved; f++) {
+        const double *x = scene->corner_normal[3 * (size_t)f].x;
+        curved = x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0;
+    }
+    scene->corner_normal = curved ? scene->corner_normal : NULL;
     work->used = mark;
     return LRCS_OK;
 }

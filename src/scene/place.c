@@ -43,20 +43,6 @@ static int handedness(const double R[3][3])
     return (det > 0.0) - (det < 0.0);
 }
 
-static int make_joint(const lrcs_joint *joint, lrcsi_placer *placer)
-{
-    if (!joint->used) {
-        return LRCS_OK;
-    }
-    if (!is_finite(joint->origin)) {
-        return LRCS_E_NUMBER;
-    }
-    int status = lrcsi_rotate_axis(joint->axis, joint->angle_deg, placer->joint);
-    placer->has_joint = status == LRCS_OK && !is_identity((const double(*)[3])placer->joint);
-    memcpy(placer->origin, joint->origin, sizeof placer->origin);
-    return status;
-}
-
 int lrcsi_placer_make(const lrcs_place *place, const lrcs_joint *joint, lrcsi_placer *placer)
 {
     int finite = is_finite(place->translate) && is_finite(place->scale);
@@ -76,7 +62,19 @@ int lrcsi_placer_make(const lrcs_place *place, const lrcs_joint *joint, lrcsi_pl
         placer->has_translation |= place->translate[i] != 0.0;
     }
     placer->reflects = hand < 0;
-    return hand == 0 ? LRCS_E_ARGUMENT : make_joint(joint, placer);
+    if (hand == 0) {
+        return LRCS_E_ARGUMENT;
+    }
+    if (!joint->used) {
+        return LRCS_OK;
+    }
+    if (!is_finite(joint->origin)) {
+        return LRCS_E_NUMBER;
+    }
+    int status = lrcsi_rotate_axis(joint->axis, joint->angle_deg, placer->joint);
+    placer->has_joint = status == LRCS_OK && !is_identity((const double(*)[3])placer->joint);
+    memcpy(placer->origin, joint->origin, sizeof placer->origin);
+    return status;
 }
 
 static void rotate_vector(const double R[3][3], double v[3])

@@ -79,27 +79,6 @@ static int refuse_others(const lrcsi_draft *draft, uint64_t allowed, const char 
     return LRCS_OK;
 }
 
-static int check_shape_keys(const lrcsi_draft *draft, int kind)
-{
-    const shape_rule *rule = &shape_rules[kind];
-    const lrcsi_toml_event *size = lrcsi_draft_find(draft, LRCSI_KEY_SIZE);
-    int status = refuse_others(draft, rule->needs | rule->allows, rule->expected);
-    if (status != LRCS_OK) {
-        return status;
-    }
-    if ((given_shape_keys(draft) & rule->needs) != rule->needs) {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME, rule->expected);
-    }
-    if (size && size->count != (kind == LRCS_SHAPE_BOX ? 3u : 2u)) {
-        return lrcsi_draft_refuse_value(draft, LRCSI_KEY_SIZE, LRCS_E_ARGUMENT, rule->expected);
-    }
-    if (kind == LRCS_SHAPE_CONE && !lrcsi_draft_find(draft, LRCSI_KEY_LENGTH) ==
-                                       !lrcsi_draft_find(draft, LRCSI_KEY_HALF_ANGLE_DEG)) {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME, rule->expected);
-    }
-    return LRCS_OK;
-}
-
 /* Checks the dimensions of a shape. lrcs_shape_check names the one that is wrong; the draft knows
    where it is in the file. */
 static int check_shape(const lrcsi_draft *draft, const lrcs_shape *shape)
@@ -123,6 +102,7 @@ static int check_shape(const lrcsi_draft *draft, const lrcs_shape *shape)
     return status;
 }
 
+/* Reads a shape: its kind, whether the keys are those of that kind, the dimensions. */
 static int read_shape(const lrcsi_draft *draft, lrcs_shape *shape)
 {
     int kind = lrcs_shape_find(lrcsi_draft_text(draft, LRCSI_KEY_SHAPE));
@@ -131,12 +111,23 @@ static int read_shape(const lrcsi_draft *draft, lrcs_shape *shape)
                                         "plate, disc, box, sphere, dome, cylinder, cone, frustum "
                                         "or paraboloid");
     }
-    int status = check_shape_keys(draft, kind);
+    const shape_rule *rule = &shape_rules[kind];
+    const lrcsi_toml_event *wall = lrcsi_draft_find(draft, LRCSI_KEY_WALL_ONLY);
+    const lrcsi_toml_event *size = lrcsi_draft_find(draft, LRCSI_KEY_SIZE);
+    int status = refuse_others(draft, rule->needs | rule->allows, rule->expected);
     if (status != LRCS_OK) {
         return status;
     }
-    const lrcsi_toml_event *wall = lrcsi_draft_find(draft, LRCSI_KEY_WALL_ONLY);
-    const lrcsi_toml_event *size = lrcsi_draft_find(draft, LRCSI_KEY_SIZE);
+    if ((given_shape_keys(draft) & rule->needs) != rule->needs) {
+        return lrcsi_draft_refuse(draft, LRCS_E_NAME, rule->expected);
+    }
+    if (size && size->count != (kind == LRCS_SHAPE_BOX ? 3u : 2u)) {
+        return lrcsi_draft_refuse_value(draft, LRCSI_KEY_SIZE, LRCS_E_ARGUMENT, rule->expected);
+    }
+    if (kind == LRCS_SHAPE_CONE && !lrcsi_draft_find(draft, LRCSI_KEY_LENGTH) ==
+                                       !lrcsi_draft_find(draft, LRCSI_KEY_HALF_ANGLE_DEG)) {
+        return lrcsi_draft_refuse(draft, LRCS_E_NAME, rule->expected);
+    }
     shape->kind = kind;
     shape->parts = wall && wall->boolean ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
     for (uint32_t i = 0; size && i < size->count; i++) {

@@ -108,21 +108,6 @@ static int side_of(const smooth_job *job, uint32_t facet, uint32_t k, uint32_t b
     return make_unit(v);
 }
 
-/* The unit normals of all facets. */
-static void compute_facet_normals(smooth_job *job)
-{
-    for (uint32_t f = 0; f < job->mesh->facet_count; f++) {
-        double u[3];
-        double v[3];
-        double *n = job->unit[f].x;
-        memset(n, 0, sizeof job->unit[f].x);
-        if (side_of(job, f, 0, 1, u) && side_of(job, f, 0, 2, v)) {
-            lrcsi_vec3_cross(u, v, n);
-            make_unit(n);
-        }
-    }
-}
-
 /* --- smoothing groups ------------------------------------------------------------------------- */
 
 /* Sorts the corners by vertex, by a counting sort. */
@@ -264,20 +249,6 @@ static int normals_needed(const smooth_job *job, uint32_t facet, const lrcs_poin
     return brdf->A > 0.0 && turn > 0.0 && lrcsi_aliasing_error(turn, brdf->s) > options->tolerance;
 }
 
-/* Do all corners that have a normal have one that exists? Status: LRCS_OK; LRCS_E_INDEX. */
-static int check_normals(const lrcs_mesh *mesh)
-{
-    for (uint32_t f = 0; mesh->facet_normal && f < mesh->facet_count; f++) {
-        for (int k = 0; k < 3; k++) {
-            uint32_t index = mesh->facet_normal[f].corner[k];
-            if (index != LRCS_NONE && index >= mesh->normal_count) {
-                return LRCS_E_INDEX;
-            }
-        }
-    }
-    return LRCS_OK;
-}
-
 int lrcsi_smooth_given(const lrcs_mesh *mesh)
 {
     for (uint32_t f = 0; f < mesh->facet_count; f++) {
@@ -326,25 +297,41 @@ int lrcsi_smooth_run(const lrcs_mesh *mesh, const lrcsi_placer *placer,
     smooth_job job = {.mesh = mesh, .placer = placer, .scene = scene};
     job.base = scene->vertex_count - mesh->vertex_count;
     job.first = scene->facet_count - mesh->facet_count;
-    job.unit = lrcsi_work_take(work, facets, sizeof *job.unit);
+    job.unit = lrcsi_work_take_zero(work, facets, sizeof *job.unit);
     job.mean = lrcsi_work_take_zero(work, facets, 3 * sizeof *job.mean);
     job.corner = lrcsi_work_take(work, facets, 3 * sizeof *job.corner);
     job.start = lrcsi_work_take(work, (size_t)mesh->vertex_count + 2, sizeof *job.start);
-    int status =
-        job.unit && job.mean && job.corner && job.start ? check_normals(mesh) : LRCS_E_MEMORY;
-    if (status == LRCS_OK) {
-        compute_facet_normals(&job);
-        corners_by_vertex(&job);
-        for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-            vertex_means(&job, v);
-        }
-        for (uint32_t f = 0; f < mesh->facet_count; f++) {
-            lrcs_point *n = &scene->corner_normal[3 * ((size_t)job.first + f)];
-            if (!facet_normals(&job, f, n) || !normals_needed(&job, f, n, options)) {
-                memset(n, 0, 3 * sizeof *n);
-            }
+    work->used = mark; /* it keeps none of these */
+    if (!job.unit || !job.mean || !job.corner || !job.start) {
+        return LRCS_E_MEMORY;
+    }
+    /* 1. every index of a normal is checked */
+    for (uint32_t i = 0; mesh->facet_normal && i < 3 * mesh->facet_count; i++) {
+        uint32_t index = mesh->facet_normal[i / 3].corner[i % 3];
+        if (index != LRCS_NONE && index >= mesh->normal_count) {
+            return LRCS_E_INDEX;
         }
     }
-    work->used = mark;
-    return status;
+    /* 2. the facets' own unit normals */
+    for (uint32_t f = 0; f < mesh->facet_count; f++) {
+        double u[3];
+        double v[3];
+        if (side_of(&job, f, 0, 1, u) && side_of(&job, f, 0, 2, v)) {
+            lrcsi_vec3_cross(u, v, job.unit[f].x);
+            make_unit(job.unit[f].x);
+        }
+    }
+    /* 3. the means of smoothing groups, vertex by vertex */
+    corners_by_vertex(&job);
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        vertex_means(&job, v);
+    }
+    /* 4. three normals for each facet, or none */
+    for (uint32_t f = 0; f < mesh->facet_count; f++) {
+        lrcs_point *n = &scene->corner_normal[3 * ((size_t)job.first + f)];
+        if (!facet_normals(&job, f, n) || !normals_needed(&job, f, n, options)) {
+            memset(n, 0, 3 * sizeof *n);
+        }
+    }
+    return LRCS_OK;
 }
