@@ -21,7 +21,9 @@ typedef struct lrcs_surface {
     unsigned char rgb[3]; /* diffuse colour, 0..255 */
     unsigned char has_colour;
     unsigned char two_sided;
-    double transparency; /* 0 opaque .. 1 invisible */
+    unsigned char defined; /* 1: its definition was read: of a 3DS file always, of an OBJ file by
+                              lrcs_mtl_read */
+    double transparency;   /* 0 opaque .. 1 invisible */
 } lrcs_surface;
 
 /* What the reader found and the user should know: bits of lrcs_mesh.notices. */

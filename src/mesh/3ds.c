@@ -138,6 +138,11 @@ static int tds_fill(lrcsi_tds_walk *walk, lrcsi_tds_chunk root, lrcs_work *work)
     uint32_t materials = walk->mesh->material_count;
     int status = lrcsi_index_make(work, materials, &walk->names);
     if (status == LRCS_OK) {
+        uint32_t facets = walk->mesh->facet_count;
+        walk->undefined = lrcsi_work_take_zero(work, facets, sizeof *walk->undefined);
+        status = walk->undefined ? LRCS_OK : LRCS_E_MEMORY;
+    }
+    if (status == LRCS_OK) {
         status = tds_read_all(walk, root, LRCSI_TDS_MATERIAL);
     }
     if (status == LRCS_OK) {

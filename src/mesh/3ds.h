@@ -57,6 +57,8 @@ typedef struct lrcsi_tds_walk {
     char *text;        /* where the next name goes */
     lrcsi_index names; /* materials by the bytes of their names in the file; of equal names the
                           first */
+    unsigned char *undefined; /* facet: 1 if the last of its groups names a material that the file
+                                 does not define */
 } lrcsi_tds_walk;
 
 /* Records where the reader stopped; returns `status`. */

@@ -98,7 +98,7 @@ static int tds_read_transparency(lrcsi_tds_walk *walk, lrcsi_tds_chunk parent,
 
 int lrcsi_tds_read_material(lrcsi_tds_walk *walk, lrcsi_tds_chunk material)
 {
-    lrcs_surface surface = {0};
+    lrcs_surface surface = {.defined = 1};
     lrcsi_span name = {material.at, 0};
     size_t start = material.at;
     lrcsi_tds_chunk chunk;

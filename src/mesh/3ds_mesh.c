@@ -7,10 +7,6 @@
 
 #include "base/bytes.h"
 
-/* Marks, while a mesh is read, a facet whose last group names a material that the file does not
-   define. */
-#define TDS_UNDEFINED (LRCS_NONE - 1)
-
 /* One mesh: its two lists, wherever they are among its chunks, and the index of its first items in
    the whole. */
 typedef struct tds_trimesh {
@@ -77,7 +73,8 @@ static int tds_read_faces(const lrcsi_tds_walk *walk, const tds_trimesh *mesh)
     return LRCS_OK;
 }
 
-/* A material group: the material's name, a count, and that many faces. */
+/* A material group: the material's name, a count, and that many faces. Of two groups with a face in
+   common the last counts. */
 static int tds_read_group(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const tds_trimesh *mesh)
 {
     lrcsi_span name;
@@ -97,8 +94,8 @@ static int tds_read_group(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const tds
     uint32_t material = LRCS_NONE;
     if (walk->mesh) {
         material = lrcsi_index_find(&walk->names, 0, walk->bytes + name.at, name.size);
-        material = material == LRCS_NONE ? TDS_UNDEFINED : material;
     }
+    unsigned char undefined = material == LRCS_NONE;
     for (size_t i = 0; i < count; i++) {
         unsigned face = lrcsi_bytes_u16(walk->bytes + chunk.at + 2 * i);
         if (face >= mesh->face_count) {
@@ -106,25 +103,17 @@ static int tds_read_group(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const tds
                                   "less than the mesh's face count", face);
         }
         if (walk->mesh) {
-            uint32_t *slot = walk->mesh->facet_material + mesh->first_facet + face;
-            if (*slot != LRCS_NONE && *slot != material) {
+            uint32_t *old = walk->mesh->facet_material + mesh->first_facet + face;
+            unsigned char *old_undefined = walk->undefined + mesh->first_facet + face;
+            int in_group = *old != LRCS_NONE || *old_undefined;
+            if (in_group && (*old != material || *old_undefined != undefined)) {
                 walk->notices |= LRCS_MESH_OVERLAPPING_GROUPS;
             }
-            *slot = material;
+            *old = material;
+            *old_undefined = undefined;
         }
     }
     return LRCS_OK;
-}
-
-static int tds_read_smoothing(const lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk,
-                              const tds_trimesh *mesh)
-{
-    int status = lrcsi_tds_check(walk, &chunk, mesh->face_count, 4, "smoothing groups");
-    for (size_t i = 0; status == LRCS_OK && walk->mesh && i < mesh->face_count; i++) {
-        walk->mesh->facet_smooth[mesh->first_facet + i] =
-            lrcsi_bytes_u32(walk->bytes + chunk.at + 4 * i);
-    }
-    return status;
 }
 
 /* 3 x 3 axes, then the origin. */
@@ -140,16 +129,21 @@ static int tds_read_matrix(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk)
     return status;
 }
 
+/* A material group, or the smoothing groups of all faces. */
 static int tds_read_detail(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const tds_trimesh *mesh)
 {
-    switch (chunk.id) {
-    case LRCSI_TDS_GROUP:
+    if (chunk.id == LRCSI_TDS_GROUP) {
         return tds_read_group(walk, chunk, mesh);
-    case LRCSI_TDS_SMOOTHING:
-        return tds_read_smoothing(walk, chunk, mesh);
-    default:
+    }
+    if (chunk.id != LRCSI_TDS_SMOOTHING) {
         return LRCS_OK;
     }
+    int status = lrcsi_tds_check(walk, &chunk, mesh->face_count, 4, "smoothing groups");
+    for (size_t i = 0; status == LRCS_OK && walk->mesh && i < mesh->face_count; i++) {
+        walk->mesh->facet_smooth[mesh->first_facet + i] =
+            lrcsi_bytes_u32(walk->bytes + chunk.at + 4 * i);
+    }
+    return status;
 }
 
 /* Groups and smoothing in their regular place, after the faces in the face list. */
@@ -205,18 +199,6 @@ static int tds_find_lists(lrcsi_tds_walk *walk, lrcsi_tds_chunk parent, tds_trim
     return next;
 }
 
-/* Facets whose group names an undefined material have no material. */
-static void tds_clear_undefined(lrcsi_tds_walk *walk, const tds_trimesh *mesh)
-{
-    for (size_t i = 0; walk->mesh && i < mesh->face_count; i++) {
-        uint32_t *slot = walk->mesh->facet_material + mesh->first_facet + i;
-        if (*slot == TDS_UNDEFINED) {
-            walk->notices |= LRCS_MESH_UNDEFINED_MATERIAL;
-            *slot = LRCS_NONE;
-        }
-    }
-}
-
 int lrcsi_tds_read_trimesh(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const char *name)
 {
     tds_trimesh mesh = {.first_vertex = walk->counts.vertices, .first_facet = walk->counts.facets};
@@ -233,7 +215,11 @@ int lrcsi_tds_read_trimesh(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const ch
     if (status != LRCS_OK) {
         return status;
     }
-    tds_clear_undefined(walk, &mesh);
+    for (size_t i = 0; walk->mesh && i < mesh.face_count; i++) {
+        if (walk->undefined[mesh.first_facet + i]) {
+            walk->notices |= LRCS_MESH_UNDEFINED_MATERIAL;
+        }
+    }
     if (walk->mesh) {
         walk->mesh->part[walk->counts.parts] = name;
     }

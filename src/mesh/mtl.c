@@ -11,10 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Set in `two_sided` while the library is read: the material is defined in it. No material of an
-   OBJ file is two-sided, and the flag's own bit is another. */
-#define MARK_DEFINED 0x80u
-
 typedef struct mtl_walk {
     lrcsi_lines lines;
     lrcs_where *where;
@@ -40,24 +36,6 @@ static int name_matches(const char *bytes, size_t size, const char *name)
         name += length;
     }
     return *name == '\0';
-}
-
-/* "newmtl name": finds the material that the following statements describe. */
-static void enter_definition(mtl_walk *w)
-{
-    const char *name = NULL;
-    size_t size = lrcsi_lines_name(&w->lines, &name);
-    w->current = NULL;
-    w->has_d = 0;
-    for (uint32_t i = 0; w->mesh && i < w->mesh->material_count; i++) {
-        uint32_t k = w->next;
-        w->next = k + 1 < w->mesh->material_count ? k + 1 : 0;
-        if (name_matches(name, size, w->mesh->material[k].name)) {
-            w->current = &w->mesh->material[k];
-            w->current->two_sided |= MARK_DEFINED;
-            return;
-        }
-    }
 }
 
 static double clamp_unit(double x)
@@ -114,18 +92,34 @@ static int read_transparency(mtl_walk *w, int is_d)
     return status;
 }
 
-static int read_definition(mtl_walk *w)
+/* One statement. "newmtl name" finds the material that the following ones describe. */
+static int read_library_statement(mtl_walk *w)
 {
     const char *word = NULL;
     size_t size = lrcsi_lines_word(&w->lines, &word);
-    if (lrcsi_lines_is(word, size, "newmtl")) {
-        enter_definition(w);
-    } else if (lrcsi_lines_is(word, size, "Kd")) {
+    if (lrcsi_lines_is(word, size, "Kd")) {
         return read_diffuse(w);
-    } else if (lrcsi_lines_is(word, size, "d")) {
+    }
+    if (lrcsi_lines_is(word, size, "d")) {
         return read_transparency(w, 1);
-    } else if (lrcsi_lines_is(word, size, "Tr")) {
+    }
+    if (lrcsi_lines_is(word, size, "Tr")) {
         return read_transparency(w, 0);
+    }
+    if (!lrcsi_lines_is(word, size, "newmtl")) {
+        return LRCS_OK;
+    }
+    const char *name = NULL;
+    size = lrcsi_lines_name(&w->lines, &name);
+    w->current = NULL;
+    w->has_d = 0;
+    for (uint32_t i = 0; w->mesh && i < w->mesh->material_count && !w->current; i++) {
+        lrcs_surface *material = &w->mesh->material[w->next];
+        w->next = w->next + 1 < w->mesh->material_count ? w->next + 1 : 0;
+        if (name_matches(name, size, material->name)) {
+            w->current = material;
+            material->defined = 1;
+        }
     }
     return LRCS_OK;
 }
@@ -135,7 +129,7 @@ static int walk_library(const void *bytes, size_t size, lrcs_mesh *mesh, lrcs_wh
     mtl_walk w = {lrcsi_lines_make(bytes, size), where, mesh, NULL, 0, 0};
     int status = LRCS_OK;
     do {
-        status = read_definition(&w);
+        status = read_library_statement(&w);
     } while (status == LRCS_OK && lrcsi_lines_next(&w.lines));
     return status;
 }
@@ -149,13 +143,14 @@ int lrcs_mtl_read(const void *bytes, size_t size, lrcs_mesh *mesh, lrcs_where *w
     if (status != LRCS_OK) {
         return status;
     }
+    for (uint32_t i = 0; i < mesh->material_count; i++) {
+        mesh->material[i].defined = 0;
+    }
     walk_library(bytes, size, mesh, where); /* succeeds, as it did before */
     for (uint32_t i = 0; i < mesh->material_count; i++) {
-        lrcs_surface *surface = &mesh->material[i];
-        if (!(surface->two_sided & MARK_DEFINED)) {
+        if (!mesh->material[i].defined) {
             mesh->notices |= LRCS_MESH_UNDEFINED_MATERIAL;
         }
-        surface->two_sided &= (unsigned char)~MARK_DEFINED;
     }
     return LRCS_OK;
 }

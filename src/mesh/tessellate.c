@@ -11,6 +11,7 @@
 #include "base/dd.h"
 #include "base/work.h"
 #include "mesh/profile.h"
+#include "mesh/store.h"
 
 #define SQRT_HALF   0.70710678118654752440
 #define WALL_SMOOTH 1u /* smoothing group of a curved wall; flat parts are hard */
@@ -97,8 +98,6 @@ static void mesh_facet(lrcs_mesh *mesh, uint32_t a, uint32_t b, uint32_t c, uint
 {
     uint32_t i = mesh->facet_count++;
     mesh->facet[i] = (lrcs_facet){{a, b, c}};
-    mesh->facet_material[i] = LRCS_NONE;
-    mesh->facet_part[i] = 0;
     mesh->facet_smooth[i] = smooth;
 }
 
@@ -401,28 +400,6 @@ lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions
     return lrcsi_profile_reach(&profile);
 }
 
-/* Allocates an empty mesh; returns 0 if there is no room. */
-static int mesh_take(const lrcs_mesh_counts *counts, const char *name, lrcs_work *work,
-                     lrcs_mesh *mesh)
-{
-    mesh->vertex = lrcsi_work_take(work, counts->vertices, sizeof *mesh->vertex);
-    mesh->facet = lrcsi_work_take(work, counts->facets, sizeof *mesh->facet);
-    mesh->facet_material = lrcsi_work_take(work, counts->facets, sizeof *mesh->facet_material);
-    mesh->facet_part = lrcsi_work_take(work, counts->facets, sizeof *mesh->facet_part);
-    mesh->facet_smooth = lrcsi_work_take(work, counts->facets, sizeof *mesh->facet_smooth);
-    mesh->material = lrcsi_work_take(work, 0, sizeof *mesh->material);
-    mesh->part = lrcsi_work_take(work, 1, sizeof *mesh->part);
-    char *text = lrcsi_work_take(work, counts->text_bytes, 1);
-    if (!mesh->vertex || !mesh->facet || !mesh->facet_material || !mesh->facet_part ||
-        !mesh->facet_smooth || !mesh->material || !mesh->part || !text) {
-        return 0;
-    }
-    memcpy(text, name, counts->text_bytes);
-    mesh->part[0] = text;
-    mesh->part_count = 1;
-    return 1;
-}
-
 int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_work *work,
                     lrcs_mesh *mesh, lrcs_curvature *curvature)
 {
@@ -430,12 +407,14 @@ int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lr
         return LRCS_E_ARGUMENT;
     }
     lrcs_mesh_counts counts = lrcsi_tessellate_counts(shape, divisions);
-    lrcs_mesh made = {0};
-    size_t mark = work->used;
-    if (!mesh_take(&counts, lrcs_shape_text(shape->kind), work, &made)) {
-        work->used = mark;
+    lrcs_mesh made;
+    char *name;
+    if (lrcsi_store_take(&counts, work, &made, &name) != LRCS_OK) {
         return LRCS_E_MEMORY;
     }
+    memcpy(name, lrcs_shape_text(shape->kind), counts.text_bytes);
+    made.part[0] = name;
+    made.vertex_count = made.facet_count = 0; /* of those added so far */
     if (shape->kind == LRCS_SHAPE_PLATE) {
         make_plate(shape->size, &made);
     } else if (shape->kind == LRCS_SHAPE_BOX) {
