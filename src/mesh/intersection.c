@@ -12,6 +12,7 @@
 #include "base/constant.h"
 #include "base/exact.h"
 #include "base/range.h"
+#include "base/sort.h"
 #include "base/vec3.h"
 #include "base/work.h"
 #include "mesh/ring.h"
@@ -370,40 +371,8 @@ static int search_prepare(contact_search *search, uint32_t vertex_count, uint32_
     return LRCS_OK;
 }
 
-/* Sinks entry `i` of a heap of n, largest on top. */
-static void sink_found(found_contact *found, size_t i, size_t n)
-{
-    for (size_t child = 2 * i + 1; child < n; child = 2 * i + 1) {
-        if (child + 1 < n && found[child + 1].other > found[child].other) {
-            child++;
-        }
-        if (found[i].other >= found[child].other) {
-            return;
-        }
-        found_contact t = found[i];
-        found[i] = found[child];
-        found[child] = t;
-        i = child;
-    }
-}
-
-/* Heap sort by `other`, in place. */
-static void sort_found(found_contact *found, size_t n)
-{
-    for (size_t i = n / 2; i > 0; i--) {
-        sink_found(found, i - 1, n);
-    }
-    for (size_t last = n; last > 1; last--) {
-        found_contact t = found[0];
-        found[0] = found[last - 1];
-        found[last - 1] = t;
-        sink_found(found, 0, last - 1);
-    }
-}
-
-/* Sorts the contacts by facet, in place, each going to the next free entry of its facet; then by
-   other. */
-static int order_found(const contact_search *search, uint32_t facet_count)
+/* Groups the contacts by facet, in place, each going to the next free entry of its facet. */
+static int group_found(const contact_search *search, uint32_t facet_count)
 {
     found_contact *found = search->found;
     uint32_t *first = search->intersections->first;
@@ -425,10 +394,34 @@ static int order_found(const contact_search *search, uint32_t facet_count)
             *here = found[next[moved.facet]];
             found[next[moved.facet]++] = moved;
         }
-        if (first[f + 1] > first[f]) { /* if nothing was found there is no list either */
-            sort_found(found + first[f], first[f + 1] - first[f]);
-        }
     }
+    return LRCS_OK;
+}
+
+/* The entries of every facet, sorted by the other one. Without the facets' numbers the contacts
+   move down to the mark, where items for the sort and then the entries take their place. */
+static int store_entries(const contact_search *search, uint32_t facet_count, size_t mark)
+{
+    lrcsi_intersections *t = search->intersections;
+    search->work->used = mark;
+    lrcsi_sort_item *item = lrcsi_work_take(search->work, search->count, sizeof *item);
+    search->work->used = mark;
+    t->entry = lrcsi_work_take(search->work, search->count, sizeof *t->entry);
+    if (!item || !t->entry) {
+        return LRCS_E_MEMORY;
+    }
+    for (uint32_t i = 0; i < search->count; i++) {
+        found_contact found = search->found[i];
+        item[i] = (lrcsi_sort_item){found.other, found.kind};
+    }
+    for (uint32_t f = 0; f < facet_count; f++) {
+        lrcsi_sort_items(item + t->first[f], t->first[f + 1] - t->first[f]);
+    }
+    for (uint32_t i = 0; i < search->count; i++) {
+        lrcsi_sort_item sorted = item[i];
+        t->entry[i] = (lrcsi_intersection){sorted.key, sorted.value};
+    }
+    t->count = search->count;
     return LRCS_OK;
 }
 
@@ -471,16 +464,10 @@ int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
         status = join_leaf(&search, leaf);
     }
     if (status == LRCS_OK) {
-        status = order_found(&search, facet_count);
+        status = group_found(&search, facet_count);
     }
-    if (status == LRCS_OK) { /* without the facets' numbers, the contacts move down to the mark */
-        work->used = mark;
-        t.entry = lrcsi_work_take(work, search.count, sizeof *t.entry);
-        for (t.count = 0; t.entry && t.count < search.count; t.count++) {
-            found_contact found = search.found[t.count];
-            t.entry[t.count] = (lrcsi_intersection){found.other, found.kind};
-        }
-        status = t.entry ? LRCS_OK : LRCS_E_MEMORY;
+    if (status == LRCS_OK) {
+        status = store_entries(&search, facet_count, mark);
     }
     if (status != LRCS_OK) {
         work->used = start;

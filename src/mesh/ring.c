@@ -82,12 +82,8 @@ static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint3
             continue;
         }
         const uint32_t *c = facet[f].corner;
-        double p[3];
-        double q[3];
-        lrcsi_vec3_between(vertex[c[0]].x, vertex[c[1]].x, p);
-        lrcsi_vec3_between(vertex[c[0]].x, vertex[c[2]].x, q);
         double cross[3];
-        lrcsi_vec3_cross(p, q, cross);
+        lrcsi_vec3_normal(vertex[c[0]].x, vertex[c[1]].x, vertex[c[2]].x, cross);
         double largest = lrcsi_max(fabs(cross[0]), lrcsi_max(fabs(cross[1]), fabs(cross[2])));
         double scale = largest > 0.0 ? 1.0 / largest : 0.0;
         const float n[3] = {(float)(cross[0] * scale), (float)(cross[1] * scale),

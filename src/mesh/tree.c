@@ -55,19 +55,6 @@ enum { CELL_FACETS = 64, SCALES = 96 };
 #define SLAB_FILTER (64.0 * LRCSI_U)
 #define CONE_MARGIN 0x1p-44
 
-static lrcsi_box empty_box(void)
-{
-    return (lrcsi_box){{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
-}
-
-static void grow_box(lrcsi_box *box, const double low[3], const double high[3])
-{
-    for (int k = 0; k < 3; k++) {
-        box->low[k] = low[k] < box->low[k] ? low[k] : box->low[k];
-        box->high[k] = high[k] > box->high[k] ? high[k] : box->high[k];
-    }
-}
-
 /* ---- the order ---- */
 
 /* The lowest 21 bits, with two zero bits inserted before each. */
@@ -112,15 +99,12 @@ static inline lrcs_point facet_centre(const tree_sort *s, const uint32_t *apex, 
    nothing, if that box is a point. */
 static int sort_along_curve(const tree_sort *s, const uint32_t *apex, uint32_t first, uint32_t end)
 {
-    lrcsi_box all = empty_box();
+    lrcsi_box all = lrcsi_box_empty();
     for (uint32_t i = first; i < end; i++) {
         s->centre[i] = facet_centre(s, apex, i);
-        grow_box(&all, s->centre[i].x, s->centre[i].x);
+        lrcsi_box_add(&all, s->centre[i].x);
     }
-    double side = 0.0;
-    for (int k = 0; k < 3; k++) {
-        side = fmax(side, all.high[k] - all.low[k]);
-    }
+    double side = lrcsi_box_side(&all);
     if (!(side > 0.0)) {
         return 0;
     }
@@ -208,7 +192,7 @@ static void fill_leaf(const tree_sort *s, const uint32_t *label, const lrcsi_tre
     uint32_t first = b * TREE_LANES;
     uint32_t common = label ? label[s->order[first]] : LRCS_NONE;
     for (uint32_t lane = 0; lane < TREE_LANES; lane++) {
-        lrcsi_box box = empty_box();
+        lrcsi_box box = lrcsi_box_empty();
         if (lane < tree->count - first) {
             uint32_t f = s->order[first + lane];
             box = lrcsi_box_of(s->vertex, &s->facet[f]);
@@ -242,7 +226,7 @@ static void fill_block(const lrcsi_tree *tree, int level, uint32_t b)
     uint32_t first = b * TREE_LANES;
     uint32_t common = tree->label[level - 1][first];
     for (uint32_t lane = 0; lane < TREE_LANES; lane++) {
-        lrcsi_box box = empty_box();
+        lrcsi_box box = lrcsi_box_empty();
         if (lane < tree->blocks[level - 1] - first) {
             box = block_box(&tree->block[level - 1][first + lane]);
             common = tree->label[level - 1][first + lane] == common ? common : LRCS_NONE;
@@ -318,15 +302,9 @@ int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t 
    scaled so that the largest component is 1. */
 static void add_normal(const lrcs_point *vertex, const lrcs_facet *facet, double direction[3])
 {
-    const double *a = vertex[facet->corner[0]].x;
-    const double *b = vertex[facet->corner[1]].x;
-    const double *c = vertex[facet->corner[2]].x;
-    double p[3];
-    double q[3];
     double n[3];
-    lrcsi_vec3_between(a, b, p);
-    lrcsi_vec3_between(a, c, q);
-    lrcsi_vec3_cross(p, q, n);
+    lrcsi_vec3_normal(vertex[facet->corner[0]].x, vertex[facet->corner[1]].x,
+                      vertex[facet->corner[2]].x, n);
     double along = lrcsi_vec3_dot(n, direction);
     double largest = lrcsi_max(fabs(n[0]), lrcsi_max(fabs(n[1]), fabs(n[2])));
     double scale = largest > 0x1p-1000 ? (along < 0.0 ? -1.0 : 1.0) / largest : 0.0;

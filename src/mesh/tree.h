@@ -7,14 +7,10 @@
 #include <lrcs/mesh.h>
 
 #include "base/bits.h"
-#include "base/range.h"
+#include "mesh/box.h"
 
 /* Boxes per block, and the largest number of levels (for 2^32 facets). */
 enum { LRCSI_TREE_LANES = 8, LRCSI_TREE_LEVELS = 11 };
-
-typedef struct lrcsi_box {
-    double low[3], high[3];
-} lrcsi_box;
 
 /* Eight boxes in structure of arrays; lanes without one have low > high. */
 typedef struct lrcsi_tree_block {
@@ -71,20 +67,6 @@ typedef struct lrcsi_tree_walk {
     uint32_t at[LRCSI_TREE_LEVELS];
     unsigned mask[LRCSI_TREE_LEVELS];
 } lrcsi_tree_walk;
-
-/* The box around a facet. */
-static inline lrcsi_box lrcsi_box_of(const lrcs_point *vertex, const lrcs_facet *facet)
-{
-    const double *a = vertex[facet->corner[0]].x;
-    const double *b = vertex[facet->corner[1]].x;
-    const double *c = vertex[facet->corner[2]].x;
-    lrcsi_box box;
-    for (int k = 0; k < 3; k++) {
-        box.low[k] = lrcsi_min(lrcsi_min(a[k], b[k]), c[k]);
-        box.high[k] = lrcsi_max(lrcsi_max(a[k], b[k]), c[k]);
-    }
-    return box;
-}
 
 /* A lane's box. */
 static inline lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t lane)

@@ -54,16 +54,13 @@
 static double mesh_facet_area(const lrcs_mesh *mesh, uint32_t f)
 {
     const uint32_t *corner = mesh->facet[f].corner;
-    double p[3];
-    double q[3];
     if (corner[0] >= mesh->vertex_count || corner[1] >= mesh->vertex_count ||
         corner[2] >= mesh->vertex_count) {
         return 0.0;
     }
     double n[3];
-    lrcsi_vec3_between(mesh->vertex[corner[0]].x, mesh->vertex[corner[1]].x, p);
-    lrcsi_vec3_between(mesh->vertex[corner[0]].x, mesh->vertex[corner[2]].x, q);
-    lrcsi_vec3_cross(p, q, n);
+    lrcsi_vec3_normal(mesh->vertex[corner[0]].x, mesh->vertex[corner[1]].x,
+                      mesh->vertex[corner[2]].x, n);
     return 0.5 * sqrt(lrcsi_vec3_dot(n, n));
 }
 

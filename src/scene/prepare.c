@@ -11,6 +11,7 @@
 #include "base/ieee.h"
 #include "base/range.h"
 #include "base/work.h"
+#include "mesh/box.h"
 #include "mesh/tree.h"
 #include "scene/batch.h"
 #include "scene/bulk.h"
@@ -94,18 +95,16 @@ static void find_live(lrcs_prepared *p)
 /* The box around the live facets, and that around the bulk of the vertices. */
 static void find_box(lrcs_prepared *p)
 {
-    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    lrcsi_box box = lrcsi_box_empty();
     double half[3] = {0, 0, 0};
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
-        for (int k = 0; k < 3 && p->referenced[v]; k++) {
-            low[k] = lrcsi_min(low[k], p->vertex[v].x[k]);
-            high[k] = lrcsi_max(high[k], p->vertex[v].x[k]);
+        if (p->referenced[v]) {
+            lrcsi_box_add(&box, p->vertex[v].x);
         }
     }
     for (int k = 0; k < 3 && p->live > 0; k++) {
-        p->centre[k] = 0.5 * (low[k] + high[k]);
-        half[k] = fmax(high[k] - p->centre[k], p->centre[k] - low[k]);
+        p->centre[k] = 0.5 * (box.low[k] + box.high[k]);
+        half[k] = fmax(box.high[k] - p->centre[k], p->centre[k] - box.low[k]);
         p->radius = fmax(p->radius, half[k]);
     }
     lrcsi_bulk_find(p, half);
