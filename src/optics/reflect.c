@@ -126,15 +126,21 @@ static double term_error_bound(const reflect_term *term, double term_bound)
     return 2.0 * fmax(term->value, term_bound) + 0x1p-1000;
 }
 
+double lrcsi_reflect_glint_root(double s)
+{
+    double s2 = s * s;
+    return s2 > 0.5 ? 2.0 * s2 * lrcsi_exp(-1.0 + 0.5 / s2) : 1.0;
+}
+
 /* Where the first-order error is not valid, there are two cases.
    1. tan^2 is exact, and the glint so small that only underflow affects it: it bounds its own
       error. For these A a value of at most 2^-900 has q < 2^-200. Then (A q) q has errors of
       2^-1074 q and 2^-1074, and a q below 2^-1022, which is accurate to 2^-1074, causes an error of
       2^-1071. `relative` is above 1 only if both the true and the computed value are negligible.
       All of this is below 2^-1000.
-   2. Else a bound on the glint anywhere takes its place: its peak at 1 + u = 2 s^2 if s^2 > 1/2. If
-      e <= 1/4, u is in [tan2 / (1 + e), tan2 / (1 - e)] (else it may have any value), and over that
-      interval (1 + u)^2 is largest at its upper end, the exponential at its lower. */
+   2. Else a bound on the glint anywhere takes its place. If e <= 1/4, u is in [tan2 / (1 + e),
+      tan2 / (1 - e)] (else it may have any value), and over that interval (1 + u)^2 is largest at
+      its upper end, the exponential at its lower. */
 static double glint_error(const lrcs_brdf *brdf, const reflect_term *glint, double tan2, double e)
 {
     if (first_order_holds(glint, e)) {
@@ -143,8 +149,7 @@ static double glint_error(const lrcs_brdf *brdf, const reflect_term *glint, doub
     if (e == 0.0 && glint->value <= 0x1p-900 && brdf->A >= 0x1p-500) {
         return term_error_bound(glint, glint->value);
     }
-    double s2 = brdf->s * brdf->s;
-    double q = s2 > 0.5 ? 2.0 * s2 * lrcsi_exp(-1.0 + 0.5 / s2) : 1.0;
+    double q = lrcsi_reflect_glint_root(brdf->s);
     double high = e <= 0.25 ? tan2 / (1.0 - e) : HUGE_VAL;
     if (isfinite(high)) {
         double low = tan2 / (1.0 + e);
