@@ -7,7 +7,7 @@
        F(N) = F(n) + grad F . t + R,  |R| <= gamma^2/2 second       (optics/deviation.c)
    and, since t sin(gamma)/gamma is the part of N perpendicular to n,
        |grad F . t - grad F . N| <= |grad F| (gamma - sin gamma) <= |grad F| gamma^3/6.
-   With e_x, e_y and the numbers of lrcsi_profile_normals, let
+   With e_x, e_y and the numbers of lrcsi_revolution_normals, let
        l = m + G . (y - c),   G = across (grad F . e_x) e_x + along (grad F . e_y) e_y,
    y the image of the point on the facets, c their centroid, and m the mean of F over the patch. The
    map of points to images stretches area evenly, so that G . (y - c) has mean 0 over the patch. Let
@@ -50,6 +50,7 @@
 #include "base/elementary.h"
 #include "base/length.h"
 #include "base/range.h"
+#include "mesh/revolution_normals.h"
 
 /* One term of F: dF/dc, a bound on its error, and its derivative in s or m. */
 typedef struct linear_term {
@@ -98,7 +99,7 @@ static void to_view(const lrcsi_view *view, const lrcs_part *part, const double 
 
 /* Makes e_x, e_y and n in the axes of the view. */
 static void axes_make(const lrcsi_view *view, const lrcsi_patch *patch, double half,
-                      const lrcsi_profile_normals *normals, double e[3][3])
+                      const lrcsi_revolution_normals *normals, double e[3][3])
 {
     const lrcs_part *part = &view->prepared->scene->part[patch->part];
     double phi = (2.0 * patch->at.sector + 1.0) * half;
@@ -174,14 +175,14 @@ int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi
 {
     const lrcs_part *part = &view->prepared->scene->part[patch->part];
     const double a = curvature->area_err;
-    lrcsi_profile profile = lrcsi_profile_make(&part->shape, &part->divisions);
-    lrcsi_profile_normals normals = lrcsi_profile_normals_make(&profile, patch->at.row);
+    lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
+    lrcsi_revolution_normals normals = lrcsi_revolution_normals_make(&body, patch->at.row);
     double unit = ldexp(part->unit, -view->prepared->exponent);
     linear_patch at = {
         .scale = {normals.across / unit, normals.along / unit},
         .reach = {normals.across * normals.width, fabs(normals.along) * normals.length}};
     linear_term term[2];
-    axes_make(view, patch, profile.half, &normals, at.e); /* 1 */
+    axes_make(view, patch, body.half, &normals, at.e); /* 1 */
     at.toward[0] = patch->side * at.e[0][2];
     at.toward[1] = patch->side * at.e[1][2];
     at.c = patch->side * at.e[2][2];

@@ -2,7 +2,7 @@
 /* Contacts between all facets. Pairs are tested (mesh/intersection_pair.h) if
 
    - their boxes intersect: the tree of boxes is joined with itself, leaf by leaf (mesh/tree.h);
-   - they have no corner in common whose ring is proved (mesh/ring.h).
+   - they have no corner in common whose fan is proved (mesh/fan.h).
 
    All other pairs meet at most in corners of both or along a side of both. */
 #include "mesh/intersection.h"
@@ -15,8 +15,9 @@
 #include "base/sort.h"
 #include "base/vec3.h"
 #include "base/work.h"
-#include "mesh/ring.h"
-#include "mesh/tree.h"
+#include "mesh/fan.h"
+#include "mesh/tree_bounds.h"
+#include "mesh/tree_walk.h"
 
 enum { LEAF_LANES = LRCSI_TREE_LANES };
 
@@ -27,10 +28,10 @@ enum { LEAF_LANES = LRCSI_TREE_LANES };
 enum { MANY_PAIRS = 16, SOME_LEAVES = 8, LEAVES_APART = 4 };
 
 /* When leaves are also compared by slabs. If the box of a leaf intersects more than MANY_LEAVES
-   others, the rest of them are compared by slabs too; if slabs then separate at least BLOCKS_APART
-   blocks from it, the next leaf is compared by slabs from the start. The slabs of the tree are
+   others, the rest of them are compared by slabs too; if slabs then separate at least NODES_APART
+   nodes from it, the next leaf is compared by slabs from the start. The slabs of the tree are
    filled once such leaves have intersected FILL_COST times as many others as there are leaves. */
-enum { MANY_LEAVES = 16, BLOCKS_APART = 8, FILL_COST = 8 };
+enum { MANY_LEAVES = 16, NODES_APART = 8, FILL_COST = 8 };
 
 /* 8 u: see slab_separates; heights are within 4 u, and what is added to them rounds by 2 u. */
 #define CORNER_FILTER (8.0 * LRCSI_U)
@@ -53,14 +54,14 @@ typedef struct contact_search {
     const lrcs_point *vertex;
     const lrcs_facet *facet;
     const uint32_t *piece; /* or NULL */
-    unsigned char *proved; /* welded vertex: 1 if its ring is proved */
+    unsigned char *proved; /* welded vertex: 1 if its fan is proved */
     lrcsi_tree tree;
     search_leaf *leaf;
     uint64_t excess;      /* leaves that were met beyond the first MANY_LEAVES of a leaf, in all */
     lrcsi_tree_slab slab; /* of the leaf slab_of */
     uint32_t slab_of;     /* LRCS_NONE: of none yet */
     int leaves_apart;     /* leaves that the slab of the last leaf separated from it */
-    int slabs_pay;        /* slabs separated at least BLOCKS_APART blocks from the last leaf */
+    int slabs_pay;        /* slabs separated at least NODES_APART nodes from the last leaf */
     found_contact *found; /* above the tree in the work area */
     uint32_t count;
     lrcs_work *work;
@@ -166,10 +167,10 @@ static int pair_store(contact_search *search, uint32_t facet, const lrcsi_pair_f
 
 /* ---- the tree joined with itself ---- */
 
-/* The lanes of a leaf whose facets have a corner with a proved ring in common with the facet in a
+/* The lanes of a leaf whose facets have a corner with a proved fan in common with the facet in a
    lane of `own`. */
-static inline unsigned lanes_in_ring(const contact_search *search, const search_leaf *own,
-                                     uint32_t lane, const search_leaf *leaf)
+static inline unsigned lanes_in_fan(const contact_search *search, const search_leaf *own,
+                                    uint32_t lane, const search_leaf *leaf)
 {
     static const uint32_t lane_bit[LEAF_LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
     const uint32_t corner[3] = {own->corner[0][lane], own->corner[1][lane], own->corner[2][lane]};
@@ -197,16 +198,16 @@ static lrcsi_pair_facet facet_of_lane(const contact_search *search, const search
 }
 
 /* Tests the facet in a lane of leaf `own` against those in `lanes` of another leaf, which may be
-   the same: unless they are in a common ring, which most neighbours are, or their boxes are
+   the same: unless they are in a common fan, which most neighbours are, or their boxes are
    disjoint. */
 static int join_lanes(contact_search *search, uint32_t own, uint32_t lane, uint32_t leaf,
                       unsigned lanes)
 {
     const lrcsi_tree *tree = &search->tree;
-    lanes &= ~lanes_in_ring(search, &search->leaf[own], lane, &search->leaf[leaf]);
+    lanes &= ~lanes_in_fan(search, &search->leaf[own], lane, &search->leaf[leaf]);
     if (lanes != 0) {
-        lrcsi_box box = lrcsi_tree_box(&tree->block[0][own], lane);
-        lanes &= lrcsi_tree_meets(&tree->block[0][leaf], &box);
+        lrcsi_box box = lrcsi_tree_box(&tree->node[0][own], lane);
+        lanes &= lrcsi_tree_meets(&tree->node[0][leaf], &box);
     }
     if (lanes == 0) {
         return LRCS_OK;
@@ -270,13 +271,13 @@ static int slab_separates(contact_search *search, uint32_t own, uint32_t leaf, u
 static int join_leaves(contact_search *search, int by_slab, uint32_t first, uint32_t second)
 {
     const lrcsi_tree *tree = &search->tree;
-    lrcsi_box box = lrcsi_tree_box(&tree->block[1][second / LEAF_LANES], second % LEAF_LANES);
-    unsigned rows = lrcsi_tree_meets(&tree->block[0][first], &box);
+    lrcsi_box box = lrcsi_tree_box(&tree->node[1][second / LEAF_LANES], second % LEAF_LANES);
+    unsigned rows = lrcsi_tree_meets(&tree->node[0][first], &box);
     unsigned columns = 0xff;
     int status = LRCS_OK;
     if ((rows & (rows - 1)) != 0) { /* for a single one, comparing its own box is as good */
-        box = lrcsi_tree_box(&tree->block[1][first / LEAF_LANES], first % LEAF_LANES);
-        columns = lrcsi_tree_meets(&tree->block[0][second], &box);
+        box = lrcsi_tree_box(&tree->node[1][first / LEAF_LANES], first % LEAF_LANES);
+        columns = lrcsi_tree_meets(&tree->node[0][second], &box);
     }
     if (by_slab && count_lanes(rows) * count_lanes(columns) >= MANY_PAIRS &&
         slab_separates(search, first, second, columns)) {
@@ -297,24 +298,24 @@ static int join_leaves(contact_search *search, int by_slab, uint32_t first, uint
     return status;
 }
 
-/* Tests all pairs of a leaf's facets, unless all are in one proved ring, and its facets against
+/* Tests all pairs of a leaf's facets, unless all are in one proved fan, and its facets against
    those of leaves that come after it. */
 static int join_leaf(contact_search *search, uint32_t leaf)
 {
     lrcsi_tree *tree = &search->tree;
     lrcsi_tree_walk walk = lrcsi_tree_after(tree, leaf);
     uint32_t apex = tree->label[0][leaf];
-    int in_ring = apex != LRCS_NONE && search->proved[apex];
+    int in_fan = apex != LRCS_NONE && search->proved[apex];
     int status = LRCS_OK;
     uint32_t left = tree->count - leaf * LEAF_LANES;
     unsigned lanes = left < LEAF_LANES ? (1u << left) - 1 : 0xff;
-    for (uint32_t lane = 0; lanes >> lane > 1 && !in_ring && status == LRCS_OK; lane++) {
+    for (uint32_t lane = 0; lanes >> lane > 1 && !in_fan && status == LRCS_OK; lane++) {
         status = join_lanes(search, leaf, lane, leaf, lanes & (~1u << lane));
     }
-    if (!in_ring) {
+    if (!in_fan) {
         walk.without = LRCS_NONE;
     }
-    if (apex != LRCS_NONE && !in_ring) {
+    if (apex != LRCS_NONE && !in_fan) {
         lrcsi_tree_narrow_by_cones(&walk, leaf);
     }
     if (search->slabs_pay) {
@@ -325,7 +326,7 @@ static int join_leaf(contact_search *search, uint32_t leaf)
     search->leaves_apart = 0;
     for (int met = 0; status == LRCS_OK && (other = lrcsi_tree_next(&walk)) != LRCS_NONE; met++) {
         search->excess += met >= MANY_LEAVES;
-        if (!tree->has_slabs && search->excess > (uint64_t)FILL_COST * tree->blocks[0]) {
+        if (!tree->has_slabs && search->excess > (uint64_t)FILL_COST * tree->nodes[0]) {
             lrcsi_tree_fill_slabs(search->vertex, search->facet, tree);
         }
         if (tree->has_slabs && met == MANY_LEAVES && walk.leaf == LRCS_NONE) {
@@ -333,13 +334,13 @@ static int join_leaf(contact_search *search, uint32_t leaf)
         }
         status = join_leaves(search, met >= slab_from, leaf, other);
     }
-    search->slabs_pay = walk.apart >= BLOCKS_APART;
+    search->slabs_pay = walk.apart >= NODES_APART;
     return status;
 }
 
 /* ---- the whole search ---- */
 
-/* Proves rings, builds the tree, and fills its leaves. */
+/* Proves fans, builds the tree, and fills its leaves. */
 static int search_prepare(contact_search *search, uint32_t vertex_count, uint32_t facet_count,
                           const lrcsi_topology *topology, const unsigned char *skip)
 {
@@ -350,13 +351,13 @@ static int search_prepare(contact_search *search, uint32_t vertex_count, uint32_
     if (!search->proved || !apex) {
         return LRCS_E_MEMORY;
     }
-    int status = lrcsi_rings_prove(search->vertex, vertex_count, search->facet, facet_count,
-                                   topology, skip, work, search->proved, apex);
+    int status = lrcsi_fans_prove(search->vertex, vertex_count, search->facet, facet_count,
+                                  topology, skip, work, search->proved, apex);
     if (status == LRCS_OK) {
         status =
             lrcsi_tree_make(search->vertex, search->facet, facet_count, skip, apex, 1, work, tree);
     }
-    search->leaf = lrcsi_work_take(work, tree->blocks[0], sizeof *search->leaf);
+    search->leaf = lrcsi_work_take(work, tree->nodes[0], sizeof *search->leaf);
     if (status != LRCS_OK || !search->leaf) {
         return LRCS_E_MEMORY;
     }
@@ -431,13 +432,13 @@ size_t lrcsi_intersection_need(uint32_t vertex_count, uint32_t facet_count, size
     need = lrcsi_work_add(need, lrcsi_work_bytes(facet_count, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(vertex_count, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
-    size_t rings = lrcsi_rings_need(vertex_count);
+    size_t fans = lrcsi_fans_need(vertex_count);
     size_t search = lrcsi_tree_need(facet_count);
     search =
         lrcsi_work_add(search, lrcsi_work_bytes(facet_count / LEAF_LANES + 1, sizeof(search_leaf)));
     search = lrcsi_work_add(
         search, lrcsi_work_bytes(lrcsi_work_add(count, FOUND_BLOCK), sizeof(found_contact)));
-    return lrcsi_work_add(need, rings > search ? rings : search);
+    return lrcsi_work_add(need, fans > search ? fans : search);
 }
 
 int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
@@ -460,7 +461,7 @@ int lrcsi_intersection_make(const lrcs_point *vertex, uint32_t vertex_count,
     int status = t.first && t.met
                      ? search_prepare(&search, vertex_count, facet_count, topology, skip)
                      : LRCS_E_MEMORY;
-    for (uint32_t leaf = 0; status == LRCS_OK && leaf < search.tree.blocks[0]; leaf++) {
+    for (uint32_t leaf = 0; status == LRCS_OK && leaf < search.tree.nodes[0]; leaf++) {
         status = join_leaf(&search, leaf);
     }
     if (status == LRCS_OK) {

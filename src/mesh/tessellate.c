@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A shape's facet mesh, row by row from the base up. profile.c decides the positions of the rows
+/* A shape's facet mesh, row by row from the base up. revolution.c decides the positions of the rows
    and proves their errors; this file places vertices and joins them. Azimuths are exact fractions
    of a turn, folded to an eighth of it, so that the mesh has the exact symmetry of its polygon. */
 #include "mesh/tessellate.h"
@@ -10,16 +10,16 @@
 #include "base/constant.h"
 #include "base/dd.h"
 #include "base/work.h"
-#include "mesh/profile.h"
+#include "mesh/revolution.h"
 #include "mesh/store.h"
 
 #define SQRT_HALF   0.70710678118654752440
 #define WALL_SMOOTH 1u /* smoothing group of a curved wall; flat parts are hard */
 
-/* A disc of many sides is not a fan of slivers that all meet at its centre. Instead it is divided
-   into rings, each with about an eighth of the sides of the ring outside it. */
-#define RING_SIDES_MIN 64u /* a polygon with this many sides or more gets a ring inside */
-#define RINGS_MAX      10
+/* A disc of many sides is not a fan of slivers that all meet at its centre. Instead it has rows
+   inside, each with about an eighth of the sides of the row around it. */
+#define INNER_SIDES_MIN 64u /* a polygon with this many sides or more gets a row inside */
+#define INNER_ROWS_MAX  10
 
 /* A mesh under construction: the last row placed, and the direction of z. */
 typedef struct row_builder {
@@ -113,7 +113,7 @@ static void row_facet(const row_builder *row, uint32_t a, uint32_t b, uint32_t c
 
 /* The corner of a polygon with `few` corners that is nearest to the middle of side k of one with
    `many`. */
-static uint32_t ring_nearest(uint32_t k, uint32_t many, uint32_t few)
+static uint32_t row_nearest(uint32_t k, uint32_t many, uint32_t few)
 {
     return (uint32_t)(((2 * (uint64_t)k + 1) * few + many) / (2 * (uint64_t)many)) % few;
 }
@@ -131,8 +131,8 @@ static void row_join_unequal(const row_builder *row, uint32_t first, uint32_t co
     uint32_t inner = inward ? first : row->first;
     for (uint32_t k = 0; k < many; k++) {
         uint32_t next = k + 1 < many ? k + 1 : 0;
-        uint32_t at = ring_nearest(k, many, few);
-        uint32_t then = ring_nearest(next, many, few);
+        uint32_t at = row_nearest(k, many, few);
+        uint32_t then = row_nearest(next, many, few);
         uint32_t a = outer + k;
         uint32_t b = outer + next;
         row_facet(row, inward ? a : b, inward ? b : a, inner + at);
@@ -181,29 +181,30 @@ static void row_add(row_builder *row, double r, double z, uint32_t count)
     row->count = count;
 }
 
-/* The rings inside a polygon of `around` sides, the widest first: their numbers of corners, and
-   their radii as fractions of the polygon's. A ring is half as wide as its own sides are long.
-   Returns the number of rings. */
-static int list_rings(uint32_t around, uint32_t corners[RINGS_MAX], double radius[RINGS_MAX])
+/* The rows inside a polygon of `around` sides, the widest first: their numbers of corners, and
+   their radii as fractions of the polygon's. A row is half as far inside the one around it as its
+   own sides are long. Returns the number of rows. */
+static int list_inner_rows(uint32_t around, uint32_t corners[INNER_ROWS_MAX],
+                           double radius[INNER_ROWS_MAX])
 {
-    int rings = 0;
+    int rows = 0;
     double r = 1.0;
-    while (around >= RING_SIDES_MIN && rings < RINGS_MAX) {
+    while (around >= INNER_SIDES_MIN && rows < INNER_ROWS_MAX) {
         around = 4 * ((around + 16) / 32);
         r *= 1.0 - LRCS_PI / around;
-        corners[rings] = around;
-        radius[rings++] = r;
+        corners[rows] = around;
+        radius[rows++] = r;
     }
-    return rings;
+    return rows;
 }
 
 /* Fills the disc from the last row, a polygon of radius r, to its centre. */
 static void disc_close(row_builder *row, double r, double z)
 {
-    uint32_t corners[RINGS_MAX];
-    double radius[RINGS_MAX];
-    int rings = list_rings(row->count, corners, radius);
-    for (int i = 0; i < rings; i++) {
+    uint32_t corners[INNER_ROWS_MAX];
+    double radius[INNER_ROWS_MAX];
+    int rows = list_inner_rows(row->count, corners, radius);
+    for (int i = 0; i < rows; i++) {
         row_add(row, r * radius[i], z, corners[i]);
     }
     row_add(row, 0.0, z, 1);
@@ -212,34 +213,34 @@ static void disc_close(row_builder *row, double r, double z)
 /* The same from the centre out to a polygon of `around` corners, which is then the last row. */
 static void disc_open(row_builder *row, double r, double z, uint32_t around)
 {
-    uint32_t corners[RINGS_MAX];
-    double radius[RINGS_MAX];
+    uint32_t corners[INNER_ROWS_MAX];
+    double radius[INNER_ROWS_MAX];
     row_add(row, 0.0, z, 1);
-    for (int i = list_rings(around, corners, radius); i > 0; i--) {
+    for (int i = list_inner_rows(around, corners, radius); i > 0; i--) {
         row_add(row, r * radius[i - 1], z, corners[i - 1]);
     }
     row_add(row, r, z, around);
 }
 
-/* Adds rows 1 .. strips of the wall above the last row, which is at z = 0. */
-static double wall_add(row_builder *row, const lrcsi_profile *profile, int apex)
+/* Adds rows 1 .. rings of the wall above the last row, which is at z = 0. */
+static double wall_add(row_builder *row, const lrcsi_revolution *body, int apex)
 {
     uint32_t around = row->count;
     lrcsi_dd z = {0.0, 0.0};
-    for (uint32_t i = 0; i < profile->strips; i++) {
-        z = lrcsi_dd_add(z, (lrcsi_dd){lrcsi_profile_rise(profile, i), 0.0});
-        int last = i + 1 == profile->strips;
-        row_add(row, profile->vertex_ratio * lrcsi_profile_radius(profile, i + 1),
-                lrcsi_dd_value(z), last && apex ? 1 : around);
+    for (uint32_t i = 0; i < body->rings; i++) {
+        z = lrcsi_dd_add(z, (lrcsi_dd){lrcsi_revolution_rise(body, i), 0.0});
+        int last = i + 1 == body->rings;
+        row_add(row, body->vertex_ratio * lrcsi_revolution_radius(body, i + 1), lrcsi_dd_value(z),
+                last && apex ? 1 : around);
     }
     return lrcsi_dd_value(z);
 }
 
 static void revolve(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_mesh *mesh)
 {
-    lrcsi_profile profile = lrcsi_profile_make(shape, divisions);
+    lrcsi_revolution body = lrcsi_revolution_make(shape, divisions);
     uint32_t caps = shape_caps(shape);
-    double base = profile.vertex_ratio * profile.base;
+    double base = body.vertex_ratio * body.base;
     row_builder row = {mesh, 0, 0, 1.0, 0};
     if (caps > 0) {
         disc_open(&row, base, 0.0, divisions->around);
@@ -248,18 +249,18 @@ static void revolve(const lrcs_shape *shape, const lrcs_divisions *divisions, lr
     }
     uint32_t rim = row.first;
     row.smooth = WALL_SMOOTH;
-    double top = wall_add(&row, &profile, shape_has_apex(shape));
+    double top = wall_add(&row, &body, shape_has_apex(shape));
     if (shape->kind == LRCS_SHAPE_SPHERE) {
         row.first = rim;
         row.count = divisions->around;
         row.mirror = -1.0;
-        wall_add(&row, &profile, 1);
+        wall_add(&row, &body, 1);
     }
     row.smooth = 0;
     if (caps == 2 || shape->kind == LRCS_SHAPE_DISC) {
         double r = shape->kind == LRCS_SHAPE_DISC
                        ? base
-                       : profile.vertex_ratio * lrcsi_profile_radius(&profile, profile.strips);
+                       : body.vertex_ratio * lrcsi_revolution_radius(&body, body.rings);
         disc_close(&row, r, top);
     }
 }
@@ -290,16 +291,16 @@ static void make_box(const double size[3], lrcs_mesh *mesh)
     }
 }
 
-/* Vertices inside a disc's rim, and its facets: each ring adds as many facets as its two rows have
-   corners, the centre as many as the last row. */
+/* Vertices inside a disc's rim, and its facets: each row adds as many facets as it and the
+   row around it have corners, the centre as many as the last row. */
 static void disc_counts(uint32_t around, uint64_t *vertices, uint64_t *facets)
 {
-    uint32_t corners[RINGS_MAX];
-    double radius[RINGS_MAX];
-    int rings = list_rings(around, corners, radius);
+    uint32_t corners[INNER_ROWS_MAX];
+    double radius[INNER_ROWS_MAX];
+    int rows = list_inner_rows(around, corners, radius);
     *vertices = 1;
     *facets = around;
-    for (int i = 0; i < rings; i++) {
+    for (int i = 0; i < rows; i++) {
         *vertices += corners[i];
         *facets += 2 * (uint64_t)corners[i];
     }
@@ -310,21 +311,21 @@ static void revolved_counts(const lrcs_shape *shape, const lrcs_divisions *divis
                             uint64_t *vertices, uint64_t *facets)
 {
     uint64_t around = divisions->around;
-    uint64_t strips = shape->kind == LRCS_SHAPE_DISC ? 0 : divisions->along;
+    uint64_t rings = shape->kind == LRCS_SHAPE_DISC ? 0 : divisions->along;
     uint64_t caps = shape_caps(shape) + (shape->kind == LRCS_SHAPE_DISC ? 1u : 0u);
     uint64_t apex = shape_has_apex(shape) ? 1 : 0;
     uint64_t inside = 0;
     uint64_t cap = 0;
     disc_counts(divisions->around, &inside, &cap);
-    *vertices = around * (1 + strips - apex) + apex + caps * inside;
-    *facets = around * (2 * strips - apex) + caps * cap;
+    *vertices = around * (1 + rings - apex) + apex + caps * inside;
+    *facets = around * (2 * rings - apex) + caps * cap;
     if (shape->kind == LRCS_SHAPE_SPHERE) {
         *vertices = 2 * *vertices - around;
         *facets *= 2;
     }
 }
 
-/* The facets of a wall follow those of the cap below it, strip by strip and sector by sector. */
+/* The facets of a wall follow those of the cap below it, ring by ring and sector by sector. */
 int lrcsi_tessellate_patch(const lrcs_shape *shape, const lrcs_divisions *divisions, uint32_t facet,
                            lrcsi_wall_patch *patch)
 {
@@ -387,8 +388,8 @@ lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_di
     if (shape_is_plane_faced(shape)) {
         return (lrcs_curvature){0.0, 0.0, 0.0, 0.0};
     }
-    lrcsi_profile profile = lrcsi_profile_make(shape, divisions);
-    return lrcsi_profile_curvature(&profile);
+    lrcsi_revolution body = lrcsi_revolution_make(shape, divisions);
+    return lrcsi_revolution_curvature(&body);
 }
 
 lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions)
@@ -396,8 +397,8 @@ lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions
     if (shape_is_plane_faced(shape)) {
         return (lrcsi_reach){.all = 0.0};
     }
-    lrcsi_profile profile = lrcsi_profile_make(shape, divisions);
-    return lrcsi_profile_reach(&profile);
+    lrcsi_revolution body = lrcsi_revolution_make(shape, divisions);
+    return lrcsi_revolution_reach(&body);
 }
 
 int lrcs_shape_mesh(const lrcs_shape *shape, const lrcs_divisions *divisions, lrcs_work *work,

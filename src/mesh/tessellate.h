@@ -3,7 +3,7 @@
 #ifndef LRCSI_TESSELLATE_H
 #define LRCSI_TESSELLATE_H
 
-#include "mesh/profile.h"
+#include "mesh/revolution_reach.h"
 
 /* The largest numbers of sectors and of rings (lrcs_divisions). */
 #define LRCSI_AROUND_MAX (1u << 24)
@@ -19,13 +19,13 @@ lrcs_mesh_counts lrcsi_tessellate_counts(const lrcs_shape *shape, const lrcs_div
 /* The curvature that lrcs_shape_mesh will report. O(along). */
 lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
-/* The distances of lrcsi_profile_reach; 0 for plate and box. O(along). */
+/* The distances of lrcsi_revolution_reach; 0 for plate and box. O(along). */
 lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
 /* The part of the true surface that a facet of a wall represents: all of it between two rows and
    two half-planes through the axis. */
 typedef struct lrcsi_wall_patch {
-    uint32_t row;    /* the lower one, as in lrcsi_profile */
+    uint32_t row;    /* the lower one, as in lrcsi_revolution */
     uint32_t sector; /* between the azimuths of corners `sector` and `sector` + 1 of the rows */
     uint32_t facets; /* that share it: 2, numbers 2 k and 2 k + 1 of the mesh; or 1 */
     int mirrored;    /* a sphere's lower half: z is negated */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A bounding volume hierarchy over facets: boxes in blocks of eight, in levels. It finds the facets
+/* A bounding volume hierarchy over facets: boxes in nodes of eight, in levels. It finds the facets
    whose boxes intersect, and decides nothing else. */
 #ifndef LRCSI_TREE_H
 #define LRCSI_TREE_H
@@ -9,14 +9,14 @@
 #include "base/bits.h"
 #include "mesh/box.h"
 
-/* Boxes per block, and the largest number of levels (for 2^32 facets). */
+/* Boxes per node, and the largest number of levels (for 2^32 facets). */
 enum { LRCSI_TREE_LANES = 8, LRCSI_TREE_LEVELS = 11 };
 
 /* Eight boxes in structure of arrays; lanes without one have low > high. */
-typedef struct lrcsi_tree_block {
+typedef struct lrcsi_tree_node {
     _Alignas(16) double low[3][LRCSI_TREE_LANES];
     double high[3][LRCSI_TREE_LANES];
-} lrcsi_tree_block;
+} lrcsi_tree_node;
 
 /* Slabs that bound the contents of the eight boxes: low <= direction . x <= high for every corner
    x. The direction is the mean normal, of length 1, or 0 if there is none. They serve parallel
@@ -25,13 +25,13 @@ typedef struct lrcsi_tree_slabs {
     double direction[3][LRCSI_TREE_LANES], low[LRCSI_TREE_LANES], high[LRCSI_TREE_LANES];
 } lrcsi_tree_slabs;
 
-/* The slab of one block. */
+/* The slab of one node. */
 typedef struct lrcsi_tree_slab {
     double direction[3], low, high;
     double size; /* the largest |x| + |y| + |z| of the corners */
 } lrcsi_tree_slab;
 
-/* A cone that contains a block of facets with a common vertex, seen from that vertex: for every
+/* A cone that contains a node of facets with a common vertex, seen from that vertex: for every
    other corner x, axis . (x - vertex) / |x - vertex| >= cosine. The axis has length 1. A cosine of
    0 or less bounds nothing. */
 typedef struct lrcsi_tree_cone {
@@ -39,49 +39,34 @@ typedef struct lrcsi_tree_cone {
 } lrcsi_tree_cone;
 
 /* A facet's place is its position in order[]; neighbours in space mostly have places close to each
-   other. Level 0 has the facets' boxes, by place, and level l the boxes of level l - 1's blocks, up
-   to the last level, which has one block. */
+   other. Level 0 has the facets' boxes, by place, and level l the boxes of level l - 1's nodes, up
+   to the last level, which has one node. */
 typedef struct lrcsi_tree {
     uint32_t count;  /* facets in it */
     uint32_t *order; /* place -> facet */
     int levels;      /* 0 if there are no facets */
-    uint32_t blocks[LRCSI_TREE_LEVELS];
-    lrcsi_tree_block *block[LRCSI_TREE_LEVELS];
-    uint32_t *label[LRCSI_TREE_LEVELS]; /* of each block: that of all facets below, or LRCS_NONE */
-    lrcsi_tree_slabs *slabs[LRCSI_TREE_LEVELS]; /* from level 1 on: of the blocks below */
+    uint32_t nodes[LRCSI_TREE_LEVELS];
+    lrcsi_tree_node *node[LRCSI_TREE_LEVELS];
+    uint32_t *label[LRCSI_TREE_LEVELS]; /* of each node: that of all facets below, or LRCS_NONE */
+    lrcsi_tree_slabs *slabs[LRCSI_TREE_LEVELS]; /* from level 1 on: of the nodes below */
     int has_slabs;                              /* 0: not yet filled */
-    lrcsi_tree_cone *cone[LRCSI_TREE_LEVELS];   /* of each block that has a label, if filled */
+    lrcsi_tree_cone *cone[LRCSI_TREE_LEVELS];   /* of each node that has a label, if filled */
 } lrcsi_tree;
 
-/* A traversal that finds the boxes of one level that intersect a given box. `mask` has a bit for
-   each lane of a level that is still to be visited. */
-typedef struct lrcsi_tree_walk {
-    const lrcsi_tree *tree;
-    lrcsi_box box;
-    uint32_t without;            /* blocks with this label are left out; LRCS_NONE: none */
-    int last, level;             /* the level whose boxes are sought; the current level */
-    uint32_t leaf;               /* the leaf whose slab is compared too, or LRCS_NONE */
-    uint32_t apart;              /* number of blocks that slabs have left out */
-    const lrcsi_tree_cone *cone; /* the leaf's cone if cones are compared too, else NULL; */
-    uint32_t apex;               /* then the leaf's label, the vertex of the cones */
-    uint32_t at[LRCSI_TREE_LEVELS];
-    unsigned mask[LRCSI_TREE_LEVELS];
-} lrcsi_tree_walk;
-
 /* A lane's box. */
-static inline lrcsi_box lrcsi_tree_box(const lrcsi_tree_block *block, uint32_t lane)
+static inline lrcsi_box lrcsi_tree_box(const lrcsi_tree_node *node, uint32_t lane)
 {
-    return (lrcsi_box){{block->low[0][lane], block->low[1][lane], block->low[2][lane]},
-                       {block->high[0][lane], block->high[1][lane], block->high[2][lane]}};
+    return (lrcsi_box){{node->low[0][lane], node->low[1][lane], node->low[2][lane]},
+                       {node->high[0][lane], node->high[1][lane], node->high[2][lane]}};
 }
 
-/* The lanes of a block whose boxes intersect `box` (closed, finite, no end of it -0), as bits.
+/* The lanes of a node whose boxes intersect `box` (closed, finite, no end of it -0), as bits.
    Boxes are disjoint if along some axis one ends before the other starts: if a difference of their
    ends is negative. A rounded difference has the sign of the exact one (subnormal numbers are kept,
    base/ieee.h), and equal ends differ by +0, as none is -0. The sign bits of the six differences
    are combined lane by lane, which compilers vectorize. They do not vectorize comparisons, which
    might trap. */
-static inline unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrcsi_box *box)
+static inline unsigned lrcsi_tree_meets(const lrcsi_tree_node *node, const lrcsi_box *box)
 {
     static const uint64_t lane_bit[LRCSI_TREE_LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
     const double lx = box->low[0];
@@ -93,9 +78,9 @@ static inline unsigned lrcsi_tree_meets(const lrcsi_tree_block *block, const lrc
     uint64_t meets = 0;
     for (int k = 0; k < LRCSI_TREE_LANES; k++) {
         uint64_t apart =
-            lrcsi_bits_of(hx - block->low[0][k]) | lrcsi_bits_of(hy - block->low[1][k]) |
-            lrcsi_bits_of(hz - block->low[2][k]) | lrcsi_bits_of(block->high[0][k] - lx) |
-            lrcsi_bits_of(block->high[1][k] - ly) | lrcsi_bits_of(block->high[2][k] - lz);
+            lrcsi_bits_of(hx - node->low[0][k]) | lrcsi_bits_of(hy - node->low[1][k]) |
+            lrcsi_bits_of(hz - node->low[2][k]) | lrcsi_bits_of(node->high[0][k] - lx) |
+            lrcsi_bits_of(node->high[1][k] - ly) | lrcsi_bits_of(node->high[2][k] - lz);
         meets |= ((apart >> 63) - 1) & lane_bit[k];
     }
     return (unsigned)meets;
@@ -120,34 +105,5 @@ size_t lrcsi_tree_need(uint32_t facet_count);
 int lrcsi_tree_make(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
                     const unsigned char *skip, const uint32_t *label, int apexes, lrcs_work *work,
                     lrcsi_tree *tree);
-
-/* Starts a traversal of the places of all facets whose boxes intersect `box`. Facets of the label
-   `without` (LRCS_NONE: none) may be left out. */
-lrcsi_tree_walk lrcsi_tree_within(const lrcsi_tree *tree, const lrcsi_box *box, uint32_t without);
-
-/* Starts a traversal of the blocks of level 0 that come after `leaf`, intersect its box, and do not
-   have its label. Over all leaves, and with the pairs within leaves, every pair of facets whose
-   boxes intersect occurs once, except some pairs of one label. */
-lrcsi_tree_walk lrcsi_tree_after(const lrcsi_tree *tree, uint32_t leaf);
-
-/* Fills the slabs of a tree, from the vertices and facets that it was made from. Then
-   narrow_by_slabs leaves out of a leaf's traversal the blocks that slabs separate from the leaf;
-   this pays for leaves whose boxes intersect many others. The slab of a single leaf needs no others
-   to be filled. */
-void lrcsi_tree_fill_slabs(const lrcs_point *vertex, const lrcs_facet *facet, lrcsi_tree *tree);
-lrcsi_tree_slab lrcsi_tree_leaf_slab(const lrcs_point *vertex, const lrcs_facet *facet,
-                                     const lrcsi_tree *tree, uint32_t leaf);
-void lrcsi_tree_narrow_by_slabs(lrcsi_tree_walk *walk, uint32_t leaf);
-
-/* Fills the cones of blocks that have a vertex as label, unless proved[label]. Then narrow_by_cones
-   leaves out of the traversal of a leaf with such a label the blocks of the same label whose facets
-   are proved to meet those of the leaf in that vertex only. This is used for fans whose ring is not
-   proved (mesh/ring.h): all their boxes intersect. */
-void lrcsi_tree_fill_cones(const lrcs_point *vertex, const lrcs_facet *facet,
-                           const unsigned char *proved, lrcsi_tree *tree);
-void lrcsi_tree_narrow_by_cones(lrcsi_tree_walk *walk, uint32_t leaf);
-
-/* The next place or block, or LRCS_NONE at the end. */
-uint32_t lrcsi_tree_next(lrcsi_tree_walk *walk);
 
 #endif

@@ -24,7 +24,7 @@
 #define ROUND_REACH 0.3
 
 /* The chord of one of N sectors is within about this times (pi/N)^2 of the unit circle
-   (mesh/profile.c). */
+   (mesh/revolution.c). */
 #define SECTOR_REACH 0.36
 /* To keep within the limit of facets, a reach is enlarged by a quarter, at most so many times. */
 #define ENLARGEMENTS_MAX 100
@@ -257,7 +257,7 @@ static int is_closed_form(const lrcsi_fineness *fineness, const lrcs_recipe_part
    2. facets that represent patches of the true surface;
    3. flat facets. If the scale differs between axes, the ratio of its largest to its smallest
       component multiplies the angles between neighbouring normals, and slightly more than the
-      square of the ratio multiplies the error of a facet (mesh/profile.c). */
+      square of the ratio multiplies the error of a facet (mesh/revolution.c). */
 int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part *part,
                           const lrcs_material *material, lrcs_divisions *divisions,
                           lrcs_mesh_counts *counts)

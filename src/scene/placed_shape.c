@@ -8,7 +8,7 @@
 
 #include "base/constant.h"
 #include "base/degrees.h"
-#include "mesh/profile.h"
+#include "mesh/curvature.h"
 #include "mesh/tessellate.h"
 
 /* The smallest extent of a shape, in its own units; 0 for a flat shape. */
@@ -102,15 +102,15 @@ void lrcsi_placed_shape_tilt(const lrcsi_placer *placer, const lrcs_scene *scene
         part->normal_err = 1.000001 * factor * e / altitude;
         part->curvature_known = part->curvature_known && altitude > 0.0;
         part->curvature = part->curvature.turn > 0.0
-                              ? lrcsi_profile_rounded(&part->curvature, part->normal_err)
+                              ? lrcsi_curvature_rounded(&part->curvature, part->normal_err)
                               : part->curvature;
     }
 }
 
 /* A uniform scale does not change the curvature numbers; other scales change them as in
-   mesh/profile.h. Every affine map preserves convexity, and the outside stays outside, because a
+   mesh/curvature.h. Every affine map preserves convexity, and the outside stays outside, because a
    reflection reverses the windings. The coordinates of the mesh have a relative error of (16 +
-   rings) u before placing (mesh/profile.c), except for underflow. */
+   rings) u before placing (mesh/revolution.c), except for underflow. */
 void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *divisions,
                                  const lrcs_curvature *curvature, const lrcsi_placer *placer,
                                  double extent, lrcs_part *part)
@@ -143,7 +143,7 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     part->curvature = *curvature;
     part->curvature_known = plane || condition < HUGE_VAL;
     if (!plane && !part->rigid && part->curvature_known) {
-        part->curvature = lrcsi_profile_stretched(curvature, condition, &part->stretch_err);
+        part->curvature = lrcsi_curvature_stretched(curvature, condition, &part->stretch_err);
     }
     part->convex_patch = 1;
     part->min_extent = smallest * smallest_extent(shape);

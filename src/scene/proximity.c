@@ -13,7 +13,7 @@
 #include "base/work.h"
 #include "mesh/slice.h"
 #include "mesh/tessellate.h"
-#include "mesh/tree.h"
+#include "mesh/tree_walk.h"
 
 /* The rounding of vertices cannot reverse a facet if |cos(theta)| exceeds this times the error of
    the vertices over the facet's smallest altitude (scene/solid.c). */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Contacts by brute force: every pair of facets, by exact signs alone, without a box, a ring or a
+/* Contacts by brute force: every pair of facets, by exact signs alone, without a box, a fan or a
    filter. The reference for mesh/intersection.c; itself compared with clipping in rational
    arithmetic. */
 #ifndef TEST_MESH_CONTACTS_H

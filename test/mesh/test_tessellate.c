@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Facet meshes of shapes: closed, outward, convex, symmetric to the bit; and the curvature numbers
    against an integration over each patch that shares nothing with their derivation. */
+#include "mesh/revolution_normals.h"
 #include "mesh/tessellate.h"
 
 #include <math.h>
@@ -472,7 +473,8 @@ static void true_point(const lrcs_shape *shape, double lower, double upper, doub
     }
 }
 
-/* The map of mesh/profile.c from the true surface onto the facets, point by point over a sector. */
+/* The map of mesh/revolution.c from the true surface onto the facets, point by point over a sector.
+ */
 static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_rings)
 {
     enum { STEPS = 24 };
@@ -522,11 +524,11 @@ static void check_normals(const lrcs_shape *shape, uint32_t around, uint32_t alo
     enum { STEPS = 120 };
     const lrcs_divisions divisions = {around, along, level_rings};
     lrcs_mesh mesh = make_rings(shape, around, along, level_rings, NULL);
-    lrcsi_profile profile = lrcsi_profile_make(shape, &divisions);
+    lrcsi_revolution body = lrcsi_revolution_make(shape, &divisions);
     double h = pi / around;
     double swell = sqrt(2.0 * h / sin(2.0 * h));
     for (uint32_t i = 0; i < along; i++) {
-        lrcsi_profile_normals n = lrcsi_profile_normals_make(&profile, i);
+        lrcsi_revolution_normals n = lrcsi_revolution_normals_make(&body, i);
         const double *low = mesh.vertex[i * around].x;
         const double *high = mesh.vertex[(i + 1) * around].x;
         int apex = i + 1 == along && shape->kind != LRCS_SHAPE_FRUSTUM;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The ring of a point v: the facets v b c that contain it, each with its corners listed from v. Its
+/* The fan of a point v: the facets v b c that contain it, each with its corners listed from v. Its
    spokes are the rays from v through b (where the facet starts) and c (where it ends). Let m be any
    vector.
 
@@ -11,7 +11,7 @@
       as ends;
    4. if there is such a spoke, some direction is in no sector; if not, some direction is in exactly
       one.
-   Then any two facets of the ring meet only in v and in the side that they have in common.
+   Then any two facets of the fan meet only in v and in the side that they have in common.
    Proof. Let n be the number of sectors that contain a direction. Going round counter-clockwise, n
    rises by one at a start and falls by one at an end (2). If every spoke is both, n is the same
    everywhere: 1 by condition 4. Otherwise n is k + 1 from the spoke that is a start only to the
@@ -37,7 +37,7 @@
    determinant of condition 1, a component of the normal q x p has an error of at most
    5 u (|q_i p_j| + |q_j p_i|) (base/exact.c), and the sum of three products one of 3 u of its
    terms: less than 10 u M times the sum of the components' |q_i p_j| + |q_j p_i|. */
-#include "mesh/ring.h"
+#include "mesh/fan.h"
 
 #include <math.h>
 
@@ -48,24 +48,24 @@
 #include "base/work.h"
 
 /* 10 u */
-#define RING_FILTER (10.0 * LRCSI_U)
+#define FAN_FILTER (10.0 * LRCSI_U)
 
 /* The smallest number of facets around an apex. */
 enum { FAN_FACETS = 32 };
 
 /* m's largest component, M; the largest of g. */
-#define RING_SCALE 0x1p20
-#define LINE_SCALE (12.0 * RING_SCALE)
+#define FAN_SCALE  0x1p20
+#define LINE_SCALE (12.0 * FAN_SCALE)
 
-/* A point's ring, as far as it has been examined. */
-typedef struct vertex_ring {
+/* A point's fan, as far as it has been examined. */
+typedef struct vertex_fan {
     float m[3];             /* sum of the facets' normals, then m */
     uint32_t count;         /* facets */
     uint32_t start, end;    /* the last spokes found that are a start only, and an end only */
     unsigned char open;     /* spokes that are starts only; 2 for more */
     unsigned char up, down; /* sectors above the directions w and -w; 2 for more */
     unsigned char refused;  /* a condition is not met, or not proved */
-} vertex_ring;
+} vertex_fan;
 
 /* count + increment, 0 or 1, saturating at 2; without a branch. */
 static unsigned char count_to_2(unsigned char count, int increment)
@@ -75,7 +75,7 @@ static unsigned char count_to_2(unsigned char count, int increment)
 
 /* Adds each facet's normal, scaled so that its largest component is 1, to m at its corners. */
 static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                        const uint32_t *weld, const unsigned char *skip, vertex_ring *rings)
+                        const uint32_t *weld, const unsigned char *skip, vertex_fan *fans)
 {
     for (uint32_t f = 0; f < facet_count; f++) {
         if (skip && skip[f]) {
@@ -89,7 +89,7 @@ static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint3
         const float n[3] = {(float)(cross[0] * scale), (float)(cross[1] * scale),
                             (float)(cross[2] * scale)};
         for (int corner = 0; corner < 3; corner++) {
-            vertex_ring *r = &rings[weld[c[corner]]];
+            vertex_fan *r = &fans[weld[c[corner]]];
             r->count++;
             r->m[0] += n[0];
             r->m[1] += n[1];
@@ -99,17 +99,17 @@ static void sum_normals(const lrcs_point *vertex, const lrcs_facet *facet, uint3
 }
 
 /* Rounds m to integers: the number that is added and subtracted has an ulp of 1. */
-static void round_means(vertex_ring *rings, uint32_t vertex_count)
+static void round_means(vertex_fan *fans, uint32_t vertex_count)
 {
     const double to_integer = 0x1.8p52;
     for (uint32_t v = 0; v < vertex_count; v++) {
-        vertex_ring *r = &rings[v];
+        vertex_fan *r = &fans[v];
         double x = fabs((double)r->m[0]);
         double y = fabs((double)r->m[1]);
         double z = fabs((double)r->m[2]);
         double largest = lrcsi_max(x, lrcsi_max(y, z));
         r->refused = !(largest > 0.0);
-        double scale = largest > 0.0 ? RING_SCALE / largest : 0.0;
+        double scale = largest > 0.0 ? FAN_SCALE / largest : 0.0;
         for (int k = 0; k < 3; k++) {
             r->m[k] = (float)(((double)r->m[k] * scale + to_integer) - to_integer);
         }
@@ -118,7 +118,7 @@ static void round_means(vertex_ring *rings, uint32_t vertex_count)
 
 /* Conditions 2 and 3. */
 static void match_spokes(const lrcsi_topology *topology, const unsigned char *skip,
-                         vertex_ring *rings)
+                         vertex_fan *fans)
 {
     for (uint32_t e = 0; e < topology->edge_count; e++) {
         const lrcsi_edge *edge = &topology->edge[e];
@@ -132,19 +132,19 @@ static void match_spokes(const lrcsi_topology *topology, const unsigned char *sk
             uses[use[i].forward] += !skip || !skip[use[i].facet];
         }
         if (uses[0] > 1 || uses[1] > 1) {
-            rings[edge->low].refused = 1;
-            rings[edge->high].refused = 1;
+            fans[edge->low].refused = 1;
+            fans[edge->high].refused = 1;
         } else if (uses[0] != uses[1]) {
             uint32_t from = uses[1] ? edge->low : edge->high;
             uint32_t to = uses[1] ? edge->high : edge->low;
-            rings[from].start = to;
-            rings[to].end = from;
-            rings[from].open = count_to_2(rings[from].open, 1);
+            fans[from].start = to;
+            fans[to].end = from;
+            fans[from].open = count_to_2(fans[from].open, 1);
         }
     }
 }
 
-static void mean_of(const vertex_ring *r, double m[3])
+static void mean_of(const vertex_fan *r, double m[3])
 {
     for (int k = 0; k < 3; k++) {
         m[k] = (double)r->m[k];
@@ -153,7 +153,7 @@ static void mean_of(const vertex_ring *r, double m[3])
 
 /* Condition 1, and the sectors above the two directions. */
 static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uint32_t facet_count,
-                          const uint32_t *weld, const unsigned char *skip, vertex_ring *rings)
+                          const uint32_t *weld, const unsigned char *skip, vertex_fan *fans)
 {
     for (uint32_t f = 0; f < facet_count; f++) {
         if (skip && skip[f]) {
@@ -173,12 +173,12 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
         double line_err[3]; /* of g . side */
         for (int k = 0; k < 3; k++) {
             turn_err += fabs(plus[k]) + fabs(minus[k]);
-            line_err[k] = RING_FILTER * LINE_SCALE *
+            line_err[k] = FAN_FILTER * LINE_SCALE *
                           ((fabs(side[k][0]) + fabs(side[k][1])) + fabs(side[k][2]));
         }
-        turn_err *= RING_FILTER * RING_SCALE;
+        turn_err *= FAN_FILTER * FAN_SCALE;
         for (int corner = 0; corner < 3; corner++) {
-            vertex_ring *r = &rings[weld[c[corner]]];
+            vertex_fan *r = &fans[weld[c[corner]]];
             int last = corner > 0 ? corner - 1 : 2; /* the side that leads to the corner */
             double m[3];
             mean_of(r, m);
@@ -197,8 +197,8 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
     }
 }
 
-/* All conditions together, of the ring of v. */
-static int ring_is_proved(const lrcs_point *vertex, uint32_t v, const vertex_ring *r)
+/* All conditions together, of the fan of v. */
+static int fan_is_proved(const lrcs_point *vertex, uint32_t v, const vertex_fan *r)
 {
     if (r->refused || r->open > 1) {
         return 0;
@@ -217,47 +217,47 @@ static int ring_is_proved(const lrcs_point *vertex, uint32_t v, const vertex_rin
 
 /* Among a facet's points that many facets share, the one with the most facets, preferring proved
    ones; or LRCS_NONE. */
-static uint32_t apex_of(const lrcs_facet *facet, const uint32_t *weld, const vertex_ring *rings,
+static uint32_t apex_of(const lrcs_facet *facet, const uint32_t *weld, const vertex_fan *fans,
                         const unsigned char *proved)
 {
     uint32_t apex = LRCS_NONE;
     for (int k = 0; k < 3; k++) {
         uint32_t v = weld[facet->corner[k]];
-        if (rings[v].count >= FAN_FACETS &&
+        if (fans[v].count >= FAN_FACETS &&
             (apex == LRCS_NONE || proved[v] > proved[apex] ||
-             (proved[v] == proved[apex] && rings[v].count > rings[apex].count))) {
+             (proved[v] == proved[apex] && fans[v].count > fans[apex].count))) {
             apex = v;
         }
     }
     return apex;
 }
 
-size_t lrcsi_rings_need(uint32_t vertex_count)
+size_t lrcsi_fans_need(uint32_t vertex_count)
 {
-    return lrcsi_work_bytes(vertex_count, sizeof(vertex_ring));
+    return lrcsi_work_bytes(vertex_count, sizeof(vertex_fan));
 }
 
-int lrcsi_rings_prove(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
-                      uint32_t facet_count, const lrcsi_topology *topology,
-                      const unsigned char *skip, lrcs_work *work, unsigned char *proved,
-                      uint32_t *apex)
+int lrcsi_fans_prove(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_facet *facet,
+                     uint32_t facet_count, const lrcsi_topology *topology,
+                     const unsigned char *skip, lrcs_work *work, unsigned char *proved,
+                     uint32_t *apex)
 {
     size_t mark = work->used;
     const uint32_t *weld = topology->weld;
-    vertex_ring *rings = lrcsi_work_take_zero(work, vertex_count, sizeof *rings);
+    vertex_fan *fans = lrcsi_work_take_zero(work, vertex_count, sizeof *fans);
     work->used = mark;
-    if (!rings) {
+    if (!fans) {
         return LRCS_E_MEMORY;
     }
-    sum_normals(vertex, facet, facet_count, weld, skip, rings);
-    round_means(rings, vertex_count);
-    match_spokes(topology, skip, rings);
-    cross_sectors(vertex, facet, facet_count, weld, skip, rings);
+    sum_normals(vertex, facet, facet_count, weld, skip, fans);
+    round_means(fans, vertex_count);
+    match_spokes(topology, skip, fans);
+    cross_sectors(vertex, facet, facet_count, weld, skip, fans);
     for (uint32_t v = 0; v < vertex_count; v++) {
-        proved[v] = (unsigned char)ring_is_proved(vertex, v, &rings[v]);
+        proved[v] = (unsigned char)fan_is_proved(vertex, v, &fans[v]);
     }
     for (uint32_t f = 0; f < facet_count && apex; f++) {
-        apex[f] = apex_of(&facet[f], weld, rings, proved);
+        apex[f] = apex_of(&facet[f], weld, fans, proved);
     }
     return LRCS_OK;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Curvature numbers under linear maps, against patches whose normals are drawn at random and mapped
    one by one. (The numbers before any map: test_tessellate.c.) */
-#include "mesh/profile.h"
+#include "mesh/curvature.h"
 
 #include "check.h"
 #include "random.h"
@@ -86,7 +86,7 @@ static void a_mapped_patch_stays_within_the_mapped_numbers(void **state)
             unit(normal[i]);
         }
         lrcs_curvature before = measure(facet, normal, area);
-        lrcs_curvature bound = lrcsi_profile_stretched(&before, most / least, &uneven);
+        lrcs_curvature bound = lrcsi_curvature_stretched(&before, most / least, &uneven);
         double whole = 0;
         for (int k = 0; k < 3; k++) {
             whole += facet[k] * facet[k] / scale[k] / scale[k];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Proofs about rings of facets: never given where brute force finds that two of them meet in more
+/* Proofs about fans of facets: never given where brute force finds that two of them meet in more
    than they share, and given where surfaces are plain. */
-#include "mesh/ring.h"
+#include "mesh/fan.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,7 +10,8 @@
 #include "base/work.h"
 #include "check.h"
 #include "mesh/contacts.h"
-#include "mesh/tree.h"
+#include "mesh/tree_bounds.h"
+#include "mesh/tree_walk.h"
 
 enum { ROOM = 8 << 20, MOST = 3000 };
 
@@ -38,10 +39,10 @@ static void prove_rings(uint32_t vertices, uint32_t facets)
     size_t before = work.used;
     work.peak = before;
     assert_int_equal(
-        lrcsi_rings_prove(vertex, vertices, facet, facets, &topology, skip, &work, proved, apex),
+        lrcsi_fans_prove(vertex, vertices, facet, facets, &topology, skip, &work, proved, apex),
         LRCS_OK);
     assert_int_equal(work.used, before);
-    assert_true(work.peak - before <= lrcsi_rings_need(vertices));
+    assert_true(work.peak - before <= lrcsi_fans_need(vertices));
 }
 
 static int has_corner(const lrcs_facet *f, uint32_t v)
@@ -150,7 +151,7 @@ static void no_point_among_random_facets_is_proved_wrongly(void **state)
 }
 
 /* A cone, tilted, over its base, with thousands of slivers about its tip and the middle of its
-   base: all rings are proved, each facet knows its apex, and the tree leaves their pairs out. */
+   base: all fans are proved, each facet knows its apex, and the tree leaves their pairs out. */
 static void fans_are_proved_and_their_pairs_left_out(void **state)
 {
     (void)state;
@@ -178,7 +179,7 @@ static void fans_are_proved_and_their_pairs_left_out(void **state)
     lrcsi_tree tree;
     assert_int_equal(lrcsi_tree_make(vertex, facet, 2 * N, NULL, apex, 1, &work, &tree), LRCS_OK);
     uint32_t mixed = 0;
-    for (uint32_t leaf = 0; leaf < tree.blocks[0]; leaf++) {
+    for (uint32_t leaf = 0; leaf < tree.nodes[0]; leaf++) {
         mixed += tree.label[0][leaf] == LRCS_NONE;
         lrcsi_tree_walk walk = lrcsi_tree_after(&tree, leaf);
         for (uint32_t other; (other = lrcsi_tree_next(&walk)) != LRCS_NONE;) {
@@ -220,7 +221,7 @@ static uint32_t check_cones(uint32_t facets, uint32_t *met)
     memset(apex, 0, sizeof apex);
     assert_int_equal(lrcsi_tree_make(vertex, facet, facets, NULL, apex, 1, &work, &tree), LRCS_OK);
     lrcsi_tree_fill_cones(vertex, facet, none, &tree);
-    for (uint32_t leaf = 0; leaf < tree.blocks[0]; leaf++) {
+    for (uint32_t leaf = 0; leaf < tree.nodes[0]; leaf++) {
         memset(kept, 0, sizeof kept);
         lrcsi_tree_walk walk = lrcsi_tree_after(&tree, leaf);
         walk.without = LRCS_NONE;
@@ -260,7 +261,7 @@ static void cones_leave_out_only_facets_that_meet_in_the_apex(void **state)
     assert_true(met > 1000);
 }
 
-/* Two cones tip to tip: the ring is not proved, its facets know their apex all the same. */
+/* Two cones tip to tip: the fan is not proved, its facets know their apex all the same. */
 static void fans_without_a_proof_have_an_apex(void **state)
 {
     (void)state;
@@ -284,7 +285,7 @@ static void fans_without_a_proof_have_an_apex(void **state)
     assert_int_equal(met, 0);
 }
 
-/* What is proved of a ring does not hang on where the direction points that is counted. */
+/* What is proved of a fan does not hang on where the direction points that is counted. */
 static void surfaces_are_proved_whichever_way_they_face(void **state)
 {
     (void)state;
@@ -310,7 +311,7 @@ static void surfaces_are_proved_whichever_way_they_face(void **state)
             vertex[v] = y;
         }
         prove_rings(facets + 1, facets);
-        if (!proved[0]) { /* steep rings of few facets may lean over */
+        if (!proved[0]) { /* steep fans of few facets may lean over */
             assert_true(facets < 8);
         }
     }
@@ -371,7 +372,7 @@ static void facets_without_area_are_no_proof(void **state)
     lrcs_work work = lrcs_work_make(room, ROOM);
     lrcsi_topology topology;
     assert_int_equal(lrcsi_topology_make(vertex, 4, facet, 2, &work, &topology), LRCS_OK);
-    assert_int_equal(lrcsi_rings_prove(vertex, 4, facet, 2, &topology, NULL, &work, proved, NULL),
+    assert_int_equal(lrcsi_fans_prove(vertex, 4, facet, 2, &topology, NULL, &work, proved, NULL),
                      LRCS_OK);
     assert_true(!proved[0] && !proved[1] && proved[2] && !proved[3]);
 }
