@@ -75,7 +75,7 @@ typedef struct lrcs_mesh_report {
     uint32_t nonmanifold_edges;    /* used by three or more */
     uint32_t misoriented_edges;    /* used by two facets in the same direction */
     int closed;                    /* every edge is used equally often in both directions */
-    int convex;                    /* closed, one piece, and exactly convex: no self-shadowing */
+    int convex;                    /* closed, connected, and exactly convex: no self-shadowing */
     double box_min[3], box_max[3]; /* of the vertices that facets use */
     double area;                   /* in the square of the coordinates' unit */
     double volume; /* in its cube; signed, about the box centre; meaningful only if closed */

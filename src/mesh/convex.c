@@ -67,16 +67,16 @@ static uint32_t corner_opposite_edge(const lrcsi_topology *t, uint32_t facet, ui
 /* 1 if the ray to q comes less than pi after the ray to p, turning about v in the sense of facet a
    b c; 0 if the two rays coincide or are opposite; else -1. All in the plane of a, b, c: seen along
    a coordinate axis to which the facet is not parallel. */
-static int turn_in_plane(const double *a, const double *b, const double *c, const double *v,
-                         const double *p, const double *q)
+static int orientation_in_plane(const double *a, const double *b, const double *c, const double *v,
+                                const double *p, const double *q)
 {
     static const double axes[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-    int turn = 0;
+    int orientation = 0;
     for (int k = 0, sign = 0; k < 3 && sign == 0; k++) {
         sign = lrcsi_exact_orient(a, b, c, axes[k]);
-        turn = sign != 0 ? sign * lrcsi_exact_orient(v, p, q, axes[k]) : 0;
+        orientation = sign != 0 ? sign * lrcsi_exact_orient(v, p, q, axes[k]) : 0;
     }
-    return turn;
+    return orientation;
 }
 
 /* Conditions 1 and 3. Marks the edges that are creases; the others are flat. */
@@ -96,7 +96,8 @@ static int edges_are_convex(const convex_mesh *m, unsigned char *crease)
         const double *to = corner_position(m, f, k + 2);
         const double *beyond = corner_position(m, g, corner_opposite_edge(t, g, e));
         int side = lrcsi_exact_side(apex, from, to, beyond);
-        if (side > 0 || (side == 0 && turn_in_plane(apex, from, to, from, to, beyond) >= 0)) {
+        if (side > 0 ||
+            (side == 0 && orientation_in_plane(apex, from, to, from, to, beyond) >= 0)) {
             return 0;
         }
         crease[e] = side < 0;
@@ -165,8 +166,8 @@ static int flat_fan_winds_once(const convex_mesh *m, fan_place start, uint32_t s
     uint32_t containing = 0;
     fan_place p = start;
     for (uint32_t i = 0; i < size; i++) {
-        containing += turn_in_plane(v, a, b, v, fan_ray(m, p), a) >= 0 &&
-                      turn_in_plane(v, a, b, v, a, fan_ray_after(m, p)) > 0;
+        containing += orientation_in_plane(v, a, b, v, fan_ray(m, p), a) >= 0 &&
+                      orientation_in_plane(v, a, b, v, a, fan_ray_after(m, p)) > 0;
         p = fan_next(m, p);
     }
     return containing == 1;
@@ -179,15 +180,15 @@ static int chain_span(const convex_mesh *m, fan_place *p, uint32_t size)
     const double *v = corner_position(m, p->facet, p->corner);
     const double *first = fan_ray(m, *p);
     const double *second = fan_ray_after(m, *p);
-    int turn = 1;
+    int span = 1;
     for (uint32_t i = 0; i < size; i++) {
-        turn = i == 0 ? 1 : turn_in_plane(v, first, second, v, first, fan_ray_after(m, *p));
+        span = i == 0 ? 1 : orientation_in_plane(v, first, second, v, first, fan_ray_after(m, *p));
         *p = fan_next(m, *p);
-        if (turn < 0 || m->crease[fan_edge(m, *p)]) {
+        if (span < 0 || m->crease[fan_edge(m, *p)]) {
             break;
         }
     }
-    return turn;
+    return span;
 }
 
 /* Cases m > 2, from a crease: chains shorter than pi, then the two families of signs. */

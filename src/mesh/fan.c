@@ -169,14 +169,14 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
         const double plus[3] = {q[1] * p[2], q[2] * p[0], q[0] * p[1]};
         const double minus[3] = {q[2] * p[1], q[0] * p[2], q[1] * p[0]};
         const double normal[3] = {plus[0] - minus[0], plus[1] - minus[1], plus[2] - minus[2]};
-        double turn_err = 0.0;
+        double det_err = 0.0;
         double line_err[3]; /* of g . side */
         for (int k = 0; k < 3; k++) {
-            turn_err += fabs(plus[k]) + fabs(minus[k]);
+            det_err += fabs(plus[k]) + fabs(minus[k]);
             line_err[k] = FAN_FILTER * LINE_SCALE *
                           ((fabs(side[k][0]) + fabs(side[k][1])) + fabs(side[k][2]));
         }
-        turn_err *= FAN_FILTER * FAN_SCALE;
+        det_err *= FAN_FILTER * FAN_SCALE;
         for (int corner = 0; corner < 3; corner++) {
             vertex_fan *r = &fans[weld[c[corner]]];
             int last = corner > 0 ? corner - 1 : 2; /* the side that leads to the corner */
@@ -184,12 +184,12 @@ static void cross_sectors(const lrcs_point *vertex, const lrcs_facet *facet, uin
             mean_of(r, m);
             const double g[3] = {7.0 * m[1] - 3.0 * m[2], 5.0 * m[2] - 7.0 * m[0],
                                  3.0 * m[0] - 5.0 * m[1]};
-            double turn = (normal[0] * m[0] + normal[1] * m[1]) + normal[2] * m[2];
+            double det = (normal[0] * m[0] + normal[1] * m[1]) + normal[2] * m[2];
             double start =
                 (g[0] * side[corner][0] + g[1] * side[corner][1]) + g[2] * side[corner][2];
             double end = -((g[0] * side[last][0] + g[1] * side[last][1]) + g[2] * side[last][2]);
             int decided =
-                (turn > turn_err) & (fabs(start) > line_err[corner]) & (fabs(end) > line_err[last]);
+                (det > det_err) & (fabs(start) > line_err[corner]) & (fabs(end) > line_err[last]);
             r->refused |= (unsigned char)!decided;
             r->up = count_to_2(r->up, (start < 0.0) & (end > 0.0));
             r->down = count_to_2(r->down, (start > 0.0) & (end < 0.0));

@@ -62,13 +62,13 @@ void lrcsi_pair_plane(lrcsi_pair_facet *f)
         best = fabs(f->normal[k]) > fabs(f->normal[best]) ? k : best;
     }
     f->axis = best;
-    f->turn = 0;
+    f->orientation = 0;
     if (fabs(f->normal[best]) > PAIR_FILTER * f->weight[best]) {
-        f->turn = f->normal[best] > 0.0 ? 1 : -1;
+        f->orientation = f->normal[best] > 0.0 ? 1 : -1;
     }
-    for (int k = 0; k < 3 && f->turn == 0; k++) {
+    for (int k = 0; k < 3 && f->orientation == 0; k++) {
         f->axis = (best + k) % 3;
-        f->turn = lrcsi_exact_orient(a, b, c, unit_axis[f->axis]);
+        f->orientation = lrcsi_exact_orient(a, b, c, unit_axis[f->axis]);
     }
 }
 
@@ -107,17 +107,18 @@ static int plane_separates(const int side[3])
     return above != below && !undecided;
 }
 
-/* Seen along an axis along which F has the orientation `turn`: are all corners of T proved to lie
-   outside the line of one side of F, except those that are ends of the side? Then the facets meet
-   at most in these ends and between them. */
-static int line_separates(const lrcsi_pair_facet *f, int turn, const lrcsi_pair_facet *t, int axis)
+/* Seen along an axis along which F has the orientation `orientation`: are all corners of T proved
+   to lie outside the line of one side of F, except those that are ends of the side? Then the facets
+   meet at most in these ends and between them. */
+static int line_separates(const lrcsi_pair_facet *f, int orientation, const lrcsi_pair_facet *t,
+                          int axis)
 {
     const int i = axis == 2 ? 0 : axis + 1;
     const int j = axis == 0 ? 2 : axis - 1;
     for (int k = 0; k < 3; k++) {
         const double *a = f->x[k];
         const double *b = f->x[k < 2 ? k + 1 : 0];
-        const double along[2] = {turn * (b[i] - a[i]), turn * (b[j] - a[j])};
+        const double along[2] = {orientation * (b[i] - a[i]), orientation * (b[j] - a[j])};
         int corner = 0;
         for (; corner < 3; corner++) {
             const double *p = t->x[corner];
@@ -137,7 +138,7 @@ static int line_separates(const lrcsi_pair_facet *f, int turn, const lrcsi_pair_
 /* Are two facets, seen along F's axis, separated by the line of a side? */
 static int lines_separate(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
 {
-    if (line_separates(f, f->turn, t, f->axis)) {
+    if (line_separates(f, f->orientation, t, f->axis)) {
         return 1;
     }
     const int i = f->axis == 2 ? 0 : f->axis + 1;
@@ -146,8 +147,8 @@ static int lines_separate(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t)
     double plus = (t->x[1][i] - a[i]) * (t->x[2][j] - a[j]);
     double minus = (t->x[1][j] - a[j]) * (t->x[2][i] - a[i]);
     double error = PAIR_FILTER * (fabs(plus) + fabs(minus));
-    int turn = (plus - minus > error) - (plus - minus < -error);
-    return turn != 0 && line_separates(t, turn, f, f->axis);
+    int orientation = (plus - minus > error) - (plus - minus < -error);
+    return orientation != 0 && line_separates(t, orientation, f, f->axis);
 }
 
 /* ---- exact ---- */
@@ -178,10 +179,10 @@ static int segment_meets_flat(const lrcsi_pair_facet *t, const double *a, const 
     int left = 0;
     int right = 0;
     for (int k = 0; k < 3; k++) {
-        int turn = lrcsi_exact_orient(a, b, t->x[k], axis);
-        left |= turn > 0;
-        right |= turn < 0;
-        if (turn == 0) {
+        int orientation = lrcsi_exact_orient(a, b, t->x[k], axis);
+        left |= orientation > 0;
+        right |= orientation < 0;
+        if (orientation == 0) {
             on[count++] = t->x[k];
         }
     }
@@ -192,8 +193,8 @@ static int segment_meets_flat(const lrcsi_pair_facet *t, const double *a, const 
     for (int k = 0; k < 3; k++) {
         const double *p = t->x[k];
         const double *q = t->x[(k + 1) % 3];
-        if (t->turn * lrcsi_exact_orient(p, q, a, axis) <= 0 &&
-            t->turn * lrcsi_exact_orient(p, q, b, axis) <= 0) {
+        if (t->orientation * lrcsi_exact_orient(p, q, a, axis) <= 0 &&
+            t->orientation * lrcsi_exact_orient(p, q, b, axis) <= 0) {
             return 0;
         }
     }
@@ -214,16 +215,16 @@ static int exact_sides(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t, int
     return on;
 }
 
-/* Step 2: the first side of f, which has the orientation `turn` seen along the axis, whose line has
-   all of g outside or on it; -1 if there is none. */
-static int separating_side(const lrcsi_pair_facet *f, int turn, const lrcsi_pair_facet *g,
+/* Step 2: the first side of f, which has the orientation `orientation` seen along the axis, whose
+   line has all of g outside or on it; -1 if there is none. */
+static int separating_side(const lrcsi_pair_facet *f, int orientation, const lrcsi_pair_facet *g,
                            const double *axis)
 {
     for (int k = 0; k < 3; k++) {
         const double *a = f->x[k];
         const double *b = f->x[(k + 1) % 3];
         int i = 0;
-        while (i < 3 && turn * lrcsi_exact_orient(a, b, g->x[i], axis) <= 0) {
+        while (i < 3 && orientation * lrcsi_exact_orient(a, b, g->x[i], axis) <= 0) {
             i++;
         }
         if (i == 3) {
@@ -247,9 +248,9 @@ static void meet_flat(const lrcsi_pair_facet *f, const lrcsi_pair_facet *t,
                       lrcsi_pair_result *result)
 {
     const double *axis = unit_axis[f->axis];
-    int turn = lrcsi_exact_orient(t->x[0], t->x[1], t->x[2], axis);
-    int of_f = separating_side(f, f->turn, t, axis);
-    int of_t = separating_side(t, turn, f, axis);
+    int orientation = lrcsi_exact_orient(t->x[0], t->x[1], t->x[2], axis);
+    int of_f = separating_side(f, f->orientation, t, axis);
+    int of_t = separating_side(t, orientation, f, axis);
     if (of_f < 0 && of_t < 0) {
         *result =
             (lrcsi_pair_result){{LRCSI_INTERSECTION_COPLANAR, LRCSI_INTERSECTION_COPLANAR}, {1, 1}};

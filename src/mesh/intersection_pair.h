@@ -17,7 +17,7 @@ typedef struct lrcsi_pair_facet {
     const double *x[3];
     double normal[3], weight[3]; /* computed; scale of its error */
     int axis;                    /* of the largest component of the normal */
-    int turn;                    /* exact orientation seen along that axis; 0 if degenerate */
+    int orientation;             /* exact orientation seen along that axis; 0 if degenerate */
 } lrcsi_pair_facet;
 
 /* How the facets F and T meet: index 0 is about F, which T meets, index 1 about T, which F meets.

@@ -228,8 +228,8 @@ static lrcs_curvature ring_curvature(const lrcsi_revolution *body, uint32_t i)
     double x = 0.5 * c.turn;
     double q = x / sin(x) * (x / sin(x));
     double ratio = s.area / facet;
-    double part = (s.across / s.area) * (across / facet) + (s.up / s.area) * (s.up / facet);
-    c.rms_turn = sqrt(ratio * 2.0 * q * (fmax(0.0, 1.0 - part) + LRCSI_REVOLUTION_SLACK));
+    double mean_cosine = (s.across / s.area) * (across / facet) + (s.up / s.area) * (s.up / facet);
+    c.rms_turn = sqrt(ratio * 2.0 * q * (fmax(0.0, 1.0 - mean_cosine) + LRCSI_REVOLUTION_SLACK));
     double shift = (s.gain - 1.0) * (s.across / facet) * (fabs(s.up) / facet);
     c.bias = fabs(shift) + c.turn * c.rms_turn * c.rms_turn / 6.0;
     c.area_err = fabs(ratio - 1.0);

@@ -58,7 +58,7 @@ static uint32_t shape_caps(const lrcs_shape *shape)
 
 /* cos and sin of k/n of a full turn, n a multiple of 4: at k = 0 exactly (1, 0), and exactly
    symmetric under the symmetries of the square. Error at most 2 units in the last place. */
-static void turn_fraction(uint32_t k, uint32_t n, double *c, double *s)
+static void circle_fraction(uint32_t k, uint32_t n, double *c, double *s)
 {
     uint32_t quarter = n / 4;
     uint32_t remainder = k % quarter;
@@ -170,7 +170,7 @@ static void row_add(row_builder *row, double r, double z, uint32_t count)
         double c = 0.0;
         double s = 0.0;
         if (count > 1) {
-            turn_fraction(k, count, &c, &s);
+            circle_fraction(k, count, &c, &s);
         }
         mesh_vertex(mesh, r * c, r * s, row->mirror * z);
     }

@@ -260,12 +260,12 @@ lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, do
     tan2_point at_facet = tan2_at(tan2);
     deviation_suprema all = {0.0, 0.0, 0.0, 0.0, 0.0};
     if (brdf->A > 0.0) {
-        deviation_suprema part = glint_suprema(brdf->s, front, &at_facet, &range);
-        suprema_add(&all, brdf->A, &part);
+        deviation_suprema term = glint_suprema(brdf->s, front, &at_facet, &range);
+        suprema_add(&all, brdf->A, &term);
     }
     if (brdf->B > 0.0) {
-        deviation_suprema part = diffuse_suprema(brdf->m, front, &at_facet, &range);
-        suprema_add(&all, brdf->B, &part);
+        deviation_suprema term = diffuse_suprema(brdf->m, front, &at_facet, &range);
+        suprema_add(&all, brdf->B, &term);
     }
     return deviation_of(&all, curvature);
 }

@@ -7,7 +7,7 @@
 #include "base/work.h"
 #include "scene/normal.h"
 
-/* The normals of a block of facets, before they are scaled to unit length. */
+/* The normals of up to LRCSI_LANES facets, before they are scaled to unit length. */
 typedef struct batch_normals {
     double high[3][LRCSI_LANES], low[3][LRCSI_LANES];
     double length[LRCSI_LANES];

@@ -8,6 +8,8 @@
 
 #include "base/constant.h"
 #include "base/degrees.h"
+#include "base/length.h"
+#include "base/vec3.h"
 #include "mesh/curvature.h"
 #include "mesh/tessellate.h"
 
@@ -69,21 +71,17 @@ static double smallest_altitude(const lrcs_scene *scene, const lrcs_part *part)
     double smallest = HUGE_VAL;
     for (uint32_t i = 0; i < part->facet_count; i++) {
         const uint32_t *corner = scene->facet[part->first_facet + i].corner;
-        double side[3][3];
-        double square = 0.0;
-        double area = 0.0;
-        for (int k = 0; k < 9; k++) {
-            side[k / 3][k % 3] = scene->vertex[corner[(k / 3 + 1) % 3]].x[k % 3] -
-                                 scene->vertex[corner[k / 3]].x[k % 3];
-        }
-        for (int k = 0; k < 3; k++) {
-            const double *s = side[k];
-            double n = side[0][(k + 1) % 3] * side[1][(k + 2) % 3] -
-                       side[0][(k + 2) % 3] * side[1][(k + 1) % 3];
-            square = fmax(square, s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
-            area += n * n;
-        }
-        smallest = square > 0.0 ? fmin(smallest, sqrt(area) / sqrt(square)) : 0.0;
+        const double *x = scene->vertex[corner[0]].x;
+        const double *y = scene->vertex[corner[1]].x;
+        const double *z = scene->vertex[corner[2]].x;
+        double longest = lrcsi_length_longest_side(x, y, z);
+        double p[3];
+        double q[3];
+        double n[3];
+        lrcsi_vec3_between(x, y, p);
+        lrcsi_vec3_between(y, z, q);
+        lrcsi_vec3_cross(p, q, n);
+        smallest = longest > 0.0 ? fmin(smallest, sqrt(lrcsi_vec3_dot(n, n)) / longest) : 0.0;
     }
     return smallest;
 }

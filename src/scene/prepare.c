@@ -168,8 +168,8 @@ static int contacts_of_convex_solid(lrcs_prepared *p, lrcs_work *work)
     return LRCS_OK;
 }
 
-/* Finds the pieces of surface, then the contacts (it matters whether two facets in contact belong
-   to the same piece), then proves that the scene is solid, if it is. Redundant facets are not
+/* Finds the connected regions, then the contacts (it matters whether two facets in contact belong
+   to the same region), then proves that the scene is solid, if it is. Redundant facets are not
    searched, nor is the second facet of an opposite pair, which gets a copy of the list of the
    first. This stage comes before the normals, which reuse the memory of its scratch. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
@@ -181,25 +181,26 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
     }
     unsigned char *excluded = lrcsi_work_take(work, facets, sizeof *excluded);
     size_t mark = work->used;
-    uint32_t *piece = lrcsi_work_take(work, facets, sizeof *piece);
-    if (!excluded || !piece) {
+    uint32_t *region = lrcsi_work_take(work, facets, sizeof *region);
+    if (!excluded || !region) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t f = 0; f < facets; f++) {
         excluded[f] = p->redundant[f] == LRCSI_REDUNDANT || (p->opposite && p->opposite[f] < f);
     }
-    if (lrcsi_solid_pieces(p, piece)) {
-        p->piece = piece;
+    if (lrcsi_solid_regions(p, region)) {
+        p->region = region;
     } else {
         work->used = mark;
     }
-    int status = lrcsi_intersection_make(p->vertex, p->scene->vertex_count, p->scene->facet, facets,
-                                         &p->topology, excluded, p->piece, work, &p->intersections);
+    int status =
+        lrcsi_intersection_make(p->vertex, p->scene->vertex_count, p->scene->facet, facets,
+                                &p->topology, excluded, p->region, work, &p->intersections);
     if (status == LRCS_OK) {
         status = lrcsi_coincident_contacts(p, work);
     }
-    if (status == LRCS_OK && p->piece && !p->intersections.self) {
-        status = lrcsi_solid_outward(p, p->piece, work, &p->solid);
+    if (status == LRCS_OK && p->region && !p->intersections.self) {
+        status = lrcsi_solid_outward(p, p->region, work, &p->solid);
     }
     return status;
 }
@@ -213,7 +214,7 @@ static int prepare_normals(lrcs_prepared *p, lrcs_work *work)
     return lrcsi_batches_make(p, work);
 }
 
-/* Tries to prove that a solid scene of one piece of surface is convex; finds which facets are close
+/* Tries to prove that a solid scene of one connected region is convex; finds which facets are close
    to curved shapes, and the extents of parts; last, makes the runs of facets. */
 static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
 {
@@ -221,12 +222,12 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     if (p->convex) {
         p->grazing_cos = lrcsi_convex_grazing(p);
     }
-    if (p->piece && p->solid) {
-        uint32_t pieces = 0;
+    if (p->region && p->solid) {
+        uint32_t regions = 0;
         for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-            pieces += !p->skip[f] && p->piece[f] == f;
+            regions += !p->skip[f] && p->region[f] == f;
         }
-        if (pieces == 1) {
+        if (regions == 1) {
             status = lrcsi_convex_exact(p, work, &p->convex);
         }
     }
@@ -264,11 +265,11 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     size_t coincident = lrcsi_work_add(need, lrcsi_coincident_need(vertices, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t))); /* opposite */
     need = lrcsi_work_add(need, lrcsi_neighbours_need(scene->facet_count));
-    /* 2. Contacts: excluded facets, pieces of surface, and the search with its result. */
+    /* 2. Contacts: excluded facets, connected regions, and the search with its result. */
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     size_t search = lrcsi_intersection_need(vertices, scene->facet_count, contacts);
-    /* 3. The result of the search; normals. The volumes of pieces, released before, need less than
+    /* 3. The result of the search; normals. The volumes of regions, released before, need less than
        the normals. */
     size_t proof = lrcsi_work_bytes(facets + 1, sizeof(uint32_t));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 1));

@@ -144,8 +144,8 @@ struct lrcs_prepared {
     lrcsi_intersections intersections; /* between facets that are not redundant, but not between a
                                           facet and its opposite */
     lrcsi_runs runs;                   /* facets that follow one another */
-    uint32_t *piece;    /* facet: its piece of surface (scene/solid.h) if all are closed; else
-                           NULL */
+    uint32_t *region;   /* facet: its connected region (scene/solid.h) if all are closed; else
+                          NULL */
     double centre[3];   /* of the box around the live facets */
     double radius;      /* half its longest side: no live vertex is farther from the
                            centre in any coordinate */

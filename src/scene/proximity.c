@@ -8,6 +8,7 @@
 
 #include "base/constant.h"
 #include "base/degrees.h"
+#include "base/length.h"
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
@@ -113,17 +114,9 @@ double lrcsi_displacement_across(const lrcsi_displacement *d, const double unit[
 
 double lrcsi_proximity_longest(const lrcs_prepared *p, uint32_t facet)
 {
-    double longest = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *a = lrcsi_prepared_corner(p, facet, k);
-        const double *b = lrcsi_prepared_corner(p, facet, (k + 1) % 3);
-        double square = 0;
-        for (int i = 0; i < 3; i++) {
-            square += (b[i] - a[i]) * (b[i] - a[i]);
-        }
-        longest = lrcsi_max(longest, sqrt(square));
-    }
-    return longest;
+    return lrcsi_length_longest_side(lrcsi_prepared_corner(p, facet, 0),
+                                     lrcsi_prepared_corner(p, facet, 1),
+                                     lrcsi_prepared_corner(p, facet, 2));
 }
 
 int lrcsi_proximity_has_rows(const lrcs_prepared *p, uint32_t facet)
