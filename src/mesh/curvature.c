@@ -41,7 +41,7 @@ lrcs_curvature lrcsi_curvature_rounded(const lrcs_curvature *c, double rounding)
    turn), |exp(x) - 1 - q.tau| <= (h + G^2 E / 2) t^2 and |exp(x) - 1| <= G E t. Integrated over the
    patch, per unit of facet, tau gives `bias` and t^2 rms_turn^2. If G turn exceeds 1, |N n| / |N f|
    within 1/k .. k is used instead. */
-lrcs_curvature lrcsi_curvature_stretched(const lrcs_curvature *c, double ratio, double *uneven)
+lrcs_curvature lrcsi_curvature_mapped(const lrcs_curvature *c, double ratio, double *uneven)
 {
     double k = fmax(1.0, ratio);
     double g = 0.5 * (k - 1.0 / k);

@@ -8,6 +8,19 @@
 
 #include "base/constant.h"
 
+/* Is the surface of a kind of shape doubly curved: of a sphere, dome or paraboloid? Only these have
+   more than one ring. */
+static inline int lrcsi_shape_is_round(int kind)
+{
+    return kind == LRCS_SHAPE_SPHERE || kind == LRCS_SHAPE_DOME || kind == LRCS_SHAPE_PARABOLOID;
+}
+
+/* Is it a plate or box, and so no body of revolution? */
+static inline int lrcsi_shape_is_plane_faced(int kind)
+{
+    return kind == LRCS_SHAPE_PLATE || kind == LRCS_SHAPE_BOX;
+}
+
 /* A body's wall, from the base up. For the sphere it is the upper half; the lower half is its
    mirror image. */
 typedef struct lrcsi_revolution {

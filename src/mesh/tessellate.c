@@ -30,20 +30,9 @@ typedef struct row_builder {
     uint32_t smooth; /* smoothing group of the next facets */
 } row_builder;
 
-static int shape_is_plane_faced(const lrcs_shape *shape)
-{
-    return shape->kind == LRCS_SHAPE_PLATE || shape->kind == LRCS_SHAPE_BOX;
-}
-
-static int shape_has_rings(const lrcs_shape *shape)
-{
-    return shape->kind == LRCS_SHAPE_SPHERE || shape->kind == LRCS_SHAPE_DOME ||
-           shape->kind == LRCS_SHAPE_PARABOLOID;
-}
-
 static int shape_has_apex(const lrcs_shape *shape)
 {
-    return shape_has_rings(shape) || shape->kind == LRCS_SHAPE_CONE;
+    return lrcsi_shape_is_round(shape->kind) || shape->kind == LRCS_SHAPE_CONE;
 }
 
 /* The number of discs that ALL adds: one if the wall has an apex, two if it has none. */
@@ -331,7 +320,7 @@ int lrcsi_tessellate_patch(const lrcs_shape *shape, const lrcs_divisions *divisi
 {
     uint64_t inside = 0;
     uint64_t cap = 0;
-    if (shape_is_plane_faced(shape) || shape->kind == LRCS_SHAPE_DISC) {
+    if (lrcsi_shape_is_plane_faced(shape->kind) || shape->kind == LRCS_SHAPE_DISC) {
         return 0;
     }
     if (shape_caps(shape) > 0) {
@@ -357,11 +346,11 @@ int lrcsi_tessellate_fits(const lrcs_shape *shape, const lrcs_divisions *divisio
 {
     uint32_t around = divisions->around;
     uint32_t along = divisions->along;
-    if (shape_is_plane_faced(shape)) {
+    if (lrcsi_shape_is_plane_faced(shape->kind)) {
         return around == 4 && along == 1;
     }
     if (around < 8 || around > LRCSI_AROUND_MAX || around % 4 != 0 || along < 1 ||
-        along > LRCSI_ALONG_MAX || (along > 1 && !shape_has_rings(shape))) {
+        along > LRCSI_ALONG_MAX || (along > 1 && !lrcsi_shape_is_round(shape->kind))) {
         return 0;
     }
     uint64_t vertices = 0;
@@ -374,7 +363,7 @@ lrcs_mesh_counts lrcsi_tessellate_counts(const lrcs_shape *shape, const lrcs_div
 {
     uint64_t vertices = shape->kind == LRCS_SHAPE_BOX ? 8 : 4;
     uint64_t facets = shape->kind == LRCS_SHAPE_BOX ? 12 : 2;
-    if (!shape_is_plane_faced(shape)) {
+    if (!lrcsi_shape_is_plane_faced(shape->kind)) {
         revolved_counts(shape, divisions, &vertices, &facets);
     }
     return (lrcs_mesh_counts){.vertices = (uint32_t)vertices,
@@ -385,7 +374,7 @@ lrcs_mesh_counts lrcsi_tessellate_counts(const lrcs_shape *shape, const lrcs_div
 
 lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_divisions *divisions)
 {
-    if (shape_is_plane_faced(shape)) {
+    if (lrcsi_shape_is_plane_faced(shape->kind)) {
         return (lrcs_curvature){0.0, 0.0, 0.0, 0.0};
     }
     lrcsi_revolution body = lrcsi_revolution_make(shape, divisions);
@@ -394,7 +383,7 @@ lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_di
 
 lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions)
 {
-    if (shape_is_plane_faced(shape)) {
+    if (lrcsi_shape_is_plane_faced(shape->kind)) {
         return (lrcsi_reach){.all = 0.0};
     }
     lrcsi_revolution body = lrcsi_revolution_make(shape, divisions);

@@ -172,19 +172,13 @@ static double cap_error(const divided_wall *wall, const lrcs_shape *shape)
     return worst;
 }
 
-static int is_round_shape(const lrcs_shape *shape)
-{
-    return shape->kind == LRCS_SHAPE_SPHERE || shape->kind == LRCS_SHAPE_DOME ||
-           shape->kind == LRCS_SHAPE_PARABOLOID;
-}
-
 /* Rings as wide as the sectors are at the widest. */
 static lrcs_divisions divisions_for(const lrcs_shape *shape, uint32_t around)
 {
     lrcs_divisions divisions = {around, 1, 0};
     if (shape->kind == LRCS_SHAPE_PARABOLOID) {
         divisions.along = (uint32_t)fmax(1.0, ceil(rim_angle(shape) / (2.0 * LRCS_PI) * around));
-    } else if (is_round_shape(shape)) {
+    } else if (lrcsi_shape_is_round(shape->kind)) {
         divisions.along = around / 4;
     }
     return divisions;
@@ -201,7 +195,7 @@ static divided_wall divided_wall_make(const lrcs_shape *shape, const lrcs_brdf *
 static double shape_error(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_t around)
 {
     divided_wall wall = divided_wall_make(shape, brdf, around);
-    if (!is_round_shape(shape)) {
+    if (!lrcsi_shape_is_round(shape->kind)) {
         return straight_wall_error(&wall, shape);
     }
     wall_value value = mean_over_sphere(&wall);
@@ -309,7 +303,7 @@ int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
         return LRCS_E_ARGUMENT;
     }
     lrcs_divisions chosen = {4, 1, 0};
-    if (shape->kind != LRCS_SHAPE_PLATE && shape->kind != LRCS_SHAPE_BOX) {
+    if (!lrcsi_shape_is_plane_faced(shape->kind)) {
         uint32_t around_max = most_around(shape, fineness->max_facets);
         uint32_t around = shape->kind == LRCS_SHAPE_DISC
                               ? disc_around(fineness->tolerance, around_max)

@@ -309,7 +309,7 @@ static int add_shape(scene_builder *builder, scene_source *source, const lrcs_di
                                 extent, part);
     status = add_mesh(builder, &mesh, source, scene);
     if (status == LRCS_OK) {
-        lrcsi_placed_shape_tilt(&source->placer, scene, extent, part);
+        lrcsi_placed_shape_normal_err(&source->placer, scene, extent, part);
     }
     work->used = mark;
     return status;

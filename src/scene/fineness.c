@@ -91,12 +91,6 @@ static double part_coarsening(const lrcsi_fineness *fineness, const lrcs_recipe_
     return factor > 1.0 ? fmin(factor, COARSENING_MAX) : 1.0;
 }
 
-static int shape_is_round(const lrcs_shape *shape)
-{
-    return shape->kind == LRCS_SHAPE_SPHERE || shape->kind == LRCS_SHAPE_DOME ||
-           shape->kind == LRCS_SHAPE_PARABOLOID;
-}
-
 /* The tolerance for which a shape is divided: as requested if it is alone. Among other parts the
    requested tolerance is multiplied by the factor above. For round bodies it is also ten times as
    large, and at least round_min, because their number of facets grows as 1/tolerance (that of
@@ -108,8 +102,9 @@ static double shape_tolerance(const lrcsi_fineness *fineness, const lrcs_recipe_
         return tolerance;
     }
     tolerance = fmin(tolerance * part_coarsening(fineness, part), fmax(1.0, tolerance));
-    return shape_is_round(&part->shape) ? fmax(fmin(10.0 * tolerance, 1.0), fineness->round_min)
-                                        : tolerance;
+    return lrcsi_shape_is_round(part->shape.kind)
+               ? fmax(fmin(10.0 * tolerance, 1.0), fineness->round_min)
+               : tolerance;
 }
 
 /* Divides the rim of a shape among other parts finely enough for its shadows. The shadow of a rim
@@ -122,8 +117,8 @@ static void refine_rim(const lrcsi_fineness *fineness, const lrcs_recipe_part *p
     const lrcs_shape *shape = &part->shape;
     double corners =
         3.1416 * sqrt(ldexp(5.0 / shape_tolerance(fineness, part), fineness->halvings));
-    if (fineness->parts == 1 || divisions->along > 1 || shape->kind == LRCS_SHAPE_PLATE ||
-        shape->kind == LRCS_SHAPE_BOX || !(corners < 1e6)) {
+    if (fineness->parts == 1 || divisions->along > 1 || lrcsi_shape_is_plane_faced(shape->kind) ||
+        !(corners < 1e6)) {
         return;
     }
     lrcs_divisions finer = {4 * (uint32_t)(corners / 4.0 + 1.0), 1, 0};
@@ -188,10 +183,10 @@ static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_
         return 0;
     }
     *divisions = (lrcs_divisions){4 * (uint32_t)(corners / 4.0 + 1.0), 1, 0};
-    if (shape_is_round(shape)) {
+    if (lrcsi_shape_is_round(shape->kind)) {
         *divisions = divide_round(fineness, shape, reach);
     }
-    if (shape_is_round(shape) && fineness->halvings > 0) {
+    if (lrcsi_shape_is_round(shape->kind) && fineness->halvings > 0) {
         reach = ldexp(lrcsi_tessellate_reach(shape, divisions).all, -fineness->halvings);
         *divisions = divide_round(fineness, shape, reach);
     }
@@ -206,7 +201,7 @@ static int divide_for_shadows(const lrcsi_fineness *fineness, const lrcs_recipe_
 static int divide_alone(const lrcsi_fineness *fineness, const lrcs_recipe_part *part, double ratio,
                         const lrcs_brdf *brdf, lrcs_divisions *divisions, lrcs_mesh_counts *counts)
 {
-    int is_round = shape_is_round(&part->shape);
+    int is_round = lrcsi_shape_is_round(part->shape.kind);
     const double round = ALONE_ROUND * (ratio * ratio * ratio);
     double tolerance = fmin(ldexp(fineness->tolerance, -fineness->halvings), 1.0);
     double corners =
@@ -233,8 +228,8 @@ static int has_patches(const lrcs_recipe_part *part)
     lrcsi_placer placer;
     double image[3][3];
     double area;
-    int flat = part->shape.kind == LRCS_SHAPE_PLATE || part->shape.kind == LRCS_SHAPE_BOX ||
-               part->shape.kind == LRCS_SHAPE_DISC;
+    int kind = part->shape.kind;
+    int flat = lrcsi_shape_is_plane_faced(kind) || kind == LRCS_SHAPE_DISC;
     return !flat && lrcsi_placer_make(&part->place, &part->joint, &placer) == LRCS_OK &&
            lrcsi_placer_normals(&placer, image, &area);
 }
@@ -271,8 +266,8 @@ int lrcsi_fineness_divide(const lrcsi_fineness *fineness, const lrcs_recipe_part
         ldexp(shape_tolerance(fineness, part) / amplification, -fineness->halvings);
     const lrcs_fineness wanted = {tolerance, material->brdf, fineness->max_facets};
     if (is_closed_form(fineness, part, material)) {
-        *divisions =
-            (lrcs_divisions){BASE_AROUND, shape_is_round(&part->shape) ? BASE_ALONG : 1, 0};
+        *divisions = (lrcs_divisions){BASE_AROUND,
+                                      lrcsi_shape_is_round(part->shape.kind) ? BASE_ALONG : 1, 0};
         *counts = lrcsi_tessellate_counts(&part->shape, divisions);
         if (counts->facets <= fineness->max_facets) {
             return LRCS_OK;

@@ -250,7 +250,7 @@ int lrcsi_placer_normals(const lrcsi_placer *placer, double image[3][3], double 
 
 /* The singular values of a matrix R with |R^T R - I| <= d lie between the square roots of 1 - d and
    1 + d. */
-void lrcsi_placer_stretch(const lrcsi_placer *placer, double *largest, double *condition)
+void lrcsi_placer_singular_values(const lrcsi_placer *placer, double *largest, double *condition)
 {
     const double *scale = placer->place.scale;
     double large = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));

@@ -42,7 +42,7 @@ int lrcsi_placer_normals(const lrcsi_placer *placer, double image[3][3], double 
 /* Upper bounds on the largest singular value of the linear map, and on its condition number (the
    ratio of the largest to the smallest singular value); infinite if a matrix is far from a
    rotation. */
-void lrcsi_placer_stretch(const lrcsi_placer *placer, double *largest, double *condition);
+void lrcsi_placer_singular_values(const lrcsi_placer *placer, double *largest, double *condition);
 
 /* Transforms a normal by the inverse transpose of the linear map, so that outward normals stay
    outward. The length may change. */

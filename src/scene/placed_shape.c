@@ -49,8 +49,7 @@ static int is_closed(const lrcs_shape *shape)
 
 int lrcsi_placed_shape_closed_form(const lrcs_shape *shape, int two_sided)
 {
-    int flat = shape->kind == LRCS_SHAPE_PLATE || shape->kind == LRCS_SHAPE_BOX ||
-               shape->kind == LRCS_SHAPE_DISC;
+    int flat = lrcsi_shape_is_plane_faced(shape->kind) || shape->kind == LRCS_SHAPE_DISC;
     return !flat && (!two_sided || is_closed(shape));
 }
 
@@ -86,12 +85,12 @@ static double smallest_altitude(const lrcs_scene *scene, const lrcs_part *part)
     return smallest;
 }
 
-/* Rounding in placing moves each of a facet's three corners by at most e. That tilts the facet by
+/* Rounding in placing moves each of a facet's three corners by at most e. That rotates the facet by
    at most e divided by its altitude at that corner, and changes its area by at most that fraction.
    The curvature numbers are relative to the area of the facet; that of its patch is larger by at
    most area_err. Nothing can be proved about a facet without area. */
-void lrcsi_placed_shape_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, double extent,
-                             lrcs_part *part)
+void lrcsi_placed_shape_normal_err(const lrcsi_placer *placer, const lrcs_scene *scene,
+                                   double extent, lrcs_part *part)
 {
     double e = lrcsi_placer_error(placer, extent, 0.0);
     if (part->reach > 0.0 && e > 0.0) {
@@ -120,10 +119,10 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     int plane = curvature->turn == 0.0 && curvature->area_err == 0.0 && curvature->bias == 0.0 &&
                 curvature->rms_turn == 0.0;
     const double zero[3] = {0.0, 0.0, 0.0};
-    double stretch;
+    double norm; /* largest singular value */
     double condition;
     lrcsi_axes axes;
-    lrcsi_placer_stretch(placer, &stretch, &condition);
+    lrcsi_placer_singular_values(placer, &norm, &condition);
     double error = (17.0 + (double)divisions->along) * LRCSI_U * extent + 0x1p-1022;
     part->position_err = lrcsi_placer_error(placer, extent + error, error);
     part->kind = shape->kind;
@@ -141,13 +140,13 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
     part->curvature = *curvature;
     part->curvature_known = plane || condition < HUGE_VAL;
     if (!plane && !part->rigid && part->curvature_known) {
-        part->curvature = lrcsi_curvature_stretched(curvature, condition, &part->stretch_err);
+        part->curvature = lrcsi_curvature_mapped(curvature, condition, &part->stretch_err);
     }
     part->convex_patch = 1;
     part->min_extent = smallest * smallest_extent(shape);
     part->solid = is_closed(shape) && part->min_extent > 0.0;
     if (reach.all > 0.0) {
-        double scaled = 1.000001 * stretch;
+        double scaled = 1.000001 * norm;
         double placed = 2.0 * part->position_err;
         part->reach = scaled * reach.all + placed;
         part->hausdorff =

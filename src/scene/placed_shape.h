@@ -19,8 +19,8 @@ void lrcsi_placed_shape_describe(const lrcs_shape *shape, const lrcs_divisions *
                                  double extent, lrcs_part *part);
 
 /* Second step, when the part's facets are in the scene: sets part->normal_err, how far rounding in
-   placing may have tilted them, and includes it in the curvature. */
-void lrcsi_placed_shape_tilt(const lrcsi_placer *placer, const lrcs_scene *scene, double extent,
-                             lrcs_part *part);
+   placing may have rotated their normals, and includes it in the curvature. */
+void lrcsi_placed_shape_normal_err(const lrcsi_placer *placer, const lrcs_scene *scene,
+                                   double extent, lrcs_part *part);
 
 #endif

@@ -86,7 +86,7 @@ static void a_mapped_patch_stays_within_the_mapped_numbers(void **state)
             unit(normal[i]);
         }
         lrcs_curvature before = measure(facet, normal, area);
-        lrcs_curvature bound = lrcsi_curvature_stretched(&before, most / least, &uneven);
+        lrcs_curvature bound = lrcsi_curvature_mapped(&before, most / least, &uneven);
         double whole = 0;
         for (int k = 0; k < 3; k++) {
             whole += facet[k] * facet[k] / scale[k] / scale[k];
