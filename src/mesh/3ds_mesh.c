@@ -106,7 +106,7 @@ static int tds_read_group(lrcsi_tds_walk *walk, lrcsi_tds_chunk chunk, const tds
             uint32_t *old = walk->mesh->facet_material + mesh->first_facet + face;
             unsigned char *old_undefined = walk->undefined + mesh->first_facet + face;
             int in_group = *old != LRCS_NONE || *old_undefined;
-            if (in_group && (*old != material || *old_undefined != undefined)) {
+            if (in_group && *old != material) {
                 walk->notices |= LRCS_MESH_OVERLAPPING_GROUPS;
             }
             *old = material;
