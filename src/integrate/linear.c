@@ -50,7 +50,7 @@
 #include "base/elementary.h"
 #include "base/length.h"
 #include "base/range.h"
-#include "mesh/revolution_normals.h"
+#include "mesh/shape/revolution_normals.h"
 
 /* One term of F: dF/dc, a bound on its error, and its derivative in s or m. */
 typedef struct linear_term {

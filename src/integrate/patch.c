@@ -4,7 +4,8 @@
 
    The patch in the shape's frame. The normal at azimuth phi, at an angle alpha from the axis, is
        N = (sin alpha cos phi, sin alpha sin phi, cos alpha).
-   The patch extends over the azimuths of one sector. Its elements of area (mesh/revolution.c) are
+   The patch extends over the azimuths of one sector. Its elements of area (mesh/shape/revolution.c)
+   are
    - on a straight wall, where alpha is constant: (rho0 + rho1) / 2 times the slant height, d phi;
    - on a sphere or dome: R^2 sin alpha, d alpha d phi;
    - on a paraboloid: (R / y_rim)^2 sin alpha / cos^4 alpha, d alpha d phi. At slope y = tan alpha,
@@ -62,7 +63,7 @@
 
 #include "base/elementary.h"
 #include "base/range.h"
-#include "mesh/revolution.h"
+#include "mesh/shape/revolution.h"
 #include "optics/reflect.h"
 
 #define PATCH_AREA_ERR (512 * LRCSI_U)

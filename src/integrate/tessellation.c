@@ -32,8 +32,8 @@
    the deviation of the whole patch. On flat facets a = 0 and F = F_i.
 
    More is known of a sector of a straight wall (cylinder, cone, frustum). Its map onto the facets
-   takes rows to rows and stretches area evenly (mesh/revolution.c), also after an affine map; F,
-   and the additional stretch of an affine map, depend on azimuth alone. So over any set of whole
+   takes rows to rows and stretches area evenly (mesh/shape/revolution.c), also after an affine map;
+   F, and the additional stretch of an affine map, depend on azimuth alone. So over any set of whole
    rows, a fraction q of the sector, the integral of F - F_i is q times its integral over the
    sector, and every bound on the deviation of the whole patch, or of a region, holds q times. Rows
    that meet no proximity band are visible over their whole length or nowhere
@@ -66,7 +66,7 @@
 #include <math.h>
 
 #include "base/constant.h"
-#include "mesh/curvature.h"
+#include "mesh/shape/curvature.h"
 
 /* The turn, rad, that flat facets count as having: more than the error of their unit normals, which
    are computed in double-double and rounded. */

@@ -18,7 +18,7 @@
 #include <math.h>
 
 #include "base/constant.h"
-#include "mesh/tessellate.h"
+#include "mesh/shape/tessellate.h"
 #include "optics/reflect.h"
 
 #define AROUND_MIN   8u

@@ -12,7 +12,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "mesh/box.h"
-#include "mesh/tree.h"
+#include "mesh/contact/tree.h"
 #include "scene/batch.h"
 #include "scene/bulk.h"
 #include "scene/coincident.h"

@@ -12,7 +12,7 @@
 #include <math.h>
 
 #include "base/elementary.h"
-#include "mesh/intersection.h"
+#include "mesh/contact/intersection.h"
 #include "mesh/topology.h"
 
 /* Scaled coordinates and components of a direction below this count as 0, because the exact
@@ -80,7 +80,8 @@ typedef struct lrcsi_proximity {
 typedef struct lrcsi_run {
     double low[3], high[3]; /* the box around its facets, except those always redundant */
     uint32_t first_side;
-    int has_contacts; /* some facet has a contact or is marked in `met` (mesh/intersection.h) */
+    int has_contacts; /* some facet has a contact or is marked in `met`
+                         (mesh/contact/intersection.h) */
 } lrcsi_run;
 
 /* A side of a facet of a run that has no neighbour, or one in an earlier run. */

@@ -12,9 +12,9 @@
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
+#include "mesh/contact/tree_walk.h"
+#include "mesh/shape/tessellate.h"
 #include "mesh/slice.h"
-#include "mesh/tessellate.h"
-#include "mesh/tree_walk.h"
 
 /* The rounding of vertices cannot reverse a facet if |cos(theta)| exceeds this times the error of
    the vertices over the facet's smallest altitude (scene/solid.c). */
@@ -128,10 +128,10 @@ int lrcsi_proximity_has_rows(const lrcs_prepared *p, uint32_t facet)
 }
 
 /* Heights are measured towards `top`, the corner opposite the side on a circle. A wall's vertices
-   are listed from the base up, and its facets by sectors (mesh/tessellate.c): in each sector first
-   the facet with its side on the base, then, except on a cone, the one with its side on the upper
-   circle. So `top` is the vertex with the largest index in the former and with the smallest in the
-   latter. */
+   are listed from the base up, and its facets by sectors (mesh/shape/tessellate.c): in each sector
+   first the facet with its side on the base, then, except on a cone, the one with its side on the
+   upper circle. So `top` is the vertex with the largest index in the former and with the smallest
+   in the latter. */
 double lrcsi_proximity_rows(const lrcs_prepared *p, uint32_t facet, const double *const corner[3],
                             const lrcsi_slice *slice)
 {

@@ -14,9 +14,9 @@
    If the gap is zero up to e, only points of P within 2 e of its lowest end may be hidden.
 
    Facets. The mesh of a curved shape whose rings are level has its vertices at the heights of the
-   true surface, at radii that are larger by vertex_ratio (mesh/revolution.h): they lie in the true
-   solid stretched by that ratio across the axis, whose support along n is that of the true solid
-   along n stretched in the same way. If the rings are not level, every facet is within the
+   true surface, at radii that are larger by vertex_ratio (mesh/shape/revolution.h): they lie in the
+   true solid stretched by that ratio across the axis, whose support along n is that of the true
+   solid along n stretched in the same way. If the rings are not level, every facet is within the
    Hausdorff distance of the true solid. */
 #include "view/separation.h"
 
@@ -25,7 +25,7 @@
 #include "base/constant.h"
 #include "base/range.h"
 #include "base/vec3.h"
-#include "mesh/revolution.h"
+#include "mesh/shape/revolution.h"
 #include "optics/closed.h"
 
 /* An upper bound of distances: coordinates are below 1, and true shapes not much larger than

@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "base/vec3.h"
-#include "mesh/revolution.h"
+#include "mesh/shape/revolution.h"
 #include "scene/proximity.h"
 #include "view/separation.h"
 

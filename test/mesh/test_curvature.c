@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Curvature numbers under linear maps, against patches whose normals are drawn at random and mapped
    one by one. (The numbers before any map: test_tessellate.c.) */
-#include "mesh/curvature.h"
+#include "mesh/shape/curvature.h"
 
 #include "check.h"
 #include "random.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Proofs about fans of facets: never given where brute force finds that two of them meet in more
    than they share, and given where surfaces are plain. */
-#include "mesh/fan.h"
+#include "mesh/contact/fan.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,9 +9,9 @@
 #include "base/exact.h"
 #include "base/work.h"
 #include "check.h"
+#include "mesh/contact/tree_bounds.h"
+#include "mesh/contact/tree_walk.h"
 #include "mesh/contacts.h"
-#include "mesh/tree_bounds.h"
-#include "mesh/tree_walk.h"
 
 enum { ROOM = 8 << 20, MOST = 3000 };
 

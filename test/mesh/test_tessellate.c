@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Facet meshes of shapes: closed, outward, convex, symmetric to the bit; and the curvature numbers
    against an integration over each patch that shares nothing with their derivation. */
-#include "mesh/revolution_normals.h"
-#include "mesh/tessellate.h"
+#include "mesh/shape/revolution_normals.h"
+#include "mesh/shape/tessellate.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -473,7 +473,8 @@ static void true_point(const lrcs_shape *shape, double lower, double upper, doub
     }
 }
 
-/* The map of mesh/revolution.c from the true surface onto the facets, point by point over a sector.
+/* The map of mesh/shape/revolution.c from the true surface onto the facets, point by point over a
+ * sector.
  */
 static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_rings)
 {

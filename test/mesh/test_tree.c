@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The tree of boxes against all pairs of boxes, and what its order must survive. */
-#include "mesh/tree_bounds.h"
-#include "mesh/tree_walk.h"
+#include "mesh/contact/tree_bounds.h"
+#include "mesh/contact/tree_walk.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Precedence: who dresses a surface, and which bindings matched. */
-#include "scene/bind.h"
+#include "scene/build/bind.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Placing points: what is exact, what the order of steps is, and how far rounding may go. */
-#include "scene/place.h"
+#include "scene/build/place.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What holds of a placed shape by construction. */
-#include "scene/placed_shape.h"
+#include "scene/build/placed_shape.h"
 
 #include "check.h"
 

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesh/revolution.h"
+#include "mesh/shape/revolution.h"
 
 /* The error due to a part falls about in proportion to its division: by this factor with every
    halving, measured on scenes of many parts. If it falls less, the part is halved again. */
