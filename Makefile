@@ -42,7 +42,7 @@ say      = $(if $(V)$(SILENT),,$(info $(NOTHING)  $(1) $@))
 NOTHING  =
 
 CORE     = base mesh optics scene view visibility integrate
-CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c)))
+CORE_SRC = $(sort $(wildcard $(CORE:%=src/%/*.c) $(CORE:%=src/%/*/*.c)))
 ABOVE_SRC = $(sort $(wildcard src/analysis/*.c))
 HOST_SRC = $(sort $(wildcard src/host/*.c src/host/*/*.c))
 CLI_SRC  = $(sort $(wildcard src/cli/*.c src/cli/*/*.c))
@@ -357,7 +357,7 @@ $(BUILD)/src/host/%.o: src/host/%.c
 	$(call say,cc  )
 	$(Q)$(CC) $(STD) $(OPT) $(WARN) $(PIC) $(CFLAGS) $(THREADS) -D_XOPEN_SOURCE=700 -Iinclude -Isrc -I$(BUILD) -MMD -MP -c -o $@ $<
 
-$(JOINED)/lrcs.c: src/amalgamate.sh $(CORE_SRC) $(wildcard $(CORE:%=src/%/*.h) include/lrcs/*.h)
+$(JOINED)/lrcs.c: src/amalgamate.sh $(CORE_SRC) $(wildcard $(CORE:%=src/%/*.h) $(CORE:%=src/%/*/*.h) include/lrcs/*.h)
 	$(call say,join)
 	$(Q)sh src/amalgamate.sh $(JOINED) $(foreach layer,$(CORE),$(filter src/$(layer)/%,$(CORE_SRC)))
 

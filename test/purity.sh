@@ -14,7 +14,7 @@ _GLOBAL_OFFSET_TABLE_ __stack_chk_fail
 allowed="$same_everywhere
 asin atan atan2 atanh cos erfc exp expm1 hypot log log1p pow sin sincos sinh tan"
 # Everything but shapes, what they and curved normals err, and closed forms.
-promised='/src/(base|scene|view|visibility)/|/src/mesh/(3ds|stl|obj|mtl|check|convex|distinct|format|lines|slice|store|topology|touch|tree)|/src/optics/(brdf|reflect|shade)|/src/integrate/(cost|curve|facet_terms|image|patch_visibility|plan|sigma|tessellation|text|total|wall_error)'
+promised='/src/(base|scene|view|visibility)/|/src/mesh/(read/|check|convex|slice|store|topology|contact/tree)|/src/optics/(brdf|reflect|shade)|/src/integrate/(cost|curve|facet_terms|image|patch_visibility|plan|sigma|tessellation|text|total|wall_error)'
 # sincos: what gcc makes of sin and cos of one angle. The last two are the compiler's own.
 [ $# -gt 0 ] || { echo 'purity: no objects given' >&2; exit 2; }
 for tool in nm size; do

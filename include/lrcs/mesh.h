@@ -21,7 +21,9 @@ typedef struct lrcs_surface {
     unsigned char rgb[3]; /* diffuse colour, 0..255 */
     unsigned char has_colour;
     unsigned char two_sided;
-    double transparency; /* 0 opaque .. 1 invisible */
+    unsigned char defined; /* 1: its definition was read: of a 3DS file always, of an OBJ file by
+                              lrcs_mtl_read */
+    double transparency;   /* 0 opaque .. 1 invisible */
 } lrcs_surface;
 
 /* What the reader found and the user should know: bits of lrcs_mesh.notices. */
@@ -73,7 +75,7 @@ typedef struct lrcs_mesh_report {
     uint32_t nonmanifold_edges;    /* used by three or more */
     uint32_t misoriented_edges;    /* used by two facets in the same direction */
     int closed;                    /* every edge is used equally often in both directions */
-    int convex;                    /* closed, one piece, and exactly convex: no self-shadowing */
+    int convex;                    /* closed, connected, and exactly convex: no self-shadowing */
     double box_min[3], box_max[3]; /* of the vertices that facets use */
     double area;                   /* in the square of the coordinates' unit */
     double volume; /* in its cube; signed, about the box centre; meaningful only if closed */

@@ -16,10 +16,9 @@ typedef struct lrcs_material {
     unsigned char rgb[3];
     unsigned char has_colour;
     unsigned char two_sided;
-    unsigned char omitted; /* fully transparent: its facets are left out of the scene */
-    unsigned char bound;   /* 0: its numbers are not given: brdf is lrcs_brdf_default, or what a
-                              scene file calls assumed */
-    lrcs_brdf_error error; /* of brdf; all zero where none was stated */
+    unsigned char omitted;    /* fully transparent: its facets are left out of the scene */
+    unsigned char brdf_given; /* 0: brdf is lrcs_brdf_default, or what a scene file calls assumed */
+    lrcs_brdf_error error;    /* of brdf; all zero where none was stated */
     uint32_t source; /* materials of equal source > 0 got the same numbers from one place: their
                         errors are one and the same; 0: the default */
 } lrcs_material;

@@ -79,7 +79,7 @@ int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_
    the true surface. Patches cover the body once (facets of one plane may share a patch, each in
    proportion to its area), and over every patch:
      the true normal deviates from the facet's normal by at most `turn` (rad);
-     |patch area - facet area| <= area_error * facet area;
+     |patch area - facet area| <= area_err * facet area;
      |integral over the patch of the turn vector (rad, in the facet's plane)| <= bias * facet area;
      integral over the patch of the squared turn (rad^2) <= rms_turn^2 * facet area.
    All are zero for polyhedra. The bounds hold for the exact dimensions and include the rounding of
@@ -87,7 +87,7 @@ int lrcs_closed_eval(const lrcs_shape *shape, const lrcs_brdf *brdf, const lrcs_
    (the rounding of these is not included). */
 typedef struct lrcs_curvature {
     double turn;
-    double area_error;
+    double area_err;
     double bias;
     double rms_turn;
 } lrcs_curvature;

@@ -47,11 +47,11 @@ void lrcsi_degrees_sincos_dd(double deg, double addend, lrcsi_dd *sine, lrcsi_dd
     lrcsi_dd s = lrcsi_dd_mul(x, alternating_series(y, 2));
     lrcsi_dd c = alternating_series(y, 1);
     /* remquo keeps the sign and at least the low three bits of the quotient: enough for mod 4. */
-    unsigned turn = ((unsigned)quarter + (unsigned)quarter_lo + (unsigned)quarter_sum) & 3u;
-    lrcsi_dd out_s = turn & 1u ? c : s;
-    lrcsi_dd out_c = turn & 1u ? s : c;
-    *sine = turn & 2u ? lrcsi_dd_negate(out_s) : out_s;
-    *cosine = turn == 1 || turn == 2 ? lrcsi_dd_negate(out_c) : out_c;
+    unsigned quadrant = ((unsigned)quarter + (unsigned)quarter_lo + (unsigned)quarter_sum) & 3u;
+    lrcsi_dd out_s = quadrant & 1u ? c : s;
+    lrcsi_dd out_c = quadrant & 1u ? s : c;
+    *sine = quadrant & 2u ? lrcsi_dd_negate(out_s) : out_s;
+    *cosine = quadrant == 1 || quadrant == 2 ? lrcsi_dd_negate(out_c) : out_c;
 }
 
 void lrcsi_degrees_sincos(double deg, double *sine, double *cosine)

@@ -20,6 +20,23 @@ static inline double lrcsi_length(const double v[3])
     return sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * 0x1p-500;
 }
 
+/* The longest side of a triangle, |x| in plain doubles. */
+static inline double lrcsi_length_longest_side(const double a[3], const double b[3],
+                                               const double c[3])
+{
+    const double *const corner[4] = {a, b, c, a};
+    double longest = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double square = 0.0;
+        for (int i = 0; i < 3; i++) {
+            double d = corner[k + 1][i] - corner[k][i];
+            square += d * d;
+        }
+        longest = square > longest ? square : longest;
+    }
+    return sqrt(longest);
+}
+
 /* The same for a vector in the plane. */
 static inline double lrcsi_length_flat(double x, double y)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Radix sort from the lowest digit up (Knuth TAOCP 3, 5.2.5), in digits of 11 bits; a digit that is
-   the same in every key costs nothing. Shell's sort, where there is no memory for that. */
+   the same in every key costs nothing. Where there is no memory for that, Shell's sort for numbers,
+   and heap sort (TAOCP 3, 5.2.3) for the short lists of items. */
 #include "base/sort.h"
 
-#include <stddef.h>
 #include <string.h>
 
 enum { RADIX_BITS = 11, RADIX_SIZE = 1 << RADIX_BITS };
@@ -73,5 +73,50 @@ void lrcsi_sort_ascending(double *x, uint32_t count)
             }
             x[at] = moved;
         }
+    }
+}
+
+static int item_before(lrcsi_sort_item a, lrcsi_sort_item b)
+{
+    return a.key < b.key || (a.key == b.key && a.value < b.value);
+}
+
+/* Sinks item i of a heap of n, the last in order on top. */
+static void sink_item(lrcsi_sort_item *item, size_t i, size_t n)
+{
+    lrcsi_sort_item moved = item[i];
+    for (size_t child = 2 * i + 1; child < n; child = 2 * i + 1) {
+        child += child + 1 < n && item_before(item[child], item[child + 1]);
+        if (!item_before(moved, item[child])) {
+            break;
+        }
+        item[i] = item[child];
+        i = child;
+    }
+    item[i] = moved;
+}
+
+/* Insertion sort if there are few items, as in most lists; otherwise heap sort. */
+void lrcsi_sort_items(lrcsi_sort_item *item, size_t count)
+{
+    if (count > 32) {
+        for (size_t i = count / 2; i > 0; i--) {
+            sink_item(item, i - 1, count);
+        }
+        for (size_t last = count; last-- > 1;) {
+            lrcsi_sort_item top = item[0];
+            item[0] = item[last];
+            item[last] = top;
+            sink_item(item, 0, last);
+        }
+        return;
+    }
+    for (size_t i = 1; i < count; i++) {
+        lrcsi_sort_item next = item[i];
+        size_t at = i;
+        for (; at > 0 && item_before(next, item[at - 1]); at--) {
+            item[at] = item[at - 1];
+        }
+        item[at] = next;
     }
 }

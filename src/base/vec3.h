@@ -31,4 +31,15 @@ static inline void lrcsi_vec3_between(const double a[3], const double b[3], doub
     out[2] = b[2] - a[2];
 }
 
+/* out = (b - a) x (c - a): the normal of the triangle a b c, twice its area long. */
+static inline void lrcsi_vec3_normal(const double a[3], const double b[3], const double c[3],
+                                     double out[3])
+{
+    double p[3];
+    double q[3];
+    lrcsi_vec3_between(a, b, p);
+    lrcsi_vec3_between(a, c, q);
+    lrcsi_vec3_cross(p, q, out);
+}
+
 #endif

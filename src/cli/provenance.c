@@ -31,7 +31,7 @@ const lrcs_brdf_entry *cli_brdf_entry(const lrcs_brdf *brdf)
 const char *cli_material_source(const lrcs_material *material)
 {
     const lrcs_brdf other = lrcs_brdf_default();
-    if (!material->bound) {
+    if (!material->brdf_given) {
         return brdf_same(&material->brdf, &other) ? "default" : "assumed";
     }
     const lrcs_brdf_entry *entry = cli_brdf_entry(&material->brdf);

@@ -219,7 +219,7 @@ static void brdf_put(const lrcs_material *material, FILE *out)
                 entry->source ? entry->source : "illustrative");
         return;
     }
-    if (!material->bound) {
+    if (!material->brdf_given) {
         const char *like = suggestion(material->name);
         fputs("assumed = true    # GUESS: A to m are the default; delete this line with your own",
               out);

@@ -28,11 +28,10 @@ static inline lrcsi_visible lrcsi_areas_of(const lrcsi_areas *areas, const lrcsi
                                            const lrcsi_plan *plan, uint32_t facet,
                                            const lrcsi_incidence *incidence)
 {
-    const lrcsi_visible nothing = {0, 0, 0, 0, 0};
+    const lrcsi_visible nothing = lrcsi_visible_exactly(0);
     if (lrcsi_areas_answered(areas, facet)) {
         double area = incidence->projected;
-        return areas->answer[facet] == LRCSI_QUERY_VISIBLE ? (lrcsi_visible){area, area, area, 0, 0}
-                                                           : nothing;
+        return areas->answer[facet] == LRCSI_QUERY_VISIBLE ? lrcsi_visible_exactly(area) : nothing;
     }
     if (areas->visible) {
         return areas->visible[facet];

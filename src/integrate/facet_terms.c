@@ -8,7 +8,6 @@
 #include <math.h>
 
 #include "base/constant.h"
-#include "base/elementary.h"
 #include "base/range.h"
 #include "optics/reflect.h"
 
@@ -29,11 +28,11 @@ static lrcsi_reflection reflection_planned(const lrcs_brdf *brdf, const lrcsi_pl
     return at;
 }
 
-/* The largest value of the glint of amplitude 1, (1 + u)^2 exp(-u / s^2), over u >= 0. */
-static double glint_peak(double s)
+/* The largest value of the glint. */
+static double glint_peak(const lrcs_brdf *brdf)
 {
-    double q = 2 * s * s;
-    return q <= 1 ? 1 : q * q * lrcsi_exp(2 / q - 2);
+    double root = brdf->A > 0 ? lrcsi_reflect_glint_root(brdf->s) : 0;
+    return brdf->A * root * root;
 }
 
 /* A bound on the error of the glint where the relative error of tan^2 is too large for a linear
@@ -43,7 +42,7 @@ static double glint_uncertainty(const lrcs_brdf *brdf, const lrcsi_incidence *in
 {
     double lower = incidence->tan2 * (1 - 2 * incidence->tan2_err);
     if (!(lower >= 2 * brdf->s * brdf->s)) {
-        return brdf->A * glint_peak(brdf->s);
+        return glint_peak(brdf);
     }
     const lrcs_brdf alone = {brdf->A, 0, brdf->s, 0};
     lrcsi_reflection upper = lrcsi_reflect(&alone, lower, 0);
@@ -65,7 +64,7 @@ static double reflection_uncertainty(const lrcs_brdf *brdf, const lrcsi_incidenc
                                      const lrcsi_reflection *at)
 {
     if (isinf(incidence->tan2_err)) {
-        double highest = (brdf->A > 0 ? brdf->A * glint_peak(brdf->s) : 0) + brdf->B;
+        double highest = glint_peak(brdf) + brdf->B;
         return incidence->tan2 >= 2 * brdf->s * brdf->s ? at->glint + at->diffuse : highest;
     }
     double u_or_1 = lrcsi_min(incidence->tan2, 1);

@@ -7,7 +7,7 @@
        F(N) = F(n) + grad F . t + R,  |R| <= gamma^2/2 second       (optics/deviation.c)
    and, since t sin(gamma)/gamma is the part of N perpendicular to n,
        |grad F . t - grad F . N| <= |grad F| (gamma - sin gamma) <= |grad F| gamma^3/6.
-   With e_x, e_y and the numbers of lrcsi_profile_normals, let
+   With e_x, e_y and the numbers of lrcsi_revolution_normals, let
        l = m + G . (y - c),   G = across (grad F . e_x) e_x + along (grad F . e_y) e_y,
    y the image of the point on the facets, c their centroid, and m the mean of F over the patch. The
    map of points to images stretches area evenly, so that G . (y - c) has mean 0 over the patch. Let
@@ -21,7 +21,7 @@
    that: at most the integral of |H|. This is `region`. At points |h| <= |H| + |mean of H|; the
    second is at most (1 + a) region, which the caller adds to `point`.
 
-   Areas. The facets' area differs from the patch's by at most the fraction a = area_error. Per unit
+   Areas. The facets' area differs from the patch's by at most the fraction a = area_err. Per unit
    of area of the facets the sum uses (patch area / facet area) m, but G as it is: so on the patch G
    is multiplied by a factor within a/(1 - a) of 1. That is an error of `variation` times a/(1 - a).
 
@@ -50,6 +50,7 @@
 #include "base/elementary.h"
 #include "base/length.h"
 #include "base/range.h"
+#include "mesh/shape/revolution_normals.h"
 
 /* One term of F: dF/dc, a bound on its error, and its derivative in s or m. */
 typedef struct linear_term {
@@ -98,7 +99,7 @@ static void to_view(const lrcsi_view *view, const lrcs_part *part, const double 
 
 /* Makes e_x, e_y and n in the axes of the view. */
 static void axes_make(const lrcsi_view *view, const lrcsi_patch *patch, double half,
-                      const lrcsi_profile_normals *normals, double e[3][3])
+                      const lrcsi_revolution_normals *normals, double e[3][3])
 {
     const lrcs_part *part = &view->prepared->scene->part[patch->part];
     double phi = (2.0 * patch->at.sector + 1.0) * half;
@@ -149,12 +150,12 @@ static double gradients_make(const linear_patch *at, const linear_term term[2],
         int flank = !(varies <= mean[k]);
         steepest += turned;
         if (flank) {
-            linear->region += turned * c->rms_turn * sqrt(1 + c->area_error);
+            linear->region += turned * c->rms_turn * sqrt(1 + c->area_err);
             linear->point += turned * c->turn;
         } else {
             kept += term[k].slope;
             linear->rounding += (term[k].err * at->p + slope * (2 * LRCSI_PATCH_NORMAL_ERR)) *
-                                c->turn * (1 + c->area_error);
+                                c->turn * (1 + c->area_err);
         }
         for (int j = 0; j < 2; j++) {
             gradient[k][j] = flank ? 0 : term[k].slope * across[j];
@@ -173,15 +174,15 @@ int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi
                       const lrcs_curvature *curvature, double second, lrcsi_linear *linear)
 {
     const lrcs_part *part = &view->prepared->scene->part[patch->part];
-    const double a = curvature->area_error;
-    lrcsi_profile profile = lrcsi_profile_make(&part->shape, &part->divisions);
-    lrcsi_profile_normals normals = lrcsi_profile_normals_make(&profile, patch->at.row);
+    const double a = curvature->area_err;
+    lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
+    lrcsi_revolution_normals normals = lrcsi_revolution_normals_make(&body, patch->at.row);
     double unit = ldexp(part->unit, -view->prepared->exponent);
     linear_patch at = {
         .scale = {normals.across / unit, normals.along / unit},
         .reach = {normals.across * normals.width, fabs(normals.along) * normals.length}};
     linear_term term[2];
-    axes_make(view, patch, profile.half, &normals, at.e); /* 1 */
+    axes_make(view, patch, body.half, &normals, at.e); /* 1 */
     at.toward[0] = patch->side * at.e[0][2];
     at.toward[1] = patch->side * at.e[1][2];
     at.c = patch->side * at.e[2][2];

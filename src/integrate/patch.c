@@ -4,7 +4,8 @@
 
    The patch in the shape's frame. The normal at azimuth phi, at an angle alpha from the axis, is
        N = (sin alpha cos phi, sin alpha sin phi, cos alpha).
-   The patch extends over the azimuths of one sector. Its elements of area (mesh/profile.c) are
+   The patch extends over the azimuths of one sector. Its elements of area (mesh/shape/revolution.c)
+   are
    - on a straight wall, where alpha is constant: (rho0 + rho1) / 2 times the slant height, d phi;
    - on a sphere or dome: R^2 sin alpha, d alpha d phi;
    - on a paraboloid: (R / y_rim)^2 sin alpha / cos^4 alpha, d alpha d phi. At slope y = tan alpha,
@@ -55,14 +56,14 @@
    up to 1 %. Since |d log glint / du| <= 2 + 1/s^2 and |d log diffuse / du| <= m/2 + 1, each term
    changes by at most the factor exp of that times du. Areas, weights and sums are accurate to
    PATCH_AREA_ERR, relative, nu to e / nu, and a paraboloid's to that divided by cos alpha.
-   Called: lrcsi_tessellate_patch, lrcsi_profile_make, lrcsi_reflect. */
+   Called: lrcsi_tessellate_patch, lrcsi_revolution_make, lrcsi_reflect. */
 #include "integrate/patch.h"
 
 #include <math.h>
 
 #include "base/elementary.h"
 #include "base/range.h"
-#include "mesh/profile.h"
+#include "mesh/shape/revolution.h"
 #include "optics/reflect.h"
 
 #define PATCH_AREA_ERR (512 * LRCSI_U)
@@ -209,7 +210,7 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, const lrcsi_patche
     const lrcs_prepared *prepared = view->prepared;
     const lrcs_part *part = &prepared->scene->part[patch->part];
     const lrcsi_wall_patch *at = &patch->at;
-    lrcsi_profile profile = lrcsi_profile_make(&part->shape, &part->divisions);
+    lrcsi_revolution body = lrcsi_revolution_make(&part->shape, &part->divisions);
     double unit = ldexp(part->unit, -prepared->exponent);
     double facets = 0.5 * prepared->normal[facet].length;
     if (at->facets == 2) {
@@ -222,30 +223,30 @@ static int frame_make(const lrcsi_view *view, uint32_t facet, const lrcsi_patche
         double along = axis[0] * view->unit[0] + axis[1] * view->unit[1] + axis[2] * view->unit[2];
         f->g[k] = patch->side * (part->rigid ? along : view->unit[k]);
     }
-    f->half = profile.half;
-    f->phi = (2.0 * at->sector + 1.0) * profile.half;
+    f->half = body.half;
+    f->phi = (2.0 * at->sector + 1.0) * body.half;
     f->fourth = part->kind == LRCS_SHAPE_PARABOLOID;
-    f->step = 0.5 * profile.step;
-    f->alpha = (2.0 * (double)(profile.strips - at->row) - 1.0) * f->step;
-    if (profile.step > 0) {
-        double radius = (f->fourth ? profile.base / profile.slope : profile.base) * unit;
+    f->step = 0.5 * body.step;
+    f->alpha = (2.0 * (double)(body.rings - at->row) - 1.0) * f->step;
+    if (body.step > 0) {
+        double radius = (f->fourth ? body.base / body.slope : body.base) * unit;
         f->sine = sin(f->alpha);
         f->cosine = cos(f->alpha);
         f->area = 4 * f->step * f->half * radius * radius;
     } else {
-        double fall = profile.base - profile.top;
-        double slant = hypot(fall, profile.height);
-        f->sine = profile.height / slant;
+        double fall = body.base - body.top;
+        double slant = hypot(fall, body.height);
+        f->sine = body.height / slant;
         f->cosine = fall / slant;
-        f->area = f->half * ((profile.base + profile.top) * unit) * (slant * unit);
+        f->area = f->half * ((body.base + body.top) * unit) * (slant * unit);
     }
     f->cosine = at->mirrored ? -f->cosine : f->cosine;
     f->area *= (part->rigid ? 1 : part->normal_area) / facets;
     frame_middle(f);
     f->negligible = patches->negligible / f->area;
     f->derivatives = patches->derivatives;
-    patch->area_err = 2 * (lrcsi_profile_rounding(&profile, at->row) + part->normal_err);
-    return isfinite(f->area) && (!f->fourth || profile.step > 0);
+    patch->area_err = 2 * (lrcsi_revolution_rounding(&body, at->row) + part->normal_err);
+    return isfinite(f->area) && (!f->fourth || body.step > 0);
 }
 
 /* --- the remainder ---------------------------------------------------------------------------- */

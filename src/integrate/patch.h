@@ -6,7 +6,7 @@
 
 #include "base/constant.h"
 #include "integrate/plan.h"
-#include "mesh/tessellate.h"
+#include "mesh/shape/tessellate.h"
 
 /* The mean of f_r cos^2 over a patch, per unit of area of the patch's facets. */
 typedef struct lrcsi_patch {
@@ -36,8 +36,8 @@ const lrcs_part *lrcsi_patch_part(const lrcs_prepared *prepared, uint32_t facet)
 
 /* The first facet of a sector, of which the given one is the first or the second: the two are
    neighbours in the part's list of facets, in which every strip of a wall begins at an even index
-   (mesh/tessellate.c). In a strip that ends in an apex each facet has a sector of its own; the two
-   are neighbours in the list all the same. */
+   (mesh/shape/tessellate.c). In a strip that ends in an apex each facet has a sector of its own;
+   the two are neighbours in the list all the same. */
 uint32_t lrcsi_patch_sector(const lrcs_prepared *prepared, uint32_t facet);
 
 /* The other facet of the sector. */

@@ -241,7 +241,7 @@ static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t 
 static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occlusion *o)
 {
     lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
-    lrcsi_visible whole = {incidence.projected, incidence.projected, incidence.projected, 0, 0};
+    lrcsi_visible whole = lrcsi_visible_exactly(incidence.projected);
     lrcsi_curve_integral curve;
     lrcsi_range_facet f = {.curve = NULL};
     double before = lrcsi_sum_value(&run->bins.glint) + lrcsi_sum_value(&run->bins.diffuse);

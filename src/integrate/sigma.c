@@ -190,7 +190,7 @@ static void run_unshadowed(lrcsi_sigma *run)
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
         run->visible[f] = lrcsi_view_casts(view, f)
                               ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
-                              : (lrcsi_visible){0, 0, 0, 0, 0};
+                              : lrcsi_visible_exactly(0);
     }
     if (run->curved) {
         lrcsi_curve_options options = run_curve_options(run, &run->meter);
@@ -234,7 +234,7 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
         *visible = lrcsi_visible_proved(view, f, *visible);
         if (front && run->clear.count > 0 && run->clear.part[p->scene->facet_part[f]]) {
             double projected = lrcsi_view_projected(view, f);
-            *visible = (lrcsi_visible){projected, projected, projected, 0, 0};
+            *visible = lrcsi_visible_exactly(projected);
         }
     }
 }

@@ -32,14 +32,15 @@
    the deviation of the whole patch. On flat facets a = 0 and F = F_i.
 
    More is known of a sector of a straight wall (cylinder, cone, frustum). Its map onto the facets
-   takes rows to rows and stretches area evenly (mesh/profile.c), also after an affine map; F, and
-   the additional stretch of an affine map, depend on azimuth alone. So over any set of whole rows,
-   a fraction q of the sector, the integral of F - F_i is q times its integral over the sector, and
-   every bound on the deviation of the whole patch, or of a region, holds q times. Rows that meet no
-   proximity band are visible over their whole length or nowhere (visibility/proximity_band.h):
-   these are a fraction q <= 1. The other rows are a fraction m of the area, at most twice their
-   fraction of the height, since no row of a trapezoid is longer than twice the mean. Together, for
-   a sector of which no facet is hidden or faces away: T - M <= S (whole + m region + F_i (m a + (1
+   takes rows to rows and stretches area evenly (mesh/shape/revolution.c), also after an affine map;
+   F, and the additional stretch of an affine map, depend on azimuth alone. So over any set of whole
+   rows, a fraction q of the sector, the integral of F - F_i is q times its integral over the
+   sector, and every bound on the deviation of the whole patch, or of a region, holds q times. Rows
+   that meet no proximity band are visible over their whole length or nowhere
+   (visibility/proximity_band.h): these are a fraction q <= 1. The other rows are a fraction m of
+   the area, at most twice their fraction of the height, since no row of a trapezoid is longer than
+   twice the mean. Together, for a sector of which no facet is hidden or faces away: T - M <= S
+   (whole + m region + F_i (m a + (1
    + a) g)), and M - T likewise with l.
 
    A facet that is partly visible, or whose sector is, may be summed with a linear function l of
@@ -65,7 +66,7 @@
 #include <math.h>
 
 #include "base/constant.h"
-#include "mesh/profile.h"
+#include "mesh/shape/curvature.h"
 
 /* The turn, rad, that flat facets count as having: more than the error of their unit normals, which
    are computed in double-double and rounded. */
@@ -80,7 +81,7 @@ static lrcs_curvature patch_curvature(const lrcs_prepared *p, uint32_t facet)
     if (p->scene->facet_smooth[facet] != 0 && part->curvature.turn > 0) {
         return part->curvature;
     }
-    return part->normal_err > 0 ? lrcsi_profile_rounded(&flat, part->normal_err) : flat;
+    return part->normal_err > 0 ? lrcsi_curvature_rounded(&flat, part->normal_err) : flat;
 }
 
 /* The error, per unit of area, of a facet of a closed part that faces away, whose inside seems to

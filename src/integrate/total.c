@@ -107,7 +107,7 @@ static void record_shape(const lrcsi_total_run *run, const lrcs_part *part,
             }
             lrcsi_incidence incidence = lrcsi_view_incidence(run->view, f);
             double area = incidence.projected;
-            lrcsi_visible whole = {area, area, area, 0, 0};
+            lrcsi_visible whole = lrcsi_visible_exactly(area);
             lrcsi_facet_terms facet =
                 lrcsi_facet_terms_make(run->view, run->plan, f, &incidence, &whole, &patches);
             if (adding) {

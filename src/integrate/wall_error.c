@@ -14,7 +14,7 @@
 double lrcsi_patch_area_err(const lrcs_prepared *p, uint32_t facet, const lrcs_curvature *c)
 {
     double uneven = lrcsi_patch_part(p, facet)->stretch_err;
-    return c->area_error + uneven + c->area_error * uneven;
+    return c->area_err + uneven + c->area_err * uneven;
 }
 
 /* Makes the deviation that of F from the mean over the patch, F_i, in place of F at the normal of

@@ -15,6 +15,7 @@
 
 #include "base/dd.h"
 #include "base/work.h"
+#include "mesh/box.h"
 #include "mesh/convex.h"
 #include "mesh/duplicate.h"
 #include "mesh/topology.h"
@@ -26,29 +27,24 @@ typedef struct measured_mesh {
     uint32_t facet_count;
 } measured_mesh;
 
-static void measure_box(const measured_mesh *m, double low[3], double high[3])
+/* The box around all facets; of none, a point at the origin. */
+static lrcsi_box measure_box(const measured_mesh *m)
 {
-    for (int k = 0; k < 3; k++) {
-        low[k] = high[k] = m->facet_count ? m->vertex[m->facet[0].corner[0]].x[k] : 0.0;
+    if (m->facet_count == 0) {
+        return (lrcsi_box){.low = {0.0}};
     }
+    lrcsi_box box = lrcsi_box_empty();
     for (uint32_t f = 0; f < m->facet_count; f++) {
         for (int c = 0; c < 3; c++) {
-            const double *x = m->vertex[m->facet[f].corner[c]].x;
-            for (int k = 0; k < 3; k++) {
-                low[k] = x[k] < low[k] ? x[k] : low[k];
-                high[k] = x[k] > high[k] ? x[k] : high[k];
-            }
+            lrcsi_box_add(&box, m->vertex[m->facet[f].corner[c]].x);
         }
     }
+    return box;
 }
 
-/* A power of two within a factor of two of the box's longest side (1 for a point). */
-static double box_scale(const double low[3], const double high[3])
+/* A power of two within a factor of two of `side` (1 if that is 0). */
+static double power_of_two_near(double side)
 {
-    double side = 0.0;
-    for (int k = 0; k < 3; k++) {
-        side = fmax(side, high[k] - low[k]);
-    }
     double scale = 1.0;
     while (scale < side) {
         scale *= 2.0;
@@ -222,11 +218,13 @@ int lrcs_mesh_check(const lrcs_point *vertex, uint32_t vertex_count, const lrcs_
     }
     if (status == LRCS_OK) {
         count_edge_uses(&t, &made);
-        measure_box(&m, made.box_min, made.box_max);
-        double scale = box_scale(made.box_min, made.box_max);
+        lrcsi_box box = measure_box(&m);
+        double scale = power_of_two_near(lrcsi_box_side(&box));
         double centre[3];
         for (int k = 0; k < 3; k++) {
-            centre[k] = 0.5 * made.box_min[k] + 0.5 * made.box_max[k];
+            made.box_min[k] = box.low[k];
+            made.box_max[k] = box.high[k];
+            centre[k] = 0.5 * box.low[k] + 0.5 * box.high[k];
         }
         made.area = measure_area(&m, t.degenerate, scale);
         made.volume = measure_volume(&m, t.degenerate, centre, scale);

@@ -57,18 +57,6 @@ static uint32_t facet_across(const lrcsi_topology *t, uint32_t edge, uint32_t fa
     return use[0].facet == facet ? use[1].facet : use[0].facet;
 }
 
-/* Condition 1. */
-static int edges_are_paired(const lrcsi_topology *t)
-{
-    for (uint32_t e = 0; e < t->edge_count; e++) {
-        const lrcsi_edge_use *use = t->use + t->edge[e].first_use;
-        if (t->edge[e].uses != 2 || use[0].forward == use[1].forward) {
-            return 0;
-        }
-    }
-    return t->edge_count > 0;
-}
-
 /* The corner of a facet opposite one of its edges. */
 static uint32_t corner_opposite_edge(const lrcsi_topology *t, uint32_t facet, uint32_t edge)
 {
@@ -76,64 +64,49 @@ static uint32_t corner_opposite_edge(const lrcsi_topology *t, uint32_t facet, ui
     return side[0] == edge ? 2 : side[1] == edge ? 0 : 1;
 }
 
-/* A coordinate axis along which a facet is not edge-on, and its orientation seen along that axis.
- */
-static void facet_axis(const double *a, const double *b, const double *c, double axis[3], int *sign)
-{
-    for (int k = 0; k < 3; k++) {
-        axis[0] = k == 0 ? 1.0 : 0.0;
-        axis[1] = k == 1 ? 1.0 : 0.0;
-        axis[2] = k == 2 ? 1.0 : 0.0;
-        *sign = lrcsi_exact_orient(a, b, c, axis);
-        if (*sign != 0) {
-            return;
-        }
-    }
-}
-
 /* 1 if the ray to q comes less than pi after the ray to p, turning about v in the sense of facet a
-   b c; 0 if the two rays coincide or are opposite; else -1. All in the plane of a, b, c. */
-static int turn_in_plane(const double *a, const double *b, const double *c, const double *v,
-                         const double *p, const double *q)
+   b c; 0 if the two rays coincide or are opposite; else -1. All in the plane of a, b, c: seen along
+   a coordinate axis to which the facet is not parallel. */
+static int orientation_in_plane(const double *a, const double *b, const double *c, const double *v,
+                                const double *p, const double *q)
 {
-    double axis[3];
-    int sign;
-    facet_axis(a, b, c, axis, &sign);
-    return sign * lrcsi_exact_orient(v, p, q, axis);
-}
-
-/* Condition 3 at one edge: 1 a convex crease, 0 flat, -1 anything else. */
-static int edge_bend(const convex_mesh *m, uint32_t edge)
-{
-    const lrcsi_topology *t = m->topology;
-    uint32_t f = t->use[t->edge[edge].first_use].facet;
-    uint32_t g = t->use[t->edge[edge].first_use + 1].facet;
-    uint32_t k = corner_opposite_edge(t, f, edge);
-    const double *apex = corner_position(m, f, k);
-    const double *from = corner_position(m, f, k + 1);
-    const double *to = corner_position(m, f, k + 2);
-    const double *beyond = corner_position(m, g, corner_opposite_edge(t, g, edge));
-    int side = lrcsi_exact_side(apex, from, to, beyond);
-    if (side != 0) {
-        return -side;
+    static const double axes[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    int orientation = 0;
+    for (int k = 0, sign = 0; k < 3 && sign == 0; k++) {
+        sign = lrcsi_exact_orient(a, b, c, axes[k]);
+        orientation = sign != 0 ? sign * lrcsi_exact_orient(v, p, q, axes[k]) : 0;
     }
-    return turn_in_plane(apex, from, to, from, to, beyond) < 0 ? 0 : -1;
+    return orientation;
 }
 
+/* Conditions 1 and 3. Marks the edges that are creases; the others are flat. */
 static int edges_are_convex(const convex_mesh *m, unsigned char *crease)
 {
-    for (uint32_t e = 0; e < m->topology->edge_count; e++) {
-        int bend = edge_bend(m, e);
-        if (bend < 0) {
+    const lrcsi_topology *t = m->topology;
+    for (uint32_t e = 0; e < t->edge_count; e++) {
+        const lrcsi_edge_use *use = t->use + t->edge[e].first_use;
+        if (t->edge[e].uses != 2 || use[0].forward == use[1].forward) {
             return 0;
         }
-        crease[e] = (unsigned char)bend;
+        uint32_t f = use[0].facet;
+        uint32_t g = use[1].facet;
+        uint32_t k = corner_opposite_edge(t, f, e);
+        const double *apex = corner_position(m, f, k);
+        const double *from = corner_position(m, f, k + 1);
+        const double *to = corner_position(m, f, k + 2);
+        const double *beyond = corner_position(m, g, corner_opposite_edge(t, g, e));
+        int side = lrcsi_exact_side(apex, from, to, beyond);
+        if (side > 0 ||
+            (side == 0 && orientation_in_plane(apex, from, to, from, to, beyond) >= 0)) {
+            return 0;
+        }
+        crease[e] = side < 0;
     }
-    return 1;
+    return t->edge_count > 0;
 }
 
 /* Condition 2, first half: all facets can be reached from the first one across edges. */
-static int facets_are_one_piece(const convex_mesh *m, uint32_t *queue, unsigned char *seen)
+static int facets_are_connected(const convex_mesh *m, uint32_t *queue, unsigned char *seen)
 {
     const lrcsi_topology *t = m->topology;
     uint32_t proper = 0;
@@ -193,8 +166,8 @@ static int flat_fan_winds_once(const convex_mesh *m, fan_place start, uint32_t s
     uint32_t containing = 0;
     fan_place p = start;
     for (uint32_t i = 0; i < size; i++) {
-        containing += turn_in_plane(v, a, b, v, fan_ray(m, p), a) >= 0 &&
-                      turn_in_plane(v, a, b, v, a, fan_ray_after(m, p)) > 0;
+        containing += orientation_in_plane(v, a, b, v, fan_ray(m, p), a) >= 0 &&
+                      orientation_in_plane(v, a, b, v, a, fan_ray_after(m, p)) > 0;
         p = fan_next(m, p);
     }
     return containing == 1;
@@ -207,15 +180,15 @@ static int chain_span(const convex_mesh *m, fan_place *p, uint32_t size)
     const double *v = corner_position(m, p->facet, p->corner);
     const double *first = fan_ray(m, *p);
     const double *second = fan_ray_after(m, *p);
-    int turn = 1;
+    int span = 1;
     for (uint32_t i = 0; i < size; i++) {
-        turn = i == 0 ? 1 : turn_in_plane(v, first, second, v, first, fan_ray_after(m, *p));
+        span = i == 0 ? 1 : orientation_in_plane(v, first, second, v, first, fan_ray_after(m, *p));
         *p = fan_next(m, *p);
-        if (turn < 0 || m->crease[fan_edge(m, *p)]) {
+        if (span < 0 || m->crease[fan_edge(m, *p)]) {
             break;
         }
     }
-    return turn;
+    return span;
 }
 
 /* Cases m > 2, from a crease: chains shorter than pi, then the two families of signs. */
@@ -314,7 +287,7 @@ int lrcsi_convex_prove(const lrcs_point *vertex, uint32_t vertex_count, const lr
         return LRCS_E_MEMORY;
     }
     convex_mesh m = {vertex, facet, topology, crease, facet_count};
-    *convex = edges_are_paired(topology) && edges_are_convex(&m, crease) &&
-              facets_are_one_piece(&m, queue, seen) && points_are_convex(&m, size, start);
+    *convex = edges_are_convex(&m, crease) && facets_are_connected(&m, queue, seen) &&
+              points_are_convex(&m, size, start);
     return LRCS_OK;
 }

@@ -70,12 +70,8 @@ static double slice_area(const lrcsi_slice *slice)
 {
     double sum[3] = {0, 0, 0};
     for (int i = 1; i + 1 < slice->count; i++) {
-        double p[3];
-        double q[3];
         double n[3];
-        lrcsi_vec3_between(slice->x[0], slice->x[i], p);
-        lrcsi_vec3_between(slice->x[0], slice->x[i + 1], q);
-        lrcsi_vec3_cross(p, q, n);
+        lrcsi_vec3_normal(slice->x[0], slice->x[i], slice->x[i + 1], n);
         for (int k = 0; k < 3; k++) {
             sum[k] += n[k];
         }

@@ -68,6 +68,8 @@ int lrcsi_store_take(const lrcs_mesh_counts *counts, lrcs_work *work, lrcs_mesh 
 
 size_t lrcs_mesh_need(const lrcs_mesh_counts *counts)
 {
+    const size_t marks = lrcsi_work_bytes(counts->facets, 1);
+    const size_t table = lrcsi_work_bytes(lrcsi_store_slots(counts->vertices), sizeof(uint32_t));
     const size_t block[] = {
         lrcsi_work_bytes(counts->materials, sizeof(lrcs_surface)),
         lrcsi_work_bytes(counts->parts, sizeof(const char *)),
@@ -78,11 +80,12 @@ size_t lrcs_mesh_need(const lrcs_mesh_counts *counts)
         lrcsi_work_bytes(counts->vertices, sizeof(lrcs_point)),
         counts->normals ? lrcsi_work_bytes(counts->facets, sizeof(lrcs_facet)) : 0,
         lrcsi_work_bytes(counts->normals, sizeof(lrcs_point)),
-        /* scratch: names of materials and parts, or welded vertices, in a table */
+        /* scratch: names of materials and parts; welded vertices in a table, or a mark of each
+           facet */
         lrcsi_work_bytes(counts->materials, sizeof(const char *)),
         lrcsi_index_need(counts->materials),
         lrcsi_index_need(counts->parts),
-        lrcsi_work_bytes(lrcsi_store_slots(counts->vertices), sizeof(uint32_t)),
+        table > marks ? table : marks,
     };
     size_t bytes = 0;
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) {

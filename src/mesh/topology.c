@@ -142,60 +142,10 @@ static uint32_t mark_degenerate(const lrcs_point *vertex, const lrcs_facet *face
 
 /* --- sides ------------------------------------------------------------------------------------ */
 
-/* A side of a facet, while sides are sorted, and the upper end of its edge. */
-typedef struct sorted_side {
-    uint32_t side, high;
-} sorted_side;
-
-static int side_before(sorted_side a, sorted_side b)
-{
-    return a.high < b.high || (a.high == b.high && a.side < b.side);
-}
-
-/* Sinks entry `i` of a heap of n, the last in order on top. */
-static void sink_side(sorted_side *s, size_t i, size_t n)
-{
-    sorted_side entry = s[i];
-    for (size_t child = 2 * i + 1; child < n; child = 2 * i + 1) {
-        child += child + 1 < n && side_before(s[child], s[child + 1]);
-        if (!side_before(entry, s[child])) {
-            break;
-        }
-        s[i] = s[child];
-        i = child;
-    }
-    s[i] = entry;
-}
-
-/* Insertion sort if there are few, as at most vertices; otherwise heap sort. */
-static void sort_sides(sorted_side *s, size_t n)
-{
-    if (n > 32) {
-        for (size_t i = n / 2; i > 0; i--) {
-            sink_side(s, i - 1, n);
-        }
-        for (size_t last = n; last-- > 1;) {
-            sorted_side top = s[0];
-            s[0] = s[last];
-            s[last] = top;
-            sink_side(s, 0, last);
-        }
-        return;
-    }
-    for (size_t i = 1; i < n; i++) {
-        sorted_side next = s[i];
-        size_t at = i;
-        for (; at > 0 && side_before(next, s[at - 1]); at--) {
-            s[at] = s[at - 1];
-        }
-        s[at] = next;
-    }
-}
-
-/* Fills use[], edge[] and facet_edge[]. Scratch: side[], with as many items as use[]; and place[],
-   with vertex_count + 1. */
+/* Fills use[], edge[] and facet_edge[]. Scratch: side[], with as many items as use[], each a side
+   with the upper end of its edge as key; and place[], with vertex_count + 1. */
 static void build_edges(lrcsi_topology *t, uint32_t vertex_count, const lrcs_facet *facet,
-                        uint32_t facet_count, sorted_side *side, uint32_t *place)
+                        uint32_t facet_count, lrcsi_sort_item *side, uint32_t *place)
 {
     /* 1. Counts the sides whose lower end is at each vertex; then computes the index where they
        begin. */
@@ -218,7 +168,7 @@ static void build_edges(lrcsi_topology *t, uint32_t vertex_count, const lrcs_fac
         for (uint32_t k = 0; k < SIDES && !t->degenerate[f]; k++) {
             uint32_t other = at[k == 2 ? 0 : k + 1];
             uint32_t low = at[k] < other ? at[k] : other;
-            side[place[low]++] = (sorted_side){SIDES * f + k, at[k] ^ other ^ low};
+            side[place[low]++] = (lrcsi_sort_item){at[k] ^ other ^ low, SIDES * f + k};
         }
     }
     /* 3. Sorts the sides of each vertex by their upper ends: those with the same one are an edge.
@@ -226,14 +176,14 @@ static void build_edges(lrcsi_topology *t, uint32_t vertex_count, const lrcs_fac
     uint32_t begin = 0;
     t->edge_count = 0;
     for (uint32_t v = 0; v < vertex_count; v++) {
-        sort_sides(side + begin, place[v] - begin);
+        lrcsi_sort_items(side + begin, place[v] - begin);
         lrcsi_edge *edge = NULL;
         for (uint32_t i = begin; i < place[v]; i++) {
-            uint32_t f = side[i].side / SIDES;
-            uint32_t k = side[i].side % SIDES;
-            if (!edge || edge->high != side[i].high) {
+            uint32_t f = side[i].value / SIDES;
+            uint32_t k = side[i].value % SIDES;
+            if (!edge || edge->high != side[i].key) {
                 edge = &t->edge[t->edge_count++];
-                *edge = (lrcsi_edge){v, side[i].high, i, 0};
+                *edge = (lrcsi_edge){v, side[i].key, i, 0};
             }
             edge->uses++;
             t->facet_edge[f].corner[k] = t->edge_count - 1;
@@ -266,7 +216,7 @@ size_t lrcsi_topology_need(uint32_t vertex_count, uint32_t facet_count)
     size_t sides = (size_t)SIDES * facet_count;
     size_t weld =
         lrcsi_work_add(kept_before_edges(vertex_count, facet_count), weld_scratch(vertex_count));
-    size_t edges = lrcsi_work_add(lrcsi_work_bytes(sides, sizeof(sorted_side)),
+    size_t edges = lrcsi_work_add(lrcsi_work_bytes(sides, sizeof(lrcsi_sort_item)),
                                   lrcsi_work_bytes((size_t)vertex_count + 1, sizeof(uint32_t)));
     edges = lrcsi_work_add(edges, lrcsi_topology_kept(vertex_count, facet_count));
     return weld > edges ? weld : edges;
@@ -291,7 +241,7 @@ int lrcsi_topology_make(const lrcs_point *vertex, uint32_t vertex_count, const l
         t.use = lrcsi_work_take(work, sides, sizeof *t.use);
         size_t end = work->used;
         t.edge = lrcsi_work_take(work, sides, sizeof *t.edge); /* there are at most as many */
-        sorted_side *side = lrcsi_work_take(work, sides, sizeof *side);
+        lrcsi_sort_item *side = lrcsi_work_take(work, sides, sizeof *side);
         uint32_t *place = lrcsi_work_take(work, (size_t)vertex_count + 1, sizeof *place);
         if (t.use && t.edge && side && place) {
             build_edges(&t, vertex_count, facet, facet_count, side, place);

@@ -202,8 +202,8 @@ double lrcs_brdf_eval(const lrcs_brdf *brdf, double cos_theta)
         /* 1 - cos is exact from cos = 1/2 up; sin^2 first, so that 1/cos^2 cannot overflow alone */
         double tan2 = (1.0 - cos_theta) * (1.0 + cos_theta) / cos_theta / cos_theta;
         lrcs_brdf glint = {brdf->A, 0.0, brdf->s, 0.0};
-        double part = lrcsi_reflect(&glint, fmax(tan2, 0.0), 0.0).glint;
-        sum += part > 0.0 ? part / cos_theta / cos_theta : 0.0;
+        double f_cos2 = lrcsi_reflect(&glint, fmax(tan2, 0.0), 0.0).glint;
+        sum += f_cos2 > 0.0 ? f_cos2 / cos_theta / cos_theta : 0.0;
     }
     return sum;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* sigma of a shape alone. It decides which faces each shape has (plane faces, caps, one curved
-   wall) and checks the arguments; the curved walls are in closed_ring.c and closed_cap.c. The
+   wall) and checks the arguments; the curved walls are in closed_cone.c and closed_cap.c. The
    bodies are convex: every point that faces the laser is lit. */
 #include <math.h>
 

@@ -82,7 +82,7 @@ static arc_sample law_sample(const lrcsi_arc_integrand *integrand, const lrcsi_a
 
 static lrcsi_arc_point arc_point(const lrcsi_arc *arc, int right, double d)
 {
-    return arc->is_cap ? lrcsi_cap_point(arc, right, d) : lrcsi_ring_point(arc, right, d);
+    return arc->is_cap ? lrcsi_cap_point(arc, right, d) : lrcsi_circle_point(arc, right, d);
 }
 
 /* sum[term] += width times F at that distance from an end. */
@@ -110,49 +110,35 @@ static void arc_add_panel(const lrcsi_arc *arc, int right, double low, double hi
     }
 }
 
-/* The same over [0, h] at a left end where the integrand is analytic in the root of the distance.
- */
-static void arc_add_root(const lrcsi_arc *arc, double h, lrcsi_dd *sum)
-{
-    double half = 0.5 * sqrt(h);
-    for (int i = 0; i < 2 * LRCSI_GAUSS_PAIRS; i++) {
-        const double *rule = lrcsi_gauss_rule[i / 2];
-        double x = half + (i % 2 ? half : -half) * rule[0];
-        arc_add_point(arc, 0, x * x, rule[1] * half * 2.0 * x, sum);
-    }
-}
-
-/* May [0, h] at an end be the last panel of a term, given `sum`, the integral outside it? Towards
-   the left end F grows, so it must be within a factor e of its end value; towards the right end it
-   must decrease monotonically or hardly change. */
-static int term_ends(const lrcsi_arc *arc, int term, int right, double h, double sum)
+/* May [0, h] at an end be the last panel, given `sum`, the integrals outside it? Towards the left
+   end F grows, so it must be within a factor e of its end value; towards the right end it must
+   decrease monotonically or hardly change. */
+static int arc_ends(const lrcsi_arc *arc, int right, double h, const lrcsi_dd *sum)
 {
     double smooth = right ? arc->right_smooth : arc->left_smooth;
     lrcsi_arc_point point = arc_point(arc, right, h);
-    arc_sample at = law_sample(&arc->integrand[term], &point);
-    if (!right) {
-        return at.decay <= 1.0 &&
-               (h <= smooth || (h <= arc->weight_scale && h * at.value <= ARC_SMALL * sum));
-    }
-    lrcsi_arc_point last = arc_point(arc, right, 0.0);
-    arc_sample end = law_sample(&arc->integrand[term], &last);
-    int level = end.decay - at.decay <= 1.0 && last.q >= 0.5 * point.q;
-    if (h <= smooth) {
-        return level || (at.falling && h * at.value <= 0x1p-60 * sum);
-    }
-    return h <= arc->weight_scale && (level || at.falling) && h * at.value <= ARC_SMALL * sum;
-}
-
-static int arc_ends(const lrcsi_arc *arc, int right, double h, const lrcsi_dd *sum)
-{
-    for (int term = 0; term < LRCSI_TERMS; term++) {
-        if (arc->requested[term] && !term_ends(arc, term, right, h, sum[term].hi)) {
-            return 0;
+    lrcsi_arc_point last = right ? arc_point(arc, right, 0.0) : point;
+    int ends = 1;
+    for (int term = 0; term < LRCSI_TERMS && ends; term++) {
+        if (!arc->requested[term]) {
+            continue;
         }
+        arc_sample at = law_sample(&arc->integrand[term], &point);
+        int negligible = h <= arc->weight_scale && h * at.value <= ARC_SMALL * sum[term].hi;
+        if (!right) {
+            ends = at.decay <= 1.0 && (h <= smooth || negligible);
+            continue;
+        }
+        arc_sample end = law_sample(&arc->integrand[term], &last);
+        int level = end.decay - at.decay <= 1.0 && last.q >= 0.5 * point.q;
+        ends = h <= smooth ? level || (at.falling && h * at.value <= 0x1p-60 * sum[term].hi)
+                           : (level || at.falling) && negligible;
     }
-    return 1;
+    return ends;
 }
 
+/* Panels from the middle of the arc to one of its ends. At a left end with a root the last panel
+   [0, h] is summed in x, x^2 = d. */
 static void arc_add_half(const lrcsi_arc *arc, int right, lrcsi_dd *sum)
 {
     double h = 0.5 * arc->length;
@@ -160,10 +146,15 @@ static void arc_add_half(const lrcsi_arc *arc, int right, lrcsi_dd *sum)
         arc_add_panel(arc, right, 0.5 * h, h, sum);
         h *= 0.5;
     }
-    if (arc->left_root && !right) {
-        arc_add_root(arc, h, sum);
-    } else {
+    if (right || !arc->left_root) {
         arc_add_panel(arc, right, 0.0, h, sum);
+        return;
+    }
+    double half = 0.5 * sqrt(h);
+    for (int i = 0; i < 2 * LRCSI_GAUSS_PAIRS; i++) {
+        const double *rule = lrcsi_gauss_rule[i / 2];
+        double x = half + (i % 2 ? half : -half) * rule[0];
+        arc_add_point(arc, 0, x * x, rule[1] * half * 2.0 * x, sum);
     }
 }
 

@@ -27,13 +27,13 @@ typedef struct lrcsi_arc_point {
 
 lrcsi_arc_integrand lrcsi_arc_integrand_make(const lrcs_brdf *brdf, int term, double cos_reference);
 
-/* A ring of normals, at azimuths phi = 0 .. phi_1: q = 1 - k sin^2(phi/2). If q_pi = q(pi) = 1 - k
-   is not negative, the ring is entirely lit and phi_1 = pi; else q(phi_1) = 0, and psi_1 = pi -
+/* A circle of normals, at azimuths phi = 0 .. phi_1: q = 1 - k sin^2(phi/2). If q_pi = q(pi) = 1 -
+   k is not negative, the circle is entirely lit and phi_1 = pi; else q(phi_1) = 0, and psi_1 = pi -
    phi_1.
  */
-typedef struct lrcsi_ring {
+typedef struct lrcsi_normal_circle {
     double k, q_pi, psi_1;
-} lrcsi_ring;
+} lrcsi_normal_circle;
 
 /* An interval of angles theta from the laser; the weight of each theta is its integral over the
    azimuth about the laser (closed_cap.c). */
@@ -53,7 +53,7 @@ typedef struct lrcsi_arc {
     int requested[LRCSI_TERMS]; /* 0: that term is not integrated */
     double length;
     int is_cap;
-    lrcsi_ring ring;
+    lrcsi_normal_circle circle;
     lrcsi_cap cap;
     /* Within this distance of an end the integrand without F is smooth; 0: it has an algebraic zero
        or a root at the end itself. */
@@ -64,7 +64,7 @@ typedef struct lrcsi_arc {
 } lrcsi_arc;
 
 /* The point at distance d from the left or the right end, 0 <= d <= length/2 up to rounding. */
-lrcsi_arc_point lrcsi_ring_point(const lrcsi_arc *arc, int right, double d);
+lrcsi_arc_point lrcsi_circle_point(const lrcsi_arc *arc, int right, double d);
 lrcsi_arc_point lrcsi_cap_point(const lrcsi_arc *arc, int right, double d);
 
 /* The integrals of the requested terms over the arc, 0 for the others. Relative error at most

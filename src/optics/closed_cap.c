@@ -73,47 +73,34 @@ static double cap_weight_panel(double kappa, double low, double high, double g, 
     return half * sum;
 }
 
-/* The integral over y sqrt(|kappa|) = 0 .. end, times g. If the integrand grows exponentially,
-   panels are added from the far end until the next is below 2^-60 of the sum. */
-static double cap_weight_integral(double kappa, double end, double g, double r)
+/* Phi, weighted with (n_0/n_z)^4, over the arc |phi| < phi_1 with w2 = tan^2(phi_1/2); n_max is
+   P + Q and n_min is P - Q. For kappa < 0, 1 + kappa w2 = n_0 (1 + w2)/(P + Q) without
+   cancellation, and the integrand grows exponentially: panels are added from the far end until the
+   next is below 2^-60 of the sum. */
+static double cap_weight_arc(double n_max, double n_min, double q, double n_0, double w2)
 {
+    double kappa = n_min != 0.0 ? n_min / n_max : 0x1p-1000;
+    double g = n_0 / n_max;
+    double r = q / n_max;
+    double z = sqrt(fabs(kappa) * w2);
+    double end = 2.0 * atan(z); /* of y sqrt(|kappa|) */
+    int panels = 1;
+    if (kappa < 0.0) {
+        double complement = g * (1.0 + w2); /* 1 - z^2 */
+        end = complement > 0.5 ? 2.0 * atanh(z) : 2.0 * log1p(z) - log(complement);
+        panels = 1 + (int)(end / CAP_PANEL_LENGTH);
+    }
     double sum = 0.0;
-    int count = kappa < 0.0 ? 1 + (int)(end / CAP_PANEL_LENGTH) : 1;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < panels; i++) {
         double high = end - i * CAP_PANEL_LENGTH;
-        double low = i + 1 < count ? high - CAP_PANEL_LENGTH : 0.0;
+        double low = i + 1 < panels ? high - CAP_PANEL_LENGTH : 0.0;
         double panel = cap_weight_panel(kappa, low, high, g, r);
         sum += panel;
         if (panel <= 0x1p-60 * sum) {
             break;
         }
     }
-    return sum / sqrt(fabs(kappa)) * g;
-}
-
-/* Phi, weighted with (n_0/n_z)^4, over the arc |phi| < phi_1 with w2 = tan^2(phi_1/2); n_max is
-   P + Q and n_min is P - Q. For kappa < 0, 1 + kappa w2 = n_0 (1 + w2)/(P + Q) without
-   cancellation. */
-static double cap_weight_arc(double n_max, double n_min, double q, double n_0, double w2)
-{
-    double kappa = n_min != 0.0 ? n_min / n_max : 0x1p-1000;
-    double g = n_0 / n_max;
-    double z = sqrt(fabs(kappa) * w2);
-    double end = 2.0 * atan(z);
-    if (kappa < 0.0) {
-        double complement = g * (1.0 + w2); /* 1 - z^2 */
-        end = complement > 0.5 ? 2.0 * atanh(z) : 2.0 * log1p(z) - log(complement);
-    }
-    return 2.0 * cap_weight_integral(kappa, end, g, q / n_max);
-}
-
-/* The same over the whole circle, where kappa > 0: (a - b cos E)^3 integrated over a half turn. */
-static double cap_weight_circle(double n_max, double n_min, double q, double n_0)
-{
-    double g = n_0 / n_max;
-    double a = 0.5 * g * ((n_max + n_min) / n_min);
-    double b = g * (q / n_min);
-    return 2.0 * LRCS_PI * sqrt(g) * sqrt(n_0 / n_min) * (a * a * a + 1.5 * a * b * b);
+    return 2.0 * (sum / sqrt(fabs(kappa)) * g);
 }
 
 /* Phi at theta = start + delta = end - h (outer), sine and cosine of theta given. */
@@ -134,6 +121,8 @@ static double cap_outer_weight(const lrcsi_cap *cap, double delta, double h, dou
     return cap_weight_arc(n_max, n_min, cap->sin_alpha * sine, cap->n_0, first / second);
 }
 
+/* Phi over the whole circle at theta = end - h. For the paraboloid kappa > 0: (a - b cos E)^3
+   integrated over a half turn. */
 static double cap_inner_weight(const lrcsi_cap *cap, double h, double sine, double cosine)
 {
     if (!cap->paraboloid) {
@@ -141,7 +130,10 @@ static double cap_inner_weight(const lrcsi_cap *cap, double h, double sine, doub
     }
     double n_max = cap->cos_alpha * cosine + cap->sin_alpha * sine;
     double n_min = cap->n_0 * cos(h) + cap->sin_tau * sin(h); /* cos(tau - h) */
-    return cap_weight_circle(n_max, n_min, cap->sin_alpha * sine, cap->n_0);
+    double g = cap->n_0 / n_max;
+    double a = 0.5 * g * ((n_max + n_min) / n_min);
+    double b = g * (cap->sin_alpha * sine / n_min);
+    return 2.0 * LRCS_PI * sqrt(g) * sqrt(cap->n_0 / n_min) * (a * a * a + 1.5 * a * b * b);
 }
 
 lrcsi_arc_point lrcsi_cap_point(const lrcsi_arc *arc, int right, double d)
@@ -179,11 +171,11 @@ typedef struct cap_body {
     double scale, area;
 } cap_body;
 
-/* sum += the integral over one piece of theta that starts at theta_r, nearest to the laser. Values
-   that underflow there are smaller still elsewhere, over at most the whole area. Units: the piece's
-   ends 10, its weight 20, scale 10, the arc. */
-static void cap_add_piece(const lrcs_brdf *brdf, const cap_body *body, lrcsi_arc *arc,
-                          lrcsi_angle theta_r, lrcsi_term_integrals *sum)
+/* sum += the integral over one interval of theta, which starts at theta_r, nearest to the laser.
+   Values that underflow there are smaller still elsewhere, over at most the whole area. Units: the
+   interval's ends 10, its weight 20, scale 10, the arc. */
+static void cap_add_interval(const lrcs_brdf *brdf, const cap_body *body, lrcsi_arc *arc,
+                             lrcsi_angle theta_r, lrcsi_term_integrals *sum)
 {
     lrcsi_term_integrals amount = lrcsi_closed_reflect(brdf, theta_r);
     double factor[LRCSI_TERMS] = {body->area, body->area};
@@ -204,42 +196,36 @@ static void cap_add_piece(const lrcs_brdf *brdf, const cap_body *body, lrcsi_arc
     lrcsi_closed_add(sum, &amount);
 }
 
-/* The geometry of theta for both pieces; start and end are |tau - alpha| and tau + alpha. */
-static lrcsi_cap cap_make(const cap_body *body, const lrcsi_laser_direction *laser,
-                          lrcsi_angle *start, lrcsi_angle *end)
-{
-    *start = lrcsi_closed_angle_difference(body->tau, laser->aspect);
-    *end = lrcsi_closed_angle_sum(body->tau, laser->aspect);
-    lrcsi_cap cap = {.laser_inside = start->sine.hi > 0.0,
-                     .horizon = !(end->cosine.hi > 0.0),
-                     .paraboloid = body->paraboloid,
-                     .sin_alpha = laser->aspect.sine.hi,
-                     .cos_alpha = laser->aspect.cosine.hi,
-                     .sin_tau = body->tau.sine.hi,
-                     .n_0 = body->tau.cosine.hi};
-    if (!cap.laser_inside) {
-        start->sine = lrcsi_dd_negate(start->sine);
-    }
-    cap.sin_start = start->sine.hi;
-    cap.cos_start = start->cosine.hi;
-    cap.start = lrcsi_closed_radians(*start);
-    double beyond = 0.0 - end->cosine.hi; /* +0, not -0, where the end is the horizon */
-    cap.gap = atan2(beyond, end->sine.hi);
-    cap.supplement = atan2(beyond, -end->sine.hi);
-    cap.end = lrcsi_closed_radians(*end);
-    return cap;
-}
-
-/* Whole circles up to |tau - alpha|, where the laser is inside the cap of normals; then arcs up to
-   tau + alpha or the horizon. n_z is regular within pi/2 - tau (`weight_scale`) of what is lit. */
+/* Two intervals of theta: whole circles up to |tau - alpha|, where the laser is inside the cap of
+   normals; then arcs up to tau + alpha or the horizon. n_z is regular within pi/2 - tau
+   (`weight_scale`) of what is lit. */
 static lrcsi_term_integrals cap_integral(const lrcs_brdf *brdf, const lrcsi_laser_direction *laser,
                                          const cap_body *body)
 {
     const lrcsi_angle zero = {{0.0, 0.0}, {1.0, 0.0}};
-    lrcsi_term_integrals sum = {{0.0, 0.0}, {0.0, 0.0}};
-    lrcsi_angle start, end;
-    lrcsi_arc arc = {.is_cap = 1, .cap = cap_make(body, laser, &start, &end)};
+    lrcsi_angle start = lrcsi_closed_angle_difference(body->tau, laser->aspect);
+    lrcsi_angle end = lrcsi_closed_angle_sum(body->tau, laser->aspect);
+    int laser_inside = start.sine.hi > 0.0;
+    if (!laser_inside) {
+        start.sine = lrcsi_dd_negate(start.sine); /* |tau - alpha| */
+    }
+    double beyond = 0.0 - end.cosine.hi; /* +0, not -0, where the end is the horizon */
+    lrcsi_arc arc = {.is_cap = 1,
+                     .cap = {.laser_inside = laser_inside,
+                             .horizon = !(end.cosine.hi > 0.0),
+                             .paraboloid = body->paraboloid,
+                             .sin_start = start.sine.hi,
+                             .cos_start = start.cosine.hi,
+                             .start = lrcsi_closed_radians(start),
+                             .end = lrcsi_closed_radians(end),
+                             .gap = atan2(beyond, end.sine.hi),
+                             .supplement = atan2(beyond, -end.sine.hi),
+                             .sin_alpha = laser->aspect.sine.hi,
+                             .cos_alpha = laser->aspect.cosine.hi,
+                             .sin_tau = body->tau.sine.hi,
+                             .n_0 = body->tau.cosine.hi}};
     lrcsi_cap *cap = &arc.cap;
+    lrcsi_term_integrals sum = {{0.0, 0.0}, {0.0, 0.0}};
     arc.weight_scale = body->paraboloid ? atan2(cap->n_0, cap->sin_tau) : LRCS_PI;
     if (cap->laser_inside) {
         cap->full_circle = 1;
@@ -247,7 +233,7 @@ static lrcsi_term_integrals cap_integral(const lrcs_brdf *brdf, const lrcsi_lase
         cap->cos_end = cap->cos_start;
         arc.length = arc.left_smooth = cap->start;
         arc.right_smooth = 0.25 * fmin(cap->cos_start, arc.weight_scale);
-        cap_add_piece(brdf, body, &arc, zero, &sum);
+        cap_add_interval(brdf, body, &arc, zero, &sum);
     }
     cap->full_circle = 0;
     cap->sin_end = end.sine.hi;
@@ -259,7 +245,7 @@ static lrcsi_term_integrals cap_integral(const lrcs_brdf *brdf, const lrcsi_lase
     }
     arc.left_root = 1;
     arc.left_smooth = 0.15 * fmin(fmin(cap->start, arc.length), arc.weight_scale);
-    cap_add_piece(brdf, body, &arc, start, &sum);
+    cap_add_interval(brdf, body, &arc, start, &sum);
     return sum;
 }
 

@@ -19,9 +19,9 @@ double lrcsi_closed_length(const lrcs_shape *shape)
     return shape->length;
 }
 
-/* A wall whose normals make a ring (closed_ring.c): cos(theta) = a + b cos(phi) is positive for
+/* A wall whose normals make a circle (closed_cone.c): cos(theta) = a + b cos(phi) is positive for
    |phi| < phi_1; area/pi times the integral from 0 to phi_1. */
-static double ring_silhouette(double top, double base, double length, double sine, double cosine)
+static double cone_silhouette(double top, double base, double length, double sine, double cosine)
 {
     double slant = hypot(base - top, length);
     if (!(slant > 0.0)) {
@@ -58,10 +58,10 @@ double lrcsi_closed_silhouette(const lrcs_shape *shape, double sine, double cosi
     case LRCS_SHAPE_CYLINDER:
         return 2.0 * r * shape->length * sine + ends * r * r * (up + down);
     case LRCS_SHAPE_CONE:
-        return ring_silhouette(0.0, r, lrcsi_closed_length(shape), sine, cosine) +
+        return cone_silhouette(0.0, r, lrcsi_closed_length(shape), sine, cosine) +
                ends * r * r * down;
     case LRCS_SHAPE_FRUSTUM:
-        return ring_silhouette(r, shape->radius2, shape->length, sine, cosine) +
+        return cone_silhouette(r, shape->radius2, shape->length, sine, cosine) +
                ends * (r * r * up + shape->radius2 * shape->radius2 * down);
     case LRCS_SHAPE_PARABOLOID:
         return paraboloid_silhouette(shape, sine, cosine) + ends * r * r * down;

@@ -9,15 +9,15 @@
    where the eigenvalues of the Hessian are G'' and cot(theta) G'. G is once continuously
    differentiable, also across 90 deg, where it becomes 0, and its second derivative is bounded,
    which suffices here. This is integrated over the patch, per unit of facet area, with the numbers
-   of lrcs_curvature (a = area_error) and suprema over the angles within `turn` of theta_i:
-       second   a F_i + bias |G'_i| + spread^2/2 sup max(|G''|, |cot G'|)
-       first    a F_i + sqrt(1 + a) spread sup |G'|        (Cauchy-Schwarz on the integral of |t|)
+   of lrcs_curvature (a = area_err) and suprema over the angles within `turn` of theta_i:
+       second   a F_i + bias |G'_i| + rms_turn^2/2 sup max(|G''|, |cot G'|)
+       first    a F_i + sqrt(1 + a) rms_turn sup |G'|        (Cauchy-Schwarz on the integral of |t|)
        range    a F_i + (1 + a) max(sup G - F_i, F_i)      (inf G >= 0)
    All three bounds hold; the smallest is used. At single points |F - F_i| is at most turn sup |G'|,
    and at most max(sup G - F_i, F_i). Over any region of the patch the integral of h = F - F_i is at
    most that of its positive part or of its negative part over the whole patch: with h = g . t + R
    both are at most (Int |g . t| + |Int g . t|)/2 + Int |R|, that is
-       |G'_i| (sqrt(1 + a) spread + bias)/2 + spread^2/2 sup max(|G''|, |cot G'|).
+       |G'_i| (sqrt(1 + a) rms_turn + bias)/2 + rms_turn^2/2 sup max(|G''|, |cot G'|).
    If both sides of a surface reflect, F continues as G(180 deg - theta) beyond 90 deg. It is once
    continuously differentiable there too, with the same suprema; so each bound also holds if some
    points beyond 90 deg count and others do not.
@@ -226,20 +226,20 @@ static lrcsi_deviation deviation_of(const deviation_suprema *all, const lrcs_cur
 {
     double second =
         times(c->bias, all->slope) + times(0.5 * c->rms_turn * c->rms_turn, all->second);
-    double first = times(c->rms_turn * sqrt(1.0 + c->area_error), all->slope_max);
+    double first = times(c->rms_turn * sqrt(1.0 + c->area_err), all->slope_max);
     double range = fmax(all->value_max - all->value, all->value);
     double slope = times(c->turn, all->slope_max);
-    double region = 0.5 * times(c->rms_turn * sqrt(1.0 + c->area_error) + c->bias, all->slope) +
+    double region = 0.5 * times(c->rms_turn * sqrt(1.0 + c->area_err) + c->bias, all->slope) +
                     times(0.5 * c->rms_turn * c->rms_turn, all->second);
     double least = fmin(second, first);
     double point = slope;
     if (isfinite(all->value_max)) {
-        least = fmin(least, times(1.0 + c->area_error, range));
+        least = fmin(least, times(1.0 + c->area_err, range));
         point = fmin(slope, range);
     }
-    return (lrcsi_deviation){(times(c->area_error, all->value) + least) * DEVIATION_MARGIN,
+    return (lrcsi_deviation){(times(c->area_err, all->value) + least) * DEVIATION_MARGIN,
                              point * DEVIATION_MARGIN,
-                             fmin(region, times(1.0 + c->area_error, point)) * DEVIATION_MARGIN,
+                             fmin(region, times(1.0 + c->area_err, point)) * DEVIATION_MARGIN,
                              all->value * DEVIATION_MARGIN,
                              all->value_max * DEVIATION_MARGIN,
                              all->second * DEVIATION_MARGIN};
@@ -260,12 +260,12 @@ lrcsi_deviation lrcsi_deviation_make(const lrcs_brdf *brdf, double cos_theta, do
     tan2_point at_facet = tan2_at(tan2);
     deviation_suprema all = {0.0, 0.0, 0.0, 0.0, 0.0};
     if (brdf->A > 0.0) {
-        deviation_suprema part = glint_suprema(brdf->s, front, &at_facet, &range);
-        suprema_add(&all, brdf->A, &part);
+        deviation_suprema term = glint_suprema(brdf->s, front, &at_facet, &range);
+        suprema_add(&all, brdf->A, &term);
     }
     if (brdf->B > 0.0) {
-        deviation_suprema part = diffuse_suprema(brdf->m, front, &at_facet, &range);
-        suprema_add(&all, brdf->B, &part);
+        deviation_suprema term = diffuse_suprema(brdf->m, front, &at_facet, &range);
+        suprema_add(&all, brdf->B, &term);
     }
     return deviation_of(&all, curvature);
 }
@@ -274,7 +274,7 @@ double lrcsi_reflect_deviation(const lrcs_brdf *brdf, double cos_theta, double t
                                const lrcs_curvature *curvature)
 {
     const lrcs_curvature *c = curvature;
-    if (c->turn == 0.0 && c->area_error == 0.0 && c->bias == 0.0 && c->rms_turn == 0.0) {
+    if (c->turn == 0.0 && c->area_err == 0.0 && c->bias == 0.0 && c->rms_turn == 0.0) {
         return 0.0;
     }
     return lrcsi_deviation_make(brdf, cos_theta, tan2, curvature).whole;

@@ -18,43 +18,43 @@
 #include <math.h>
 
 #include "base/constant.h"
-#include "mesh/tessellate.h"
+#include "mesh/shape/tessellate.h"
 #include "optics/reflect.h"
 
-#define AROUND_MIN 8u
-#define PLAN_NODES 48
+#define AROUND_MIN   8u
+#define DIVIDE_NODES 48
 /* The fraction of the tolerance that is used: errors between the sampled aspects may be larger. */
-#define PLAN_AIM    0.8
-#define PLAN_SAMPLE 1e-2 /* the tolerance at which dome and paraboloid are sampled */
-#define PLAN_GUESS  16.0 /* first guess of around / 4 */
-#define PLAN_TRIES  8    /* largest number of guesses */
-#define FACETS_MIN  64u
+#define DIVIDE_AIM    0.8
+#define DIVIDE_SAMPLE 1e-2 /* the tolerance at which dome and paraboloid are sampled */
+#define DIVIDE_GUESS  16.0 /* first guess of around / 4 */
+#define DIVIDE_TRIES  8    /* largest number of guesses */
+#define FACETS_MIN    64u
 
-/* A material on a curved wall, and how coarse the wall is. */
-typedef struct facet_plan {
+/* A curved wall: its material, and how coarse its facets are. */
+typedef struct divided_wall {
     const lrcs_brdf *brdf;
     lrcs_curvature curvature;
-} facet_plan;
+} divided_wall;
 
 /* For one direction: F and its deviation bound. */
-typedef struct plan_value {
+typedef struct wall_value {
     double sigma, deviation;
-} plan_value;
+} wall_value;
 
-static plan_value plan_at(const facet_plan *plan, double cosine, double tan2)
+static wall_value wall_at(const divided_wall *wall, double cosine, double tan2)
 {
-    plan_value value = {0.0, lrcsi_reflect_deviation(plan->brdf, cosine, tan2, &plan->curvature)};
+    wall_value value = {0.0, lrcsi_reflect_deviation(wall->brdf, cosine, tan2, &wall->curvature)};
     if (cosine > 0.0) {
-        lrcsi_reflection f = lrcsi_reflect(plan->brdf, tan2, 0.0);
+        lrcsi_reflection f = lrcsi_reflect(wall->brdf, tan2, 0.0);
         value.sigma = f.glint + f.diffuse;
     }
     return value;
 }
 
 /* Node k of a midpoint rule on [0, end] with half its nodes on [0, near]; its weight in *weight. */
-static double plan_node(int k, double near, double end, double *weight)
+static double midpoint_node(int k, double near, double end, double *weight)
 {
-    int half = PLAN_NODES / 2;
+    int half = DIVIDE_NODES / 2;
     double from = k < half ? 0.0 : near;
     double to = k < half ? near : end;
     *weight = (to - from) / half;
@@ -62,46 +62,46 @@ static double plan_node(int k, double near, double end, double *weight)
 }
 
 /* The extent of the glint: a few of its widths, or of the facets' turn if that is wider. */
-static double plan_near(const facet_plan *plan, double end)
+static double glint_extent(const divided_wall *wall, double end)
 {
-    double width = plan->brdf->A > 0.0 ? plan->brdf->s : 1.0;
-    return fmin(4.0 * fmax(width, plan->curvature.turn), 0.5 * end);
+    double width = wall->brdf->A > 0.0 ? wall->brdf->s : 1.0;
+    return fmin(4.0 * fmax(width, wall->curvature.turn), 0.5 * end);
 }
 
 /* Mean over all normals of a sphere. */
-static plan_value plan_round(const facet_plan *plan)
+static wall_value mean_over_sphere(const divided_wall *wall)
 {
-    plan_value sum = {0.0, 0.0};
-    double end = fmin(0.5 * LRCS_PI + plan->curvature.turn, LRCS_PI);
-    double narrow = fmin(4.0 * (plan->brdf->A > 0.0 ? plan->brdf->s : 1.0), 0.25 * LRCS_PI);
-    for (int k = 0; k < PLAN_NODES; k++) {
+    wall_value sum = {0.0, 0.0};
+    double end = fmin(0.5 * LRCS_PI + wall->curvature.turn, LRCS_PI);
+    double narrow = fmin(4.0 * (wall->brdf->A > 0.0 ? wall->brdf->s : 1.0), 0.25 * LRCS_PI);
+    for (int k = 0; k < DIVIDE_NODES; k++) {
         double weight = 0.0;
-        double theta = plan_node(k, plan_near(plan, end), end, &weight);
+        double theta = midpoint_node(k, glint_extent(wall, end), end, &weight);
         double slope = tan(theta);
         sum.deviation +=
-            0.5 * sin(theta) * weight * plan_at(plan, cos(theta), slope * slope).deviation;
-        theta = plan_node(k, narrow, 0.5 * LRCS_PI, &weight);
+            0.5 * sin(theta) * weight * wall_at(wall, cos(theta), slope * slope).deviation;
+        theta = midpoint_node(k, narrow, 0.5 * LRCS_PI, &weight);
         slope = tan(theta);
-        sum.sigma += 0.5 * sin(theta) * weight * plan_at(plan, cos(theta), slope * slope).sigma;
+        sum.sigma += 0.5 * sin(theta) * weight * wall_at(wall, cos(theta), slope * slope).sigma;
     }
     return sum;
 }
 
 /* Mean over the normals of elevation psi, the laser at angle alpha from the axis. */
-static plan_value plan_circle(const facet_plan *plan, double psi, double alpha)
+static wall_value mean_over_circle(const divided_wall *wall, double psi, double alpha)
 {
-    plan_value sum = {0.0, 0.0};
-    double near = plan_near(plan, LRCS_PI);
+    wall_value sum = {0.0, 0.0};
+    double near = glint_extent(wall, LRCS_PI);
     const double up[2] = {cos(psi), sin(psi)};
     const double laser[2] = {cos(alpha), sin(alpha)};
-    for (int k = 0; k < PLAN_NODES; k++) {
+    for (int k = 0; k < DIVIDE_NODES; k++) {
         double weight = 0.0;
-        double phi = plan_node(k, near, LRCS_PI, &weight);
+        double phi = midpoint_node(k, near, LRCS_PI, &weight);
         double cosine = up[1] * laser[0] + up[0] * laser[1] * cos(phi);
         double x = up[0] * sin(phi);
         double y = up[1] * laser[1] - up[0] * cos(phi) * laser[0];
         double tan2 = cosine == 0.0 ? HUGE_VAL : (x * x + y * y) / (cosine * cosine);
-        plan_value value = plan_at(plan, cosine, tan2);
+        wall_value value = wall_at(wall, cosine, tan2);
         sum.sigma += weight / LRCS_PI * value.sigma;
         sum.deviation += weight / LRCS_PI * value.deviation;
     }
@@ -109,21 +109,21 @@ static plan_value plan_circle(const facet_plan *plan, double psi, double alpha)
 }
 
 /* The largest ratio over a set of aspects of a straight wall: every 15 deg, and near the glint. */
-static double plan_straight(const facet_plan *plan, const lrcs_shape *shape)
+static double straight_wall_error(const divided_wall *wall, const lrcs_shape *shape)
 {
     double psi = shape->kind == LRCS_SHAPE_CYLINDER ? 0.0 /* elevation of the wall's normal */
                  : shape->kind == LRCS_SHAPE_FRUSTUM
                      ? atan2(shape->radius2 - shape->radius, shape->length)
                  : shape->half_angle_deg > 0.0 ? shape->half_angle_deg * (LRCS_PI / 180.0)
                                                : atan2(shape->radius, shape->length);
-    double mean = plan_round(plan).sigma;
+    double mean = mean_over_sphere(wall).sigma;
     double glint = 0.5 * LRCS_PI - psi;
-    double step = fmin(plan->brdf->s, 0.2);
+    double step = fmin(wall->brdf->s, 0.2);
     double worst = 0.0;
     for (int k = 0; k < 21; k++) {
         double alpha = k < 13 ? k * LRCS_PI / 12.0 : glint + (k - 16) * 0.5 * step;
         if (alpha >= 0.0 && alpha <= LRCS_PI) {
-            plan_value value = plan_circle(plan, psi, alpha);
+            wall_value value = mean_over_circle(wall, psi, alpha);
             double base = fmax(value.sigma, mean);
             worst = fmax(worst, base > 0.0 ? value.deviation / base : 0.0);
         }
@@ -132,7 +132,7 @@ static double plan_straight(const facet_plan *plan, const lrcs_shape *shape)
 }
 
 /* Polar angle of the normal at the rim. */
-static double plan_rim(const lrcs_shape *shape)
+static double rim_angle(const lrcs_shape *shape)
 {
     return shape->kind == LRCS_SHAPE_PARABOLOID ? atan2(2.0 * shape->length, shape->radius)
                                                 : 0.5 * LRCS_PI;
@@ -141,27 +141,27 @@ static double plan_rim(const lrcs_shape *shape)
 /* The largest ratio of a cap of normals over aspects: up to the rim, and near it. At each aspect
    alpha the error and sigma are integrals over the cap, with nodes that are denser near alpha, on
    both sides of it; `size` is the area of the cap. */
-static double plan_caps(const facet_plan *plan, const lrcs_shape *shape)
+static double cap_error(const divided_wall *wall, const lrcs_shape *shape)
 {
-    double mean = plan_round(plan).sigma;
-    double rim = plan_rim(shape);
-    double step = fmin(plan->brdf->s, 0.2);
+    double mean = mean_over_sphere(wall).sigma;
+    double rim = rim_angle(shape);
+    double step = fmin(wall->brdf->s, 0.2);
     double worst = 0.0;
     for (int i = 0; i < 8; i++) {
         double alpha = fmax(0.0, i < 4 ? 0.25 * i * rim : rim + (i - 6) * step);
         double middle = fmin(alpha, rim);
         double size = 0.0;
-        plan_value sum = {0.0, 0.0};
-        for (int k = 0; k < 2 * PLAN_NODES; k++) {
-            double end = k < PLAN_NODES ? middle : rim - middle;
+        wall_value sum = {0.0, 0.0};
+        for (int k = 0; k < 2 * DIVIDE_NODES; k++) {
+            double end = k < DIVIDE_NODES ? middle : rim - middle;
             double weight = 0.0;
-            double offset = plan_node(k % PLAN_NODES, plan_near(plan, end), end, &weight);
-            double theta = k < PLAN_NODES ? middle - offset : middle + offset;
+            double offset = midpoint_node(k % DIVIDE_NODES, glint_extent(wall, end), end, &weight);
+            double theta = k < DIVIDE_NODES ? middle - offset : middle + offset;
             double c = cos(theta);
-            double stretch = /* a paraboloid's area per solid angle of normals */
+            double area_per_angle = /* a paraboloid's area per solid angle of normals */
                 shape->kind == LRCS_SHAPE_PARABOLOID ? 1.0 / (c * c * c * c) : 1.0;
-            weight *= sin(theta) * stretch;
-            plan_value value = plan_circle(plan, 0.5 * LRCS_PI - theta, alpha);
+            weight *= sin(theta) * area_per_angle;
+            wall_value value = mean_over_circle(wall, 0.5 * LRCS_PI - theta, alpha);
             sum.sigma += weight * value.sigma;
             sum.deviation += weight * value.deviation;
             size += weight;
@@ -172,44 +172,44 @@ static double plan_caps(const facet_plan *plan, const lrcs_shape *shape)
     return worst;
 }
 
-static int plan_is_round(const lrcs_shape *shape)
-{
-    return shape->kind == LRCS_SHAPE_SPHERE || shape->kind == LRCS_SHAPE_DOME ||
-           shape->kind == LRCS_SHAPE_PARABOLOID;
-}
-
 /* Rings as wide as the sectors are at the widest. */
-static lrcs_divisions plan_divisions(const lrcs_shape *shape, uint32_t around)
+static lrcs_divisions divisions_for(const lrcs_shape *shape, uint32_t around)
 {
     lrcs_divisions divisions = {around, 1, 0};
     if (shape->kind == LRCS_SHAPE_PARABOLOID) {
-        divisions.along = (uint32_t)fmax(1.0, ceil(plan_rim(shape) / (2.0 * LRCS_PI) * around));
-    } else if (plan_is_round(shape)) {
+        divisions.along = (uint32_t)fmax(1.0, ceil(rim_angle(shape) / (2.0 * LRCS_PI) * around));
+    } else if (lrcsi_shape_is_round(shape->kind)) {
         divisions.along = around / 4;
     }
     return divisions;
 }
 
-/* Planned relative error. */
-static double plan_error(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_t around)
+static divided_wall divided_wall_make(const lrcs_shape *shape, const lrcs_brdf *brdf,
+                                      uint32_t around)
 {
-    lrcs_divisions divisions = plan_divisions(shape, around);
-    facet_plan plan = {brdf, lrcsi_tessellate_curvature(shape, &divisions)};
-    if (!plan_is_round(shape)) {
-        return plan_straight(&plan, shape);
+    lrcs_divisions divisions = divisions_for(shape, around);
+    return (divided_wall){brdf, lrcsi_tessellate_curvature(shape, &divisions)};
+}
+
+/* The estimated relative error of a shape with that many facets around. */
+static double shape_error(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_t around)
+{
+    divided_wall wall = divided_wall_make(shape, brdf, around);
+    if (!lrcsi_shape_is_round(shape->kind)) {
+        return straight_wall_error(&wall, shape);
     }
-    plan_value value = plan_round(&plan);
+    wall_value value = mean_over_sphere(&wall);
     return value.sigma > 0.0 ? value.deviation / value.sigma : 0.0;
 }
 
 /* The largest `around` that max_facets allow, by bisection. */
-static uint32_t plan_around_max(const lrcs_shape *shape, uint32_t max_facets)
+static uint32_t most_around(const lrcs_shape *shape, uint32_t max_facets)
 {
     uint32_t good = AROUND_MIN / 4;
     uint32_t bad = LRCSI_AROUND_MAX / 4 + 1;
     while (bad - good > 1) {
         uint32_t middle = good + (bad - good) / 2;
-        lrcs_divisions divisions = plan_divisions(shape, 4 * middle);
+        lrcs_divisions divisions = divisions_for(shape, 4 * middle);
         if (lrcsi_tessellate_fits(shape, &divisions) &&
             lrcsi_tessellate_counts(shape, &divisions).facets <= max_facets) {
             good = middle;
@@ -222,17 +222,17 @@ static uint32_t plan_around_max(const lrcs_shape *shape, uint32_t max_facets)
 
 /* The least `around` up to `around_max` that meets the tolerance, or `around_max`: guessed for an
    error that falls as 1 / around^2, or by bisection if the guesses do not converge. */
-static uint32_t plan_around(const lrcs_shape *shape, const lrcs_brdf *brdf, double tolerance,
-                            uint32_t around_max)
+static uint32_t least_around(const lrcs_shape *shape, const lrcs_brdf *brdf, double tolerance,
+                             uint32_t around_max)
 {
     uint32_t bad = AROUND_MIN / 4 - 1;
     uint32_t good = around_max / 4;
-    double guess = PLAN_GUESS;
+    double guess = DIVIDE_GUESS;
     for (int tries = 0; good - bad > 1; tries++) {
         uint32_t halfway = bad + (good - bad) / 2;
-        uint32_t at = tries > PLAN_TRIES || !(guess < good) ? halfway : (uint32_t)ceil(guess);
+        uint32_t at = tries > DIVIDE_TRIES || !(guess < good) ? halfway : (uint32_t)ceil(guess);
         at = at <= bad ? bad + 1 : at >= good ? good - 1 : at;
-        double error = plan_error(shape, brdf, 4 * at);
+        double error = shape_error(shape, brdf, 4 * at);
         if (error <= tolerance) {
             good = at;
         } else {
@@ -246,7 +246,7 @@ static uint32_t plan_around(const lrcs_shape *shape, const lrcs_brdf *brdf, doub
 /* A disc's polygon has the disc's area for any number of corners. Between the two outlines lies the
    fraction 4 h^2 / (9 sqrt 3) = 0.2566 h^2 of it, h = pi/N, the mean of |2 (r/R - 1)| with
    r = R (1 - h^2/6 + phi^2/2), |phi| <= h: the tolerance bounds that. */
-static uint32_t plan_disc(double tolerance, uint32_t around_max)
+static uint32_t disc_around(double tolerance, uint32_t around_max)
 {
     double corners = LRCS_PI * sqrt(0.2566 / tolerance);
     if (!(corners < around_max)) {
@@ -256,38 +256,31 @@ static uint32_t plan_disc(double tolerance, uint32_t around_max)
     return around < AROUND_MIN ? AROUND_MIN : around > around_max ? around_max : around;
 }
 
-/* The factor by which the error of a dome or paraboloid exceeds that of a sphere of the same
-   fineness, at least 1. */
-static double plan_factor(const lrcs_shape *shape, const lrcs_brdf *brdf, uint32_t around_max)
-{
-    if (shape->kind != LRCS_SHAPE_DOME && shape->kind != LRCS_SHAPE_PARABOLOID) {
-        return 1.0;
-    }
-    uint32_t around = plan_around(shape, brdf, PLAN_SAMPLE, around_max);
-    lrcs_divisions divisions = plan_divisions(shape, around);
-    facet_plan plan = {brdf, lrcsi_tessellate_curvature(shape, &divisions)};
-    double sphere = plan_error(shape, brdf, around);
-    double factor = sphere > 0.0 ? plan_caps(&plan, shape) / sphere : 1.0;
-    return isfinite(factor) ? fmax(1.0, factor) : 1.0;
-}
-
-/* If even `around_max` leaves an error as large as sigma itself, more facets do not help: the glint
-   is ignored, and the diffuse term (or a matt surface, if there is none) determines the count. */
-static uint32_t plan_curved(const lrcs_shape *shape, const lrcs_fineness *fineness,
-                            uint32_t around_max)
+/* The least number for a tolerance, of a shape with a curved wall. If even `around_max` leaves an
+   error as large as sigma itself, more facets do not help: the glint is ignored, and the diffuse
+   term (or a matt surface, if there is none) determines the count. */
+static uint32_t curved_around(const lrcs_shape *shape, const lrcs_fineness *fineness,
+                              uint32_t around_max)
 {
     lrcs_brdf brdf = fineness->brdf;
     if (around_max == AROUND_MIN) { /* no choice is left */
         return around_max;
     }
-    if (brdf.A > 0.0 && !(plan_error(shape, &brdf, around_max) < 1.0)) {
+    if (brdf.A > 0.0 && !(shape_error(shape, &brdf, around_max) < 1.0)) {
         brdf.A = 0.0;
     }
     if (!(brdf.A > 0.0) && !(brdf.B > 0.0)) {
         brdf = (lrcs_brdf){0.0, 1.0, 1.0, 0.0};
     }
-    double factor = plan_factor(shape, &brdf, around_max);
-    return plan_around(shape, &brdf, PLAN_AIM * fineness->tolerance / factor, around_max);
+    double factor = 1.0; /* by which the error exceeds that of a sphere of the same fineness */
+    if (shape->kind == LRCS_SHAPE_DOME || shape->kind == LRCS_SHAPE_PARABOLOID) {
+        uint32_t around = least_around(shape, &brdf, DIVIDE_SAMPLE, around_max);
+        divided_wall wall = divided_wall_make(shape, &brdf, around);
+        double sphere = shape_error(shape, &brdf, around);
+        double ratio = sphere > 0.0 ? cap_error(&wall, shape) / sphere : 1.0;
+        factor = isfinite(ratio) ? fmax(1.0, ratio) : 1.0;
+    }
+    return least_around(shape, &brdf, DIVIDE_AIM * fineness->tolerance / factor, around_max);
 }
 
 lrcs_fineness lrcs_fineness_default(void)
@@ -310,12 +303,12 @@ int lrcs_shape_count(const lrcs_shape *shape, const lrcs_fineness *fineness,
         return LRCS_E_ARGUMENT;
     }
     lrcs_divisions chosen = {4, 1, 0};
-    if (shape->kind != LRCS_SHAPE_PLATE && shape->kind != LRCS_SHAPE_BOX) {
-        uint32_t around_max = plan_around_max(shape, fineness->max_facets);
+    if (!lrcsi_shape_is_plane_faced(shape->kind)) {
+        uint32_t around_max = most_around(shape, fineness->max_facets);
         uint32_t around = shape->kind == LRCS_SHAPE_DISC
-                              ? plan_disc(fineness->tolerance, around_max)
-                              : plan_curved(shape, fineness, around_max);
-        chosen = plan_divisions(shape, around);
+                              ? disc_around(fineness->tolerance, around_max)
+                              : curved_around(shape, fineness, around_max);
+        chosen = divisions_for(shape, around);
     }
     *divisions = chosen;
     *counts = lrcsi_tessellate_counts(shape, &chosen);

@@ -77,41 +77,30 @@ static reflect_term reflect_glint(const lrcs_brdf *brdf, double u)
     return term;
 }
 
-/* w^(m/2) by roots for m = 0, 1/2, 1, 2; else 0. */
-static double diffuse_root(double w, double m)
-{
-    return m == 0.5 ? sqrt(sqrt(w)) : m == 1.0 ? sqrt(w) : m == 2.0 ? w : m == 0.0 ? 1.0 : 0.0;
-}
-
 static reflect_term reflect_diffuse(const lrcs_brdf *brdf, double u)
 {
     reflect_term term;
-    term.log_slope = (0.5 * brdf->m + 1.0) * lrcsi_min(u, 1.0);
-    double root = diffuse_root(1.0 + u, brdf->m);
+    const double m = brdf->m;
+    const double w = 1.0 + u;
+    term.log_slope = (0.5 * m + 1.0) * lrcsi_min(u, 1.0);
+    /* w^(m/2), or 0 where it is no root */
+    double root = m == 0.5   ? sqrt(sqrt(w))
+                  : m == 1.0 ? sqrt(w)
+                  : m == 2.0 ? w
+                  : m == 0.0 ? 1.0
+                             : 0.0;
     if (root > 0.0) {
-        term.value = brdf->B / root / (1.0 + u);
+        term.value = brdf->B / root / w;
         term.relative = LRCSI_U * REFLECT_ROOT_UNITS;
         return term;
     }
     lrcsi_dd log = lrcsi_log1p(u);
-    double y = 0.25 * brdf->m * log.hi;
-    double r = lrcsi_power(log, -0.25 * brdf->m);
-    term.value = brdf->B * r * r / (1.0 + u);
+    double y = 0.25 * m * log.hi;
+    double r = lrcsi_power(log, -0.25 * m);
+    term.value = brdf->B * r * r / w;
     term.relative = LRCSI_U * (REFLECT_DIFFUSE_UNITS + 2.0 * LRCSI_LOG_ERROR * y +
-                               lrcsi_min(2.0 * y, 0.5 * brdf->m * LRCSI_U));
+                               lrcsi_min(2.0 * y, 0.5 * m * LRCSI_U));
     return term;
-}
-
-/* A bound on the glint for every u in [low, high]: (1 + u)^2 grows and the exponential falls; and
-   on the glint anywhere, with its peak at 1 + u = 2 s^2 if s^2 > 1/2. */
-static double glint_bound(const lrcs_brdf *brdf, double low, double high)
-{
-    double s2 = brdf->s * brdf->s;
-    double q = s2 > 0.5 ? 2.0 * s2 * lrcsi_exp(-1.0 + 0.5 / s2) : 1.0;
-    if (isfinite(high)) {
-        q = fmin(q, lrcsi_exp(lrcsi_log1p(high).hi - 0.5 * (low / brdf->s / brdf->s)));
-    }
-    return brdf->A * q * q;
 }
 
 /* Is the first-order error valid? If not (the error of u is large, or the term is so small that one
@@ -130,16 +119,6 @@ static double term_error(const reflect_term *term, double e)
     return term->value * delta * (1.0 + delta);
 }
 
-/* Does a glint whose first-order error is not valid bound its own error? If tan^2 is exact, only
-   underflow affects it. For these A a value of at most 2^-900 has q < 2^-200. Then (A q) q has
-   errors of 2^-1074 q and 2^-1074, and a q below 2^-1022, which is accurate to 2^-1074, causes an
-   error of 2^-1071. `relative` is above 1 only if both the true and the computed value are
-   negligible. All of this is below 2^-1000. */
-static int glint_bounds_own_error(const lrcs_brdf *brdf, const reflect_term *glint, double e)
-{
-    return e == 0.0 && glint->value <= 0x1p-900 && brdf->A >= 0x1p-500;
-}
-
 /* A bound on the error from a bound on the term itself: twice that covers underflow and rounding.
  */
 static double term_error_bound(const reflect_term *term, double term_bound)
@@ -147,21 +126,39 @@ static double term_error_bound(const reflect_term *term, double term_bound)
     return 2.0 * fmax(term->value, term_bound) + 0x1p-1000;
 }
 
-/* tan^2 is in [tan2 / (1 + e), tan2 / (1 - e)] if e <= 1/4; else it may have any value. */
+double lrcsi_reflect_glint_root(double s)
+{
+    double s2 = s * s;
+    return s2 > 0.5 ? 2.0 * s2 * lrcsi_exp(-1.0 + 0.5 / s2) : 1.0;
+}
+
+/* Where the first-order error is not valid, there are two cases.
+   1. tan^2 is exact, and the glint so small that only underflow affects it: it bounds its own
+      error. For these A a value of at most 2^-900 has q < 2^-200. Then (A q) q has errors of
+      2^-1074 q and 2^-1074, and a q below 2^-1022, which is accurate to 2^-1074, causes an error of
+      2^-1071. `relative` is above 1 only if both the true and the computed value are negligible.
+      All of this is below 2^-1000.
+   2. Else a bound on the glint anywhere takes its place. If e <= 1/4, u is in [tan2 / (1 + e),
+      tan2 / (1 - e)] (else it may have any value), and over that interval (1 + u)^2 is largest at
+      its upper end, the exponential at its lower. */
 static double glint_error(const lrcs_brdf *brdf, const reflect_term *glint, double tan2, double e)
 {
     if (first_order_holds(glint, e)) {
         return term_error(glint, e);
     }
-    if (glint_bounds_own_error(brdf, glint, e)) {
+    if (e == 0.0 && glint->value <= 0x1p-900 && brdf->A >= 0x1p-500) {
         return term_error_bound(glint, glint->value);
     }
-    double low = e <= 0.25 ? tan2 / (1.0 + e) : 0.0;
+    double q = lrcsi_reflect_glint_root(brdf->s);
     double high = e <= 0.25 ? tan2 / (1.0 - e) : HUGE_VAL;
-    return term_error_bound(glint, glint_bound(brdf, low, high));
+    if (isfinite(high)) {
+        double low = tan2 / (1.0 + e);
+        q = fmin(q, lrcsi_exp(lrcsi_log1p(high).hi - 0.5 * (low / brdf->s / brdf->s)));
+    }
+    return term_error_bound(glint, brdf->A * q * q);
 }
 
-/* The diffuse term decreases with u. */
+/* The diffuse term decreases with u, so that its value at the smallest possible u bounds it. */
 static double diffuse_error(const lrcs_brdf *brdf, const reflect_term *diffuse, double tan2,
                             double e)
 {

@@ -21,6 +21,10 @@ typedef struct lrcsi_reflection {
    costs nothing. */
 lrcsi_reflection lrcsi_reflect(const lrcs_brdf *brdf, double tan2, double tan2_err);
 
+/* The root of the largest value of a glint of amplitude 1, w^2 exp(-u / s^2) with w = 1 + u, over
+   all u >= 0: its peak is at w = 2 s^2 if that exceeds 1, else at u = 0. */
+double lrcsi_reflect_glint_root(double s);
+
 /* Bound on the flat-facet error of a curved patch, per unit of facet area:
      | integral over the patch of F dA / (facet area)  -  F(facet normal) |,
    F(n) = f_r cos^2 if n . s_hat > 0, else 0 (the 4 pi is the caller's).

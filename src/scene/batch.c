@@ -7,29 +7,12 @@
 #include "base/work.h"
 #include "scene/normal.h"
 
-/* The normals of a block of facets, before they are scaled to unit length. */
+/* The normals of up to LRCSI_LANES facets, before they are scaled to unit length. */
 typedef struct batch_normals {
     double high[3][LRCSI_LANES], low[3][LRCSI_LANES];
     double length[LRCSI_LANES];
     double half[LRCSI_LANES]; /* area of the facet = length * half */
 } batch_normals;
-
-/* Gathers the normals of up to LRCSI_LANES facets. Where the squares of small components would lose
-   bits to underflow, the normal is multiplied by 2^500, exactly. Unused lanes repeat the first. */
-static void normals_gather(const lrcs_prepared *p, const uint32_t *facet, uint32_t count,
-                           batch_normals *n)
-{
-    for (uint32_t i = 0; i < LRCSI_LANES; i++) {
-        const lrcsi_normal *from = &p->normal[facet[i < count ? i : 0]];
-        double scale = from->length < 0x1p-400 ? 0x1p500 : 1;
-        for (int k = 0; k < 3; k++) {
-            n->high[k][i] = from->high[k] * scale;
-            n->low[k][i] = from->low[k] * scale;
-        }
-        n->length[i] = from->length * scale;
-        n->half[i] = 0.5 / scale;
-    }
-}
 
 /* Unit normals N / |N| and areas |N| / 2, where the relative error of N is 2^-90. Writes all
    LRCSI_LANES elements. */
@@ -48,15 +31,26 @@ static void normals_finish(const batch_normals *restrict n, double *restrict x, 
 }
 
 /* For each block: the normals of its facets, then their unit normals and areas. Last, the normals
-   of skipped facets, which are in no batch. */
+   of skipped facets, which are in no batch. Where the squares of small components would lose bits
+   to underflow, the normal is multiplied by 2^500, exactly. Unused lanes repeat the first. */
 static void batch_normals_make(lrcs_prepared *p, lrcsi_batches *b)
 {
     batch_normals n;
     for (uint32_t start = 0; start < b->count; start += LRCSI_LANES) {
+        const uint32_t *facet = b->facet + start;
         uint32_t left = b->count - start;
         uint32_t count = left < LRCSI_LANES ? left : LRCSI_LANES;
-        lrcsi_normals_make(p, b->facet + start, count);
-        normals_gather(p, b->facet + start, count, &n);
+        lrcsi_normals_make(p, facet, count);
+        for (uint32_t i = 0; i < LRCSI_LANES; i++) {
+            const lrcsi_normal *from = &p->normal[facet[i < count ? i : 0]];
+            double scale = from->length < 0x1p-400 ? 0x1p500 : 1;
+            for (int k = 0; k < 3; k++) {
+                n.high[k][i] = from->high[k] * scale;
+                n.low[k][i] = from->low[k] * scale;
+            }
+            n.length[i] = from->length * scale;
+            n.half[i] = 0.5 / scale;
+        }
         normals_finish(&n, b->normal[0] + start, b->normal[1] + start, b->normal[2] + start,
                        b->area + start);
     }

@@ -8,7 +8,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "optics/closed.h"
-#include "scene/placed_shape.h"
+#include "scene/build/placed_shape.h"
 
 /* A part thinner than this (scaled) has no closed form: its coordinates may be so small that they
    count as 0 (LRCSI_COORDINATE_MIN). */

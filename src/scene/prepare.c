@@ -11,7 +11,8 @@
 #include "base/ieee.h"
 #include "base/range.h"
 #include "base/work.h"
-#include "mesh/tree.h"
+#include "mesh/box.h"
+#include "mesh/contact/tree.h"
 #include "scene/batch.h"
 #include "scene/bulk.h"
 #include "scene/coincident.h"
@@ -94,18 +95,16 @@ static void find_live(lrcs_prepared *p)
 /* The box around the live facets, and that around the bulk of the vertices. */
 static void find_box(lrcs_prepared *p)
 {
-    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    lrcsi_box box = lrcsi_box_empty();
     double half[3] = {0, 0, 0};
     for (uint32_t v = 0; v < p->scene->vertex_count; v++) {
-        for (int k = 0; k < 3 && p->referenced[v]; k++) {
-            low[k] = lrcsi_min(low[k], p->vertex[v].x[k]);
-            high[k] = lrcsi_max(high[k], p->vertex[v].x[k]);
+        if (p->referenced[v]) {
+            lrcsi_box_add(&box, p->vertex[v].x);
         }
     }
     for (int k = 0; k < 3 && p->live > 0; k++) {
-        p->centre[k] = 0.5 * (low[k] + high[k]);
-        half[k] = fmax(high[k] - p->centre[k], p->centre[k] - low[k]);
+        p->centre[k] = 0.5 * (box.low[k] + box.high[k]);
+        half[k] = fmax(box.high[k] - p->centre[k], p->centre[k] - box.low[k]);
         p->radius = fmax(p->radius, half[k]);
     }
     lrcsi_bulk_find(p, half);
@@ -169,8 +168,8 @@ static int contacts_of_convex_solid(lrcs_prepared *p, lrcs_work *work)
     return LRCS_OK;
 }
 
-/* Finds the pieces of surface, then the contacts (it matters whether two facets in contact belong
-   to the same piece), then proves that the scene is solid, if it is. Redundant facets are not
+/* Finds the shells, then the contacts (it matters whether two facets in contact belong
+   to the same shell), then proves that the scene is solid, if it is. Redundant facets are not
    searched, nor is the second facet of an opposite pair, which gets a copy of the list of the
    first. This stage comes before the normals, which reuse the memory of its scratch. */
 static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
@@ -182,25 +181,25 @@ static int prepare_contacts(lrcs_prepared *p, lrcs_work *work)
     }
     unsigned char *excluded = lrcsi_work_take(work, facets, sizeof *excluded);
     size_t mark = work->used;
-    uint32_t *piece = lrcsi_work_take(work, facets, sizeof *piece);
-    if (!excluded || !piece) {
+    uint32_t *shell = lrcsi_work_take(work, facets, sizeof *shell);
+    if (!excluded || !shell) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t f = 0; f < facets; f++) {
         excluded[f] = p->redundant[f] == LRCSI_REDUNDANT || (p->opposite && p->opposite[f] < f);
     }
-    if (lrcsi_solid_pieces(p, piece)) {
-        p->piece = piece;
+    if (lrcsi_solid_shells(p, shell)) {
+        p->shell = shell;
     } else {
         work->used = mark;
     }
     int status = lrcsi_intersection_make(p->vertex, p->scene->vertex_count, p->scene->facet, facets,
-                                         &p->topology, excluded, p->piece, work, &p->intersections);
+                                         &p->topology, excluded, p->shell, work, &p->intersections);
     if (status == LRCS_OK) {
         status = lrcsi_coincident_contacts(p, work);
     }
-    if (status == LRCS_OK && p->piece && !p->intersections.self) {
-        status = lrcsi_solid_outward(p, p->piece, work, &p->solid);
+    if (status == LRCS_OK && p->shell && !p->intersections.self) {
+        status = lrcsi_solid_outward(p, p->shell, work, &p->solid);
     }
     return status;
 }
@@ -214,7 +213,7 @@ static int prepare_normals(lrcs_prepared *p, lrcs_work *work)
     return lrcsi_batches_make(p, work);
 }
 
-/* Tries to prove that a solid scene of one piece of surface is convex; finds which facets are close
+/* Tries to prove that a solid scene of one shell is convex; finds which facets are close
    to curved shapes, and the extents of parts; last, makes the runs of facets. */
 static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
 {
@@ -222,12 +221,12 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     if (p->convex) {
         p->grazing_cos = lrcsi_convex_grazing(p);
     }
-    if (p->piece && p->solid) {
-        uint32_t pieces = 0;
+    if (p->shell && p->solid) {
+        uint32_t shells = 0;
         for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-            pieces += !p->skip[f] && p->piece[f] == f;
+            shells += !p->skip[f] && p->shell[f] == f;
         }
-        if (pieces == 1) {
+        if (shells == 1) {
             status = lrcsi_convex_exact(p, work, &p->convex);
         }
     }
@@ -265,11 +264,11 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     size_t coincident = lrcsi_work_add(need, lrcsi_coincident_need(vertices, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t))); /* opposite */
     need = lrcsi_work_add(need, lrcsi_neighbours_need(scene->facet_count));
-    /* 2. Contacts: excluded facets, pieces of surface, and the search with its result. */
+    /* 2. Contacts: excluded facets, shells, and the search with its result. */
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t)));
     size_t search = lrcsi_intersection_need(vertices, scene->facet_count, contacts);
-    /* 3. The result of the search; normals. The volumes of pieces, released before, need less than
+    /* 3. The result of the search; normals. The volumes of shells, released before, need less than
        the normals. */
     size_t proof = lrcsi_work_bytes(facets + 1, sizeof(uint32_t));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, 1));

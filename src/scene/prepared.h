@@ -12,7 +12,7 @@
 #include <math.h>
 
 #include "base/elementary.h"
-#include "mesh/intersection.h"
+#include "mesh/contact/intersection.h"
 #include "mesh/topology.h"
 
 /* Scaled coordinates and components of a direction below this count as 0, because the exact
@@ -80,7 +80,8 @@ typedef struct lrcsi_proximity {
 typedef struct lrcsi_run {
     double low[3], high[3]; /* the box around its facets, except those always redundant */
     uint32_t first_side;
-    int has_contacts; /* some facet has a contact or is marked in `met` (mesh/intersection.h) */
+    int has_contacts; /* some facet has a contact or is marked in `met`
+                         (mesh/contact/intersection.h) */
 } lrcsi_run;
 
 /* A side of a facet of a run that has no neighbour, or one in an earlier run. */
@@ -144,14 +145,14 @@ struct lrcs_prepared {
     lrcsi_intersections intersections; /* between facets that are not redundant, but not between a
                                           facet and its opposite */
     lrcsi_runs runs;                   /* facets that follow one another */
-    uint32_t *piece;    /* facet: its piece of surface (scene/solid.h) if all are closed; else
-                           NULL */
-    double centre[3];   /* of the box around the live facets */
-    double radius;      /* half its longest side: no live vertex is farther from the
-                           centre in any coordinate */
-    double origin[3];   /* of views: the centre of the bulk (scene/bulk.h) */
-    double bulk[3];     /* half the sides of the bulk */
-    uint32_t live;      /* facets not skipped */
+    uint32_t *shell;                   /* facet: its shell (scene/solid.h) if all are closed; else
+                                          NULL */
+    double centre[3];                  /* of the box around the live facets */
+    double radius;                     /* half its longest side: no live vertex is farther from the
+                                          centre in any coordinate */
+    double origin[3];                  /* of views: the centre of the bulk (scene/bulk.h) */
+    double bulk[3];                    /* half the sides of the bulk */
+    uint32_t live;                     /* facets not skipped */
     int convex;         /* live facets lie on one convex surface, outward and one-sided, exactly or
                            by construction; then only facets at grazing incidence can be hidden */
     double grazing_cos; /* if convex: a facet with cos(theta) above this is entirely visible */

@@ -8,12 +8,13 @@
 
 #include "base/constant.h"
 #include "base/degrees.h"
+#include "base/length.h"
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
+#include "mesh/contact/tree_walk.h"
+#include "mesh/shape/tessellate.h"
 #include "mesh/slice.h"
-#include "mesh/tessellate.h"
-#include "mesh/tree.h"
 
 /* The rounding of vertices cannot reverse a facet if |cos(theta)| exceeds this times the error of
    the vertices over the facet's smallest altitude (scene/solid.c). */
@@ -113,17 +114,9 @@ double lrcsi_displacement_across(const lrcsi_displacement *d, const double unit[
 
 double lrcsi_proximity_longest(const lrcs_prepared *p, uint32_t facet)
 {
-    double longest = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *a = lrcsi_prepared_corner(p, facet, k);
-        const double *b = lrcsi_prepared_corner(p, facet, (k + 1) % 3);
-        double square = 0;
-        for (int i = 0; i < 3; i++) {
-            square += (b[i] - a[i]) * (b[i] - a[i]);
-        }
-        longest = lrcsi_max(longest, sqrt(square));
-    }
-    return longest;
+    return lrcsi_length_longest_side(lrcsi_prepared_corner(p, facet, 0),
+                                     lrcsi_prepared_corner(p, facet, 1),
+                                     lrcsi_prepared_corner(p, facet, 2));
 }
 
 int lrcsi_proximity_has_rows(const lrcs_prepared *p, uint32_t facet)
@@ -135,10 +128,10 @@ int lrcsi_proximity_has_rows(const lrcs_prepared *p, uint32_t facet)
 }
 
 /* Heights are measured towards `top`, the corner opposite the side on a circle. A wall's vertices
-   are listed from the base up, and its facets by sectors (mesh/tessellate.c): in each sector first
-   the facet with its side on the base, then, except on a cone, the one with its side on the upper
-   circle. So `top` is the vertex with the largest index in the former and with the smallest in the
-   latter. */
+   are listed from the base up, and its facets by sectors (mesh/shape/tessellate.c): in each sector
+   first the facet with its side on the base, then, except on a cone, the one with its side on the
+   upper circle. So `top` is the vertex with the largest index in the former and with the smallest
+   in the latter. */
 double lrcsi_proximity_rows(const lrcs_prepared *p, uint32_t facet, const double *const corner[3],
                             const lrcsi_slice *slice)
 {

@@ -6,8 +6,8 @@
 #include <math.h>
 
 #include "base/disjoint.h"
-#include "base/range.h"
 #include "base/work.h"
+#include "mesh/box.h"
 
 /* Lists the runs that the sides of a run lead to. */
 static void run_link(lrcsi_runs *runs, uint32_t run, uint32_t facet_count)
@@ -86,24 +86,19 @@ int lrcsi_runs_make(const lrcs_prepared *p, lrcs_work *work, lrcsi_runs *runs)
     for (uint32_t r = 0; r < made.count; r++) {
         uint32_t start = r * LRCSI_RUN;
         uint32_t end = lrcsi_run_end(start, facet_count);
-        double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
-        double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+        lrcsi_box box = lrcsi_box_empty();
         int has_contacts = 0;
         for (uint32_t f = start; f < end; f++) {
             has_contacts |=
                 lrcsi_intersection_of(&p->intersections, f) != 0 || p->intersections.met[f];
-            const double *a = lrcsi_prepared_corner(p, f, 0);
-            const double *b = lrcsi_prepared_corner(p, f, 1);
-            const double *c = lrcsi_prepared_corner(p, f, 2);
-            for (int k = 0; k < 3 && p->redundant[f] < LRCSI_REDUNDANT; k++) {
-                low[k] = lrcsi_min(low[k], lrcsi_min(lrcsi_min(a[k], b[k]), c[k]));
-                high[k] = lrcsi_max(high[k], lrcsi_max(lrcsi_max(a[k], b[k]), c[k]));
+            for (int c = 0; c < 3 && p->redundant[f] < LRCSI_REDUNDANT; c++) {
+                lrcsi_box_add(&box, lrcsi_prepared_corner(p, f, c));
             }
         }
         lrcsi_run *run = &made.run[r];
         for (int k = 0; k < 3; k++) {
-            run->low[k] = low[k];
-            run->high[k] = high[k];
+            run->low[k] = box.low[k];
+            run->high[k] = box.high[k];
         }
         run->has_contacts = has_contacts;
         made.run[r + 1].first_side = run->first_side;

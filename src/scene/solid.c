@@ -11,25 +11,25 @@
 #include "base/work.h"
 #include "mesh/convex.h"
 
-/* --- pieces: facets joined by edges ----------------------------------------------------------- */
+/* --- shells ----------------------------------------------------------------------------------- */
 
 /* A live facet has a neighbour across each side unless the edge is irregular or a boundary edge. */
-int lrcsi_solid_pieces(const lrcs_prepared *p, uint32_t *piece)
+int lrcsi_solid_shells(const lrcs_prepared *p, uint32_t *shell)
 {
     uint32_t count = p->scene->facet_count;
     for (uint32_t f = 0; f < count; f++) {
-        piece[f] = f;
+        shell[f] = f;
         for (int k = 0; k < 3 && !p->skip[f]; k++) {
             uint32_t other = p->neighbours.facet[f].corner[k];
             if (p->opposite || other == f || other == count) {
                 return 0;
             }
             if (other < f) {
-                lrcsi_disjoint_union(piece, other, f);
+                lrcsi_disjoint_union(shell, other, f);
             }
         }
     }
-    lrcsi_disjoint_flatten(piece, count);
+    lrcsi_disjoint_flatten(shell, count);
     return 1;
 }
 
@@ -55,8 +55,8 @@ static double tetrahedron(const lrcs_prepared *p, uint32_t facet, const double *
     return det;
 }
 
-/* Sums the volumes of pieces, with bounds on their rounding errors. */
-int lrcsi_solid_outward(const lrcs_prepared *p, const uint32_t *piece, lrcs_work *work, int *proved)
+/* Sums the volumes of shells, with bounds on their rounding errors. */
+int lrcsi_solid_outward(const lrcs_prepared *p, const uint32_t *shell, lrcs_work *work, int *proved)
 {
     size_t mark = work->used;
     uint32_t count = p->scene->facet_count;
@@ -69,14 +69,14 @@ int lrcsi_solid_outward(const lrcs_prepared *p, const uint32_t *piece, lrcs_work
     for (uint32_t f = 0; f < count; f++) {
         if (!p->skip[f]) {
             double six_err = 0;
-            double six = tetrahedron(p, f, lrcsi_prepared_corner(p, piece[f], 0), &six_err);
-            volume[piece[f]] += six;
-            error[piece[f]] += six_err + 2 * LRCSI_U * fabs(volume[piece[f]]);
+            double six = tetrahedron(p, f, lrcsi_prepared_corner(p, shell[f], 0), &six_err);
+            volume[shell[f]] += six;
+            error[shell[f]] += six_err + 2 * LRCSI_U * fabs(volume[shell[f]]);
         }
     }
     *proved = 1;
     for (uint32_t f = 0; f < count; f++) {
-        if (!p->skip[f] && piece[f] == f && !(volume[f] > 2 * error[f])) {
+        if (!p->skip[f] && shell[f] == f && !(volume[f] > 2 * error[f])) {
             *proved = 0;
         }
     }

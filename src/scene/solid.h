@@ -5,25 +5,25 @@
 
 #include "scene/prepared.h"
 
-/* Divides the surface into pieces: facets are in the same piece if they are connected across edges.
-   piece[facet] is the first facet of its piece. Returned: 1 if every edge of a live facet has
+/* Divides the surface into shells: facets are in the same one if they are connected across edges.
+   shell[facet] is the first facet of its shell. Returned: 1 if every edge of a live facet has
    exactly two live facets, which traverse it in opposite senses, and no facet has an opposite (two
-   opposite facets enclose no volume, so no such scene is solid); else 0, and piece is undefined. */
-int lrcsi_solid_pieces(const lrcs_prepared *prepared, uint32_t *piece);
+   opposite facets enclose no volume, so no such scene is solid); else 0, and shell is undefined. */
+int lrcsi_solid_shells(const lrcs_prepared *prepared, uint32_t *shell);
 
 /* The last step of a proof that the winding number of the live facets is nowhere negative. The
-   proof requires that all pieces are closed (lrcsi_solid_pieces), that no facet meets the inside or
-   a side of another facet of its piece (lrcsi_intersections.self), and that each piece encloses a
-   positive volume, which this function checks. By the second condition a piece meets itself at most
-   in isolated points (coinciding corners, sides that cross): if two parts of the surface met along
-   a line, they would do so inside a facet or along overlapping sides, of which one ends inside the
-   other. Near an isolated point each of the two parts stays on one side of the other, because it is
-   still connected when the point is removed; so it can be moved away from it. The result is an
-   embedded surface: its winding number is 0 outside and 1 inside (Jordan-Brouwer), and winding
-   numbers of pieces add up. *proved: 1, or 0 if the volume of some piece is not provably positive.
-   Given: the conditions above except the volume. Scratch is taken from work. Status: LRCS_OK;
-   LRCS_E_MEMORY. */
-int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *piece, lrcs_work *work,
+   proof requires that all shells are closed (lrcsi_solid_shells), that no facet meets the inside
+   or a side of another facet of its shell (lrcsi_intersections.self), and that each shell
+   encloses a positive volume, which this function checks. By the second condition a shell meets
+   itself at most in isolated points (coinciding corners, sides that cross): if two parts of the
+   surface met along a line, they would do so inside a facet or along overlapping sides, of which
+   one ends inside the other. Near an isolated point each of the two parts stays on one side of the
+   other, because it is still connected when the point is removed; so it can be moved away from it.
+   The result is an embedded surface: its winding number is 0 outside and 1 inside (Jordan-Brouwer),
+   and winding numbers of shells add up. *proved: 1, or 0 if the volume of some shell is not
+   provably positive. Given: the conditions above except the volume. Scratch is taken from work.
+   Status: LRCS_OK; LRCS_E_MEMORY. */
+int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *shell, lrcs_work *work,
                         int *proved);
 
 /* 1 if the scene is convex by construction: all live facets belong to one part that the library

@@ -14,9 +14,9 @@
    If the gap is zero up to e, only points of P within 2 e of its lowest end may be hidden.
 
    Facets. The mesh of a curved shape whose rings are level has its vertices at the heights of the
-   true surface, at radii that are larger by vertex_ratio (mesh/profile.h): they lie in the true
-   solid stretched by that ratio across the axis, whose support along n is that of the true solid
-   along n stretched in the same way. If the rings are not level, every facet is within the
+   true surface, at radii that are larger by vertex_ratio (mesh/shape/revolution.h): they lie in the
+   true solid stretched by that ratio across the axis, whose support along n is that of the true
+   solid along n stretched in the same way. If the rings are not level, every facet is within the
    Hausdorff distance of the true solid. */
 #include "view/separation.h"
 
@@ -25,7 +25,7 @@
 #include "base/constant.h"
 #include "base/range.h"
 #include "base/vec3.h"
-#include "mesh/profile.h"
+#include "mesh/shape/revolution.h"
 #include "optics/closed.h"
 
 /* An upper bound of distances: coordinates are below 1, and true shapes not much larger than
@@ -59,11 +59,11 @@ lrcsi_body lrcsi_body_make(const lrcs_prepared *p, uint32_t index)
         body.centre[k] = 0.5 * body.extent->low[k] + 0.5 * body.extent->high[k];
     }
     if (body.curved) {
-        lrcsi_profile profile = lrcsi_profile_make(&part->shape, &part->divisions);
+        lrcsi_revolution shape = lrcsi_revolution_make(&part->shape, &part->divisions);
         double size = 0;
         body.solid = lrcsi_body_solid(p, index);
-        body.vertex_ratio = profile.vertex_ratio;
-        body.beyond = profile.step > 0 && !profile.level_rings
+        body.vertex_ratio = shape.vertex_ratio;
+        body.beyond = shape.step > 0 && !shape.level_rings
                           ? ldexp(part->hausdorff, -p->exponent) * (1 + 8 * LRCSI_U)
                           : 0;
         for (int k = 0; k < 3; k++) {

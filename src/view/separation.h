@@ -4,7 +4,7 @@
 #ifndef LRCSI_SEPARATION_H
 #define LRCSI_SEPARATION_H
 
-#include "mesh/support.h"
+#include "mesh/shape/support.h"
 #include "scene/prepared.h"
 
 /* A convex body around a part. Its support along n is the largest n . x over the body. */

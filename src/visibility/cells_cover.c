@@ -34,8 +34,8 @@
    (4) If no facet covers P, and no event edge crosses the cell, no facet is visible in it.
 
    A contact is where two facets meet in space other than along a common edge or in a point: along a
-   segment in the interior of one (mesh/intersection.h), along parts of edges of both (the facets
-   are then marked as rims), or in a common plane. All edges of rims, and of facets that have
+   segment in the interior of one (mesh/contact/intersection.h), along parts of edges of both (the
+   facets are then marked as rims), or in a common plane. All edges of rims, and of facets that have
    another facet in their plane, count as event edges, so that no component continues across them. A
    facet with a contact that could not be computed (LRCSI_CELLS_UNKNOWN_CONTACT) is never part of a
    component that covers a cell. Contacts in points do not matter: paths to points in general

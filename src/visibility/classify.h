@@ -4,11 +4,11 @@
    Consider a path over the interior of a facet i. The number of surfaces in front of i can change
    along it only where the path, in projection, crosses
      (1) an event edge (visibility/event.h) that is nearer than i; or
-     (2) a point where another facet meets the interior of i in space (mesh/intersection.h). A
-   coplanar facet over which i has precedence hides nothing.
-   A facet that nothing of this kind crosses is uniform: one exact sample decides whether all of it
-   is visible. The others are undecided, and so are facets near so many events that these are not
-   all tested. All tests are exact, so what is stated of a uniform facet is certain.
+     (2) a point where another facet meets the interior of i in space (mesh/contact/intersection.h).
+   A coplanar facet over which i has precedence hides nothing. A facet that nothing of this kind
+   crosses is uniform: one exact sample decides whether all of it is visible. The others are
+   undecided, and so are facets near so many events that these are not all tested. All tests are
+   exact, so what is stated of a uniform facet is certain.
 
    Two uniform facets are both visible or both hidden if they share an edge that is not an event
    edge, if no nearer event edge runs along it in projection, and if nothing else meets it in space:

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A facet and the plane of another: on which side its corners lie (exact), and where it intersects
    the plane (in doubles, with error bounds). Which facets have contact is known from
-   mesh/intersection.h. */
+   mesh/contact/intersection.h. */
 #include "visibility/contact.h"
 
 #include <math.h>

@@ -31,7 +31,7 @@ static lrcsi_visible uniform_area(const lrcsi_occlusion *o, uint32_t facet)
 void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
 {
     lrcsi_classification *classification = o->classification;
-    o->area = (lrcsi_visible){0, 0, 0, 0, 0};
+    o->area = lrcsi_visible_exactly(0);
     o->single.facet = o->single.target.facet = facet;
     o->undecided = o->whole = 0;
     if (!lrcsi_view_casts(classification->view, facet)) {

@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "base/vec3.h"
-#include "mesh/profile.h"
+#include "mesh/shape/revolution.h"
 #include "scene/proximity.h"
 #include "view/separation.h"
 
@@ -31,13 +31,13 @@ lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
         lrcsi_proximity_openings(p, index) > 1) {
         return o;
     }
-    lrcsi_profile profile = lrcsi_profile_make(&part->shape, &part->divisions);
-    if (profile.step > 0 && !profile.level_rings) {
+    lrcsi_revolution shape = lrcsi_revolution_make(&part->shape, &part->divisions);
+    if (shape.step > 0 && !shape.level_rings) {
         return o; /* its vertices are not at the true heights */
     }
     double far = 0;
     o.known = 1;
-    o.vertex_ratio = profile.vertex_ratio;
+    o.vertex_ratio = shape.vertex_ratio;
     o.solid = lrcsi_body_solid(p, index);
     for (int k = 0; k < 3; k++) {
         o.origin[k] = ldexp(part->origin[k], -p->exponent);

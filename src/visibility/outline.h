@@ -40,7 +40,7 @@
 #ifndef LRCSI_OUTLINE_H
 #define LRCSI_OUTLINE_H
 
-#include "mesh/support.h"
+#include "mesh/shape/support.h"
 #include "view/view.h"
 
 /* A part's true solid, its opening closed. */

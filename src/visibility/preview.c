@@ -312,8 +312,8 @@ int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
     const preview_bias bias = bias_of_small_facets(&job);
     *undecided = 0;
     for (uint32_t f = 0; f < facets; f++) {
-        visible[f] = lrcsi_view_casts(view, f) ? preview_area(&job, f, &bias)
-                                               : (lrcsi_visible){0, 0, 0, 0, 0};
+        visible[f] =
+            lrcsi_view_casts(view, f) ? preview_area(&job, f, &bias) : lrcsi_visible_exactly(0);
         *undecided |= job.raster.undecided[f];
     }
     work->used = mark;

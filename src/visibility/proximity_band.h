@@ -101,7 +101,7 @@
    may hold: prisms about facets, rectangles about edges. The fractions of a facet in its bands add
    up to an upper bound of the fraction where the visibility of true shapes and facets may differ.
    A fraction of the facet's area is the same fraction of its patch, because the map stretches
-   areas evenly (mesh/profile.c), up to what lrcs_part.stretch_err bounds.
+   areas evenly (mesh/shape/revolution.c), up to what lrcs_part.stretch_err bounds.
 
    7. Regions. Facets of a curved part that are nowhere uncertain, joined across edges, form
    regions. Other parts hide a region entirely or not at all; one hidden facet that faces the laser

@@ -40,7 +40,7 @@ void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (answer[f] != LRCSI_QUERY_UNDECIDED) {
             double area = answer[f] == LRCSI_QUERY_VISIBLE ? lrcsi_view_projected(view, f) : 0;
-            visible[f] = (lrcsi_visible){area, area, area, 0, 0};
+            visible[f] = lrcsi_visible_exactly(area);
         }
     }
 }

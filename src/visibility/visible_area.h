@@ -14,6 +14,13 @@ typedef struct lrcsi_visible {
     double bias; /* the part of that error that has a sign: positive if the area is too large */
 } lrcsi_visible;
 
+/* An area without uncertainty: that of a facet known to be entirely visible; or 0, if it is hidden.
+ */
+static inline lrcsi_visible lrcsi_visible_exactly(double area)
+{
+    return (lrcsi_visible){.area = area, .low = area, .high = area};
+}
+
 /* The first moment of a facet's visible region: the integral of x - c over its projection, c the
    facet's centroid in the view plane. 0 for a facet that is entirely visible or hidden. */
 typedef struct lrcsi_moment {

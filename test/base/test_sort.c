@@ -76,6 +76,29 @@ static void numbers_come_out_in_order(void **state)
     }
 }
 
+/* Items with many ties in their keys: each is in order with the next, and their sums are kept. */
+static void items_come_out_by_key_then_by_value(void **state)
+{
+    static lrcsi_sort_item item[MANY];
+    (void)state;
+    for (uint32_t count = 0; count < 1500; count += count < 40 ? 1 : 367) {
+        uint64_t seed = 88172645463325252u + count;
+        uint64_t sum[2] = {0, 0};
+        for (uint32_t i = 0; i < count; i++) {
+            item[i].key = (uint32_t)(random_xorshift(&seed) % (count / 3 + 1));
+            item[i].value = (uint32_t)(random_xorshift(&seed) % 5);
+            sum[0] += item[i].key * UINT64_C(1000003) + item[i].value;
+        }
+        lrcsi_sort_items(item, count);
+        for (uint32_t i = 0; i < count; i++) {
+            sum[1] += item[i].key * UINT64_C(1000003) + item[i].value;
+            assert_true(i == 0 || item[i - 1].key < item[i].key ||
+                        (item[i - 1].key == item[i].key && item[i - 1].value <= item[i].value));
+        }
+        assert_true(sum[0] == sum[1]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -83,6 +106,7 @@ int main(void)
         cmocka_unit_test(each_byte_counts),
         cmocka_unit_test(empty_and_single_lists_are_sorted),
         cmocka_unit_test(numbers_come_out_in_order),
+        cmocka_unit_test(items_come_out_by_key_then_by_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@ join_core() {
     to=$1
     set --
     for layer in base mesh optics scene view visibility integrate; do
-        set -- "$@" src/$layer/*.c
+        set -- "$@" $(find src/$layer -name '*.c' | LC_ALL=C sort)
     done
     sh src/amalgamate.sh "$to" "$@"
 }

@@ -56,7 +56,7 @@ static inline void take_material(fuzz_input *in, lrcs_material *material)
     static const double power[8] = {0, 0.5, 1, 2, 1e4, 37.5, 1e-9, 0.25};
     unsigned one = fuzz_byte(in);
     unsigned two = fuzz_byte(in);
-    *material = (lrcs_material){.name = "", .bound = 1};
+    *material = (lrcs_material){.name = "", .brdf_given = 1};
     material->brdf = (lrcs_brdf){amplitude[one & 7], amplitude[one >> 3 & 7], slope[two & 7],
                                  power[two >> 3 & 7]};
     material->two_sided = one >> 6 & 1;

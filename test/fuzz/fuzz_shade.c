@@ -78,7 +78,7 @@ static void require_same(const lrcsi_view *view, const lrcs_brdf *brdf, const lr
 int LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
 {
     fuzz_input in = {data, data + size};
-    lrcs_material material = {.name = "", .brdf = take_brdf(&in), .bound = 1};
+    lrcs_material material = {.name = "", .brdf = take_brdf(&in), .brdf_given = 1};
     double direction[3];
     uint32_t count = 0;
     for (int k = 0; k < 3; k++) {

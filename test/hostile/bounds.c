@@ -136,7 +136,8 @@ static int read_case(FILE *in, hostile_case *c)
         if (!read_numbers(in, x, 4)) {
             return 0;
         }
-        c->material[i] = (lrcs_material){.name = "", .brdf = {x[0], x[1], x[2], x[3]}, .bound = 1};
+        c->material[i] =
+            (lrcs_material){.name = "", .brdf = {x[0], x[1], x[2], x[3]}, .brdf_given = 1};
     }
     c->part = (lrcs_part){.name = "part", .kind = -1, .curvature_known = 1, .facet_count = facets};
     c->scene = (lrcs_scene){.vertex_count = vertices,

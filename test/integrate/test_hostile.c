@@ -76,8 +76,8 @@ static void check_run(const hostile_case *c, int sided, int method, uint32_t siz
     uint32_t smooth[MOST];
     memcpy(part_of, zero, sizeof zero);
     memcpy(smooth, zero, sizeof zero);
-    lrcs_material material[2] = {{.name = "", .brdf = c->brdf[0], .bound = 1},
-                                 {.name = "", .brdf = c->brdf[1], .bound = 1}};
+    lrcs_material material[2] = {{.name = "", .brdf = c->brdf[0], .brdf_given = 1},
+                                 {.name = "", .brdf = c->brdf[1], .brdf_given = 1}};
     material[0].two_sided = material[1].two_sided = (unsigned char)sided;
     lrcs_part part = {.name = "", .kind = -1, .curvature_known = 1, .facet_count = c->facets};
     lrcs_scene scene = {.vertex_count = c->vertices,

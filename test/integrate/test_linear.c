@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The linear approximation over a patch against F at points of the true surface, and its integral
-   over parts of the patch, by sums over the map onto the facets (mesh/profile.c), written down here
-   once more. usage: test_linear [SHAPES SEED]    (many more) */
+   over parts of the patch, by sums over the map onto the facets (mesh/shape/revolution.c), written
+   down here once more. usage: test_linear [SHAPES SEED]    (many more) */
 #include "integrate/linear.h"
 
 #include <lrcs/lrcs.h>
@@ -195,7 +195,7 @@ static void patch_check(const linear_scene *s, const lrcs_brdf *brdf, const lrcs
     double centroid = (top + 2 * base) / (top + base) / 3; /* fraction from the top */
     double centre[3] = {at->swell * cos(at->h) * (at->upper + centroid * (at->lower - at->upper)),
                         0, at->high + centroid * (at->low - at->high)};
-    double point = linear->point + (1 + c->area_error) * linear->region + error;
+    double point = linear->point + (1 + c->area_err) * linear->region + error;
     double largest = 0;
     for (int i = 0; i < STEPS * STEPS; i++) {
         double fraction = (i / STEPS + 0.5) / STEPS;
@@ -264,7 +264,7 @@ static void shape_check(void)
     scene_make(&shape, between(2e-3, 2e-1), &brdf, d, &s);
     const lrcs_part *part = &s.scene.part[0];
     const lrcs_curvature *c = &part->curvature;
-    lrcsi_profile profile = lrcsi_profile_make(&shape, &part->divisions);
+    lrcsi_revolution body = lrcsi_revolution_make(&shape, &part->divisions);
     uint32_t step = 29 + part->facet_count / 40;
     for (uint32_t f = (uint32_t)(step * random_unit(&seed)); f < part->facet_count; f += step) {
         lrcsi_patches evaluated = {.negligible = 0};
@@ -279,10 +279,10 @@ static void shape_check(void)
         double second =
             lrcsi_deviation_make(&brdf, fabs(incidence.cos_theta), incidence.tan2, c).second;
         assert_int_equal(lrcsi_linear_make(&s.view, &brdf, patch, c, second, &linear), 1);
-        strip at = {.shape = &shape, .h = profile.half, .swell = profile.vertex_ratio};
-        at.lower = lrcsi_profile_radius(&profile, patch->at.row);
-        at.upper = lrcsi_profile_radius(&profile, patch->at.row + 1);
-        at.high = lrcsi_profile_rise(&profile, patch->at.row);
+        strip at = {.shape = &shape, .h = body.half, .swell = body.vertex_ratio};
+        at.lower = lrcsi_revolution_radius(&body, patch->at.row);
+        at.upper = lrcsi_revolution_radius(&body, patch->at.row + 1);
+        at.high = lrcsi_revolution_rise(&body, patch->at.row);
         patches++;
         patch_check(&s, &brdf, patch, &linear, c, &at, began);
     }

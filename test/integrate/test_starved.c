@@ -239,7 +239,7 @@ static void needs_never_shrink_as_counts_grow(void **state)
    little of its own, each says so. */
 typedef struct inner_steps {
     lrcs_prepared prepared;
-    uint32_t piece[14];
+    uint32_t shell[14];
     lrcsi_view view;
     lrcsi_classification classification;
     lrcsi_proximity_band margin;
@@ -255,7 +255,7 @@ static int step_proximity(inner_steps *s, lrcs_work *work)
 
 static int step_outward(inner_steps *s, lrcs_work *work)
 {
-    return lrcsi_solid_outward(&s->prepared, s->piece, work, &s->proved);
+    return lrcsi_solid_outward(&s->prepared, s->shell, work, &s->proved);
 }
 
 static int step_convex(inner_steps *s, lrcs_work *work)

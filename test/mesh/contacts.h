@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Contacts by brute force: every pair of facets, by exact signs alone, without a box, a ring or a
-   filter. The reference for mesh/intersection.c; itself compared with clipping in rational
+/* Contacts by brute force: every pair of facets, by exact signs alone, without a box, a fan or a
+   filter. The reference for mesh/contact/intersection.c; itself compared with clipping in rational
    arithmetic. */
 #ifndef TEST_MESH_CONTACTS_H
 #define TEST_MESH_CONTACTS_H
 
 #include "base/exact.h"
-#include "mesh/intersection.h"
+#include "mesh/contact/intersection.h"
 
 typedef struct contacts_facet {
     const double *x[3];

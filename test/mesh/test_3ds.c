@@ -2,7 +2,7 @@
 /* What 3DS files do in the wild, one habit a test; and what malformed ones must not do. */
 #include <lrcs/read.h>
 
-#include "mesh/3ds.h"
+#include "mesh/read/3ds.h"
 
 #include "build3ds.h"
 #include "hostile.h"

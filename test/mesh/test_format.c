@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "build3ds.h"
-#include "mesh/3ds.h"
+#include "mesh/read/3ds.h"
 
 static int format_of(const char *text, const char *name)
 {

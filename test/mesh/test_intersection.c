@@ -2,7 +2,7 @@
 /* Contacts between facets: pairs against clipping in rational arithmetic
    (vectors/intersection_pairs.py), lists, rims and self-contact against brute force over all pairs,
    and cases named. */
-#include "mesh/intersection.h"
+#include "mesh/contact/intersection.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Walking statements: what the readers of text formats cannot show in a file of ordinary size. */
-#include "mesh/lines.h"
+#include "mesh/read/lines.h"
 
 #include <string.h>
 

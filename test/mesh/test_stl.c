@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* STL: the two kinds told apart, welding, and what malformed files must not do. */
-#include "mesh/stl.h"
+#include "mesh/read/stl.h"
 
 #include <lrcs/read.h>
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Facet meshes of shapes: closed, outward, convex, symmetric to the bit; and the curvature numbers
    against an integration over each patch that shares nothing with their derivation. */
-#include "mesh/tessellate.h"
+#include "mesh/shape/revolution_normals.h"
+#include "mesh/shape/tessellate.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -160,8 +161,8 @@ static void areas_and_volumes_tend_to_the_bodys_as_the_square(void **state)
         double most = s->shape.kind == LRCS_SHAPE_BOX ? 1e-15 : 2.0 * h * h;
         if (s->wall > 0.0) {
             double wall = group_area(&mesh, 1);
-            check_abs(wall, s->wall, (c.area_error + 1e-14) * wall);
-            check_most(c.area_error, 0.4 * h * h + 1e-12);
+            check_abs(wall, s->wall, (c.area_err + 1e-14) * wall);
+            check_most(c.area_err, 0.4 * h * h + 1e-12);
         }
         check_rel(group_area(&mesh, 0), s->flat, 1e-14);
         check_rel(volume(&mesh), s->inside, most);
@@ -296,7 +297,7 @@ static void plane_faced_bodies_and_discs_have_no_curvature(void **state)
     for (int i = 0; i < 3; i++) {
         lrcs_curvature c = {1.0, 1.0, 1.0, 1.0};
         lrcs_mesh mesh = make(&shapes[i], i < 2 ? 4 : 16, 1, &c);
-        check_same(c.turn + c.area_error + c.bias + c.rms_turn, 0.0);
+        check_same(c.turn + c.area_err + c.bias + c.rms_turn, 0.0);
         double n[3];
         facet_vector(&mesh, 0, n);
         assert_true(i == 1 || n[2] > 0.0);
@@ -392,16 +393,16 @@ static void check_rings(const lrcs_shape *shape, uint32_t around, uint32_t along
         double facet = sin(h) * (low[0] + top) * length;
         patch p = patch_integrate(shape, low[0] / swell, top / swell, h, f);
         seen.turn = fmax(seen.turn, p.turn);
-        seen.area_error = fmax(seen.area_error, fabs(p.area - facet) / facet);
+        seen.area_err = fmax(seen.area_err, fabs(p.area - facet) / facet);
         seen.bias = fmax(seen.bias, sqrt(dot(p.incidence, p.incidence)) / facet);
         seen.rms_turn = fmax(seen.rms_turn, sqrt(p.square / facet));
     }
     check_most(seen.turn, c.turn);
-    check_most(seen.area_error, c.area_error * 1.002);
+    check_most(seen.area_err, c.area_err * 1.002);
     check_most(seen.bias, c.bias * 1.002 + 1e-4 * h * h);
     check_most(seen.rms_turn, c.rms_turn * 1.0005);
     check_most(c.turn, seen.turn * 1.1); /* and they are not idle */
-    check_most(c.area_error, seen.area_error * 1.1 + 1e-3 * h * h);
+    check_most(c.area_err, seen.area_err * 1.1 + 1e-3 * h * h);
     check_most(c.rms_turn, seen.rms_turn * 1.1);
 }
 
@@ -472,7 +473,9 @@ static void true_point(const lrcs_shape *shape, double lower, double upper, doub
     }
 }
 
-/* The map of mesh/profile.c from the true surface onto the facets, point by point over a sector. */
+/* The map of mesh/shape/revolution.c from the true surface onto the facets, point by point over a
+ * sector.
+ */
 static void check_reach(const lrcs_shape *shape, uint32_t around, uint32_t along, int level_rings)
 {
     enum { STEPS = 24 };
@@ -522,11 +525,11 @@ static void check_normals(const lrcs_shape *shape, uint32_t around, uint32_t alo
     enum { STEPS = 120 };
     const lrcs_divisions divisions = {around, along, level_rings};
     lrcs_mesh mesh = make_rings(shape, around, along, level_rings, NULL);
-    lrcsi_profile profile = lrcsi_profile_make(shape, &divisions);
+    lrcsi_revolution body = lrcsi_revolution_make(shape, &divisions);
     double h = pi / around;
     double swell = sqrt(2.0 * h / sin(2.0 * h));
     for (uint32_t i = 0; i < along; i++) {
-        lrcsi_profile_normals n = lrcsi_profile_normals_make(&profile, i);
+        lrcsi_revolution_normals n = lrcsi_revolution_normals_make(&body, i);
         const double *low = mesh.vertex[i * around].x;
         const double *high = mesh.vertex[(i + 1) * around].x;
         int apex = i + 1 == along && shape->kind != LRCS_SHAPE_FRUSTUM;
@@ -797,7 +800,7 @@ static void no_dimension_at_all_makes_a_mesh_of_no_area(void **state)
         lrcs_curvature c;
         lrcs_mesh mesh = make(&shape, plane ? 4 : 8, 1, &c);
         check_same(group_area(&mesh, 0) + group_area(&mesh, 1), 0.0);
-        assert_true(isfinite(c.turn + c.area_error + c.bias + c.rms_turn));
+        assert_true(isfinite(c.turn + c.area_err + c.bias + c.rms_turn));
     }
 }
 
@@ -814,7 +817,7 @@ static void extreme_dimensions_stay_finite(void **state)
         uint32_t along = i % 4 < 2 ? 1 : 3;
         lrcs_curvature c;
         lrcs_mesh mesh = make(&shape, 8, along, &c);
-        assert_true(isfinite(c.turn + c.area_error + c.bias + c.rms_turn));
+        assert_true(isfinite(c.turn + c.area_err + c.bias + c.rms_turn));
         double reach = lrcsi_tessellate_reach(&shape, &(lrcs_divisions){8, along, 0}).all;
         double size = shape.radius + shape.radius2 + shape.length;
         assert_true(reach >= 0.0 && reach <= 3.0 * size + 1e-300);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The tree of boxes against all pairs of boxes, and what its order must survive. */
-#include "mesh/tree.h"
+#include "mesh/contact/tree_bounds.h"
+#include "mesh/contact/tree_walk.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -55,8 +56,8 @@ static int boxes_meet(const lrcsi_box *a, const lrcsi_box *b)
 static void meet_row(const lrcsi_tree *tree, uint32_t place, uint32_t leaf, unsigned allowed)
 {
     lrcsi_box box =
-        lrcsi_tree_box(&tree->block[0][place / LRCSI_TREE_LANES], place % LRCSI_TREE_LANES);
-    unsigned lanes = lrcsi_tree_meets(&tree->block[0][leaf], &box) & allowed;
+        lrcsi_tree_box(&tree->node[0][place / LRCSI_TREE_LANES], place % LRCSI_TREE_LANES);
+    unsigned lanes = lrcsi_tree_meets(&tree->node[0][leaf], &box) & allowed;
     for (; lanes != 0; lanes &= lanes - 1) {
         uint32_t at = leaf * LRCSI_TREE_LANES + lrcsi_tree_lane(lanes);
         uint32_t f = tree->order[place];
@@ -71,7 +72,7 @@ static uint32_t join(const lrcsi_tree *tree)
 {
     uint32_t compared = 0;
     memset(met, 0, sizeof met);
-    for (uint32_t leaf = 0; tree->levels > 0 && leaf < tree->blocks[0]; leaf++) {
+    for (uint32_t leaf = 0; tree->levels > 0 && leaf < tree->nodes[0]; leaf++) {
         uint32_t first = leaf * LRCSI_TREE_LANES;
         uint32_t end =
             first + LRCSI_TREE_LANES < tree->count ? first + LRCSI_TREE_LANES : tree->count;
@@ -81,7 +82,7 @@ static uint32_t join(const lrcsi_tree *tree)
         lrcsi_tree_walk walk = lrcsi_tree_after(tree, leaf);
         uint32_t other;
         while ((other = lrcsi_tree_next(&walk)) != LRCS_NONE) {
-            assert_true(other > leaf && other < tree->blocks[0]);
+            assert_true(other > leaf && other < tree->nodes[0]);
             compared++;
             for (uint32_t place = first; place < end; place++) {
                 meet_row(tree, place, other, ~0u);
@@ -140,7 +141,7 @@ static uint32_t check_slabs(uint32_t facets)
     lrcsi_tree tree = make_tree(facets, NULL, NULL);
     uint32_t left = 0;
     lrcsi_tree_fill_slabs(vertex, facet, &tree);
-    for (uint32_t leaf = 0; leaf < tree.blocks[0]; leaf++) {
+    for (uint32_t leaf = 0; leaf < tree.nodes[0]; leaf++) {
         static unsigned char kept[MOST];
         memset(kept, 0, sizeof kept);
         lrcsi_tree_walk walk = lrcsi_tree_after(&tree, leaf);
@@ -275,7 +276,7 @@ static void far_vertices_and_small_clusters_do_not_spoil_the_order(void **state)
     uint32_t compared = join(&tree);
     vertex[5].x[1] = 1e22;
     tree = make_tree(N, NULL, NULL);
-    assert_true(join(&tree) < compared + tree.blocks[0]);
+    assert_true(join(&tree) < compared + tree.nodes[0]);
     double size = 1.0;
     for (uint32_t first = 0; first < N; first += N / 7) {
         make_soup(first, first + N / 7, 0.0, size);
@@ -306,7 +307,7 @@ static void facets_in_one_place_are_found_there(void **state)
 }
 
 /* Facets without a normal have slabs without a direction, and fans whose directions cancel, or are
-   none, have cones that bound nothing: no block is left out. */
+   none, have cones that bound nothing: no node is left out. */
 static void slabs_and_cones_without_a_direction_leave_out_nothing(void **state)
 {
     (void)state;
@@ -330,7 +331,7 @@ static void slabs_and_cones_without_a_direction_leave_out_nothing(void **state)
                          LRCS_OK);
         lrcsi_tree_fill_slabs(vertex, facet, &tree);
         lrcsi_tree_fill_cones(vertex, facet, unproved, &tree);
-        for (uint32_t leaf = 0; leaf < tree.blocks[0]; leaf++) {
+        for (uint32_t leaf = 0; leaf < tree.nodes[0]; leaf++) {
             lrcsi_tree_walk walk = lrcsi_tree_after(&tree, leaf);
             walk.without = LRCS_NONE;
             lrcsi_tree_narrow_by_cones(&walk, leaf);
@@ -339,7 +340,7 @@ static void slabs_and_cones_without_a_direction_leave_out_nothing(void **state)
             while (lrcsi_tree_next(&walk) != LRCS_NONE) {
                 found++;
             }
-            assert_int_equal(found, tree.blocks[0]);
+            assert_int_equal(found, tree.nodes[0]);
         }
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Precedence: who dresses a surface, and which bindings matched. */
-#include "scene/bind.h"
+#include "scene/build/bind.h"
 
 #include <string.h>
 
@@ -31,7 +31,7 @@ static lrcs_surface surface_of(const char *name)
 static void check_who(const lrcs_material *material, int who)
 {
     check_same(material->brdf.B, mark(who).B);
-    assert_int_equal(material->bound, 1);
+    assert_int_equal(material->brdf_given, 1);
 }
 
 static lrcs_recipe_material own_material = {
@@ -117,9 +117,9 @@ static void without_any_binding_the_default_is_worn_and_said_to_be(void **state)
     lrcs_material material = bind(&recipe, LRCS_NONE, &skin, NULL);
     check_same(material.brdf.A, 1.0);
     check_same(material.brdf.B, 0.25);
-    assert_int_equal(material.bound, 0);
+    assert_int_equal(material.brdf_given, 0);
     material = bind(&recipe, LRCS_NONE, NULL, NULL);
-    assert_int_equal(material.bound, 0);
+    assert_int_equal(material.brdf_given, 0);
     assert_string_equal(material.name, "");
 }
 
@@ -132,7 +132,7 @@ static void a_surface_named_as_in_the_library_is_assigned_that_material(void **s
     make_recipe(binding, 1, &recipe); /* beats the default */
     lrcs_material material = bind(&recipe, LRCS_NONE, &gold, NULL);
     check_same(material.brdf.A, lrcs_brdf_find("mli-gold")->brdf.A);
-    assert_int_equal(material.bound, 1);
+    assert_int_equal(material.brdf_given, 1);
     make_recipe(binding, 2, &recipe); /* yields to the map */
     material = bind(&recipe, LRCS_NONE, &gold, NULL);
     check_who(&material, BY_MAP_COLOUR);
@@ -166,7 +166,7 @@ static void colours_match_only_surfaces_that_have_one(void **state)
     assert_int_equal(unmatched, LRCS_NONE);
     skin.has_colour = 0;
     lrcs_material material = bind(&recipe, LRCS_NONE, &skin, &unmatched);
-    assert_int_equal(material.bound, 0);
+    assert_int_equal(material.brdf_given, 0);
     assert_int_equal(unmatched, 0);
 }
 

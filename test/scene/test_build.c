@@ -181,7 +181,7 @@ static void materials_stand_once_for_each_surface_and_each_worn_one(void **state
     for (size_t i = 0; i < ROWS(want); i++) {
         assert_string_equal(scene.material[i].name, want[i]);
         assert_int_equal(scene.material[i].omitted, i == 1 || i == 6);
-        assert_int_equal(scene.material[i].bound, i == 4);
+        assert_int_equal(scene.material[i].brdf_given, i == 4);
         assert_int_equal(scene.material[i].two_sided, i == 4);
     }
     static const uint32_t by_facet[12] = {0, 1, 3, 0, 4, 4, 4, 4, 5, 6, 3, 5};
@@ -538,7 +538,7 @@ static void the_demonstration_satellite_builds(void **state)
     assert_int_equal(build_scene(&recipe, NULL, &area, &scene, NULL), LRCS_OK);
     assert_int_equal(scene.part_count, 10);
     for (uint32_t i = 0; i < scene.facet_count; i++) {
-        assert_int_equal(scene.material[scene.facet_material[i]].bound, 1);
+        assert_int_equal(scene.material[scene.facet_material[i]].brdf_given, 1);
     }
     lrcs_mesh_report report = report_of(&scene);
     /* bus 11.52, radiator 1.5, yokes 2 x 0.1272, wings 2 x 5.42, cells 2 x 2.5016; dish: cone

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Placing points: what is exact, what the order of steps is, and how far rounding may go. */
-#include "scene/place.h"
+#include "scene/build/place.h"
 
 #include <string.h>
 
@@ -219,7 +219,7 @@ static void a_shape_that_is_changed_has_no_axes(void **state)
     place.scale[2] = -4.0;
     assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
     assert_int_equal(lrcsi_placer_axes(&placer, &axes), 0);
-    lrcsi_placer_stretch(&placer, &most, &ratio);
+    lrcsi_placer_singular_values(&placer, &most, &ratio);
     check_rel(most, 4.0, 1e-5);
     check_rel(ratio, 4.0, 1e-5);
     place.scale[1] = -4.0; /* now the first differs */
@@ -229,12 +229,12 @@ static void a_shape_that_is_changed_has_no_axes(void **state)
     place.rotate[0][1] = 0.1; /* singular values 1.0512, 1 and 0.9512 */
     assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
     assert_int_equal(lrcsi_placer_axes(&placer, &axes), 0);
-    lrcsi_placer_stretch(&placer, &most, &ratio);
+    lrcsi_placer_singular_values(&placer, &most, &ratio);
     assert_true(most >= 1.0512 && most < 1.1);
     assert_true(ratio >= 1.1051 && ratio < 1.2);
     place.rotate[0][1] = 2.0; /* far from any */
     assert_int_equal(lrcsi_placer_make(&place, &no_joint, &placer), LRCS_OK);
-    lrcsi_placer_stretch(&placer, &most, &ratio);
+    lrcsi_placer_singular_values(&placer, &most, &ratio);
     assert_true(isinf(ratio));
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What holds of a placed shape by construction. */
-#include "scene/placed_shape.h"
+#include "scene/build/placed_shape.h"
 
 #include "check.h"
 
@@ -12,7 +12,7 @@ static void curvature_outlives_uniform_scaling_only(void **state)
     const lrcs_divisions divisions = {8, 1, 0};
     for (int i = 0; i < 10; i++) {
         lrcs_curvature curvature = {0, 0, 0, 0};
-        double *const number[] = {&curvature.turn, &curvature.area_error, &curvature.bias,
+        double *const number[] = {&curvature.turn, &curvature.area_err, &curvature.bias,
                                   &curvature.rms_turn};
         lrcs_place place = lrcs_place_default();
         lrcs_joint joint = {0};

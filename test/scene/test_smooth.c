@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Normals at corners, from vertex normals and smoothing groups, against what the rules of the
    formats make of bodies whose normals are known. */
-#include "scene/smooth.h"
+#include "scene/build/smooth.h"
 
 #include "curved.h"
 

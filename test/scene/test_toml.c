@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The TOML subset against Python's tomllib (test/vectors/toml.py): what we accept it accepts, with
    the same value. */
-#include "scene/toml.h"
+#include "scene/file/toml.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # The hash of the scene in test/scene/test_build.c (one triangle), from the definition of FNV-1a
-# and of the order in src/scene/hash.c. Prints one number.
+# and of the order in src/scene/build/hash.c. Prints one number.
 import struct
 
 

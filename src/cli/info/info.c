@@ -128,7 +128,7 @@ static void table_materials(const lrcs_host_inventory *all, const lrcs_scene *sc
                material->has_colour ? cli_colour_text(material->rgb, colour) : "-",
                (unsigned long)all->material[i].facets, all->material[i].area_m2, material->brdf.A,
                material->brdf.B, material->brdf.s, material->brdf.m,
-               material->bound                                    ? ""
+               material->brdf_given                               ? ""
                : strcmp(cli_material_source(material), "default") ? "  (assumed)"
                                                                   : "  (unbound)",
                material->two_sided ? "  two-sided" : "", material->omitted ? "  left out" : "");

@@ -82,7 +82,7 @@ static void material_row(FILE *out, const lrcs_material *material, uint32_t face
     cli_page_cells(out, "%u%.6g%.6g%.6g%.6g%.6g", facets, area_m2, material->brdf.A,
                    material->brdf.B, material->brdf.s, material->brdf.m);
     fprintf(out, "<td>%s%s%s</td></tr>",
-            material->bound                                    ? ""
+            material->brdf_given                               ? ""
             : strcmp(cli_material_source(material), "default") ? "assumed"
                                                                : "not bound: the default",
             material->two_sided ? " two-sided" : "", material->omitted ? " left out" : "");

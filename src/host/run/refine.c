@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesh/shape/revolution.h"
+
 /* The error due to a part falls about in proportion to its division: by this factor with every
    halving, measured on scenes of many parts. If it falls less, the part is halved again. */
 #define HALVING_FACTOR 0.45
@@ -131,10 +133,9 @@ static void choices_start(const lrcs_scene *scene, const lrcs_run_options *optio
     for (uint32_t i = 0; i < scene->part_count; i++) {
         const lrcs_part *part = &scene->part[i];
         double error = options->part_error_m2 ? options->part_error_m2[i] : 1.0;
-        int doubly_curved = part->kind == LRCS_SHAPE_SPHERE || part->kind == LRCS_SHAPE_DOME ||
-                            part->kind == LRCS_SHAPE_PARABOLOID;
-        choice[i] = (part_choice){part->reach > 0.0 ? error : 0.0, part->facet_count,
-                                  doubly_curved ? 2.0 : sqrt(2.0), !(part->reach > 0.0)};
+        double growth = lrcsi_shape_is_round(part->kind) ? 2.0 : sqrt(2.0);
+        choice[i] = (part_choice){part->reach > 0.0 ? error : 0.0, part->facet_count, growth,
+                                  !(part->reach > 0.0)};
         sum += choice[i].error;
     }
     for (uint32_t i = 0; i < scene->part_count; i++) {

@@ -169,11 +169,11 @@ static void material_notes(lrcs_host_notices *notices, const lrcs_material *mate
     }
     const char *name = material->name[0] ? material->name : "(default)";
     int warnings = lrcs_brdf_check(&material->brdf);
-    if (library && material->bound && library->source) {
+    if (library && material->brdf_given && library->source) {
         lrcsi_host_note(notices,
                         "library material '%s': solar reflectance of %s; Lambert's law is assumed",
                         library->name, library->source);
-    } else if (library && material->bound) {
+    } else if (library && material->brdf_given) {
         lrcsi_host_note(notices, "library material '%s': its values are illustrative, not measured",
                         library->name);
     }
@@ -210,7 +210,7 @@ static void scene_notes(lrcs_host_scene *host)
             continue;
         }
         *(brdf_equals(&material->brdf, &unknown) ? &unbound : &assumed) +=
-            material->bound ? 0 : facets[i];
+            material->brdf_given ? 0 : facets[i];
         material_notes(&host->notices, material);
     }
     free(facets);
