@@ -117,13 +117,9 @@ static int run_take(lrcsi_sigma *run)
     run->moment_memory =
         moments ? lrcsi_work_take(run->work, facets, sizeof *run->moment_memory) : NULL;
     run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
-    int errors = run->options->part_error_m2 != NULL;
-    run->part_error =
-        errors ? lrcsi_work_take(run->work, p->scene->part_count, sizeof *run->part_error) : NULL;
     run->curved = p->smooth ? lrcsi_work_take(run->work, facets, sizeof *run->curved) : NULL;
     run->stack = p->smooth ? lrcsi_cubature_stack(run->work) : NULL;
-    return (run->visible || !areas) && (run->part_error || !errors) &&
-                   ((run->moment_memory && run->corrected) || !moments) &&
+    return (run->visible || !areas) && ((run->moment_memory && run->corrected) || !moments) &&
                    ((run->curved && run->stack) || !p->smooth)
                ? LRCS_OK
                : LRCS_E_MEMORY;
@@ -557,6 +553,17 @@ int lrcsi_sigma_stages(lrcsi_sigma *run, const lrcs_prepared *prepared, const lr
     return LRCS_OK;
 }
 
+double *lrcsi_sigma_part_error(const lrcs_prepared *prepared, const lrcs_run_options *options,
+                               lrcs_work *work, int *status)
+{
+    double *part_error = NULL;
+    if (*status == LRCS_OK && options->part_error_m2) {
+        part_error = lrcsi_work_take(work, prepared->scene->part_count, sizeof *part_error);
+        *status = part_error ? LRCS_OK : LRCS_E_MEMORY;
+    }
+    return part_error;
+}
+
 int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result)
 {
     const lrcsi_outcome *outcome = &run->outcome;
@@ -586,7 +593,10 @@ int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result)
     lrcsi_plan_effects(&run->view, &run->plan, &run->clear, t->seen, r.effect);
     r.flags |= run_acceptance(run);
     r.flags |= run->meter.spent ? LRCS_FLAG_STEPS_SPENT : 0u;
-    r.notices |= t->back_sides != 0 ? LRCS_NOTICE_BACK_SIDES_VISIBLE : 0u;
+    /* Without a search for shadows, back sides are known to be visible only if nothing hides any.
+     */
+    int backs_known = outcome->method != LRCS_METHOD_FACET || run->plan.no_back_hidden;
+    r.notices |= backs_known && t->back_sides != 0 ? LRCS_NOTICE_BACK_SIDES_VISIBLE : 0u;
     r.notices |= t->tessellation < 0 ? LRCS_NOTICE_TESSELLATION_UNKNOWN : 0u;
     *result = r;
     return LRCS_OK;
@@ -639,7 +649,8 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     size_t mark = work->used;
     lrcs_result answer;
     lrcsi_sigma run = {.options = options, .work = work, .image = image, .last = LRCSI_SIGMA_SUM};
-    status = lrcsi_sigma_stages(&run, prepared, pose);
+    run.part_error = lrcsi_sigma_part_error(prepared, options, work, &status);
+    status = status == LRCS_OK ? lrcsi_sigma_stages(&run, prepared, pose) : status;
     status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
     if (status == LRCS_OK && image && image->size != 0) {
         status = run_image(&run);

@@ -23,13 +23,14 @@ typedef struct lrcsi_outcome {
     lrcsi_total total;
 } lrcsi_outcome;
 
-/* The state of a run. The caller sets the first five fields, and all others to 0. */
+/* The state of a run. The caller sets the first six fields, and all others to 0. */
 typedef struct lrcsi_sigma {
     const lrcs_run_options *options;
     lrcs_work *work;
-    lrcs_image *image; /* NULL: no picture is requested */
-    int last;          /* lrcsi_sigma_stage: the run ends after it */
-    int derivatives;   /* 1: integrals over curved normals include what derivatives need */
+    lrcs_image *image;  /* NULL: no picture is requested */
+    double *part_error; /* returned, [part_count]: as in lrcs_run_options; NULL: not asked for */
+    int last;           /* lrcsi_sigma_stage: the run ends after it */
+    int derivatives;    /* 1: integrals over curved normals include what derivatives need */
 
     lrcsi_view view;
     lrcsi_meter meter; /* limit on the steps of the visibility computation */
@@ -43,7 +44,6 @@ typedef struct lrcsi_sigma {
     lrcsi_moment *moment_memory; /* [facet_count]; NULL: moments are not wanted */
     const lrcsi_moment *moment;  /* as in lrcsi_areas */
     unsigned char *corrected;    /* as in lrcsi_total_details */
-    double *part_error;          /* [part_count]; NULL: not asked for */
     lrcsi_curved *curved;        /* [facet_count]; NULL: all normals are flat */
     lrcsi_cubature_cell *stack;  /* NULL: all normals are flat */
     lrcsi_outcome outcome;
@@ -55,6 +55,11 @@ int lrcsi_sigma_check(const lrcs_run_options *options, const lrcs_image *image);
 /* Runs all stages up to run->last, with checked options. Status: as lrcs_sigma_run. The results of
    the stages stay in the work area. */
 int lrcsi_sigma_stages(lrcsi_sigma *run, const lrcs_prepared *prepared, const lrcs_pose *pose);
+
+/* Memory for part_error, or NULL if the options do not ask for it. *status: LRCS_E_MEMORY if there
+   is none; else unchanged. */
+double *lrcsi_sigma_part_error(const lrcs_prepared *prepared, const lrcs_run_options *options,
+                               lrcs_work *work, int *status);
 
 /* The result after the last stage. Status: LRCS_OK; LRCS_E_NUMBER if sigma or its bound is not
    finite. */

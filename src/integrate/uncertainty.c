@@ -486,8 +486,9 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         work->used = mark;
         return LRCS_E_MEMORY;
     }
+    run.part_error = lrcsi_sigma_part_error(prepared, options, work, &status);
     size_t start = work->used;
-    status = lrcsi_sigma_stages(&run, prepared, pose);
+    status = status == LRCS_OK ? lrcsi_sigma_stages(&run, prepared, pose) : status;
     status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
     for (uint32_t k = 0; k < nodes && status == LRCS_OK; k++) {
         for (uint32_t i = 0; i < materials; i++) {
@@ -517,6 +518,10 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     if (status == LRCS_OK) {
         for (uint32_t i = 0; i < materials; i++) {
             sensitivity[i] = sensitivity_of(&scene->material[i].brdf, &own[i]);
+        }
+        if (run.part_error) {
+            memcpy(options->part_error_m2, run.part_error,
+                   scene->part_count * sizeof *run.part_error);
         }
         *result = answer;
         *uncertainty = estimate;

@@ -118,6 +118,15 @@ same_as=$(printf '%s\n' "$out" | sed -n 's/.*"same_as": "\([^"]*\)".*/\1/p')
 # shellcheck disable=SC2086
 run run round.toml --direction 1,1,1 --facets again.csv --json $same_as
 same files_are_those_of_the_settings_named "$(cmp budget.csv again.csv && wc -l <budget.csv | tr -d ' ')" "$(wc -l <again.csv | tr -d ' ')"
+
+# ---- open shapes among others, whose facets are recorded, and materials that state errors ----
+for budget in 0.001 300; do
+    run run demo --azel 30,20 --time-budget $budget --json
+    same "open_shapes_of_the_demo_in_$budget" "$((rc == 0 || rc == 3)) $(value bound_m2 | grep -c '[0-9]')" '1 1'
+    run run demo --azel 30,20 --time-budget $budget --material 'white=0.02,0.25+-0.01,0.4,0.2' --sensitivity --json
+    same "errors_of_materials_in_$budget" "$((rc == 0 || rc == 3)) $(printf '%s\n' "$out" | grep -c '"material_uncertainty": {')" '1 1'
+done
+
 # ---- its processes ----
 # children PID: those that have not ended.
 children() { ps -A -o pid=,ppid=,stat= | awk -v p="$1" '$2 == p && $3 !~ /^Z/ { print $1 }'; }

@@ -161,6 +161,13 @@ usage_error rotate_about_nothing "axis u,v,w" sweep demo --rotate 0,0,0:0:1:1
 usage_error rotate_without_a_range "A:B:STEP" sweep demo --rotate x
 usage_error sphere_of_none "found '0'" sweep demo --sphere 0
 usage_error no_jobs "found '0'" sweep demo --az 0:1:1 --jobs 0
+# Errors of materials change neither sigma nor its bound, nor how finely shapes are divided for it.
+bounds() { printf '%s\n' "$out" | grep -v '^#' | awk -F, '{ print $4, $6 }'; }
+run sweep demo --az 0:40:20 --el 30 --material white=0.02,0.25,0.4,0.2
+plain=$(bounds)
+run sweep demo --az 0:40:20 --el 30 --material white=0.02,0.25+-0.01,0.4,0.2
+same rows_with_errors_of_materials_have_the_bounds_of_those_without "$(bounds)" "$plain"
+
 usage_error output_of_no_kind "FILE.csv, FILE.jsonl or FILE.npy, found 'x.txt'" sweep demo --az 0:1:1 -o x.txt
 usage_error json_into_a_file "FILE.jsonl" sweep demo --az 0:1:1 --json -o x.csv
 usage_error resume_without_a_file "--resume needs -o FILE" sweep demo --az 0:1:1 --resume

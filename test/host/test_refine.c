@@ -260,6 +260,31 @@ static void a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is(void **sta
     }
 }
 
+/* Where rounding alone exceeds the tolerance, shapes are divided until their error is no larger: a
+   stricter tolerance never gives a wider bound. */
+static void a_tolerance_below_rounding_still_divides(void **state)
+{
+    (void)state;
+    lrcs_host_scene scene;
+    lrcs_pose pose;
+    lrcs_result strict;
+    lrcs_result loose;
+    lrcs_build_options build = lrcs_build_options_default();
+    lrcs_run_options options = lrcs_run_options_default();
+    assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
+    for (int strictly = 0; strictly < 2; strictly++) {
+        lrcs_host_options host = lrcs_host_options_default();
+        host.build.division = LRCS_HOST_DIVISION;
+        host.build.max_facets = 4096;
+        options.tolerance = strictly ? 1e-20 : 1e-6;
+        assert_int_equal(lrcs_host_scene_read("demo", &host, &scene, &error), LRCS_OK);
+        assert_int_equal(lrcs_host_scene_prepare(&scene, &error), LRCS_OK);
+        refine(&scene, &pose, &options, 1, strictly ? &strict : &loose, &build);
+        lrcs_host_scene_free(&scene);
+    }
+    check_most(strict.bound_m2, loose.bound_m2);
+}
+
 /* A tolerance that even the finest divisions miss: the parts are divided as finely as they may be,
    once or twice, and not again and again for the little that other parts would still gain. */
 static void a_tolerance_out_of_reach_is_given_up_soon(void **state)
@@ -322,6 +347,7 @@ int main(void)
         cmocka_unit_test(only_the_parts_that_the_error_is_due_to_are_divided),
         cmocka_unit_test(an_accepted_estimate_leaves_room_for_finer_facets),
         cmocka_unit_test(a_limit_of_steps_or_no_division_leaves_the_scene_as_it_is),
+        cmocka_unit_test(a_tolerance_below_rounding_still_divides),
         cmocka_unit_test(a_tolerance_out_of_reach_is_given_up_soon),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

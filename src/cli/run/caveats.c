@@ -87,8 +87,8 @@ static void unit_caveat(const run_job *job, FILE *out)
 static void backs_caveat(const run_job *job, FILE *out)
 {
     const run_caveats *caveats = &job->caveats;
-    if (!(caveats->back_area_m2 > 0.0)) {
-        return;
+    if (!(job->result.notices & LRCS_NOTICE_BACK_SIDES_VISIBLE)) {
+        return; /* or not known to be visible */
     }
     fprintf(out, "  back sides %.3g m2, %.3g %% of the silhouette, return nothing",
             caveats->back_area_m2, 100.0 * caveats->back_share);

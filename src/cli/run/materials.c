@@ -31,6 +31,10 @@ int cli_run_materials(run_job *job)
     if (!job->sensitivity_asked && !cli_errors_stated(scene)) {
         return 0;
     }
+    int code = job->scene.prepared ? 0 : cli_scene_prepare(&job->scene); /* not after a time budget */
+    if (code != 0) {
+        return code;
+    }
     cli_watch_stage("material uncertainty", NULL);
     job->sensitivity = calloc((size_t)scene->material_count + 1, sizeof *job->sensitivity);
     if (!job->sensitivity) {

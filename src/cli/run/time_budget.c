@@ -29,6 +29,7 @@
 #include <errno.h>
 #include <math.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
 #include <sys/wait.h>
@@ -293,6 +294,8 @@ static int budget_settle(run_job *job, const budget_answer *best)
     snprintf(job->budget.same, sizeof job->budget.same, "%s", text + 1);
     job->options = best->options;
     job->result = *result;
+    free(job->records); /* of the setting that was run last here */
+    job->records = NULL;
     if (named) {
         job->result.method_reason = "the best that the time budget reached";
     }

@@ -18,6 +18,8 @@
 #define HALVING_FACTOR 0.45
 /* Divisions are chosen for this fraction of what the tolerance leaves for all parts together. */
 #define TOLERANCE_FRACTION 0.8
+/* Shapes are divided for no smaller tolerance: rounding alone may exceed it. */
+#define TOLERANCE_MIN 1e-12
 /* Some poses are so dark that their tolerance cannot be met, or only at a high cost: no division is
    smaller than the tolerance divided by this factor. */
 #define DIVISION_FACTOR_MAX 64.0
@@ -109,8 +111,8 @@ static double error_allowed(const lrcs_run_options *options, const lrcs_result *
     double visibility = options->accept == LRCS_ACCEPT_BOUND || result->estimate_m2 < 0.0
                             ? result->budget.visibility_m2
                             : fmin(result->estimate_m2, result->budget.visibility_m2);
-    double left = TOLERANCE_FRACTION *
-                  (options->tolerance * result->sigma_m2 - visibility - result->budget.rounding_m2);
+    double left = TOLERANCE_FRACTION * (fmax(options->tolerance, TOLERANCE_MIN) * result->sigma_m2 -
+                                        visibility - result->budget.rounding_m2);
     return (result->flags & LRCS_FLAG_TOLERANCE_NOT_MET) && left > 0.0 &&
                    result->budget.tessellation_m2 > left
                ? left
