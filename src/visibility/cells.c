@@ -109,7 +109,9 @@ static void add_visible_area(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         if (range[0] < w) {
             area->visible_err +=
                 (f->line_err + 12 * LRCSI_U * c->extent) * lrcsi_min(f->length[k] + 4 * w, around);
-            lrcsi_clip_keep_left(&piece, f->side[k]);
+            if (!lrcsi_clip_keep_left(&piece, f->side[k])) { /* any of the piece may be visible */
+                area->visible_err += lrcsi_clip_area(&piece);
+            }
         }
     }
     area->visible += piece.count >= 3 ? lrcsi_max(0, lrcsi_clip_area(&piece)) : 0;

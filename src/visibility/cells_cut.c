@@ -403,7 +403,7 @@ static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     right->widest_strip = lrcsi_max(cell->widest_strip, 2 * strip.width);
     *left = *right;
     double divide_err = lrcsi_clip_divide(&cell->shape, line, &left->shape, &right->shape);
-    if (left->shape.count < 3 || right->shape.count < 3) {
+    if (!(divide_err >= 0) || left->shape.count < 3 || right->shape.count < 3) {
         return 0;
     }
     for (int k = 0; k < 3; k++) {

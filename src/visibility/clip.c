@@ -240,7 +240,15 @@ double lrcsi_cells_border_distance(const lrcsi_cells_sides *s, const double at[2
     return 0.98 * clear - left_out - s->tolerance;
 }
 
-void lrcsi_clip_keep_left(lrcsi_clip_polygon *shape, const double line[3])
+/* A line crosses two sides of a convex shape, and each part has at most one corner more; but of
+   corners within rounding of the line, any may seem to lie on either side of it. A side adds at
+   most two corners to a part. */
+static int has_room(const lrcsi_clip_polygon *part)
+{
+    return part->count + 2 <= LRCSI_CLIP_SIDES;
+}
+
+int lrcsi_clip_keep_left(lrcsi_clip_polygon *shape, const double line[3])
 {
     lrcsi_clip_polygon out;
     out.count = 0;
@@ -249,6 +257,9 @@ void lrcsi_clip_keep_left(lrcsi_clip_polygon *shape, const double line[3])
     double first = a;
     for (uint32_t i = 0; i < shape->count; i++) {
         int last = i + 1 == shape->count;
+        if (!has_room(&out)) {
+            return 0;
+        }
         const double *q = shape->corner[last ? 0 : i + 1];
         double b = last ? first : lrcsi_line_at(line, q[0], q[1]);
         if (a >= 0) {
@@ -264,6 +275,7 @@ void lrcsi_clip_keep_left(lrcsi_clip_polygon *shape, const double line[3])
     }
     shape->count = out.count;
     memcpy(shape->corner, out.corner, out.count * sizeof out.corner[0]);
+    return 1;
 }
 
 /* The distance from the line of a side to a corner that was computed on it: at the fraction t of
@@ -288,6 +300,9 @@ double lrcsi_clip_divide(const lrcsi_clip_polygon *shape, const double line[3],
         const double *next = shape->corner[i + 1 < shape->count ? i + 1 : 0];
         double a = lrcsi_line_at(line, here[0], here[1]);
         double b = lrcsi_line_at(line, next[0], next[1]);
+        if (!has_room(left) || !has_room(right)) {
+            return -1;
+        }
         if (a >= 0) {
             memcpy(left->corner[left->count++], here, 2 * sizeof *here);
         }

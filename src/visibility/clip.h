@@ -120,11 +120,13 @@ static inline int lrcsi_cells_locate(const lrcsi_clip_polygon *shape, const lrcs
 /* A lower bound of the distance of a point in the cell from the cell's border. */
 double lrcsi_cells_border_distance(const lrcsi_cells_sides *s, const double at[2]);
 
-/* Keeps the part to the left of a line. */
-void lrcsi_clip_keep_left(lrcsi_clip_polygon *shape, const double line[3]);
+/* Keeps the part to the left of a line. Returns 0, and leaves the shape as it is, if the part would
+   have more sides than there is room for. */
+int lrcsi_clip_keep_left(lrcsi_clip_polygon *shape, const double line[3]);
 
 /* Divides a shape along a line into the part to its left and the part to its right. Returns an
-   upper bound of the distance of the new corners from the sides that they are on. */
+   upper bound of the distance of the new corners from the sides that they are on; negative if a
+   part would have more sides than there is room for: then the parts are not valid. */
 double lrcsi_clip_divide(const lrcsi_clip_polygon *shape, const double line[3],
                          lrcsi_clip_polygon *left, lrcsi_clip_polygon *right);
 

@@ -126,9 +126,37 @@ static void parts_are_those_of_cutting_and_add_up(void **state)
     assert_true(shown > 50000);
 }
 
+/* Corners that alternate about a line by rounding would give more sides than there is room for: the
+   shape is refused, and nothing is written beyond it. */
+static void a_shape_with_too_many_crossings_is_refused(void **state)
+{
+    (void)state;
+    static struct {
+        lrcsi_clip_polygon shape, left, right;
+        double guard[2];
+    } s;
+    const double line[3] = {0, 1, 0};
+    for (uint32_t count = 3; count <= LRCSI_CLIP_SIDES; count++) {
+        s.shape.count = count;
+        s.guard[0] = s.guard[1] = 7;
+        for (uint32_t i = 0; i < count; i++) {
+            s.shape.corner[i][0] = i;
+            s.shape.corner[i][1] = i % 2 ? 0x1p-60 : -0x1p-60;
+        }
+        lrcsi_clip_polygon kept = s.shape;
+        int whole = lrcsi_clip_divide(&s.shape, line, &s.left, &s.right) >= 0;
+        int left = lrcsi_clip_keep_left(&kept, line);
+        assert_true(count > 20 || (whole && left)); /* at most 3/2 of the corners */
+        assert_true(count < 24 || (!whole && !left));
+        assert_true(s.guard[0] == 7 && s.guard[1] == 7);
+        assert_true(left || kept.count == count);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_shape_with_too_many_crossings_is_refused),
         cmocka_unit_test(a_line_splits_what_it_crosses),
         cmocka_unit_test(both_parts_have_the_corners_of_the_cut),
         cmocka_unit_test(a_box_shows_its_part_of_a_triangle),
