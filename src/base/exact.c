@@ -15,9 +15,10 @@
    quantities without cancellation, hence is at least (1 - u)^8 P; 10 u times it, itself rounded,
    is above the error. A 2 x 2 minor has 4 roundings; 10 u suffices for it too.
 
-   Underflow and overflow. With coordinates below 2^332 (1e100 is) every product stays below
-   2^1003. With coordinates zero or above 2^-300, each is a multiple of 2^-352, every triple
-   product a multiple of 2^-1056, and even the errors of products are representable. */
+   Underflow and overflow. With coordinates below 2^333 (1e100 is) differences stay below 2^334 and
+   sums of triple products below 2^1004. With coordinates zero or above 2^-300, each is a multiple
+   of 2^-352, every triple product a multiple of 2^-1056, and even the errors of products are
+   representable. */
 #include "base/exact.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Exact signs of determinants: a floating-point filter with a proved error bound first, then
    expansion arithmetic. Correct for every finite input whose products neither overflow nor
-   underflow (coordinates between 2^-300 and 2^300 in magnitude, or zero); the engine scales its
-   scene by a power of two so that coordinates are far inside this range. */
+   underflow (coordinates zero, or between 2^-300 and 2^333, which exceeds 1e100); the engine scales
+   its scene by a power of two so that coordinates are far inside this range. */
 #ifndef LRCSI_EXACT_H
 #define LRCSI_EXACT_H
 

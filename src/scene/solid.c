@@ -122,7 +122,7 @@ static double corner_height(const lrcs_prepared *p, uint32_t facet, uint32_t oth
 
 /* The largest such height over all edges (0 if none is positive), and the smallest altitude of all
    facets. */
-static void measure_dents(const lrcs_prepared *p, double *concavity, double *altitude)
+static void measure_concavity(const lrcs_prepared *p, double *concavity, double *altitude)
 {
     const lrcsi_topology *t = &p->topology;
     *concavity = 0;
@@ -186,9 +186,9 @@ static int is_plane(const lrcs_prepared *p)
    facet, and every normal in that neighbourhood has a positive component along d. There the surface
    is a graph over the view plane, which a line of sight meets once, so x is not hidden: a
    contradiction. If no concavity is larger than rounding can make it (bodies with plane faces,
-   singly curved bodies, Delaunay diagonals), the exact mesh is itself convex, and only the tilt by
-   rounding matters: at most 2 vertex_err / altitude for each of the two facets, which a factor of
-   16 covers with a margin. */
+   singly curved bodies, Delaunay diagonals), the exact mesh is itself convex, and only the rotation
+   by rounding matters: at most 2 vertex_err / altitude for each of the two facets, which a factor
+   of 16 covers with a margin. */
 double lrcsi_convex_grazing(const lrcs_prepared *p)
 {
     const lrcs_part *part = &p->scene->part[only_part(p)];
@@ -198,7 +198,7 @@ double lrcsi_convex_grazing(const lrcs_prepared *p)
     if (is_plane(p)) {
         return 0;
     }
-    measure_dents(p, &concavity, &altitude);
+    measure_concavity(p, &concavity, &altitude);
     return 16 * vertex_err / altitude +
            (concavity > 16 * vertex_err ? 3 * part->curvature.turn : 0);
 }

@@ -27,7 +27,9 @@ static inline double normal_products(const double *high, const double *low, cons
     return lrcsi_product_dot(high, low, d);
 }
 
-/* A bound on the absolute errors of |N x d| and N . d, per unit of |d|. */
+/* A bound on the absolute errors of the components of N x d and of N . d, per unit of |d|, apart
+   from one rounding of the result (view/product.h): the products and sums in double-double, and the
+   error of N. */
 static double normal_err(const lrcsi_normal *n)
 {
     return 21 * LRCSI_U * LRCSI_U * n->length + n->error;

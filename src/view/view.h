@@ -82,7 +82,7 @@ int lrcsi_view_make(const lrcs_prepared *prepared, const lrcs_pose *pose, lrcs_w
 
 /* Bound on the error of each of the view coordinates x of a vertex, or of another point of doubles
    in scene coordinates. It grows with the distance from the origin, so that distant parts do not
-   affect the accuracy of others. Derivation: lrcsi_view_coordinates in view.c. It exceeds the
+   affect the accuracy of others. Derivation: point_place in view.c. It exceeds the
    derived bound by 1.9 u of the same sum, which covers the rounding of adding it to a coordinate or
    to a difference of two. */
 static inline double lrcsi_view_point_err(const double x[3])
@@ -140,8 +140,8 @@ void lrcsi_view_incidences(const lrcsi_view *view, const uint32_t *facet, uint32
 
 /* n . d of a unit normal and a unit direction, both rounded: absolute error at most
    LRCSI_DOT_ERROR. With 1.01 u for each component of n, u for d's, u for each product and sum: at
-   most 5.1 u sum |n_k d_k|, which is at most 1. LRCSI_DOT_ERROR is 12 u. */
-#define LRCSI_DOT_ERROR 0x1.8p-51
+   most 5.1 u sum |n_k d_k|, and that sum is at most 1. */
+#define LRCSI_DOT_ERROR (6 * LRCSI_U)
 static inline double lrcsi_view_dot(double x, double y, double z, const double d[3])
 {
     return (x * d[0] + y * d[1]) + z * d[2];

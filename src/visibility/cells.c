@@ -15,13 +15,15 @@
       across edges that are not events (proof: visibility/cells_cover.c).
    4. If no event edge of the component crosses the cell, the component covers it: lrcsi_cells_cull
       removes the facets and events behind it from the lists, for this cell and all that are cut
-      from it. If an event edge or a contact of the component crosses the cell, lrcsi_cells_divide
-      cuts the cell along its line.
+      from it. So does a single facet that covers the cell (lrcsi_cells_find_occluder). If an event
+      edge or a contact of the component crosses the cell, lrcsi_cells_divide cuts the cell along
+   its line.
    5. If no event edge is left, nothing but the component is visible in the cell, and its areas are
       added up. If one is left, the cell is cut along it.
    6. Area that rounding leaves undecided along events is charged to the facets near them
-      (visibility/cells_cut.c). An area is reported where its error is small enough; other facets
-      are left to visibility/cells_single.c.
+      (visibility/cells_cut.c; at the border of blocks: lrcsi_cells_charge_border; of cells that are
+      given up: lrcsi_cells_charge_all). An area is reported where its error is small enough; other
+   facets are left to visibility/cells_single.c.
 
    Error of a facet's area in a cell: the error of the facet's sides times their length in the cell,
    and 4 u b and the cell's shape error times the perimeter of its part there (b: the largest

@@ -34,11 +34,11 @@
    (4) If no facet covers P, and no event edge crosses the cell, no facet is visible in it.
 
    A contact is where two facets meet in space other than along a common edge or in a point: along a
-   segment in the interior of one (mesh/contact/intersection.h), along parts of edges of both (the
-   facets are then marked as rims), or in a common plane. All edges of rims, and of facets that have
-   another facet in their plane, count as event edges, so that no component continues across them. A
-   facet with a contact that could not be computed (LRCSI_CELLS_UNKNOWN_CONTACT) is never part of a
-   component that covers a cell. Contacts in points do not matter: paths to points in general
+   segment in the interior of one (mesh/contact/intersection.h), along parts of edges of both
+   (lrcsi_intersection_along), or in a common plane. Such an edge, and every edge of a facet that
+   has another facet in its plane, counts as an event edge, so that no component continues across
+   it. A facet with a contact that could not be computed (LRCSI_CELLS_UNKNOWN_CONTACT) is never part
+   of a component that covers a cell. Contacts in points do not matter: paths to points in general
    position miss them.
 
    An edge between a facet of K and a removed one, G, is behind K', behind which G was removed. Near

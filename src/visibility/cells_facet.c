@@ -48,8 +48,9 @@ void lrcsi_cells_frame_make(lrcsi_cells_frame *c)
     }
 }
 
-/* A vertex in the view: x and y in double-double, with errors of 100 u^2 of the distance from the
-   origin; z from the view, with an error of 20 u of that distance. */
+/* A vertex in the view: x and y in double-double, with errors of at most 256 u^2 of the distance
+   from the origin (some 100 u^2 follow from the operations below); z from the view, with an error
+   of at most 20 u of that distance, twice what the view states. */
 static void point_make(const lrcsi_cells_frame *c, uint32_t vertex, lrcsi_cells_point *p)
 {
     const lrcs_prepared *prepared = c->view->prepared;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The target, a facet that may be hidden, and its frame in the view plane: the origin is its first
-   corner, the axes are those of the view. A needle, a facet that is much longer than wide in the
-   view, has a second frame, of barycentric coordinates. */
+/* The target, a facet that may be hidden, and its frame in the view plane: the origin is one
+   of its corners (lrcsi_target_frame_corner), the axes are those of the view. A needle, a facet
+   that is much longer than wide in the view, has a second frame, of barycentric coordinates. */
 #ifndef LRCSI_TARGET_H
 #define LRCSI_TARGET_H
 
@@ -13,7 +13,7 @@
    as it is long. It is computed in double-double, so that rounding errors are in proportion to the
    needle's width, not to its length. */
 typedef struct lrcsi_needle {
-    const double *origin; /* the first corner */
+    const double *origin; /* its first corner: lrcsi_target_frame_corner */
     lrcsi_dd side[2][3];  /* the vectors from there to the other corners, exact */
     lrcsi_dd row[2][3];   /* a coordinate is row . (x - origin) / determinant */
     lrcsi_dd determinant;
@@ -28,7 +28,7 @@ typedef struct lrcsi_needle {
 typedef struct lrcsi_target {
     const lrcsi_view *view;
     uint32_t facet;
-    const double *origin; /* the first corner */
+    const double *origin; /* its first corner: lrcsi_target_frame_corner */
     double corner[3][2];  /* counter-clockwise in the view */
     double reach;         /* the largest distance, in space, of a corner from the first (less for a
                              corner far behind it): position errors are at most 10 u of this */

@@ -65,7 +65,6 @@ typedef struct visible_row {
 
 /* Data that all facets of a raster share. */
 typedef struct visible_job {
-    const lrcsi_known *known;
     const lrcsi_raster *raster;
     visible_row *row;     /* by row: those of the current facet, in the rows that it touches */
     unsigned char *mixed; /* by pixel: 1 if mixed for the current facet; set where it touches */
@@ -445,7 +444,7 @@ int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *wo
     const size_t mark = work->used;
     int status = lrcsi_raster_make_undecided(view, size, known->answer, work, raster);
     const size_t end = work->used;
-    visible_job job = {.known = known, .raster = raster};
+    visible_job job = {.raster = raster};
     lrcsi_crossings search = known->search;
     lrcsi_sample_pool pool;
     if (status == LRCS_OK) {
