@@ -158,8 +158,8 @@ static void scale_make(lrcsi_colouring *colouring)
 
 const char *lrcsi_colouring_name(const lrcsi_colouring *colouring)
 {
-    static const char *const name[] = {"sigma per projected area (dB)", "angle of incidence (deg)",
-                                       "range towards the laser (m)"};
+    static const char *const name[] = {"sigma per projected area (dB re 1 m2/m2)",
+                                       "angle of incidence (deg)", "height towards the laser (m)"};
     return colouring->scaled ? name[colouring->picture->colouring] : NULL;
 }
 
