@@ -23,7 +23,7 @@ enum cli_exit {
 #define CLI_POSE_HELP                                                                              \
     "pose: one of these; without any, the laser is on the +z axis\n"                               \
     "  --direction x,y,z     direction to the laser in the body frame, of any length\n"            \
-    "  --azel AZ,EL          azimuth from +x to +y, elevation from the xy plane to +z, deg: the\n" \
+    "  --azel AZ,EL          azimuth AZ from +x towards +y, elevation EL towards +z, deg: the\n"   \
     "                        direction (cos EL cos AZ, cos EL sin AZ, sin EL)\n"                   \
     "  --euler SEQ:a,b,c     angles, deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"   \
     "  --quaternion w,x,y,z  rotation from the body to the observation frame: x right, y up, z\n"  \
@@ -289,6 +289,9 @@ const char *cli_material_name(const lrcs_material *material);
 
 /* A value >= 0 as it is, or NAN, which no output shows as a number, for one that is not known. */
 double cli_known(double value);
+
+/* A value as tables for people show it: 0 where it has underflowed, below 1e-30. */
+double cli_shown(double value);
 
 /* A part of a whole in per cent; 0 if the whole is 0. */
 double cli_percent(double part, double whole);

@@ -134,7 +134,8 @@ void cli_run_materials_table(const run_job *job)
         if (is_assigned(scene, i)) {
             printf("  ");
             cli_column(cli_material_name(&scene->material[i]), 10);
-            printf(" %12.5g %12.5g %12.5g %12.5g\n", d->dA, d->dB, d->ds, d->dm);
+            printf(" %12.5g %12.5g %12.5g %12.5g\n", cli_shown(d->dA), cli_shown(d->dB),
+                   cli_shown(d->ds), cli_shown(d->dm));
         }
     }
     for (int i = 0; i < 2; i++) {

@@ -6,6 +6,7 @@
 #include "host/chart/series.h"
 
 #include <math.h>
+#include <string.h>
 
 #define POLAR_DEPTH 40.0 /* values that far below the largest are drawn at the pole */
 #define POLAR_RINGS 5.0
@@ -147,8 +148,12 @@ static void polar_names(const polar_layout *layout, double left)
                              .size = LRCSI_CHART_NAMES,
                              .colour = LRCSI_COLOUR_TEXT};
     double room = LRCSI_CHART_WIDTH - left - LRCSI_CHART_MARGIN;
-    snprintf(text, sizeof text, "radius: %.100s, %s at the pole", layout->chart->y_name,
-             layout->axis.tick[0].text);
+    snprintf(text, sizeof text, "radius: %.200s", layout->chart->y_name);
+    lrcsi_letters_fit(layout->plotter, label, room);
+    label.at.y += 19.0;
+    const char *unit = strchr(layout->chart->y_name, '(');
+    snprintf(text, sizeof text, "centre: %s %.*s", layout->axis.tick[0].text,
+             unit ? (int)strcspn(unit + 1, ")") : 0, unit ? unit + 1 : "");
     lrcsi_letters_fit(layout->plotter, label, room);
     label.at.y += 19.0;
     snprintf(text, sizeof text, "angle: %.200s", layout->chart->x_name);
@@ -177,5 +182,5 @@ void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
     polar_numbers(&layout);
     lrcsi_chart_title(plotter, chart->title, chart->note);
     polar_names(&layout, right);
-    lrcsi_chart_legend(plotter, chart, right, LRCSI_CHART_TOP + 72.0);
+    lrcsi_chart_legend(plotter, chart, right, LRCSI_CHART_TOP + 91.0);
 }
