@@ -92,8 +92,9 @@ static void material_row(FILE *out, const lrcs_material *material, uint32_t face
     } else if (strcmp(source, "published") == 0) {
         cli_page(out, "published reflectance: %s", cli_brdf_entry(&material->brdf)->name);
     }
-    fprintf(out, "%s%s</td></tr>", material->two_sided ? " two-sided" : "",
-            material->omitted ? " left out" : "");
+    fprintf(out, "%s%s%s</td></tr>",
+            strcmp(source, "given") != 0 && material->two_sided ? "; " : "",
+            material->two_sided ? "two-sided" : "", material->omitted ? " left out" : "");
 }
 
 static void materials_section(FILE *out, const report_job *job)
