@@ -23,9 +23,11 @@ enum cli_exit {
 #define CLI_POSE_HELP                                                                              \
     "pose: one of these; without any, the laser is on the +z axis\n"                               \
     "  --direction x,y,z     direction to the laser in the body frame, of any length\n"            \
-    "  --azel AZ,EL          the same as azimuth and elevation, deg\n"                             \
+    "  --azel AZ,EL          azimuth AZ from +x towards +y, elevation EL towards +z, deg: the\n"   \
+    "                        direction (cos EL cos AZ, cos EL sin AZ, sin EL)\n"                   \
     "  --euler SEQ:a,b,c     angles, deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"   \
-    "  --quaternion w,x,y,z  rotation from the body frame to the observation frame\n"
+    "  --quaternion w,x,y,z  rotation from the body to the observation frame: x right, y up, z\n"  \
+    "                        to the laser (of a direction: by the shortest rotation)\n"
 #define CLI_POSE_OPTIONS                                                                           \
     {"direction", 1, 0}, {"azel", 1, 0}, {"euler", 1, 0},                                          \
     {                                                                                              \
@@ -219,9 +221,17 @@ int cli_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
 /* The title of the scene, or the operand if it has none. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 
+/* Prints the scene for people: its title, and in brackets the file, if the title does not name
+   it. */
+void cli_scene_print(const cli_args *args, const lrcs_host_scene *scene);
+
 /* The origin of a material's numbers: "given", "illustrative" or "published" (in the library),
    "default", or "assumed" (the scene file says so). */
 const char *cli_material_source(const lrcs_material *material);
+
+/* 1 if a scene file assigns the material and marks its numbers as assumed, be they default ones or
+   not. */
+int cli_material_guessed(const lrcs_material *material);
 
 /* 1 if some material states errors; 1 if the numbers of some are illustrative or default. */
 int cli_errors_stated(const lrcs_scene *scene);
@@ -279,6 +289,9 @@ const char *cli_material_name(const lrcs_material *material);
 
 /* A value >= 0 as it is, or NAN, which no output shows as a number, for one that is not known. */
 double cli_known(double value);
+
+/* A value as tables for people show it: 0 where it has underflowed, below 1e-30. */
+double cli_shown(double value);
 
 /* A part of a whole in per cent; 0 if the whole is 0. */
 double cli_percent(double part, double whole);

@@ -10,6 +10,11 @@ double cli_known(double value)
     return value >= 0.0 ? value : (double)NAN;
 }
 
+double cli_shown(double value)
+{
+    return fabs(value) < 1e-30 ? 0.0 : value;
+}
+
 double cli_percent(double part, double whole)
 {
     return whole > 0.0 ? 100.0 * part / whole : 0.0;

@@ -14,6 +14,17 @@ const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene)
     return scene->recipe.name && scene->recipe.name[0] ? scene->recipe.name : args->operand;
 }
 
+void cli_scene_print(const cli_args *args, const lrcs_host_scene *scene)
+{
+    const char *title = cli_scene_title(args, scene);
+    cli_column(title, 0);
+    if (strcmp(title, args->operand) != 0) {
+        printf(" (");
+        cli_column(cli_base_name(args->operand), 0);
+        putchar(')');
+    }
+}
+
 static int brdf_same(const lrcs_brdf *a, const lrcs_brdf *b)
 {
     return a->A == b->A && a->B == b->B && a->s == b->s && a->m == b->m;
@@ -36,6 +47,11 @@ const char *cli_material_source(const lrcs_material *material)
     }
     const lrcs_brdf_entry *entry = cli_brdf_entry(&material->brdf);
     return !entry ? "given" : entry->source ? "published" : "illustrative";
+}
+
+int cli_material_guessed(const lrcs_material *material)
+{
+    return !material->brdf_given && material->source != 0;
 }
 
 static int error_stated(const lrcs_brdf_error *e)

@@ -61,9 +61,9 @@ static void percent_cell(double share)
 
 static void row_line(const cli_shares *shares, const shares_row *row)
 {
-    printf(" %12.6g", row->sigma_m2);
+    printf(" %12.6g", cli_shown(row->sigma_m2));
     percent_cell(cli_share_of(shares, row->sigma_m2));
-    printf(" %12.4g %12.4g\n", row->glint_m2, row->diffuse_m2);
+    printf(" %12.4g %12.4g\n", cli_shown(row->glint_m2), cli_shown(row->diffuse_m2));
 }
 
 static void rows_table(const cli_shares *shares, const char *what, const shares_row *row,
@@ -102,7 +102,8 @@ void cli_shares_table(const cli_shares *shares)
         cli_column(facet->part, NAME_WIDTH);
         putchar(' ');
         cli_column(facet->material[0] ? facet->material : "(default)", 20);
-        printf(" %9.3f %12.4g %12.6g", facet->theta_deg, facet->visible_area_m2, facet->sigma_m2);
+        printf(" %9.3f %12.4g %12.6g", facet->theta_deg, facet->visible_area_m2,
+               cli_shown(facet->sigma_m2));
         percent_cell(cli_share_of(shares, facet->sigma_m2));
         putchar('\n');
     }

@@ -81,7 +81,7 @@ static void plan_method(lrcsi_plan *plan, const lrcsi_view *view, const lrcsi_cl
     } else if (options->method > LRCS_METHOD_FACET) {
         plan_choose(plan, options->method, "as requested");
     } else if (plan->nothing_hidden && !plan->shadows_forced) {
-        plan_choose(plan, LRCS_METHOD_FACET, "proved convex and alone: nothing is hidden");
+        plan_choose(plan, LRCS_METHOD_FACET, "proved a single convex body: nothing is hidden");
     } else if (options->resolution != 0) {
         plan_choose(plan, LRCS_METHOD_ZBUFFER, "the requested raster meets the tolerance");
     } else if (preview_tried(options) && (samples || options->accept == LRCS_ACCEPT_ANY)) {
@@ -94,7 +94,7 @@ static void plan_method(lrcsi_plan *plan, const lrcsi_view *view, const lrcsi_cl
         plan_choose(plan, LRCS_METHOD_EXACT,
                     plan->nothing_hidden
                         ? "self-shadowing is requested"
-                        : "not proved convex and alone; clipping has the closest bound");
+                        : "not proved a single convex body; clipping has the closest bound");
     }
     plan->samples_only = plan->method == LRCS_METHOD_ZBUFFER && samples;
 }
@@ -135,20 +135,20 @@ static lrcs_effect shadowing_effect(const lrcs_prepared *p, const lrcsi_plan *pl
         return (lrcs_effect){0, "nothing hides any part, proved"};
     }
     if (plan->method == LRCS_METHOD_FACET && plan->nothing_hidden) {
-        return (lrcs_effect){0, "convex and alone: no front side is ever hidden"};
+        return (lrcs_effect){0, "a single convex body: no front side is ever hidden"};
     }
     if (plan->method == LRCS_METHOD_FACET) {
         return (lrcs_effect){
             0, "left out on request; the bound includes everything that could be hidden"};
     }
     if (plan->nothing_hidden) {
-        return (lrcs_effect){1, "on request, though proved convex and alone"};
+        return (lrcs_effect){1, "on request, though proved a single convex body"};
     }
     if (plan->fronts_visible) {
         return (lrcs_effect){1, p->solid ? "convex: fronts hide backs, searched on request"
                                          : "an open convex surface: fronts hide backs"};
     }
-    return (lrcs_effect){1, "not proved convex and alone"};
+    return (lrcs_effect){1, "not proved a single convex body"};
 }
 
 static lrcs_effect caster_effect(const lrcsi_view *view, const lrcsi_plan *plan)

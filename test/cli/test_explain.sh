@@ -44,7 +44,7 @@ same the_table_fits_100_columns "$(printf '%s\n' "$table" | awk 'length($0) > 10
 same stages_end_the_table "$(printf '%s\n' "$table" | sed '/^verdict/,$d' | tail -3 | head -1 | grep -cE '^stages +load and joints [0-9.]+ ms \([0-9.]+ %\), prepare [0-9.]+ ms \([0-9.]+ %\), pose [0-9.]+ ms \([0-9.]+ %\)$')" 1
 number='(< )?[0-9.]+'
 same those_of_preparing_come_after "$(printf '%s\n' "$table" | sed '/^verdict/,$d' | tail -2 | head -1 | grep -cE "^  prepare +edges $number, neighbours $number, contacts $number, normals $number, proofs $number ms\$")" 1
-same and_those_of_the_pose "$(printf '%s\n' "$table" | sed '/^verdict/,$d' | tail -1 | grep -cE "^  pose +view $number, classify $number, visibility $number, sum $number ms\$")" 1
+same and_those_of_the_pose "$(printf '%s\n' "$table" | sed '/^verdict/,$d' | tail -1 | grep -cE "^  pose +view $number, classify $number, visibility $number, adding up $number ms\$")" 1
 same shadows_left_out_add_to_sigma "$(printf '%s\n' "$table" | grep '^  self_shadowing ' | grep -cE '\+[0-9.]+ %')" 1
 usage_error explain_and_facets_both_on_stdout "both want standard output" run box.toml --explain --facets -
 
@@ -58,9 +58,9 @@ method_line() {
     case $said in *"$why)") ;; *) said="$said, but JSON says '$why'" ;; esac
 }
 method_line box.toml
-same facet_says_why "$said" "facet (chosen by auto: proved convex and alone: nothing is hidden)"
+same facet_says_why "$said" "facet (chosen by auto: proved a single convex body: nothing is hidden)"
 method_line pair.toml
-same exact_says_why "$said" "exact (chosen by auto: not proved convex and alone; clipping has the closest bound)"
+same exact_says_why "$said" "exact (chosen by auto: not proved a single convex body; clipping has the closest bound)"
 method_line pair.toml --resolution 512 --tolerance 0.5
 same a_raster_that_is_enough_says_so "$said" "zbuffer, 512 x 512 (chosen by auto: the requested raster meets the tolerance)"
 method_line pair.toml --resolution 16

@@ -63,9 +63,9 @@ same example_holds_its_material "$(awk -v a="$(parameter A low)" -v b="$(paramet
     -v d="$(parameter m high)" 'BEGIN { print (a < 1 && b > 1 && c < 0.5 && d > 0.5) }')" 1
 awk 'NR > 1 { srand(NR); print $1, $2 + 0.01 * (rand() - 0.5) }' blanks.txt >even.txt
 run fit even.txt
-same errors_that_are_the_same_for_all_are_seen "$(printf '%s\n' "$out" | grep -c 'errors likelier the same for all')" 1
+same errors_that_are_the_same_for_all_are_seen "$(printf '%s\n' "$out" | grep -c 'noise model: the same for all (the likelier one)')" 1
 run fit even.txt --noise relative
-same errors_are_what_was_asked "$(printf '%s\n' "$out" | grep -c 'errors taken relative')" 1
+same errors_are_what_was_asked "$(printf '%s\n' "$out" | grep -c 'noise model: relative (as asked)')" 1
 
 # ---- units ----
 brdf 1 0.25 0.2 0.5 -70 75 5 3.20570678937734 >panel.txt # pi / 0.98

@@ -102,7 +102,7 @@ same an_edited_material_is_given "$(printf '%s\n' "$out" | grep -c '"source": "g
 sed 's/^A = 1$/A = 0.5/' a.toml >half.toml
 run run half.toml --method facet
 same assumed_numbers_stay_assumed "$(printf '%s\n' "$out" | grep -c 'assumed, as the scene file says')" 1
-same and_are_told "$(printf '%s\n' "$err" | grep -c '^notice: 5 of 9 facets have a material that the scene file marks as assumed')" 1
+same and_are_told "$(printf '%s\n' "$err" | grep -c '^notice: 5 of 9 facets have GUESSED materials (assumed = true in the scene file)')" 1
 
 if python3 -c 'import tomllib' 2>/dev/null; then
     python3 - <<'END' || not_ok the_python_ends_well

@@ -110,7 +110,7 @@ check("polar_angle_is_the_azimuth", all(abs((a - float(r["az_deg"]) + 180) % 360
 rings = sorted({round(math.hypot(p[0][0] - pole[0], p[0][1] - pole[1]), 1) for e, p in polar.lines if len(p) == 181})
 labels = sorted(float(t) for t, k, u, v, w in polar.texts if k == "middle" and t not in [str(d) for d in range(0, 360, 30)])
 check("polar_rings_are_where_their_numbers_say", len(rings) >= 2 and abs(rings[-1] - unit * (labels[-1] if labels else 0)) < 0.2)
-check("polar_says_what_the_pole_is", "radius: sigma (m2), 0 at the pole" in polar.words and "angle: azimuth (deg)" in polar.words)
+check("polar_says_what_the_pole_is", "radius: sigma (m2); centre: 0 m2" in polar.words and "angle: azimuth (deg)" in polar.words)
 
 def viridis(t):
     knots = [(68, 1, 84), (71, 44, 122), (59, 81, 139), (44, 113, 142), (33, 144, 141), (39, 173, 129),

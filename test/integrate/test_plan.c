@@ -34,7 +34,7 @@ static void self_shadowing_is_off_for_a_convex_body_alone(void **state)
     lrcs_result r = automatic(oblique);
     assert_false(on(&r, LRCS_EFFECT_SELF_SHADOWING));
     assert_int_equal(r.method, LRCS_METHOD_FACET);
-    assert_string_equal(r.method_reason, "proved convex and alone: nothing is hidden");
+    assert_string_equal(r.method_reason, "proved a single convex body: nothing is hidden");
     box(3, 0, 0, 1);
     r = automatic(oblique);
     assert_true(on(&r, LRCS_EFFECT_SELF_SHADOWING));

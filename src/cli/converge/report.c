@@ -53,7 +53,7 @@ static const lrcs_host_convergence_setting *setting_best(const lrcs_host_converg
 
 converge_sentence cli_converge_sentence(const lrcs_host_convergence *all)
 {
-    converge_sentence sentence = {"The cheapest setting by pose time for a bound of "};
+    converge_sentence sentence = {"The cheapest setting by pose time for a proved bound of "};
     const lrcs_host_convergence_setting *best = setting_best(all);
     const char *verb = " is";
     for (size_t i = 0; i < REPORT_TOLERANCES; i++) {
@@ -67,7 +67,9 @@ converge_sentence cli_converge_sentence(const lrcs_host_convergence *all)
         lrcs_host_append(sentence.text, sizeof sentence.text, "%s %s", verb,
                          one ? one->name : "none of these");
         if (one) {
-            lrcs_host_append(sentence.text, sizeof sentence.text, " (%.3g ms)", 1e3 * one->pose_s);
+            lrcs_host_append(sentence.text, sizeof sentence.text, " (%.3g ms%s)", 1e3 * one->pose_s,
+                             one->dial == LRCS_HOST_DIAL_PREVIEW ? "; its bound suffices here"
+                                                                 : "");
         }
         lrcs_host_append(sentence.text, sizeof sentence.text,
                          i + 1 < REPORT_TOLERANCES ? ", for " : "; ");
@@ -81,7 +83,7 @@ converge_sentence cli_converge_sentence(const lrcs_host_convergence *all)
     } else {
         lrcs_host_append(sentence.text, sizeof sentence.text, "no bound is known.");
     }
-    const char *before = " By estimate, unproved, a tolerance of ";
+    const char *before = " Accepted by estimate, a tolerance of ";
     for (uint32_t i = 0; i < all->settings; i++) {
         const lrcs_host_convergence_setting *one = &all->setting[i];
         if (one->dial == LRCS_HOST_DIAL_PREVIEW) {
@@ -89,13 +91,62 @@ converge_sentence cli_converge_sentence(const lrcs_host_convergence *all)
             lrcs_host_append(sentence.text, sizeof sentence.text, "%s1e-%d takes %.3g ms%s", before,
                              one->digits, 1e3 * one->pose_s,
                              by && strcmp(by, "estimate") == 0 ? ""
-                             : by                              ? " (and is proved)"
-                                                               : " (and is missed)");
+                             : by                              ? " (its bound meets it, too)"
+                                                               : " (it is missed)");
             before = ", ";
         }
     }
     lrcs_host_append(sentence.text, sizeof sentence.text, before[0] == ',' ? "." : "");
     return sentence;
+}
+
+/* ---- the table of tolerances ---- */
+
+/* A setting and its time in two columns. */
+static void setting_cells(const char *name, double pose_s)
+{
+    if (name) {
+        printf("  %-22s %10.4g", name, 1e3 * pose_s);
+    } else {
+        printf("  %-22s %10s", "none of these", "-");
+    }
+}
+
+/* Prints for each tolerance the cheapest setting whose bound meets it, and what the tolerance costs
+   if it is accepted by estimate. */
+static void tolerances_table(const lrcs_host_convergence *all)
+{
+    int previews = 0;
+    int suffices = 0; /* is the bound of a preview the cheapest proof? */
+    for (uint32_t i = 0; i < all->settings; i++) {
+        previews += all->setting[i].dial == LRCS_HOST_DIAL_PREVIEW;
+    }
+    printf("\n%-10s  %-22s %10s", "tolerance", "cheapest, proved", "ms");
+    printf(previews > 0 ? "  %-22s %10s\n" : "\n", "accepted by estimate", "ms");
+    for (int digits = 1; digits <= 6; digits++) {
+        const lrcs_host_convergence_setting *preview = NULL;
+        double tolerance = pow(10.0, -digits);
+        for (uint32_t i = 0; i < all->settings; i++) {
+            const lrcs_host_convergence_setting *one = &all->setting[i];
+            int asked = one->dial == LRCS_HOST_DIAL_PREVIEW && one->digits == digits;
+            preview = asked ? one : preview;
+        }
+        const lrcs_host_convergence_setting *proved = setting_cheapest(all, tolerance);
+        suffices |= proved && proved->dial == LRCS_HOST_DIAL_PREVIEW;
+        printf("1e-%-7d", digits);
+        setting_cells(proved ? proved->name : NULL, proved ? proved->pose_s : 0.0);
+        if (preview) {
+            const char *by = accepted_by(preview);
+            setting_cells(preview->name, preview->pose_s);
+            printf("%s", !by                           ? "   missed"
+                         : strcmp(by, "estimate") == 0 ? ""
+                                                       : "   its bound meets it, too");
+        }
+        putchar('\n');
+    }
+    if (suffices) {
+        printf("what is accepted by estimate counts as proved where its bound suffices\n");
+    }
 }
 
 /* ---- a setting's numbers, which every form shows ---- */
@@ -150,9 +201,10 @@ void cli_converge_table(const converge_job *job)
 {
     converge_sentence sentence = cli_converge_sentence(&job->all);
     const char *unit = job->all.truth.sigma_m2 > 0.0 ? "relative" : "m2";
-    printf(
-        "scene  %s, hash %016llx\n", job->args->operand,
-        (unsigned long long)lrcs_scene_hash(&lrcs_host_convergence_finest(&job->all)->scene.scene));
+    const lrcs_host_scene *scene = &lrcs_host_convergence_finest(&job->all)->scene;
+    printf("scene  ");
+    cli_scene_print(job->args, scene);
+    printf(", hash %016llx\n", (unsigned long long)lrcs_scene_hash(&scene->scene));
     printf("truth  %.15g m2, known to %.2g m2%s: %s\n\n", job->all.truth.sigma_m2,
            job->all.truth.bound_m2, job->all.truth.whole ? "" : " for its facets",
            job->all.truth.text);
@@ -175,6 +227,7 @@ void cli_converge_table(const converge_job *job)
         }
         putchar('\n');
     }
+    tolerances_table(&job->all);
     printf("\n%s\n", sentence.text);
 }
 

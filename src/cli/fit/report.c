@@ -140,17 +140,19 @@ static void readings_print(const fit_job *job, const fit_material *material)
 {
     const lrcs_fit *fit = &material->fit;
     const char *with = job->options.cosine ? " cos(theta)" : "";
-    const char *taken = job->noise_asked ? "taken" : "likelier";
+    const char *why = job->noise_asked ? "as asked" : "the likelier one";
     uint32_t named = 0;
     uint32_t outliers = material->count - fit->kept;
     printf("readings   %lu from %.6g to %.6g deg, outliers set aside: %lu",
            (unsigned long)material->count, fit->least_deg, fit->most_deg, (unsigned long)outliers);
     for (uint32_t i = 0; i < material->count && named < REPORT_LINES_MOST; i++) {
         if (material->point[i].outlier) {
-            printf("%s%lu", named++ ? ", " : " (line ", (unsigned long)material->line[i]);
+            printf("\n           line %lu: %.6g at %.6g deg", (unsigned long)material->line[i],
+                   material->reading[i].value, material->reading[i].angle_deg);
+            named++;
         }
     }
-    printf("%s%s\n", named < outliers ? ", ..." : "", outliers ? ")" : "");
+    printf("%s\n", named < outliers ? "\n           ..." : "");
     if (job->panel > 0.0) {
         printf("unit       relative to a Lambert panel of reflectance %.6g: f_r%s = %.6g value, "
                "1/sr\n",
@@ -158,7 +160,7 @@ static void readings_print(const fit_job *job, const fit_material *material)
     } else {
         printf("unit       value = f_r%s, 1/sr\n", with);
     }
-    printf("residuals  rms %.4g 1/sr; errors ", fit->rms);
+    printf("residuals  rms %.4g 1/sr; noise model: ", fit->rms);
     switch (material->noise) {
     case LRCS_FIT_GIVEN:
         printf("given: reduced chi-square %.4g\n", fit->noise * fit->noise);
@@ -167,10 +169,10 @@ static void readings_print(const fit_job *job, const fit_material *material)
         printf("by weight\n");
         break;
     case LRCS_FIT_RELATIVE:
-        printf("%s relative: %.3g %% a reading\n", taken, 100.0 * fit->noise);
+        printf("relative (%s), %.3g %% per reading\n", why, 100.0 * fit->noise);
         break;
     default:
-        printf("%s the same for all: %.4g 1/sr a reading\n", taken, fit->noise);
+        printf("the same for all (%s), %.4g 1/sr per reading\n", why, fit->noise);
     }
 }
 

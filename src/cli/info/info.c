@@ -128,9 +128,9 @@ static void table_materials(const lrcs_host_inventory *all, const lrcs_scene *sc
                material->has_colour ? cli_colour_text(material->rgb, colour) : "-",
                (unsigned long)all->material[i].facets, all->material[i].area_m2, material->brdf.A,
                material->brdf.B, material->brdf.s, material->brdf.m,
-               material->brdf_given                               ? ""
-               : strcmp(cli_material_source(material), "default") ? "  (assumed)"
-                                                                  : "  (unbound)",
+               material->brdf_given             ? ""
+               : cli_material_guessed(material) ? "  (assumed)"
+                                                : "  (unbound)",
                material->two_sided ? "  two-sided" : "", material->omitted ? "  left out" : "");
     }
 }
@@ -141,7 +141,7 @@ static void table_glint(const lrcs_host_inventory *all, const lrcs_scene *scene)
         printf("glint        no curved part with smoothing groups or vertex normals\n");
         return;
     }
-    printf("glint        estimates for curved parts; N: facets around a full turn\n"
+    printf("glint        estimates for curved parts\n"
            "  %-20s %-20s %6s %9s %9s %8s %8s\n",
            "part", "material", "s", "turn deg", "error", "N 1 %", "N 0.1 %");
     for (uint32_t i = 0; i < all->glint_count; i++) {
@@ -154,21 +154,30 @@ static void table_glint(const lrcs_host_inventory *all, const lrcs_scene *scene)
                glint->error, glint->error > LRCS_HOST_GLINT_COARSE ? "!" : " ",
                glint->around_1_percent, glint->around_01_percent);
     }
+    printf("  turn: the angle between the normals of neighbouring facets; error: relative, of the "
+           "glint, at\n  the worst aspect (!: above %g, too coarse); N: facets around a full turn "
+           "for an error of 1 %%, 0.1 %%\n",
+           LRCS_HOST_GLINT_COARSE);
 }
 
-static void info_table(const info_job *info, const char *operand)
+static void info_table(const info_job *info, const cli_args *args)
 {
     const lrcs_scene *scene = &info->scene.scene;
     const lrcs_host_inventory *all = &info->all;
     const lrcs_mesh_report *r = &all->report;
     char text[LRCS_HOST_INVENTORY_NOTICE];
-    printf("scene        %s\nparts        %lu\nvertices     %lu\nfacets       %lu\n", operand,
-           (unsigned long)all->parts, (unsigned long)scene->vertex_count,
-           (unsigned long)scene->facet_count);
+    int tessellated = lrcs_host_scene_tessellated(scene);
+    printf("scene        ");
+    cli_scene_print(args, &info->scene);
+    printf("\nparts        %lu\nvertices     %lu\nfacets       %lu%s\n", (unsigned long)all->parts,
+           (unsigned long)scene->vertex_count, (unsigned long)scene->facet_count,
+           tessellated ? "   curved shapes divided for a tolerance of 1e-4; a run begins with fewer"
+                       : "");
     printf("area         %.10g m2\nvolume       %.10g m3%s\n", r->area, r->volume,
            r->closed ? "" : "   (not closed)");
-    printf("box          %.9g, %.9g, %.9g .. %.9g, %.9g, %.9g m\n", r->box_min[0], r->box_min[1],
-           r->box_min[2], r->box_max[0], r->box_max[1], r->box_max[2]);
+    printf("box          %.9g, %.9g, %.9g .. %.9g, %.9g, %.9g m%s\n", r->box_min[0], r->box_min[1],
+           r->box_min[2], r->box_max[0], r->box_max[1], r->box_max[2],
+           tessellated ? "   of the facets" : "");
     printf("closed       %s\nconvex       %s\n", r->closed ? "yes" : "no",
            r->convex ? "yes" : "no");
     table_materials(all, scene);
@@ -207,7 +216,7 @@ static int info_command(const cli_args *args)
     if (code == 0 && cli_value(args, "json")) {
         info_json(args, &info);
     } else if (code == 0) {
-        info_table(&info, args->operand);
+        info_table(&info, args);
     }
     lrcs_host_surfaces_free(&info.surfaces);
     lrcs_host_inventory_free(&info.all);

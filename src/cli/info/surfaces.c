@@ -90,7 +90,9 @@ void cli_surfaces_table(const lrcs_host_surfaces *surfaces, const lrcs_scene *sc
                (unsigned long)surfaces->count - SURFACE_ROWS);
     }
     printf("  within, turn: proved bounds of the distance of facets from the surface and of the "
-           "angle\n  between their normals; error: of the glint, an estimate\n");
+           "angle\n  between their normals; error: relative, of the glint, an estimate (!: above "
+           "%g); inside: the\n  facets' fronts face the axis or the centre\n",
+           LRCS_HOST_GLINT_COARSE);
 }
 
 void cli_surfaces_json(const lrcs_host_surfaces *surfaces, const lrcs_scene *scene,

@@ -159,6 +159,13 @@ static int by_falling_sigma(const void *a, const void *b)
     return left < right ? 1 : left > right ? -1 : 0;
 }
 
+static int by_range(const void *a, const void *b)
+{
+    double left = ((const profile_row *)a)->near_m;
+    double right = ((const profile_row *)b)->near_m;
+    return left > right ? 1 : left < right ? -1 : 0;
+}
+
 static void row_print(const profile_job *job, const profile_row *row)
 {
     char bound[LRCS_HOST_BOUND_SIZE];
@@ -173,7 +180,7 @@ static void row_print(const profile_job *job, const profile_row *row)
     putchar('\n');
 }
 
-/* Prints all bins, or, if there are many, the strongest. */
+/* Prints all bins, or, if there are many, the strongest, by range. */
 static void rows_print(const profile_job *job)
 {
     profile_row *sorted = calloc((size_t)job->rows + 1, sizeof *sorted);
@@ -188,11 +195,17 @@ static void rows_print(const profile_job *job)
     }
     if (job->rows > TABLE_ROWS && sorted) {
         qsort(sorted, job->rows, sizeof *sorted, by_falling_sigma);
+        qsort(sorted, TABLE_ROWS / 2, sizeof *sorted, by_range);
         for (uint32_t i = 0; i < TABLE_ROWS / 2; i++) {
             row_print(job, &sorted[i]);
         }
-        printf("  the strongest %lu of %lu rows; --csv and --json give all\n",
+        printf("  the strongest %lu of %lu rows, by range; --csv and --json give all\n",
                (unsigned long)(TABLE_ROWS / 2), (unsigned long)job->rows);
+        if (job->rows > job->profile.list.count) {
+            printf("  (%lu bins, and %lu rows before and after them that the pulse reaches)\n",
+                   (unsigned long)job->profile.list.count,
+                   (unsigned long)(job->rows - job->profile.list.count));
+        }
     }
     free(sorted);
 }
@@ -237,7 +250,7 @@ void cli_profile_table(const profile_job *job)
     char bound[LRCS_HOST_BOUND_SIZE];
     cli_pose_unit(&job->pose, s_hat);
     printf("scene        ");
-    cli_column(job->title, 0);
+    cli_scene_print(job->args, &job->scene);
     printf(", hash %016llx\n", (unsigned long long)lrcs_scene_hash(&job->scene.scene));
     printf("direction    %.10g, %.10g, %.10g   to the laser, body frame\n", s_hat[0], s_hat[1],
            s_hat[2]);

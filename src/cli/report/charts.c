@@ -36,9 +36,10 @@ static void extremes_write(FILE *out, const report_sweep *sweep)
     if (sweep->band && most > 0.0) {
         cli_page_text(
             out,
-            " Errors of its materials (68\xc2\xa0%%%s): \xc2\xb1%.2g\xc2\xa0%% of \xcf\x83 in the "
+            " Errors of its materials (68\xc2\xa0%%%s): %s%.2g\xc2\xa0%% of \xcf\x83 in the "
             "median, \xc2\xb1%.2g\xc2\xa0%% at most.",
-            sweep->plot.map ? "" : ", shaded", 100.0 * sweep->part[0], 100.0 * sweep->part[1]);
+            sweep->plot.map ? "" : ", shaded", sweep->part[0] < 5e-4 ? "below " : "\xc2\xb1",
+            100.0 * fmax(sweep->part[0], 5e-4), 100.0 * sweep->part[1]);
     }
 }
 

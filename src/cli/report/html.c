@@ -72,7 +72,9 @@ static void data_put(FILE *out, const char *id, double value, const char *text)
 void cli_page_number(FILE *out, const char *id, double value, int digits)
 {
     char text[64];
-    if (fabs(value) >= pow(10.0, digits) && fabs(value) < PLAIN_BELOW) {
+    if (cli_shown(value) == 0.0) {
+        snprintf(text, sizeof text, "0");
+    } else if (fabs(value) >= pow(10.0, digits) && fabs(value) < PLAIN_BELOW) {
         snprintf(text, sizeof text, "%.0f", value);
     } else {
         snprintf(text, sizeof text, "%.*g", digits, value);

@@ -81,11 +81,20 @@ static void material_row(FILE *out, const lrcs_material *material, uint32_t face
     fputs("</td>", out);
     cli_page_cells(out, "%u%.6g%.6g%.6g%.6g%.6g", facets, area_m2, material->brdf.A,
                    material->brdf.B, material->brdf.s, material->brdf.m);
-    fprintf(out, "<td>%s%s%s</td></tr>",
-            material->brdf_given                               ? ""
-            : strcmp(cli_material_source(material), "default") ? "assumed"
-                                                               : "not bound: the default",
-            material->two_sided ? " two-sided" : "", material->omitted ? " left out" : "");
+    const char *source = cli_material_source(material);
+    fprintf(out, "<td>%s",
+            cli_material_guessed(material)   ? "GUESSED: assumed, as the scene file says"
+            : strcmp(source, "default") == 0 ? "not bound: the default"
+                                             : "");
+    if (strcmp(source, "illustrative") == 0) {
+        cli_page(out, "illustrative: the numbers of the library's %s",
+                 cli_brdf_entry(&material->brdf)->name);
+    } else if (strcmp(source, "published") == 0) {
+        cli_page(out, "published reflectance: %s", cli_brdf_entry(&material->brdf)->name);
+    }
+    fprintf(out, "%s%s%s</td></tr>",
+            strcmp(source, "given") != 0 && material->two_sided ? "; " : "",
+            material->two_sided ? "two-sided" : "", material->omitted ? " left out" : "");
 }
 
 static void materials_section(FILE *out, const report_job *job)

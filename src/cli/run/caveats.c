@@ -141,12 +141,13 @@ static void materials_caveat(const run_job *job, FILE *out)
     static const char *const words[] = {"illustrative, of the library: not measured",
                                         "published reflectance; Lambert's law assumed",
                                         "none bound, A=1, B=0.25, s=0.2, m=0.5 taken",
-                                        "assumed, as the scene file says", "as given"};
+                                        "GUESSED: assumed, as the scene file says", "as given"};
     const lrcs_scene *scene = &job->scene.scene;
     uint32_t facets[5] = {0, 0, 0, 0, 0};
     for (uint32_t i = 0; i < scene->facet_count; i++) {
         const lrcs_material *material = &scene->material[scene->facet_material[i]];
-        const char *found = cli_material_source(material);
+        const char *found =
+            cli_material_guessed(material) ? "assumed" : cli_material_source(material);
         for (int k = 0; k < 5 && !material->omitted; k++) {
             facets[k] += strcmp(found, source[k]) == 0;
         }
@@ -169,8 +170,9 @@ void cli_run_verdict(const run_job *job, FILE *out)
             "verdict      shadows are proved, but not how far curved shapes are from their facets");
     } else if (r->sigma_m2 > 0.0) {
         lrcs_host_bound_text(r->bound_m2 / r->sigma_m2, 2, bound);
-        fprintf(out, "verdict      geometry and shadows are proved to %s of sigma%s", bound,
-                r->bound_m2 > r->sigma_m2         ? ": a bound larger than sigma says little"
+        fprintf(out, "verdict      %sgeometry and shadows are proved to %s of sigma%s",
+                r->bound_m2 > r->sigma_m2 ? "NOT USABLE as a proved answer: " : "", bound,
+                r->bound_m2 > r->sigma_m2         ? ", a bound that exceeds it"
                 : r->bound_m2 > 0.1 * r->sigma_m2 ? ": coarse"
                                                   : "");
     } else {

@@ -7,13 +7,15 @@
 #include <string.h>
 
 /* Columns of the table. */
-#define WHY_FROM 67
+#define WHY_FROM 69
 #define WHY_TO   100
 
 static const char *const prepare_stage[LRCS_HOST_PREPARE_STAGES] = {
     "edges", "neighbours", "contacts", "normals", "proofs"};
 static const char *const pose_stage[LRCS_HOST_POSE_STAGES] = {"view", "classify", "visibility",
-                                                              "sum"};
+                                                              "sum"}; /* keys of the JSON */
+static const char *const pose_stage_words[LRCS_HOST_POSE_STAGES] = {"view", "classify",
+                                                                    "visibility", "adding up"};
 
 static int is_switched(int effect)
 {
@@ -104,8 +106,8 @@ static void measure_column(double value, int lost, int on, const char *unit, int
     cli_column(text, width);
 }
 
-/* The columns of an effect: its time, in ms and as a share of the pose, and the change of sigma if
-   the effect is flipped. */
+/* The columns of an effect: its time, in ms and as a share of the pose, and the change of sigma
+   without the effect, or with it where it is off. */
 static void effect_columns(const run_job *job, int on, const lrcs_host_explained_effect *e)
 {
     char change[32] = "same";
@@ -119,7 +121,7 @@ static void effect_columns(const run_job *job, int on, const lrcs_host_explained
     } else if (e->sigma_m2 != sigma) {
         snprintf(change, sizeof change, "%+.3g m2", e->sigma_m2);
     }
-    cli_column(change, 14);
+    cli_column(change, 16);
 }
 
 static void stage_print(const char *name, double seconds, double all)
@@ -154,7 +156,7 @@ static void stages_print(const run_job *job)
     stage_print(", pose", pose, all);
     putchar('\n');
     stages_list("prepare", prepare_stage, job->scene.seconds_stage, NULL, LRCS_HOST_PREPARE_STAGES);
-    stages_list("pose", pose_stage, job->explained.stage, job->explained.stage_scatter,
+    stages_list("pose", pose_stage_words, job->explained.stage, job->explained.stage_scatter,
                 LRCS_HOST_POSE_STAGES);
 }
 
@@ -163,17 +165,19 @@ void cli_run_explain_table(const run_job *job)
     double pose = 1e3 * job->explained.pose;
     printf(
         "explained    each effect left out in turn, or simulated where it is off: what it takes,\n"
-        "             or would take, in brackets; effects overlap; pose %.*f ms, medians of %lu\n",
+        "             or would take, in brackets; effects overlap; pose %.*f ms; medians of %lu "
+        "runs\n",
         decimals(pose), pose, (unsigned long)job->explained.rounds);
-    printf("  %-18s %-4s%-15s%-13s%-14s%s\n", "effect", "now", "time", "of the pose",
-           "sigma flipped", "why");
+    printf("  %-18s %-4s%-15s%-13s%s\n", "", "", "", "", "sigma without");
+    printf("  %-18s %-4s%-15s%-13s%-16s%s\n", "effect", "now", "time", "of the pose",
+           "it (or with it)", "why");
     for (int i = 0; i < LRCS_EFFECTS; i++) {
         const lrcs_effect *effect = &job->result.effect[i];
         printf("  %-18s %-4s", lrcs_effect_text(i), effect->on ? "on" : "off");
         if (is_switched(i)) {
             effect_columns(job, effect->on, &job->explained.effect[i]);
         } else {
-            printf("%-15s%-13s%-14s", "-", "-", "-");
+            printf("%-15s%-13s%-16s", "-", "-", "-");
         }
         print_wrapped(effect->reason, WHY_FROM, WHY_TO);
     }

@@ -126,18 +126,22 @@ void cli_run_materials_table(const run_job *job)
     if (!job->sensitivity_asked) {
         return;
     }
-    printf("derivatives  %12s %12s %12s %12s\n", "A, m2 sr", "B, m2 sr", "s, m2", "m, m2");
+    printf("derivatives  of sigma, by the numbers of each material and by attitude\n"
+           "  %-10s %12s %12s %12s %12s\n",
+           "material", "d/dA (m2 sr)", "d/dB (m2 sr)", "d/ds (m2)", "d/dm (m2)");
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_sensitivity *d = &job->sensitivity[i];
         if (is_assigned(scene, i)) {
             printf("  ");
             cli_column(cli_material_name(&scene->material[i]), 10);
-            printf(" %12.5g %12.5g %12.5g %12.5g\n", d->dA, d->dB, d->ds, d->dm);
+            printf(" %12.5g %12.5g %12.5g %12.5g\n", cli_shown(d->dA), cli_shown(d->dB),
+                   cli_shown(d->ds), cli_shown(d->dm));
         }
     }
     for (int i = 0; i < 2; i++) {
-        printf("  about %c    %.6g m2 per degree; proved to %.2g, step error some %.2g\n", axis[i],
-               job->attitude.per_deg_m2[i], job->attitude.bound_m2[i],
+        printf("  rotation about %c of the observation frame: %.6g m2 per degree; proved to %.2g, "
+               "step error\n             some %.2g\n",
+               axis[i], job->attitude.per_deg_m2[i], job->attitude.bound_m2[i],
                job->attitude.estimate_m2[i]);
     }
 }

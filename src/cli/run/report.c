@@ -174,10 +174,11 @@ void cli_run_table(const run_job *job)
     double box[2][3];
     lrcs_host_scene_box(&job->scene.scene, box[0], box[1]);
     printf("scene        ");
-    cli_column(cli_scene_title(job->args, &job->scene), 0);
-    printf(", hash %016llx\nbox          %.5g, %.5g, %.5g .. %.5g, %.5g, %.5g m\n",
+    cli_scene_print(job->args, &job->scene);
+    printf(", hash %016llx\nbox          %.5g, %.5g, %.5g .. %.5g, %.5g, %.5g m%s\n",
            (unsigned long long)lrcs_scene_hash(&job->scene.scene), box[0][0], box[0][1], box[0][2],
-           box[1][0], box[1][1], box[1][2]);
+           box[1][0], box[1][1], box[1][2],
+           lrcs_host_scene_tessellated(&job->scene.scene) ? "   of the facets" : "");
     printf("direction    %.10g, %.10g, %.10g   to the laser, body frame\n", s_hat[0], s_hat[1],
            s_hat[2]);
     table_sigma(job);
@@ -192,7 +193,8 @@ void cli_run_table(const run_job *job)
         printf("  %-18s %-4s %s\n", lrcs_effect_text(i), r->effect[i].on ? "on" : "off",
                r->effect[i].reason);
     }
-    printf("facets       %lu: %lu face the laser, %lu hidden, %lu partly hidden\n",
+    printf("facets       %lu, %lu facing the laser; of those that can reflect %lu are hidden, %lu "
+           "partly hidden\n",
            (unsigned long)r->facets_total, (unsigned long)r->facets_front,
            (unsigned long)r->facets_hidden, (unsigned long)r->facets_partial);
     for (uint32_t bits = r->flags; bits != 0; bits &= bits - 1) {
@@ -206,8 +208,9 @@ void cli_run_table(const run_job *job)
         printf("steps        %llu of at most %llu\n", (unsigned long long)r->steps,
                (unsigned long long)job->options.steps);
     }
-    printf("time         load %.3g ms, prepare %.3g ms, pose %.3g ms\n",
-           1e3 * job->scene.seconds_load, 1e3 * job->scene.seconds_prepare, 1e3 * job->seconds);
+    printf("time         load %.3g ms, prepare %.3g ms, pose %.3g ms%s\n",
+           1e3 * job->scene.seconds_load, 1e3 * job->scene.seconds_prepare, 1e3 * job->seconds,
+           job->explain ? " (the first run; medians below)" : "");
     if (job->image_path) {
         printf("picture      %s\n", job->image_path);
     }

@@ -6,6 +6,7 @@
 #include "host/chart/series.h"
 
 #include <math.h>
+#include <string.h>
 
 #define POLAR_DEPTH 40.0 /* values that far below the largest are drawn at the pole */
 #define POLAR_RINGS 5.0
@@ -125,13 +126,14 @@ static void polar_line(const polar_layout *layout, const lrcs_host_series *serie
     }
 }
 
-/* Numbers of the rings along a ray between two spokes, on a background that covers the lines. */
+/* Numbers of the pole and the rings along a ray between two spokes, on a background that covers
+   the lines. */
 static void polar_numbers(const polar_layout *layout)
 {
     for (uint32_t i = 0; i < layout->axis.count; i++) {
         const lrcsi_tick *tick = &layout->axis.tick[i];
         double fraction = lrcsi_axis_at(&layout->axis, tick->value);
-        if (tick->major && fraction > 0.0) {
+        if (tick->major && fraction >= 0.0) {
             lrcsi_chart_number_over(layout->plotter, tick->text,
                                     polar_point(layout, 75.0, fraction), LRCSI_CHART_SMALL - 1.0);
         }
@@ -147,8 +149,10 @@ static void polar_names(const polar_layout *layout, double left)
                              .size = LRCSI_CHART_NAMES,
                              .colour = LRCSI_COLOUR_TEXT};
     double room = LRCSI_CHART_WIDTH - left - LRCSI_CHART_MARGIN;
-    snprintf(text, sizeof text, "radius: %.100s, %s at the pole", layout->chart->y_name,
-             layout->axis.tick[0].text);
+    const char *unit = strchr(layout->chart->y_name, '(');
+    snprintf(text, sizeof text, "radius: %.100s; centre: %s %.*s", layout->chart->y_name,
+             layout->axis.tick[0].text, unit ? (int)strcspn(unit + 1, ")") : 0,
+             unit ? unit + 1 : "");
     lrcsi_letters_fit(layout->plotter, label, room);
     label.at.y += 19.0;
     snprintf(text, sizeof text, "angle: %.200s", layout->chart->x_name);

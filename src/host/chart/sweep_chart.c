@@ -67,9 +67,13 @@ static int plot_note(const lrcs_host_sweep_chart *plots, uint32_t count, char no
         if (plot->band && plot->map) {
             double part[2] = {0.0, 0.0};
             status = lrcs_host_sweep_chart_band(plot, part, error);
+            char median[32] = "below 0.05";
+            if (part[0] >= 5e-4) {
+                snprintf(median, sizeof median, "+-%.2g", 100.0 * part[0]);
+            }
             snprintf(banded, sizeof banded,
-                     "; errors of materials (68 %%): +-%.2g %% of sigma (median), +-%.2g %% (most)",
-                     100.0 * part[0], 100.0 * part[1]);
+                     "; errors of materials (68 %%): %s %% of sigma (median), +-%.2g %% (most)",
+                     median, 100.0 * part[1]);
         } else if (plot->band) {
             snprintf(banded, sizeof banded, "; shaded: 68 %% by the errors of materials");
         }

@@ -158,8 +158,8 @@ static void scale_make(lrcsi_colouring *colouring)
 
 const char *lrcsi_colouring_name(const lrcsi_colouring *colouring)
 {
-    static const char *const name[] = {"sigma per projected area (dB)", "angle of incidence (deg)",
-                                       "range towards the laser (m)"};
+    static const char *const name[] = {"sigma per projected area (dB re 1 m2/m2)",
+                                       "angle of incidence (deg)", "height towards the laser (m)"};
     return colouring->scaled ? name[colouring->picture->colouring] : NULL;
 }
 
@@ -217,6 +217,21 @@ uint32_t lrcsi_colouring_material(const lrcsi_colouring *colouring, uint32_t mat
 
 /* ---- colours of facets ---- */
 
+/* Does a facet have no value on the scale? Such a facet returns nothing. */
+static int is_grey(const lrcsi_colouring *colouring, uint32_t facet)
+{
+    const lrcs_scene *scene = colouring->picture->scene;
+    const lrcs_facet_record *record = &colouring->picture->records[facet];
+    switch (colouring->picture->colouring) {
+    case LRCS_HOST_BY_SIGMA:
+        return !isfinite(facet_return(record));
+    case LRCS_HOST_BY_THETA:
+        return record->cos_theta < 0.0 && !scene->material[scene->facet_material[facet]].two_sided;
+    default:
+        return 0;
+    }
+}
+
 lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture)
 {
     lrcsi_colouring colouring = {.picture = picture,
@@ -234,6 +249,10 @@ lrcsi_colouring lrcsi_colouring_make(const lrcs_host_picture *picture)
     }
     if (colouring.scaled && picture->records) {
         scale_make(&colouring);
+    }
+    for (uint32_t f = 0; colouring.scaled && picture->records && f < picture->scene->facet_count;
+         f++) {
+        colouring.greys |= picture->records[f].visible_area_m2 > 0.0 && is_grey(&colouring, f);
     }
     return colouring;
 }
@@ -275,7 +294,7 @@ uint32_t lrcsi_colouring_colour(const lrcsi_colouring *colouring, uint32_t facet
     }
     }
     return isfinite(value) ? lrcsi_palette_viridis(lrcsi_axis_at(&colouring->scale, value))
-                           : lrcsi_palette_shade(0x787878u, 0.375 + 0.625 * cosine);
+                           : lrcsi_palette_shade(LRCSI_COLOURING_GREY, 0.375 + 0.625 * cosine);
 }
 
 int lrcsi_colouring_slope(const lrcsi_colouring *colouring, uint32_t facet, double at[3])

@@ -8,11 +8,13 @@
 #include "host/chart/axis.h"
 
 #define LRCSI_COLOURING_MATERIALS 64u
+#define LRCSI_COLOURING_GREY      0x787878u
 
 typedef struct lrcsi_colouring {
     const lrcs_host_picture *picture;
     int scaled;         /* colours are read by a scale */
     lrcsi_axis scale;   /* then this one */
+    int greys;          /* something visible returns nothing, and is LRCSI_COLOURING_GREY, shaded */
     double centre[3];   /* of the bounding box of the facets, body frame */
     uint32_t materials; /* of different appearance; only when coloured by material */
     uint32_t material[LRCSI_COLOURING_MATERIALS]; /* one of each */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The legend below a picture: a scale bar on the left; the colour scale beside it, or names of
-   materials above it. It decides its layout, not what colours mean. */
+   materials above it; the grey of what returns nothing. It decides its layout, not what colours
+   mean. */
 #include "host/picture/legend.h"
 
 #include "host/chart/letters.h"
@@ -16,7 +17,8 @@
 #define LEGEND_STEPS  128 /* of the colour bar */
 #define LEGEND_BAR    11.0
 #define LEGEND_LINE   1.2
-#define LEGEND_LENGTH 0.2 /* fraction of the width: the largest length of the scale bar */
+#define LEGEND_GREY   110.0 /* room that "returns nothing" needs beside its swatch */
+#define LEGEND_LENGTH 0.2   /* fraction of the width: the largest length of the scale bar */
 
 /* ---- the scale bar ---- */
 
@@ -169,6 +171,23 @@ static void materials_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plot
     }
 }
 
+/* ---- what returns nothing ---- */
+
+/* The swatch of what returns nothing, above the scale bar; left out where there is no room. */
+static void grey_draw(lrcsi_plotter *plotter, double top, double width, uint32_t colour)
+{
+    const lrcsi_plot_text label = {.text = "returns nothing",
+                                   .at = {LEGEND_MARGIN + LEGEND_SWATCH + 6.0, top + 10.0},
+                                   .size = LEGEND_TYPE,
+                                   .colour = colour};
+    if ((LEGEND_LENGTH + 0.06) * width < LEGEND_GREY) {
+        return;
+    }
+    lrcsi_plot_rectangle(plotter, LEGEND_MARGIN, top - 0.5, LEGEND_MARGIN + LEGEND_SWATCH,
+                         top - 0.5 + LEGEND_SWATCH, LRCSI_COLOURING_GREY);
+    plotter->text(plotter, &label);
+}
+
 /* ---- the whole legend ---- */
 
 double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, double height_max)
@@ -191,6 +210,9 @@ void lrcsi_legend_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter,
     }
     if (colouring->scaled) {
         scale_draw(colouring, plotter, top, width, colour);
+    }
+    if (colouring->greys) {
+        grey_draw(plotter, top, width, colour);
     }
     length_draw(plotter, top + 16.0 + 0.5 * LEGEND_BAR, width, scale, colour);
 }

@@ -173,9 +173,14 @@ static void material_notes(lrcs_host_notices *notices, const lrcs_material *mate
         lrcsi_host_note(notices,
                         "library material '%s': solar reflectance of %s; Lambert's law is assumed",
                         library->name, library->source);
-    } else if (library && material->brdf_given) {
+    } else if (library && material->brdf_given && material->source >= LRCS_SOURCE_LIBRARY) {
         lrcsi_host_note(notices, "library material '%s': its values are illustrative, not measured",
                         library->name);
+    } else if (library && material->brdf_given) {
+        lrcsi_host_note(notices,
+                        "material '%s': its numbers equal those of the library's %s, which are "
+                        "illustrative, not measured",
+                        name, library->name);
     }
     for (int bit = 1; warnings > 0 && bit <= warnings; bit *= 2) {
         if (warnings & bit) {
@@ -184,12 +189,33 @@ static void material_notes(lrcs_host_notices *notices, const lrcs_material *mate
     }
 }
 
+/* Facets whose materials the scene file marks as assumed; their numbers, if all have the same. */
+static void assumed_note(lrcs_host_scene *host, uint64_t count, const lrcs_brdf *same)
+{
+    char facets[64];
+    char numbers[128] = "";
+    if (count == host->scene.facet_count) {
+        snprintf(facets, sizeof facets, "all %llu facets", (unsigned long long)count);
+    } else {
+        snprintf(facets, sizeof facets, "%llu of %lu facets", (unsigned long long)count,
+                 (unsigned long)host->scene.facet_count);
+    }
+    if (same) {
+        snprintf(numbers, sizeof numbers, ": A=%g, B=%g, s=%g, m=%g", same->A, same->B, same->s,
+                 same->m);
+    }
+    lrcsi_host_note(&host->notices,
+                    "%s have GUESSED materials (assumed = true in the scene file)%s", facets,
+                    numbers);
+}
+
 /* Counts facets that are left out, and those without a given material; checks the materials that
    are assigned to facets. */
 static void scene_notes(lrcs_host_scene *host)
 {
     const lrcs_scene *scene = &host->scene;
-    const lrcs_brdf unknown = lrcs_brdf_default();
+    const lrcs_brdf *guess = NULL; /* of the first assumed material */
+    int same = 1;                  /* have all assumed materials its numbers? */
     uint32_t *facets = calloc((size_t)scene->material_count + 1, sizeof *facets); /* by material */
     if (!facets) {
         return;
@@ -209,8 +235,13 @@ static void scene_notes(lrcs_host_scene *host)
             omitted += facets[i];
             continue;
         }
-        *(brdf_equals(&material->brdf, &unknown) ? &unbound : &assumed) +=
-            material->brdf_given ? 0 : facets[i];
+        if (!material->brdf_given && material->source == 0) {
+            unbound += facets[i];
+        } else if (!material->brdf_given) {
+            assumed += facets[i];
+            guess = guess ? guess : &material->brdf;
+            same = same && brdf_equals(&material->brdf, guess);
+        }
         material_notes(&host->notices, material);
     }
     free(facets);
@@ -227,9 +258,7 @@ static void scene_notes(lrcs_host_scene *host)
                         (unsigned long long)unbound, (unsigned long)scene->facet_count);
     }
     if (assumed > 0) {
-        lrcsi_host_note(&host->notices,
-                        "%llu of %lu facets have a material that the scene file marks as assumed",
-                        (unsigned long long)assumed, (unsigned long)scene->facet_count);
+        assumed_note(host, assumed, same ? guess : NULL);
     }
     if (scene->facet_count == 0) {
         lrcsi_host_note(&host->notices, "the scene holds no facets");
