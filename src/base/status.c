@@ -60,6 +60,20 @@ static size_t append_printable(char *out, size_t used, size_t size, unsigned cha
     return used;
 }
 
+/* Appends an excerpt to `found`, up to the first byte for which there is no room. */
+static void append_text(lrcs_where *where, const char *text, size_t size)
+{
+    size_t used = strlen(where->found);
+    for (size_t i = 0; i < size; i++) {
+        size_t next =
+            append_printable(where->found, used, sizeof where->found, (unsigned char)text[i]);
+        if (next == used) {
+            break;
+        }
+        used = next;
+    }
+}
+
 int lrcsi_where_text(lrcs_where *where, int status, uint64_t offset, uint32_t line,
                      const char *item, const char *expected, const char *found, size_t size)
 {
@@ -67,27 +81,34 @@ int lrcsi_where_text(lrcs_where *where, int status, uint64_t offset, uint32_t li
         return status;
     }
     *where = (lrcs_where){.offset = offset, .line = line, .item = item, .expected = expected};
-    size_t used = 0;
-    for (size_t i = 0; i < size; i++) {
-        size_t next =
-            append_printable(where->found, used, sizeof where->found, (unsigned char)found[i]);
-        if (next == used) {
-            break;
-        }
-        used = next;
-    }
+    append_text(where, found, size);
     return status;
+}
+
+void lrcsi_where_add(lrcs_where *where, const char *text)
+{
+    if (where) {
+        append_text(where, text, strlen(text));
+    }
+}
+
+void lrcsi_where_add_number(lrcs_where *where, uint64_t number)
+{
+    char digits[20];
+    size_t count = 0;
+    do {
+        digits[sizeof digits - ++count] = (char)('0' + number % 10);
+        number /= 10;
+    } while (number != 0);
+    if (where) {
+        append_text(where, digits + sizeof digits - count, count);
+    }
 }
 
 int lrcsi_where_number(lrcs_where *where, int status, uint64_t offset, uint32_t line,
                        const char *item, const char *expected, uint64_t found)
 {
-    char digits[20];
-    size_t count = 0;
-    do {
-        digits[sizeof digits - ++count] = (char)('0' + found % 10);
-        found /= 10;
-    } while (found != 0);
-    return lrcsi_where_text(where, status, offset, line, item, expected,
-                            digits + sizeof digits - count, count);
+    lrcsi_where_text(where, status, offset, line, item, expected, "", 0);
+    lrcsi_where_add_number(where, found);
+    return status;
 }

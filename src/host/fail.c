@@ -46,6 +46,13 @@ int lrcsi_host_out_of_memory(lrcs_host_error *error)
     return lrcsi_host_fail(error, LRCS_E_SYSTEM, "out of memory");
 }
 
+/* 1 if the text of a status says more than what was found and what was expected. */
+static int adds_reason(int status)
+{
+    return status == LRCS_E_MEMORY || status == LRCS_E_TRUNCATED || status == LRCS_E_LIMIT ||
+           status == LRCS_E_UNSUPPORTED || status == LRCS_E_EMPTY;
+}
+
 int lrcsi_host_fail_where(lrcs_host_error *error, int status, const char *path,
                           const lrcs_where *where)
 {
@@ -59,9 +66,11 @@ int lrcsi_host_fail_where(lrcs_host_error *error, int status, const char *path,
         snprintf(place, sizeof place, "byte %llu", (unsigned long long)where->offset);
     }
     const char *quote = where->found[0] ? "'" : "";
-    return lrcsi_host_fail(error, status, "%s: %s: %s: found %s%s%s, expected %s (%s)", path, place,
-                           where->item, quote, where->found[0] ? where->found : "nothing", quote,
-                           where->expected, lrcs_status_text(status));
+    int reason = adds_reason(status);
+    return lrcsi_host_fail(error, status, "%s: %s: %s: found %s%s%s, expected %s%s%s%s", path,
+                           place, where->item, quote, where->found[0] ? where->found : "nothing",
+                           quote, where->expected, reason ? " (" : "",
+                           reason ? lrcs_status_text(status) : "", reason ? ")" : "");
 }
 
 void lrcsi_host_note(lrcs_host_notices *notices, const char *format, ...)

@@ -29,7 +29,7 @@ static double *dimension(lrcs_shape *shape, int i)
                       &shape->radius2, &shape->length,  &shape->half_angle_deg};
     return list[i];
 }
-static const char *const item[] = {"size[0]", "size[1]", "size[2]",       "radius",
+static const char *const item[] = {"size, 1st number", "size, 2nd number", "size, 3rd number",       "radius",
                                    "radius2", "length",  "half_angle_deg"};
 
 /* A good shape of each kind. */

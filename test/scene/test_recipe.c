@@ -218,16 +218,16 @@ static const refusal refusals[] = {
     {BOX "rotate_euler = \"XXY\"\nrotate_deg = [1, 2, 3]\n", LRCS_E_NAME, 5},
     {BOX "rotate_euler = \"XYZ\"\nrotate_deg = 1\n", LRCS_E_ARGUMENT, 6},
     {BOX "rotate_euler = \"XYZ\"\n", LRCS_E_NAME, 1},
-    {BOX "rotate_deg = 1\n", LRCS_E_NAME, 1},
+    {BOX "rotate_deg = 1\n", LRCS_E_NAME, 5},
     {BOX "rotate_axis = [1, 2, 3]\n", LRCS_E_NAME, 1},
     {BOX "rotate_axis = [0, 0, 0]\nrotate_deg = 1\n", LRCS_E_NUMBER, 5},
     {BOX "rotate_axis = [1, 0, 0]\nrotate_deg = [1, 2, 3]\n", LRCS_E_ARGUMENT, 6},
     {BOX "rotate_quaternion = [0, 0, 0, 0]\n", LRCS_E_NUMBER, 5},
     {BOX "rotate_quaternion = [1, 0, 0]\n", LRCS_E_ARGUMENT, 5},
-    {BOX "rotate_quaternion = [1, 0, 0, 0]\nrotate_deg = 1\n", LRCS_E_NAME, 1},
+    {BOX "rotate_quaternion = [1, 0, 0, 0]\nrotate_deg = 1\n", LRCS_E_NAME, 6},
     {BOX "rotate_quaternion = [1, 0, 0, 0]\nrotate_axis = [1, 0, 0]\n", LRCS_E_NAME, 1},
     {"[[part]]\nshape = \"disc\"\nradius = 1\n", LRCS_E_NAME, 1},
-    {"[[part]]\nname = \"\"\nshape = \"disc\"\nradius = 1\n", LRCS_E_NAME, 1},
+    {"[[part]]\nname = \"\"\nshape = \"disc\"\nradius = 1\n", LRCS_E_NAME, 2},
     {"[[part]]\nname = \"a\"\n", LRCS_E_NAME, 1},
     {"[[part]]\nname = \"a\"\nfile = \"\"\n", LRCS_E_NAME, 3},
     {"[[part]]\nname = \"a\"\nshape = \"cube\"\n", LRCS_E_NAME, 3},
@@ -247,7 +247,7 @@ static const refusal refusals[] = {
     {DISC WHITE WHITE, LRCS_E_NAME, 11},
     {DISC WHITE "like = \"solar-cell\"\n", LRCS_E_NAME, 5},
     {DISC "[[material]]\nname = \"w\"\nA = 0\nB = 0.1\ns = 0\n", LRCS_E_NAME, 5},
-    {DISC "[[material]]\nname = \"\"\nlike = \"solar-cell\"\n", LRCS_E_NAME, 5},
+    {DISC "[[material]]\nname = \"\"\nlike = \"solar-cell\"\n", LRCS_E_NAME, 6},
     {DISC "[[material]]\nname = \"w\"\nlike = \"none such\"\n", LRCS_E_NAME, 7},
     {DISC "[[material]]\nname = \"w\"\nA = -1\nB = 0.1\ns = 0.1\nm = 1\n", LRCS_E_NUMBER, 7},
     {DISC "[[material]]\nname = \"w\"\nA = 1\nB = 0.1\ns = 0\nm = 1\n", LRCS_E_NUMBER, 9},
@@ -289,6 +289,39 @@ static void errors_name_their_line(void **state)
         }
         assert_int_equal(status, refusals[i].status);
         assert_int_equal(where.line, refusals[i].line);
+    }
+}
+
+/* The found text of a refusal: what the table has or lacks, and a long name cut to leave room. */
+static void what_is_missing_or_wrong_is_named(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *item, *found;
+    } row[] = {
+        {"[[part]]\nshape = 'disc'\n", "[[part]]", "[[part]] without name"},
+        {"[[part]]\nname = 'a'\nshape = 'frustum'\nradius = 1\n", "[[part]]",
+         "'a' without radius2, length"},
+        {"[[part]]\nname = 'a'\nshape = 'cone'\nradius = 1\n", "[[part]]",
+         "'a' without length or half_angle_deg"},
+        {"[[part]]\nname = 'a'\nshape = 'cone'\nradius = 1\nlength = 1\nhalf_angle_deg = 9\n",
+         "[[part]]", "'a' with both length and half_angle_deg"},
+        {"[[part]]\nname = 'a name of more than twenty-four letters'\n", "[[part]]",
+         "'a name of more than twe.. without file or shape"},
+        {BOX "rotate_euler = 'xyz'\n", "[[part]]", "\"a\" without rotate_deg"},
+        {BOX "[part.joint]\n", "[[part]]", "\"a\" without axis, angle_deg"},
+        {"[[part]]\nname = 'a'\nshape = 'box'\nsize = [1, 1, -2]\n", "size, 3rd number",
+         "[1, 1, -2]"},
+        {"[[part]]\nname = 'a'\nshape = 'disc'\nradius = -1.50\n", "radius", "-1.50"},
+        {DISC "[[material]]\nname = 'w'\nA = 0\ns = 1\n", "[[material]]", "'w' without B, m"},
+        {DISC WHITE "like = 'solar-cell'\n", "[[material]]", "\"w\" with like and numbers"},
+        {DISC "[[map]]\nname = 'x'\n", "[[map]]", "'x' without material"},
+    };
+    for (size_t i = 0; i < ROWS(row); i++) {
+        lrcs_where where;
+        assert_true(refuse_text(row[i].text, &where) < 0);
+        assert_string_equal(where.item, row[i].item);
+        assert_string_equal(where.found, row[i].found);
     }
 }
 
@@ -517,6 +550,7 @@ int main(void)
         cmocka_unit_test(a_rich_file_comes_to_its_recipe),
         cmocka_unit_test(maps_and_materials_resolve_to_numbers),
         cmocka_unit_test(errors_name_their_line),
+        cmocka_unit_test(what_is_missing_or_wrong_is_named),
         cmocka_unit_test(the_first_error_in_the_file_is_reported),
         cmocka_unit_test(every_unknown_key_is_refused_in_every_table),
         cmocka_unit_test(a_recipe_takes_no_more_than_its_need),

@@ -115,9 +115,12 @@ int lrcs_shape_check(const lrcs_shape *shape, lrcs_where *where)
         double value;
         int bit;
     } length[] = {
-        {"size[0]", shape->size[0], USES_SIZE_X},  {"size[1]", shape->size[1], USES_SIZE_Y},
-        {"size[2]", shape->size[2], USES_SIZE_Z},  {"radius", shape->radius, USES_RADIUS},
-        {"radius2", shape->radius2, USES_RADIUS2}, {"length", shape->length, USES_LENGTH},
+        {"size, 1st number", shape->size[0], USES_SIZE_X},
+        {"size, 2nd number", shape->size[1], USES_SIZE_Y},
+        {"size, 3rd number", shape->size[2], USES_SIZE_Z},
+        {"radius", shape->radius, USES_RADIUS},
+        {"radius2", shape->radius2, USES_RADIUS2},
+        {"length", shape->length, USES_LENGTH},
     };
     int uses = shape_table[shape->kind].uses;
     int status = LRCS_OK;

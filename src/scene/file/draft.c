@@ -15,6 +15,9 @@ typedef struct schema_row {
     const char *name, *expected;
 } schema_row;
 
+/* The most bytes of a table's name that are quoted, so that there is room for what is wrong. */
+#define NAME_EXCERPT 24u
+
 #define TEXT         LRCSI_TOML_STRING, 0, 0
 #define NUMBER       LRCSI_TOML_NUMBER, 0, 0
 #define BOOLEAN      LRCSI_TOML_BOOLEAN, 0, 0
@@ -182,26 +185,50 @@ double lrcsi_draft_number(const lrcsi_draft *draft, int key, double fallback)
     return event ? event->number[0] : fallback;
 }
 
-int lrcsi_draft_refuse(const lrcsi_draft *draft, int status, const char *expected)
+/* The name of a key in a scene file. */
+static const char *key_name(int key)
 {
-    const lrcsi_toml_event *name = lrcsi_draft_find(draft, LRCSI_KEY_NAME);
-    int table = draft->table == LRCSI_TABLE_JOINT ? LRCSI_TABLE_PART : draft->table;
-    return lrcsi_where_text(draft->toml->where, status,
-                            (uint64_t)(draft->header.raw - draft->toml->start), draft->header.line,
-                            table_header[table], expected,
-                            name ? name->value_raw : draft->header.raw,
-                            name ? name->value_size : draft->header.raw_size);
-}
-
-int lrcsi_draft_refuse_value(const lrcsi_draft *draft, int key, int status, const char *expected)
-{
-    const lrcsi_toml_event *event = &draft->value[key];
     const char *name = "value";
     for (size_t i = 0; i < sizeof schema / sizeof schema[0]; i++) {
         if (schema[i].key == key) {
             name = schema[i].name;
         }
     }
+    return name;
+}
+
+int lrcsi_draft_refuse(const lrcsi_draft *draft, int status, const char *fault,
+                       const char *expected)
+{
+    const lrcsi_toml_event *name = lrcsi_draft_find(draft, LRCSI_KEY_NAME);
+    int table = draft->table == LRCSI_TABLE_JOINT ? LRCSI_TABLE_PART : draft->table;
+    const char *found = name ? name->value_raw : draft->header.raw;
+    size_t size = name ? name->value_size : draft->header.raw_size;
+    lrcsi_where_text(draft->toml->where, status, (uint64_t)(draft->header.raw - draft->toml->start),
+                     draft->header.line, table_header[table], expected, found,
+                     size < NAME_EXCERPT ? size : NAME_EXCERPT);
+    lrcsi_where_add(draft->toml->where, size > NAME_EXCERPT ? ".. " : " ");
+    lrcsi_where_add(draft->toml->where, fault);
+    return status;
+}
+
+int lrcsi_draft_refuse_missing(const lrcsi_draft *draft, uint64_t keys, const char *expected)
+{
+    const char *before = " ";
+    int status = lrcsi_draft_refuse(draft, LRCS_E_NAME, "without", expected);
+    for (int key = 0; key < LRCSI_KEYS; key++) {
+        if (keys >> key & 1u) {
+            lrcsi_where_add(draft->toml->where, before);
+            lrcsi_where_add(draft->toml->where, key_name(key));
+            before = ", ";
+        }
+    }
+    return status;
+}
+
+int lrcsi_draft_refuse_value(const lrcsi_draft *draft, int key, int status, const char *expected)
+{
+    const lrcsi_toml_event *event = &draft->value[key];
     return lrcsi_toml_refuse(draft->toml, status, event->line, event->value_raw, event->value_size,
-                             name, expected);
+                             key_name(key), expected);
 }

@@ -57,6 +57,9 @@ enum lrcsi_key {
     LRCSI_KEYS
 };
 
+/* The bit of a key in a set of keys. */
+#define LRCSI_KEY_BIT(name) (UINT64_C(1) << LRCSI_KEY_##name)
+
 typedef struct lrcsi_draft {
     const lrcsi_toml *toml;
     int table; /* lrcsi_table: the table of the next keys */
@@ -88,8 +91,12 @@ const char *lrcsi_draft_text(const lrcsi_draft *draft, int key);
 double lrcsi_draft_number(const lrcsi_draft *draft, int key, double fallback);
 
 /* Reports an error in the table as a whole, or in the value of a key that is given. Both return
-   `status`. */
-int lrcsi_draft_refuse(const lrcsi_draft *draft, int status, const char *expected);
+   `status`. The fault of a table follows its name: "with both file and shape". */
+int lrcsi_draft_refuse(const lrcsi_draft *draft, int status, const char *fault,
+                       const char *expected);
 int lrcsi_draft_refuse_value(const lrcsi_draft *draft, int key, int status, const char *expected);
+
+/* Reports that keys are missing, by their bits: LRCS_E_NAME. */
+int lrcsi_draft_refuse_missing(const lrcsi_draft *draft, uint64_t keys, const char *expected);
 
 #endif

@@ -100,16 +100,23 @@ static int read_brdf(const lrcsi_draft *draft, lrcs_brdf *brdf)
 {
     static const int key[4] = {LRCSI_KEY_A, LRCSI_KEY_B, LRCSI_KEY_S, LRCSI_KEY_M};
     const char *like = lrcsi_draft_text(draft, LRCSI_KEY_LIKE);
+    uint64_t missing = 0;
     int given = 0;
     for (int i = 0; i < 4; i++) {
         const lrcsi_toml_event *number = lrcsi_draft_find(draft, key[i]);
         given += number != NULL;
+        missing |= number ? 0 : UINT64_C(1) << key[i];
         if (number && !(number->number[0] >= 0.0)) {
             return lrcsi_draft_refuse_value(draft, key[i], LRCS_E_NUMBER, "a number, 0 or more");
         }
     }
-    if (given != (like ? 0 : 4)) {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME, "either like = \"...\" or all of A, B, s, m");
+    if (like && given > 0) {
+        return lrcsi_draft_refuse(draft, LRCS_E_NAME, "with like and numbers",
+                                  "either like = \"...\" or all of A, B, s, m");
+    }
+    if (!like && missing != 0) {
+        return lrcsi_draft_refuse_missing(draft, missing,
+                                          "either like = \"...\" or all of A, B, s, m");
     }
     if (like) {
         const lrcs_brdf_entry *entry = lrcs_brdf_find(like);
@@ -161,7 +168,8 @@ static int read_brdf_error(const lrcsi_draft *draft, const lrcs_brdf *brdf, lrcs
     }
     int status = lrcs_brdf_error_check(brdf, error);
     if (status == LRCS_E_ARGUMENT) {
-        return lrcsi_draft_refuse(draft, status, "no A_error and no s_error where s is 0");
+        return lrcsi_draft_refuse(draft, status, "with an error of A or s",
+                                  "no A_error and no s_error where s is 0");
     }
     return status != LRCS_OK /* only correlations can be wrong */
                ? lrcsi_draft_refuse_value(draft, LRCSI_KEY_CORRELATION, status,
@@ -183,7 +191,10 @@ static int finish_material(recipe_reader *reader)
     material->line = draft->header.line;
     material->assumed = assumed ? assumed->boolean : 0;
     if (!material->name || material->name[0] == '\0') {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME, "name = \"...\"");
+        return material->name
+                   ? lrcsi_draft_refuse_value(draft, LRCSI_KEY_NAME, LRCS_E_NAME,
+                                              "a name that is not empty")
+                   : lrcsi_draft_refuse_missing(draft, LRCSI_KEY_BIT(NAME), "name = \"...\"");
     }
     reader->recipe.material_count++;
     int status = read_brdf(draft, &material->brdf);
@@ -216,10 +227,12 @@ static int finish_map(recipe_reader *reader)
     lrcs_binding *binding = &reader->recipe.binding[reader->recipe.binding_count];
     memset(binding, 0, sizeof *binding);
     if (!name == !colour) {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME, "either name = \"...\" or colour = \"...\"");
+        return lrcsi_draft_refuse(draft, LRCS_E_NAME,
+                                  name ? "with both name and colour" : "without name or colour",
+                                  "either name = \"...\" or colour = \"...\"");
     }
     if (!material) {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME, "material = \"...\"");
+        return lrcsi_draft_refuse_missing(draft, LRCSI_KEY_BIT(MATERIAL), "material = \"...\"");
     }
     if (colour && read_colour(colour, binding->rgb) != LRCS_OK) {
         return lrcsi_draft_refuse_value(draft, LRCSI_KEY_COLOUR, LRCS_E_ARGUMENT, "\"#RRGGBB\"");
@@ -307,13 +320,15 @@ static int enter_names(const recipe_reader *reader, lrcsi_index *names)
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         const lrcs_recipe_part *part = &recipe->part[i];
         if (enter_name(names, TAG_PART, part->name, strlen(part->name), i) != LRCS_OK) {
-            return refuse_name(reader, part->line, "[[part]]", "a name of its own", part->name);
+            return refuse_name(reader, part->line, "[[part]]", "a name that no part above has",
+                               part->name);
         }
     }
     for (uint32_t i = 0; i < recipe->material_count; i++) {
         const lrcs_recipe_material *one = &recipe->material[i];
         if (enter_name(names, TAG_MATERIAL, one->name, strlen(one->name), i) != LRCS_OK) {
-            return refuse_name(reader, one->line, "[[material]]", "a name of its own", one->name);
+            return refuse_name(reader, one->line, "[[material]]",
+                               "a name that no material above has", one->name);
         }
     }
     for (uint32_t i = 0; i < recipe->binding_count; i++) {

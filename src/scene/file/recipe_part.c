@@ -8,10 +8,9 @@
 #include "scene/file/recipe.h"
 #include "scene/file/unit.h"
 
-#define KEY_BIT(name) (UINT64_C(1) << LRCSI_KEY_##name)
 #define SHAPE_KEYS                                                                                 \
-    (KEY_BIT(SIZE) | KEY_BIT(RADIUS) | KEY_BIT(RADIUS2) | KEY_BIT(LENGTH) |                        \
-     KEY_BIT(HALF_ANGLE_DEG) | KEY_BIT(WALL_ONLY))
+    (LRCSI_KEY_BIT(SIZE) | LRCSI_KEY_BIT(RADIUS) | LRCSI_KEY_BIT(RADIUS2) |                        \
+     LRCSI_KEY_BIT(LENGTH) | LRCSI_KEY_BIT(HALF_ANGLE_DEG) | LRCSI_KEY_BIT(WALL_ONLY))
 
 /* The required and the optional keys of each kind of shape. */
 typedef struct shape_rule {
@@ -20,20 +19,25 @@ typedef struct shape_rule {
 } shape_rule;
 
 static const shape_rule shape_rules[LRCS_SHAPE_KINDS] = {
-    [LRCS_SHAPE_PLATE] = {KEY_BIT(SIZE), 0, "plate: size = [a, b]"},
-    [LRCS_SHAPE_DISC] = {KEY_BIT(RADIUS), 0, "disc: radius"},
-    [LRCS_SHAPE_BOX] = {KEY_BIT(SIZE), 0, "box: size = [a, b, c]"},
-    [LRCS_SHAPE_SPHERE] = {KEY_BIT(RADIUS), 0, "sphere: radius"},
-    [LRCS_SHAPE_DOME] = {KEY_BIT(RADIUS), KEY_BIT(WALL_ONLY), "dome: radius, wall_only"},
-    [LRCS_SHAPE_CYLINDER] = {KEY_BIT(RADIUS) | KEY_BIT(LENGTH), KEY_BIT(WALL_ONLY),
-                             "cylinder: radius, length, wall_only"},
-    [LRCS_SHAPE_CONE] = {KEY_BIT(RADIUS),
-                         KEY_BIT(LENGTH) | KEY_BIT(HALF_ANGLE_DEG) | KEY_BIT(WALL_ONLY),
-                         "cone: radius, either length or half_angle_deg, wall_only"},
-    [LRCS_SHAPE_FRUSTUM] = {KEY_BIT(RADIUS) | KEY_BIT(RADIUS2) | KEY_BIT(LENGTH),
-                            KEY_BIT(WALL_ONLY), "frustum: radius, radius2, length, wall_only"},
-    [LRCS_SHAPE_PARABOLOID] = {KEY_BIT(RADIUS) | KEY_BIT(LENGTH), KEY_BIT(WALL_ONLY),
-                               "paraboloid: radius, length, wall_only"},
+    [LRCS_SHAPE_PLATE] = {LRCSI_KEY_BIT(SIZE), 0, "plate: size = [a, b]"},
+    [LRCS_SHAPE_DISC] = {LRCSI_KEY_BIT(RADIUS), 0, "disc: radius"},
+    [LRCS_SHAPE_BOX] = {LRCSI_KEY_BIT(SIZE), 0, "box: size = [a, b, c]"},
+    [LRCS_SHAPE_SPHERE] = {LRCSI_KEY_BIT(RADIUS), 0, "sphere: radius"},
+    [LRCS_SHAPE_DOME] = {LRCSI_KEY_BIT(RADIUS), LRCSI_KEY_BIT(WALL_ONLY),
+                         "dome: radius, and perhaps wall_only"},
+    [LRCS_SHAPE_CYLINDER] = {LRCSI_KEY_BIT(RADIUS) | LRCSI_KEY_BIT(LENGTH),
+                             LRCSI_KEY_BIT(WALL_ONLY),
+                             "cylinder: radius, length, and perhaps wall_only"},
+    [LRCS_SHAPE_CONE] = {LRCSI_KEY_BIT(RADIUS),
+                         LRCSI_KEY_BIT(LENGTH) | LRCSI_KEY_BIT(HALF_ANGLE_DEG) |
+                             LRCSI_KEY_BIT(WALL_ONLY),
+                         "cone: radius, either length or half_angle_deg, and perhaps wall_only"},
+    [LRCS_SHAPE_FRUSTUM] = {LRCSI_KEY_BIT(RADIUS) | LRCSI_KEY_BIT(RADIUS2) | LRCSI_KEY_BIT(LENGTH),
+                            LRCSI_KEY_BIT(WALL_ONLY),
+                            "frustum: radius, radius2, length, and perhaps wall_only"},
+    [LRCS_SHAPE_PARABOLOID] = {LRCSI_KEY_BIT(RADIUS) | LRCSI_KEY_BIT(LENGTH),
+                               LRCSI_KEY_BIT(WALL_ONLY),
+                               "paraboloid: radius, length, and perhaps wall_only"},
 };
 
 int lrcsi_recipe_unit(const lrcsi_draft *draft, double fallback, double *metres)
@@ -88,17 +92,17 @@ static int check_shape(const lrcsi_draft *draft, const lrcs_shape *shape)
     if (status == LRCS_OK || !where) {
         return status;
     }
-    const lrcsi_toml_event *at = &draft->header;
     for (int key = LRCSI_KEY_SIZE; key <= LRCSI_KEY_HALF_ANGLE_DEG; key++) {
         const lrcsi_toml_event *value = lrcsi_draft_find(draft, key);
-        size_t size = value ? value->name[0].size : 0; /* "radius", or "size" in "size[1]" */
+        size_t size = value ? value->name[0].size : 0; /* "size" in "size, 2nd number" */
         if (value && strncmp(where->item, value->name[0].text, size) == 0 &&
-            (where->item[size] == '\0' || where->item[size] == '[')) {
-            at = value;
+            (where->item[size] == '\0' || where->item[size] == ',')) {
+            return lrcsi_toml_refuse(draft->toml, status, value->line, value->value_raw,
+                                     value->value_size, where->item, where->expected);
         }
     }
-    where->line = at->line;
-    where->offset = (uint64_t)(at->raw - draft->toml->start);
+    where->line = draft->header.line;
+    where->offset = (uint64_t)(draft->header.raw - draft->toml->start);
     return status;
 }
 
@@ -119,14 +123,19 @@ static int read_shape(const lrcsi_draft *draft, lrcs_shape *shape)
         return status;
     }
     if ((given_shape_keys(draft) & rule->needs) != rule->needs) {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME, rule->expected);
+        return lrcsi_draft_refuse_missing(draft, rule->needs & ~given_shape_keys(draft),
+                                          rule->expected);
     }
     if (size && size->count != (kind == LRCS_SHAPE_BOX ? 3u : 2u)) {
         return lrcsi_draft_refuse_value(draft, LRCSI_KEY_SIZE, LRCS_E_ARGUMENT, rule->expected);
     }
     if (kind == LRCS_SHAPE_CONE && !lrcsi_draft_find(draft, LRCSI_KEY_LENGTH) ==
                                        !lrcsi_draft_find(draft, LRCSI_KEY_HALF_ANGLE_DEG)) {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME, rule->expected);
+        return lrcsi_draft_refuse(draft, LRCS_E_NAME,
+                                  lrcsi_draft_find(draft, LRCSI_KEY_LENGTH)
+                                      ? "with both length and half_angle_deg"
+                                      : "without length or half_angle_deg",
+                                  rule->expected);
     }
     shape->kind = kind;
     shape->parts = wall && wall->boolean ? LRCS_SHAPE_WALL : LRCS_SHAPE_ALL;
@@ -146,7 +155,9 @@ static int read_body(const lrcsi_draft *draft, lrcs_recipe_part *part)
     const char *file = lrcsi_draft_text(draft, LRCSI_KEY_FILE);
     const char *shape = lrcsi_draft_text(draft, LRCSI_KEY_SHAPE);
     if (!file == !shape) {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME, "either file = \"...\" or shape = \"...\"");
+        return lrcsi_draft_refuse(draft, LRCS_E_NAME,
+                                  file ? "with both file and shape" : "without file or shape",
+                                  "either file = \"...\" or shape = \"...\"");
     }
     if (shape) {
         return read_shape(draft, &part->shape);
@@ -166,12 +177,18 @@ static int read_rotation(const lrcsi_draft *draft, double R[3][3])
     const lrcsi_toml_event *q = lrcsi_draft_find(draft, LRCSI_KEY_ROTATE_QUATERNION);
     const lrcsi_toml_event *deg = lrcsi_draft_find(draft, LRCSI_KEY_ROTATE_DEG);
     if ((sequence != NULL) + (axis != NULL) + (q != NULL) > 1) {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME,
+        return lrcsi_draft_refuse(draft, LRCS_E_NAME, "with several rotations",
                                   "one of rotate_euler, rotate_axis, rotate_quaternion");
     }
-    if (deg ? !sequence && !axis : sequence || axis) {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME,
-                                  "rotate_deg together with rotate_euler or rotate_axis");
+    if (deg && !sequence && !axis) {
+        return lrcsi_draft_refuse_value(draft, LRCSI_KEY_ROTATE_DEG, LRCS_E_NAME,
+                                        q ? "no rotate_deg beside rotate_quaternion"
+                                          : "rotate_euler or rotate_axis beside rotate_deg");
+    }
+    if (!deg && (sequence || axis)) {
+        return lrcsi_draft_refuse_missing(draft, LRCSI_KEY_BIT(ROTATE_DEG),
+                                          sequence ? "rotate_deg = [a, b, c] beside rotate_euler"
+                                                   : "rotate_deg beside rotate_axis");
     }
     if (deg && deg->count != (sequence ? 3u : 1u)) {
         return lrcsi_draft_refuse_value(draft, LRCSI_KEY_ROTATE_DEG, LRCS_E_ARGUMENT,
@@ -205,7 +222,8 @@ static int read_scale(const lrcsi_draft *draft, double unit, double scale[3])
                                             "a factor other than 0");
         }
         if (!isfinite(scale[i]) || scale[i] == 0.0) {
-            return lrcsi_draft_refuse(draft, LRCS_E_NUMBER, "unit times scale within range");
+            return lrcsi_draft_refuse(draft, LRCS_E_NUMBER, "with a scale out of range",
+                                      "unit times scale within the range of a double");
         }
     }
     return LRCS_OK;
@@ -217,7 +235,9 @@ static int read_joint(const lrcsi_draft *draft, lrcs_joint *joint)
     const lrcsi_toml_event *origin = lrcsi_draft_find(draft, LRCSI_KEY_ORIGIN);
     const lrcsi_toml_event *angle = lrcsi_draft_find(draft, LRCSI_KEY_ANGLE_DEG);
     if (!axis || !angle) {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME, "axis and angle_deg in [part.joint]");
+        return lrcsi_draft_refuse_missing(
+            draft, (axis ? 0 : LRCSI_KEY_BIT(AXIS)) | (angle ? 0 : LRCSI_KEY_BIT(ANGLE_DEG)),
+            "axis and angle_deg in [part.joint]");
     }
     if (axis->number[0] == 0.0 && axis->number[1] == 0.0 && axis->number[2] == 0.0) {
         return lrcsi_draft_refuse_value(draft, LRCSI_KEY_AXIS, LRCS_E_NUMBER,
@@ -262,7 +282,10 @@ int lrcsi_recipe_part(const lrcsi_draft *draft, double unit, lrcs_recipe_part *p
     part->material = material ? material->text : NULL;
     part->material_line = material ? material->line : 0;
     if (!part->name || part->name[0] == '\0') {
-        return lrcsi_draft_refuse(draft, LRCS_E_NAME, "name = \"...\"");
+        return part->name
+                   ? lrcsi_draft_refuse_value(draft, LRCSI_KEY_NAME, LRCS_E_NAME,
+                                              "a name that is not empty")
+                   : lrcsi_draft_refuse_missing(draft, LRCSI_KEY_BIT(NAME), "name = \"...\"");
     }
     int status = read_body(draft, part);
     if (status == LRCS_OK) {
