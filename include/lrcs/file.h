@@ -44,13 +44,18 @@ __attribute__((format(printf, 3, 4))) void lrcs_host_append(char *text, size_t s
 
 /* ---- names ---- */
 
-/* How far a name is from what was typed: 0 if it begins with the text, else the number of edits
-   (letters added, dropped, replaced, neighbours swapped) in the first 64 bytes. */
+/* How far a name is from what was typed: 0 if it or one of its words (between - and _) begins with
+   the text, else the number of edits (letters added, dropped, replaced, neighbours swapped) to the
+   nearer of these, in the first 64 bytes. */
 unsigned lrcs_host_name_distance(const char *text, const char *name);
 
 /* Of two names the one that is nearer by that measure to what was typed; `best` if they are alike,
    or the candidate if `best` is NULL. */
 const char *lrcs_host_name_nearer(const char *text, const char *best, const char *candidate);
+
+/* 1 if a name may be what was meant by what was typed: one contains the other, or at most a third
+   of the letters differ, ignoring case; else 0. */
+int lrcs_host_name_is_near(const char *text, const char *name);
 
 /* The names most like what was typed, best first, each once: those that contain the text or are
    contained in it, then those with the fewest edits, ignoring case.

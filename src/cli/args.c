@@ -61,11 +61,6 @@ int cli_finish(int code)
     return code;
 }
 
-int cli_is_near(const char *text, const char *name)
-{
-    return lrcs_host_name_distance(text, name) <= strlen(text) / 2;
-}
-
 const char *cli_dashes(const char *name)
 {
     return name[1] ? "--" : "-";
@@ -80,7 +75,7 @@ static int unknown_option(const cli_command *command, const char *word, size_t s
     for (const cli_option *option = command->option; option->name; option++) {
         best = lrcs_host_name_nearer(name, best, option->name);
     }
-    if (!best || !cli_is_near(name, best)) {
+    if (!best || !lrcs_host_name_is_near(name, best)) {
         return cli_usage(command, "unknown option '%.*s'", (int)size, word);
     }
     return cli_usage(command, "unknown option '%.*s'; the nearest is %s%s", (int)size, word,

@@ -130,10 +130,6 @@ int cli_whole(const cli_args *args, const char *name, double least, double most,
    option was not given. 0 or CLI_USAGE. */
 int cli_choice(const cli_args *args, const char *name, const char *words, int *place);
 
-/* 1 if a name is near enough to `text` to be suggested in its place: at most half of the letters
-   differ. */
-int cli_is_near(const char *text, const char *name);
-
 /* Prints a message on stderr, "lrcs run: ...", and how to get help. Returns CLI_USAGE. */
 __attribute__((format(printf, 2, 3))) int cli_usage(const cli_command *command, const char *format,
                                                     ...);

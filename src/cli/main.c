@@ -65,9 +65,14 @@ static int unknown_command(const char *name)
     for (size_t i = 0; i < MAIN_COMMANDS; i++) {
         best = lrcs_host_name_nearer(name, best, main_commands[i]->name);
     }
-    return cli_is_near(name, best)
-               ? cli_usage(NULL, "unknown command '%s'; the nearest is %s", name, best)
-               : cli_usage(NULL, "unknown command '%s'", name);
+    if (lrcs_host_name_is_near(name, best)) {
+        return cli_usage(NULL, "unknown command '%s'; the nearest is %s", name, best);
+    }
+    char list[MAIN_COMMANDS * 12] = "";
+    for (size_t i = 0; i < MAIN_COMMANDS; i++) {
+        lrcs_host_append(list, sizeof list, "%s%s", i > 0 ? ", " : "", main_commands[i]->name);
+    }
+    return cli_usage(NULL, "unknown command '%s'; expected one of %s", name, list);
 }
 
 /* Prints a command's help, and the material library if it takes a material. */

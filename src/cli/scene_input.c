@@ -38,12 +38,16 @@ static int brdf_error_read(const cli_command *command, const char *text, const c
         lrcs_brdf read = {v[0], v[1], v[2], v[3]};
         lrcs_brdf_error off = {.A = d[0], .B = d[1], .s = d[2], .m = d[3]};
         if (lrcs_brdf_check(&read) < 0) {
-            return cli_usage(command, "%s: %s (A, B, m >= 0 and s > 0)", option,
+            return cli_usage(command,
+                             "%s: %s: found '%s', expected A, B, m >= 0 and s > 0 (s = 0 only with "
+                             "A = 0)",
+                             option,
                              v[0] < 0.0   ? "A is negative"
                              : v[1] < 0.0 ? "B is negative"
                              : v[2] < 0.0 ? "s is negative"
                              : v[3] < 0.0 ? "m is negative"
-                                          : "s is 0, which needs A = 0");
+                                          : "s is 0",
+                             text);
         }
         if (lrcs_brdf_error_check(&read, &off) != LRCS_OK) {
             return cli_usage(command, "%s: an error (+-) is %s, found '%s'", option,
@@ -63,10 +67,12 @@ static int brdf_error_read(const cli_command *command, const char *text, const c
         for (uint32_t i = 0; (entry = lrcs_brdf_library(i)) != NULL; i++) {
             best = lrcs_host_name_nearer(text, best, entry->name);
         }
+        int near = best && lrcs_host_name_is_near(text, best);
         return cli_usage(command,
                          "%s: expected A,B,s,m (four finite numbers) or a library material, found "
-                         "'%s'; the nearest in the library is %s",
-                         option, text, best ? best : "(none)");
+                         "'%s'; %s%s",
+                         option, text, near ? "the nearest in the library is " : "'lrcs ",
+                         near ? best : "run --help' lists the library");
     }
     *brdf = entry->brdf;
     *error = entry->error;
@@ -296,11 +302,16 @@ static int unmatched_binding(const cli_command *command, const lrcs_host_scene *
     uint32_t found =
         lrcs_host_names_near(binding->name, name, scene->material_count, near, (uint32_t)NEAR_MOST);
     free(name);
+    int is_near = found > 0 && lrcs_host_name_is_near(binding->name, near[0]);
     for (uint32_t i = 0; i < found; i++) {
-        list_add(list, sizeof list, i, "'", near[i]);
+        list_add(list, sizeof list, is_near || i == 0 ? i : 2, "'", near[i]);
     }
     return cli_usage(command, "--material: the scene has no material named '%s'%s%s", binding->name,
-                     found > 0 ? "; the nearest is " : ", nor any other", list);
+                     is_near             ? "; the nearest is "
+                     : found == 0        ? ", nor any other"
+                     : found < NEAR_MOST ? "; it has "
+                                         : "; it has, among others, ",
+                     list);
 }
 
 int cli_scene_code(const cli_args *args, const lrcs_host_options *options, int status,

@@ -129,11 +129,14 @@ static int shape_read(const cli_args *args, lrcs_shape *shape, lrcs_aspect *aspe
     shape->kind = lrcs_shape_find(args->operand);
     if (shape->kind < 0) {
         const char *best = NULL;
+        char list[LRCS_SHAPE_KINDS * 14] = "";
         for (int i = 0; i < LRCS_SHAPE_KINDS; i++) {
             best = lrcs_host_name_nearer(args->operand, best, lrcs_shape_text(i));
+            lrcs_host_append(list, sizeof list, "%s%s", i > 0 ? ", " : "", lrcs_shape_text(i));
         }
-        return cli_usage(args->command, "unknown KIND '%s'; the nearest is %s", args->operand,
-                         best);
+        int near = lrcs_host_name_is_near(args->operand, best);
+        return cli_usage(args->command, "unknown KIND '%s'; %s %s", args->operand,
+                         near ? "the nearest is" : "expected one of", near ? best : list);
     }
     const shape_form *form = &shape_forms[shape->kind];
     const double *size = shape->size;

@@ -8,17 +8,17 @@ zeros() { dd if=/dev/zero bs="$1" count=1 2>/dev/null; }
 many() { zeros "$1" | tr '\0' "$2"; }
 
 { zeros 80 && printf '\377\377\377\377' && zeros 50; } >"$scratch/m.stl"
-failure stl_of_4294967295_facets "byte 80: facet count: found '4294967295'" run "$scratch/m.stl"
+failure stl_of_4294967295_facets "byte 80: facet count: found '4294967295 with bytes for 1'" run "$scratch/m.stl"
 
 printf '\115\115\377\377\377\377\075\075\360\377\377\377' >"$scratch/m.3ds"
-failure 3ds_chunk_of_4_gigabytes "byte 8: chunk length: found '4294967280'" run "$scratch/m.3ds"
+failure 3ds_chunk_of_4_gigabytes "byte 8: chunk length: found '4294967280 with " run "$scratch/m.3ds"
 
 printf 'MM\42\0\0\0==\34\0\0\0\0@\26\0\0\0a\0\0A\16\0\0\0\20A\10\0\0\0\377\377' >"$scratch/m.3ds"
 failure 3ds_list_of_65535_vertices "byte 34: vertex list" run "$scratch/m.3ds"
 
 for index in 4294967297 18446744073709551617 -4294967295; do
     printf 'v 0 0 0\nf 1 1 %s\n' "$index" >"$scratch/m.obj"
-    failure "obj_index_$index" "line 2: face corner: found '$index'" run "$scratch/m.obj"
+    failure "obj_index_$index" "line 2: face corner: found '$index" run "$scratch/m.obj"
 done
 
 { printf 'schema = ' && many 1000000 '['; } >"$scratch/s.toml"

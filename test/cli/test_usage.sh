@@ -16,7 +16,7 @@ usage_error misspelt_option_names_the_nearest "'--dirction'; the nearest is --di
 run run demo --threads 2
 same an_option_like_no_other_suggests_none "$rc $(printf '%s\n' "$err" | sed -n 1p)" "2 lrcs run: unknown option '--threads'"
 run xyzzy
-same a_command_like_no_other_suggests_none "$rc $(printf '%s\n' "$err" | sed -n 1p)" "2 lrcs: unknown command 'xyzzy'"
+same a_command_like_no_other_lists_all "$rc $(printf '%s\n' "$err" | sed -n 1p)" "2 lrcs: unknown command 'xyzzy'; expected one of run, image, profile, info, scene, shape, verify, converge, sweep, merge, plot, report, fit, vectors, compare"
 usage_error shortened_option_names_the_whole "the nearest is --tolerance" run demo --tol=1e-3
 usage_error single_dash_option "unknown option '-json'; the nearest is --json" run demo -json
 usage_error option_of_another_command "unknown option '--radius'" run demo --radius 1
@@ -65,6 +65,10 @@ usage_error material_of_three_numbers "A,B,s,m" run demo --material foil=1,0.2,0
 usage_error three_numbers_are_no_library_name "(four finite numbers), found '1,0.2,0.3'" run demo --material 1,0.2,0.3
 usage_error material_unknown_in_library "the nearest in the library is solar-cell" run demo --material foil=solar-cel
 usage_error material_negative_A "A is negative" run demo --material -1,0,0.2,0
+usage_error a_refused_material_is_quoted "found '-1,0,0.2,0', expected A, B, m >= 0 and s > 0" run demo --material -1,0,0.2,0
+usage_error a_material_like_no_other_lists_all "no material named 'nosuchmat'; it has 'foil', 'white'" run demo --material nosuchmat=1,1,1,1
+usage_error two_sided_names_what_there_is "found 'xyz'; it has, among others, 'bus', 'dish'" run demo --two-sided xyz
+usage_error two_sided_names_the_nearest "found 'dsh'; the nearest is 'dish'" run demo --two-sided dsh
 usage_error material_negative_m "m is negative" run demo --material 1,0,0.2,-1
 usage_error material_no_slope "s is 0" run demo --material 1,0,0,0
 usage_error material_nan "found 'nan,0,1,1'" run demo --material nan,0,1,1
@@ -73,6 +77,7 @@ usage_error material_bad_colour "#RRGGBB" run demo --material '#12345G=1,0,0.2,0
 usage_error material_colour_that_nothing_has "#010203" run demo --material '#010203=1,0,0.2,0'
 
 usage_error unknown_kind "the nearest is sphere" shape spere
+usage_error a_kind_like_no_other_lists_all "'cube'; expected one of plate, disc, box, sphere" shape cube
 usage_error missing_radius "sphere needs --radius" shape sphere
 usage_error missing_size "box needs --size a,b,c" shape box
 usage_error size_of_two_for_a_box "expected a,b,c" shape box --size 1,2

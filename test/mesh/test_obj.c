@@ -166,10 +166,12 @@ static void indices_of_normals_out_of_range_are_refused(void **state)
 {
     (void)state;
     static const char item[] = "normal of a face corner";
-    check_failure(SQUARE "f 1 2//1 3\n", LRCS_E_INDEX, 36, 5, item, "2//1");
+    check_failure(SQUARE "f 1 2//1 3\n", LRCS_E_INDEX, 36, 5, item, "2//1 with 0 in the file");
     check_failure(SQUARE "f 1 2/1/0 3\n", LRCS_E_INDEX, 36, 5, item, "2/1/0");
-    check_failure(SQUARE "f 1 2//-1 3\nvn 0 0 1\n", LRCS_E_INDEX, 36, 5, item, "2//-1");
-    check_failure(SQUARE "f 1 2//2 3\nvn 0 0 1\n", LRCS_E_INDEX, 36, 5, item, "2//2");
+    check_failure(SQUARE "f 1 2//-1 3\nvn 0 0 1\n", LRCS_E_INDEX, 36, 5, item,
+                  "2//-1 with 0 above");
+    check_failure(SQUARE "f 1 2//2 3\nvn 0 0 1\n", LRCS_E_INDEX, 36, 5, item,
+                  "2//2 with 1 in the file");
     check_failure(SQUARE "f 1 2//4294967297 3\nvn 0 0 1\n", LRCS_E_INDEX, 36, 5, item,
                   "2//4294967297");
 }
@@ -405,14 +407,15 @@ static void indices_outside_the_list_are_refused(void **state)
 {
     (void)state;
     check_failure(SQUARE "f 0 1 2\n", LRCS_E_INDEX, 34, 5, "face corner", "0");
-    check_failure(SQUARE "f 1 2 5\n", LRCS_E_INDEX, 38, 5, "face corner", "5");
+    check_failure(SQUARE "f 1 2 5\n", LRCS_E_INDEX, 38, 5, "face corner", "5 with 4 in the file");
     check_failure(SQUARE "f 1 2 3/7\nf 1 7/1 3\nf 1 2 8\n", LRCS_E_INDEX, 46, 6, "face corner",
-                  "7/1");
-    check_failure(SQUARE "f 1 2 -5\nv 0 0 0\n", LRCS_E_INDEX, 38, 5, "face corner", "-5");
+                  "7/1 with 4 in the file");
+    check_failure(SQUARE "f 1 2 -5\nv 0 0 0\n", LRCS_E_INDEX, 38, 5, "face corner",
+                  "-5 with 4 above");
     check_failure(SQUARE "f 1 2 99999999999999999999999\n", LRCS_E_INDEX, 38, 5, "face corner",
                   "99999999999999999999999");
     check_failure(SQUARE "f 1 2 -99999999999999999999999\n", LRCS_E_INDEX, 38, 5, "face corner",
-                  "-99999999999999999999999");
+                  "-99999999999999999999999 with 4 above");
     check_failure(SQUARE "f 1 2 4294967295\n", LRCS_E_INDEX, 38, 5, "face corner", "4294967295");
     check_failure(SQUARE "f 1 2 4294967297\n", LRCS_E_INDEX, 38, 5, "face corner", "4294967297");
 }

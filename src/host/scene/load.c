@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 lrcs_host_options lrcs_host_options_default(void)
 {
@@ -42,6 +43,35 @@ static int names_scene_file(const char *path)
     return dot && strcasecmp(dot, ".toml") == 0;
 }
 
+/* Appends to an error the material of the library, or the kind of shape, that an unknown name may
+   mean. Materials of the file itself are not known when it could not be read. */
+static void nearest_append(lrcs_host_error *error, int status, const lrcs_where *where)
+{
+    int shape = where->item && strcmp(where->item, "shape") == 0;
+    int material =
+        where->item && (strcmp(where->item, "material") == 0 || strcmp(where->item, "like") == 0);
+    char text[sizeof where->found];
+    size_t quote = strspn(where->found, "\"'"); /* a value is quoted as it stands in the file */
+    size_t size = strcspn(where->found + quote, "\"'");
+    const char *best = NULL;
+    if (!error || status != LRCS_E_NAME || (!shape && !material)) {
+        return;
+    }
+    memcpy(text, where->found + quote, size);
+    text[size] = '\0';
+    const lrcs_brdf_entry *entry;
+    for (uint32_t i = 0; material && (entry = lrcs_brdf_library(i)) != NULL; i++) {
+        best = lrcs_host_name_nearer(text, best, entry->name);
+    }
+    for (int i = 0; shape && i < LRCS_SHAPE_KINDS; i++) {
+        best = lrcs_host_name_nearer(text, best, lrcs_shape_text(i));
+    }
+    if (best && lrcs_host_name_is_near(text, best)) {
+        lrcs_host_append(error->text, sizeof error->text, "; the nearest%s is %s",
+                         material ? " in the library" : "", best);
+    }
+}
+
 /* The recipe's texts may point into the file's: the scene keeps those bytes. */
 static int recipe_from_text(lrcs_host_scene *scene, const char *path, const char *text, size_t size,
                             lrcs_host_error *error)
@@ -57,6 +87,7 @@ static int recipe_from_text(lrcs_host_scene *scene, const char *path, const char
         return status;
     }
     lrcsi_host_fail_where(error, status, path, &step.where);
+    nearest_append(error, status, &step.where);
     if (error && strcmp(path, "demo") != 0 && !names_scene_file(path)) {
         size_t used = strlen(error->text);
         snprintf(error->text + used, sizeof error->text - used,
@@ -166,6 +197,46 @@ static int scene_from_recipe(lrcs_host_scene *scene, const char *path,
                : lrcsi_host_fail_where(error, status, path, &step.where);
 }
 
+/* The line of the key `file` of the part that begins at a line of a scene file. */
+static uint32_t file_key_line(const lrcs_host_file *scene_file, uint32_t first)
+{
+    const char *at = (const char *)scene_file->bytes;
+    const char *end = at ? at + scene_file->size : at;
+    for (uint32_t line = 1; at < end; line++) {
+        const char *next = memchr(at, '\n', (size_t)(end - at));
+        while (at < end && (*at == ' ' || *at == '\t')) {
+            at++;
+        }
+        if (line >= first && end - at > 4 && memcmp(at, "file", 4) == 0 &&
+            strchr(" \t=", at[4]) != NULL) {
+            return line;
+        }
+        at = next ? next + 1 : end;
+    }
+    return first;
+}
+
+/* Puts before an error about a part's model the line that names the file, and after it where a
+   relative name was looked for. */
+static void lost_model_place(lrcs_host_error *error, int status, const char *path,
+                             const lrcs_host_file *scene_file, const lrcs_recipe_part *part)
+{
+    char cause[sizeof error->text];
+    char here[256] = ".";
+    int folder = (int)(lrcsi_host_basename(path) - path);
+    int relative = part->file[0] != '/';
+    strcpy(cause, error->text);
+    cause[sizeof cause / 2] = '\0';
+    if (folder == 0 && !getcwd(here, sizeof here)) {
+        strcpy(here, ".");
+    }
+    lrcsi_host_fail(error, status, "%s: line %lu: %s%s%.*s", path,
+                    (unsigned long)file_key_line(scene_file, part->line), cause,
+                    relative ? "; looked for in the scene file's folder, " : "",
+                    relative ? (folder > 0 ? folder : (int)strlen(here)) : 0,
+                    folder > 0 ? path : here);
+}
+
 /* Every part's model; a file named twice is read twice, because that is rare and the code is
    simpler. */
 static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host_file *given,
@@ -196,11 +267,7 @@ static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host
             status = lrcsi_host_model_read(scene, name, &file, &scene->model[i], error);
             lrcs_host_file_free(&file);
         } else if (error && recipe->part[i].line != 0) {
-            char cause[sizeof error->text];
-            strcpy(cause, error->text);
-            cause[sizeof cause / 2] = '\0';
-            lrcsi_host_fail(error, status, "%s: line %lu: %s", path,
-                            (unsigned long)recipe->part[i].line, cause);
+            lost_model_place(error, status, path, given, &recipe->part[i]);
         }
     }
     return status;

@@ -97,7 +97,7 @@ static int materials_read(lrcs_host_scene *scene, const char *path, lrcs_mesh *m
     return status == LRCS_OK ? LRCS_OK : lrcsi_host_fail_where(error, status, beside, &where);
 }
 
-static void notices_add(lrcs_host_scene *scene, const char *path, const lrcs_mesh *mesh)
+static void notices_add(lrcs_host_scene *scene, const char *path, int format, const lrcs_mesh *mesh)
 {
     static const struct {
         uint32_t bit;
@@ -117,7 +117,9 @@ static void notices_add(lrcs_host_scene *scene, const char *path, const lrcs_mes
         }
     }
     if (mesh->facet_count == 0) {
-        lrcsi_host_note(&scene->notices, "%s: holds no facets", lrcsi_host_basename(path));
+        lrcsi_host_note(
+            &scene->notices, "%s: holds no facets%s", lrcsi_host_basename(path),
+            format == LRCS_FORMAT_OBJ ? ": none of its lines is a face (f) as OBJ writes it" : "");
     }
 }
 
@@ -181,6 +183,6 @@ int lrcsi_host_model_read(lrcs_host_scene *scene, const char *path, const lrcs_h
     if (step.format == LRCS_FORMAT_OBJ) {
         status = materials_read(scene, path, mesh, error);
     }
-    notices_add(scene, path, mesh);
+    notices_add(scene, path, step.format, mesh);
     return status;
 }

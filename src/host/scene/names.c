@@ -5,7 +5,9 @@
 
 #include <string.h>
 
-#define NAME_BYTES_MAX 64u /* bytes that count for the distance of two names */
+#define NAME_BYTES_MAX  64u /* bytes that count for the distance of two names */
+#define WORD_SEPARATORS "-_ "
+#define PART_MIN        3u /* bytes of a name that make it recognisable within another */
 
 /* ---- matching ---- */
 
@@ -106,16 +108,40 @@ static unsigned edit_distance(const char *a, const char *b, int fold)
     return row[na % 3][nb];
 }
 
+/* 0 if `name` begins with the text, which is not empty, else the number of edits. */
+static unsigned beginning_distance(const char *text, const char *name, int fold)
+{
+    size_t size = 0;
+    while (text[size] && fold_byte((unsigned char)text[size], fold) ==
+                             fold_byte((unsigned char)name[size], fold)) {
+        size++;
+    }
+    return size > 0 && text[size] == '\0' ? 0 : edit_distance(text, name, fold);
+}
+
+/* Twice the distance to a name or to the nearest of its words, 1 more if it is a word's: "white" is
+   a word of "paint-white". */
+static unsigned name_rank(const char *text, const char *name, int fold)
+{
+    unsigned rank = 2 * beginning_distance(text, name, fold);
+    for (const char *at = name; *at; at += *at != '\0') {
+        char word[NAME_BYTES_MAX + 1] = "";
+        size_t size = strcspn(at, WORD_SEPARATORS);
+        memcpy(word, at, size < NAME_BYTES_MAX ? size : NAME_BYTES_MAX);
+        at += size;
+        rank = size > 0 ? smaller_of(rank, 2 * beginning_distance(text, word, fold) + 1) : rank;
+    }
+    return rank;
+}
+
 unsigned lrcs_host_name_distance(const char *text, const char *name)
 {
-    return text[0] && strncmp(text, name, strlen(text)) == 0 ? 0 : edit_distance(text, name, 0);
+    return name_rank(text, name, 0) / 2;
 }
 
 const char *lrcs_host_name_nearer(const char *text, const char *best, const char *candidate)
 {
-    return !best || lrcs_host_name_distance(text, candidate) < lrcs_host_name_distance(text, best)
-               ? candidate
-               : best;
+    return !best || name_rank(text, candidate, 0) < name_rank(text, best, 0) ? candidate : best;
 }
 
 /* 1 if one contains the other, ignoring case; the empty text contains nothing. */
@@ -133,6 +159,15 @@ static int contains(const char *whole, const char *part)
         }
     }
     return 0;
+}
+
+int lrcs_host_name_is_near(const char *text, const char *name)
+{
+    size_t size = strlen(text);
+    size_t edits = size < 2 ? 0 : size < 6 ? 1 : size / 3;
+    return (size >= PART_MIN && contains(name, text)) ||
+           (strlen(name) >= PART_MIN && contains(text, name)) ||
+           name_rank(text, name, 1) / 2 <= edits;
 }
 
 static unsigned name_difference(const char *text, const char *name)

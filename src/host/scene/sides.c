@@ -9,6 +9,8 @@
 
 #include "host/run/memory.h"
 
+#define NAMES_LISTED 8u /* the most names that an error lists */
+
 typedef struct sides_job {
     lrcs_host_scene *host;
     const char *what;
@@ -110,6 +112,37 @@ static int materials_split(const sides_job *job)
     return LRCS_OK;
 }
 
+/* Reports that nothing has that name: what has a similar one, or else what there is. */
+static int refuse_what(lrcs_host_scene *host, const char *what, lrcs_host_error *error)
+{
+    const lrcs_scene *scene = &host->scene;
+    uint32_t most = scene->part_count + scene->material_count;
+    const char **name = lrcsi_host_take(host, (size_t)most + 1, sizeof *name);
+    const char *near[NAMES_LISTED];
+    char list[NAMES_LISTED * 70] = "";
+    uint32_t count = 0;
+    for (uint32_t i = 0; name && i < scene->part_count; i++) {
+        name[count++] = scene->part[i].name;
+    }
+    for (uint32_t i = 0; name && i < scene->material_count; i++) {
+        name[count++] = scene->material[i].name;
+    }
+    uint32_t found = name ? lrcs_host_names_near(what, name, count, near, NAMES_LISTED) : 0;
+    int is_near = found > 0 && lrcs_host_name_is_near(what, near[0]);
+    for (uint32_t i = 0; i < (is_near ? 1 : found); i++) {
+        lrcs_host_append(list, sizeof list, "%s'%.60s'", i > 0 ? ", " : "", near[i]);
+    }
+    return lrcsi_host_fail(
+        error, LRCS_E_NAME,
+        "two-sided: expected all, open, or a part or material of the scene, found '%.200s'%s%s",
+        what,
+        is_near                ? "; the nearest is "
+        : found == 0           ? ""
+        : found < NAMES_LISTED ? "; it has "
+                               : "; it has, among others, ",
+        list);
+}
+
 int lrcsi_host_sides(lrcs_host_scene *host, const char *what, lrcs_host_error *error)
 {
     lrcs_scene *scene = &host->scene;
@@ -139,9 +172,5 @@ int lrcsi_host_sides(lrcs_host_scene *host, const char *what, lrcs_host_error *e
     if (status != LRCS_OK) {
         return lrcsi_host_fail(error, status, "two-sided: %s", lrcs_status_text(status));
     }
-    return job.matched ? LRCS_OK
-                       : lrcsi_host_fail(error, LRCS_E_NAME,
-                                         "two-sided: expected all, open, or a part or material of "
-                                         "the scene, found '%.200s'",
-                                         what);
+    return job.matched ? LRCS_OK : refuse_what(host, what, error);
 }

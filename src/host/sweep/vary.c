@@ -55,10 +55,11 @@ static int whom_split(const char *text, lrcs_host_plan_axis *axis, lrcs_host_err
         best = lrcs_host_name_nearer(dot + 1, best, vary_keys[i].name);
     }
     if (axis->parameter < 0) {
+        int near = best && lrcs_host_name_is_near(dot + 1, best);
         return lrcsi_host_fail(error, LRCS_E_ARGUMENT,
                                "vary: expected MATERIAL.A, .B, .s or .m, or PART.radius, .length, "
                                ".. , then :A:B:STEP; found '%s'%s%s",
-                               text, best ? "; the nearest is ." : "", best ? best : "");
+                               text, near ? "; the nearest is ." : "", near ? best : "");
     }
     *dot = '\0';
     return LRCS_OK;

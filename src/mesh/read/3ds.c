@@ -88,7 +88,8 @@ static int tds_read_all(lrcsi_tds_walk *walk, lrcsi_tds_chunk root, unsigned id)
 static int tds_find_root(lrcsi_tds_walk *walk, lrcsi_tds_chunk *root)
 {
     if (walk->size == 0) {
-        return lrcsi_tds_fail(walk, LRCS_E_EMPTY, 0, "file", "a 3DS file", 0);
+        return lrcsi_where_text(walk->where, LRCS_E_EMPTY, 0, 0, "file", "a 3DS file", "0 bytes",
+                                7);
     }
     if (walk->size < 6) {
         return lrcsi_tds_fail(walk, LRCS_E_TRUNCATED, 0, "chunk header", "6 bytes", walk->size);

@@ -28,6 +28,17 @@ int lrcsi_tds_check(const lrcsi_tds_walk *walk, const lrcsi_tds_chunk *chunk, si
                           "as many bytes as its chunk must hold", left);
 }
 
+/* Reports a chunk that is longer than the bytes that are left. */
+static int tds_fail_left(const lrcsi_tds_walk *walk, int status, size_t at, uint32_t length,
+                         size_t left, const char *expected)
+{
+    lrcsi_tds_fail(walk, status, at, "chunk length", expected, length);
+    lrcsi_where_add(walk->where, " with ");
+    lrcsi_where_add_number(walk->where, left);
+    lrcsi_where_add(walk->where, " bytes left");
+    return status;
+}
+
 int lrcsi_tds_next(lrcsi_tds_walk *walk, lrcsi_tds_chunk *parent, lrcsi_tds_chunk *chunk)
 {
     size_t at = parent->at;
@@ -48,11 +59,11 @@ int lrcsi_tds_next(lrcsi_tds_walk *walk, lrcsi_tds_chunk *parent, lrcsi_tds_chun
     }
     if (length > left) {
         if (length > walk->size - at) {
-            return lrcsi_tds_fail(walk, LRCS_E_TRUNCATED, at + 2, "chunk length",
-                                  "no more than the bytes left in the file", length);
+            return tds_fail_left(walk, LRCS_E_TRUNCATED, at + 2, length, walk->size - at,
+                                 "no more than the bytes left in the file: it is cut off");
         }
-        return lrcsi_tds_fail(walk, LRCS_E_SYNTAX, at + 2, "chunk length",
-                              "no more than the bytes left in the enclosing chunk", length);
+        return tds_fail_left(walk, LRCS_E_SYNTAX, at + 2, length, left,
+                             "no more than the bytes left in the enclosing chunk");
     }
     *chunk = (lrcsi_tds_chunk){lrcsi_bytes_u16(walk->bytes + at), at + TDS_HEADER, at + length};
     parent->at = at + length;

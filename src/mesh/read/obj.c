@@ -190,13 +190,21 @@ static int resolve_index(int64_t index, uint32_t count, uint32_t limit, uint32_t
     return 1;
 }
 
-/* Reports an index of an item that does not exist. */
-static int refuse_index(obj_walk *w, const lrcsi_lines *from, int64_t index, const char *item)
+/* Reports an index of an item that does not exist, and how many there are: so far for an index that
+   counts back, else in the file once that is known. */
+static int refuse_index(obj_walk *w, const lrcsi_lines *from, int64_t index, uint32_t count,
+                        uint32_t limit, const char *item)
 {
     w->lines = *from;
-    return obj_fail(w, LRCS_E_INDEX, item,
-                    index < 0 ? "at most as far back as there are of its kind above"
-                              : "an index from 1 to the number of its kind");
+    int status = obj_fail(w, LRCS_E_INDEX, item,
+                          index < 0 ? "at most as far back as there are of its kind above"
+                                    : "an index from 1 to the number of its kind");
+    if (index < 0 || (index > 0 && limit < OBJ_COUNT_MAX)) {
+        lrcsi_where_add(w->where, " with ");
+        lrcsi_where_add_number(w->where, index < 0 ? count : limit);
+        lrcsi_where_add(w->where, index < 0 ? " above" : " in the file");
+    }
+    return status;
 }
 
 /* A corner of a face: the indices of its vertex and, if it has one, its normal. */
@@ -211,12 +219,13 @@ static int read_corner(obj_walk *w, uint32_t *corner, uint32_t *normal)
         return obj_fail(w, LRCS_E_SYNTAX, "face corner", "v, v/t, v//n or v/t/n");
     }
     if (!resolve_index(index[0], w->counts.vertices, w->vertex_limit, &w->vertex_max, corner)) {
-        return refuse_index(w, &from, index[0], "face corner");
+        return refuse_index(w, &from, index[0], w->counts.vertices, w->vertex_limit, "face corner");
     }
     *normal = LRCS_NONE;
     if (index[2] != NO_INDEX &&
         !resolve_index(index[2], w->counts.normals, w->normal_limit, &w->normal_max, normal)) {
-        return refuse_index(w, &from, index[2], "normal of a face corner");
+        return refuse_index(w, &from, index[2], w->counts.normals, w->normal_limit,
+                            "normal of a face corner");
     }
     return LRCS_OK;
 }
@@ -337,7 +346,7 @@ static obj_walk obj_walk_make(const void *bytes, size_t size, lrcs_where *where)
 int lrcs_obj_count(const void *bytes, size_t size, lrcs_mesh_counts *counts, lrcs_where *where)
 {
     if (size == 0) {
-        return lrcsi_where_number(where, LRCS_E_EMPTY, 0, 1, "file", "OBJ statements", 0);
+        return lrcsi_where_text(where, LRCS_E_EMPTY, 0, 1, "file", "OBJ statements", "0 bytes", 7);
     }
     obj_walk w = obj_walk_make(bytes, size, where);
     int status = walk_statements(&w);

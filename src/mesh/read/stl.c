@@ -116,14 +116,19 @@ static int stl_read_facet(lrcsi_stl_walk *walk, size_t at)
 static int stl_read_binary(lrcsi_stl_walk *walk)
 {
     if (walk->size < STL_HEADER) {
-        return lrcsi_where_number(walk->where, LRCS_E_TRUNCATED, 0, 0, "file",
-                                  "a header of 80 bytes and a count", walk->size);
+        lrcsi_where_number(walk->where, LRCS_E_TRUNCATED, 0, 0, "file",
+                           "an STL file: text, or a header and a count, 84 bytes", walk->size);
+        lrcsi_where_add(walk->where, " bytes");
+        return LRCS_E_TRUNCATED;
     }
     uint32_t count = lrcsi_bytes_u32(walk->bytes + 80);
     size_t held = (walk->size - STL_HEADER) / STL_FACET;
     if (held < count) {
-        return lrcsi_where_number(walk->where, LRCS_E_TRUNCATED, 80, 0, "facet count",
-                                  "at most as many facets as the file has bytes for", count);
+        lrcsi_where_number(walk->where, LRCS_E_TRUNCATED, 80, 0, "facet count",
+                           "at most as many facets as the file has bytes for", count);
+        lrcsi_where_add(walk->where, " with bytes for ");
+        lrcsi_where_add_number(walk->where, held);
+        return LRCS_E_TRUNCATED;
     }
     if (!lrcsi_stl_is_binary(walk->bytes, walk->size)) {
         walk->notices |= LRCS_MESH_TRAILING_BYTES;
@@ -138,7 +143,8 @@ static int stl_read_binary(lrcsi_stl_walk *walk)
 static int stl_read_any(lrcsi_stl_walk *walk)
 {
     if (walk->size == 0) {
-        return lrcsi_where_number(walk->where, LRCS_E_EMPTY, 0, 0, "file", "an STL file", 0);
+        return lrcsi_where_text(walk->where, LRCS_E_EMPTY, 0, 0, "file", "an STL file", "0 bytes",
+                                7);
     }
     if (!lrcsi_stl_is_binary(walk->bytes, walk->size) &&
         lrcsi_stl_is_text(walk->bytes, walk->size)) {
