@@ -173,9 +173,10 @@ int cli_number(const cli_args *args, const char *name, double *value)
 
 int cli_positive(const cli_args *args, const char *name, const char *what, double *value)
 {
-    int code = cli_number(args, name, value);
-    return code == 0 && cli_value(args, name) && !(*value > 0.0) ? cli_expected(args, name, what)
-                                                                 : code;
+    const char *text = cli_value(args, name);
+    int wrong =
+        text && (lrcs_host_number_read(text, strlen(text), value) != LRCS_OK || !(*value > 0.0));
+    return wrong ? cli_expected(args, name, what) : 0;
 }
 
 int cli_whole(const cli_args *args, const char *name, double least, double most, uint32_t *value)

@@ -35,7 +35,10 @@ static int output_place(const char *path)
     } else if ((there && !S_ISREG(about.st_mode)) || access(folder, W_OK | X_OK) == 0) {
         return 0; /* a device is written directly */
     }
-    return cli_fail("%s: cannot write: %s", path, strerror(errno));
+    int cause = errno;
+    int missing = cause == ENOENT && access(folder, F_OK) != 0;
+    return cli_fail("%s: cannot write: %s%s%s", path, strerror(cause),
+                    missing ? "; there is no folder " : "", missing ? folder : "");
 }
 
 static int option_kind(const cli_command *command, const char *name)

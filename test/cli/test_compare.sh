@@ -229,7 +229,7 @@ refused() {
 }
 refused an_empty_table 'theirs.csv: expected a line that names the columns' ''
 refused a_table_without_sigma 'line 1: no column is named sigma_m2 or sigma_dbsm' 'scene,attitude\nbox,a\n'
-refused a_table_without_scenes 'line 1: no column is named scene' 'attitude,sigma_m2\n'
+refused a_table_without_scenes 'line 1: no column is named scene; expected a line of column names, found attitude, sigma_m2' 'attitude,sigma_m2\n'
 refused a_number_that_is_none "line 3, column sigma_m2: found '1,5x', expected a number with a decimal point" 'scene;attitude;sigma_m2\nbox;a;1\nbox;b;1,5x\n'
 refused a_line_that_is_short 'line 2: found 2 fields, expected 3 as in the first line' 'scene,attitude,sigma_m2\nbox,a\n'
 refused a_line_that_is_long 'found 4' 'scene,attitude,sigma_m2\nbox,a,1,2\n'

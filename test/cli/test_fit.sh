@@ -145,6 +145,8 @@ refused two_angles "found 'theta_r', expected one column of angles (mono" 'theta
 refused angles_in_radians "found 'theta_rad', expected angles in degrees" 'theta_rad,brdf\n1,1'
 refused no_column_of_readings "line 1: no column of readings" 'angle,power\n1,1'
 refused no_column_of_angles "line 1: no column of angles" 'brdf,power\n1,1'
+refused no_column_of_either "line 1: no column of angles and none of readings: not a table of BRDF readings" 'az_deg,sigma_m2,sigma_dbsm\n1,1,1'
+refused two_columns_of_errors "found 'error', expected only one column of its kind" 'angle,brdf,sigma,error\n1,1,1,1'
 refused four_columns_without_names "found 4 columns without names" '1,2,3,4'
 failure missing_file "none.csv: cannot open" fit none.csv
 head -c 3000 /dev/urandom >noise.bin

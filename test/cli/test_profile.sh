@@ -23,15 +23,17 @@ run profile pair.toml --azel 0,-90 --bin 0.5
 same what_shows_only_backs_has_no_bins "$rc $(printf '%s\n' "$out" | grep -c '; 0 bins of')" "0 1"
 
 usage_error bins_need_a_width "give the width of the bins: --bin W, m" profile demo
-usage_error no_width_of_0 "--bin: expected a length > 0, m, found '0'" profile demo --bin 0
-usage_error no_negative_width "--bin: expected a length > 0, m, found '-1'" profile demo --bin -1
+usage_error no_width_of_0 "--bin: expected a length in m without unit, > 0, found '0'" profile demo --bin 0
+usage_error no_negative_width "--bin: expected a length in m without unit, > 0, found '-1'" profile demo --bin -1
 usage_error no_width_that_is_no_number "--bin" profile demo --bin nan
-usage_error no_pulse_of_0 "--pulse-fwhm: expected a length > 0, m, found '0'" profile demo --bin 1 --pulse-fwhm 0
+usage_error no_pulse_of_0 "--pulse-fwhm: expected a length in m without unit, > 0, found '0'" profile demo --bin 1 --pulse-fwhm 0
 usage_error no_chart_of_another_kind "--plot: expected FILE.svg or FILE.png, found 'a.pdf'" profile demo --bin 1 --plot a.pdf
 usage_error not_twice_to_stdout "--csv - and --json both want standard output" profile demo --bin 1 --csv - --json
 usage_error not_over_the_scene "--csv pair.toml: would overwrite pair.toml" profile pair.toml --bin 1 --csv pair.toml
 usage_error not_two_files_of_one_name "name the same file" profile demo --bin 1 --csv a.svg --plot a.svg
-failure not_too_many_bins "there would be more than 1048576" profile demo --bin 1e-7
+failure not_too_many_bins "bins of 1e-07 m: there would be more than 1048576" profile demo --bin 1e-7
+failure not_too_fine_bins "bins of 1e-13 m: too fine for" profile demo --bin 1e-13
+usage_error a_width_with_its_unit "--bin: expected a length in m without unit, > 0, found '5cm'" profile demo --bin 5cm
 failure not_a_pulse_over_too_many "pulse of 1e+06 m reaches over more bins" profile demo --bin 1 --pulse-fwhm 1e6
 run profile pair.toml --azel 50,40 --bin 0.1 --tolerance 1e-30 --json
 same a_tolerance_given_and_missed_is_exit_3 "$rc $(printf '%s\n' "$out" | grep -c '"met": false')" "3 1"

@@ -142,7 +142,7 @@ mkdir folder.csv
 failure a_folder_is_refused_before_the_work "folder.csv: cannot write: Is a directory" sweep $what -o folder.csv
 same and_nothing_was_begun "$(ls -d folder.csv* | tr '\n' ' ')$(ls folder.csv)" "folder.csv "
 # shellcheck disable=SC2086
-failure a_folder_that_is_not_there "none/x.csv: cannot write: No such file or directory" sweep $what -o none/x.csv
+failure a_folder_that_is_not_there "none/x.csv: cannot write: No such file or directory; there is no folder none/" sweep $what -o none/x.csv
 # shellcheck disable=SC2086
 [ -e /dev/full ] && { "$tool" sweep $what >/dev/full 2>full.txt; same a_full_disk_exits_1 "$?" 1; }
 

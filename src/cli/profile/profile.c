@@ -65,11 +65,12 @@ static int options_read(profile_job *job)
     lrcs_run_options options = lrcs_run_options_default();
     job->csv = cli_value(args, "csv");
     int code = cli_pose_read(args, &job->pose);
-    code = code ? code : cli_positive(args, "bin", "a length > 0, m", &job->bin_m);
+    code = code ? code : cli_positive(args, "bin", "a length in m without unit, > 0", &job->bin_m);
     if (code == 0 && !(job->bin_m > 0.0)) {
         return cli_usage(args->command, "give the width of the bins: --bin W, m");
     }
-    code = code ? code : cli_positive(args, "pulse-fwhm", "a length > 0, m", &job->fwhm_m);
+    code = code ? code
+                : cli_positive(args, "pulse-fwhm", "a length in m without unit, > 0", &job->fwhm_m);
     code = code ? code : cli_accuracy_read(args, &options);
     code = code ? code : cli_scene_options_read(args, &job->load);
     code = code ? code : cli_normals_read(args, &job->load);

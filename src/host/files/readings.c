@@ -68,6 +68,7 @@ static int field_has(const lrcs_host_field *field, const char *word)
 /* The first line as names of columns. */
 static int header_read(readings_table *table)
 {
+    uint32_t twice = LRCS_NONE; /* the first column whose role another one has already */
     for (uint32_t i = 0; i < table->text.columns; i++) {
         const lrcs_host_field *field = &table->text.field[i];
         int role = 0;
@@ -80,24 +81,32 @@ static int header_read(readings_table *table)
             continue;
         }
         if (table->role[role] != LRCS_NONE) {
-            return column_refuse(table, LRCS_E_NAME, i,
-                                 role == ROLE_ANGLE
-                                     ? "one column of angles (monostatic readings: laser and "
-                                       "detector at the same angle)"
-                                     : "only one such column");
+            twice = twice == LRCS_NONE ? i : twice;
+            continue;
         }
         if (role == ROLE_ANGLE && field_has(field, "rad")) {
             return column_refuse(table, LRCS_E_NAME, i, "angles in degrees");
         }
         table->role[role] = i;
     }
-    if (table->role[ROLE_ANGLE] == LRCS_NONE || table->role[ROLE_VALUE] == LRCS_NONE) {
+    int no_angle = table->role[ROLE_ANGLE] == LRCS_NONE;
+    int no_value = table->role[ROLE_VALUE] == LRCS_NONE;
+    if (no_angle || no_value) {
         return lrcsi_host_fail(
             table->error, LRCS_E_NAME,
-            "%s: line %lu: no column of %s; expected columns angle_deg and brdf, and sigma, weight "
-            "and material where there are any",
+            "%s: line %lu: no column of %s: not a table of BRDF readings; expected columns "
+            "angle_deg and brdf, and sigma, weight and material where there are any",
             table->text.path, (unsigned long)table->text.line,
-            table->role[ROLE_ANGLE] == LRCS_NONE ? "angles" : "readings");
+            !no_value   ? "angles"
+            : !no_angle ? "readings"
+                        : "angles and none of readings");
+    }
+    if (twice != LRCS_NONE) {
+        return column_refuse(table, LRCS_E_NAME, twice,
+                             field_is_of(&table->text.field[twice], ROLE_ANGLE)
+                                 ? "one column of angles (monostatic readings: laser and "
+                                   "detector at the same angle)"
+                                 : "only one column of its kind");
     }
     return LRCS_OK;
 }

@@ -22,8 +22,16 @@ int lrcsi_kit_table_refuse(const lrcsi_kit_table *table, int name, const char *f
 
 int lrcsi_kit_table_missing(const lrcsi_kit_table *table, const char *name)
 {
-    return lrcsi_host_fail(table->error, LRCS_E_NAME, "%s: line %llu: no column is named %s",
-                           table->text.path, (unsigned long long)table->text.line, name);
+    char list[256] = "";
+    for (uint32_t i = 0; i < table->text.columns; i++) {
+        const lrcs_host_field *field = &table->text.field[i];
+        lrcs_host_append(list, sizeof list, "%s%.*s", i > 0 ? ", " : "",
+                         field->size < 40 ? (int)field->size : 40, field->text);
+    }
+    return lrcsi_host_fail(table->error, LRCS_E_NAME,
+                           "%s: line %llu: no column is named %s; expected a line of column names, "
+                           "found %s",
+                           table->text.path, (unsigned long long)table->text.line, name, list);
 }
 
 int lrcsi_kit_table_open(const char *path, const char *const *name, int count, int needed,

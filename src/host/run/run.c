@@ -5,6 +5,7 @@
    the bound. */
 #include "host/run/run.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "analysis/forecast.h"
@@ -341,6 +342,18 @@ static int run_profile(void *context, lrcs_work *work)
     return lrcs_profile_run(step->prepared, step->pose, step->bin_m, work, step->list);
 }
 
+/* The largest coordinate of a vertex in absolute value, m. A range is less than 4 times that. */
+static double largest_coordinate(const lrcs_scene *scene)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < scene->vertex_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            most = fmax(most, fabs(scene->vertex[i].x[k]));
+        }
+    }
+    return most;
+}
+
 int lrcs_host_profile_make(const lrcs_host_scene *scene, const lrcs_pose *pose, double bin_m,
                            lrcs_host_profile *profile, lrcs_host_error *error)
 {
@@ -352,10 +365,15 @@ int lrcs_host_profile_make(const lrcs_host_scene *scene, const lrcs_pose *pose, 
         *profile = p;
     }
     if (status == LRCS_E_LIMIT) {
+        if (largest_coordinate(&scene->scene) / bin_m < LRCS_PROFILE_INDEX / 4.0) {
+            return lrcsi_host_fail(error, status,
+                                   "range profile: bins of %g m: there would be more than %lu",
+                                   bin_m, (unsigned long)LRCS_PROFILE_BINS);
+        }
         return lrcsi_host_fail(error, status,
-                               "range profile: bins of %g m: there would be more than %lu, or they "
-                               "are too fine for the scene's distance from the origin",
-                               bin_m, (unsigned long)LRCS_PROFILE_BINS);
+                               "range profile: bins of %g m: too fine for the scene's size or "
+                               "distance from the origin",
+                               bin_m);
     }
     return run_fail(error, status, "range profile");
 }
