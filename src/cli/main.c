@@ -49,6 +49,9 @@ static const char main_help[] =
     "  lrcs run satellite.3ds --unit mm --azel 30,20 --material 'solar=solar-cell'\n"
     "  lrcs shape sphere --radius 1 --material 1,0.25,0.2,0.5\n";
 
+/* The end of the help of every command that writes files. */
+#define REPLACES "An output file that exists is replaced, unless it is said above that it is not.\n"
+
 static const cli_command *command_find(const char *name)
 {
     for (size_t i = 0; i < MAIN_COMMANDS; i++) {
@@ -75,12 +78,23 @@ static int unknown_command(const char *name)
     return cli_usage(NULL, "unknown command '%s'; expected one of %s", name, list);
 }
 
+/* 1 if an option of the command names a file to write. */
+static int command_writes(const cli_command *command)
+{
+    int writes = 0;
+    for (const cli_option *o = command->option; o->name; o++) {
+        writes |= cli_is_output(command, o->name);
+    }
+    return writes;
+}
+
 /* Prints a command's help, and the material library if it takes a material. */
 static int help_print(const cli_command *command)
 {
     const lrcs_brdf_entry *entry;
     fputs(command ? command->help : main_help, stdout);
     fputs(command && command->help_more ? command->help_more : "", stdout);
+    fputs(command && command_writes(command) ? "\n" REPLACES : "", stdout);
     for (const cli_option *o = command ? command->option : NULL; o && o->name; o++) {
         if (strcmp(o->name, "material") != 0) {
             continue;
@@ -139,6 +153,7 @@ static void manual_page(void)
         printf(".SS %s\n.nf\n", main_commands[i]->name);
         roff_as_is(main_commands[i]->help);
         roff_as_is(main_commands[i]->help_more ? main_commands[i]->help_more : "");
+        roff_as_is(command_writes(main_commands[i]) ? "\n" REPLACES : "");
         puts(".fi");
     }
     fputs(roff_end, stdout);

@@ -51,7 +51,12 @@ static int merge_shards(const cli_args *args, const lrcs_host_sweep_output *file
     cli_watch_stage("writing", NULL);
     int status =
         lrcs_host_sweep_join(part, count, file->path ? file->path : "-", file->npy, &error);
-    return status == LRCS_OK ? CLI_DONE : cli_failed(&error);
+    if (status != LRCS_OK) {
+        return cli_failed(&error);
+    }
+    cli_watch_end();
+    cli_outputs_say(args);
+    return CLI_DONE;
 }
 
 static int merge_command(const cli_args *args)

@@ -55,6 +55,16 @@ int cli_is_output(const cli_command *command, const char *option)
     return option_kind(command, option) >= CLI_FILE;
 }
 
+void cli_outputs_say(const cli_args *args)
+{
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        if (cli_is_output(args->command, given->name) && strcmp(given->value, "-") != 0) {
+            fprintf(stderr, "wrote %s\n", given->value);
+        }
+    }
+}
+
 int cli_outputs_check(const cli_args *args)
 {
     const cli_command *command = args->command;

@@ -239,6 +239,9 @@ static int plot_command(const cli_args *args)
     size_t room = (size_t)args->given_count + 1;
     plot_job job = {args, 0, calloc(room, sizeof *job.file), calloc(room, sizeof *job.plot), 0};
     int code = job.file && job.plot ? job_run(&job) : cli_out_of_memory();
+    if (code == CLI_DONE) {
+        cli_outputs_say(args);
+    }
     for (uint32_t k = 0; k < job.count; k++) {
         lrcs_host_sweep_data_free(&job.file[k].data);
     }

@@ -199,6 +199,7 @@ static int report_command(const cli_args *args)
     if (code == 0) {
         cli_watch_end();
         cli_notices_print(stderr, &job->scene.notices);
+        cli_outputs_say(args);
         code = cli_accuracy_code(args, &job->options, job->result.flags);
     }
     report_free(job);

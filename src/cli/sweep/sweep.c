@@ -13,7 +13,8 @@ static const char sweep_help[] =
     "Computes sigma (m2) and its bound for all combinations of what varies, the last axis\n"
     "fastest. The output has the same bytes for any number of threads.\n"
     "\n"
-    "what varies: RANGE is A:B:STEP, both ends included, or one number\n"
+    "what varies: RANGE is A:B:STEP, from A by STEP up to B, with B if STEP leads\n"
+    "to it, or one number\n"
     "  --az RANGE, --el RANGE  azimuth and elevation of the laser in the body frame, deg\n"
     "  --euler SEQ:a,b,c     Euler angles, deg, each a RANGE; XYZ: R = Rx(a) Ry(b) Rz(c)\n"
     "  --rotate AXIS:RANGE   rotation about the body's x, y, z or u,v,w, deg; from the pose of\n"
@@ -417,6 +418,7 @@ static int job_rows(sweep_job *job)
         return code;
     }
     job_summary(job);
+    cli_outputs_say(args);
     return tally->count[LRCS_HOST_TALLY_MISSED] > 0 || tally->count[LRCS_HOST_TALLY_STARVED] > 0
                ? CLI_DEGRADED
                : CLI_DONE;
