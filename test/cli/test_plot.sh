@@ -35,7 +35,9 @@ failure a_map_of_poses_holds_no_times "a .npy holds no times" plot poses.npy -o 
 
 # Several together.
 run plot curve.csv curve.jsonl -o both.svg -o both.png --dbsm
-same two_of_one_sweep_have_the_names_of_files "$rc $err $(grep -c '>curve.csv<\|>curve.jsonl<' both.svg)" "0  2"
+same two_of_one_sweep_have_the_names_of_files "$rc $(grep -c '>curve.csv<\|>curve.jsonl<' both.svg)" "0 2"
+same the_charts_are_named "$err" "wrote both.svg
+wrote both.png"
 run sweep bus.toml --az 0:90:5 --tolerance 0.01 -o bus.csv
 run plot curve.csv bus.csv -o two.svg
 same two_scenes_have_their_titles "$rc $(grep -c '>pair.toml<\|>The; bus<' two.svg)" "0 2"

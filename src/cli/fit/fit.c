@@ -172,8 +172,14 @@ static int materials_make(fit_job *job)
         }
     }
     if (code == 0 && job->materials == 0) {
-        return cli_usage(job->args->command, "--name: no reading is of '%s'; the nearest is '%s'",
-                         asked, best);
+        char list[200] = "";
+        for (uint32_t i = 0; i < readings->name_count; i++) {
+            lrcs_host_append(list, sizeof list, "%s'%s'", i > 0 ? ", " : "", readings->name[i]);
+        }
+        int near = best && lrcs_host_name_is_near(asked, best);
+        return cli_usage(job->args->command, "--name: no reading is of '%s'; %s%s%s", asked,
+                         near ? "the nearest is '" : "there are readings of ", near ? best : list,
+                         near ? "'" : "");
     }
     return code;
 }

@@ -218,8 +218,18 @@ static int material_axis_check(const lrcs_host_plan_axis *axis, const lrcs_scene
         }
     }
     if (!material) {
+        char list[200] = "";
+        for (uint32_t i = 0; i < scene->material_count; i++) {
+            const char *name = scene->material[i].name;
+            lrcs_host_append(list, sizeof list, "%s%s%s%s", name[0] && list[0] ? ", " : "",
+                             name[0] ? "'" : "", name, name[0] ? "'" : "");
+        }
+        int near = best && lrcs_host_name_is_near(axis->whom, best);
         return lrcsi_host_fail(error, LRCS_E_ARGUMENT, "vary: no material '%s'%s%s%s", axis->whom,
-                               best ? "; the nearest is '" : "", best ? best : "", best ? "'" : "");
+                               near   ? "; the nearest is '"
+                               : best ? "; the scene has "
+                                      : "",
+                               near ? best : list, near ? "'" : "");
     }
     for (uint64_t k = 0; k < 2; k++) {
         lrcs_brdf brdf = material->brdf;
