@@ -32,8 +32,8 @@ int lrcsi_solid_outward(const lrcs_prepared *prepared, const uint32_t *shell, lr
 int lrcsi_convex_by_construction(const lrcs_prepared *prepared, int *solid);
 
 /* The grazing threshold of a scene that is convex by construction: a facet with cos(theta) above it
-   is entirely visible, in spite of the concavities that rounding and, on doubly curved bodies, the choice
-   of diagonals may have left. Given: the normals. */
+   is entirely visible, in spite of the concavities that rounding and, on doubly curved bodies, the
+   choice of diagonals may have left. Given: the normals. */
 double lrcsi_convex_grazing(const lrcs_prepared *prepared);
 
 /* Tries to prove that the live facets of a solid scene are the boundary of one convex body, exactly

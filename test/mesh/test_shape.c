@@ -29,8 +29,9 @@ static double *dimension(lrcs_shape *shape, int i)
                       &shape->radius2, &shape->length,  &shape->half_angle_deg};
     return list[i];
 }
-static const char *const item[] = {"size, 1st number", "size, 2nd number", "size, 3rd number",       "radius",
-                                   "radius2", "length",  "half_angle_deg"};
+static const char *const item[] = {"size, 1st number", "size, 2nd number", "size, 3rd number",
+                                   "radius",           "radius2",          "length",
+                                   "half_angle_deg"};
 
 /* A good shape of each kind. */
 static const lrcs_shape good[] = {

@@ -31,7 +31,8 @@ int cli_run_materials(run_job *job)
     if (!job->sensitivity_asked && !cli_errors_stated(scene)) {
         return 0;
     }
-    int code = job->scene.prepared ? 0 : cli_scene_prepare(&job->scene); /* not after a time budget */
+    int code =
+        job->scene.prepared ? 0 : cli_scene_prepare(&job->scene); /* not after a time budget */
     if (code != 0) {
         return code;
     }
