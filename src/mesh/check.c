@@ -150,6 +150,7 @@ static void count_edge_uses(const lrcsi_topology *t, lrcs_mesh_report *report)
 static int count_duplicates(const measured_mesh *m, const lrcsi_topology *t, lrcs_work *work,
                             lrcs_mesh_report *report)
 {
+    size_t mark = work->used;
     const uint32_t *order = NULL;
     uint32_t count = 0;
     int status = lrcsi_duplicate_order(t, m->facet, m->facet_count, work, &order, &count);
@@ -163,6 +164,7 @@ static int count_duplicates(const measured_mesh *m, const lrcsi_topology *t, lrc
             first = key;
         }
     }
+    work->used = mark;
     return status;
 }
 
@@ -173,7 +175,6 @@ static int count_used_points(const measured_mesh *m, const lrcsi_topology *t, ui
 {
     size_t mark = work->used;
     unsigned char *used = lrcsi_work_take_zero(work, vertex_count, sizeof *used);
-    work->used = mark;
     if (!used) {
         return LRCS_E_MEMORY;
     }
@@ -185,6 +186,7 @@ static int count_used_points(const measured_mesh *m, const lrcsi_topology *t, ui
             *u = 1;
         }
     }
+    work->used = mark;
     return LRCS_OK;
 }
 

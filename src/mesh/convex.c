@@ -282,12 +282,13 @@ int lrcsi_convex_prove(const lrcs_point *vertex, uint32_t vertex_count, const lr
     unsigned char *seen = lrcsi_work_take(work, facet_count, sizeof *seen);
     uint32_t *size = lrcsi_work_take_zero(work, vertex_count, sizeof *size);
     fan_place *start = lrcsi_work_take(work, vertex_count, sizeof *start);
-    work->used = mark;
     if (!crease || !queue || !seen || !size || !start) {
+        work->used = mark;
         return LRCS_E_MEMORY;
     }
     convex_mesh m = {vertex, facet, topology, crease, facet_count};
     *convex = edges_are_convex(&m, crease) && facets_are_connected(&m, queue, seen) &&
               points_are_convex(&m, size, start);
+    work->used = mark;
     return LRCS_OK;
 }

@@ -29,11 +29,12 @@ int lrcsi_duplicate_order(const lrcsi_topology *topology, const lrcs_facet *face
 {
     size_t mark = work->used;
     uint32_t *of = lrcsi_work_take(work, facet_count, sizeof *of);
+    size_t end = work->used;
     uint32_t *of_spare = lrcsi_work_take(work, facet_count, sizeof *of);
     uint64_t *key = lrcsi_work_take(work, facet_count, sizeof *key);
     uint64_t *key_spare = lrcsi_work_take(work, facet_count, sizeof *key);
-    work->used = mark;
     if (!of || !of_spare || !key || !key_spare) {
+        work->used = mark;
         return LRCS_E_MEMORY;
     }
     uint32_t n = 0;
@@ -49,6 +50,7 @@ int lrcsi_duplicate_order(const lrcsi_topology *topology, const lrcs_facet *face
         key[i] = (uint64_t)k.low << 32 | k.middle;
     }
     lrcsi_sort_pairs(key, of, key_spare, of_spare, n);
+    work->used = end;
     *order = of;
     *count = n;
     return LRCS_OK;

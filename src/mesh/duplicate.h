@@ -22,9 +22,8 @@ static inline int lrcsi_duplicate_place(const lrcsi_duplicate_key *a, const lrcs
 }
 
 /* Lists the facets that are not degenerate; those in the same place are consecutive, by index.
-   Returned: order[*count]. It lies where the next block of the work area will be, so it must be
-   read before that block is allocated. Status: LRCS_OK; LRCS_E_MEMORY. Work: lrcsi_duplicate_need
-   bytes at most. Linear time. */
+   Returned: order[*count], in the work area. Status: LRCS_OK; LRCS_E_MEMORY. Work:
+   lrcsi_duplicate_need bytes at most. Linear time. */
 size_t lrcsi_duplicate_need(uint32_t facet_count);
 int lrcsi_duplicate_order(const lrcsi_topology *topology, const lrcs_facet *facet,
                           uint32_t facet_count, lrcs_work *work, const uint32_t **order,

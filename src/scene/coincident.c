@@ -155,7 +155,6 @@ int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
     uint32_t *opposite = lrcsi_work_take(work, facets, sizeof *opposite);
     size_t end = work->used;
     group = lrcsi_work_take(work, p->scene->vertex_count, sizeof *group);
-    work->used = end;
     if (!opposite || !group) {
         work->used = mark;
         return LRCS_E_MEMORY;
@@ -165,6 +164,7 @@ int lrcsi_coincident_mark(lrcs_prepared *p, lrcs_work *work)
     }
     p->opposite = opposite;
     groups_make(p, group);
+    work->used = end;
     return LRCS_OK;
 }
 

@@ -245,7 +245,6 @@ int lrcsi_fans_prove(const lrcs_point *vertex, uint32_t vertex_count, const lrcs
     size_t mark = work->used;
     const uint32_t *weld = topology->weld;
     vertex_fan *fans = lrcsi_work_take_zero(work, vertex_count, sizeof *fans);
-    work->used = mark;
     if (!fans) {
         return LRCS_E_MEMORY;
     }
@@ -259,5 +258,6 @@ int lrcsi_fans_prove(const lrcs_point *vertex, uint32_t vertex_count, const lrcs
     for (uint32_t f = 0; f < facet_count && apex; f++) {
         apex[f] = apex_of(&facet[f], weld, fans, proved);
     }
+    work->used = mark;
     return LRCS_OK;
 }

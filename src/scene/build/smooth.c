@@ -301,14 +301,15 @@ int lrcsi_smooth_run(const lrcs_mesh *mesh, const lrcsi_placer *placer,
     job.mean = lrcsi_work_take_zero(work, facets, 3 * sizeof *job.mean);
     job.corner = lrcsi_work_take(work, facets, 3 * sizeof *job.corner);
     job.start = lrcsi_work_take(work, (size_t)mesh->vertex_count + 2, sizeof *job.start);
-    work->used = mark; /* it keeps none of these */
     if (!job.unit || !job.mean || !job.corner || !job.start) {
+        work->used = mark;
         return LRCS_E_MEMORY;
     }
     /* 1. every index of a normal is checked */
     for (uint32_t i = 0; mesh->facet_normal && i < 3 * mesh->facet_count; i++) {
         uint32_t index = mesh->facet_normal[i / 3].corner[i % 3];
         if (index != LRCS_NONE && index >= mesh->normal_count) {
+            work->used = mark;
             return LRCS_E_INDEX;
         }
     }
@@ -333,5 +334,6 @@ int lrcsi_smooth_run(const lrcs_mesh *mesh, const lrcsi_placer *placer,
             memset(n, 0, 3 * sizeof *n);
         }
     }
+    work->used = mark;
     return LRCS_OK;
 }
