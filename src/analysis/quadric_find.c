@@ -442,7 +442,7 @@ size_t lrcs_quadric_need(const lrcs_scene *scene)
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, each[i]));
     }
     return lrcsi_work_add(need,
-                          2 * lrcsi_work_bytes(regions_max(scene), sizeof(lrcs_quadric_region)));
+                          lrcsi_work_blocks(2, regions_max(scene), sizeof(lrcs_quadric_region)));
 }
 
 int lrcs_quadric_find(const lrcs_scene *scene, lrcs_work *work, lrcs_quadric_region **list,

@@ -26,6 +26,12 @@ size_t lrcsi_work_bytes(size_t count, size_t size)
     return lrcsi_work_add(bytes > 0 ? bytes : 1, LRCS_WORK_ALIGN - 1);
 }
 
+size_t lrcsi_work_blocks(size_t blocks, size_t count, size_t size)
+{
+    size_t bytes = lrcsi_work_bytes(count, size);
+    return blocks > 0 && bytes > SIZE_MAX / blocks ? SIZE_MAX : blocks * bytes;
+}
+
 size_t lrcsi_work_square(uint32_t side)
 {
     return side != 0 && side > SIZE_MAX / side ? SIZE_MAX : (size_t)side * side;

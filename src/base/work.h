@@ -19,6 +19,9 @@ void *lrcsi_work_take_zero(lrcs_work *work, size_t count, size_t size);
    Saturates. */
 size_t lrcsi_work_bytes(size_t count, size_t size);
 
+/* The same for several blocks of that size. */
+size_t lrcsi_work_blocks(size_t blocks, size_t count, size_t size);
+
 /* side * side, saturating. */
 size_t lrcsi_work_square(uint32_t side);
 

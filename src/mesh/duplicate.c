@@ -19,8 +19,8 @@ lrcsi_duplicate_key lrcsi_duplicate_key_of(const lrcsi_topology *topology, const
 
 size_t lrcsi_duplicate_need(uint32_t facet_count)
 {
-    return lrcsi_work_add(2 * lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
-                          2 * lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
+    return lrcsi_work_add(lrcsi_work_blocks(2, facet_count, sizeof(uint64_t)),
+                          lrcsi_work_blocks(2, facet_count, sizeof(uint32_t)));
 }
 
 int lrcsi_duplicate_order(const lrcsi_topology *topology, const lrcs_facet *facet,

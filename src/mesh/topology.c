@@ -43,8 +43,8 @@ static int same_position(const lrcs_point *a, const lrcs_point *b)
 
 static size_t weld_scratch(uint32_t vertex_count)
 {
-    size_t sorted = lrcsi_work_add(2 * lrcsi_work_bytes(vertex_count, sizeof(uint64_t)),
-                                   2 * lrcsi_work_bytes(vertex_count, sizeof(uint32_t)));
+    size_t sorted = lrcsi_work_add(lrcsi_work_blocks(2, vertex_count, sizeof(uint64_t)),
+                                   lrcsi_work_blocks(2, vertex_count, sizeof(uint32_t)));
     size_t hashed = lrcsi_work_bytes(lrcsi_store_slots(vertex_count), sizeof(uint32_t));
     return sorted > hashed ? sorted : hashed;
 }

@@ -259,7 +259,7 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     need = lrcsi_work_add(need, lrcsi_work_bytes(vertices, sizeof(lrcs_point)));
     size_t edges = lrcsi_work_add(need, lrcsi_topology_need(vertices, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_topology_kept(vertices, scene->facet_count));
-    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, 1));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(vertices, 1));
     size_t coincident = lrcsi_work_add(need, lrcsi_coincident_need(vertices, scene->facet_count));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(uint32_t))); /* opposite */

@@ -344,7 +344,7 @@ size_t lrcsi_proximity_need(const lrcs_scene *scene)
         if (scene->part[i].reach > 0) {
             need =
                 lrcsi_work_bytes(4 * (size_t)scene->facet_count + 64, sizeof(lrcsi_proximity_pair));
-            need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(scene->part_count, sizeof(double)));
+            need = lrcsi_work_add(need, lrcsi_work_blocks(3, scene->part_count, sizeof(double)));
         }
     }
     return need;

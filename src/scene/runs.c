@@ -63,8 +63,8 @@ size_t lrcsi_runs_need(uint32_t facet_count)
         lrcsi_work_add(lrcsi_work_bytes(runs, sizeof(lrcsi_run)), lrcsi_work_bytes(facet_count, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(runs, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(runs, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
-    return lrcsi_work_add(need, 3 * lrcsi_work_bytes(facet_count, sizeof(lrcsi_run_side)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(3, facet_count, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_work_blocks(3, facet_count, sizeof(lrcsi_run_side)));
 }
 
 /* Takes memory for three sides per facet, then for as many links as there are sides; what turns out

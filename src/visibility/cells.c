@@ -373,13 +373,13 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
     size_t segments = (size_t)prepared->topology.edge_count + prepared->intersections.count;
-    size_t need = 2 * lrcsi_work_bytes(facets, 1);
+    size_t need = lrcsi_work_blocks(2, facets, 1);
     need = lrcsi_work_add(need, lrcsi_cells_grid_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_found)));
     need = lrcsi_work_add(
         need, lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcsi_cells_point)));
-    need = lrcsi_work_add(need, 6 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(6, facets, sizeof(uint32_t)));
     need =
         lrcsi_work_add(need, lrcsi_work_bytes(facets, LRCSI_CELLS_FACET_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need,

@@ -191,9 +191,9 @@ double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y
 
 size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared)
 {
-    size_t need = 2 * lrcsi_work_bytes(max_blocks(prepared) + 1, sizeof(uint32_t));
+    size_t need = lrcsi_work_blocks(2, max_blocks(prepared) + 1, sizeof(uint32_t));
     return lrcsi_work_add(need,
-                          2 * lrcsi_work_bytes((size_t)max_entries(prepared), sizeof(uint32_t)));
+                          lrcsi_work_blocks(2, (size_t)max_entries(prepared), sizeof(uint32_t)));
 }
 
 int lrcsi_cells_grid_make(const lrcsi_classification *classification, const unsigned char *answer,

@@ -260,7 +260,7 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared)
     size_t edges = prepared->topology.edge_count;
     size_t facets = prepared->scene->facet_count;
     size_t room = lrcsi_runs_room(prepared->scene->facet_count);
-    size_t need = lrcsi_work_add(2 * lrcsi_work_bytes(room + 1, 1), lrcsi_work_bytes(facets, 1));
+    size_t need = lrcsi_work_add(lrcsi_work_blocks(2, room + 1, 1), lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(room, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_boxes_need(prepared));
     need = lrcsi_work_add(need, lrcsi_events_need(prepared));

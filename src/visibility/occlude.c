@@ -81,7 +81,7 @@ static int can_process_together(const lrcs_prepared *prepared)
 
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
-    size_t need = 2 * lrcsi_work_bytes(prepared->scene->facet_count, 1);
+    size_t need = lrcsi_work_blocks(2, prepared->scene->facet_count, 1);
     size_t single = lrcsi_cells_single_need(prepared);
     size_t cells = can_process_together(prepared) ? lrcsi_cells_need(prepared) : 0;
     need = lrcsi_work_add(need, lrcsi_query_need(prepared));

@@ -615,11 +615,11 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
         return 0;
     }
     size_t edges = band_edges(p);
-    size_t need = 4 * lrcsi_work_bytes(p->scene->facet_count, sizeof(double));
+    size_t need = lrcsi_work_blocks(4, p->scene->facet_count, sizeof(double));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(lrcsi_part_set)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
-    need = lrcsi_work_add(need, 3 * lrcsi_work_bytes(edges, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(3, edges, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_outline_areas)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(band_box)));

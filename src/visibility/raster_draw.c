@@ -409,7 +409,7 @@ size_t lrcsi_raster_need(const lrcs_prepared *prepared, uint32_t size)
     size_t need = lrcsi_work_bytes(sample_room(size), sizeof(uint32_t));
     need = lrcsi_work_add(need, lrcsi_work_bytes(sample_room(size), sizeof(float)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(lrcsi_work_square(raster_tiles(size)), 1));
-    need = lrcsi_work_add(need, 2 * lrcsi_work_bytes(facets, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(2, facets, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
 }
 

@@ -38,6 +38,10 @@ static void overflowing_sizes_are_refused(void **state)
     assert_null(lrcsi_work_take(&work, SIZE_MAX / 2, 16));
     assert_null(lrcsi_work_take(&work, SIZE_MAX, 1));
     assert_int_equal(lrcsi_work_bytes(SIZE_MAX, 2), SIZE_MAX);
+    assert_int_equal(lrcsi_work_blocks(3, SIZE_MAX, 2), SIZE_MAX);
+    assert_int_equal(lrcsi_work_blocks(3, SIZE_MAX / 2, 1), SIZE_MAX);
+    assert_int_equal(lrcsi_work_blocks(3, 8, 4), 3 * lrcsi_work_bytes(8, 4));
+    assert_int_equal(lrcsi_work_blocks(0, 8, 4), 0);
 }
 
 static void blocks_asked_cleared_are_zero(void **state)

@@ -429,7 +429,7 @@ static int store_entries(const contact_search *search, uint32_t facet_count, siz
 
 size_t lrcsi_intersection_need(uint32_t vertex_count, uint32_t facet_count, size_t count)
 {
-    size_t need = 2 * lrcsi_work_bytes((size_t)facet_count + 1, sizeof(uint32_t));
+    size_t need = lrcsi_work_blocks(2, (size_t)facet_count + 1, sizeof(uint32_t));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facet_count, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(vertex_count, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facet_count, sizeof(uint32_t)));

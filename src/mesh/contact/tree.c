@@ -208,7 +208,7 @@ static void fill_node(const lrcsi_tree *tree, int level, uint32_t b)
 
 size_t lrcsi_tree_need(uint32_t facet_count)
 {
-    size_t scratch = lrcsi_work_add(2 * lrcsi_work_bytes(facet_count, sizeof(uint64_t)),
+    size_t scratch = lrcsi_work_add(lrcsi_work_blocks(2, facet_count, sizeof(uint64_t)),
                                     lrcsi_work_bytes(facet_count, sizeof(uint32_t)));
     scratch = lrcsi_work_add(scratch, lrcsi_work_bytes(facet_count, sizeof(lrcs_point)));
     size_t boxes = 0;
