@@ -13,8 +13,8 @@
 
 double lrcsi_patch_area_err(const lrcs_prepared *p, uint32_t facet, const lrcs_curvature *c)
 {
-    double uneven = lrcsi_patch_part(p, facet)->stretch_err;
-    return c->area_err + uneven + c->area_err * uneven;
+    double stretch_err = lrcsi_patch_part(p, facet)->stretch_err;
+    return c->area_err + stretch_err + c->area_err * stretch_err;
 }
 
 /* Makes the deviation that of F from the mean over the patch, F_i, in place of F at the normal of
@@ -29,8 +29,8 @@ double lrcsi_patch_area_err(const lrcs_prepared *p, uint32_t facet, const lrcs_c
        |Int_E (F - F^)| <= (Int_U |F - F^| + |Int_U (F - F^)|) / 2 <= S (region + remainder / 2).
    At a single point F^ differs from F(facet normal) by at most |F_i - F(facet normal)| + a F_i.
    Where a scale that differs between axes stretches areas unevenly, the stretch over E and its mean
-   over the patch are both within a factor of 1 + uneven of that of the facet: T - M has also F^
-   times their difference, at most ((1 + uneven)^2 - 1) F_i per unit of E. */
+   over the patch are both within a factor of 1 + stretch_err of that of the facet: T - M has also
+   F^ times their difference, at most ((1 + stretch_err)^2 - 1) F_i per unit of E. */
 static void deviation_about_mean(const lrcs_prepared *p, uint32_t facet,
                                  lrcsi_patch_deviation *deviation)
 {
@@ -44,8 +44,8 @@ static void deviation_about_mean(const lrcs_prepared *p, uint32_t facet,
     of_f->region += error;
     of_f->point += difference + deviation->stretch * (mean + error);
     of_f->value = mean + error;
-    double uneven = lrcsi_patch_part(p, facet)->stretch_err;
-    deviation->stretch = patch->area_err + uneven * (2 + uneven);
+    double stretch_err = lrcsi_patch_part(p, facet)->stretch_err;
+    deviation->stretch = patch->area_err + stretch_err * (2 + stretch_err);
 }
 
 /* The deviation for a facet whose patch, if it has one, has been made. */

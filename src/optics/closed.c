@@ -52,9 +52,9 @@ static int laser_by_direction(const lrcsi_dd direction[3], lrcsi_laser_direction
     lrcsi_dd side = lrcsi_closed_hypot(d[0], d[1]);
     lrcsi_dd length = lrcsi_closed_hypot(side, d[2]);
     for (int i = 0; i < 3; i++) {
-        laser->s_hat[i] = lrcsi_closed_divide(d[i], length);
+        laser->s_hat[i] = lrcsi_dd_div(d[i], length);
     }
-    laser->aspect.sine = lrcsi_closed_divide(side, length);
+    laser->aspect.sine = lrcsi_dd_div(side, length);
     laser->aspect.cosine = laser->s_hat[2];
     laser->deg = -1.0;
     return LRCS_OK;

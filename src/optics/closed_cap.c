@@ -273,7 +273,7 @@ lrcsi_term_integrals lrcsi_closed_paraboloid(const lrcs_shape *shape, const lrcs
     lrcsi_dd r = {radius, 0.0};
     lrcsi_dd h = {2.0 * height, 0.0};
     lrcsi_dd hyp = lrcsi_closed_hypot(r, h);
-    cap_body body = {{lrcsi_closed_divide(h, hyp), lrcsi_closed_divide(r, hyp)},
+    cap_body body = {{lrcsi_dd_div(h, hyp), lrcsi_dd_div(r, hyp)},
                      1,
                      hyp.hi * (hyp.hi / h.hi),
                      LRCS_PI * radius * hyp.hi};

@@ -52,7 +52,7 @@ double lrcsi_closed_radians(lrcsi_angle a)
 /* tan^2 of an angle with a positive cosine; infinite if it overflows. */
 static lrcsi_dd closed_tan2(lrcsi_angle theta)
 {
-    lrcsi_dd tangent = lrcsi_closed_divide(theta.sine, theta.cosine);
+    lrcsi_dd tangent = lrcsi_dd_div(theta.sine, theta.cosine);
     if (fabs(tangent.hi) < 0x1p490) {
         return lrcsi_dd_mul(tangent, tangent);
     }

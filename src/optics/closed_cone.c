@@ -29,8 +29,8 @@ static cone_wall cone_wall_make(double top, double base, double length)
     lrcsi_dd slant = lrcsi_closed_hypot(rise, height);
     cone_wall wall = {{{0.0, 0.0}, {1.0, 0.0}}, -1.0, 0.0};
     if (slant.hi > 0.0) {
-        wall.beta.sine = lrcsi_closed_divide(rise, slant);
-        wall.beta.cosine = lrcsi_closed_divide(height, slant);
+        wall.beta.sine = lrcsi_dd_div(rise, slant);
+        wall.beta.cosine = lrcsi_dd_div(height, slant);
         wall.area = LRCS_PI * (top + base) * slant.hi;
     }
     return wall;

@@ -132,7 +132,7 @@ static void add_visible_piece(lrcsi_cells_single *a, const lrcsi_cells_cell *cel
         for (uint32_t i = 0; i < cell->shape.count; i++) {
             lrcsi_target_to_axes(&a->frame, cell->shape.corner[i], a->piece.corner[i]);
         }
-        a->piece_err += 4 * LRCSI_U * a->target.reach * lrcsi_clip_perimeter(&a->piece);
+        a->piece_err += 4 * LRCSI_U * a->target.reach * lrcsi_clip_box_perimeter(&a->piece);
     }
     double(*corner)[2] = a->target.corner;
     const double centre[2] = {(corner[0][0] + corner[1][0] + corner[2][0]) / 3,

@@ -27,7 +27,7 @@ void lrcsi_clip_box(const lrcsi_clip_polygon *polygon, double low[2], double hig
     }
 }
 
-double lrcsi_clip_perimeter(const lrcsi_clip_polygon *polygon)
+double lrcsi_clip_box_perimeter(const lrcsi_clip_polygon *polygon)
 {
     double low[2];
     double high[2];

@@ -32,7 +32,7 @@ double lrcsi_clip_add_moment(const lrcsi_clip_polygon *polygon, const double abo
 void lrcsi_clip_box(const lrcsi_clip_polygon *polygon, double low[2], double high[2]);
 
 /* The perimeter of the bounding box: an upper bound of that of the polygon. */
-double lrcsi_clip_perimeter(const lrcsi_clip_polygon *polygon);
+double lrcsi_clip_box_perimeter(const lrcsi_clip_polygon *polygon);
 
 /* The area of a counter-clockwise triangle within the unit square at `low`. With corners at most C
    away from the square along either axis, the error is less than 16 u (C + 1) + 10 u: within the

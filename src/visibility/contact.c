@@ -98,7 +98,7 @@ static int position_err_exceeds_width(const lrcsi_contact *c, double area)
 {
     lrcsi_clip_polygon triangle;
     lrcsi_clip_triangle((const double(*)[2])c->corner, &triangle);
-    return c->position_err > 0 && !(c->position_err * lrcsi_clip_perimeter(&triangle) < area);
+    return c->position_err > 0 && !(c->position_err * lrcsi_clip_box_perimeter(&triangle) < area);
 }
 
 /* --- in the frame along the view's axes --------------------------------------------------------
@@ -195,7 +195,7 @@ static double side_cut_dd(const contact_heights *h, const contact_dd *f, int k, 
     double span = fabs(h->height[k]) + fabs(h->height[next]);
     double err = h->err[k] + h->err[next];
     double length = 0;
-    lrcsi_dd t = lrcsi_needle_quotient(h->fine[k], lrcsi_dd_sub(h->fine[k], h->fine[next]));
+    lrcsi_dd t = lrcsi_dd_div(h->fine[k], lrcsi_dd_sub(h->fine[k], h->fine[next]));
     for (int i = 0; i < 2; i++) {
         lrcsi_dd along = lrcsi_dd_sub(f->corner[next][i], f->corner[k][i]);
         at[i] = lrcsi_dd_add(f->corner[k][i], lrcsi_dd_mul(t, along));

@@ -179,7 +179,7 @@ typedef struct crossing_query {
    facet. A cell lists events in the order of their nearest points: after the first one that lies
    behind all of the facet, no other is nearer than the facet. Steps are counted in a register and
    charged at the end. */
-static void search_run(lrcsi_event_search *search, crossing_query *query, lrcsi_meter *meter)
+static void crossings_search(lrcsi_event_search *search, crossing_query *query, lrcsi_meter *meter)
 {
     const lrcsi_view *view = search->view;
     const lrcsi_topology *topology = &view->prepared->topology;
@@ -255,7 +255,7 @@ int lrcsi_crossings_possible(lrcsi_event_search *search, uint32_t facet, lrcsi_m
     crossing_query query = {.facet = facet, .component = LRCS_NONE, .most = 1, .is_limited = 1};
     if (lrcsi_grid_has_items(grid,
                              lrcsi_grid_cells(grid, lrcsi_boxes_facet(&search->boxes, facet)))) {
-        search_run(search, &query, meter);
+        crossings_search(search, &query, meter);
     }
     *along_side = query.along_side;
     return query.count > 0 || query.limit_reached || lrcsi_meter_spent(meter);
@@ -280,7 +280,7 @@ void lrcsi_crossings_find(lrcsi_event_search *search, uint32_t facet, lrcsi_mete
     if (crossings->facet != facet) {
         crossing_query query = {
             .facet = facet, .component = LRCS_NONE, .most = LRCS_NONE, .edge = crossings->edge};
-        search_run(search, &query, meter);
+        crossings_search(search, &query, meter);
         crossings->count = query.count;
         crossings->facet = lrcsi_meter_spent(meter) ? LRCS_NONE : facet;
     }
@@ -292,7 +292,7 @@ int lrcsi_crossings_of_component(lrcsi_event_search *search, uint32_t facet, uin
     const lrcsi_topology *topology = &search->view->prepared->topology;
     if (known->facet != facet) {
         crossing_query query = {.facet = facet, .component = component, .most = 1};
-        search_run(search, &query, meter);
+        crossings_search(search, &query, meter);
         return query.count > 0 || lrcsi_meter_spent(meter);
     }
     for (uint32_t i = 0; i < known->count; i++) {

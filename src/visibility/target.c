@@ -188,13 +188,6 @@ double lrcsi_target_unproject_err(const lrcsi_target *t)
 #define NEEDLE_LARGE_RATIO 0x1p8
 #define NEEDLE_MAX_RATIO   0x1p88
 
-lrcsi_dd lrcsi_needle_quotient(lrcsi_dd a, lrcsi_dd b)
-{
-    double first = a.hi / b.hi;
-    lrcsi_dd remainder = lrcsi_dd_sub(a, lrcsi_dd_scale(b, first));
-    return lrcsi_dd_quick_sum(first, remainder.hi / b.hi);
-}
-
 /* x - from, exactly. Returns its length, within 4 u. */
 static double difference_dd(const double *x, const double *from, lrcsi_dd out[3])
 {
@@ -255,7 +248,7 @@ double lrcsi_needle_coordinates(const lrcsi_needle *n, const double x[3], lrcsi_
     lrcsi_dd gap[3];
     double far = difference_dd(x, n->origin, gap);
     for (int i = 0; i < 2; i++) {
-        out[i] = lrcsi_needle_quotient(dot_dd(n->row[i], gap), n->determinant);
+        out[i] = lrcsi_dd_div(dot_dd(n->row[i], gap), n->determinant);
     }
     return n->relative_err * far;
 }
@@ -272,7 +265,7 @@ static int clip_coordinate(lrcsi_dd from, lrcsi_dd to, double bound, int sign, l
         return 0;
     }
     if (out || sign * b.hi < 0) {
-        lrcsi_dd at = lrcsi_needle_quotient(a, lrcsi_dd_sub(a, b));
+        lrcsi_dd at = lrcsi_dd_div(a, lrcsi_dd_sub(a, b));
         double later = lrcsi_dd_sub(at, interval[!out]).hi;
         if (out ? later > 0 : later < 0) {
             interval[!out] = at;

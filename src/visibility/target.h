@@ -110,7 +110,4 @@ double lrcsi_needle_line(const lrcsi_needle *n, const double p[3], const double 
 double lrcsi_needle_side(const lrcsi_needle *needle, const double p[3], const double q[3],
                          const double at[2], int guess);
 
-/* a / b, within 20 u^2. */
-lrcsi_dd lrcsi_needle_quotient(lrcsi_dd a, lrcsi_dd b);
-
 #endif

@@ -41,7 +41,7 @@ lrcs_curvature lrcsi_curvature_rounded(const lrcs_curvature *c, double rounding)
    turn), |exp(x) - 1 - q.tau| <= (h + G^2 E / 2) t^2 and |exp(x) - 1| <= G E t. Integrated over the
    patch, per unit of facet, tau gives `bias` and t^2 rms_turn^2. If G turn exceeds 1, |N n| / |N f|
    within 1/k .. k is used instead. */
-lrcs_curvature lrcsi_curvature_mapped(const lrcs_curvature *c, double ratio, double *uneven)
+lrcs_curvature lrcsi_curvature_mapped(const lrcs_curvature *c, double ratio, double *stretch_err)
 {
     double k = fmax(1.0, ratio);
     double g = 0.5 * (k - 1.0 / k);
@@ -52,12 +52,12 @@ lrcs_curvature lrcsi_curvature_mapped(const lrcs_curvature *c, double ratio, dou
     double outward = 1.0 + CURVATURE_SLACK;
     if (!(G * c->turn <= 1.0)) {
         double area = (1.0 + c->area_err) * k * outward;
-        *uneven = k - 1.0;
+        *stretch_err = k - 1.0;
         return (lrcs_curvature){
             .turn = turn, .area_err = area, .bias = turn * area, .rms_turn = turn * sqrt(area)};
     }
     double E = exp(G * c->turn);
-    *uneven = (E - 1.0) * outward;
+    *stretch_err = (E - 1.0) * outward;
     return (lrcs_curvature){
         .turn = turn * outward,
         .area_err = (c->area_err + g * c->bias + (h + 0.5 * G * G * E) * square) * outward,

@@ -10,9 +10,10 @@
 lrcs_curvature lrcsi_curvature_rounded(const lrcs_curvature *curvature, double rounding);
 
 /* The numbers after a linear map whose largest singular value is `ratio` times its least, applied
-   to both patches and facets. Also returned: `uneven`. 1 + uneven bounds the factor by which the
-   map stretches areas at one place of a patch more, or less, than on average over the facet. */
+   to both patches and facets. Also returned: `stretch_err`. 1 + stretch_err bounds the factor by
+   which the map stretches areas at one place of a patch more, or less, than on average over the
+   facet. */
 lrcs_curvature lrcsi_curvature_mapped(const lrcs_curvature *curvature, double ratio,
-                                      double *uneven);
+                                      double *stretch_err);
 
 #endif

@@ -141,7 +141,7 @@ void ref_clip_middle(const lrcsi_clip_polygon *polygon, double middle[2])
    the end of one that counts: one so long that rounding turns it by 1 % at most. */
 double ref_clip_clear(const lrcsi_clip_polygon *polygon, const double at[2])
 {
-    double counts = 0x1p-44 * lrcsi_clip_perimeter(polygon);
+    double counts = 0x1p-44 * lrcsi_clip_box_perimeter(polygon);
     double short_ones = 0;
     double clear = HUGE_VAL;
     for (uint32_t i = 0; i < polygon->count; i++) {

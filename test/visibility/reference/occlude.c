@@ -116,7 +116,7 @@ static int cell_look(ref_occluding *o, ref_occlude_cell *cell, uint32_t *compone
    cost, if it is thin. */
 static void cell_charge(ref_occluding *o, const ref_occlude_cell *cell, double area)
 {
-    double perimeter = lrcsi_clip_perimeter(&cell->shape);
+    double perimeter = lrcsi_clip_box_perimeter(&cell->shape);
     double clear = ref_clip_clear(&cell->shape, cell->at) - cell_off(o);
     if (!(clear > THIN * perimeter)) {
         o->off += lrcsi_min(area, cell->cuts * cell->inset * perimeter);
@@ -131,7 +131,7 @@ static void cell_piece(ref_occluding *o, const lrcsi_clip_polygon *shape)
         for (uint32_t i = 0; i < shape->count; i++) {
             lrcsi_target_to_axes(&o->frame, shape->corner[i], o->piece.corner[i]);
         }
-        o->bent += 4 * U * o->target.reach * lrcsi_clip_perimeter(&o->piece);
+        o->bent += 4 * U * o->target.reach * lrcsi_clip_box_perimeter(&o->piece);
     }
 }
 
@@ -193,7 +193,7 @@ static int cell_split(ref_occluding *o, const ref_occlude_cell *cell, const lrcs
     }
     int on_left = lrcsi_clip_side(line, cell->at) > 0;
     o->cells--;
-    o->off += 8 * U * o->frame.diameter * lrcsi_clip_perimeter(&cell->shape);
+    o->off += 8 * U * o->frame.diameter * lrcsi_clip_box_perimeter(&cell->shape);
     cell_push(o, cell, on_left ? &right : &left, 0);
     cell_push(o, cell, on_left ? &left : &right, cell->lit);
     return 1;
@@ -239,7 +239,7 @@ static int cell_cut(ref_occluding *o, const ref_occlude_cell *cell, uint32_t whi
 static int cell_divide(ref_occluding *o, ref_occlude_cell *cell, uint32_t component, double area)
 {
     int halves = cell->count > LEAF_CUTS && !cell->slice;
-    if (lrcsi_clip_perimeter(&cell->shape) < TINY_MARGINS * cell_margin(o, cell->inset)) {
+    if (lrcsi_clip_box_perimeter(&cell->shape) < TINY_MARGINS * cell_margin(o, cell->inset)) {
         return 0;
     }
     return (halves && cell_halve(o, cell)) ||
@@ -276,7 +276,8 @@ static int cell_do(ref_occluding *o, ref_occlude_cell *cell, double area)
         }
         cell->sure = 0;
     } else if (!cell->sure && o->cells > o->spare &&
-               area > NARROW * cell_margin(o, cell->inset) * lrcsi_clip_perimeter(&cell->shape) &&
+               area >
+                   NARROW * cell_margin(o, cell->inset) * lrcsi_clip_box_perimeter(&cell->shape) &&
                cell_halve(o, cell)) {
         return 0;
     }
