@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Cells of the view plane, of all facets together (visibility/cells.h) and of each alone
-   (visibility/cells_single.h), against the clipping that they replaced (visibility/reference): on
-   each model or scene given, from so many directions, whether the bounds of all facets overlap, and
-   what all three cost. Ends with 1 where some do not.
+/* Compares three methods: cells of the view plane for all facets together (visibility/cells.h),
+   cells of each facet alone (visibility/cells_single.h), and the clipping that both replaced
+   (test/visibility/reference). For each given model or scene and the given number of directions, it
+   tests whether the bounds of all facets overlap, and prints the cost of each method. The exit
+   status is 1 if some bounds do not overlap.
    Given: agree DIRECTIONS FILE... */
 #include <lrcs/host.h>
 
@@ -20,12 +21,12 @@
 #define MEMORY ((size_t)1 << 30)
 #define PI     3.14159265358979323846
 
-/* One way to find areas, held against the reference. */
+/* One method of finding areas, compared with the reference. */
 typedef struct agree_way {
     const char *name;
-    uint64_t asked, left, apart;
-    double worst;         /* gap between bounds */
-    double width, theirs; /* widths of bounds */
+    uint64_t compared, undecided, apart;
+    double worst;                  /* the largest gap between bounds */
+    double width, reference_width; /* sums of the widths of bounds */
     double ms;
 } agree_way;
 
@@ -39,8 +40,9 @@ static double now_ms(void)
     return 1e3 * (double)clock() / CLOCKS_PER_SEC;
 }
 
-/* Six along the axes, then directions spread over the sphere; every other one of coordinates so
-   round that edges come to lie over each other. */
+/* The first six directions are along the axes; the others are spread over the sphere. Every other
+   one of these is rounded to coordinates that are multiples of 1/4, so that edges coincide in
+   projection. */
 static lrcs_pose pose_of(int number)
 {
     double z = 1 - 2 * fmod((number + 0.5) * 0.6180339887498949, 1.0);
@@ -73,9 +75,9 @@ static void agree_facet(agree_way *way, int number, uint32_t facet, double proje
                         const lrcsi_visible *found, const lrcsi_visible *clipped)
 {
     double gap = fmax(found->low - clipped->high, clipped->low - found->high);
-    way->asked++;
+    way->compared++;
     way->width += found->high - found->low;
-    way->theirs += clipped->high - clipped->low;
+    way->reference_width += clipped->high - clipped->low;
     way->worst = fmax(way->worst, gap);
     if (!(gap <= 1e-16 * projected)) {
         printf("apart: direction %d facet %u %s %.17g .. %.17g clipped %.17g .. %.17g\n", number,
@@ -84,7 +86,7 @@ static void agree_facet(agree_way *way, int number, uint32_t facet, double proje
     }
 }
 
-/* One direction: all facets that can be seen by cells together, undecided ones each alone. */
+/* One direction: all facets that can be visible, together; then each undecided facet alone. */
 static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *work,
                        unsigned char *wanted, unsigned char *decided, lrcsi_visible *found,
                        agree_sums *sums)
@@ -116,7 +118,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
         lrcsi_visible clipped = ref_occlude_area(&o);
         sums->ms += now_ms() - start;
         int found_together = !wanted[f] || decided[f];
-        sums->together.left += !found_together;
+        sums->together.undecided += !found_together;
         if (found_together) {
             agree_facet(&sums->together, number, f, projected, &found[f], &clipped);
         }
@@ -127,7 +129,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
             }
             lrcsi_visible one = lrcsi_cells_single_close(&a);
             sums->alone.ms += now_ms() - start;
-            sums->alone.left += a.perhaps_hidden + a.perhaps_visible > 0;
+            sums->alone.undecided += a.perhaps_hidden + a.perhaps_visible > 0;
             agree_facet(&sums->alone, number, f, projected, &one, &clipped);
         }
     }
@@ -138,8 +140,8 @@ static void agree_print(const agree_way *way, int directions)
     printf("    %-8s %llu facets, %llu in doubt, %llu apart (worst gap %.3g); widths %.3g, "
            "clipped "
            "%.3g; %.2f ms a pose\n",
-           way->name, (unsigned long long)way->asked, (unsigned long long)way->left,
-           (unsigned long long)way->apart, way->worst, way->width, way->theirs,
+           way->name, (unsigned long long)way->compared, (unsigned long long)way->undecided,
+           (unsigned long long)way->apart, way->worst, way->width, way->reference_width,
            way->ms / directions);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is computed of convex pieces, none of it exact. It knows nothing of facets. */
+/* Operations on convex pieces, in rounded arithmetic. This file does not depend on facets. */
 #include "visibility/reference/clip.h"
 
 #include <math.h>
@@ -66,8 +66,8 @@ lrcsi_clip_line ref_clip_halving(const lrcsi_clip_polygon *polygon)
                              {wide ? 0 : 1, wide ? 1 : 0}};
 }
 
-/* Every direction in which all corners lie beyond the segment parts them; tried are the two across
-   it, and the two along it. */
+/* A direction in which all corners lie beyond the segment separates the two. The two directions
+   across the segment and the two along it are tried. */
 int ref_clip_meets(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment, double width)
 {
     const double *to = segment->to;
@@ -136,9 +136,10 @@ void ref_clip_middle(const lrcsi_clip_polygon *polygon, double middle[2])
     middle[1] /= polygon->count;
 }
 
-/* Corners that rounding has put next to each other have sides between them that point anywhere. The
-   nearest point of the rim may lie on such a side; then it is as near, but for their lengths, to
-   the end of one that counts: one so long that rounding turns it by 1 % at most. */
+/* The direction of a side between two corners that almost coincide is determined by rounding alone.
+   Such short sides are not measured. If the point of the boundary nearest to `at` lies on short
+   sides, an end of a long side is farther by at most their total length. Long sides are those whose
+   direction changes by at most 1 % through rounding. */
 double ref_clip_clear(const lrcsi_clip_polygon *polygon, const double at[2])
 {
     double counts = 0x1p-44 * lrcsi_clip_box_perimeter(polygon);

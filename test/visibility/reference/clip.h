@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the former clipping asks of convex pieces (visibility/clip.h) beside: how they stand to
-   lines. visibility/reference/occlude.c accounts for their error. */
+/* Convex pieces and lines: what only the former clipping needs, in addition to visibility/clip.h.
+   Rounding errors are accounted for in reference/occlude.c. */
 #ifndef REF_CLIP_H
 #define REF_CLIP_H
 
@@ -17,7 +17,7 @@ static inline double lrcsi_clip_side(const lrcsi_clip_line *line, const double p
     return line->to[0] * (p[1] - line->at[1]) - line->to[1] * (p[0] - line->at[0]);
 }
 
-/* The line that halves a piece across the longer side of its box. */
+/* The line that halves a piece across the longer side of its bounding box. */
 lrcsi_clip_line ref_clip_halving(const lrcsi_clip_polygon *polygon);
 
 /* Splits a polygon into the parts to the left and to the right of the line. A part with fewer than
@@ -26,23 +26,23 @@ int ref_clip_split(const lrcsi_clip_polygon *from, const lrcsi_clip_line *line,
                    lrcsi_clip_polygon *left, lrcsi_clip_polygon *right);
 
 enum ref_clip_place {
-    REF_CLIP_APART,  /* no point of the segment within the width of the piece */
-    REF_CLIP_BESIDE, /* all of the piece on one side of the segment's line, as computed */
-    REF_CLIP_CROSSES /* neither is sure */
+    REF_CLIP_APART,  /* no point of the segment is within `width` of the piece */
+    REF_CLIP_BESIDE, /* the computed piece lies on one side of the segment's line */
+    REF_CLIP_CROSSES /* neither is certain */
 };
 
-/* How a segment stands to a piece: a ref_clip_place. */
+/* The position of a segment relative to a piece: a ref_clip_place. */
 int ref_clip_meets(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment, double width);
 
-/* The length of that part of a segment along which the piece comes within `width` of its line, as
-   computed. */
+/* The computed length of the part of a segment along which the piece comes within `width` of the
+   segment's line. */
 double ref_clip_within(const lrcsi_clip_polygon *polygon, const lrcsi_clip_line *segment,
                        double width);
 
 /* The mean of a piece's corners. */
 void ref_clip_middle(const lrcsi_clip_polygon *polygon, double middle[2]);
 
-/* How far inside a piece a point lies, lower bound: at least so far from every side. */
+/* Lower bound of the distance of a point inside a piece from every side of it. */
 double ref_clip_clear(const lrcsi_clip_polygon *polygon, const double at[2]);
 
 #endif

@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* One line of sight through a facet, against the facets near it. All decisions are exact but the
-   place of the line, which is the caller's to keep away from what divides.
+/* A line of sight through a facet, tested against the facets near it. All decisions are exact, but
+   the position of the line is rounded: the caller keeps it far enough from everything that divides
+   the facet.
 
-   Let a component hide the point, and none of the events of a cell be one where it ends. Along any
-   path in the cell, apart from the cuts, the component goes on (visibility/classify.h) and stays in
-   front: to pass behind it would have to touch the target. So it hides all of the cell.
+   Suppose that a component hides the point of the sample and ends at no cut of the cell. Along any
+   path in the cell, except at the cuts, the component continues (visibility/classify.h) and remains
+   in front of the target: to pass behind the target it would have to intersect it. So it hides the
+   whole cell.
 
-   A line is held against candidates in the frame first, in doubles: away from their sides that is
-   sure, and good to the target's own size. Where it passes too near a side, all of them are asked
-   again, exactly, at a point in space nearby: so that of two that share the side it meets one. */
+   A line is first tested against the candidates in the target's frame, in doubles. Away from their
+   sides the result is certain, and the required distance is in proportion to the target's size. If
+   the line passes too near a side, all candidates are tested again at a nearby point in space,
+   exactly: of two candidates that share a side, the line then meets exactly one. */
 #include "visibility/reference/cover.h"
 
 #include <math.h>
@@ -20,13 +23,14 @@
 
 #define U 0x1p-53
 
-/* A candidate against the target: one of these, or the number of the cut in which they touch. */
+/* The depth order of a candidate relative to the target: one of these, or the index of the cut
+   along which the two intersect. */
 enum cover_order {
-    ORDER_NEW = 0x7ffffff0, /* not looked at yet */
-    ORDER_FRONT,            /* nearer, wherever a line meets both */
-    ORDER_BEHIND,           /* farther */
-    ORDER_ASKED,            /* cannot be told but on a line that meets both */
-    ORDER_UNKNOWN           /* touches, in a line that is not known */
+    ORDER_NEW = 0x7ffffff0, /* not determined yet */
+    ORDER_FRONT,            /* nearer, on every line that meets both */
+    ORDER_BEHIND,           /* farther, on every line that meets both */
+    ORDER_PER_LINE,         /* decided separately on each line that meets both */
+    ORDER_UNKNOWN           /* in contact along an unknown line */
 };
 
 size_t ref_cover_need(const lrcs_prepared *prepared)
@@ -42,10 +46,10 @@ int ref_cover_make(lrcsi_classification *classification, lrcs_work *work, ref_co
 {
     uint32_t count = classification->view->prepared->scene->facet_count;
     *cover = (ref_cover){.classification = classification};
-    cover->asked = lrcsi_work_take_zero(work, count, sizeof *cover->asked);
+    cover->listed = lrcsi_work_take_zero(work, count, sizeof *cover->listed);
     cover->candidate = lrcsi_work_take(work, count, sizeof *cover->candidate);
     cover->sides = lrcsi_work_take_zero(work, REF_COVER_KEPT, sizeof *cover->sides);
-    return cover->asked && cover->candidate && cover->sides ? LRCS_OK : LRCS_E_MEMORY;
+    return cover->listed && cover->candidate && cover->sides ? LRCS_OK : LRCS_E_MEMORY;
 }
 
 /* --- candidates ------------------------------------------------------------------------------- */
@@ -56,8 +60,8 @@ void ref_cover_start(ref_cover *cover, const lrcsi_target *target)
     lrcsi_view_box box = *lrcsi_boxes_facet(&facets->boxes, target->facet);
     lrcsi_grid_rect cells = lrcsi_grid_cells(facets, &box);
     cover->count = 0;
-    cover->asks++;
-    cover->asked[target->facet] = cover->asks;
+    cover->searches++;
+    cover->listed[target->facet] = cover->searches;
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         uint32_t i = facets->first[(size_t)y * facets->size + cells.x0];
         uint32_t end = facets->first[(size_t)y * facets->size + cells.x1];
@@ -66,10 +70,10 @@ void ref_cover_start(ref_cover *cover, const lrcsi_target *target)
         }
         for (; i < end; i++) {
             uint32_t other = facets->item[i];
-            if (cover->asked[other] == cover->asks) {
+            if (cover->listed[other] == cover->searches) {
                 continue;
             }
-            cover->asked[other] = cover->asks;
+            cover->listed[other] = cover->searches;
             const lrcsi_view_box *its = lrcsi_boxes_facet(&facets->boxes, other);
             if (!lrcsi_view_box_beside(its, &box) && !lrcsi_view_box_behind(its, &box)) {
                 cover->candidate[cover->count++] =
@@ -79,9 +83,9 @@ void ref_cover_start(ref_cover *cover, const lrcsi_target *target)
     }
 }
 
-/* The order of two facets neither of which lies on one side of the other's plane. Of those that
-   touch, the cut tells; in one plane the rules of precedence decide, and one that is beaten has no
-   cut. */
+/* The depth order of two facets, neither of which lies on one side of the other's plane. If they
+   are in contact, the cut decides. If they are coplanar, the rules of precedence decide, and a
+   facet without precedence has no cut. */
 static uint32_t order_mixed(const ref_cuts *cuts, uint32_t other)
 {
     const lrcsi_target *t = cuts->target;
@@ -101,10 +105,10 @@ static uint32_t order_mixed(const ref_cuts *cuts, uint32_t other)
         }
     }
     int order = lrcsi_sample_overlap_order(t->view, other, t->facet);
-    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_ASKED;
+    return order > 0 ? ORDER_FRONT : order < 0 ? ORDER_BEHIND : ORDER_PER_LINE;
 }
 
-/* ORDER_NEW where the meter is spent. */
+/* Returns ORDER_NEW if the meter is spent. */
 static uint32_t order_of(const ref_cuts *cuts, uint32_t other)
 {
     const lrcsi_target *t = cuts->target;
@@ -118,40 +122,43 @@ static uint32_t order_of(const ref_cuts *cuts, uint32_t other)
 
 /* --- one line --------------------------------------------------------------------------------- */
 
-/* How a line is held against the candidates. */
+/* How a line is tested against the candidates. */
 enum line_way {
-    LINE_PLACED, /* as its place in the frame, where that is clear of all sides */
-    LINE_EXACT,  /* as a point in space near that, exactly */
-    LINE_GUESSED /* as its place, rounded */
+    LINE_PLACED, /* at its position in the frame, if that is clear of all sides */
+    LINE_EXACT,  /* at a nearby point in space, exactly */
+    LINE_GUESSED /* at its rounded position */
 };
 
 typedef struct cover_line {
     const ref_cover *cover;
     const ref_cuts *cuts;
-    uint32_t count; /* of their list, that may divide what the line stands for */
+    uint32_t count; /* the first cuts of the list, which may divide the cell */
     int way;
     double at[2];       /* in the target's frame */
-    lrcsi_view_box box; /* in the view; its depth does not count */
+    lrcsi_view_box box; /* in the view; its depth is not used */
     double point[3];    /* in space */
-    double off;         /* by which that may be elsewhere in the frame */
+    double err;         /* position error of the line in the frame */
 } cover_line;
 
-/* A candidate this many times as far as the target is long and its nearest corner is away counts as
-   far. */
+/* A candidate is far if the distance of its farthest corner exceeds this many times the sum of the
+   target's reach and the distance of its nearest corner. */
 #define FAR_CANDIDATE 64.0
 
-/* Sides in the frame, with how near to one a place must be that its side of it is not sure.
+/* The sides of a candidate in the frame, each with the bound that lrcsi_clip_side must exceed in
+   magnitude for its sign to be certain.
 
-   A corner at distance r is off by e = 10 u r. So the candidate as computed is the true one but for
-   the largest e, the side of a line is told wrong within 4 u (r + d) of it, d the target's
-   diameter, and a place that is farther than both from a side is out of both, or in both if it is
-   so far inside all three.
+   A corner at distance r has a position error of e = 10 u r. So the computed candidate differs from
+   the true one by no more than the largest e. With d the target's diameter, the computed side of a
+   line may be wrong only within 4 u (r + d) of the line. A point that is farther than the sum of
+   both from a side is outside of the computed and of the true candidate; if it is that far inside
+   all three sides, it is inside of both.
 
-   Where one corner is far away that would be too coarse. There each side tells which side of its
-   own line a place is on. Let T be the side from p to q, n the nearer of the two, G the place as
-   seen from n. T is off by 12 u (r_p + r_q), rounding included, G by 12 u r_n + 2 u d, so T x G by
-   12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the 1-norm, and by its own rounding, 2 u |T|
-   |G|, below 3 u (r_p + r_q) |G|. */
+   If one corner is far away, this bound is too coarse. Then each side decides only on which side of
+   its own line a point lies. Let T be the vector of the side from p to q, n the nearer of the two
+   corners, and G the vector from n to the point. The error of T is 12 u (r_p + r_q), rounding
+   included, and that of G is 12 u r_n + 2 u d. So the error of T x G is 12 u (r_p + r_q) |G| + (12
+   u r_n + 2 u d) |T| in the 1-norm, and in addition that of its own rounding, 2 u |T| |G|, which is
+   below 3 u (r_p + r_q) |G|. */
 static void sides_place(const lrcsi_target *t, uint32_t facet, ref_cover_sides *c)
 {
     double corner[3][2];
@@ -183,15 +190,16 @@ static void sides_place(const lrcsi_target *t, uint32_t facet, ref_cover_sides *
 static const ref_cover_sides *sides_of(const cover_line *line, uint32_t facet)
 {
     ref_cover_sides *sides = &line->cover->sides[facet % REF_COVER_KEPT];
-    if (sides->facet != facet || sides->ask != line->cover->asks) {
+    if (sides->facet != facet || sides->search != line->cover->searches) {
         sides_place(line->cuts->target, facet, sides);
         sides->facet = facet;
-        sides->ask = line->cover->asks;
+        sides->search = line->cover->searches;
     }
     return sides;
 }
 
-/* 1 the line surely meets the candidate, -1 surely not, 0 it passes too near a side. */
+/* 1 if the line certainly meets the candidate, -1 if it certainly does not, 0 if it passes too near
+   a side. */
 static int line_meets_about(const cover_line *line, const ref_cover_facet *c)
 {
     const ref_cover_sides *sides = sides_of(line, c->facet);
@@ -207,8 +215,8 @@ static int line_meets_about(const cover_line *line, const ref_cover_facet *c)
     return inside;
 }
 
-/* The same in a needle, at the point that has these shares: it is off its place by the frame's
-   slip, and sides are told in double-double. */
+/* The same for a needle, at the point with the barycentric coordinates line->at. Its position error
+   is that of the frame (position_err); sides are decided in double-double. */
 static int line_meets_finely(const cover_line *line, const ref_cover_facet *c)
 {
     const lrcsi_target *t = line->cuts->target;
@@ -225,13 +233,14 @@ static int line_meets_finely(const cover_line *line, const ref_cover_facet *c)
     return inside;
 }
 
-/* Does the line pass the candidate by, or is that one behind? Most are told so. */
+/* 1 if the line misses the candidate, or the candidate is behind the target. This excludes most
+   candidates. */
 static int line_misses(const cover_line *line, const ref_cover_facet *c)
 {
     return lrcsi_view_box_beside(&line->box, &c->box) || c->order == ORDER_BEHIND;
 }
 
-/* 1 the line meets the candidate, -1 not, 0 it must be asked another way. */
+/* 1 if the line meets the candidate, -1 if not, 0 if it must be tested in another way. */
 static int line_meets(const cover_line *line, ref_cover_facet *c)
 {
     if (line->way == LINE_EXACT) {
@@ -241,15 +250,15 @@ static int line_meets(const cover_line *line, ref_cover_facet *c)
     return meets == 0 && line->way == LINE_GUESSED ? -1 : meets;
 }
 
-/* Is the target hidden where the line meets the candidate? 1 yes, -1 no, 0 unknown. Two facets that
-   do not touch keep their order wherever they overlap. */
+/* Does the candidate hide the target where the line meets it? 1 yes, -1 no, 0 unknown. Two facets
+   that are not in contact have the same depth order wherever they overlap. */
 static int line_hidden(const cover_line *line, ref_cover_facet *c)
 {
     const lrcsi_target *t = line->cuts->target;
     if (c->order == ORDER_NEW) {
         c->order = order_of(line->cuts, c->facet);
     }
-    if (c->order == ORDER_ASKED && line->way != LINE_PLACED) {
+    if (c->order == ORDER_PER_LINE && line->way != LINE_PLACED) {
         int nearer = lrcsi_sample_nearer(t->view, c->facet, t->facet, line->point, 1);
         if (line->way == LINE_EXACT && nearer != 0) {
             c->order = nearer > 0 ? ORDER_FRONT : ORDER_BEHIND;
@@ -259,15 +268,15 @@ static int line_hidden(const cover_line *line, ref_cover_facet *c)
     if (c->order < line->cuts->count) {
         const ref_cut *cut = &line->cuts->cut[c->order];
         double left = lrcsi_clip_side(&cut->line, line->at);
-        double off = line->way == LINE_GUESSED ? 0 : cut->width + line->off;
-        double clear = off * (fabs(cut->line.to[0]) + fabs(cut->line.to[1]));
+        double err = line->way == LINE_GUESSED ? 0 : cut->width + line->err;
+        double clear = err * (fabs(cut->line.to[0]) + fabs(cut->line.to[1]));
         return left > clear ? 1 : left < -clear ? -1 : 0;
     }
     return c->order == ORDER_FRONT ? 1 : c->order == ORDER_BEHIND ? -1 : 0;
 }
 
-/* The point that stands for a line in space. It is off by 100 u of the reach (visibility/target.h),
-   and by 8 u of the target's coordinates; in a needle that is too much. */
+/* The point in space that represents a line. Its position error is 100 u of the reach
+   (visibility/target.h) and 8 u of the target's coordinates. This is too much for a needle. */
 static void line_lift(cover_line *line)
 {
     const lrcsi_target *t = line->cuts->target;
@@ -282,11 +291,12 @@ static void line_lift(cover_line *line)
     }
     lrcsi_view_coordinates(t->view, line->point, x);
     line->box = lrcsi_view_box_about(t->view, x, lrcsi_view_point_err(x));
-    line->off = t->needle ? HUGE_VAL : lrcsi_target_unproject_err(t);
+    line->err = t->needle ? HUGE_VAL : lrcsi_target_unproject_err(t);
 }
 
-/* The line as its place: the target's first corner and the way from there, which in a needle is off
-   by its own corners, 10 u of their reach, by rounding, 3 u, and by the frame's slip. */
+/* The box of the line's position: the target's first corner plus an offset. In a needle the offset
+   has the error of the needle's own corners, 10 u of their reach, that of rounding, 3 u, and that
+   of the frame (position_err). */
 static lrcsi_view_box line_box(const lrcsi_target *t, const double at[2])
 {
     double first[3];
@@ -306,17 +316,18 @@ typedef struct cover_found {
     uint32_t component, ends;
 } cover_found;
 
-#define LINE_AGAIN (-1)
+#define LINE_RETRY (-1)
 
-/* One candidate more: what is known then, a ref_cover_answer, or LINE_AGAIN where the line must
-   be asked another way. One that hides all of a cell comes to stand first. */
-static int line_ask(const cover_line *line, ref_cover *cover, ref_cover_facet *c, int answer,
-                    cover_found *found)
+/* Tests one more candidate. Returns the ref_cover_answer of all candidates so far, or LINE_RETRY if
+   the line must be tested in another way. A candidate that hides the whole cell is moved to the
+   front of the list. */
+static int line_test(const cover_line *line, ref_cover *cover, ref_cover_facet *c, int answer,
+                     cover_found *found)
 {
     int meets = line_meets(line, c);
     int hidden = meets > 0 ? line_hidden(line, c) : -1;
-    if (meets == 0 || (hidden == 0 && c->order == ORDER_ASKED && line->way == LINE_PLACED)) {
-        return LINE_AGAIN;
+    if (meets == 0 || (hidden == 0 && c->order == ORDER_PER_LINE && line->way == LINE_PLACED)) {
+        return LINE_RETRY;
     }
     if (hidden <= 0) {
         return hidden == 0 && answer == REF_COVER_NONE ? REF_COVER_UNKNOWN : answer;
@@ -338,18 +349,19 @@ static int line_ask(const cover_line *line, ref_cover *cover, ref_cover_facet *c
     return REF_COVER_SOME;
 }
 
-/* What hides the target on a line, likewise. Candidates are counted once they have been asked. */
-static int line_tells(const cover_line *line, ref_cover *cover, uint32_t *component)
+/* Tests all candidates, with the same result. The meter is charged afterwards, for the candidates
+   that were tested. */
+static int line_sample(const cover_line *line, ref_cover *cover, uint32_t *component)
 {
     cover_found found = {*component, LRCS_NONE};
     int answer = REF_COVER_NONE;
-    uint32_t asked = 0;
-    while (asked < cover->count && answer != LINE_AGAIN && answer != REF_COVER_ALL) {
-        ref_cover_facet *c = &cover->candidate[asked++];
-        answer = line_misses(line, c) ? answer : line_ask(line, cover, c, answer, &found);
+    uint32_t tested = 0;
+    while (tested < cover->count && answer != LINE_RETRY && answer != REF_COVER_ALL) {
+        ref_cover_facet *c = &cover->candidate[tested++];
+        answer = line_misses(line, c) ? answer : line_test(line, cover, c, answer, &found);
     }
     *component = found.component;
-    return lrcsi_meter_take(NULL, asked) ? answer : REF_COVER_UNKNOWN;
+    return lrcsi_meter_take(NULL, tested) ? answer : REF_COVER_UNKNOWN;
 }
 
 int ref_cover_sample(ref_cover *cover, const ref_cuts *cuts, uint32_t count, ref_cover_place *place,
@@ -360,12 +372,12 @@ int ref_cover_sample(ref_cover *cover, const ref_cuts *cuts, uint32_t count, ref
                        .count = count,
                        .at = {place->at[0], place->at[1]},
                        .box = line_box(cuts->target, place->at),
-                       .off = cuts->target->position_err};
-    int answer = place->clear > 0 ? line_tells(&line, cover, component) : LINE_AGAIN;
-    if (answer == LINE_AGAIN) {
+                       .err = cuts->target->position_err};
+    int answer = place->clear > 0 ? line_sample(&line, cover, component) : LINE_RETRY;
+    if (answer == LINE_RETRY) {
         line_lift(&line);
-        line.way = place->clear > line.off ? LINE_EXACT : LINE_GUESSED;
-        answer = line_tells(&line, cover, component);
+        line.way = place->clear > line.err ? LINE_EXACT : LINE_GUESSED;
+        answer = line_sample(&line, cover, component);
     }
     place->guess = line.way == LINE_GUESSED;
     return answer;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What stands in front of a point of an undecided facet: one exact sample, and whether it tells of
-   all of a cell around the point. */
+/* One exact sample: which surface component hides a point of an undecided facet, and whether the
+   answer holds for the whole cell around the point. */
 #ifndef REF_COVER_H
 #define REF_COVER_H
 
@@ -9,57 +9,58 @@
 
 enum ref_cover_answer {
     REF_COVER_NONE,   /* nothing hides the point */
-    REF_COVER_ALL,    /* a component hides it that ends nowhere in the cell: it hides all of that */
-    REF_COVER_SOME,   /* only components hide it that may end in the cell */
-    REF_COVER_UNKNOWN /* it cannot be told, or the view's meter is spent */
+    REF_COVER_ALL,    /* the component that hides it ends nowhere in the cell and hides all of it */
+    REF_COVER_SOME,   /* it is hidden, but only by components that may end in the cell */
+    REF_COVER_UNKNOWN /* undecided, or the view's meter is spent */
 };
 
-/* A facet that may hide some of the target. */
+/* A candidate: a facet that may hide a part of the target. */
 typedef struct ref_cover_facet {
     lrcsi_view_box box;
     uint32_t facet;
-    uint32_t order; /* against the target's plane */
+    uint32_t order; /* depth order relative to the target: a cover_order, or the index of a cut */
 } ref_cover_facet;
 
-/* The sides of a candidate in the target's frame, kept for lines to come. */
+/* The sides of a candidate in the target's frame, cached for later lines. */
 typedef struct ref_cover_sides {
-    uint32_t facet, ask; /* whose they are, in which search */
+    uint32_t facet, search; /* the candidate, and the search that listed it */
     lrcsi_clip_line side[3];
-    double clear[3]; /* how far lrcsi_clip_side may be off of each */
+    double clear[3]; /* error bound of lrcsi_clip_side for each side */
 } ref_cover_sides;
 
-/* So many are kept at a time, each in the place that its facet's number tells. */
+/* The number of cached candidates; the entry of a facet is its index modulo this number. */
 #define REF_COVER_KEPT 1024u
 
 typedef struct ref_cover {
     lrcsi_classification *classification;
     lrcsi_grid facets;
-    uint32_t *asked; /* facet: the search for candidates that last met it */
-    uint32_t asks;   /* searches so far */
+    uint32_t *listed;  /* facet: the last search that met it */
+    uint32_t searches; /* searches so far */
     ref_cover_facet *candidate;
     uint32_t count;
     ref_cover_sides *sides;
 } ref_cover;
 
-/* Bytes at most, with those of the grid. */
+/* Bytes at most, including those of the grid. */
 size_t ref_cover_need(const lrcs_prepared *prepared);
 
-/* What serves all facets of a view, but for the grid of facets, which is the caller's to make; it
-   stays in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
+/* Allocates what all facets of a view share, except for the grid of facets, which the caller makes.
+   It stays in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int ref_cover_make(lrcsi_classification *classification, lrcs_work *work, ref_cover *cover);
 
-/* Lists what may hide some of a facet that casts: not all of it where the view's meter is spent. */
+/* Lists the candidates of a facet that casts. The list is incomplete if the meter is spent. */
 void ref_cover_start(ref_cover *cover, const lrcsi_target *target);
 
-/* A place of the target's frame at which to ask. */
+/* The position of a sample in the target's frame. */
 typedef struct ref_cover_place {
     double at[2];
-    double clear; /* the answer holds, or is wanted, as far around it */
-    int guess;    /* out: the answer may be wrong, or is of a place farther off */
+    double clear; /* the sample may be taken at any point within this distance */
+    int guess;    /* returned: 1 if the answer may be wrong, or is that of a point farther away */
 } ref_cover_place;
 
-/* Asks at a place near which a cell may be divided by list[0 .. count) of the cuts alone. A
-   ref_cover_answer; where it is SOME, *component is that with the fewest of them. */
+/* Takes a sample in a cell that only the cuts list[0 .. count) can divide. Returns a
+   ref_cover_answer. If it is SOME, *component is the component that ends at the fewest of these
+   cuts, of those that hide the point. */
 int ref_cover_sample(ref_cover *cover, const ref_cuts *cuts, uint32_t count, ref_cover_place *place,
                      uint32_t *component);
 

@@ -1,25 +1,28 @@
 /* SPDX-License-Identifier: MIT */
-/* The segments that may divide a facet, and which of them come near a part of it. That no other
-   edge or contact matters is exact (visibility/classify.h); only places are computed in doubles.
+/* The cuts of a facet, and which of them come near a part of it. That no other edge or contact can
+   divide the facet is exact (visibility/classify.h); only positions are computed in doubles.
 
-   In the facet's frame, with d its diameter and r the largest distance in space of a segment's ends
-   from its first corner (of a long one's that runs far off, of what matters of it), ends are off by
-   10 u r (visibility/target.h), those of a contact by 16 u r and its slip (visibility/contact.h);
-   the line through them by 2 u r more. The side of a line on which a point lies is told wrong
-   within 4 u (r + d) of it. A point put where a line cuts a side of a cell lies within that and 8 u
-   d of the line. So a segment that is told to be farther from a shape than WIDTH (r + d) and the
-   slip does not meet it; and where a cell was cut along a segment, or lies on one side of its line
-   as computed, the segment lies within that width of the line, and all of the cell on one side but
-   for as much (24 u of r + d would do, and 30 u for a contact).
+   Errors. In the facet's frame, let d be the facet's diameter, and r the largest distance, in
+   space, of a segment's ends from the facet's first corner; the part of a long segment that is far
+   from the facet is removed first. The ends have a position error of 10 u r (visibility/target.h),
+   those of a contact 16 u r and in addition its position_err (visibility/contact.h); the line
+   through them has 2 u r more. The computed side of a line may be wrong only within 4 u (r + d) of
+   the line. A computed point where a line meets a side of a cell lies within that plus 8 u d of the
+   line. So if the computed distance of a segment from a shape exceeds WIDTH (r + d) plus
+   position_err, the segment does not meet the shape. If a cell was cut along a segment, or its
+   computed shape lies on one side of the segment's line, then the segment lies within that width of
+   the line, and the cell lies on one side of the line, except for a strip of that width. (24 u (r +
+   d) would be enough, and 30 u (r + d) for a contact.)
 
-   In a needle's frame (visibility/target.h) ends are off by less, and segments clipped: one that
-   meets the facet starts, ends and runs on within the box, so that its part there is one long
-   unless its ends are its own.
+   In a needle's frame (visibility/target.h) the errors of the ends are smaller. Segments are
+   clipped to a box around the needle that extends beyond it by 1. So the part in the box of a
+   segment that meets the needle is at least 1 long, unless an end of the segment itself is in the
+   box.
 
-   A contact with a facet in one plane with the target divides along the outline of that facet: on
-   either side of it the facet hides all or nothing. So it is taken where the line of a contact is
-   not known; what is inside the outline is then not decided by samples (visibility/cover.c). A
-   contact in a point divides nothing: paths pass beside it. */
+   A contact with a coplanar facet divides the target along the outline of that facet: on either
+   side of the outline the facet hides all or nothing. The outline is also used if the line of a
+   contact is unknown; inside it, samples then do not decide (test/visibility/reference/cover.c). A
+   contact in a point divides nothing: paths can avoid the point. */
 #include "visibility/reference/cut.h"
 
 #include <string.h>
@@ -30,7 +33,7 @@
 #define U     0x1p-53
 #define WIDTH (32 * U)
 
-/* More than a needle's frame is wide. */
+/* Larger than the box to which segments are clipped in a needle's frame. */
 #define BEYOND 4
 
 /* --- lists ------------------------------------------------------------------------------------ */
@@ -45,7 +48,7 @@ static ref_cut *cut_new(ref_cuts *cuts, const double from[2], const double to[2]
         e->high[k] = lrcsi_max(from[k], to[k]) + width;
     }
     if (e->line.to[0] == 0 && e->line.to[1] == 0) {
-        e->line.to[0] = 1; /* any line through it will do */
+        e->line.to[0] = 1; /* any line through the point is valid */
     }
     e->width = width;
     e->components = 0;
@@ -58,22 +61,23 @@ static double width_of(const ref_cuts *cuts, double reach)
     return WIDTH * (lrcsi_max(reach, cuts->target->reach) + cuts->target->diameter);
 }
 
-/* In a needle's frame segments are clipped to within 3 of the first corner: r + d is below 4.5, and
-   the ends are off by their rounding, 3 u, and this. Where that is a good part of what the box is
-   wider than the facet, the segment may be anywhere. */
-static double width_in_needle(double off)
+/* In a needle's frame segments are clipped to points within 3 of the first corner, so r + d is
+   below 4.5. The error of the ends is that of rounding, 3 u, and position_err. If position_err is
+   large in comparison with 1, by which the box extends beyond the needle, the segment may be
+   anywhere. */
+static double width_in_needle(double position_err)
 {
-    return off < 0.25 ? WIDTH * 6 + 2 * off : BEYOND;
+    return position_err < 0.25 ? WIDTH * 6 + 2 * position_err : BEYOND;
 }
 
 static void cut_component(ref_cut *e, uint32_t component)
 {
-    for (uint32_t i = 0; i < e->components && i < REF_CUT_SHEETS; i++) {
+    for (uint32_t i = 0; i < e->components && i < REF_CUT_COMPONENTS; i++) {
         if (e->component[i] == component) {
             return;
         }
     }
-    if (e->components < REF_CUT_SHEETS) {
+    if (e->components < REF_CUT_COMPONENTS) {
         e->component[e->components] = component;
     }
     e->components++;
@@ -103,7 +107,7 @@ static void cuts_edge(ref_cuts *cuts, const lrcsi_classification *classification
     }
 }
 
-/* Those that cross it: not all of them where the view's meter is spent. */
+/* The event edges that cross the facet; not all of them if the view's meter is spent. */
 static void cuts_crossing(ref_cuts *cuts, const lrcsi_classification *classification,
                           const lrcsi_crossings *crossings)
 {
@@ -116,7 +120,7 @@ static void cuts_crossing(ref_cuts *cuts, const lrcsi_classification *classifica
     }
 }
 
-/* The sides of a facet that touches the target. */
+/* The sides of a facet that is in contact with the target. */
 static void cuts_outline(ref_cuts *cuts, uint32_t other, const lrcsi_contact *c)
 {
     const lrcsi_target *t = cuts->target;
@@ -157,7 +161,7 @@ static void cuts_contact(ref_cuts *cuts, const lrcsi_classification *classificat
     }
 }
 
-/* Each edge may cross a facet, and each of its contacts may divide it along three sides. */
+/* Each edge can cross a facet, and each contact of a facet can divide it along three sides. */
 size_t ref_cuts_need(const lrcs_prepared *prepared)
 {
     const lrcsi_intersections *intersections = &prepared->intersections;
@@ -201,7 +205,8 @@ int ref_cuts_make(lrcsi_classification *classification, const lrcsi_target *targ
 
 int ref_cut_ends(const ref_cut *e, uint32_t component)
 {
-    return e->components > REF_CUT_SHEETS || (e->components > 0 && e->component[0] == component) ||
+    return e->components > REF_CUT_COMPONENTS ||
+           (e->components > 0 && e->component[0] == component) ||
            (e->components > 1 && e->component[1] == component);
 }
 
