@@ -111,7 +111,7 @@ static int item_image_read(const char *path, uint32_t side, items_image *image, 
         return status;
     }
     image->bytes = image->file.bytes;
-    if (image->file.size != size) {
+    if (image->file.size != size || !image->bytes) {
         status = lrcsi_host_fail(error, LRCS_E_SYNTAX,
                                  "%s: expected %lu x %lu pixels of 4 bytes, found %zu bytes", path,
                                  (unsigned long)side, (unsigned long)side, image->file.size);
