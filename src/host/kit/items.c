@@ -110,14 +110,15 @@ static int item_image_read(const char *path, uint32_t side, items_image *image, 
     if (status != LRCS_OK) {
         return status;
     }
-    image->bytes = image->file.bytes;
-    if (image->file.size != size || !image->bytes) {
+    if (image->file.size != size) {
         status = lrcsi_host_fail(error, LRCS_E_SYNTAX,
                                  "%s: expected %lu x %lu pixels of 4 bytes, found %zu bytes", path,
                                  (unsigned long)side, (unsigned long)side, image->file.size);
         lrcs_host_file_free(&image->file);
+        return status;
     }
-    return status;
+    image->bytes = image->file.bytes;
+    return LRCS_OK;
 }
 
 static int image_judge(lrcs_host_judgement *job, const lrcs_host_kit_case *one,
@@ -169,7 +170,9 @@ static int item_case_judge(lrcs_host_judgement *job, const char *folder,
     }
     status =
         status == LRCS_OK ? lrcsi_kit_scene(&job->kit, &job->kit.scene[one->scene], error) : status;
-    status = status == LRCS_OK ? image_judge(job, one, &truth, &theirs, error) : status;
+    if (status == LRCS_OK && truth.bytes && theirs.bytes) {
+        status = image_judge(job, one, &truth, &theirs, error);
+    }
     lrcs_host_file_free(&truth.file);
     lrcs_host_file_free(&theirs.file);
     return status;
