@@ -136,6 +136,10 @@ same many_facets_are_announced "$(printf '%s\n' "$err" | grep -c '^lrcs: [0-9]* 
 run run ball.toml --tolerance 1e-1
 same few_are_not "$(printf '%s\n' "$err" | grep -c 'takes a while')" 0
 
+# ---- back sides, where nothing is searched for shadows ----
+run run demo --azel 50,40 --method facet
+same back_sides_that_others_may_hide_are_not_called_visible "$(printf '%s\n%s\n' "$out" "$err" | grep -c 'back sides')" 0
+
 # ---- locale ----
 for locale in de_DE.UTF-8 de_DE.utf8 fr_FR.UTF-8; do
     LC_ALL=$locale "$tool" run "$pair" --json --azel 10.5,20.5 | sed '/seconds/d' >there.txt
