@@ -179,11 +179,8 @@ static double piece_add(lrcsi_curve_integral *integral, const lrcsi_target *targ
         if (i < 2) {
             continue;
         }
-        const double u[2] = {corner[i - 1][0] - corner[0][0], corner[i - 1][1] - corner[0][1]};
-        const double v[2] = {corner[i][0] - corner[0][0], corner[i][1] - corner[0][1]};
-        double area = 0.5 * (u[0] * v[1] - u[1] * v[0]); /* negative by rounding: not added */
-        lrcsi_cubature_add(&integral->sum, (const double(*)[3])normal, area);
-        area_err += lrcsi_max(0, -area) + 4 * LRCSI_U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
+        double area = lrcsi_clip_fan_area(corner[0], corner[i - 1], corner[i], &area_err);
+        lrcsi_cubature_add(&integral->sum, (const double(*)[3])normal, area); /* if positive */
         for (int k = 0; k < 3; k++) {
             normal[1][k] = normal[2][k];
         }

@@ -180,14 +180,11 @@ static double fan_add(profile_run *run, const lrcsi_range_facet *f, const lrcsi_
         if (i < 2) {
             continue;
         }
-        const double u[2] = {piece->corner[i - 1][0] - c[0], piece->corner[i - 1][1] - c[1]};
-        const double v[2] = {piece->corner[i][0] - c[0], piece->corner[i][1] - c[1]};
-        double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
+        double area = lrcsi_clip_fan_area(c, piece->corner[i - 1], piece->corner[i], &area_err);
         if (area > 0) {
             lrcsi_range_add_triangle(&run->bins, f, area, range, (const double(*)[3])normal,
                                      range_err);
         }
-        area_err += lrcsi_max(0, -area) + 4 * LRCSI_U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
         range[1] = range[2];
         memcpy(normal[1], normal[2], sizeof normal[1]);
     }

@@ -564,6 +564,14 @@ double *lrcsi_sigma_part_error(const lrcs_prepared *prepared, const lrcs_run_opt
     return part_error;
 }
 
+void lrcsi_sigma_part_error_give(const lrcsi_sigma *run)
+{
+    if (run->part_error) {
+        memcpy(run->options->part_error_m2, run->part_error,
+               run->view.prepared->scene->part_count * sizeof *run->part_error);
+    }
+}
+
 int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result)
 {
     const lrcsi_outcome *outcome = &run->outcome;
@@ -659,10 +667,7 @@ int lrcs_sigma_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         if (records) {
             run.outcome.total = run_total(&run, records);
         }
-        if (run.part_error) {
-            memcpy(options->part_error_m2, run.part_error,
-                   prepared->scene->part_count * sizeof *run.part_error);
-        }
+        lrcsi_sigma_part_error_give(&run);
         *result = answer;
     }
     work->used = mark;

@@ -61,6 +61,9 @@ int lrcsi_sigma_stages(lrcsi_sigma *run, const lrcs_prepared *prepared, const lr
 double *lrcsi_sigma_part_error(const lrcs_prepared *prepared, const lrcs_run_options *options,
                                lrcs_work *work, int *status);
 
+/* Writes run->part_error where the options ask for it: for runs that succeed. */
+void lrcsi_sigma_part_error_give(const lrcsi_sigma *run);
+
 /* The result after the last stage. Status: LRCS_OK; LRCS_E_NUMBER if sigma or its bound is not
    finite. */
 int lrcsi_sigma_result(const lrcsi_sigma *run, lrcs_result *result);

@@ -519,10 +519,7 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         for (uint32_t i = 0; i < materials; i++) {
             sensitivity[i] = sensitivity_of(&scene->material[i].brdf, &own[i]);
         }
-        if (run.part_error) {
-            memcpy(options->part_error_m2, run.part_error,
-                   scene->part_count * sizeof *run.part_error);
-        }
+        lrcsi_sigma_part_error_give(&run);
         *result = answer;
         *uncertainty = estimate;
     }

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "base/constant.h"
 #include "base/range.h"
 
 /* A convex polygon, counter-clockwise. */
@@ -28,6 +29,19 @@ int lrcsi_clip_longest_side(const double corner[3][2], double *square);
    the box in its area and 4 u in its centroid, and is added once. */
 double lrcsi_clip_add_moment(const lrcsi_clip_polygon *polygon, const double about[2],
                              double first[2]);
+
+/* The area of one triangle of the fan of a convex polygon about its corner c: that of c p q. To
+   *error is added a bound on the error of what is added where only positive areas count, rounding
+   included. */
+static inline double lrcsi_clip_fan_area(const double c[2], const double p[2], const double q[2],
+                                         double *error)
+{
+    const double u[2] = {p[0] - c[0], p[1] - c[1]};
+    const double v[2] = {q[0] - c[0], q[1] - c[1]};
+    double area = 0.5 * (u[0] * v[1] - u[1] * v[0]);
+    *error += lrcsi_max(0, -area) + 4 * LRCSI_U * (fabs(u[0] * v[1]) + fabs(u[1] * v[0]));
+    return area;
+}
 
 void lrcsi_clip_box(const lrcsi_clip_polygon *polygon, double low[2], double high[2]);
 

@@ -20,6 +20,16 @@ static void scene_make(lrcs_host_scene *scene, const char *path, double division
     assert_int_equal(lrcs_host_scene_prepare(scene, &error), LRCS_OK);
 }
 
+/* The same at the host's division, with a limit for the facets of one shape. */
+static void scene_make_limited(lrcs_host_scene *scene, const char *path, uint32_t max_facets)
+{
+    lrcs_host_options options = lrcs_host_options_default();
+    options.build.division = LRCS_HOST_DIVISION;
+    options.build.max_facets = max_facets;
+    assert_int_equal(lrcs_host_scene_read(path, &options, scene, &error), LRCS_OK);
+    assert_int_equal(lrcs_host_scene_prepare(scene, &error), LRCS_OK);
+}
+
 static int pose_at(void *context, uint64_t index, lrcs_pose *pose)
 {
     (void)context;
@@ -273,12 +283,8 @@ static void a_tolerance_below_rounding_still_divides(void **state)
     lrcs_run_options options = lrcs_run_options_default();
     assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
     for (int strictly = 0; strictly < 2; strictly++) {
-        lrcs_host_options host = lrcs_host_options_default();
-        host.build.division = LRCS_HOST_DIVISION;
-        host.build.max_facets = 4096;
         options.tolerance = strictly ? 1e-20 : 1e-6;
-        assert_int_equal(lrcs_host_scene_read("demo", &host, &scene, &error), LRCS_OK);
-        assert_int_equal(lrcs_host_scene_prepare(&scene, &error), LRCS_OK);
+        scene_make_limited(&scene, "demo", 4096);
         refine(&scene, &pose, &options, 1, strictly ? &strict : &loose, &build);
         lrcs_host_scene_free(&scene);
     }
@@ -297,12 +303,7 @@ static void a_tolerance_out_of_reach_is_given_up_soon(void **state)
     lrcs_run_options options = lrcs_run_options_default();
     options.tolerance = 1e-7;
     assert_int_equal(lrcs_pose_from_azel(30, 20, &pose), LRCS_OK);
-    lrcs_host_options host = lrcs_host_options_default();
-    host.build.division = LRCS_HOST_DIVISION;
-    host.build.max_facets = 4096;
-    assert_int_equal(lrcs_host_scene_read("examples/satellites/lander.toml", &host, &scene, &error),
-                     LRCS_OK);
-    assert_int_equal(lrcs_host_scene_prepare(&scene, &error), LRCS_OK);
+    scene_make_limited(&scene, "examples/satellites/lander.toml", 4096);
     int times = refine(&scene, &pose, &options, 1, &result, &build);
     assert_true(times == 1 || times == 2);
     assert_true(result.flags & LRCS_FLAG_TOLERANCE_NOT_MET);
