@@ -6,6 +6,7 @@
 #define LRCSI_AREAS_H
 
 #include "integrate/plan.h"
+#include "integrate/round_pieces.h"
 #include "visibility/query.h"
 #include "visibility/visible.h"
 
@@ -14,13 +15,20 @@
 typedef struct lrcsi_areas {
     const lrcsi_visible *visible; /* NULL: method facet */
     const unsigned char *answer;
-    const lrcsi_moment *moment; /* of the visible regions of all facets; NULL: not known */
+    const lrcsi_moment *moment;     /* of the visible regions of all facets; NULL: not known */
+    const lrcsi_round_piece *piece; /* what facets on curved walls add; NULL: not known */
 } lrcsi_areas;
 
 /* Is it an answer that says what is visible of the facet? */
 static inline int lrcsi_areas_answered(const lrcsi_areas *areas, uint32_t facet)
 {
     return areas->answer && areas->answer[facet] != LRCSI_QUERY_UNDECIDED;
+}
+
+/* What a facet on a curved wall adds, or NULL if that is not known. */
+static inline const lrcsi_round_piece *lrcsi_areas_piece(const lrcsi_areas *areas, uint32_t facet)
+{
+    return areas->piece && areas->piece[facet].known ? &areas->piece[facet] : NULL;
 }
 
 /* The visible area of a facet of given incidence. */

@@ -63,6 +63,7 @@
 
 #include "base/elementary.h"
 #include "base/range.h"
+#include "integrate/gauss.h"
 #include "mesh/shape/revolution.h"
 #include "optics/reflect.h"
 
@@ -75,42 +76,6 @@
 #define REMAINDER_MAX 0x1p-10
 /* The largest number of pieces into which a patch is divided in each variable. */
 #define PIECES_MAX 4
-/* The largest number of points of a rule. */
-#define POINTS_MAX 8
-/* With a smaller slope s the flank of the glint is so steep, |d log glint / du| up to 2 + 1/s^2,
-   that the rounding error of u would exceed 1e-8 of the glint. No proof depends on the value:
-   errors are computed for any s. */
-#define GLINT_SLOPE_MIN 1e-3
-
-/* Rules for the mean over [-1, 1]: the points >= 0 of those with 2, 3, 4, 5, 6 and 8 points, and
-   their weights, each for x and -x. Generated to 50 digits with Newton's method. */
-typedef struct gauss_rule {
-    int points, half;
-    double x[POINTS_MAX / 2], weight[POINTS_MAX / 2];
-} gauss_rule;
-
-static const gauss_rule rules[] = {
-    {2, 1, {0.577350269189625764509}, {0.5}},
-    {3, 2, {0.0, 0.774596669241483377035}, {0.444444444444444444444, 0.277777777777777777777}},
-    {4,
-     2,
-     {0.339981043584856264802, 0.861136311594052575223},
-     {0.326072577431273071313, 0.173927422568726928686}},
-    {5,
-     3,
-     {0.0, 0.538469310105683091036, 0.906179845938663992798},
-     {0.284444444444444444444, 0.239314335249683234021, 0.118463442528094543757}},
-    {6,
-     3,
-     {0.238619186083196908630, 0.661209386466264513661, 0.932469514203152027812},
-     {0.233956967286345523694, 0.180380786524069303784, 0.085662246189585172520}},
-    {8,
-     4,
-     {0.183434642495649804939, 0.525532409916328985817, 0.796666477413626739591,
-      0.960289856497536231683},
-     {0.181341891689180991482, 0.156853322938943643668, 0.111190517226687235272,
-      0.050614268145188129576}}};
-#define RULES ((int)(sizeof rules / sizeof *rules))
 
 /* The radii r for which M is computed; the smallest remainder is used. */
 static const double radii[] = {1.5, 2.5, 4.0, 7.0, 12.0};
@@ -301,12 +266,12 @@ static double integrand_bound(const patch_frame *f, const lrcs_brdf *brdf, doubl
 /* Chooses the rule in one variable: that with the fewest points whose remainder is at most
    `target`, or else the one with the most points. *error is its remainder. along: 1 for alpha, 0
    for phi. */
-static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf, int along,
-                                     double target, double *error)
+static const lrcsi_gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf, int along,
+                                           double target, double *error)
 {
-    double best[RULES];
+    double best[LRCSI_GAUSS_RULES];
     double exp_other = lrcsi_exp(along ? f->half : f->step);
-    for (int n = 0; n < RULES; n++) {
+    for (int n = 0; n < LRCSI_GAUSS_RULES; n++) {
         best[n] = HUGE_VAL;
     }
     for (int i = RADII - 1; i >= 0 && !(best[0] <= target); i--) {
@@ -315,19 +280,19 @@ static const gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf
         double bound = along ? integrand_bound(f, brdf, r * f->step, exp_own, exp_other)
                              : integrand_bound(f, brdf, f->step, exp_other, exp_own);
         double q = 1 / (r * r);
-        for (int n = 0, k = 0; n < RULES && bound < HUGE_VAL; n++) {
-            for (; k < rules[n].points; k++) {
+        for (int n = 0, k = 0; n < LRCSI_GAUSS_RULES && bound < HUGE_VAL; n++) {
+            for (; k < lrcsi_gauss_rules[n].points; k++) {
                 bound *= q;
             }
             best[n] = lrcsi_min(best[n], bound / ((2 * k + 1) * (1 - q)));
         }
     }
     int n = 0;
-    while (n + 1 < RULES && !(best[n] <= target)) {
+    while (n + 1 < LRCSI_GAUSS_RULES && !(best[n] <= target)) {
         n++;
     }
     *error = 1.000001 * best[n];
-    return &rules[n];
+    return &lrcsi_gauss_rules[n];
 }
 
 lrcsi_term_errors lrcsi_patch_term_errors(const lrcs_brdf *brdf, double u, double c, double p)
@@ -368,38 +333,24 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double s
     return 1;
 }
 
-/* Writes the points and weights of a rule, and returns how many there are. */
-static int rule_points(const gauss_rule *rule, double x[POINTS_MAX], double weight[POINTS_MAX])
-{
-    int count = 0;
-    for (int k = 0; k < rule->half; k++) {
-        x[count] = rule->x[k];
-        weight[count++] = rule->weight[k];
-        if (rule->x[k] != 0) {
-            x[count] = -rule->x[k];
-            weight[count++] = rule->weight[k];
-        }
-    }
-    return count;
-}
-
 /* Adds the sum over the points of both rules, times `fraction`. Sines and cosines are computed once
    for each row and column. Returns 0 if the rounding error of a point is too large. */
-static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf, const gauss_rule *along,
-                            const gauss_rule *around, double fraction, lrcsi_patch *patch)
+static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf,
+                            const lrcsi_gauss_rule *along, const lrcsi_gauss_rule *around,
+                            double fraction, lrcsi_patch *patch)
 {
-    double x[POINTS_MAX] = {0};
-    double weight[POINTS_MAX] = {0};
-    double azimuth[POINTS_MAX][2] = {{0}};
-    double column_weight[POINTS_MAX] = {0};
-    int columns = rule_points(around, x, column_weight);
+    double x[LRCSI_GAUSS_POINTS_MAX] = {0};
+    double weight[LRCSI_GAUSS_POINTS_MAX] = {0};
+    double azimuth[LRCSI_GAUSS_POINTS_MAX][2] = {{0}};
+    double column_weight[LRCSI_GAUSS_POINTS_MAX] = {0};
+    int columns = lrcsi_gauss_points(around, x, column_weight);
     for (int k = 0; k < columns; k++) {
         double phi = f->phi + x[k] * f->half;
         azimuth[k][0] = sin(phi);
         azimuth[k][1] = cos(phi);
     }
     int known = 1;
-    int rows = f->step > 0 ? rule_points(along, x, weight) : 1;
+    int rows = f->step > 0 ? lrcsi_gauss_points(along, x, weight) : 1;
     for (int i = 0; i < rows && known; i++) {
         double sine = f->sine;
         double cosine = f->cosine;
@@ -438,7 +389,7 @@ static patch_frame frame_piece(const patch_frame *whole, int n, int i, int k)
 
 /* Chooses the rules for one piece. *remainder is that of their product, *middle the integrand in
    the middle of the piece. Returns 0 if some of the piece may be edge-on to the laser. */
-static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const gauss_rule *rule[2],
+static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const lrcsi_gauss_rule *rule[2],
                        double *remainder, double *middle)
 {
     if (!(normal_shift(f, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half)) < 0.25 * f->c)) {
@@ -452,7 +403,7 @@ static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const gauss_
     *middle = weight * f->nu * (at.glint + at.diffuse);
     double target = lrcsi_max(REMAINDER_TARGET * *middle, 0.5 * f->negligible);
     rule[1] = rule_choose(f, brdf, 0, target, &around_error);
-    rule[0] = f->step > 0 ? rule_choose(f, brdf, 1, target, &along_error) : &rules[0];
+    rule[0] = f->step > 0 ? rule_choose(f, brdf, 1, target, &along_error) : &lrcsi_gauss_rules[0];
     *remainder = along_error + around_error;
     return 1;
 }
@@ -468,7 +419,7 @@ enum pieces_answer {
    allowed. */
 static int patch_pieces(const patch_frame *whole, const lrcs_brdf *brdf, int n, lrcsi_patch *patch)
 {
-    const gauss_rule *rule[PIECES_MAX * PIECES_MAX][2];
+    const lrcsi_gauss_rule *rule[PIECES_MAX * PIECES_MAX][2];
     int rows = whole->step > 0 ? n : 1;
     double fraction = 1.0 / (rows * n);
     double mean = 0; /* of the integrand in the middles of pieces */
@@ -533,7 +484,7 @@ const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *pl
     lrcsi_patch *last = &patches->last;
     lrcsi_patch made = {.part = index, .side = view->facing[facet]};
     if (!plan->patches || made.side == 0 || !lrcsi_patch_exists(view->prepared, facet) ||
-        (brdf->A > 0 && !(brdf->s >= GLINT_SLOPE_MIN)) ||
+        (brdf->A > 0 && !(brdf->s >= LRCSI_PATCH_SLOPE_MIN)) ||
         !lrcsi_tessellate_patch(&part->shape, &part->divisions, facet - part->first_facet,
                                 &made.at)) {
         return NULL;

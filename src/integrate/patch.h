@@ -53,6 +53,11 @@ int lrcsi_patch_exists(const lrcs_prepared *prepared, uint32_t facet);
 const lrcsi_patch *lrcsi_patch_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                     const lrcs_brdf *brdf, uint32_t facet, lrcsi_patches *patches);
 
+/* With a smaller slope s the flank of the glint is so steep, |d log glint / du| up to 2 + 1/s^2,
+   that the rounding error of u would exceed 1e-8 of the glint. No proof depends on the value:
+   errors are computed for any s. */
+#define LRCSI_PATCH_SLOPE_MIN 1e-3
+
 /* The error of a normal of the true surface and the direction to the laser together, and what it
    changes in both terms of f_r cos^2, relative, up to the factor exp of it (integrate/patch.c).
    Given: u = tan^2, cosine and sine of the incidence angle. */

@@ -82,6 +82,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     if (moments_wanted(prepared)) {
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_moment)));
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, 1));
+        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_round_piece)));
     }
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
@@ -117,9 +118,12 @@ static int run_take(lrcsi_sigma *run)
     run->moment_memory =
         moments ? lrcsi_work_take(run->work, facets, sizeof *run->moment_memory) : NULL;
     run->corrected = moments ? lrcsi_work_take(run->work, facets, 1) : NULL;
+    run->piece_memory =
+        moments ? lrcsi_work_take(run->work, facets, sizeof *run->piece_memory) : NULL;
     run->curved = p->smooth ? lrcsi_work_take(run->work, facets, sizeof *run->curved) : NULL;
     run->stack = p->smooth ? lrcsi_cubature_stack(run->work) : NULL;
-    return (run->visible || !areas) && ((run->moment_memory && run->corrected) || !moments) &&
+    return (run->visible || !areas) &&
+                   ((run->moment_memory && run->corrected && run->piece_memory) || !moments) &&
                    ((run->curved && run->stack) || !p->smooth)
                ? LRCS_OK
                : LRCS_E_MEMORY;
@@ -170,7 +174,7 @@ static const lrcsi_proximity_band *run_band(const lrcsi_sigma *run)
 
 static lrcsi_total run_total(const lrcsi_sigma *run, lrcs_facet_record *records)
 {
-    const lrcsi_areas areas = {run->visible, run->answer, run->moment};
+    const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->piece};
     const lrcsi_total_details details = {records, run->part_error, run->corrected};
     lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
     return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run_band(run), &run->clear,
@@ -261,6 +265,12 @@ static void run_sum(lrcsi_sigma *run, lrcsi_meter *meter)
     }
     if (run_band(run)) {
         lrcsi_proximity_find_hidden(&run->band, run->visible, meter, run->work);
+    }
+    run->piece = NULL;
+    if (run_band(run) && run->moment && !run->derivatives) {
+        lrcsi_round_pieces_make(&run->classification, &run->plan, &run->band, run->visible, meter,
+                                run->work, run->piece_memory);
+        run->piece = run->piece_memory;
     }
     run->outcome.total = run_total(run, NULL);
 }

@@ -52,8 +52,9 @@ void lrcsi_total_record(const lrcsi_total_run *run, uint32_t facet, double glint
 /* Adds a facet that reflects towards the laser and may be visible:
    1. its incidence and visible area;
    2. with curved normals, the integral over them;
-   3. otherwise 4 pi S f times the visible fraction, with the rounding error;
-   4. the error of the visible area. */
+   3. on a wall whose visible pieces are known, the integral over these;
+   4. otherwise 4 pi S f times the visible fraction, with the rounding error;
+   5. the error of the visible area. */
 void lrcsi_total_add_reflecting(lrcsi_total_run *run, uint32_t facet)
 {
     lrcsi_total_sums *sums = &run->sums;
@@ -73,6 +74,18 @@ void lrcsi_total_add_reflecting(lrcsi_total_run *run, uint32_t facet)
         sums->error_estimate = lrcsi_length_flat(sums->error_estimate, curved->error_estimate);
         sums->curvature += curved->estimate;
         lrcsi_total_record(run, facet, curved->glint, curved->diffuse);
+        return;
+    }
+    const lrcsi_round_piece *piece = lrcsi_areas_piece(run->areas, facet);
+    if (piece) {
+        double glint = LRCS_FOUR_PI * piece->glint;
+        double diffuse = LRCS_FOUR_PI * piece->diffuse;
+        lrcsi_sum_add(&sums->glint, glint);
+        lrcsi_sum_add(&sums->diffuse, diffuse);
+        sums->visibility += LRCS_FOUR_PI * piece->visibility;
+        sums->rounding += LRCS_FOUR_PI * piece->rounding + 8 * LRCSI_U * (glint + diffuse) +
+                          LRCSI_FACET_UNDERFLOW;
+        lrcsi_total_record(run, facet, glint, diffuse);
         return;
     }
     lrcsi_facet_terms terms =
@@ -120,21 +133,35 @@ void lrcsi_total_add_facet(lrcsi_total_run *run, uint32_t facet)
     }
 }
 
-/* Divides the error of a facet among the parts that cause it, in proportion to their reaches: its
-   own part, and those whose shadows may end on the facet. */
-static void add_part_errors(const lrcsi_total_run *run, uint32_t facet, double error)
+/* Divides an error of a facet among the parts that cause it, in proportion to their reaches: the
+   parts whose shadows may end on the facet and, with `own`, its own part. */
+static void add_part_errors(const lrcsi_total_run *run, uint32_t facet, double error, int own)
 {
     const lrcs_scene *scene = run->view->prepared->scene;
-    const uint32_t own = scene->facet_part[facet];
-    const lrcsi_part_set others = run->band ? run->band->parts[facet] : 0;
-    const lrcsi_part_set set = others | lrcsi_part_set_of(own);
+    lrcsi_part_set set = run->band ? run->band->parts[facet] : 0;
     double reach = 0;
+    if (own) {
+        set |= lrcsi_part_set_of(scene->facet_part[facet]);
+    }
     for (uint32_t i = 0; i < scene->part_count; i++) {
         reach += (set & lrcsi_part_set_of(i)) != 0 ? scene->part[i].reach : 0;
     }
     for (uint32_t i = 0; reach > 0 && i < scene->part_count; i++) {
         run->details.part_error[i] +=
             (set & lrcsi_part_set_of(i)) != 0 ? error * (scene->part[i].reach / reach) : 0;
+    }
+}
+
+/* Adds the tessellation error of a facet on a wall whose visible pieces are known: what other parts
+   cause, and what its own part causes. */
+static void add_piece_errors(lrcsi_total_run *run, uint32_t facet, const lrcsi_round_piece *piece)
+{
+    run->sums.above += LRCS_FOUR_PI * (piece->above + piece->own);
+    run->sums.below += LRCS_FOUR_PI * (piece->below + piece->own);
+    if (run->details.part_error) {
+        uint32_t own = run->view->prepared->scene->facet_part[facet];
+        run->details.part_error[own] += LRCS_FOUR_PI * piece->own;
+        add_part_errors(run, facet, LRCS_FOUR_PI * fmax(piece->above, piece->below), 0);
     }
 }
 
@@ -159,7 +186,12 @@ static void add_correction(lrcsi_total_run *run, uint32_t facet, double glint, d
 void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
                                   const lrcsi_incidence *incidence)
 {
+    const lrcsi_round_piece *piece = lrcsi_areas_piece(run->areas, facet);
     if (lrcsi_total_in_clear_shape(run, facet)) {
+        return;
+    }
+    if (piece) {
+        add_piece_errors(run, facet, piece);
         return;
     }
     if (!run->curved || !lrcsi_curve_applies(run->view, facet)) {
@@ -172,7 +204,7 @@ void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
         run->sums.above += LRCS_FOUR_PI * error.above;
         run->sums.below += LRCS_FOUR_PI * error.below;
         if (run->details.part_error && error.above + error.below > 0) {
-            add_part_errors(run, facet, LRCS_FOUR_PI * fmax(error.above, error.below));
+            add_part_errors(run, facet, LRCS_FOUR_PI * fmax(error.above, error.below), 1);
         }
     } else if (run->band) {
         run->sums.above += run->band->gain[facet] * run->curved[facet].upper_bound;

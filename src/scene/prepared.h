@@ -14,6 +14,7 @@
 #include "base/elementary.h"
 #include "mesh/contact/intersection.h"
 #include "mesh/topology.h"
+#include "scene/part_set.h"
 
 /* Scaled coordinates and components of a direction below this count as 0, because the exact
    predicates (base/exact.h) do not allow smaller ones. */
@@ -69,6 +70,8 @@ typedef struct lrcsi_proximity {
     double *hausdorff;   /* part: lrcs_part.hausdorff, scaled */
     double *grazing_cos; /* part: rounding cannot reverse a facet with |cos(theta)| above this */
     double max_hausdorff;
+    lrcsi_part_set *near; /* facet on a curved wall: the other parts of which a facet is within
+                             LRCSI_PROXIMITY_NEAR times the slack */
     lrcsi_proximity_pair *pair; /* in no order */
     size_t count;
 } lrcsi_proximity;

@@ -60,6 +60,12 @@ double lrcsi_proximity_slack_across(const lrcs_prepared *p, uint32_t part, uint3
                : lrcsi_min(slack, theirs + lateral + LRCSI_PROXIMITY_ERR);
 }
 
+double lrcsi_proximity_slack_above(const lrcs_prepared *p, uint32_t other)
+{
+    double theirs = p->proximity.hausdorff[other];
+    return theirs > 0 ? (part_is_open(p, other) ? 2 : 1) * theirs + LRCSI_PROXIMITY_ERR : 0;
+}
+
 /* An upper bound of the sine of an angle, given its cosine to within 1e-14. */
 static double sine_of(double cosine)
 {
@@ -205,6 +211,20 @@ static float fraction_float(double fraction)
 /* Pairs are allocated one by one and must be contiguous. */
 _Static_assert(sizeof(lrcsi_proximity_pair) % LRCS_WORK_ALIGN == 0, "no gaps between pairs");
 
+/* Notes that a facet on a curved wall is near a part, if part of it is. */
+static void near_add(lrcs_prepared *p, uint32_t facet, uint32_t other)
+{
+    lrcsi_proximity *proximity = &p->proximity;
+    const uint32_t *part = p->scene->facet_part;
+    double near = LRCSI_PROXIMITY_NEAR * lrcsi_proximity_slack(p, part[facet], part[other]);
+    lrcsi_part_set set = lrcsi_part_set_of(part[other]);
+    if (proximity->reach[part[facet]] > 0 && p->scene->facet_smooth[facet] != 0 &&
+        (proximity->near[facet] & set) == 0 && !pair_is_apart(p, facet, other, near) &&
+        !pair_is_apart(p, other, facet, near) && pair_slice(p, facet, other, near).count > 0) {
+        proximity->near[facet] |= set;
+    }
+}
+
 /* Adds a pair if part of the facet is within the slack of the other. */
 static int proximity_add(lrcs_prepared *p, uint32_t facet, uint32_t other, lrcs_work *work)
 {
@@ -245,7 +265,8 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tr
     const lrcs_scene *scene = p->scene;
     uint32_t part = scene->facet_part[facet];
     double within =
-        2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR;
+        LRCSI_PROXIMITY_NEAR *
+        (2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR);
     lrcsi_box box = lrcsi_box_of(p->vertex, &scene->facet[facet]);
     for (int k = 0; k < 3; k++) {
         box.low[k] -= within;
@@ -259,6 +280,8 @@ static int pairs_of_facet(lrcs_prepared *p, uint32_t facet, const lrcsi_tree *tr
         if (scene->facet_part[other] == part) {
             continue;
         }
+        near_add(p, facet, other);
+        near_add(p, other, facet);
         status = proximity_add(p, facet, other, work);
         if (status == LRCS_OK && p->proximity.reach[scene->facet_part[other]] == 0) {
             status = proximity_add(p, other, facet, work);
@@ -345,6 +368,8 @@ size_t lrcsi_proximity_need(const lrcs_scene *scene)
             need =
                 lrcsi_work_bytes(4 * (size_t)scene->facet_count + 64, sizeof(lrcsi_proximity_pair));
             need = lrcsi_work_add(need, lrcsi_work_blocks(3, scene->part_count, sizeof(double)));
+            need =
+                lrcsi_work_add(need, lrcsi_work_bytes(scene->facet_count, sizeof(lrcsi_part_set)));
         }
     }
     return need;
@@ -360,7 +385,10 @@ int lrcsi_proximity_make(lrcs_prepared *p, lrcs_work *work)
         lrcsi_work_take(work, p->scene->part_count, sizeof *p->proximity.hausdorff);
     p->proximity.grazing_cos =
         lrcsi_work_take(work, p->scene->part_count, sizeof *p->proximity.grazing_cos);
-    if (!p->proximity.reach || !p->proximity.hausdorff || !p->proximity.grazing_cos) {
+    p->proximity.near =
+        lrcsi_work_take_zero(work, p->scene->facet_count, sizeof *p->proximity.near);
+    if (!p->proximity.reach || !p->proximity.hausdorff || !p->proximity.grazing_cos ||
+        !p->proximity.near) {
         return LRCS_E_MEMORY;
     }
     parts_fill(p);

@@ -12,6 +12,9 @@
    them are accurate to 2^-48. */
 #define LRCSI_PROXIMITY_ERR 0x1p-44
 
+/* Facets of other parts that are farther away than this times the slack are not near. */
+#define LRCSI_PROXIMITY_NEAR 32.0
+
 /* The slack of two parts: the visibility of the true shapes may differ from that of the facets only
    where a point of a facet of `part` is within this distance of a facet of `other` or, in
    projection, of a rim or contour of `other`. 0 if the facets of both parts are exact. */
@@ -21,6 +24,10 @@ double lrcsi_proximity_slack(const lrcs_prepared *prepared, uint32_t part, uint3
    by at most `lateral` perpendicular to the line of sight. */
 double lrcsi_proximity_slack_across(const lrcs_prepared *prepared, uint32_t part, uint32_t other,
                                     double lateral);
+
+/* The slack in projection where points of the true surface correspond to points of facets of the
+   same projection (visibility/proximity_band.h, 11). */
+double lrcsi_proximity_slack_above(const lrcs_prepared *prepared, uint32_t other);
 
 /* How far points of the true surface may be from their images on a facet: by at most `bound[i]`
    along each of three perpendicular directions in the body frame; and by at most `reach`. On the

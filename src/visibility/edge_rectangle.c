@@ -64,17 +64,15 @@ lrcsi_edge_rectangle lrcsi_edge_rectangle_make(const lrcsi_view *view, uint32_t 
     return box;
 }
 
-/* Do all corners of a facet lie beyond one side of the rectangle about an edge? */
-static int edge_rectangle_apart(const lrcsi_view *view, uint32_t facet,
-                                const lrcsi_edge_rectangle *box)
+/* Do all of these points lie beyond one side of the rectangle about an edge? */
+static int points_apart(const double *const point[], int count, const lrcsi_edge_rectangle *box)
 {
-    const uint32_t *corner = view->prepared->scene->facet[facet].corner;
     int left = 0;
     int right = 0;
     int before = 0;
     int beyond = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *x = view->point[corner[k]].x;
+    for (int k = 0; k < count; k++) {
+        const double *x = point[k];
         const double from_a[2] = {x[0] - box->a[0], x[1] - box->a[1]};
         const double from_b[2] = {x[0] - box->b[0], x[1] - box->b[1]};
         double across = box->along[0] * from_a[1] - box->along[1] * from_a[0];
@@ -83,23 +81,31 @@ static int edge_rectangle_apart(const lrcsi_view *view, uint32_t facet,
         before += box->along[0] * from_a[0] + box->along[1] * from_a[1] < -box->before;
         beyond += box->along[0] * from_b[0] + box->along[1] * from_b[1] > box->end;
     }
-    return left == 3 || right == 3 || before == 3 || beyond == 3;
+    return left == count || right == count || before == count || beyond == count;
+}
+
+int lrcsi_edge_rectangle_meets(const lrcsi_edge_rectangle *box, const double p[3],
+                               const double q[3])
+{
+    const double *const end[2] = {p, q};
+    return !points_apart(end, 2, box);
 }
 
 lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
                                        const lrcsi_edge_rectangle *box)
 {
     const uint32_t *corner = view->prepared->scene->facet[facet].corner;
+    const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
+                                    view->point[corner[2]].x};
     lrcsi_slice slice = {.count = 0};
-    if (edge_rectangle_apart(view, facet, box)) {
+    if (points_apart(point, 3, box)) {
         return slice;
     }
     const double *along = box->along;
     const double left[3] = {-along[1], along[0], 0};
     const double back[3] = {-along[0], -along[1], 0};
     const double right[3] = {along[1], -along[0], 0};
-    slice = lrcsi_slice_start(view->point[corner[0]].x, view->point[corner[1]].x,
-                              view->point[corner[2]].x);
+    slice = lrcsi_slice_start(point[0], point[1], point[2]);
     lrcsi_slice_cut(&slice, left, box->a, box->half_width);
     lrcsi_slice_cut(&slice, right, box->a, box->half_width);
     lrcsi_slice_cut(&slice, along, box->b, box->end);

@@ -32,6 +32,10 @@ lrcsi_edge_rectangle lrcsi_edge_rectangle_make(const lrcsi_view *view, uint32_t 
 lrcsi_slice lrcsi_edge_rectangle_slice(const lrcsi_view *view, uint32_t facet,
                                        const lrcsi_edge_rectangle *box);
 
+/* May a segment between two points in view coordinates meet the rectangle? */
+int lrcsi_edge_rectangle_meets(const lrcsi_edge_rectangle *box, const double p[3],
+                               const double q[3]);
+
 /* What of a slice in the rectangle may lie to the left (side 1) or to the right (-1) of the edge,
    seen from low to high. */
 lrcsi_slice lrcsi_edge_rectangle_half(lrcsi_slice slice, const lrcsi_edge_rectangle *box, int side);

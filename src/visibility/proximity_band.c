@@ -49,13 +49,16 @@ typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
     double *mismatch, *gain, *loss, *rows;
+    double *gain_above, *loss_above;
+    unsigned char *free_sides;
     lrcsi_part_set *parts;
     uint32_t *edge, *part; /* event: its topology edge, its part */
     signed char *side;     /* event: on which side of it, from low to high, the part's facets lie: 1
                               left, -1 right, 0 both or not known */
     lrcsi_outline_areas *areas; /* event: the areas along it between the outlines of the true shape
                          and of its facets; gain < 0: not computed yet */
-    uint32_t *seen;             /* event: 1 + the last facet for which it was considered */
+    uint32_t *seen[2];          /* event: 1 + the last facet for which it was considered, without
+                         and with edge_search.above */
     uint32_t count;
     lrcsi_grid grid;
     band_box *box;          /* part: that of its facets in the view */
@@ -126,8 +129,10 @@ static int band_events(band_job *job, lrcs_work *work)
     job->part = lrcsi_work_take(work, job->count, sizeof *job->part);
     job->side = lrcsi_work_take(work, job->count, sizeof *job->side);
     job->areas = lrcsi_work_take(work, job->count, sizeof *job->areas);
-    job->seen = lrcsi_work_take_zero(work, job->count, sizeof *job->seen);
-    if (!edge || !job->part || !job->side || !job->areas || !job->seen) {
+    for (int i = 0; i < 2; i++) {
+        job->seen[i] = lrcsi_work_take_zero(work, job->count, sizeof *job->seen[i]);
+    }
+    if (!edge || !job->part || !job->side || !job->areas || !job->seen[0] || !job->seen[1]) {
         return LRCS_E_MEMORY;
     }
     for (uint32_t i = 0; i < job->count; i++) {
@@ -169,10 +174,14 @@ static int own_rim(const band_job *job, const lrcsi_edge *edge, uint32_t part)
 /* The distance in projection within which an event edge may change what is visible of a facet,
    unless it is behind the facet; 0 if it cannot. In the facet's own part only the rims of openings
    can. */
-static double event_slack(const band_job *job, uint32_t facet, uint32_t event, double lateral)
+static double event_slack(const band_job *job, uint32_t facet, uint32_t event, double lateral,
+                          int above)
 {
     const lrcs_prepared *p = job->view->prepared;
     uint32_t part = band_part(job, facet);
+    if (above) {
+        return job->part[event] == part ? 0 : lrcsi_proximity_slack_above(p, job->part[event]);
+    }
     if (job->part[event] == part) {
         const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
         return own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
@@ -193,6 +202,7 @@ typedef struct edge_search {
     int inside; /* the laser may see the facet through an opening of its own part */
     lrcsi_displacement displacement;
     double lateral; /* lrcsi_displacement_across the line of sight; negative: not computed yet */
+    int above; /* 1: points of facet and true surface correspond if their projections are equal */
 } edge_search;
 
 /* outward . x of a point, with `err` times its position's error added. */
@@ -402,112 +412,208 @@ static lrcsi_edge_rectangle event_rectangle(const band_job *job, uint32_t facet,
     const lrcsi_topology *topology = &job->view->prepared->topology;
     lrcsi_edge_rectangle box =
         lrcsi_edge_rectangle_make(job->view, facet, &topology->edge[job->edge[event]], slack);
-    if (box.has_sides) {
+    if (box.has_sides && !search->above) {
         double across = lrcsi_displacement_along(&search->displacement, box.across) +
                         box.rotation_err * search->lateral;
-        across = event_slack(job, facet, event, lrcsi_min(across, search->lateral)) + wider;
+        across = event_slack(job, facet, event, lrcsi_min(across, search->lateral), 0) + wider;
         box.half_width = lrcsi_min(across, slack) + box.err;
     }
     return box;
 }
 
-/* Adds the fractions of area and of rows near an event edge:
-   1. nothing if it is too far away, or an edge of the facet's own part of which it sees no inside;
-   2. nothing but what a proof leaves open if its part is behind the facet's;
+/* The fractions of a facet near an event edge. */
+typedef struct event_fractions {
+    double area, rows; /* of its area, of its rows, where the edge matters */
+    double gain, loss;
+    double unproved; /* where a proof about the edge's part does not hold */
+} event_fractions;
+
+/* Finds the fractions near an event edge:
+   1. none if it is too far away, or an edge of the facet's own part of which it sees no inside;
+   2. none but what a proof leaves open if its part is behind the facet's;
    3. what of the facet lies in the rectangle about the edge, unless the edge is behind it;
    4. all of that as gain and loss where the part lies on both sides of the edge; else what is on
       the inner side as gain, on the outer side as loss;
-   5. but no more than the area between outlines, where the part is in front of the facet. */
-static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search *search)
+   5. but no more than the area between outlines, where the part is in front of the facet.
+   Returns 0 if there are none. */
+static int event_fractions_make(const band_job *job, uint32_t facet, uint32_t event,
+                                edge_search *search, event_fractions *f)
 {
     const lrcs_prepared *p = job->view->prepared;
     const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
     int is_own = job->part[event] == band_part(job, facet);
     int side = is_own ? 0 : job->side[event];
+    *f = (event_fractions){.unproved = 0};
     if ((is_own && !search->inside) ||
         search_excludes(search, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
-        return; /* 1 */
+        return 0; /* 1 */
     }
     if (search->lateral < 0) {
         search->displacement = lrcsi_proximity_displacement(p, facet);
         search->lateral = lrcsi_displacement_across(&search->displacement, job->view->unit);
     }
-    double slack = event_slack(job, facet, event, search->lateral);
+    double slack = event_slack(job, facet, event, search->lateral, search->above);
     double err = 0;
-    double unproved = 0;
     if (!(slack > 0)) {
-        return;
+        return 0;
     }
-    if (!is_own && part_is_behind(job, facet, job->part[event], &unproved)) { /* 2 */
-        add_unproved(job, facet, job->part[event], unproved);
-        return;
+    if (!is_own && part_is_behind(job, facet, job->part[event], &f->unproved)) { /* 2 */
+        return f->unproved > 0;
     }
-    int in_front = !is_own && part_in_front(job, facet, job->part[event], &err, &unproved);
+    int in_front = !is_own && part_in_front(job, facet, job->part[event], &err, &f->unproved);
     slack += err;
     lrcsi_edge_rectangle box = event_rectangle(job, facet, event, search, slack, err); /* 3 */
     lrcsi_slice slice = lrcsi_edge_rectangle_slice(job->view, facet, &box);
     if (slice.count == 0 ||
         (!is_own && lrcsi_edge_rectangle_behind(
                         job->view, facet, edge,
-                        lrcsi_proximity_slack(p, band_part(job, facet), job->part[event])))) {
-        return;
+                        (search->above ? LRCSI_PROXIMITY_NEAR : 1) *
+                            lrcsi_proximity_slack(p, band_part(job, facet), job->part[event])))) {
+        return 0;
     }
     const uint32_t *vertex = p->scene->facet[facet].corner;
     const double *const corner[3] = {job->view->point[vertex[0]].x, job->view->point[vertex[1]].x,
                                      job->view->point[vertex[2]].x};
-    lrcsi_part_set part = lrcsi_part_set_of(job->part[event]); /* 4 */
-    double whole = 0.5 * p->normal[facet].length;
+    double whole = 0.5 * p->normal[facet].length; /* 4 */
     double longest = lrcsi_proximity_longest(p, facet);
-    job->rows[facet] += lrcsi_proximity_rows(p, facet, corner, &slice);
+    f->rows = lrcsi_proximity_rows(p, facet, corner, &slice);
+    f->area = f->gain = f->loss = lrcsi_slice_fraction(&slice, whole, longest);
     if (side == 0) {
-        add_both(job, facet, lrcsi_slice_fraction(&slice, whole, longest), part);
-        return;
+        f->unproved = 0;
+        return 1;
     }
     lrcsi_slice outer = lrcsi_edge_rectangle_half(slice, &box, -side);
     lrcsi_slice inner = lrcsi_edge_rectangle_half(slice, &box, side);
-    double fraction = lrcsi_slice_fraction(&slice, whole, longest);
-    double gain = gain_is_inside(job, search, job->part[event])
-                      ? lrcsi_slice_fraction(&inner, whole, longest)
-                      : fraction;
-    double loss = lrcsi_slice_fraction(&outer, whole, longest);
-    double gain_max = HUGE_VAL;
-    double loss_max = HUGE_VAL;
-    if (in_front) { /* 5 */
-        outline_fractions(job, facet, event, search->lateral + err, &gain_max, &loss_max);
-        add_unproved(job, facet, job->part[event], unproved);
+    if (gain_is_inside(job, search, job->part[event])) {
+        f->gain = lrcsi_slice_fraction(&inner, whole, longest);
     }
-    job->parts[facet] |= part;
-    job->mismatch[facet] += lrcsi_min(fraction, gain_max + loss_max);
-    job->loss[facet] += lrcsi_min(loss, loss_max);
-    job->gain[facet] += lrcsi_min(gain, gain_max);
+    f->loss = lrcsi_slice_fraction(&outer, whole, longest);
+    if (in_front) { /* 5 */
+        double delta = (search->above ? 0 : search->lateral) + err;
+        double gain;
+        double loss;
+        outline_fractions(job, facet, event, delta, &gain, &loss);
+        f->area = lrcsi_min(f->area, gain + loss);
+        f->gain = lrcsi_min(f->gain, gain);
+        f->loss = lrcsi_min(f->loss, loss);
+    } else {
+        f->unproved = 0;
+    }
+    return 1;
 }
 
-/* Adds the fractions near all event edges, or the whole facet if the limit of steps is reached. */
-static void add_events(band_job *job, uint32_t facet, edge_search *search)
+/* Marks the sides of a facet near which an event edge of another part passes. The edges of a part
+   behind the facet's own do not matter. */
+static void mark_sides(const band_job *job, uint32_t facet, uint32_t event, edge_search *search)
+{
+    const lrcsi_view *view = job->view;
+    const lrcs_prepared *p = view->prepared;
+    const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
+    const uint32_t *corner = p->scene->facet[facet].corner;
+    const uint32_t own = band_part(job, facet);
+    const double slack = lrcsi_proximity_slack(p, own, job->part[event]);
+    double unproved;
+    if (job->part[event] == own || job->free_sides[facet] == 0 ||
+        search_excludes(search, view->point[edge->low].x, view->point[edge->high].x) ||
+        part_is_behind(job, facet, job->part[event], &unproved) ||
+        lrcsi_edge_rectangle_behind(view, facet, edge, LRCSI_PROXIMITY_NEAR * slack)) {
+        return;
+    }
+    const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
+        view, facet, edge,
+        lrcsi_proximity_slack_above(p, job->part[event]) + 2 * p->proximity.reach[own]);
+    for (int k = 0; k < 3; k++) {
+        if (lrcsi_edge_rectangle_meets(&box, view->point[corner[k]].x,
+                                       view->point[corner[(k + 1) % 3]].x)) {
+            job->free_sides[facet] &= (unsigned char)~(1 << k);
+        }
+    }
+}
+
+/* Adds the fractions near an event edge, which belong to the visibility of one of the two
+   correspondences between facet and true surface. */
+static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search *search)
+{
+    event_fractions f;
+    if (search->above) {
+        mark_sides(job, facet, event, search);
+    }
+    if (!event_fractions_make(job, facet, event, search, &f)) {
+        return;
+    }
+    if (search->above) {
+        job->gain_above[facet] += f.gain + f.unproved;
+        job->loss_above[facet] += f.loss + f.unproved;
+        return;
+    }
+    add_unproved(job, facet, job->part[event], f.unproved);
+    if (f.area > 0) {
+        job->parts[facet] |= lrcsi_part_set_of(job->part[event]);
+        job->mismatch[facet] += f.area;
+        job->gain[facet] += f.gain;
+        job->loss[facet] += f.loss;
+        job->rows[facet] += f.rows;
+    }
+}
+
+/* Adds the fractions near all event edges. Returns 0 if the limit of steps is reached. */
+static int add_events(band_job *job, uint32_t facet, edge_search *search)
 {
     const lrcsi_grid *grid = &job->grid;
     lrcsi_view_box box = lrcsi_view_box_round(job->view, search->low, search->high);
     lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
     int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
+    uint32_t *seen = job->seen[search->above];
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         lrcsi_grid_rect row = several ? lrcsi_grid_row(grid, search->side, 3, y) : cells;
         lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, row.x0, row.x1);
         if (!lrcsi_meter_take(job->meter, (uint64_t)1 + items.to - items.from)) {
-            add_both(job, facet, 1, LRCSI_PART_SET_ALL);
-            return;
+            return 0;
         }
         for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t event = grid->item[i];
-            if (job->gain[facet] >= 1 && job->loss[facet] >= 1) {
+            if (!search->above && job->gain[facet] >= 1 && job->loss[facet] >= 1) {
                 job->parts[facet] = LRCSI_PART_SET_ALL; /* others are not searched for */
-                return;
+                return 1;
             }
-            if (job->seen[event] != facet + 1) {
-                job->seen[event] = facet + 1;
+            if (seen[event] != facet + 1) {
+                seen[event] = facet + 1;
                 add_event(job, facet, event, search);
             }
         }
     }
+    return 1;
+}
+
+/* Begins the fractions for the correspondence of points with the same projection, unless they
+   cannot be known. The facet must lie on a curved wall and face the laser, and every other part
+   that is near it must be in front of its own part or behind it; what these proofs leave open is
+   counted. */
+static int begin_above(band_job *job, uint32_t facet)
+{
+    const lrcs_prepared *p = job->view->prepared;
+    const uint32_t own = band_part(job, facet);
+    const lrcsi_part_set near = p->proximity.near[facet];
+    double open = 0;
+    if (!p->scene->part[own].rigid || !(p->proximity.reach[own] > 0) ||
+        p->scene->facet_smooth[facet] == 0 || job->view->facing[facet] <= 0) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < p->scene->part_count && near != 0; i++) {
+        double unproved;
+        if ((near & lrcsi_part_set_of(i)) == 0 || i == own) {
+            continue;
+        }
+        if (!job->body ||
+            (!proof_holds(job, facet, &depth_order(job, own, i)->front_is_free, &unproved) &&
+             !proof_holds(job, facet, &depth_order(job, i, own)->back_by_outline, &unproved))) {
+            return 0;
+        }
+        open += unproved;
+    }
+    job->gain_above[facet] = job->loss_above[facet] = open;
+    job->free_sides[facet] = 7;
+    return 1;
 }
 
 static int facet_matters(const lrcsi_view *view, uint32_t facet)
@@ -528,7 +634,15 @@ static void facet_fractions(band_job *job, uint32_t facet)
          search.high[0] < job->curved.low[0] || search.high[1] < job->curved.low[1])) {
         return;
     }
-    add_events(job, facet, &search);
+    if (!add_events(job, facet, &search)) {
+        add_both(job, facet, 1, LRCSI_PART_SET_ALL);
+    }
+    if (begin_above(job, facet)) {
+        search.above = 1;
+        if (!add_events(job, facet, &search)) {
+            job->gain_above[facet] = -1;
+        }
+    }
     if (reach > 0 && fabs(lrcsi_view_incidence(view, facet).cos_theta) <=
                          p->proximity.grazing_cos[band_part(job, facet)] + COS_ERR) {
         add_both(job, facet, 1, LRCSI_PART_SET_ALL);
@@ -615,11 +729,11 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
         return 0;
     }
     size_t edges = band_edges(p);
-    size_t need = lrcsi_work_blocks(4, p->scene->facet_count, sizeof(double));
+    size_t need = lrcsi_work_blocks(6, p->scene->facet_count, sizeof(double));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(lrcsi_part_set)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
-    need = lrcsi_work_add(need, lrcsi_work_blocks(3, edges, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(2, p->scene->facet_count, 1));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(4, edges, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_outline_areas)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(band_box)));
@@ -658,6 +772,7 @@ static int all_fractions(band_job *job, lrcs_work *work)
         add_pairs(job); /* 3 */
         band_boxes(job);
         for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+            job->gain_above[f] = -1;
             if (facet_matters(job->view, f)) {
                 facet_fractions(job, f); /* 4 */
             }
@@ -707,6 +822,9 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_
     m.gain = lrcsi_work_take_zero(work, facets, sizeof *m.gain);
     m.loss = lrcsi_work_take_zero(work, facets, sizeof *m.loss);
     m.rows = lrcsi_work_take_zero(work, facets, sizeof *m.rows);
+    m.gain_above = lrcsi_work_take(work, facets, sizeof *m.gain_above);
+    m.loss_above = lrcsi_work_take_zero(work, facets, sizeof *m.loss_above);
+    m.free_sides = lrcsi_work_take_zero(work, facets, 1);
     m.parts = lrcsi_work_take_zero(work, facets, sizeof *m.parts);
     m.region = lrcsi_work_take(work, facets, sizeof *m.region);
     m.hidden = lrcsi_work_take_zero(work, facets, 1);
@@ -716,8 +834,12 @@ int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_
                     .gain = m.gain,
                     .loss = m.loss,
                     .rows = m.rows,
+                    .gain_above = m.gain_above,
+                    .loss_above = m.loss_above,
+                    .free_sides = m.free_sides,
                     .parts = m.parts};
-    int status = m.mismatch && m.gain && m.loss && m.rows && m.parts && m.region && m.hidden
+    int status = m.mismatch && m.gain && m.loss && m.rows && m.gain_above && m.loss_above &&
+                         m.free_sides && m.parts && m.region && m.hidden
                      ? all_fractions(&job, work)
                      : LRCS_E_MEMORY;
     if (status != LRCS_OK) {

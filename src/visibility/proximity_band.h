@@ -127,7 +127,29 @@
    projection of x lies in that of B, and likewise for y and the facets: so (1) need not be
    considered, and what 9 says of event edges holds, delta being the distance in projection of x
    from y. Where both parts touch the plane to within rounding, the fraction of the facet and of its
-   patch that lies within rounding of it counts as gained and lost. */
+   patch that lies within rounding of it counts as gained and lost.
+
+   11. The same projection. Let x now be the point of the true surface whose projection is that of
+   y, at a distance of at most 30 e_P. Let every other part Q be in front of P or behind it as in 10,
+   or have no facet within 32 slacks of the facet of y (scene/proximity.h). Then (1) need not be
+   considered, and Q hides x if and only if its facets hide y, unless an event edge of Q is, in
+   projection, within r' of both and not 64 slacks behind y, where r' is k_Q or, if Q is open, 2 k_Q:
+   the slack for e_P = 0. Proof:
+   - If Q is behind P, it hides neither.
+   - If Q is in front of P, all of Q is nearer than x and y. The number of facets of Q on the ray of
+     a point z changes only where the projection of z crosses an event edge. So the steps b to e of
+     1 hold for x in place of y with e_P = 0; in e a path that stays on W ends in front of x, so that
+     it reaches a rim.
+   - Otherwise no facet of Q is within r' of x, or between x and y, since both are within 30 e_P +
+     r' <= 32 slacks of y. So the facets of Q hide y if and only if they hide x, and 1 holds for x in
+     place of y with e_P = 0.
+   What 3 and 9 say of gain and loss holds as well, with delta = 0. []
+   A side of a facet is free if every event edge of other parts that may matter is farther than r' +
+   2 e_P from it in projection. Then all points of the true surface whose projections are within
+   2 e_P of the side, and that are within 30 e_P of the facet, are visible, and so are the points of
+   the facet there; or all of them are hidden. The proof is the same.
+   These fractions are of the facet's projected area. They are used for facets that face the laser
+   (integrate/round_pieces.h). */
 #ifndef LRCSI_PROXIMITY_BAND_H
 #define LRCSI_PROXIMITY_BAND_H
 
@@ -136,14 +158,18 @@
 
 typedef struct lrcsi_proximity_band {
     const lrcsi_classification *classification;
-    double *mismatch; /* facet: fraction of its area where visibility may differ, 0 .. 1 */
-    double *gain;     /* facet: fraction that the facets hide and the true shapes may not */
-    double *loss;     /* facet: fraction that the true shapes may hide and the facets do not */
-    double *rows;     /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
-    lrcsi_part_set *parts; /* facet: the parts whose bands it meets */
-    uint32_t *region;      /* facet of a curved part: its region, named by one of its facets */
-    unsigned char *hidden; /* region: not 0 if other parts hide all of it, in truth too
-                              (visibility/proximity_hidden.h) */
+    double *mismatch;   /* facet: fraction of its area where visibility may differ, 0 .. 1 */
+    double *gain;       /* facet: fraction that the facets hide and the true shapes may not */
+    double *loss;       /* facet: fraction that the true shapes may hide and the facets do not */
+    double *rows;       /* facet: fraction of its rows (scene/proximity.h) that meet such a band */
+    double *gain_above; /* facet: the gain of 11; negative: it is not known */
+    double *loss_above; /* facet: the loss of 11, if that is known */
+    unsigned char *free_sides; /* facet: bit k is 1 if no event edge of another part is near its
+                                  side from corner k to k + 1 (11) */
+    lrcsi_part_set *parts;     /* facet: the parts whose bands it meets */
+    uint32_t *region;          /* facet of a curved part: its region, named by one of its facets */
+    unsigned char *hidden;     /* region: not 0 if other parts hide all of it, in truth too
+                                  (visibility/proximity_hidden.h) */
 } lrcsi_proximity_band;
 
 /* Upper bound of bytes; 0 if prepared->proximity.reach is NULL. */

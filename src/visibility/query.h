@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "scene/part_set.h"
 #include "visibility/classify.h"
 
 enum lrcsi_query_answer {
@@ -31,14 +32,6 @@ int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet, lrcsi_meter *met
 /* A query at a given point of the facet, rounded; undecided if the facet does not cover it. */
 int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double point[3],
                       lrcsi_meter *meter);
-
-/* A set of parts: bit i is part i; the last bit is all parts from there on. */
-typedef uint64_t lrcsi_part_set;
-#define LRCSI_PART_SET_ALL UINT64_MAX
-static inline lrcsi_part_set lrcsi_part_set_of(uint32_t part)
-{
-    return (lrcsi_part_set)1 << (part < 63 ? part : 63);
-}
 
 /* 1 if at a point as in lrcsi_query_facet a facet of a part outside the set hides the facet. */
 int lrcsi_query_hidden_by_others(const lrcsi_grid *facets, uint32_t facet, lrcsi_part_set parts,

@@ -85,6 +85,18 @@ double lrcsi_revolution_fraction(const lrcsi_revolution *body, uint32_t i)
     return (double)(body->rings - i) / (double)body->rings;
 }
 
+double lrcsi_revolution_height(const lrcsi_revolution *body, uint32_t i)
+{
+    if (i == 0 || i == body->rings) {
+        return i == 0 ? 0.0 : body->height;
+    }
+    if (body->kind == LRCS_SHAPE_PARABOLOID) {
+        double x = lrcsi_revolution_fraction(body, i);
+        return body->height * ((1.0 - x) * (1.0 + x));
+    }
+    return body->height * cos(lrcsi_revolution_polar(body, i));
+}
+
 static lrcsi_ring ring_straight(const lrcsi_revolution *body)
 {
     double fall = body->base - body->top;

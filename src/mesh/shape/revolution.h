@@ -41,6 +41,9 @@ lrcsi_revolution lrcsi_revolution_make(const lrcs_shape *shape, const lrcs_divis
 /* True radius of row i, 0 (base) .. rings (upper end), m; exactly 0 at an apex. */
 double lrcsi_revolution_radius(const lrcsi_revolution *body, uint32_t i);
 
+/* True height of row i, m. */
+double lrcsi_revolution_height(const lrcsi_revolution *body, uint32_t i);
+
 /* The height of row i + 1 of the mesh above row i, m. */
 double lrcsi_revolution_rise(const lrcsi_revolution *body, uint32_t i);
 

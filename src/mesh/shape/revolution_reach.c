@@ -68,19 +68,6 @@ static lrcsi_reach sector_reach(const lrcsi_revolution *body)
         .all = hypot(inward, tangential), .radial = inward, .tangential = tangential};
 }
 
-/* True height of row i. */
-static double true_height(const lrcsi_revolution *body, uint32_t i)
-{
-    if (i == 0 || i == body->rings) {
-        return i == 0 ? 0.0 : body->height;
-    }
-    if (body->kind == LRCS_SHAPE_PARABOLOID) {
-        double x = lrcsi_revolution_fraction(body, i);
-        return body->height * ((1.0 - x) * (1.0 + x));
-    }
-    return body->height * cos(lrcsi_revolution_polar(body, i));
-}
-
 /* An upper bound of rho^2 - r^2 within ring i. */
 static double ring_excess(const lrcsi_revolution *body, uint32_t i)
 {
@@ -151,7 +138,7 @@ static lrcsi_reach ring_reach(const lrcsi_revolution *body, uint32_t i, double h
             fraction = fmax(fraction, excess / (below - above) / (below + above));
         }
     }
-    double rise = true_height(body, i + 1) - true_height(body, i);
+    double rise = lrcsi_revolution_height(body, i + 1) - lrcsi_revolution_height(body, i);
     double wide = fmax(below, above);
     double sagitta = ring_sagitta(body, i);
     lrcsi_reach reach = {.radial = wide * sector.radial + out,
@@ -175,7 +162,7 @@ lrcsi_reach lrcsi_revolution_reach(const lrcsi_revolution *body)
     for (uint32_t i = 0; i < body->rings; i++) {
         double before = height_err;
         z += lrcsi_revolution_rise(body, i);
-        height_err = fabs(z - true_height(body, i + 1));
+        height_err = fabs(z - lrcsi_revolution_height(body, i + 1));
         lrcsi_reach ring = ring_reach(body, i, fmax(before, height_err));
         bound.all = fmax(bound.all, ring.all);
         bound.radial = fmax(bound.radial, ring.radial);

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/* Gauss-Legendre rules for means over [-1, 1]. A rule of n points is exact for polynomials up to
+   degree 2 n - 1.
+
+   Remainder. Let f have a Taylor series about 0 whose radius exceeds r > 1, and |f| <= M on the
+   disc of radius r: its coefficients are at most M r^-k. A rule of n points is exact for odd k and
+   for k < 2 n; for even k >= 2 n its mean of x^k lies between 0 and the true mean 1/(k+1), since
+   the error of Gauss's rule is f^(2n)(xi) times a positive number. So the error of its mean of f is
+   at most
+       M sum over even k >= 2 n of r^-k / (k+1) <= M r^(-2n) / ((2n+1) (1 - r^-2)). */
+#ifndef LRCSI_GAUSS_H
+#define LRCSI_GAUSS_H
+
+/* The largest number of points of a rule. */
+#define LRCSI_GAUSS_POINTS_MAX 8
+
+/* The points >= 0 of a rule and their weights, each for x and -x. */
+typedef struct lrcsi_gauss_rule {
+    int points, half;
+    double x[LRCSI_GAUSS_POINTS_MAX / 2], weight[LRCSI_GAUSS_POINTS_MAX / 2];
+} lrcsi_gauss_rule;
+
+/* Rules of 2, 3, 4, 5, 6 and 8 points. */
+#define LRCSI_GAUSS_RULES 6
+extern const lrcsi_gauss_rule lrcsi_gauss_rules[LRCSI_GAUSS_RULES];
+
+/* Writes the points and weights of a rule, and returns how many there are. */
+int lrcsi_gauss_points(const lrcsi_gauss_rule *rule, double x[LRCSI_GAUSS_POINTS_MAX],
+                       double weight[LRCSI_GAUSS_POINTS_MAX]);
+
+#endif
