@@ -13,7 +13,9 @@
 #include "scene/proximity.h"
 #include "visibility/depth_order.h"
 #include "visibility/edge_rectangle.h"
+#include "visibility/edge_search.h"
 #include "visibility/outline.h"
+#include "visibility/proximity_events.h"
 
 /* More than the rounding error of a facet's cosine, of the unit normals and the direction: some 30
    u (facets that rounding may have turned further count as grazing: lrcsi_proximity.grazing_cos).
@@ -22,9 +24,6 @@
 /* The projected areas of facets with a larger cosine than this are accurate to COS_ERR, relative:
    30 u / 1e-4 is below 1e-10. */
 #define COS_MIN 1e-4
-/* The number of cells of the grid for each event edge: the many short edges of a rim lie in few
-   cells. */
-#define EVENT_CELLS 4u
 /* A proof about a part (visibility/depth_order.h) is used for a facet only if it holds for all but
    this fraction of it. */
 #define PROOF_FRACTION_MAX 0x1p-20
@@ -43,8 +42,7 @@ typedef struct band_box {
     double low[3], high[3];
 } band_box;
 
-/* What one run needs. The items of the grid are indices of events; an event is a pair of an event
-   edge and the part for which it is one. */
+/* What one run needs. */
 typedef struct band_job {
     const lrcsi_view *view;
     lrcsi_meter *meter;
@@ -52,17 +50,13 @@ typedef struct band_job {
     double *gain_above, *loss_above;
     unsigned char *free_sides;
     lrcsi_part_set *parts;
-    uint32_t *edge, *part; /* event: its topology edge, its part */
-    signed char *side;     /* event: on which side of it, from low to high, the part's facets lie: 1
-                              left, -1 right, 0 both or not known */
+    lrcsi_proximity_events events;
     lrcsi_outline_areas *areas; /* event: the areas along it between the outlines of the true shape
                          and of its facets; gain < 0: not computed yet */
     uint32_t *seen[2];          /* event: 1 + the last facet for which it was considered, without
                          and with edge_search.above */
-    uint32_t count;
-    lrcsi_grid grid;
-    band_box *box;          /* part: that of its facets in the view */
-    lrcsi_outline *outline; /* part */
+    band_box *box;              /* part: that of its facets in the view */
+    lrcsi_outline *outline;     /* part */
     const lrcsi_body *body; /* part; NULL: no shape has a closed form, and pairs are not tried */
     band_pair *pair;        /* BEHIND_PAIRS of them */
     band_box curved;        /* of all facets of curved parts */
@@ -73,75 +67,22 @@ static uint32_t band_part(const band_job *job, uint32_t facet)
     return job->view->prepared->scene->facet_part[facet];
 }
 
-/* --- events of one part ----------------------------------------------------------------------- */
-
-/* On which side of an edge all facets of a part lie in projection: 1 left, -1 right; 0: on both, or
-   one is seen edge-on. */
-static int event_side(const lrcsi_view *view, const lrcsi_edge *edge, uint32_t part)
-{
-    const lrcs_prepared *p = view->prepared;
-    const lrcsi_edge_use *use = p->topology.use + edge->first_use;
-    int left = 0;
-    int right = 0;
-    for (uint32_t i = 0; i < edge->uses; i++) {
-        uint32_t f = use[i].facet;
-        if (p->scene->facet_part[f] == part && !p->skip[f]) {
-            int side = use[i].forward ? view->facing[f] : -view->facing[f];
-            left |= side >= 0;
-            right |= side <= 0;
-        }
-    }
-    return left - right;
-}
-
-/* Lists all events, each pair once; only counts them if job->edge is NULL. */
-static void list_events(band_job *job)
-{
-    const lrcsi_topology *topology = &job->view->prepared->topology;
-    job->count = 0;
-    for (uint32_t e = 0; e < topology->edge_count; e++) {
-        const lrcsi_edge *edge = &topology->edge[e];
-        const lrcsi_edge_use *use = topology->use + edge->first_use;
-        for (uint32_t i = 0; i < edge->uses; i++) {
-            uint32_t part = band_part(job, use[i].facet);
-            uint32_t pair[2];
-            int met = 0;
-            for (uint32_t k = 0; k < i && !met; k++) {
-                met = band_part(job, use[k].facet) == part;
-            }
-            if (met || lrcsi_edge_kind_of(job->view, e, part, pair) != LRCSI_EDGE_EVENT) {
-                continue;
-            }
-            if (job->edge) {
-                job->edge[job->count] = e;
-                job->part[job->count] = part;
-                job->side[job->count] = (signed char)event_side(job->view, edge, part);
-            }
-            job->count++;
-        }
-    }
-}
-
+/* Lists the events, and takes memory for what is found of each. */
 static int band_events(band_job *job, lrcs_work *work)
 {
-    list_events(job);
-    uint32_t *edge = lrcsi_work_take(work, job->count, sizeof *edge);
-    job->part = lrcsi_work_take(work, job->count, sizeof *job->part);
-    job->side = lrcsi_work_take(work, job->count, sizeof *job->side);
-    job->areas = lrcsi_work_take(work, job->count, sizeof *job->areas);
+    int status = lrcsi_proximity_events_make(job->view, work, &job->events);
+    const uint32_t count = status == LRCS_OK ? job->events.count : 0;
+    job->areas = lrcsi_work_take(work, count, sizeof *job->areas);
     for (int i = 0; i < 2; i++) {
-        job->seen[i] = lrcsi_work_take_zero(work, job->count, sizeof *job->seen[i]);
+        job->seen[i] = lrcsi_work_take_zero(work, count, sizeof *job->seen[i]);
     }
-    if (!edge || !job->part || !job->side || !job->areas || !job->seen[0] || !job->seen[1]) {
+    if (status == LRCS_OK && (!job->areas || !job->seen[0] || !job->seen[1])) {
         return LRCS_E_MEMORY;
     }
-    for (uint32_t i = 0; i < job->count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         job->areas[i].gain = -1;
     }
-    job->edge = edge;
-    list_events(job);
-    job->grid = lrcsi_grid_empty(job->view, EVENT_CELLS * job->count);
-    return lrcsi_grid_edges(job->edge, job->count, 8 * (uint64_t)job->count, work, &job->grid);
+    return status;
 }
 
 /* --- one facet and one event ------------------------------------------------------------------ */
@@ -180,94 +121,37 @@ static double event_slack(const band_job *job, uint32_t facet, uint32_t event, d
     const lrcs_prepared *p = job->view->prepared;
     uint32_t part = band_part(job, facet);
     if (above) {
-        return job->part[event] == part ? 0 : lrcsi_proximity_slack_above(p, job->part[event]);
+        return job->events.part[event] == part
+                   ? 0
+                   : lrcsi_proximity_slack_above(p, job->events.part[event]);
     }
-    if (job->part[event] == part) {
-        const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
+    if (job->events.part[event] == part) {
+        const lrcsi_edge *edge = &p->topology.edge[job->events.edge[event]];
         return own_rim(job, edge, part) ? 2 * p->proximity.reach[part] : 0;
     }
-    return lrcsi_proximity_slack_across(p, part, job->part[event], lateral);
+    return lrcsi_proximity_slack_across(p, part, job->events.part[event], lateral);
 }
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-/* Where to look for event edges near a facet: in a box, and in rows of the grid between the facet's
-   sides, whose errors include the largest relevant distance. Beyond a line parallel to one of the
-   sides event edges are too far away: there outward . x > limit, errors included. */
-typedef struct edge_search {
-    double low[3], high[3];
-    lrcsi_view_segment side[3];
-    double outward[3][2], limit[3];
-    int first;  /* the side to try first: the one that excluded the last edge */
+/* The search for event edges near a facet. */
+typedef struct facet_search {
+    lrcsi_edge_search where;
     int inside; /* the laser may see the facet through an opening of its own part */
     lrcsi_displacement displacement;
     double lateral; /* lrcsi_displacement_across the line of sight; negative: not computed yet */
     int above; /* 1: points of facet and true surface correspond if their projections are equal */
-} edge_search;
+} facet_search;
 
-/* outward . x of a point, with `err` times its position's error added. */
-static double search_height(const edge_search *search, int side, const double x[3], double err)
+static facet_search search_begin(const band_job *job, uint32_t facet)
 {
-    return search->outward[side][0] * x[0] + search->outward[side][1] * x[1] +
-           err * lrcsi_view_point_err(x);
-}
-
-/* The line parallel to a side at the distance `near` from the facet; nothing is beyond it if the
-   side has no length. */
-static void search_line(edge_search *search, int side, const double *const corner[3], double near)
-{
-    const double *from = corner[side];
-    const double *to = corner[(side + 1) % 3];
-    const double *apex = corner[(side + 2) % 3];
-    double x = to[1] - from[1];
-    double y = from[0] - to[0];
-    double length = sqrt(x * x + y * y);
-    double sign = x * (apex[0] - from[0]) + y * (apex[1] - from[1]) > 0 ? -1 : 1;
-    search->outward[side][0] = length > 0 ? sign * x / length : 0;
-    search->outward[side][1] = length > 0 ? sign * y / length : 0;
-    double highest = -HUGE_VAL;
-    for (int k = 0; k < 3; k++) {
-        highest =
-            lrcsi_max(highest, search_height(search, side, corner[k], LRCSI_EDGE_RECTANGLE_ERR));
-    }
-    search->limit[side] = length > 0 ? highest + near * (1 + 0x1p-40) : HUGE_VAL;
-}
-
-/* Is the whole edge a b beyond one of these lines? */
-static int search_excludes(edge_search *search, const double a[3], const double b[3])
-{
-    int side = search->first;
-    for (int i = 0; i < 3; i++) {
-        if (search_height(search, side, a, -LRCSI_EDGE_RECTANGLE_ERR) > search->limit[side] &&
-            search_height(search, side, b, -LRCSI_EDGE_RECTANGLE_ERR) > search->limit[side]) {
-            search->first = side;
-            return 1;
-        }
-        side = side < 2 ? side + 1 : 0;
-    }
-    return 0;
-}
-
-static edge_search search_make(const band_job *job, uint32_t facet)
-{
-    const lrcsi_view *view = job->view;
-    const lrcs_prepared *p = view->prepared;
-    const uint32_t *corner = p->scene->facet[facet].corner;
-    double near = 2 * (p->proximity.reach[band_part(job, facet)] + p->proximity.max_hausdorff) +
-                  LRCSI_PROXIMITY_ERR;
-    double wide = near + lrcsi_edge_rectangle_facet_err(job->view, facet);
-    const double *const point[3] = {view->point[corner[0]].x, view->point[corner[1]].x,
-                                    view->point[corner[2]].x};
-    edge_search search = {.first = 0, .lateral = -1};
-    search.inside = view->facing[facet] < 0 && !lrcsi_proximity_closed(p, band_part(job, facet));
-    lrcsi_grid_sides(&job->grid, corner, 3, near, search.side);
-    lrcsi_view_bounds(view, corner, 3, search.low, search.high);
-    for (int k = 0; k < 3; k++) {
-        search.low[k] -= wide;
-        search.high[k] += wide;
-        search_line(&search, k, point, near);
-    }
-    return search;
+    const lrcs_prepared *p = job->view->prepared;
+    const uint32_t part = band_part(job, facet);
+    double near = 2 * (p->proximity.reach[part] + p->proximity.max_hausdorff) + LRCSI_PROXIMITY_ERR;
+    return (facet_search){
+        .where = lrcsi_edge_search_make(job->view, &job->events.grid, facet, near),
+        .inside = job->view->facing[facet] < 0 && !lrcsi_proximity_closed(p, part),
+        .lateral = -1};
 }
 
 /* Adds a fraction of a facet's area, near one of these parts, where the facets may hide what the
@@ -324,14 +208,14 @@ static void add_unproved(band_job *job, uint32_t facet, uint32_t other, double f
 /* Is gain possible only on the inner side of a part's event edges? It is for parts without openings
    or without reach, and for parts with one opening if their boxes do not contain points of the
    facet's patch. */
-static int gain_is_inside(const band_job *job, const edge_search *search, uint32_t part)
+static int gain_is_inside(const band_job *job, const facet_search *search, uint32_t part)
 {
     const lrcs_prepared *p = job->view->prepared;
     const band_box *box = &job->box[part];
     int openings = p->proximity.reach[part] > 0 ? lrcsi_proximity_openings(p, part) : 0;
     int apart = 0;
     for (int k = 0; k < 3; k++) {
-        apart |= search->low[k] > box->high[k] || search->high[k] < box->low[k];
+        apart |= search->where.low[k] > box->high[k] || search->where.high[k] < box->low[k];
     }
     return openings == 0 || (openings == 1 && apart);
 }
@@ -364,17 +248,18 @@ static int part_in_front(const band_job *job, uint32_t facet, uint32_t part, dou
 static int rim_is_inside(const band_job *job, uint32_t event)
 {
     const lrcsi_view *view = job->view;
-    const lrcsi_edge *edge = &view->prepared->topology.edge[job->edge[event]];
+    const lrcsi_edge *edge = &view->prepared->topology.edge[job->events.edge[event]];
     const lrcsi_edge_use *use = view->prepared->topology.use + edge->first_use;
     uint32_t facets = 0;
     int facing = 0;
     for (uint32_t i = 0; i < edge->uses; i++) {
-        if (band_part(job, use[i].facet) == job->part[event]) {
+        if (band_part(job, use[i].facet) == job->events.part[event]) {
             facing = view->facing[use[i].facet];
             facets++;
         }
     }
-    return facets == 1 && lrcsi_outline_inside(&job->outline[job->part[event]], view, facing);
+    return facets == 1 &&
+           lrcsi_outline_inside(&job->outline[job->events.part[event]], view, facing);
 }
 
 /* The largest fractions of a facet, behind the event's part, that can be gained and lost along an
@@ -383,8 +268,8 @@ static void outline_fractions(const band_job *job, uint32_t facet, uint32_t even
                               double *gain, double *loss)
 {
     const lrcsi_view *view = job->view;
-    const lrcsi_edge *edge = &view->prepared->topology.edge[job->edge[event]];
-    const lrcsi_outline *outline = &job->outline[job->part[event]];
+    const lrcsi_edge *edge = &view->prepared->topology.edge[job->events.edge[event]];
+    const lrcsi_outline *outline = &job->outline[job->events.part[event]];
     double projected = lrcsi_view_projected(view, facet);
     double whole = 0.5 * view->prepared->normal[facet].length;
     lrcsi_outline_areas *areas = &job->areas[event];
@@ -397,7 +282,7 @@ static void outline_fractions(const band_job *job, uint32_t facet, uint32_t even
         const double *b = view->point[edge->high].x;
         *areas = rim_is_inside(job, event)
                      ? (lrcsi_outline_areas){0, 0, 0}
-                     : lrcsi_outline_areas_make(outline, a, b, job->side[event]);
+                     : lrcsi_outline_areas_make(outline, a, b, job->events.side[event]);
     }
     *gain = (areas->gain + areas->width * delta) / projected * (1 + COS_ERR);
     *loss = (areas->loss + areas->width * delta) / projected * (1 + COS_ERR);
@@ -407,11 +292,11 @@ static void outline_fractions(const band_job *job, uint32_t facet, uint32_t even
    line of sight, `wider` included, which counts at the ends of the edge. To its sides only the
    component perpendicular to the edge counts. */
 static lrcsi_edge_rectangle event_rectangle(const band_job *job, uint32_t facet, uint32_t event,
-                                            const edge_search *search, double slack, double wider)
+                                            const facet_search *search, double slack, double wider)
 {
     const lrcsi_topology *topology = &job->view->prepared->topology;
-    lrcsi_edge_rectangle box =
-        lrcsi_edge_rectangle_make(job->view, facet, &topology->edge[job->edge[event]], slack);
+    lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
+        job->view, facet, &topology->edge[job->events.edge[event]], slack);
     if (box.has_sides && !search->above) {
         double across = lrcsi_displacement_along(&search->displacement, box.across) +
                         box.rotation_err * search->lateral;
@@ -437,15 +322,16 @@ typedef struct event_fractions {
    5. but no more than the area between outlines, where the part is in front of the facet.
    Returns 0 if there are none. */
 static int event_fractions_make(const band_job *job, uint32_t facet, uint32_t event,
-                                edge_search *search, event_fractions *f)
+                                facet_search *search, event_fractions *f)
 {
     const lrcs_prepared *p = job->view->prepared;
-    const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
-    int is_own = job->part[event] == band_part(job, facet);
-    int side = is_own ? 0 : job->side[event];
+    const lrcsi_edge *edge = &p->topology.edge[job->events.edge[event]];
+    int is_own = job->events.part[event] == band_part(job, facet);
+    int side = is_own ? 0 : job->events.side[event];
     *f = (event_fractions){.unproved = 0};
     if ((is_own && !search->inside) ||
-        search_excludes(search, job->view->point[edge->low].x, job->view->point[edge->high].x)) {
+        lrcsi_edge_search_excludes(&search->where, job->view->point[edge->low].x,
+                                   job->view->point[edge->high].x)) {
         return 0; /* 1 */
     }
     if (search->lateral < 0) {
@@ -457,18 +343,19 @@ static int event_fractions_make(const band_job *job, uint32_t facet, uint32_t ev
     if (!(slack > 0)) {
         return 0;
     }
-    if (!is_own && part_is_behind(job, facet, job->part[event], &f->unproved)) { /* 2 */
+    if (!is_own && part_is_behind(job, facet, job->events.part[event], &f->unproved)) { /* 2 */
         return f->unproved > 0;
     }
-    int in_front = !is_own && part_in_front(job, facet, job->part[event], &err, &f->unproved);
+    int in_front =
+        !is_own && part_in_front(job, facet, job->events.part[event], &err, &f->unproved);
     slack += err;
     lrcsi_edge_rectangle box = event_rectangle(job, facet, event, search, slack, err); /* 3 */
     lrcsi_slice slice = lrcsi_edge_rectangle_slice(job->view, facet, &box);
-    if (slice.count == 0 ||
-        (!is_own && lrcsi_edge_rectangle_behind(
-                        job->view, facet, edge,
-                        (search->above ? LRCSI_PROXIMITY_NEAR : 1) *
-                            lrcsi_proximity_slack(p, band_part(job, facet), job->part[event])))) {
+    if (slice.count == 0 || (!is_own && lrcsi_edge_rectangle_behind(
+                                            job->view, facet, edge,
+                                            (search->above ? LRCSI_PROXIMITY_NEAR : 1) *
+                                                lrcsi_proximity_slack(p, band_part(job, facet),
+                                                                      job->events.part[event])))) {
         return 0;
     }
     const uint32_t *vertex = p->scene->facet[facet].corner;
@@ -484,7 +371,7 @@ static int event_fractions_make(const band_job *job, uint32_t facet, uint32_t ev
     }
     lrcsi_slice outer = lrcsi_edge_rectangle_half(slice, &box, -side);
     lrcsi_slice inner = lrcsi_edge_rectangle_half(slice, &box, side);
-    if (gain_is_inside(job, search, job->part[event])) {
+    if (gain_is_inside(job, search, job->events.part[event])) {
         f->gain = lrcsi_slice_fraction(&inner, whole, longest);
     }
     f->loss = lrcsi_slice_fraction(&outer, whole, longest);
@@ -504,24 +391,25 @@ static int event_fractions_make(const band_job *job, uint32_t facet, uint32_t ev
 
 /* Marks the sides of a facet near which an event edge of another part passes. The edges of a part
    behind the facet's own do not matter. */
-static void mark_sides(const band_job *job, uint32_t facet, uint32_t event, edge_search *search)
+static void mark_sides(const band_job *job, uint32_t facet, uint32_t event, facet_search *search)
 {
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
-    const lrcsi_edge *edge = &p->topology.edge[job->edge[event]];
+    const lrcsi_edge *edge = &p->topology.edge[job->events.edge[event]];
     const uint32_t *corner = p->scene->facet[facet].corner;
     const uint32_t own = band_part(job, facet);
-    const double slack = lrcsi_proximity_slack(p, own, job->part[event]);
+    const double slack = lrcsi_proximity_slack(p, own, job->events.part[event]);
     double unproved;
-    if (job->part[event] == own || job->free_sides[facet] == 0 ||
-        search_excludes(search, view->point[edge->low].x, view->point[edge->high].x) ||
-        part_is_behind(job, facet, job->part[event], &unproved) ||
+    if (job->events.part[event] == own || job->free_sides[facet] == 0 ||
+        lrcsi_edge_search_excludes(&search->where, view->point[edge->low].x,
+                                   view->point[edge->high].x) ||
+        part_is_behind(job, facet, job->events.part[event], &unproved) ||
         lrcsi_edge_rectangle_behind(view, facet, edge, LRCSI_PROXIMITY_NEAR * slack)) {
         return;
     }
     const lrcsi_edge_rectangle box = lrcsi_edge_rectangle_make(
         view, facet, edge,
-        lrcsi_proximity_slack_above(p, job->part[event]) + 2 * p->proximity.reach[own]);
+        lrcsi_proximity_slack_above(p, job->events.part[event]) + 2 * p->proximity.reach[own]);
     for (int k = 0; k < 3; k++) {
         if (lrcsi_edge_rectangle_meets(&box, view->point[corner[k]].x,
                                        view->point[corner[(k + 1) % 3]].x)) {
@@ -532,7 +420,7 @@ static void mark_sides(const band_job *job, uint32_t facet, uint32_t event, edge
 
 /* Adds the fractions near an event edge, which belong to the visibility of one of the two
    correspondences between facet and true surface. */
-static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search *search)
+static void add_event(band_job *job, uint32_t facet, uint32_t event, facet_search *search)
 {
     event_fractions f;
     if (search->above) {
@@ -546,9 +434,9 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
         job->loss_above[facet] += f.loss + f.unproved;
         return;
     }
-    add_unproved(job, facet, job->part[event], f.unproved);
+    add_unproved(job, facet, job->events.part[event], f.unproved);
     if (f.area > 0) {
-        job->parts[facet] |= lrcsi_part_set_of(job->part[event]);
+        job->parts[facet] |= lrcsi_part_set_of(job->events.part[event]);
         job->mismatch[facet] += f.area;
         job->gain[facet] += f.gain;
         job->loss[facet] += f.loss;
@@ -557,15 +445,15 @@ static void add_event(band_job *job, uint32_t facet, uint32_t event, edge_search
 }
 
 /* Adds the fractions near all event edges. Returns 0 if the limit of steps is reached. */
-static int add_events(band_job *job, uint32_t facet, edge_search *search)
+static int add_events(band_job *job, uint32_t facet, facet_search *search)
 {
-    const lrcsi_grid *grid = &job->grid;
-    lrcsi_view_box box = lrcsi_view_box_round(job->view, search->low, search->high);
+    const lrcsi_grid *grid = &job->events.grid;
+    lrcsi_view_box box = lrcsi_view_box_round(job->view, search->where.low, search->where.high);
     lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
     int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
     uint32_t *seen = job->seen[search->above];
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        lrcsi_grid_rect row = several ? lrcsi_grid_row(grid, search->side, 3, y) : cells;
+        lrcsi_grid_rect row = several ? lrcsi_grid_row(grid, search->where.side, 3, y) : cells;
         lrcsi_grid_items items = lrcsi_grid_row_items(grid, y, row.x0, row.x1);
         if (!lrcsi_meter_take(job->meter, (uint64_t)1 + items.to - items.from)) {
             return 0;
@@ -628,10 +516,10 @@ static void facet_fractions(band_job *job, uint32_t facet)
     const lrcsi_view *view = job->view;
     const lrcs_prepared *p = view->prepared;
     double reach = p->proximity.reach[band_part(job, facet)];
-    edge_search search = search_make(job, facet);
+    facet_search search = search_begin(job, facet);
     if (reach == 0 &&
-        (search.low[0] > job->curved.high[0] || search.low[1] > job->curved.high[1] ||
-         search.high[0] < job->curved.low[0] || search.high[1] < job->curved.low[1])) {
+        (search.where.low[0] > job->curved.high[0] || search.where.low[1] > job->curved.high[1] ||
+         search.where.high[0] < job->curved.low[0] || search.where.high[1] < job->curved.low[1])) {
         return;
     }
     if (!add_events(job, facet, &search)) {
@@ -708,39 +596,23 @@ static void band_boxes(band_job *job)
     }
 }
 
-/* Upper bound of the number of events: pairs of an edge and a part that has a facet on it. */
-static size_t band_edges(const lrcs_prepared *p)
-{
-    const lrcsi_topology *topology = &p->topology;
-    const uint32_t *part = p->scene->facet_part;
-    size_t count = topology->edge_count;
-    for (uint32_t e = 0; e < topology->edge_count; e++) {
-        const lrcsi_edge_use *use = topology->use + topology->edge[e].first_use;
-        for (uint32_t i = 1; i < topology->edge[e].uses; i++) {
-            count += part[use[i].facet] != part[use[i - 1].facet];
-        }
-    }
-    return count;
-}
-
 size_t lrcsi_proximity_band_need(const lrcs_prepared *p)
 {
     if (!p->proximity.reach) {
         return 0;
     }
-    size_t edges = band_edges(p);
+    size_t edges = lrcsi_proximity_events_most(p);
     size_t need = lrcsi_work_blocks(6, p->scene->facet_count, sizeof(double));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(lrcsi_part_set)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(2, p->scene->facet_count, 1));
-    need = lrcsi_work_add(need, lrcsi_work_blocks(4, edges, sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(edges, 1));
+    need = lrcsi_work_add(need, lrcsi_work_blocks(2, edges, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(edges, sizeof(lrcsi_outline_areas)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(band_box)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_outline)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->part_count, sizeof(lrcsi_body)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(BEHIND_PAIRS, sizeof(band_pair)));
-    return lrcsi_work_add(need, lrcsi_grid_need(EVENT_CELLS * edges, 8 * edges));
+    return lrcsi_work_add(need, lrcsi_proximity_events_need(edges));
 }
 
 /* Computes all fractions; scratch memory is released:
