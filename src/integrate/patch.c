@@ -63,7 +63,7 @@
 
 #include "base/elementary.h"
 #include "base/range.h"
-#include "integrate/gauss.h"
+#include "integrate/mean_rule.h"
 #include "mesh/shape/revolution.h"
 #include "optics/reflect.h"
 
@@ -266,12 +266,12 @@ static double integrand_bound(const patch_frame *f, const lrcs_brdf *brdf, doubl
 /* Chooses the rule in one variable: that with the fewest points whose remainder is at most
    `target`, or else the one with the most points. *error is its remainder. along: 1 for alpha, 0
    for phi. */
-static const lrcsi_gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf, int along,
-                                           double target, double *error)
+static const lrcsi_mean_rule *rule_choose(const patch_frame *f, const lrcs_brdf *brdf, int along,
+                                          double target, double *error)
 {
-    double best[LRCSI_GAUSS_RULES];
+    double best[LRCSI_MEAN_RULES];
     double exp_other = lrcsi_exp(along ? f->half : f->step);
-    for (int n = 0; n < LRCSI_GAUSS_RULES; n++) {
+    for (int n = 0; n < LRCSI_MEAN_RULES; n++) {
         best[n] = HUGE_VAL;
     }
     for (int i = RADII - 1; i >= 0 && !(best[0] <= target); i--) {
@@ -280,19 +280,19 @@ static const lrcsi_gauss_rule *rule_choose(const patch_frame *f, const lrcs_brdf
         double bound = along ? integrand_bound(f, brdf, r * f->step, exp_own, exp_other)
                              : integrand_bound(f, brdf, f->step, exp_other, exp_own);
         double q = 1 / (r * r);
-        for (int n = 0, k = 0; n < LRCSI_GAUSS_RULES && bound < HUGE_VAL; n++) {
-            for (; k < lrcsi_gauss_rules[n].points; k++) {
+        for (int n = 0, k = 0; n < LRCSI_MEAN_RULES && bound < HUGE_VAL; n++) {
+            for (; k < lrcsi_mean_rules[n].points; k++) {
                 bound *= q;
             }
             best[n] = lrcsi_min(best[n], bound / ((2 * k + 1) * (1 - q)));
         }
     }
     int n = 0;
-    while (n + 1 < LRCSI_GAUSS_RULES && !(best[n] <= target)) {
+    while (n + 1 < LRCSI_MEAN_RULES && !(best[n] <= target)) {
         n++;
     }
     *error = 1.000001 * best[n];
-    return &lrcsi_gauss_rules[n];
+    return &lrcsi_mean_rules[n];
 }
 
 lrcsi_term_errors lrcsi_patch_term_errors(const lrcs_brdf *brdf, double u, double c, double p)
@@ -336,21 +336,21 @@ static int patch_add_point(const patch_frame *f, const lrcs_brdf *brdf, double s
 /* Adds the sum over the points of both rules, times `fraction`. Sines and cosines are computed once
    for each row and column. Returns 0 if the rounding error of a point is too large. */
 static int patch_add_points(const patch_frame *f, const lrcs_brdf *brdf,
-                            const lrcsi_gauss_rule *along, const lrcsi_gauss_rule *around,
+                            const lrcsi_mean_rule *along, const lrcsi_mean_rule *around,
                             double fraction, lrcsi_patch *patch)
 {
-    double x[LRCSI_GAUSS_POINTS_MAX] = {0};
-    double weight[LRCSI_GAUSS_POINTS_MAX] = {0};
-    double azimuth[LRCSI_GAUSS_POINTS_MAX][2] = {{0}};
-    double column_weight[LRCSI_GAUSS_POINTS_MAX] = {0};
-    int columns = lrcsi_gauss_points(around, x, column_weight);
+    double x[LRCSI_MEAN_RULE_POINTS] = {0};
+    double weight[LRCSI_MEAN_RULE_POINTS] = {0};
+    double azimuth[LRCSI_MEAN_RULE_POINTS][2] = {{0}};
+    double column_weight[LRCSI_MEAN_RULE_POINTS] = {0};
+    int columns = lrcsi_mean_rule_points(around, x, column_weight);
     for (int k = 0; k < columns; k++) {
         double phi = f->phi + x[k] * f->half;
         azimuth[k][0] = sin(phi);
         azimuth[k][1] = cos(phi);
     }
     int known = 1;
-    int rows = f->step > 0 ? lrcsi_gauss_points(along, x, weight) : 1;
+    int rows = f->step > 0 ? lrcsi_mean_rule_points(along, x, weight) : 1;
     for (int i = 0; i < rows && known; i++) {
         double sine = f->sine;
         double cosine = f->cosine;
@@ -389,7 +389,7 @@ static patch_frame frame_piece(const patch_frame *whole, int n, int i, int k)
 
 /* Chooses the rules for one piece. *remainder is that of their product, *middle the integrand in
    the middle of the piece. Returns 0 if some of the piece may be edge-on to the laser. */
-static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const lrcsi_gauss_rule *rule[2],
+static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const lrcsi_mean_rule *rule[2],
                        double *remainder, double *middle)
 {
     if (!(normal_shift(f, f->step, lrcsi_exp(f->step), lrcsi_exp(f->half)) < 0.25 * f->c)) {
@@ -403,7 +403,7 @@ static int piece_rules(const patch_frame *f, const lrcs_brdf *brdf, const lrcsi_
     *middle = weight * f->nu * (at.glint + at.diffuse);
     double target = lrcsi_max(REMAINDER_TARGET * *middle, 0.5 * f->negligible);
     rule[1] = rule_choose(f, brdf, 0, target, &around_error);
-    rule[0] = f->step > 0 ? rule_choose(f, brdf, 1, target, &along_error) : &lrcsi_gauss_rules[0];
+    rule[0] = f->step > 0 ? rule_choose(f, brdf, 1, target, &along_error) : &lrcsi_mean_rules[0];
     *remainder = along_error + around_error;
     return 1;
 }
@@ -419,7 +419,7 @@ enum pieces_answer {
    allowed. */
 static int patch_pieces(const patch_frame *whole, const lrcs_brdf *brdf, int n, lrcsi_patch *patch)
 {
-    const lrcsi_gauss_rule *rule[PIECES_MAX * PIECES_MAX][2];
+    const lrcsi_mean_rule *rule[PIECES_MAX * PIECES_MAX][2];
     int rows = whole->step > 0 ? n : 1;
     double fraction = 1.0 / (rows * n);
     double mean = 0; /* of the integrand in the middles of pieces */

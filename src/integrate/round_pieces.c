@@ -10,7 +10,7 @@
 #include "base/range.h"
 #include "base/vec3.h"
 #include "base/work.h"
-#include "integrate/gauss.h"
+#include "integrate/mean_rule.h"
 #include "integrate/patch.h"
 #include "integrate/patch_visibility.h"
 #include "integrate/round_sector.h"
@@ -50,7 +50,7 @@ typedef struct pieces_job {
 /* The rule over triangles: coordinates r, s in 0 .. 1 of a Gauss-Legendre rule of n points each;
    the point c + r ((a - c) + s (b - a)) has the weight r. Exact up to degree 2 n - 2. */
 typedef struct triangle_rule {
-    const lrcsi_gauss_rule *rule;
+    const lrcsi_mean_rule *rule;
     double remainder; /* of G, per unit of area */
 } triangle_rule;
 
@@ -59,8 +59,8 @@ typedef struct triangle_rule {
 static triangle_rule triangle_rule_choose(const pieces_job *job, const lrcsi_round_point *centre,
                                           double radius, double target)
 {
-    double best[LRCSI_GAUSS_RULES];
-    for (int n = 0; n < LRCSI_GAUSS_RULES; n++) {
+    double best[LRCSI_MEAN_RULES];
+    for (int n = 0; n < LRCSI_MEAN_RULES; n++) {
         best[n] = HUGE_VAL;
     }
     for (int i = 0; i < LRCSI_ROUND_RATIOS; i++) {
@@ -71,28 +71,28 @@ static triangle_rule triangle_rule_choose(const pieces_job *job, const lrcsi_rou
             break;
         }
         bound *= 2 * q / (1 - q);
-        for (int n = 0, degree = 0; n < LRCSI_GAUSS_RULES; n++) {
-            for (; degree < 2 * lrcsi_gauss_rules[n].points - 2; degree++) {
+        for (int n = 0, degree = 0; n < LRCSI_MEAN_RULES; n++) {
+            for (; degree < 2 * lrcsi_mean_rules[n].points - 2; degree++) {
                 bound *= q;
             }
             best[n] = lrcsi_min(best[n], bound);
         }
     }
     int n = 0;
-    while (n + 1 < LRCSI_GAUSS_RULES && !(best[n] <= target)) {
+    while (n + 1 < LRCSI_MEAN_RULES && !(best[n] <= target)) {
         n++;
     }
-    return (triangle_rule){&lrcsi_gauss_rules[n], best[n] * ROUNDED_UP};
+    return (triangle_rule){&lrcsi_mean_rules[n], best[n] * ROUNDED_UP};
 }
 
 /* Adds the integral of G over the triangle `corner`, of the given area, to a sum. */
 static void triangle_add(const pieces_job *job, const lrcsi_round_point *centre,
-                         const double corner[3][2], double area, const lrcsi_gauss_rule *rule,
+                         const double corner[3][2], double area, const lrcsi_mean_rule *rule,
                          lrcsi_round_sum *sum)
 {
-    double x[LRCSI_GAUSS_POINTS_MAX];
-    double weight[LRCSI_GAUSS_POINTS_MAX];
-    int count = lrcsi_gauss_points(rule, x, weight);
+    double x[LRCSI_MEAN_RULE_POINTS];
+    double weight[LRCSI_MEAN_RULE_POINTS];
+    int count = lrcsi_mean_rule_points(rule, x, weight);
     for (int i = 0; i < count; i++) {
         double r = 0.5 * (1 + x[i]);
         for (int j = 0; j < count; j++) {

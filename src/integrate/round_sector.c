@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Finds the sides of sectors, and integrates over their margins: by Gauss-Legendre rules along the
-   side and across it, of which the remainders are proved (integrate/gauss.h). */
+   side and across it, of which the remainders are proved (integrate/mean_rule.h). */
 #include "integrate/round_sector.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "base/length.h"
 #include "base/range.h"
 #include "base/vec3.h"
-#include "integrate/gauss.h"
+#include "integrate/mean_rule.h"
 #include "integrate/patch.h"
 
 /* A margin is divided into at most so many parts. Its remainder should be this small, compared with
@@ -164,15 +164,15 @@ static double margin_remainder(const lrcsi_round_wall *wall, const lrcsi_round_s
 
 /* Adds the integral over a part of a margin. */
 static void margin_add(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
-                       const margin_part *part, const lrcsi_gauss_rule *along,
-                       const lrcsi_gauss_rule *across, lrcsi_round_sum *sum)
+                       const margin_part *part, const lrcsi_mean_rule *along,
+                       const lrcsi_mean_rule *across, lrcsi_round_sum *sum)
 {
-    double t[LRCSI_GAUSS_POINTS_MAX];
-    double s[LRCSI_GAUSS_POINTS_MAX];
-    double t_weight[LRCSI_GAUSS_POINTS_MAX];
-    double s_weight[LRCSI_GAUSS_POINTS_MAX];
-    int count = lrcsi_gauss_points(along, t, t_weight);
-    int rows = lrcsi_gauss_points(across, s, s_weight);
+    double t[LRCSI_MEAN_RULE_POINTS];
+    double s[LRCSI_MEAN_RULE_POINTS];
+    double t_weight[LRCSI_MEAN_RULE_POINTS];
+    double s_weight[LRCSI_MEAN_RULE_POINTS];
+    int count = lrcsi_mean_rule_points(along, t, t_weight);
+    int rows = lrcsi_mean_rule_points(across, s, s_weight);
     for (int i = 0; i < count; i++) {
         double a[2];
         double da[2];
@@ -202,8 +202,8 @@ static void margin_add(const lrcsi_round_wall *wall, const lrcsi_round_side *sid
 int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side *side,
                             lrcsi_round_margin *margin)
 {
-    const lrcsi_gauss_rule *along = &lrcsi_gauss_rules[LRCSI_GAUSS_RULES - 2];
-    const lrcsi_gauss_rule *across = &lrcsi_gauss_rules[1];
+    const lrcsi_mean_rule *along = &lrcsi_mean_rules[LRCSI_MEAN_RULES - 2];
+    const lrcsi_mean_rule *across = &lrcsi_mean_rules[1];
     const double vertex_err = lrcsi_view_point_err(wall->view->point[side->vertex[0]].x) +
                               lrcsi_view_point_err(wall->view->point[side->vertex[1]].x);
     for (int n = 1; n <= MARGIN_PARTS_MAX; n *= 2) {

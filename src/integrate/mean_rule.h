@@ -8,24 +8,24 @@
    the error of Gauss's rule is f^(2n)(xi) times a positive number. So the error of its mean of f is
    at most
        M sum over even k >= 2 n of r^-k / (k+1) <= M r^(-2n) / ((2n+1) (1 - r^-2)). */
-#ifndef LRCSI_GAUSS_H
-#define LRCSI_GAUSS_H
+#ifndef LRCSI_MEAN_RULE_H
+#define LRCSI_MEAN_RULE_H
 
 /* The largest number of points of a rule. */
-#define LRCSI_GAUSS_POINTS_MAX 8
+#define LRCSI_MEAN_RULE_POINTS 8
 
 /* The points >= 0 of a rule and their weights, each for x and -x. */
-typedef struct lrcsi_gauss_rule {
+typedef struct lrcsi_mean_rule {
     int points, half;
-    double x[LRCSI_GAUSS_POINTS_MAX / 2], weight[LRCSI_GAUSS_POINTS_MAX / 2];
-} lrcsi_gauss_rule;
+    double x[LRCSI_MEAN_RULE_POINTS / 2], weight[LRCSI_MEAN_RULE_POINTS / 2];
+} lrcsi_mean_rule;
 
 /* Rules of 2, 3, 4, 5, 6 and 8 points. */
-#define LRCSI_GAUSS_RULES 6
-extern const lrcsi_gauss_rule lrcsi_gauss_rules[LRCSI_GAUSS_RULES];
+#define LRCSI_MEAN_RULES 6
+extern const lrcsi_mean_rule lrcsi_mean_rules[LRCSI_MEAN_RULES];
 
 /* Writes the points and weights of a rule, and returns how many there are. */
-int lrcsi_gauss_points(const lrcsi_gauss_rule *rule, double x[LRCSI_GAUSS_POINTS_MAX],
-                       double weight[LRCSI_GAUSS_POINTS_MAX]);
+int lrcsi_mean_rule_points(const lrcsi_mean_rule *rule, double x[LRCSI_MEAN_RULE_POINTS],
+                           double weight[LRCSI_MEAN_RULE_POINTS]);
 
 #endif

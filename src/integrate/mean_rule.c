@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The rules, generated to 50 digits with Newton's method. */
-#include "integrate/gauss.h"
+#include "integrate/mean_rule.h"
 
-const lrcsi_gauss_rule lrcsi_gauss_rules[LRCSI_GAUSS_RULES] = {
+const lrcsi_mean_rule lrcsi_mean_rules[LRCSI_MEAN_RULES] = {
     {2, 1, {0.577350269189625764509}, {0.5}},
     {3, 2, {0.0, 0.774596669241483377035}, {0.444444444444444444444, 0.277777777777777777777}},
     {4,
@@ -24,8 +24,8 @@ const lrcsi_gauss_rule lrcsi_gauss_rules[LRCSI_GAUSS_RULES] = {
      {0.181341891689180991482, 0.156853322938943643668, 0.111190517226687235272,
       0.050614268145188129576}}};
 
-int lrcsi_gauss_points(const lrcsi_gauss_rule *rule, double x[LRCSI_GAUSS_POINTS_MAX],
-                       double weight[LRCSI_GAUSS_POINTS_MAX])
+int lrcsi_mean_rule_points(const lrcsi_mean_rule *rule, double x[LRCSI_MEAN_RULE_POINTS],
+                           double weight[LRCSI_MEAN_RULE_POINTS])
 {
     int count = 0;
     for (int k = 0; k < rule->half; k++) {
