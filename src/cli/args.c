@@ -15,7 +15,7 @@ int cli_usage(const cli_command *command, const char *format, ...)
 {
     va_list list;
     cli_watch_end();
-    fprintf(stderr, "lrcs%s%s: ", command ? " " : "", command ? command->name : "");
+    fputs("lrcs: ", stderr);
     va_start(list, format);
     vfprintf(stderr, format, list);
     va_end(list);

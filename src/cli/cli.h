@@ -24,7 +24,8 @@ enum cli_exit {
     "pose: one of these; without any, the laser is on the +z axis\n"                               \
     "  --direction x,y,z     direction to the laser in the body frame, of any length\n"            \
     "  --azel AZ,EL          azimuth AZ from +x towards +y, elevation EL towards +z, deg: the\n"   \
-    "                        direction (cos EL cos AZ, cos EL sin AZ, sin EL)\n"                   \
+    "                        direction (cos EL cos AZ, cos EL sin AZ, sin EL); beyond 90\n"        \
+    "                        deg, EL goes on over the pole: 30,100 is 210,80\n"                    \
     "  --euler SEQ:a,b,c     angles, deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"   \
     "  --quaternion w,x,y,z  rotation from the body to the observation frame: x right, y up, z\n"  \
     "                        to the laser (of a direction: by the shortest rotation)\n"
@@ -130,14 +131,17 @@ int cli_whole(const cli_args *args, const char *name, double least, double most,
    option was not given. 0 or CLI_USAGE. */
 int cli_choice(const cli_args *args, const char *name, const char *words, int *place);
 
-/* Prints a message on stderr, "lrcs run: ...", and how to get help. Returns CLI_USAGE. */
+/* Messages on stderr: "lrcs: TEXT" is why a command fails, or why its exit code is 3; "notice:
+   TEXT" is worth knowing and changes no exit code. */
+
+/* Prints "lrcs: TEXT", and how to get help. Returns CLI_USAGE. */
 __attribute__((format(printf, 2, 3))) int cli_usage(const cli_command *command, const char *format,
                                                     ...);
 
 /* The same for the value of an option: "--NAME: expected WHAT, found 'VALUE'". */
 int cli_expected(const cli_args *args, const char *name, const char *what);
 
-/* Prints "lrcs: TEXT" on stderr, also for an error or lack of memory. Returns CLI_FAILED. */
+/* Prints "lrcs: TEXT", also for an error or lack of memory. Returns CLI_FAILED. */
 __attribute__((format(printf, 1, 2))) int cli_fail(const char *format, ...);
 int cli_failed(const lrcs_host_error *error);
 int cli_out_of_memory(void);

@@ -37,12 +37,15 @@ static const char image_help[] =
     "                        they show a back that does not reflect\n"
     "  --size N              side of the picture in pixels, 16 .. 4096 (default 512)\n"
     "  --ground WHAT         background: dark (default of -o) or white (default of "
-    "--visible)\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
-    "examples\n"
-    "  lrcs image demo -o demo.png\n"
-    "  lrcs image demo --azel 50,40 --by theta --size 1024 -o demo.png\n"
-    "  lrcs image demo --azel 50,40 --visible demo.svg --vtk demo.vtp\n"
-    "  lrcs image aura.3ds --azel 30,20 --by material --ground white -o aura.png\n";
+    "--visible)\n" CLI_ACCURACY_HELP;
+
+static const char image_help_more[] =
+    CLI_SCENE_HELP "\n"
+                   "examples\n"
+                   "  lrcs image demo -o demo.png\n"
+                   "  lrcs image demo --azel 50,40 --by theta --size 1024 -o demo.png\n"
+                   "  lrcs image demo --azel 50,40 --visible demo.svg --vtk demo.vtp\n"
+                   "  lrcs image aura.3ds --azel 30,20 --by material --ground white -o aura.png\n";
 
 static const cli_option image_options[] = {
     CLI_POSE_OPTIONS,         CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"o", CLI_FILE, 0},
@@ -210,6 +213,6 @@ static int image_command(const cli_args *args)
 }
 
 const cli_command cli_image_command = {
-    "image",    "SCENE",       "give a .3ds, .obj or .stl model, a scene file, or demo",
-    image_help, image_options, image_command,
-    NULL};
+    "image",        "SCENE",       "give a .3ds, .obj or .stl model, a scene file, or demo",
+    image_help,     image_options, image_command,
+    image_help_more};

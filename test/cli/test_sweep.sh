@@ -53,6 +53,7 @@ done
 # v_obs = R v_body: a turn of the body about x is the first Euler angle of XYZ.
 alike rotate_about_x_is_an_euler_angle 'sweep pair.toml --rotate x:0:90:30 | column 3,5' 'sweep pair.toml --euler XYZ:0:90:30,0,0 | column 5,7'
 alike rotate_about_a_vector 'sweep pair.toml --rotate 0,0,2:0:90:30 --azel 10,20 | column 3' 'sweep pair.toml --rotate z:0:90:30 --azel 10,20 | column 3'
+alike an_elevation_beyond_90_goes_on_over_the_pole 'sweep box.toml --az 30 --el 100 | column 4' 'sweep box.toml --az 210 --el 80 | column 4'
 # The laser at azimuth 0, the body turned by +30 deg about z: the body sees it at azimuth -30.
 alike a_turn_about_z_moves_the_laser_back 'sweep box.toml --rotate z:30 --azel 0,0 | column 3 | cut -c1-12' 'sweep box.toml --az -30 --el 0 | column 4 | cut -c1-12'
 

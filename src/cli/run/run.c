@@ -135,7 +135,7 @@ static void long_run_notice(run_job *job)
         !(job->budget.asked_ms > 0.0) && !job->announced) {
         job->announced = 1;
         fprintf(stderr,
-                "lrcs: %lu facets for a tolerance of %g: preparing and running them takes a "
+                "notice: %lu facets for a tolerance of %g: preparing and running them takes a "
                 "while\n",
                 (unsigned long)scene->facet_count, job->options.tolerance);
     }

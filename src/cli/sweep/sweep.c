@@ -15,7 +15,9 @@ static const char sweep_help[] =
     "\n"
     "what varies: RANGE is A:B:STEP, from A by STEP up to B, with B if STEP leads\n"
     "to it, or one number\n"
-    "  --az RANGE, --el RANGE  azimuth and elevation of the laser in the body frame, deg\n"
+    "  --az RANGE, --el RANGE  azimuth and elevation of the laser in the body frame, deg;\n"
+    "                        elevations beyond 90 deg go on over the pole, so that\n"
+    "                        --el 0:360:1 is a full circle\n"
     "  --euler SEQ:a,b,c     Euler angles, deg, each a RANGE; XYZ: R = Rx(a) Ry(b) Rz(c)\n"
     "  --rotate AXIS:RANGE   rotation about the body's x, y, z or u,v,w, deg; from the pose of\n"
     "                        --direction, --azel, .. (default: laser on the +z axis)\n"
@@ -320,18 +322,18 @@ static void job_summary(const sweep_job *job)
              job->options.tolerance);
     const struct {
         int count;
-        const char *in, *what;
+        const char *begin, *what;
     } said[] = {
-        {LRCS_HOST_TALLY_MISSED, "", missed},
-        {LRCS_HOST_TALLY_ESTIMATED, "", estimated},
-        {LRCS_HOST_TALLY_UNJUDGED, "", "are accepted whatever their error"},
-        {LRCS_HOST_TALLY_DOMINATED, "in ",
+        {LRCS_HOST_TALLY_MISSED, "lrcs: ", missed},
+        {LRCS_HOST_TALLY_ESTIMATED, "notice: ", estimated},
+        {LRCS_HOST_TALLY_UNJUDGED, "notice: ", "are accepted whatever their error"},
+        {LRCS_HOST_TALLY_DOMINATED, "notice: in ",
          "the glint of one flat face of a curved part makes most of sigma: its normal is the "
          "mesh's, not the surface's"},
-        {LRCS_HOST_TALLY_STARVED, "", "were short of memory"}};
+        {LRCS_HOST_TALLY_STARVED, "lrcs: ", "were short of memory"}};
     for (size_t i = 0; i < sizeof said / sizeof said[0]; i++) {
         if (tally->count[said[i].count] > 0) {
-            fprintf(stderr, "lrcs: %s%llu of %llu rows %s\n", said[i].in,
+            fprintf(stderr, "%s%llu of %llu rows %s\n", said[i].begin,
                     (unsigned long long)tally->count[said[i].count],
                     (unsigned long long)tally->rows, said[i].what);
         }
