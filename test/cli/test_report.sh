@@ -57,6 +57,15 @@ run report plates.toml $quick --method zbuffer --resolution 16 --tolerance 1e-9 
 printf '%s' "$out" >stdout.html
 same a_missed_tolerance_exits_3 "$rc" 3
 
+# The run of a page is that of lrcs run at any tolerance: as many facets, and the same scene.
+# shellcheck disable=SC2086
+run report demo $quick --azel 50,40 -o demo.html
+run run demo --azel 50,40 --json
+total=$(printf '%s\n' "$out" | sed -n 's/.*"facets": {"total": \([0-9]*\),.*/\1/p')
+same facets_and_scene_are_those_of_the_run "$(grep -c "Of $total facets" demo.html) $(grep -c "id=\"scene_hash\">$(value scene_hash | tr -d '"')<" demo.html)" "1 1"
+run info demo --json
+same facets_of_the_model_are_those_of_info "$(grep -c ">$(value facets); curved shapes are divided for a tolerance of 1e-4" demo.html)" 1
+
 command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 # The command lines that the page names make the same again.
 python3 - <<'END'

@@ -28,7 +28,7 @@ void cli_report_head(FILE *out, const report_job *job, const char *attribute, co
 /* sigma and its accuracy in one sentence. */
 static void lead_sigma(FILE *out, const report_job *job)
 {
-    const lrcs_result *r = &job->result;
+    const lrcs_result *r = &job->run.result;
     cli_page(out, "<p class=\"lead\"><b>\xcf\x83 = %.6g m\xc2\xb2</b>", r->sigma_m2);
     if (r->sigma_m2 > 0.0) {
         cli_page(out, " <span>%.6g dBsm</span>", cli_dbsm(r->sigma_m2));
@@ -37,11 +37,11 @@ static void lead_sigma(FILE *out, const report_job *job)
     if (r->sigma_m2 > 0.0) {
         cli_page(out, ", which is %.2e of \xcf\x83", r->bound_m2 / r->sigma_m2);
     }
-    if (!cli_tolerance_judged(job->args, &job->options)) {
+    if (!cli_tolerance_judged(job->args, &job->run.options)) {
         fputs(".", out);
         return;
     }
-    cli_page(out, "; the tolerance of %.3g", job->options.tolerance);
+    cli_page(out, "; the tolerance of %.3g", job->run.options.tolerance);
     fputs(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET ? " is <b>not met</b>."
           : r->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE
               ? " is met by the likely error, <b>an estimate</b>, alone."
@@ -56,15 +56,15 @@ static void page_lead(FILE *out, const report_job *job)
 {
     double s_hat[3];
     double azel_deg[2];
-    cli_pose_unit(&job->pose, s_hat);
-    cli_pose_azel(&job->pose, azel_deg);
-    double deviation = job->uncertainty.deviation_m2;
+    cli_pose_unit(&job->run.pose, s_hat);
+    cli_pose_azel(&job->run.pose, azel_deg);
+    double deviation = job->run.uncertainty.deviation_m2;
     lead_sigma(out, job);
-    if (job->uncertainty.stated) {
+    if (job->run.uncertainty.stated) {
         cli_page(out, " The stated errors of materials leave it uncertain by <b>%.3g m\xc2\xb2",
                  deviation);
-        if (job->result.sigma_m2 > 0.0) {
-            cli_page(out, ", %.3g %%", 100.0 * deviation / job->result.sigma_m2);
+        if (job->run.result.sigma_m2 > 0.0) {
+            cli_page(out, ", %.3g %%", 100.0 * deviation / job->run.result.sigma_m2);
         }
         fputs("</b> (one standard deviation).", out);
     }

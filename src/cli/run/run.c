@@ -228,7 +228,7 @@ int cli_run_divide(run_job *job)
 }
 
 /* A search for the best settings already has their result; files and shares need the run itself. */
-static int run_scene(run_job *job)
+int cli_run_scene(run_job *job)
 {
     int searched = job->budget.asked_ms > 0.0;
     int files = job->facets || job->polygons_path || job->image_path || job->shares_asked;
@@ -244,6 +244,17 @@ static int run_scene(run_job *job)
                ? cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
                                  &job->shares)
                : code;
+}
+
+void cli_run_free(run_job *job)
+{
+    free(job->records);
+    free(job->image.facet);
+    free(job->sensitivity);
+    lrcs_host_shares_free(&job->shares);
+    lrcs_host_polygons_free(&job->polygons);
+    lrcs_host_scene_free(&job->scene);
+    cli_scene_options_free(&job->load);
 }
 
 /* The flag of a result of a search refers to a tolerance that was tried; if no tolerance applies,
@@ -293,18 +304,12 @@ static int run_command(const cli_args *args)
     memset(&job, 0, sizeof job);
     job.args = args;
     int code = options_read(&job);
-    code = code ? code : run_scene(&job);
+    code = code ? code : cli_run_scene(&job);
     if (code == 0) {
         run_judge(&job);
         code = run_outputs(&job);
     }
-    free(job.records);
-    free(job.image.facet);
-    free(job.sensitivity);
-    lrcs_host_shares_free(&job.shares);
-    lrcs_host_polygons_free(&job.polygons);
-    lrcs_host_scene_free(&job.scene);
-    cli_scene_options_free(&job.load);
+    cli_run_free(&job);
     return code;
 }
 
