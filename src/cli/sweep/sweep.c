@@ -34,7 +34,9 @@ static const char sweep_help[] =
     "\n"
     "output\n"
     "  -o FILE               FILE.csv, FILE.jsonl or FILE.npy (NumPy: sigma and bound; with\n"
-    "                        FILE.npy.head); without it CSV on standard output\n"
+    "                        FILE.npy.head); without it CSV on standard output. A FILE that\n"
+    "                        exists is replaced, with a notice. Rows that its disk cannot hold\n"
+    "                        are refused; no more than 17.1 GB (16 GiB) can be read back\n"
     "  --json                JSON lines on standard output\n"
     "  --resume              continues FILE.partial, whose rows are checked; never replaces a\n"
     "                        complete FILE\n"
@@ -96,6 +98,7 @@ typedef struct sweep_job {
     lrcs_host_rows_head head;
     lrcs_host_sweep_output file;
     cli_progress progress;
+    cli_pace pace;
     lrcs_host_sweep_chart plot;
     uint32_t brightest;
     int stats;
@@ -172,7 +175,8 @@ static int job_read(sweep_job *job)
         return cli_usage(args->command,
                          "--shard writes .csv or .jsonl; lrcs merge makes the .npy of them");
     }
-    return code;
+    int kept = cli_value(args, "plot") || job->brightest > 0 || job->stats;
+    return code ? code : cli_size_check(args, &job->plan, &job->file, kept);
 }
 
 /* Checks that no output replaces a file that is read. */
@@ -234,6 +238,8 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
     }
     job->notices |= result->notices;
     int status = lrcs_host_sweep_output_put(&job->file, &row, error);
+    status =
+        status == LRCS_OK ? cli_pace_take(&job->pace, &job->file, &job->progress, error) : status;
     cli_progress_show(&job->progress, job->file.next - job->file.first);
     return status;
 }
@@ -396,11 +402,16 @@ static int job_rows(sweep_job *job)
     if (lrcs_host_sweep_output_open(&job->file, resume, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
+    if (job->file.path && !resume) {
+        cli_replaced_say(args, &job->file);
+    }
+    job->pace = (cli_pace){cli_seconds(), job->file.next, 0, 0};
     code = job_run(job);
     int closed = lrcs_host_sweep_output_close(&job->file, code == 0, &error);
     /* cli_finish checks standard output */
     closed = closed == LRCS_OK || !job->file.path ? 0 : cli_failed(&error);
-    if (code != 0 && job->file.next > job->file.first && job->file.path && closed == 0) {
+    if (code != 0 && job->file.next > job->file.first && job->file.path && closed == 0 &&
+        !job->pace.too_large) {
         fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume continues with them\n",
                 job->file.partial, (unsigned long long)(job->file.next - job->file.first),
                 (unsigned long long)(job->file.end - job->file.first));
