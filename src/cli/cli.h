@@ -221,6 +221,9 @@ int cli_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
 /* The title of the scene, or the operand if it has none. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
 
+/* The same with the operand without its folders, for people. */
+const char *cli_scene_name(const cli_args *args, const lrcs_host_scene *scene);
+
 /* Prints the scene for people: its title, and in brackets the file, if the title does not name
    it. */
 void cli_scene_print(const cli_args *args, const lrcs_host_scene *scene);

@@ -117,7 +117,8 @@ static lrcs_host_picture picture_of(const image_job *job)
     return (lrcs_host_picture){.scene = &job->scene.scene,
                                .pose = &job->pose,
                                .records = job->records,
-                               .title = job->args->operand,
+                               .title = cli_scene_name(job->args, &job->scene),
+                               .annotated = 1,
                                .colouring = job->colouring,
                                .white = job->white};
 }

@@ -14,6 +14,18 @@ const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene)
     return scene->recipe.name && scene->recipe.name[0] ? scene->recipe.name : args->operand;
 }
 
+const char *cli_base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash && slash[1] ? slash + 1 : path;
+}
+
+const char *cli_scene_name(const cli_args *args, const lrcs_host_scene *scene)
+{
+    const char *title = cli_scene_title(args, scene);
+    return title == args->operand ? cli_base_name(title) : title;
+}
+
 void cli_scene_print(const cli_args *args, const lrcs_host_scene *scene)
 {
     const char *title = cli_scene_title(args, scene);
@@ -78,12 +90,6 @@ int cli_materials_assumed(const lrcs_scene *scene)
         }
     }
     return 0;
-}
-
-const char *cli_base_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash && slash[1] ? slash + 1 : path;
 }
 
 /* The hash of a file; that of no bytes if it cannot be read. */

@@ -16,13 +16,13 @@ void cli_report_head(FILE *out, const report_job *job, const char *attribute, co
             "<meta name=\"color-scheme\" content=\"light dark\" />\n%s",
             attribute, meta);
     cli_page(out, "<title>%s: laser radar cross-section%s</title>\n<style>\n",
-             cli_report_title(job), more);
+             cli_scene_name(job->args, &job->run.scene), more);
     fwrite(page_style, 1, sizeof page_style, out);
     fputs(style, out);
     cli_page(out,
              "</style>\n</head>\n<body>\n<header>\n"
              "<p class=\"kind\">Laser radar cross-section</p>\n<h1>%s</h1>\n",
-             cli_report_title(job));
+             cli_scene_name(job->args, &job->run.scene));
 }
 
 /* sigma and its accuracy in one sentence. */

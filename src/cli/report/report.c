@@ -106,7 +106,7 @@ static int report_compare(report_job *job)
     converge_job *compare = &job->converge;
     double least = 1.0;
     *compare = (converge_job){.args = job->args,
-                              .title = cli_report_title(job),
+                              .title = cli_scene_name(job->args, &job->run.scene),
                               .all = {.pose = job->run.pose,
                                       .load = job->run.load,
                                       .digits = 1,

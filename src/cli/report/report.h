@@ -65,9 +65,6 @@ typedef struct report_job {
 /* Reads and runs the scene, and makes pictures and shares. */
 int cli_report_run(report_job *job);
 
-/* The scene's title, or the name of its file. */
-const char *cli_report_title(const report_job *job);
-
 /* Computes the sweeps, their drawings and peaks. */
 int cli_report_sweeps(report_job *job);
 

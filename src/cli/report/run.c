@@ -4,12 +4,6 @@
 
 #include <stdlib.h>
 
-const char *cli_report_title(const report_job *job)
-{
-    const char *name = cli_scene_title(job->args, &job->run.scene);
-    return name == job->args->operand ? cli_base_name(name) : name;
-}
-
 /* Draws what the laser sees on a dark and on a white background, which share one image: of the size
    that the legend leaves. */
 static int pictures_make(report_job *job, int kind)
@@ -20,7 +14,7 @@ static int pictures_make(report_job *job, int kind)
     lrcs_host_picture picture = {.scene = &job->run.scene.scene,
                                  .pose = &job->run.pose,
                                  .records = job->run.records,
-                                 .title = cli_report_title(job),
+                                 .title = cli_scene_name(job->args, &job->run.scene),
                                  .colouring = look[kind],
                                  .annotated = 1};
     uint32_t side = lrcs_host_picture_need(&picture, CLI_PICTURE_DEFAULT);
