@@ -294,14 +294,14 @@ static int chart_write(FILE *out, const void *context, int png, lrcs_host_error 
              (unsigned long long)stats->all.rows, stats->weights, stats->all.mean_m2.at[VALUE],
              stats->all.percentile_m2[STATS_MEDIAN].at[VALUE],
              stats->all.banded ? "; shaded: 68 % by the errors of materials" : "");
-    snprintf(bars, sizeof bars, "histogram: 1 is %.3g %% in %.3g dB", 100.0 * stats->all.fullest,
-             stats->all.edge_dbsm[1] - stats->all.edge_dbsm[0]);
+    snprintf(bars, sizeof bars, "histogram: highest bar %.3g %% in %.3g dB",
+             100.0 * stats->all.fullest, stats->all.edge_dbsm[1] - stats->all.edge_dbsm[0]);
     char *about = cli_text_of(about_put, stats->head);
     const lrcs_host_chart chart = {.title = words,
                                    .note = note,
                                    .about = about,
                                    .x_name = "sigma (dBsm)",
-                                   .y_name = "share of all rows",
+                                   .y_name = "share of all rows; histogram: of its highest bar",
                                    .y_from_0 = 1,
                                    .series = series,
                                    .series_count = series_make(from, bars, series)};
