@@ -136,7 +136,7 @@ int cli_args_read(const cli_command *command, int count, char **word, cli_args *
                 return code;
             }
         } else if (!command->operand) {
-            return cli_usage(command, "takes no operand, found '%s'", word[i]);
+            return cli_usage(command, "%s takes no operand, found '%s'", command->name, word[i]);
         } else if (strstr(command->operand, "...")) {
             args->operand = word[i];
             args->given[args->given_count++] = (cli_given){"", word[i]};

@@ -148,7 +148,7 @@ check("method_and_scene_are_those_of_the_run", root.find(".//*[@id='method']").t
 check("every_effect_has_its_reason", all(e["name"].replace("_", " ") in text and e["reason"] in text for e in run["effects"]))
 clean = lambda t: t.replace("\uffff", "\ufffd").replace("\x07", "\ufffd")
 check("notices_are_there", all(" ".join(clean(n).split()) in text for n in run["notices"] + info["notices"]
-      if n in run["notices"] or "have no material bound" not in n))  # info's shapes are finer
+      if n in run["notices"] or "have no material assigned" not in n))  # info's shapes are finer
 def rows(label): return [[(c, "".join(c.itertext())) for c in r] for r in root.find(".//%sdiv[@aria-label='%s']//%stbody" % (H, label, H))]
 for key, label in (("parts", "Shares of parts"), ("materials", "Shares of materials")):
     want = [(clean(s["name"]) or ("(default)" if key == "materials" else "(no name)"), s["sigma_m2"]) for s in run["shares"][key] if s["sigma_m2"] > 0]

@@ -150,8 +150,8 @@ usage_error two_poses_to_turn_from "--direction and --azel both" sweep demo --ro
 usage_error range_without_a_step "A:B:STEP or one number, found '0:10'" sweep demo --az 0:10
 usage_error range_of_four "A:B:STEP" sweep demo --az 0:10:1:1
 usage_error range_of_words "A:B:STEP or one number, found 'north'" sweep demo --az north
-usage_error step_of_zero "STEP does not lead from A to B" sweep demo --az 0:10:0
-usage_error step_the_wrong_way "STEP does not lead from A to B" sweep demo --az 0:10:-1
+usage_error step_of_zero "a STEP that leads from A to B" sweep demo --az 0:10:0
+usage_error step_the_wrong_way "a STEP that leads from A to B" sweep demo --az 0:10:-1
 usage_error too_many_digits "at most 15 are exact" sweep demo --az 0:1:0.12345678901234567
 usage_error too_many_rows "more than 2^53" sweep demo --az 0:100000000:0.000001 --el 0:1000:0.1
 usage_error euler_without_angles "three of XYZ" sweep demo --euler XYZ

@@ -359,7 +359,7 @@ static void coarse_print(const sweep_job *job)
         fprintf(
             stderr,
             "notice: glint: %lu curved part%s too coarse for the slope of their material: near the "
-            "normals of facets sigma may be off by %.2g %% of its glint, an estimate (--normals "
+            "normals of facets sigma may be off by %.3g %% of its glint, an estimate (--normals "
             "auto)\n",
             (unsigned long)coarse, coarse == 1 ? " is" : "s are", 100.0 * worst);
     }
