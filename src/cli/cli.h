@@ -160,6 +160,10 @@ void cli_pose_azel(const lrcs_pose *pose, double azel_deg[2]);
 int cli_accuracy_read(const cli_args *args, lrcs_run_options *options);
 int cli_normals_read(const cli_args *args, lrcs_host_options *load);
 
+/* Sets how a scene is read for a run with these options: its curved shapes are divided as finely as
+   each pose needs. */
+void cli_division_set(const lrcs_run_options *options, lrcs_host_options *load);
+
 /* 1 if a tolerance applies: under auto, and whenever one is given. Otherwise no tolerance can be
    missed. */
 int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options);

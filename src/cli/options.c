@@ -66,6 +66,14 @@ int cli_normals_read(const cli_args *args, lrcs_host_options *load)
     return cli_choice(args, "normals", "flat, auto or smooth", &load->build.normals);
 }
 
+void cli_division_set(const lrcs_run_options *options, lrcs_host_options *load)
+{
+    load->build.tolerance = options->tolerance;
+    load->build.facets_only = options->method != LRCS_METHOD_AUTO;
+    load->build.division = LRCS_HOST_DIVISION;
+    load->build.max_facets = LRCS_HOST_FACETS;
+}
+
 int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options)
 {
     return options->method == LRCS_METHOD_AUTO || cli_value(args, "tolerance") != NULL;

@@ -25,10 +25,14 @@ void cli_report_head(FILE *out, const report_job *job, const char *attribute, co
              cli_scene_name(job->args, &job->run.scene));
 }
 
-/* sigma and its accuracy in one sentence. */
-static void lead_sigma(FILE *out, const report_job *job)
+/* sigma and its accuracy, what its materials leave open, where the laser stands, the verdict. */
+static void page_lead(FILE *out, const report_job *job)
 {
     const lrcs_result *r = &job->run.result;
+    double s_hat[3];
+    double azel_deg[2];
+    cli_pose_unit(&job->run.pose, s_hat);
+    cli_pose_azel(&job->run.pose, azel_deg);
     cli_page(out, "<p class=\"lead\"><b>\xcf\x83 = %.6g m\xc2\xb2</b>", r->sigma_m2);
     if (r->sigma_m2 > 0.0) {
         cli_page(out, " <span>%.6g dBsm</span>", cli_dbsm(r->sigma_m2));
@@ -37,34 +41,23 @@ static void lead_sigma(FILE *out, const report_job *job)
     if (r->sigma_m2 > 0.0) {
         cli_page(out, ", which is %.2e of \xcf\x83", r->bound_m2 / r->sigma_m2);
     }
-    if (!cli_tolerance_judged(job->args, &job->run.options)) {
-        fputs(".", out);
-        return;
+    if (cli_tolerance_judged(job->args, &job->run.options)) {
+        cli_page(out, "; the tolerance of %.3g", job->run.options.tolerance);
+        fputs(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET ? " is <b>not met</b>"
+              : r->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE
+                  ? " is met by the likely error, <b>an estimate</b>, alone"
+              : r->flags & LRCS_FLAG_ACCEPTED_UNJUDGED
+                  ? " is <b>not judged</b>: any answer was accepted"
+                  : " is met",
+              out);
     }
-    cli_page(out, "; the tolerance of %.3g", job->run.options.tolerance);
-    fputs(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET ? " is <b>not met</b>."
-          : r->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE
-              ? " is met by the likely error, <b>an estimate</b>, alone."
-          : r->flags & LRCS_FLAG_ACCEPTED_UNJUDGED
-              ? " is <b>not judged</b>: any answer was accepted."
-              : " is met.",
-          out);
-}
-
-/* sigma, what its materials leave open, where the laser stands, the verdict. */
-static void page_lead(FILE *out, const report_job *job)
-{
-    double s_hat[3];
-    double azel_deg[2];
-    cli_pose_unit(&job->run.pose, s_hat);
-    cli_pose_azel(&job->run.pose, azel_deg);
-    double deviation = job->run.uncertainty.deviation_m2;
-    lead_sigma(out, job);
+    putc('.', out);
     if (job->run.uncertainty.stated) {
+        double deviation = job->run.uncertainty.deviation_m2;
         cli_page(out, " The stated errors of materials leave it uncertain by <b>%.3g m\xc2\xb2",
                  deviation);
-        if (job->run.result.sigma_m2 > 0.0) {
-            cli_page(out, ", %.3g %%", 100.0 * deviation / job->run.result.sigma_m2);
+        if (r->sigma_m2 > 0.0) {
+            cli_page(out, ", %.3g %%", 100.0 * deviation / r->sigma_m2);
         }
         fputs("</b> (one standard deviation).", out);
     }

@@ -83,10 +83,7 @@ static int report_read(report_job *job)
     code = code ? code : cli_whole(args, "jobs", 1.0, REPORT_JOBS, &job->threads);
     code = code ? code : cli_scene_options_read(args, &job->run.load);
     code = code ? code : cli_normals_read(args, &job->run.load);
-    job->run.load.build.tolerance = job->run.options.tolerance;
-    job->run.load.build.facets_only = job->run.options.method != LRCS_METHOD_AUTO;
-    job->run.load.build.division = LRCS_HOST_DIVISION;
-    job->run.load.build.max_facets = LRCS_HOST_FACETS;
+    cli_division_set(&job->run.options, &job->run.load);
     job->run.sampling = lrcs_uncertainty_options_default();
     job->run.shares_asked = 1;
     job->sweep_options = job->run.options;
@@ -152,6 +149,7 @@ static int report_measure(report_job *job, int explore)
 {
     if (explore) {
         job->run.load.build.division = 0.0;
+        job->run.load.build.max_facets = lrcs_build_options_default().max_facets;
         int code = cli_scene_read(job->args, &job->run.load, &job->run.scene);
         code = code ? code : cli_outputs_spare(job->args, &job->run.scene);
         cli_watch_stage("preparing", &job->run.scene);

@@ -16,10 +16,22 @@ static void fact_put(FILE *out, const char *name, const char *id, double value, 
     cli_page(out, " %s</dd></div>\n", unit);
 }
 
-static void sigma_facts(FILE *out, const report_job *job)
+static void budget_row(FILE *out, const report_job *job, const char *name, const char *id,
+                       double value, const char *why)
+{
+    cli_page(out, "\n<tr><td>%s</td><td class=\"n\">", name);
+    cli_page_bound(out, id, value, 3);
+    cli_page(out, "</td><td class=\"n\">%.2e</td><td class=\"why\">%s</td></tr>",
+             job->run.result.sigma_m2 > 0.0 ? value / job->run.result.sigma_m2 : -1.0, why);
+}
+
+/* The value with its parts, the method, and the bound by cause. */
+void cli_report_sigma(FILE *out, const report_job *job)
 {
     static const char m2[] = "m\xc2\xb2";
     const lrcs_result *r = &job->run.result;
+    const lrcs_budget *budget = &r->budget;
+    cli_page_section(out, "sigma", "\xcf\x83 and its certificate");
     fputs("<dl class=\"facts\">\n", out);
     fact_put(out, "\xcf\x83", "sigma_m2", r->sigma_m2, 10, m2);
     if (r->sigma_m2 > 0.0) {
@@ -43,38 +55,6 @@ static void sigma_facts(FILE *out, const report_job *job)
     }
     fact_put(out, "Silhouette", "projected_area_m2", r->projected_area_m2, 8, m2);
     fputs("</dl>\n", out);
-}
-
-static void budget_row(FILE *out, const report_job *job, const char *name, const char *id,
-                       double value, const char *why)
-{
-    cli_page(out, "\n<tr><td>%s</td><td class=\"n\">", name);
-    cli_page_bound(out, id, value, 3);
-    cli_page(out, "</td><td class=\"n\">%.2e</td><td class=\"why\">%s</td></tr>",
-             job->run.result.sigma_m2 > 0.0 ? value / job->run.result.sigma_m2 : -1.0, why);
-}
-
-static void budget_table(FILE *out, const report_job *job)
-{
-    const lrcs_budget *budget = &job->run.result.budget;
-    cli_page_fold(out, "Where the bound comes from");
-    cli_page_table(out, "The bound by cause", "Cause|#Bound, m\xc2\xb2|#of \xcf\x83|What it holds");
-    budget_row(out, job, "Visibility", "visibility_m2", budget->visibility_m2,
-               "what of each facet is seen, by the raster or by clipping");
-    budget_row(out, job, "Tessellation", "tessellation_m2", budget->tessellation_m2,
-               budget->tessellation_m2 < 0.0    ? "not known for this scene: the bound refers to "
-                                                  "its facets"
-               : budget->tessellation_m2 == 0.0 ? "none: the facets are the truth"
-                                                : "flat facets in the place of true shapes");
-    budget_row(out, job, "Rounding", "rounding_m2", budget->rounding_m2,
-               "every step of the arithmetic");
-    cli_page_table_end(out);
-    fputs("</details>\n", out);
-}
-
-static void method_words(FILE *out, const report_job *job)
-{
-    const lrcs_result *r = &job->run.result;
     cli_page(out, "<p>Method <b id=\"method\">%s</b>", lrcs_method_text(r->method));
     if (r->resolution != 0) {
         cli_page(out, " on a raster of %u x %u", r->resolution, r->resolution);
@@ -91,6 +71,20 @@ static void method_words(FILE *out, const report_job *job)
         (unsigned long)r->facets_partial, 1e3 * job->run.seconds,
         1e3 * job->run.scene.seconds_prepare, 1e3 * job->run.scene.seconds_load);
     fputs("</p>\n", out);
+    cli_page_fold(out, "Where the bound comes from");
+    cli_page_table(out, "The bound by cause", "Cause|#Bound, m\xc2\xb2|#of \xcf\x83|What it holds");
+    budget_row(out, job, "Visibility", "visibility_m2", budget->visibility_m2,
+               "what of each facet is seen, by the raster or by clipping");
+    budget_row(out, job, "Tessellation", "tessellation_m2", budget->tessellation_m2,
+               budget->tessellation_m2 < 0.0    ? "not known for this scene: the bound refers to "
+                                                  "its facets"
+               : budget->tessellation_m2 == 0.0 ? "none: the facets are the truth"
+                                                : "flat facets in the place of true shapes");
+    budget_row(out, job, "Rounding", "rounding_m2", budget->rounding_m2,
+               "every step of the arithmetic");
+    cli_page_table_end(out);
+    fputs("</details>\n", out);
+    fputs("</section>\n", out);
 }
 
 void cli_report_effects(FILE *out, const report_job *job)
@@ -113,15 +107,6 @@ void cli_report_effects(FILE *out, const report_job *job)
     }
     cli_page_table_end(out);
     fputs("</details>\n</section>\n", out);
-}
-
-void cli_report_sigma(FILE *out, const report_job *job)
-{
-    cli_page_section(out, "sigma", "\xcf\x83 and its certificate");
-    sigma_facts(out, job);
-    method_words(out, job);
-    budget_table(out, job);
-    fputs("</section>\n", out);
 }
 
 /* ---- shares ---- */

@@ -111,10 +111,8 @@ static int options_read(run_job *job)
     job->options.steps = steps;
     code = code ? code : cli_run_outputs_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
-    job->load.build.tolerance = job->asked = job->options.tolerance;
-    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
-    job->load.build.division = LRCS_HOST_DIVISION;
-    job->load.build.max_facets = LRCS_HOST_FACETS;
+    job->asked = job->options.tolerance;
+    cli_division_set(&job->options, &job->load);
     code = code ? code : cli_run_budget_read(job);
     code = code ? code : cli_run_emulation_read(job);
     code = code ? code : cli_run_materials_read(job);

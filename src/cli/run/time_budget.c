@@ -77,9 +77,7 @@ static int setting_run(run_job *job, budget_answer *answer)
     memset(answer, 0, sizeof *answer);
     if (lrcs_host_scene_tessellated(&job->scene.scene)) {
         lrcs_host_scene_free(&job->scene);
-        job->load.build.tolerance = job->options.tolerance;
-        job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
-        job->load.build.division = LRCS_HOST_DIVISION;
+        cli_division_set(&job->options, &job->load);
         job->load.build.halvings = NULL;
         code = cli_scene_read(job->args, &job->load, &job->scene);
         code = code ? code : cli_run_divide(job);

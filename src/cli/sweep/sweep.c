@@ -167,10 +167,7 @@ static int job_read(sweep_job *job)
     if (code == 0 && job->stats && cli_value(args, "shard")) {
         return cli_usage(args->command, "--stats needs the whole sweep: leave out --shard");
     }
-    job->load.build.tolerance = job->options.tolerance;
-    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
-    job->load.build.division = LRCS_HOST_DIVISION;
-    job->load.build.max_facets = LRCS_HOST_FACETS;
+    cli_division_set(&job->options, &job->load);
     if (code == 0 && job->file.npy && cli_value(args, "shard")) {
         return cli_usage(args->command,
                          "--shard writes .csv or .jsonl; lrcs merge makes the .npy of them");

@@ -450,30 +450,6 @@ static int finding_next(lrcsi_search *search, int *found)
 
 /* 1. Causes visible in the table. 2. Mistakes of the catalogue, one after the other, as long as one
    explains something. 3. Other causes. 4. Counts of what is left. */
-static int findings_make(lrcsi_search *search)
-{
-    lrcs_host_judgement *job = search->job;
-    int status = LRCS_OK;
-    int found = 1;
-    cases_divide(search);
-    lrcsi_symptoms_format(search);
-    while (found && status == LRCS_OK && search->failing_count > 0) {
-        status = finding_next(search, &found);
-        cases_divide(search);
-    }
-    status = status == LRCS_OK ? lrcsi_symptoms_rest(search) : status;
-    if (status != LRCS_OK) {
-        return status;
-    }
-    for (uint32_t i = 0; i < job->kit.cases; i++) {
-        int lack = lrcs_host_judge_lack(job, &job->kit.list[i]);
-        job->not_numbers += lack == LRCS_HOST_LACK_NUMBER;
-        job->negatives += lack == LRCS_HOST_LACK_SIGN;
-        job->unexplained += lack == LRCS_HOST_LACK_REASON;
-    }
-    return LRCS_OK;
-}
-
 int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *error)
 {
     size_t count = (size_t)judgement->kit.cases + 1;
@@ -484,10 +460,24 @@ int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *err
     search.other_answer = calloc(count, sizeof(double));
     search.room = calloc(count, sizeof(double));
     search.explains = calloc(count, 1);
-    int status = search.failing && search.passing && search.answer && search.other_answer &&
-                         search.room && search.explains
-                     ? findings_make(&search)
-                     : lrcsi_host_out_of_memory(error);
+    int room = search.failing && search.passing && search.answer && search.other_answer &&
+               search.room && search.explains;
+    int status = room ? LRCS_OK : lrcsi_host_out_of_memory(error);
+    if (status == LRCS_OK) { /* 1 */
+        cases_divide(&search);
+        lrcsi_symptoms_format(&search);
+    }
+    for (int found = 1; found && status == LRCS_OK && search.failing_count > 0;) { /* 2 */
+        status = finding_next(&search, &found);
+        cases_divide(&search);
+    }
+    status = status == LRCS_OK ? lrcsi_symptoms_rest(&search) : status;        /* 3 */
+    for (uint32_t i = 0; status == LRCS_OK && i < judgement->kit.cases; i++) { /* 4 */
+        int lack = lrcs_host_judge_lack(judgement, &judgement->kit.list[i]);
+        judgement->not_numbers += lack == LRCS_HOST_LACK_NUMBER;
+        judgement->negatives += lack == LRCS_HOST_LACK_SIGN;
+        judgement->unexplained += lack == LRCS_HOST_LACK_REASON;
+    }
     free(search.failing);
     free(search.passing);
     free(search.answer);
