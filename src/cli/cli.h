@@ -357,8 +357,9 @@ int cli_extension(const char *path, const char *extension);
 /* 1 if an option names a file to write. */
 int cli_is_output(const cli_command *command, const char *option);
 
-/* Names on stderr the files that were written, for a command whose report does not name them. */
-void cli_outputs_say(const cli_args *args);
+/* Prints on stderr the names of the files that were written, for a command whose report does not
+ * name them. */
+void cli_outputs_print(const cli_args *args);
 
 /* Checks before the work the files named by options, for every command: charts are FILE.svg or
    FILE.png; no two are the same file; one that is standard output is not beside --json; none is a

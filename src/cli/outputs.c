@@ -55,7 +55,7 @@ int cli_is_output(const cli_command *command, const char *option)
     return option_kind(command, option) >= CLI_FILE;
 }
 
-void cli_outputs_say(const cli_args *args)
+void cli_outputs_print(const cli_args *args)
 {
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *given = &args->given[i];

@@ -78,7 +78,7 @@ static void differences_list(const lrcs_host_rows_head *head, const lrcs_host_ro
 }
 
 /* Reports how a file differs from the first. */
-static void differences_say(const plot_job *job, uint32_t k)
+static void differences_print(const plot_job *job, uint32_t k)
 {
     const lrcs_host_rows_head *first = &job->file[0].data.head;
     const lrcs_host_rows_head *other = &job->file[k].data.head;
@@ -183,7 +183,7 @@ static int job_run(plot_job *job)
         for (uint32_t k = 0; k < job->count && job->count > 1 && code == 0; k++) {
             job->plot[k].name = differ ? job->plot[k].title : cli_base_name(job->file[k].path);
             if (k > 0) {
-                differences_say(job, k);
+                differences_print(job, k);
             }
         }
         code = code ? code : cli_plot_write(args, job->plot, job->count);
@@ -240,7 +240,7 @@ static int plot_command(const cli_args *args)
     plot_job job = {args, 0, calloc(room, sizeof *job.file), calloc(room, sizeof *job.plot), 0};
     int code = job.file && job.plot ? job_run(&job) : cli_out_of_memory();
     if (code == CLI_DONE) {
-        cli_outputs_say(args);
+        cli_outputs_print(args);
     }
     for (uint32_t k = 0; k < job.count; k++) {
         lrcs_host_sweep_data_free(&job.file[k].data);

@@ -203,7 +203,7 @@ static int report_command(const cli_args *args)
     if (code == 0) {
         cli_watch_end();
         cli_notices_print(stderr, &job->run.scene.notices);
-        cli_outputs_say(args);
+        cli_outputs_print(args);
         code = cli_accuracy_code(args, &job->run.options, job->run.result.flags);
     }
     report_free(job);

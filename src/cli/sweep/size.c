@@ -76,7 +76,7 @@ int cli_size_check(const cli_args *args, const lrcs_host_plan *plan,
     return 0;
 }
 
-void cli_replaced_say(const cli_args *args, const lrcs_host_sweep_output *file)
+void cli_replaced_print(const cli_args *args, const lrcs_host_sweep_output *file)
 {
     lrcs_host_rows rows;
     char path[4096];

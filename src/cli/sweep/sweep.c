@@ -400,7 +400,7 @@ static int job_rows(sweep_job *job)
         return cli_failed(&error);
     }
     if (job->file.path && !resume) {
-        cli_replaced_say(args, &job->file);
+        cli_replaced_print(args, &job->file);
     }
     job->pace = (cli_pace){cli_seconds(), job->file.next, 0, 0};
     code = job_run(job);
@@ -428,7 +428,7 @@ static int job_rows(sweep_job *job)
         return code;
     }
     job_summary(job);
-    cli_outputs_say(args);
+    cli_outputs_print(args);
     return tally->count[LRCS_HOST_TALLY_MISSED] > 0 || tally->count[LRCS_HOST_TALLY_STARVED] > 0
                ? CLI_DEGRADED
                : CLI_DONE;

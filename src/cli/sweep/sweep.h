@@ -43,7 +43,7 @@ int cli_size_check(const cli_args *args, const lrcs_host_plan *plan,
                    const lrcs_host_sweep_output *file, int kept);
 
 /* Prints a notice if a sweep that is not resumed will replace a file. */
-void cli_replaced_say(const cli_args *args, const lrcs_host_sweep_output *file);
+void cli_replaced_print(const cli_args *args, const lrcs_host_sweep_output *file);
 
 /* The pace of a sweep since a time and a row. */
 typedef struct cli_pace {

@@ -269,8 +269,8 @@ static int mistake_fits(const lrcsi_search *search, const lrcsi_mistake *mistake
 }
 
 /* Names the other mistakes that explain the same cases equally well. */
-static int ties_say(const lrcsi_search *search, const search_score *best,
-                    lrcs_host_finding *finding)
+static int ties_append(const lrcsi_search *search, const search_score *best,
+                       lrcs_host_finding *finding)
 {
     uint32_t ties = 0;
     if (best->first == lrcsi_mistakes) {
@@ -298,8 +298,8 @@ static int ties_say(const lrcsi_search *search, const search_score *best,
 
 /* If the frame is wrong, the kit's square no longer contains the scene: most of the remaining cases
    show less than they should, because part of the scene is outside. */
-static void clipped_say(const lrcsi_search *search, const search_score *best,
-                        lrcs_host_finding *finding)
+static void clipped_append(const lrcsi_search *search, const search_score *best,
+                           lrcs_host_finding *finding)
 {
     int mark = (int)search->job->findings;
     uint32_t left = 0;
@@ -365,9 +365,9 @@ static int finding_make(lrcsi_search *search, const search_score *best)
     }
     finding->rest = lrcsi_search_upper_median(search->room, count);
     /* 4. Mistakes that explain them equally well; what a wrong pose moves out of the window. */
-    status = ties_say(search, best, finding);
+    status = ties_append(search, best, finding);
     if (status == LRCS_OK && best->first->pose) {
-        clipped_say(search, best, finding);
+        clipped_append(search, best, finding);
     }
     return status;
 }
