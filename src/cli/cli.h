@@ -144,6 +144,9 @@ int cli_expected(const cli_args *args, const char *name, const char *what);
 /* Prints "lrcs: TEXT", also for an error or lack of memory. Returns CLI_FAILED. */
 __attribute__((format(printf, 1, 2))) int cli_fail(const char *format, ...);
 int cli_failed(const lrcs_host_error *error);
+
+/* Prints "lrcs: TEXT", why an answer is not what was asked for. Returns CLI_DEGRADED. */
+__attribute__((format(printf, 1, 2))) int cli_degraded(const char *format, ...);
 int cli_out_of_memory(void);
 
 /* Ends a command: CLI_FAILED with a message if stdout could not be written, else `code`. */
@@ -176,7 +179,7 @@ const char *cli_accepted_by(uint32_t flags);
 void cli_accepted_print(FILE *out, uint32_t flags);
 
 /* The flags of a result, without that of a missed tolerance if no tolerance applies; and the exit
-   code for them, CLI_DONE or CLI_DEGRADED. */
+   code for them, CLI_DONE or CLI_DEGRADED with the message printed. */
 uint32_t cli_flags_in_force(const cli_args *args, const lrcs_run_options *options, uint32_t flags);
 int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uint32_t flags);
 

@@ -106,6 +106,12 @@ uint32_t cli_flags_in_force(const cli_args *args, const lrcs_run_options *option
 
 int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uint32_t flags)
 {
-    uint32_t degraded = LRCS_FLAG_TOLERANCE_NOT_MET | LRCS_FLAG_MEMORY_FALLBACK;
-    return (cli_flags_in_force(args, options, flags) & degraded) != 0 ? CLI_DEGRADED : CLI_DONE;
+    uint32_t in_force = cli_flags_in_force(args, options, flags);
+    int code = CLI_DONE;
+    if (in_force & LRCS_FLAG_TOLERANCE_NOT_MET) {
+        code = cli_degraded("the tolerance %g is missed", options->tolerance);
+    }
+    return in_force & LRCS_FLAG_MEMORY_FALLBACK
+               ? cli_degraded("memory was short: the answer is coarser than asked for")
+               : code;
 }

@@ -51,6 +51,7 @@ same seventeen_digits "$(printf '%s' "$x" | grep -cE '^[0-9.]{15,19}$')" 1
 # ---- exit codes ----
 run run "$pair" --tolerance 1e-12 --method zbuffer --resolution 16 --json
 same tolerance_asked_and_not_met_exits_3 "$rc" 3
+same and_says_why "$err" "lrcs: the tolerance 1e-12 is missed"
 same tolerance_says_so "$(value tolerance | grep -c '"met": false')" 1
 run run "$pair" --method zbuffer --resolution 16 --json
 same forced_method_without_a_tolerance_exits_0 "$rc" 0

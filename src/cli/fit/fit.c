@@ -230,7 +230,10 @@ static int fit_report(const fit_job *job)
     cli_notices_print(stderr, &job->readings.notices);
     for (uint32_t i = 0; i < job->materials; i++) {
         cli_brdf_warnings_print(job->material[i].name, &job->material[i].fit.brdf);
-        code = cli_fit_undetermined(&job->material[i].fit) ? CLI_DEGRADED : code;
+        int open = cli_fit_undetermined(&job->material[i].fit);
+        code = open > 0 ? cli_degraded("%s: the readings leave %d of four parameters undetermined",
+                                       job->material[i].name, open)
+                        : code;
     }
     if (cli_value(args, "json")) {
         cli_fit_json(job);

@@ -179,7 +179,9 @@ static int profile_command(const cli_args *args)
             cli_profile_table(&job);
         }
     }
-    code = code == 0 && job.asked > 0.0 && !job.met ? CLI_DEGRADED : code;
+    if (code == 0 && job.asked > 0.0 && !job.met) {
+        code = cli_degraded("the tolerance %g is missed", job.asked);
+    }
     free(about);
     free(job.row);
     lrcs_host_profile_free(&job.profile);

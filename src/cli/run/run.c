@@ -289,11 +289,16 @@ static int run_outputs(run_job *job)
             cli_run_table(job);
         }
     }
-    int late = job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS;
-    /* a bound that exceeds sigma is not a useful answer for a time budget */
-    int empty = job->budget.asked_ms > 0.0 && job->result.bound_m2 > job->result.sigma_m2;
-    return late || empty ? CLI_DEGRADED
-                         : cli_accuracy_code(job->args, &job->options, job->result.flags);
+    if (job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS) {
+        return cli_degraded("the time budget of %g ms is exceeded: %.3g ms", job->budget.asked_ms,
+                            job->budget.spent_ms);
+    }
+    if (job->budget.asked_ms > 0.0 && job->result.bound_m2 > job->result.sigma_m2) {
+        return cli_degraded("the bound exceeds sigma: the time budget is too short");
+    }
+    lrcs_run_options asked = job->options; /* a search tries other tolerances */
+    asked.tolerance = job->asked > 0.0 ? job->asked : asked.tolerance;
+    return cli_accuracy_code(job->args, &asked, job->result.flags);
 }
 
 static int run_command(const cli_args *args)
