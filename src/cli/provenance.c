@@ -338,7 +338,7 @@ static void picture_put(FILE *out, const void *context)
     const provenance *from = context;
     const lrcs_host_scene *scene = from->scene;
     fprintf(out, "lrcs %s", lrcs_version());
-    source_put(out, from->args, scene ? cli_scene_title(from->args, scene) : NULL, scene);
+    source_put(out, from->args, scene ? cli_scene_title(from->args, scene) : "", scene);
     for (uint32_t i = 0; scene && i < scene->scene.material_count; i++) {
         const lrcs_material *material = &scene->scene.material[i];
         const lrcs_brdf *brdf = &material->brdf;

@@ -259,8 +259,8 @@ void cli_profile_table(const profile_job *job)
     if (job->asked > 0.0) {
         printf("; tolerance %g %s", job->asked, job->met ? "met" : "NOT met");
     }
-    printf("\nrange        m from the body's origin, away from the laser; %lu bins of %g m\n",
-           (unsigned long)p->count, job->bin_m);
+    printf("\nrange        m from the body's origin, away from the laser; %lu bin%s of %g m\n",
+           (unsigned long)p->count, p->count == 1 ? "" : "s", job->bin_m);
     if (job->fwhm_m > 0.0) {
         printf("pulse        Gaussian, %g m wide at half maximum in range\n", job->fwhm_m);
     }

@@ -102,7 +102,6 @@ void cli_replaced_print(const cli_args *args, const lrcs_host_sweep_output *file
 int cli_pace_take(cli_pace *pace, const lrcs_host_sweep_output *file, const cli_progress *progress,
                   lrcs_host_error *error)
 {
-    char left[PACE_TEXT];
     char size[PACE_TEXT];
     const double seconds = pace->said ? 0.0 : cli_seconds() - pace->begun;
     if (seconds < PACE_AFTER || file->next == pace->first || (file->path && file->size == 0)) {
@@ -125,6 +124,7 @@ int cli_pace_take(cli_pace *pace, const lrcs_host_sweep_output *file, const cli_
         return LRCS_E_LIMIT;
     }
     if (time > PACE_LONG || bytes > SIZE_READ) {
+        char left[PACE_TEXT];
         cli_progress_clear(progress);
         fprintf(stderr, "notice: %.0f rows to go take some %s at the rate of the first seconds",
                 to_go, time_text(time, left));

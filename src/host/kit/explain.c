@@ -462,16 +462,18 @@ int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *err
     search.explains = calloc(count, 1);
     int room = search.failing && search.passing && search.answer && search.other_answer &&
                search.room && search.explains;
-    int status = room ? LRCS_OK : lrcsi_host_out_of_memory(error);
-    if (status == LRCS_OK) { /* 1 */
+    int status = LRCS_OK;
+    if (!room) {
+        status = lrcsi_host_out_of_memory(error);
+    } else {
         cases_divide(&search);
-        lrcsi_symptoms_format(&search);
+        lrcsi_symptoms_format(&search);                                                /* 1 */
+        for (int found = 1; found && status == LRCS_OK && search.failing_count > 0;) { /* 2 */
+            status = finding_next(&search, &found);
+            cases_divide(&search);
+        }
+        status = status == LRCS_OK ? lrcsi_symptoms_rest(&search) : status; /* 3 */
     }
-    for (int found = 1; found && status == LRCS_OK && search.failing_count > 0;) { /* 2 */
-        status = finding_next(&search, &found);
-        cases_divide(&search);
-    }
-    status = status == LRCS_OK ? lrcsi_symptoms_rest(&search) : status;        /* 3 */
     for (uint32_t i = 0; status == LRCS_OK && i < judgement->kit.cases; i++) { /* 4 */
         int lack = lrcs_host_judge_lack(judgement, &judgement->kit.list[i]);
         judgement->not_numbers += lack == LRCS_HOST_LACK_NUMBER;
