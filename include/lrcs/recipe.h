@@ -45,7 +45,7 @@ typedef struct lrcs_recipe_material {
     lrcs_brdf brdf;
     int two_sided; /* -1: keeps what the model says */
     uint32_t line;
-    int assumed;           /* the numbers are assumed: facets with them alone count as unassigned */
+    int assumed; /* 1: the numbers are assumed, not given; their facets count as unassigned */
     lrcs_brdf_error error; /* of brdf */
 } lrcs_recipe_material;
 

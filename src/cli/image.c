@@ -12,7 +12,9 @@
 static const char image_help[] =
     "usage: lrcs image SCENE [pose] -o FILE.png [options]\n"
     "\n"
-    "Draws what the laser sees of SCENE, a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
+    "Draws what the laser sees of SCENE, a .3ds, .obj or .stl model, a scene file, or 'demo',\n"
+    "with a scale bar and the meaning of colours (160 pixels and more), its title, the\n"
+    "direction and the body's axes (320 pixels and more).\n"
     "\n" CLI_POSE_HELP "\n"
     "output: at least one of these\n"
     "  -o FILE.png           a picture\n"
