@@ -370,8 +370,10 @@ void cli_outputs_print(const cli_args *args);
  */
 int cli_outputs_check(const cli_args *args);
 
-/* Checks that none of them would replace a file that the scene was read from. 0 or CLI_USAGE. */
+/* Checks that none of them would replace a file that the scene was read from; or an input, `what`
+   in a message: "the readings". 0 or CLI_USAGE. */
 int cli_outputs_spare(const cli_args *args, const lrcs_host_scene *scene);
+int cli_outputs_spare_input(const cli_args *args, const char *input, const char *what);
 
 /* Writes what the laser sees as PNG, with what it was made from. Status: as lrcs_host_picture_png.
  */

@@ -114,6 +114,19 @@ int cli_outputs_spare(const cli_args *args, const lrcs_host_scene *scene)
     return 0;
 }
 
+int cli_outputs_spare_input(const cli_args *args, const char *input, const char *what)
+{
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        if (cli_is_output(args->command, given->name) &&
+            lrcs_host_output_same(given->value, input)) {
+            return cli_usage(args->command, "%s%s %s: would overwrite %s", cli_dashes(given->name),
+                             given->name, given->value, what);
+        }
+    }
+    return 0;
+}
+
 int cli_picture_write(FILE *out, const lrcs_host_picture *picture, const lrcs_image *image,
                       uint32_t size, const cli_args *args, const lrcs_host_scene *scene,
                       lrcs_host_error *error)

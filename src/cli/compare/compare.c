@@ -49,7 +49,6 @@ static const cli_option compare_options[] = {
  */
 static int options_read(compare_job *job, const char **folder)
 {
-    static const char *const option[] = {"json", "junit"};
     const cli_args *args = job->args;
     const char *name[2] = {NULL, NULL};
     int count = 0;
@@ -74,15 +73,10 @@ static int options_read(compare_job *job, const char **folder)
     int code = cli_whole(args, "tier", 1.0, LRCS_HOST_KIT_TIERS, &judgement->tier);
     code = code ? code : cli_whole(args, "pixels", 2.0, PIXELS_MOST, &judgement->pixels);
     code = code ? code : cli_choice(args, "class", "exact, float or raster", &judgement->grade);
-    const char *const input[] = {job->theirs, job->facets};
-    for (int i = 0; i < 4 && code == 0; i++) {
-        const char *path = cli_value(args, option[i % 2]);
-        if (path && input[i / 2] && lrcs_host_output_same(path, input[i / 2])) {
-            code = cli_usage(args->command, "--%s %s: would overwrite what is to be judged",
-                             option[i % 2], path);
-        }
-    }
-    return code;
+    code = code ? code : cli_outputs_spare_input(args, job->theirs, "what is to be judged");
+    return code == 0 && job->facets
+               ? cli_outputs_spare_input(args, job->facets, "what is to be judged")
+               : code;
 }
 
 /* ---- the command ---- */

@@ -78,15 +78,7 @@ static int fit_read(fit_job *job)
         }
         job->options.unit = job->panel / LRCS_PI;
     }
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        const cli_given *given = &args->given[i];
-        if (cli_is_output(args->command, given->name) &&
-            lrcs_host_output_same(given->value, args->operand)) {
-            return cli_usage(args->command, "--%s %s: would overwrite the readings", given->name,
-                             given->value);
-        }
-    }
-    return code;
+    return code ? code : cli_outputs_spare_input(args, args->operand, "the readings");
 }
 
 /* ---- materials ---- */

@@ -154,15 +154,8 @@ static int job_run(plot_job *job)
     const cli_args *args = job->args;
     int code = job_read(job);
     cli_watch_end();
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        const cli_given *given = &args->given[i];
-        int written = cli_is_output(args->command, given->name);
-        for (uint32_t k = 0; k < job->count && written && code == 0; k++) {
-            if (lrcs_host_output_same(given->value, job->file[k].path)) {
-                code = cli_usage(args->command, "%s%s %s: would overwrite what is read",
-                                 cli_dashes(given->name), given->name, given->value);
-            }
-        }
+    for (uint32_t k = 0; k < job->count && code == 0; k++) {
+        code = cli_outputs_spare_input(args, job->file[k].path, "what is read");
     }
     const int plotted = cli_value(args, "o") != NULL;
     if (code == 0 && !plotted && !job->stats) {
@@ -214,8 +207,6 @@ static int table_run(const cli_args *args, const char *path, int kind)
             files++;
         } else if (strcmp(one->name, "o") != 0) {
             return cli_usage(args->command, "--%s is for sweeps: %s is %s", one->name, path, what);
-        } else if (lrcs_host_output_same(one->value, path)) {
-            return cli_usage(args->command, "-o %s: would overwrite what is read", one->value);
         } else {
             outputs++;
         }
@@ -223,8 +214,11 @@ static int table_run(const cli_args *args, const char *path, int kind)
     if (files > 1) {
         return cli_usage(args->command, "%s is %s: these are drawn one by one", path, what);
     }
-    return outputs > 0 ? cli_table_draw(args, path, kind)
-                       : cli_usage(args->command, "nothing to do: give -o OUT.svg");
+    if (outputs == 0) {
+        return cli_usage(args->command, "nothing to do: give -o OUT.svg");
+    }
+    int code = cli_outputs_spare_input(args, path, "what is read");
+    return code ? code : cli_table_draw(args, path, kind);
 }
 
 static int plot_command(const cli_args *args)

@@ -186,18 +186,8 @@ static int job_files_check(const sweep_job *job)
         lrcs_host_output_check(job->file.partial, &job->scene, &error) != LRCS_OK) {
         return cli_usage(args->command, "-o %s", error.text);
     }
-    for (int i = 0; poses && i < args->given_count; i++) {
-        const cli_given *given = &args->given[i];
-        if (!cli_is_output(args->command, given->name) ||
-            !lrcs_host_output_same(given->value, poses)) {
-            continue;
-        }
-        return strcmp(given->name, "o") == 0
-                   ? cli_usage(args->command, "-o %s: would overwrite the poses", given->value)
-                   : cli_usage(args->command, "--poses and --%s name the same file: '%s', '%s'",
-                               given->name, poses, given->value);
-    }
-    return cli_outputs_spare(args, &job->scene);
+    int code = poses ? cli_outputs_spare_input(args, poses, "the poses") : 0;
+    return code ? code : cli_outputs_spare(args, &job->scene);
 }
 
 /* ---- the rows ---- */
