@@ -24,8 +24,8 @@ enum cli_exit {
     "pose: one of these; without any, the laser is on the +z axis\n"                               \
     "  --direction x,y,z     direction to the laser in the body frame, of any length\n"            \
     "  --azel AZ,EL          azimuth AZ from +x towards +y, elevation EL towards +z, deg: the\n"   \
-    "                        direction (cos EL cos AZ, cos EL sin AZ, sin EL); beyond 90\n"        \
-    "                        deg, EL goes on over the pole: 30,100 is 210,80\n"                    \
+    "                        direction (cos EL cos AZ, cos EL sin AZ, sin EL). Beyond 90 deg\n"    \
+    "                        EL goes on over the pole: 30,100 is 210,80\n"                         \
     "  --euler SEQ:a,b,c     angles, deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"   \
     "  --quaternion w,x,y,z  rotation from the body to the observation frame: x right, y up, z\n"  \
     "                        to the laser (of a direction: by the shortest rotation)\n"
