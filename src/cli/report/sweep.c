@@ -48,7 +48,8 @@ static int trial_take(void *context, uint64_t index, const lrcs_pose *pose,
 }
 
 /* The approximate number of poses that can be computed in a time: from the time that trials of 4,
-   16, .. poses take, in as many threads as the sweeps, until one takes 2 % of it. */
+   8, 16, .. poses take, in as many threads as the sweeps, until one takes 5 % of it. The first ones
+   also divide shapes more finely, which later ones find done. */
 static int poses_count(const report_job *job, const lrcs_host_scene *scene, double time,
                        double *poses)
 {
@@ -56,10 +57,10 @@ static int poses_count(const report_job *job, const lrcs_host_scene *scene, doub
     const lrcs_host_plan_text all = {"sphere", TRIAL_POSES};
     lrcs_host_error error;
     lrcs_host_plan plan;
-    double seconds = 0.0;
+    double seconds = 0.0, spent = 0.0;
     int status = lrcs_host_plan_make(&all, 1, NULL, &plan, &error);
-    for (uint64_t count = 4; status == LRCS_OK && seconds < 0.02 * time && count <= TRIAL_MOST;
-         count *= 4) {
+    for (uint64_t count = 4; status == LRCS_OK && seconds < 0.05 * time && count <= TRIAL_MOST;
+         count *= 2) {
         const lrcs_host_sweep sweep = {.uncertainty =
                                            cli_errors_stated(&scene->scene) ? &how : NULL,
                                        .count = count,
@@ -71,7 +72,8 @@ static int poses_count(const report_job *job, const lrcs_host_scene *scene, doub
         double begun = cli_seconds();
         status = lrcs_host_sweep_run(scene, &job->sweep_options, &sweep, NULL, &error);
         seconds = cli_seconds() - begun;
-        *poses = time * (double)count / fmax(seconds, 1e-6);
+        spent += seconds;
+        *poses = fmax(time - spent, 0.0) * (double)count / fmax(seconds, 1e-6);
     }
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
