@@ -10,12 +10,12 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#define SIZE_READ   ((double)(UINT64_C(1) << 34)) /* bytes; larger files are not read back */
-#define SIZE_HEAD   65536u                        /* bytes; the first lines are shorter */
-#define PACE_AFTER  2.0                           /* s */
-#define PACE_LONG   600.0                         /* s */
-#define PACE_TEXT   32
-#define FIELDS_EVER 5u /* of every row: sigma, dBsm, bound, glint and diffuse part */
+#define SIZE_READ  ((double)(UINT64_C(1) << 34)) /* bytes; larger files are not read back */
+#define SIZE_HEAD  65536u                        /* bytes; the first lines are shorter */
+#define PACE_AFTER 2.0                           /* s */
+#define PACE_LONG  600.0                         /* s */
+#define PACE_TEXT  32
+#define FIELDS_ALL 5u /* of every row: sigma, dBsm, bound, glint and diffuse part */
 
 /* A size in GB or TB. */
 static const char *size_text(double bytes, char text[PACE_TEXT])
@@ -57,13 +57,14 @@ int cli_size_check(const cli_args *args, const lrcs_host_plan *plan,
                         size_text(machine, there));
     }
     /* each number and the comma after it take at least two bytes, dBsm may be empty */
-    const double least = rows * (2.0 * (1.0 + plan->columns + FIELDS_EVER) - 1.0);
+    const double least = rows * (2.0 * (1.0 + plan->columns + FIELDS_ALL) - 1.0);
     char folder[4096] = ".";
     const char *slash = file->path ? strrchr(file->path, '/') : NULL;
     if (slash && (size_t)(slash - file->path) + 2 < sizeof folder) {
         snprintf(folder, sizeof folder, "%.*s/", (int)(slash - file->path), file->path);
     }
-    if (file->path && statvfs(folder, &disk) == 0) {
+    int there_already = cli_value(args, "resume") && file->path && access(file->path, F_OK) == 0;
+    if (file->path && !there_already && statvfs(folder, &disk) == 0) {
         double left = (double)disk.f_bavail * (double)disk.f_frsize;
         left += stat(file->partial, &partial) == 0 ? (double)partial.st_size : 0.0;
         if (least > left) {
