@@ -138,7 +138,8 @@ void cli_report_notices(FILE *out, const report_job *job)
     uint32_t count = notices->count;
     cli_page_section(out, "notices", "Warnings and notices");
     fputs("<ul class=\"notices\">\n", out);
-    for (uint32_t bits = job->run.result.flags; bits != 0; bits &= bits - 1) {
+    uint32_t flags = cli_flags_in_force(job->args, &job->run.options, job->run.result.flags);
+    for (uint32_t bits = flags; bits != 0; bits &= bits - 1) {
         cli_page(out, "<li><b>%s</b>: the answer is degraded, and its bound wider for it</li>\n",
                  lrcs_flag_text(CLI_LOWEST(bits)));
         count++;
