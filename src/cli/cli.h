@@ -132,7 +132,7 @@ int cli_whole(const cli_args *args, const char *name, double least, double most,
 int cli_choice(const cli_args *args, const char *name, const char *words, int *place);
 
 /* Messages on stderr: "lrcs: TEXT" is why a command fails, or why its exit code is 3; "notice:
-   TEXT" is worth knowing and changes no exit code. */
+   TEXT" is worth knowing and changes no exit code; "wrote FILE" names an output. */
 
 /* Prints "lrcs: TEXT", and how to get help. Returns CLI_USAGE. */
 __attribute__((format(printf, 2, 3))) int cli_usage(const cli_command *command, const char *format,

@@ -43,7 +43,7 @@ static const char main_help[] =
     "Exit: 0 done, 1 failed, 2 wrong usage, 3 done, but a tolerance was not met, memory was "
     "short,\n"
     "or a fit leaves parameters undetermined. On stderr 'lrcs: ...' says why a command failed or\n"
-    "ended with 3, and 'notice: ...' what else is worth knowing.\n"
+    "ended with 3, 'notice: ...' what else is worth knowing, and 'wrote FILE' what was written.\n"
     "\n"
     "examples:\n"
     "  lrcs run demo\n"

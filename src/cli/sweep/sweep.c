@@ -305,7 +305,7 @@ static void job_summary(const sweep_job *job)
         if (tally->rows > 1) {
             snprintf(spread, sizeof spread, "%.3g m2", lrcs_host_tally_error(tally));
         }
-        fprintf(stderr, "mean of sigma %.10g m2, standard error %s, mean bound %.3g m2\n",
+        fprintf(stderr, "notice: mean of sigma %.10g m2, standard error %s, mean bound %.3g m2\n",
                 tally->mean, spread, tally->bound / (double)tally->rows);
     }
     char missed[60];
