@@ -64,9 +64,9 @@ static void cuts_section(FILE *out, const report_job *job)
                {REPORT_CUT_YZ, "y and z", "the angle is the elevation, from +y over +z"}};
     cli_page_section(out, "cuts", "Cuts through three planes");
     cli_page(out,
-             "<p>Away from the middle \xcf\x83 grows, in dBsm: the numbers stand on the rings. "
-             "The laser goes around the body in steps of %u\xc2\xb0; what is narrower than "
-             "that may stand between them.</p>\n<div class=\"pair\">\n",
+             "<p>The distance from the centre is \xcf\x83 in dBsm, by the numbers on the rings; "
+             "angles are in degrees. The laser circles the body in steps of %u\xc2\xb0: a peak "
+             "that is narrower may be missed.</p>\n<div class=\"pair\">\n",
              job->cut_step);
     for (int i = 0; i < 3; i++) {
         const report_sweep *sweep = &job->sweep[cut[i].kind];

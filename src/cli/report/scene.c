@@ -22,11 +22,12 @@ static void model_facts(FILE *out, const report_job *job)
     const lrcs_mesh_report *r = &job->info.report;
     fputs("<dl class=\"facts\">\n", out);
     cli_page_fact(out, "Parts", "%u", job->info.parts);
-    cli_page_fact(
-        out, "Facets", "%u%s", scene->facet_count,
-        lrcs_host_scene_tessellated(scene)
-            ? "; curved shapes are divided for a tolerance of 1e-4, a run begins with fewer"
-            : "");
+    if (lrcs_host_scene_tessellated(scene)) {
+        cli_page_fact(out, "Facets, curved shapes divided for a tolerance of 1e-4",
+                      "%u; the run has %u", scene->facet_count, job->run.result.facets_total);
+    } else {
+        cli_page_fact(out, "Facets", "%u", scene->facet_count);
+    }
     cli_page_fact(out, "Vertices", "%u", scene->vertex_count);
     cli_page_fact(out, "Box", "%.5g \xc3\x97 %.5g \xc3\x97 %.5g\xc2\xa0m",
                   r->box_max[0] - r->box_min[0], r->box_max[1] - r->box_min[1],
