@@ -361,8 +361,8 @@ int cli_extension(const char *path, const char *extension);
 int cli_is_output(const cli_command *command, const char *option);
 
 /* Prints on stderr the names of the files that were written, for a command whose report does not
- * name them. */
-void cli_outputs_print(const cli_args *args);
+   name them; but not that of the option `kept` (or NULL), whose file was there. */
+void cli_outputs_print(const cli_args *args, const char *kept);
 
 /* Checks before the work the files named by options, for every command: charts are FILE.svg or
    FILE.png; no two are the same file; one that is standard output is not beside --json; none is a

@@ -204,7 +204,7 @@ static int image_command(const cli_args *args)
     if (code == 0) {
         cli_notices_print(stderr, &job.scene.notices);
         cli_accepted_print(stderr, job.result.flags);
-        cli_outputs_print(args);
+        cli_outputs_print(args, NULL);
         code = cli_accuracy_code(args, &job.options, job.result.flags);
     }
     free(job.records);

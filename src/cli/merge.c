@@ -56,7 +56,7 @@ static int merge_shards(const cli_args *args, const lrcs_host_sweep_output *file
         return cli_failed(&error);
     }
     cli_watch_end();
-    cli_outputs_print(args);
+    cli_outputs_print(args, NULL);
     return CLI_DONE;
 }
 

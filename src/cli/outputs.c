@@ -55,11 +55,13 @@ int cli_is_output(const cli_command *command, const char *option)
     return option_kind(command, option) >= CLI_FILE;
 }
 
-void cli_outputs_print(const cli_args *args)
+void cli_outputs_print(const cli_args *args, const char *kept)
 {
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *given = &args->given[i];
-        if (cli_is_output(args->command, given->name) && strcmp(given->value, "-") != 0) {
+        int written = !kept || strcmp(given->name, kept) != 0;
+        if (written && cli_is_output(args->command, given->name) &&
+            strcmp(given->value, "-") != 0) {
             fprintf(stderr, "wrote %s\n", given->value);
         }
     }

@@ -404,7 +404,7 @@ static int scene_command(const cli_args *args)
     cli_watch_end();
     if (code == 0) {
         cli_notices_print(stderr, &job.scene.notices);
-        cli_outputs_print(args);
+        cli_outputs_print(args, NULL);
     }
     free(job.text);
     free(job.facets);

@@ -234,7 +234,7 @@ static int plot_command(const cli_args *args)
     plot_job job = {args, 0, calloc(room, sizeof *job.file), calloc(room, sizeof *job.plot), 0};
     int code = job.file && job.plot ? job_run(&job) : cli_out_of_memory();
     if (code == CLI_DONE) {
-        cli_outputs_print(args);
+        cli_outputs_print(args, NULL);
     }
     for (uint32_t k = 0; k < job.count; k++) {
         lrcs_host_sweep_data_free(&job.file[k].data);

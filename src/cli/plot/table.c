@@ -321,7 +321,7 @@ int cli_table_draw(const cli_args *args, const char *path, int kind)
     int code = job_read(job, &error) == LRCS_OK ? 0 : cli_failed(&error);
     code = code ? code : cli_charts_write(args, "o", table_chart, job);
     if (code == CLI_DONE) {
-        cli_outputs_print(args);
+        cli_outputs_print(args, NULL);
     }
     free(job->text);
     free(job->profile.row);

@@ -203,7 +203,7 @@ static int report_command(const cli_args *args)
     if (code == 0) {
         cli_watch_end();
         cli_notices_print(stderr, &job->run.scene.notices);
-        cli_outputs_print(args);
+        cli_outputs_print(args, NULL);
         code = cli_accuracy_code(args, &job->run.options, job->run.result.flags);
     }
     report_free(job);

@@ -389,7 +389,10 @@ static int job_rows(sweep_job *job)
     if (lrcs_host_sweep_output_open(&job->file, resume, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    if (job->file.path && !resume) {
+    const int complete = resume && job->file.descriptor < 0;
+    if (complete) {
+        fprintf(stderr, "notice: %s is complete: no row is computed\n", cli_value(args, "o"));
+    } else if (job->file.path && !resume) {
         cli_replaced_print(args, &job->file);
     }
     job->pace = (cli_pace){cli_seconds(), job->file.next, 0, 0};
@@ -418,7 +421,7 @@ static int job_rows(sweep_job *job)
         return code;
     }
     job_summary(job);
-    cli_outputs_print(args);
+    cli_outputs_print(args, complete ? "o" : NULL);
     return tally->count[LRCS_HOST_TALLY_MISSED] > 0 || tally->count[LRCS_HOST_TALLY_STARVED] > 0
                ? CLI_DEGRADED
                : CLI_DONE;
