@@ -180,7 +180,7 @@ typedef struct chart_output {
     int png;
 } chart_output;
 
-static int chart_draw(FILE *out, const void *context, lrcs_host_error *error)
+static int chart_output_draw(FILE *out, const void *context, lrcs_host_error *error)
 {
     const chart_output *chart = context;
     return chart->draw(out, chart->context, chart->png, error);
@@ -189,7 +189,7 @@ static int chart_draw(FILE *out, const void *context, lrcs_host_error *error)
 int cli_chart_write(const char *path, cli_chart_writer *draw, const void *context)
 {
     const chart_output chart = {draw, context, cli_extension(path, ".png")};
-    return cli_output_write(path, chart_draw, &chart);
+    return cli_output_write(path, chart_output_draw, &chart);
 }
 
 int cli_charts_write(const cli_args *args, const char *option, cli_chart_writer *draw,

@@ -47,7 +47,7 @@ static const cli_option compare_options[] = {
 
 /* Reads the options and the two operands, and checks that no output replaces a file that is read.
  */
-static int options_read(compare_job *job, const char **folder)
+static int compare_options_read(compare_job *job, const char **folder)
 {
     const cli_args *args = job->args;
     const char *name[2] = {NULL, NULL};
@@ -120,7 +120,7 @@ static int compare_command(const cli_args *args)
     const char *folder = NULL;
     memset(&job, 0, sizeof job);
     job.args = args;
-    int code = options_read(&job, &folder);
+    int code = compare_options_read(&job, &folder);
     code = code ? code : compare_make(&job, folder);
     const char *json = cli_value(args, "json");
     const char *junit = cli_value(args, "junit");

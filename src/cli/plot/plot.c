@@ -121,7 +121,7 @@ static int overlay_check(const plot_job *job)
                            LRCS_HOST_SWEEP_CURVES, (unsigned long long)curves);
 }
 
-static int job_read(plot_job *job)
+static int plot_files_read(plot_job *job)
 {
     const cli_args *args = job->args;
     int code = cli_stats_read(args, &job->stats);
@@ -149,10 +149,10 @@ static int job_read(plot_job *job)
     return code;
 }
 
-static int job_run(plot_job *job)
+static int plot_run(plot_job *job)
 {
     const cli_args *args = job->args;
-    int code = job_read(job);
+    int code = plot_files_read(job);
     cli_watch_end();
     for (uint32_t k = 0; k < job->count && code == 0; k++) {
         code = cli_outputs_spare_input(args, job->file[k].path, "what is read");
@@ -232,7 +232,7 @@ static int plot_command(const cli_args *args)
     }
     size_t room = (size_t)args->given_count + 1;
     plot_job job = {args, 0, calloc(room, sizeof *job.file), calloc(room, sizeof *job.plot), 0};
-    int code = job.file && job.plot ? job_run(&job) : cli_out_of_memory();
+    int code = job.file && job.plot ? plot_run(&job) : cli_out_of_memory();
     if (code == CLI_DONE) {
         cli_outputs_print(args, NULL);
     }

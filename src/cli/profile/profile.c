@@ -59,7 +59,7 @@ double cli_profile_sigma(const lrcs_profile_bin *bin)
 
 /* ---- options ---- */
 
-static int options_read(profile_job *job)
+static int profile_options_read(profile_job *job)
 {
     const cli_args *args = job->args;
     lrcs_run_options options = lrcs_run_options_default();
@@ -147,7 +147,7 @@ static int profile_command(const cli_args *args)
     profile_job job;
     memset(&job, 0, sizeof job);
     job.args = args;
-    int code = options_read(&job);
+    int code = profile_options_read(&job);
     cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
     code = code ? code : cli_outputs_spare(args, &job.scene);

@@ -181,7 +181,7 @@ static void row_print(const profile_job *job, const profile_row *row)
 }
 
 /* Prints all bins, or, if there are many, the strongest, by range. */
-static void rows_print(const profile_job *job)
+static void bins_print(const profile_job *job)
 {
     profile_row *sorted = calloc((size_t)job->rows + 1, sizeof *sorted);
     printf("  %12s %12s %14s %9s %12s%s\n", "from (m)", "to (m)", "sigma (m2)", "bound", "m2 per m",
@@ -264,7 +264,7 @@ void cli_profile_table(const profile_job *job)
     if (job->fwhm_m > 0.0) {
         printf("pulse        Gaussian, %g m wide at half maximum in range\n", job->fwhm_m);
     }
-    rows_print(job);
+    bins_print(job);
     if (job->csv) {
         printf("rows         %s\n", job->csv);
     }

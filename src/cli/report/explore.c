@@ -189,7 +189,7 @@ static void materials_put(FILE *out, const lrcs_scene *scene)
     fputs(scene->material_count > 0 ? "]" : ",\n\"materials\":[]", out);
 }
 
-static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
+static int explore_data_put(FILE *out, const report_job *job, explore_mesh *mesh)
 {
     const report_sweep *map = &job->sweep[REPORT_MAP];
     const lrcs_scene *scene = &job->run.scene.scene;
@@ -282,7 +282,7 @@ int cli_report_explore_page(FILE *out, const void *context, lrcs_host_error *err
     cli_report_head(out, job, "", ", explorer", explore_policy, explore_style);
     fputs("</header>\n<main>\n", out);
     fwrite(explore_controls, 1, sizeof explore_controls, out);
-    int code = data_put(out, job, &mesh);
+    int code = explore_data_put(out, job, &mesh);
     page_notes(out, job, &mesh);
     fputs("<script>\n", out);
     fwrite(explore_script, 1, sizeof explore_script, out);

@@ -101,7 +101,7 @@ static const cli_option run_options[] = {CLI_POSE_OPTIONS,
 
 /* ---- options ---- */
 
-static int options_read(run_job *job)
+static int run_options_read(run_job *job)
 {
     const cli_args *args = job->args;
     uint32_t steps = 0;
@@ -139,7 +139,7 @@ static void long_run_notice(run_job *job)
     }
 }
 
-static int run_prepare(run_job *job)
+static int run_scene_prepare(run_job *job)
 {
     long_run_notice(job);
     cli_watch_stage("preparing", &job->scene);
@@ -169,7 +169,7 @@ static int run_records(run_job *job)
 static int run_pose(run_job *job)
 {
     lrcs_host_error error;
-    int code = job->scene.prepared ? 0 : run_prepare(job);
+    int code = job->scene.prepared ? 0 : run_scene_prepare(job);
     int done = job->divided && !job->image_path;
     if (code == 0 && !done) {
         code = run_records(job);
@@ -203,7 +203,7 @@ int cli_run_divide(run_job *job)
 {
     lrcs_host_scene *scene = &job->scene;
     job->divided = scene->levels != NULL;
-    int code = job->divided ? run_prepare(job) : 0;
+    int code = job->divided ? run_scene_prepare(job) : 0;
     double *part_error = calloc(scene->scene.part_count + (size_t)1, sizeof *part_error);
     for (int finer = job->divided; finer && code == 0;) {
         cli_watch_stage("pose", NULL);
@@ -306,7 +306,7 @@ static int run_command(const cli_args *args)
     run_job job;
     memset(&job, 0, sizeof job);
     job.args = args;
-    int code = options_read(&job);
+    int code = run_options_read(&job);
     code = code ? code : cli_run_scene(&job);
     if (code == 0) {
         run_judge(&job);

@@ -151,7 +151,7 @@ static void signals_watch(void)
 
 /* ---- options ---- */
 
-static int job_read(sweep_job *job)
+static int sweep_options_read(sweep_job *job)
 {
     const cli_args *args = job->args;
     int code = cli_rows_output_read(args, &job->file);
@@ -177,7 +177,7 @@ static int job_read(sweep_job *job)
 }
 
 /* Checks that no output replaces a file that is read. */
-static int job_files_check(const sweep_job *job)
+static int sweep_files_check(const sweep_job *job)
 {
     const cli_args *args = job->args;
     lrcs_host_error error;
@@ -192,13 +192,13 @@ static int job_files_check(const sweep_job *job)
 
 /* ---- the rows ---- */
 
-static int job_pose(void *context, uint64_t index, lrcs_pose *pose)
+static int row_pose(void *context, uint64_t index, lrcs_pose *pose)
 {
     const sweep_job *job = context;
     return lrcs_host_plan_pose(&job->plan, index, pose);
 }
 
-static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const lrcs_result *result,
+static int row_take(void *context, uint64_t index, const lrcs_pose *pose, const lrcs_result *result,
                     const lrcs_uncertainty *uncertainty, const lrcs_host_glint_sum *glint,
                     lrcs_host_error *error)
 {
@@ -231,7 +231,7 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
     return status;
 }
 
-static int job_scene(void *context, uint64_t index, lrcs_host_scene *scene, lrcs_host_error *error)
+static int row_scene(void *context, uint64_t index, lrcs_host_scene *scene, lrcs_host_error *error)
 {
     const sweep_job *job = context;
     return lrcs_host_plan_scene(&job->plan, index, &job->scene, &job->load.build, scene, error);
@@ -245,9 +245,9 @@ static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
     lrcs_host_sweep sweep = {.first = job->file.next,
                              .count = end - job->file.next,
                              .threads = job->threads,
-                             .pose = job_pose,
-                             .scene = scene ? NULL : job_scene,
-                             .take = job_take,
+                             .pose = row_pose,
+                             .scene = scene ? NULL : row_scene,
+                             .take = row_take,
                              .refine = 1,
                              .uncertainty = job->head.fields.materials ? &how : NULL,
                              .glint = job->head.fields.glint ? job->coarse : NULL,
@@ -261,7 +261,7 @@ static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
     return cli_failed(&error);
 }
 
-static int job_run(sweep_job *job)
+static int rows_compute(sweep_job *job)
 {
     lrcs_host_error error;
     lrcs_host_scene scene;
@@ -275,7 +275,7 @@ static int job_run(sweep_job *job)
         while (!apart && code == 0 && job->file.next < job->file.end) {
             uint64_t end = (job->file.next / job->plan.poses + 1) * job->plan.poses;
             memset(&scene, 0, sizeof scene);
-            if (job_scene(job, job->file.next, &scene, &error) != LRCS_OK) {
+            if (row_scene(job, job->file.next, &scene, &error) != LRCS_OK) {
                 return cli_failed(&error);
             }
             code = rows_run(job, &scene, end < job->file.end ? end : job->file.end);
@@ -294,7 +294,7 @@ static int job_run(sweep_job *job)
 /* ---- the command ---- */
 
 /* Prints a summary for people; the rows contain all of it too. */
-static void job_summary(const sweep_job *job)
+static void sweep_summary_print(const sweep_job *job)
 {
     const lrcs_host_tally *tally = &job->file.tally;
     for (uint32_t bits = job->notices; bits != 0; bits &= bits - 1) {
@@ -358,7 +358,7 @@ static void coarse_print(const sweep_job *job)
    2. Memory for what depends on all rows: plots, statistics, peaks.
    3. The rows: those of an existing file, then those that are computed.
    4. Plots, statistics, peaks, the summary. */
-static int job_rows(sweep_job *job)
+static int sweep_rows_write(sweep_job *job)
 {
     const lrcs_host_tally *tally = &job->file.tally;
     const cli_args *args = job->args;
@@ -396,7 +396,7 @@ static int job_rows(sweep_job *job)
         cli_replaced_print(args, &job->file);
     }
     job->pace = (cli_pace){cli_seconds(), job->file.next, 0, 0};
-    code = job_run(job);
+    code = rows_compute(job);
     int closed = lrcs_host_sweep_output_close(&job->file, code == 0, &error);
     /* cli_finish checks standard output */
     closed = closed == LRCS_OK || !job->file.path ? 0 : cli_failed(&error);
@@ -420,7 +420,7 @@ static int job_rows(sweep_job *job)
     if (code != 0) {
         return code;
     }
-    job_summary(job);
+    sweep_summary_print(job);
     cli_outputs_print(args, complete ? "o" : NULL);
     return tally->count[LRCS_HOST_TALLY_MISSED] > 0 || tally->count[LRCS_HOST_TALLY_STARVED] > 0
                ? CLI_DEGRADED
@@ -434,11 +434,11 @@ static int sweep_command(const cli_args *args)
         return cli_out_of_memory();
     }
     job->args = args;
-    int code = job_read(job);
+    int code = sweep_options_read(job);
     cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job->load, &job->scene);
     code = code ? code : cli_plan_check(args, &job->plan, &job->scene);
-    code = code ? code : job_files_check(job);
+    code = code ? code : sweep_files_check(job);
     if (code == 0) {
         cli_notices_print(stderr, &job->scene.notices);
         /* if a slope is varied, parts that are fine now may be too coarse in some rows */
@@ -449,7 +449,7 @@ static int sweep_command(const cli_args *args)
         }
         coarse_print(job);
     }
-    code = code ? code : job_rows(job);
+    code = code ? code : sweep_rows_write(job);
     free(job->row);
     free(job->band);
     free(job->coarse);
