@@ -7,7 +7,7 @@
    be visible in it, and a list of segments: event edges and contacts.
 
    Called, in this order:
-   1. lrcsi_cells_grid_make divides the view plane into blocks; lrcsi_cells_begin makes the first
+   1. lrcsi_block_grid_make divides the view plane into blocks; lrcsi_cells_begin makes the first
       cell of a block.
    2. lrcsi_cells_filter_segments removes segments from a cell's list that do not meet the cell.
    3. lrcsi_cells_nearest takes a sample at a point P of the cell: it finds the facet nearest to the
@@ -60,11 +60,11 @@
 /* --- one cell --------------------------------------------------------------------------------- */
 
 /* Does the cell list a facet whose area is wanted, and not left undecided elsewhere? */
-static int cell_is_wanted(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
+static int cell_is_wanted(const lrcsi_cells_work *c, const lrcsi_cell *cell)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = cell->facet[i];
-        if (c->wanted[f] && (c->state[f] & LRCSI_CELLS_UNDECIDED) == 0) {
+        if (c->wanted[f] && (c->state[f] & LRCSI_FINDING_UNDECIDED) == 0) {
             return 1;
         }
     }
@@ -86,11 +86,11 @@ static void add_visible_moment(lrcsi_moment *moment, const lrcsi_cells_facet *f,
 /* Adds the facet's area in a cell in which it is visible. Of the sides of the cell and of the facet
    only the parts in both bounding boxes matter; a convex curve in a box is no longer than the box's
    perimeter. */
-static void add_visible_area(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                             const lrcsi_cells_sides *s, uint32_t facet)
+static void add_visible_area(lrcsi_cells_work *c, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                             uint32_t facet)
 {
     const lrcsi_cells_facet *f = &c->facet[facet];
-    lrcsi_cells_found *area = &c->area[facet];
+    lrcsi_cell_area *area = &c->area[facet];
     lrcsi_clip_polygon piece = cell->shape;
     double w = f->err + s->tolerance;
     double wide[2];
@@ -123,8 +123,8 @@ static void add_visible_area(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 }
 
 /* Decides a cell: the facets of the component are visible in it, all others hidden. */
-static void decide_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                        const lrcsi_cells_sides *s, double uncertainty)
+static void decide_cell(lrcsi_cells_work *c, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                        double uncertainty)
 {
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t f = cell->facet[i];
@@ -132,7 +132,7 @@ static void decide_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             continue;
         }
         int visible = c->components > 0 && c->in_component[f] == c->stamp;
-        c->state[f] |= visible ? LRCSI_CELLS_VISIBLE : LRCSI_CELLS_HIDDEN;
+        c->state[f] |= visible ? LRCSI_FINDING_VISIBLE : LRCSI_FINDING_HIDDEN;
         c->area[f].uncertainty += uncertainty;
         if (visible) {
             add_visible_area(c, cell, s, f);
@@ -146,9 +146,8 @@ enum { CHOOSE_COMPONENT, CHOOSE_EDGES, CHOOSE_ANY };
    of all. The score is the cell's width on the narrower side of the line, times the root of the
    segment's extent in the cell. So cells shrink fast, few become long and narrow, and few are cut
    where nothing changes. */
-static const lrcsi_cells_segment *choose_cut(const lrcsi_cells_work *c,
-                                             const lrcsi_cells_cell *cell,
-                                             const lrcsi_cells_sides *s, int which)
+static const lrcsi_cells_segment *choose_cut(const lrcsi_cells_work *c, const lrcsi_cell *cell,
+                                             const lrcsi_clip_sides *s, int which)
 {
     const lrcsi_cells_segment *best = NULL;
     double best_score = -HUGE_VAL;
@@ -172,13 +171,13 @@ static const lrcsi_cells_segment *choose_cut(const lrcsi_cells_work *c,
 }
 
 /* Processes one cell. Returns 1 if it is decided; otherwise it is cut, or left undecided. */
-static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
+static int process_cell(lrcsi_cells_work *c, lrcsi_cell *cell)
 {
-    lrcsi_cells_sides s;
+    lrcsi_clip_sides s;
     if (!cell_is_wanted(c, cell)) {
         return 0;
     }
-    lrcsi_cells_sides_make(&cell->shape, lrcsi_cells_tolerance(c, cell), &s);
+    lrcsi_clip_sides_make(&cell->shape, lrcsi_cells_tolerance(c, cell), &s);
     lrcsi_cells_filter_segments(c, cell, &s);
     c->components = 0;
 
@@ -187,7 +186,7 @@ static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     double at[2];
     double clear = 0;
     int sample = lrcsi_cells_nearest(c, cell, &s, &nearest, at, &clear);
-    if (sample == LRCSI_CELLS_UNSURE && lrcsi_cells_charge_all(c, cell, &s)) {
+    if (sample == LRCSI_SAMPLE_UNSURE && lrcsi_cells_charge_all(c, cell, &s)) {
         return 0;
     }
 
@@ -195,7 +194,7 @@ static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
        segments. */
     const lrcsi_cells_segment *cut = NULL;
     int covers = 0;
-    for (int within = 0; within < 2 && sample == LRCSI_CELLS_FOUND && !covers && !cut; within++) {
+    for (int within = 0; within < 2 && sample == LRCSI_SAMPLE_FOUND && !covers && !cut; within++) {
         covers = lrcsi_cells_component(c, cell, &s, nearest, within);
         cut = covers ? NULL : choose_cut(c, cell, &s, CHOOSE_COMPONENT);
     }
@@ -203,7 +202,7 @@ static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     /* 3. Remove what is behind the component, if it covers the cell, or else behind a single facet
        that covers it. The component alone is visible if no contact of it crosses the cell. */
     double thin = 0; /* the error of the area of any facet, if the cell is thin */
-    if (covers || (sample == LRCSI_CELLS_FOUND && lrcsi_cells_find_occluder(c, cell, &s, at))) {
+    if (covers || (sample == LRCSI_SAMPLE_FOUND && lrcsi_cells_find_occluder(c, cell, &s, at))) {
         for (uint32_t i = 0; i < c->borders; i++) {
             lrcsi_cells_charge_border(c, cell, &s, &c->border[i]);
         }
@@ -216,7 +215,7 @@ static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     }
 
     /* 4. Decide the cell if no event edge is left in it, or cut it. */
-    int alone = sample == LRCSI_CELLS_NONE || (covers && !cut);
+    int alone = sample == LRCSI_SAMPLE_EMPTY || (covers && !cut);
     if (!cut) {
         cut = choose_cut(c, cell, &s, alone ? CHOOSE_EDGES : CHOOSE_ANY);
         if (!cut && alone) {
@@ -226,7 +225,7 @@ static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
     }
     if (!cut || !lrcsi_cells_divide(c, cell, &s, cut)) {
         for (uint32_t i = 0; i < cell->facets; i++) {
-            c->state[cell->facet[i]] |= LRCSI_CELLS_UNDECIDED;
+            c->state[cell->facet[i]] |= LRCSI_FINDING_UNDECIDED;
         }
     }
     return 0;
@@ -238,7 +237,7 @@ static int process_cell(lrcsi_cells_work *c, lrcsi_cells_cell *cell)
 static void leave_block_undecided(lrcsi_cells_work *c, size_t block)
 {
     for (uint32_t i = c->grid.facets.first[block]; i < c->grid.facets.first[block + 1]; i++) {
-        c->state[c->grid.facets.item[i]] |= LRCSI_CELLS_UNDECIDED;
+        c->state[c->grid.facets.item[i]] |= LRCSI_FINDING_UNDECIDED;
     }
 }
 
@@ -258,8 +257,8 @@ static void process_block(lrcsi_cells_work *c, uint32_t x, uint32_t y)
     if (!block_is_wanted(c, block)) {
         return;
     }
-    lrcsi_cells_cell cell = {.cuts = 0};
-    c->extent = lrcsi_cells_grid_square(&c->grid, x, y, &cell.shape, c->frame.middle);
+    lrcsi_cell cell = {.cuts = 0};
+    c->extent = lrcsi_block_grid_square(&c->grid, x, y, &cell.shape, c->frame.middle);
     c->frame.block = (uint32_t)block + 1;
     c->stamp++;
     if (!lrcsi_cells_begin(c, block, &cell)) {
@@ -342,14 +341,14 @@ static uint32_t areas_report(const lrcsi_cells_work *c, int as_single, unsigned 
 {
     uint32_t left = 0;
     for (uint32_t f = 0; f < c->view->prepared->scene->facet_count; f++) {
-        if (!c->wanted[f] || found[f] || (c->state[f] & LRCSI_CELLS_UNDECIDED) != 0 ||
+        if (!c->wanted[f] || found[f] || (c->state[f] & LRCSI_FINDING_UNDECIDED) != 0 ||
             c->state[f] == 0) {
             continue;
         }
-        const lrcsi_cells_found *a = &c->area[f];
+        const lrcsi_cell_area *a = &c->area[f];
         double whole = lrcsi_view_projected(c->view, f);
-        int some_visible = (c->state[f] & LRCSI_CELLS_VISIBLE) != 0;
-        int some_hidden = (c->state[f] & LRCSI_CELLS_HIDDEN) != 0;
+        int some_visible = (c->state[f] & LRCSI_FINDING_VISIBLE) != 0;
+        int some_hidden = (c->state[f] & LRCSI_FINDING_HIDDEN) != 0;
         double area = !some_hidden ? whole : !some_visible ? 0 : lrcsi_min(whole, a->visible);
         double err = a->uncertainty;
         err += some_visible && some_hidden ? a->visible_err + 64 * LRCSI_U * a->visible : 0;
@@ -374,20 +373,20 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared)
     size_t facets = prepared->scene->facet_count;
     size_t segments = (size_t)prepared->topology.edge_count + prepared->intersections.count;
     size_t need = lrcsi_work_blocks(2, facets, 1);
-    need = lrcsi_work_add(need, lrcsi_cells_grid_need(prepared));
+    need = lrcsi_work_add(need, lrcsi_block_grid_need(prepared));
     need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_facet)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cells_found)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_cell_area)));
     need = lrcsi_work_add(
         need, lrcsi_work_bytes(prepared->scene->vertex_count, sizeof(lrcsi_cells_point)));
     need = lrcsi_work_add(need, lrcsi_work_blocks(6, facets, sizeof(uint32_t)));
     need =
-        lrcsi_work_add(need, lrcsi_work_bytes(facets, LRCSI_CELLS_FACET_LISTS * sizeof(uint32_t)));
+        lrcsi_work_add(need, lrcsi_work_bytes(facets, LRCSI_CELL_FACET_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need,
-                          lrcsi_work_bytes(segments, LRCSI_CELLS_SEGMENT_LISTS * sizeof(uint32_t)));
+                          lrcsi_work_bytes(segments, LRCSI_CELL_SEGMENT_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
     need =
-        lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_MAX_BORDERS, sizeof(lrcsi_cells_border)));
-    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_STACK, sizeof(lrcsi_cells_cell)));
+        lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_COVER_MAX_BORDERS, sizeof(lrcsi_cell_border)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELL_STACK, sizeof(lrcsi_cell)));
 }
 
 /* Allocates the arrays of a view, and lists its facets and events in blocks. 0 if the memory does
@@ -408,24 +407,24 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
     c->frame.point = lrcsi_work_take_zero(work, p->scene->vertex_count, sizeof *c->frame.point);
     c->component = lrcsi_work_take(work, count, sizeof *c->component);
     c->hit = lrcsi_work_take(work, count, sizeof *c->hit);
-    c->facets_room = LRCSI_CELLS_FACET_LISTS * (size_t)count;
+    c->facets_room = LRCSI_CELL_FACET_LISTS * (size_t)count;
     c->facets = lrcsi_work_take(work, c->facets_room, sizeof *c->facets);
-    c->border = lrcsi_work_take(work, LRCSI_CELLS_MAX_BORDERS, sizeof *c->border);
-    c->stack = lrcsi_work_take(work, LRCSI_CELLS_STACK, sizeof *c->stack);
+    c->border = lrcsi_work_take(work, LRCSI_COVER_MAX_BORDERS, sizeof *c->border);
+    c->stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *c->stack);
     if (!c->state || !c->kind || !c->facet || !c->area || !c->listed || !c->covers ||
         !c->in_component || !c->contacts || !c->frame.point || !c->component || !c->hit ||
         !c->facets || !c->border || !c->stack ||
-        !lrcsi_cells_grid_make(classification, answer, work, &c->grid)) {
+        !lrcsi_block_grid_make(classification, answer, work, &c->grid)) {
         return 0;
     }
     for (uint32_t f = 0; f < count; f++) {
         c->kind[f] = lrcsi_view_casts(c->view, f) && lrcsi_cells_has_coplanar(c->view, f)
-                         ? LRCSI_CELLS_COPLANAR
+                         ? LRCSI_FACET_COPLANAR
                          : 0;
     }
     size_t segments = lrcsi_cells_max_segments(c);
     c->segment_room = (uint32_t)segments;
-    c->segments_room = LRCSI_CELLS_SEGMENT_LISTS * segments;
+    c->segments_room = LRCSI_CELL_SEGMENT_LISTS * segments;
     c->segments = lrcsi_work_take(work, c->segments_room, sizeof *c->segments);
     c->segment = lrcsi_work_take(work, segments, sizeof *c->segment);
     lrcsi_cells_frame_make(&c->frame);

@@ -36,7 +36,7 @@ static size_t max_blocks(const lrcs_prepared *p)
     return 2 * (size_t)p->scene->facet_count + 64;
 }
 
-static void blocks_place(lrcsi_cells_grid *c, uint32_t cells)
+static void blocks_place(lrcsi_block_grid *c, uint32_t cells)
 {
     const lrcsi_grid *grid = &c->classification->search.grid;
     const lrcsi_view *view = c->classification->view;
@@ -57,20 +57,20 @@ static void blocks_place(lrcsi_cells_grid *c, uint32_t cells)
 }
 
 /* The first coordinate of block i of a row, i from 1 to the last but one, or the last. */
-static double block_edge(const lrcsi_cells_grid *c, uint32_t i, int k)
+static double block_edge(const lrcsi_block_grid *c, uint32_t i, int k)
 {
     return c->low[k] + (i - 1) * c->size;
 }
 
 /* The block of a coordinate; possibly the adjacent one for a coordinate nearly on the border. */
-static uint32_t block_of(const lrcsi_cells_grid *c, double x, int k)
+static uint32_t block_of(const lrcsi_block_grid *c, double x, int k)
 {
     double i = (x - c->low[k]) * c->inverse_size + 1;
     return (uint32_t)lrcsi_min(c->side - 1.0, lrcsi_max(0, i));
 }
 
 /* The blocks that a range of coordinates meets: *from <= i < *to. */
-static void block_range(const lrcsi_cells_grid *c, double low, double high, int k, uint32_t *from,
+static void block_range(const lrcsi_block_grid *c, double low, double high, int k, uint32_t *from,
                         uint32_t *to)
 {
     *from = block_of(c, low - c->rounding, k);
@@ -80,7 +80,7 @@ static void block_range(const lrcsi_cells_grid *c, double low, double high, int 
 /* Counts or lists a polygon of at most three corners in the blocks that it may meet, row by row.
    Its range of x in a row is that of its sides in the row. What is computed from a side has an
    error below 8 u of a coordinate between the side's and the window's. */
-static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b,
+static void blocks_put(lrcsi_block_grid *c, lrcsi_block_lists *b,
                        const lrcsi_view_vertex *const corner[3], int corners, uint32_t item)
 {
     double low[2] = {HUGE_VAL, HUGE_VAL};
@@ -121,7 +121,7 @@ static void blocks_put(lrcsi_cells_grid *c, lrcsi_cells_lists *b,
 
 /* Lists the facets that can hide others and are not proved to be hidden, or the events: counts
    them, then lists them. 0 if memory does not suffice, or the lists are too long. */
-static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lrcs_work *work)
+static int blocks_make(lrcsi_block_grid *c, lrcsi_block_lists *b, int events, lrcs_work *work)
 {
     const lrcsi_classification *classification = c->classification;
     const lrcsi_view *view = classification->view;
@@ -160,7 +160,7 @@ static int blocks_make(lrcsi_cells_grid *c, lrcsi_cells_lists *b, int events, lr
 /* Border blocks extend beyond the window of the view, and beyond all facets with the errors of
    their corners: if the view is no wider than these errors, as along a needle, a large part of a
    facet may be outside its window. */
-double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y,
+double lrcsi_block_grid_square(const lrcsi_block_grid *c, uint32_t x, uint32_t y,
                                lrcsi_clip_polygon *shape, double middle[2])
 {
     const uint32_t at[2] = {x, y};
@@ -189,19 +189,19 @@ double lrcsi_cells_grid_square(const lrcsi_cells_grid *c, uint32_t x, uint32_t y
     return extent;
 }
 
-size_t lrcsi_cells_grid_need(const lrcs_prepared *prepared)
+size_t lrcsi_block_grid_need(const lrcs_prepared *prepared)
 {
     size_t need = lrcsi_work_blocks(2, max_blocks(prepared) + 1, sizeof(uint32_t));
     return lrcsi_work_add(need,
                           lrcsi_work_blocks(2, (size_t)max_entries(prepared), sizeof(uint32_t)));
 }
 
-int lrcsi_cells_grid_make(const lrcsi_classification *classification, const unsigned char *answer,
-                          lrcs_work *work, lrcsi_cells_grid *c)
+int lrcsi_block_grid_make(const lrcsi_classification *classification, const unsigned char *answer,
+                          lrcs_work *work, lrcsi_block_grid *c)
 {
     size_t mark = work->used;
     int made = 0;
-    *c = (lrcsi_cells_grid){.classification = classification, .answer = answer};
+    *c = (lrcsi_block_grid){.classification = classification, .answer = answer};
     for (uint32_t cells = BLOCK; !made; cells *= 2) {
         blocks_place(c, cells);
         made = blocks_make(c, &c->facets, 0, work) && blocks_make(c, &c->events, 1, work);
@@ -226,7 +226,7 @@ lrcsi_cells_segment *lrcsi_cells_segment_new(lrcsi_cells_work *c)
     return e;
 }
 
-void lrcsi_cells_list_segments(const lrcsi_cells_work *c, lrcsi_cells_cell *cell)
+void lrcsi_cells_list_segments(const lrcsi_cells_work *c, lrcsi_cell *cell)
 {
     cell->segment = c->segments;
     cell->segments = c->segment_count;
@@ -279,7 +279,7 @@ static int add_edge(lrcsi_cells_work *c, uint32_t edge)
 /* 1 if no side of the facet counts as an event in cells only. */
 static int has_ordinary_sides(const lrcsi_cells_work *c, uint32_t facet)
 {
-    return (c->kind[facet] & LRCSI_CELLS_COPLANAR) == 0 &&
+    return (c->kind[facet] & LRCSI_FACET_COPLANAR) == 0 &&
            c->view->prepared->intersections.met[facet] <= 1;
 }
 
@@ -323,8 +323,8 @@ static int add_contacts(lrcsi_cells_work *c, uint32_t facet)
             continue;
         }
         if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
-            c->kind[facet] |= LRCSI_CELLS_UNKNOWN_CONTACT;
-            c->kind[other] |= LRCSI_CELLS_UNKNOWN_CONTACT;
+            c->kind[facet] |= LRCSI_FACET_UNKNOWN_CONTACT;
+            c->kind[other] |= LRCSI_FACET_UNKNOWN_CONTACT;
             continue;
         }
         lrcsi_cells_segment *e = lrcsi_cells_segment_new(c);
@@ -355,8 +355,8 @@ static int add_contacts(lrcsi_cells_work *c, uint32_t facet)
 size_t lrcsi_cells_max_segments(const lrcsi_cells_work *c)
 {
     const lrcsi_intersections *intersections = &c->view->prepared->intersections;
-    const lrcsi_cells_lists *facets = &c->grid.facets;
-    const lrcsi_cells_lists *events = &c->grid.events;
+    const lrcsi_block_lists *facets = &c->grid.facets;
+    const lrcsi_block_lists *events = &c->grid.events;
     size_t max = 0;
     for (size_t b = 0; b < (size_t)c->grid.side * c->grid.side; b++) {
         size_t count = events->first[b + 1] - events->first[b];
@@ -372,11 +372,11 @@ size_t lrcsi_cells_max_segments(const lrcsi_cells_work *c)
 
 /* 1. Lists the facets of the block, and makes their records. The neighbours of a facet are the same
    in all blocks, and found once. 2. Lists the segments. */
-int lrcsi_cells_begin(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
+int lrcsi_cells_begin(lrcsi_cells_work *c, size_t block, lrcsi_cell *cell)
 {
     const lrcsi_topology *topology = &c->view->prepared->topology;
-    const lrcsi_cells_lists *facets = &c->grid.facets;
-    const lrcsi_cells_lists *events = &c->grid.events;
+    const lrcsi_block_lists *facets = &c->grid.facets;
+    const lrcsi_block_lists *events = &c->grid.events;
     c->segment_count = 0;
     c->facet_err = 0;
     cell->facet = c->facets;
@@ -384,12 +384,12 @@ int lrcsi_cells_begin(lrcsi_cells_work *c, size_t block, lrcsi_cells_cell *cell)
         uint32_t index = facets->item[i];
         lrcsi_cells_facet *f = &c->facet[index];
         lrcsi_cells_facet_make(&c->frame, index, f);
-        c->state[index] |= f->sliver ? LRCSI_CELLS_UNDECIDED : 0;
-        for (int k = 0; k < 3 && (c->kind[index] & LRCSI_CELLS_NEIGHBOURS_FOUND) == 0; k++) {
+        c->state[index] |= f->sliver ? LRCSI_FINDING_UNDECIDED : 0;
+        for (int k = 0; k < 3 && (c->kind[index] & LRCSI_FACET_NEIGHBOURS_FOUND) == 0; k++) {
             f->neighbour[k] = lrcsi_cells_connected(c->view, c->kind, index,
                                                     lrcsi_cells_side_number(c->view, index, k));
         }
-        c->kind[index] |= LRCSI_CELLS_NEIGHBOURS_FOUND;
+        c->kind[index] |= LRCSI_FACET_NEIGHBOURS_FOUND;
         cell->facet[cell->facets++] = index;
         c->listed[index] = c->stamp;
         c->facet_err = lrcsi_max(c->facet_err, f->err);

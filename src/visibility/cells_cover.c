@@ -37,7 +37,7 @@
    segment in the interior of one (mesh/contact/intersection.h), along parts of edges of both
    (lrcsi_intersection_along), or in a common plane. Such an edge, and every edge of a facet that
    has another facet in its plane, counts as an event edge, so that no component continues across
-   it. A facet with a contact that could not be computed (LRCSI_CELLS_UNKNOWN_CONTACT) is never part
+   it. A facet with a contact that could not be computed (LRCSI_FACET_UNKNOWN_CONTACT) is never part
    of a component that covers a cell. Contacts in points do not matter: paths to points in general
    position miss them.
 
@@ -58,8 +58,8 @@
 
 /* Finds the facet nearest to the laser at a point. Returns FOUND if all others that may cover the
    point are certainly behind it; UNSURE or NONE as lrcsi_cells_nearest. */
-static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                        const lrcsi_cells_sides *s, const double at[2], uint32_t *best)
+static int cells_sample(lrcsi_cells_work *c, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                        const double at[2], uint32_t *best)
 {
     double best_z = -HUGE_VAL;
     c->hits = 0;
@@ -91,7 +91,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         }
     }
     if (*best == LRCS_NONE) {
-        return c->hits == 0 ? LRCSI_CELLS_NONE : LRCSI_CELLS_UNSURE;
+        return c->hits == 0 ? LRCSI_SAMPLE_EMPTY : LRCSI_SAMPLE_UNSURE;
     }
     uint32_t changes = 0;
     for (uint32_t i = 0; i < c->hits; i++) {
@@ -105,7 +105,7 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
                         ? lrcsi_cells_facet_order(c->view, *best, other)
                         : 0;
         if (order == 0) {
-            return LRCSI_CELLS_UNSURE;
+            return LRCSI_SAMPLE_UNSURE;
         }
         if (order > 0) { /* the earlier ones are compared with it again */
             *best = other;
@@ -114,13 +114,13 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             i = (uint32_t)-1;
         }
     }
-    return LRCSI_CELLS_FOUND;
+    return LRCSI_SAMPLE_FOUND;
 }
 
 /* The weight of corner i is 1 in the first sample, 1 + 0.2 i in the second, 1 + 1.5 / (1 + i) in
    the third. With equal weights, all samples in a symmetric cell could be on its axis, and so on an
    edge between facets. */
-void lrcsi_cells_sample_point(const lrcsi_cells_cell *cell, int number, double at[2])
+void lrcsi_cells_sample_point(const lrcsi_cell *cell, int number, double at[2])
 {
     double sum = 0;
     at[0] = at[1] = 0;
@@ -134,13 +134,13 @@ void lrcsi_cells_sample_point(const lrcsi_cells_cell *cell, int number, double a
     at[1] /= sum;
 }
 
-int lrcsi_cells_nearest(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                        const lrcsi_cells_sides *s, uint32_t *best, double at[2], double *clear)
+int lrcsi_cells_nearest(lrcsi_cells_work *c, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                        uint32_t *best, double at[2], double *clear)
 {
-    int answer = LRCSI_CELLS_UNSURE;
-    for (int t = 0; t < LRCSI_CELLS_SAMPLES && answer == LRCSI_CELLS_UNSURE; t++) {
+    int answer = LRCSI_SAMPLE_UNSURE;
+    for (int t = 0; t < LRCSI_SAMPLES && answer == LRCSI_SAMPLE_UNSURE; t++) {
         lrcsi_cells_sample_point(cell, t, at);
-        *clear = lrcsi_cells_border_distance(s, at);
+        *clear = lrcsi_clip_border_distance(s, at);
         c->stamp++;
         if (*clear > 4 * (cell->widest_strip + c->facet_err + s->tolerance)) {
             answer = cells_sample(c, cell, s, at, best);
@@ -151,7 +151,7 @@ int lrcsi_cells_nearest(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 
 /* Do all segments of the component in the list belong to contacts? Marks the facets that meet the
    component there. */
-static int contacts_only(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
+static int contacts_only(lrcsi_cells_work *c, const lrcsi_cell *cell)
 {
     int only = 1;
     for (uint32_t i = 0; i < cell->segments; i++) {
@@ -168,8 +168,8 @@ static int contacts_only(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
 }
 
 /* Does a facet alone cover the cell? */
-static int covers_alone(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                        const lrcsi_cells_sides *s, uint32_t index)
+static int covers_alone(const lrcsi_cells_work *c, const lrcsi_cell *cell,
+                        const lrcsi_clip_sides *s, uint32_t index)
 {
     const lrcsi_cells_facet *f = &c->facet[index];
     double w = f->err + s->tolerance;
@@ -180,11 +180,11 @@ static int covers_alone(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
             return 0;
         }
     }
-    return (c->kind[index] & LRCSI_CELLS_UNKNOWN_CONTACT) == 0;
+    return (c->kind[index] & LRCSI_FACET_UNKNOWN_CONTACT) == 0;
 }
 
-int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                              const lrcsi_cells_sides *s, const double at[2])
+int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cell *cell,
+                              const lrcsi_clip_sides *s, const double at[2])
 {
     uint32_t occluder = LRCS_NONE;
     double best_z = -HUGE_VAL;
@@ -209,35 +209,35 @@ int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     return 1;
 }
 
-/* Where side k of a facet of the component lies: a lrcsi_cells_location. Given: is the facet across
+/* Where side k of a facet of the component lies: a lrcsi_clip_location. Given: is the facet across
    it removed from the list? Returned, unless it is outside: the side, and where it is near the
    cell. */
-static int locate_side(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                       const lrcsi_cells_facet *f, int k, int removed, lrcsi_cells_border *side)
+static int locate_side(const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                       const lrcsi_cells_facet *f, int k, int removed, lrcsi_cell_border *side)
 {
     int n = k == 2 ? 0 : k + 1;
     const double p[2] = {f->x[k], f->y[k]};
     const double q[2] = {f->x[n], f->y[n]};
     double w = f->err + s->tolerance;
     double line_w = (f->sliver ? f->err : f->line_err) + s->tolerance;
-    if (lrcsi_cells_box_outside(s, p, q, w)) {
-        return LRCSI_CELLS_OUTSIDE;
+    if (lrcsi_clip_box_outside(s, p, q, w)) {
+        return LRCSI_CLIP_OUTSIDE;
     }
-    *side = (lrcsi_cells_border){
+    *side = (lrcsi_cell_border){
         {f->side[k][0], f->side[k][1], f->side[k][2]}, {p[0], p[1]}, f->length[k], {0, 1, 0}};
     if (f->sliver) {
         lrcsi_line_through(p, q, side->line);
     }
     int place =
-        lrcsi_cells_locate_near(&cell->shape, s, p, q, side->line, w, line_w, &side->interval);
-    return place == LRCSI_CELLS_CROSSES && removed
-               ? lrcsi_cells_locate_near(&cell->shape, s, p, q, side->line, w + cell->widest_strip,
-                                         line_w + cell->widest_strip, &side->interval)
+        lrcsi_clip_locate_near(&cell->shape, s, p, q, side->line, w, line_w, &side->interval);
+    return place == LRCSI_CLIP_CROSSES && removed
+               ? lrcsi_clip_locate_near(&cell->shape, s, p, q, side->line, w + cell->widest_strip,
+                                        line_w + cell->widest_strip, &side->interval)
                : place;
 }
 
-int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                          const lrcsi_cells_sides *s, uint32_t best, int within)
+int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                          uint32_t best, int within)
 {
     int covers = 1;
     for (uint32_t i = 0; within && i < c->components; i++) {
@@ -250,27 +250,27 @@ int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     for (uint32_t i = 0; i < c->components; i++) {
         uint32_t facet = c->component[i];
         const lrcsi_cells_facet *f = &c->facet[facet];
-        covers &= (c->kind[facet] & LRCSI_CELLS_UNKNOWN_CONTACT) == 0 &&
+        covers &= (c->kind[facet] & LRCSI_FACET_UNKNOWN_CONTACT) == 0 &&
                   (facet == best || (c->covers[facet] >> 1) != c->stamp);
         for (int k = 0; k < 3; k++) {
-            lrcsi_cells_border side;
+            lrcsi_cell_border side;
             uint32_t next = f->neighbour[k];
             if (next != LRCS_NONE && c->in_component[next] == c->stamp) {
                 continue;
             }
             int listed = next != LRCS_NONE && c->listed[next] == c->stamp;
             int place = listed && !within
-                            ? LRCSI_CELLS_CROSSES
+                            ? LRCSI_CLIP_CROSSES
                             : locate_side(cell, s, f, k, next != LRCS_NONE && !listed, &side);
-            if (place == LRCSI_CELLS_CROSSES && listed) {
+            if (place == LRCSI_CLIP_CROSSES && listed) {
                 c->in_component[next] = c->stamp;
                 c->component[c->components++] = next;
-            } else if (place == LRCSI_CELLS_CROSSES && c->components > SMALL_COMPONENT) {
+            } else if (place == LRCSI_CLIP_CROSSES && c->components > SMALL_COMPONENT) {
                 return 0;
-            } else if (place == LRCSI_CELLS_CROSSES) {
+            } else if (place == LRCSI_CLIP_CROSSES) {
                 covers = 0;
-            } else if (place == LRCSI_CELLS_BORDER && next != LRCS_NONE) {
-                covers &= c->borders < LRCSI_CELLS_MAX_BORDERS;
+            } else if (place == LRCSI_CLIP_BORDER && next != LRCS_NONE) {
+                covers &= c->borders < LRCSI_COVER_MAX_BORDERS;
                 if (covers) {
                     c->border[c->borders++] = side;
                 }
@@ -315,16 +315,16 @@ static int has_no_contact(const lrcsi_cells_work *c, uint32_t facet)
    is one facet, both ends of the part are compared with its plane. Otherwise, if a facet of the
    edge has no contact with the component, one point of the part is compared with the facet that
    covers it. Given: low, the lowest z of the component in the cell. */
-static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                          const lrcsi_cells_sides *s, const lrcsi_cells_segment *e, double w,
+static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cell *cell,
+                          const lrcsi_clip_sides *s, const lrcsi_cells_segment *e, double w,
                           double low)
 {
     double z_err = 2 * e->z_err;
     if (lrcsi_max(e->end[0][2], e->end[1][2]) + z_err < low) {
         return 1;
     }
-    lrcsi_cells_interval interval = {0, 1, 0};
-    lrcsi_cells_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w, w, &interval);
+    lrcsi_clip_interval interval = {0, 1, 0};
+    lrcsi_clip_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w, w, &interval);
     double at[2][3];
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++) {
@@ -368,7 +368,7 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
 }
 
 /* Is a facet that certainly covers the sample behind the component there? at NULL: yes. */
-static int behind_at(const lrcsi_cells_work *c, const lrcsi_cells_sides *s, const double *at,
+static int behind_at(const lrcsi_cells_work *c, const lrcsi_clip_sides *s, const double *at,
                      uint32_t facet)
 {
     double range[2];
@@ -381,7 +381,7 @@ static int behind_at(const lrcsi_cells_work *c, const lrcsi_cells_sides *s, cons
     return range[1] < of_component[0];
 }
 
-void lrcsi_cells_cull(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+void lrcsi_cells_cull(lrcsi_cells_work *c, lrcsi_cell *cell, const lrcsi_clip_sides *s,
                       const double *at, double uncertainty)
 {
     double low = HUGE_VAL;
@@ -396,7 +396,7 @@ void lrcsi_cells_cull(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_c
               behind_at(c, s, at, f)) ||
              c->facet[f].z_high < low || lrcsi_cells_facet_z_bound(&c->facet[f], s, 1) < low)) {
             c->listed[f] = 0;
-            c->state[f] |= LRCSI_CELLS_HIDDEN;
+            c->state[f] |= LRCSI_FINDING_HIDDEN;
             c->area[f].uncertainty += c->wanted[f] ? cell->uncertainty + uncertainty : 0;
             continue;
         }

@@ -13,7 +13,7 @@
    Segments at the border. Let w be the sum of the segment's error (`err`, `line_err`:
    visibility/cells_facet.c), 16 u times the largest coordinate of the block, and the shape error.
    If the computed distance of a segment from the cell exceeds w, the segment does not meet the
-   cell. If no point of the segment is more than w inside the cell (LRCSI_CELLS_BORDER), its part in
+   cell. If no point of the segment is more than w inside the cell (LRCSI_CLIP_BORDER), its part in
    the cell lies within 2 w of the line along a side of the cell, or 4 w in a corner; or within 2 w
    of its own line, with the cell on one side of that line. Let c be the distance of the sample P
    from these lines; it exceeds 4 w. The path from P to x then crosses the segment only if x lies
@@ -132,8 +132,8 @@ static void facet_along(const lrcsi_cells_facet *f, const double line[3], const 
 /* Charges the undecided area of a segment at the border to the facets near it: to each no more than
    the area of the strip along the facet's length. A negligible area is charged to all facets of the
    list later. */
-void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
-                               const lrcsi_cells_sides *s, const lrcsi_cells_border *e)
+void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                               const lrcsi_cell_border *e)
 {
     double strip = e->interval.strip_width;
     double length = (e->interval.to - e->interval.from) * e->length;
@@ -204,8 +204,8 @@ static void charge_cut(lrcsi_cells_work *c, uint32_t index, double low, double h
     c->area[index].uncertainty += lrcsi_max(0, wide) * lrcsi_max(0, length);
 }
 
-double lrcsi_cells_thin_uncertainty(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                                    double clear, uint32_t segments, double line_err)
+double lrcsi_cells_thin_uncertainty(const lrcsi_cell *cell, const lrcsi_clip_sides *s, double clear,
+                                    uint32_t segments, double line_err)
 {
     if (!(clear < MAX_THIN * s->perimeter)) {
         return 0;
@@ -215,8 +215,7 @@ double lrcsi_cells_thin_uncertainty(const lrcsi_cells_cell *cell, const lrcsi_ce
     return lrcsi_min(strips, lrcsi_clip_area(&cell->shape) + s->tolerance * s->perimeter);
 }
 
-int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                           const lrcsi_cells_sides *s)
+int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cell *cell, const lrcsi_clip_sides *s)
 {
     double wide = NARROW_STRIPS * (cell->widest_strip + c->facet_err + s->tolerance);
     double area = lrcsi_clip_area(&cell->shape) + 2 * s->tolerance * s->perimeter;
@@ -225,7 +224,7 @@ int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     }
     for (uint32_t i = 0; i < cell->facets; i++) {
         uint32_t facet = cell->facet[i];
-        c->state[facet] |= LRCSI_CELLS_CHARGED;
+        c->state[facet] |= LRCSI_FINDING_CHARGED;
         if (c->wanted[facet]) {
             c->area[facet].uncertainty += cell->uncertainty + area;
             c->area[facet].strip_length += 0.5 * s->perimeter;
@@ -238,7 +237,7 @@ int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 
 /* A segment met the cell that this one was cut from. Does it meet this one too? If not, its own
    line or that of the cut separates them. */
-static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment *e, double w)
+static int segment_stays(const lrcsi_cell *cell, const lrcsi_cells_segment *e, double w)
 {
     if (!(lrcsi_line_at(cell->cut_line, e->end[0][0], e->end[0][1]) > w) &&
         !(lrcsi_line_at(cell->cut_line, e->end[1][0], e->end[1][1]) > w)) {
@@ -255,8 +254,7 @@ static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment
     return left && right;
 }
 
-void lrcsi_cells_filter_segments(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
-                                 const lrcsi_cells_sides *s)
+void lrcsi_cells_filter_segments(lrcsi_cells_work *c, lrcsi_cell *cell, const lrcsi_clip_sides *s)
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < cell->segments; i++) {
@@ -266,19 +264,19 @@ void lrcsi_cells_filter_segments(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
             cell->segment[kept++] = cell->segment[i];
             continue;
         }
-        lrcsi_cells_interval interval;
-        int place = lrcsi_cells_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w,
-                                       e->line_err + s->tolerance, &interval);
-        if (place == LRCSI_CELLS_CROSSES) {
+        lrcsi_clip_interval interval;
+        int place = lrcsi_clip_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w,
+                                      e->line_err + s->tolerance, &interval);
+        if (place == LRCSI_CLIP_CROSSES) {
             cell->segment[kept++] = cell->segment[i];
-        } else if (place == LRCSI_CELLS_BORDER) {
+        } else if (place == LRCSI_CLIP_BORDER) {
             cell->removed++;
             cell->widest_strip = lrcsi_max(cell->widest_strip, interval.strip_width);
             lrcsi_cells_charge_border(c, cell, s,
-                                      &(lrcsi_cells_border){{e->line[0], e->line[1], e->line[2]},
-                                                            {e->end[0][0], e->end[0][1]},
-                                                            e->length,
-                                                            interval});
+                                      &(lrcsi_cell_border){{e->line[0], e->line[1], e->line[2]},
+                                                           {e->end[0][0], e->end[0][1]},
+                                                           e->length,
+                                                           interval});
         }
     }
     cell->segments = kept;
@@ -304,8 +302,8 @@ static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *sh
 
 /* Lists the facets of a cell that may be near its right part, and those that may be near its left
    part. What is near neither is not in the cell. */
-static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const cut_strip *strip,
-                       lrcsi_cells_cell *left, lrcsi_cells_cell *right)
+static void cut_facets(lrcsi_cells_work *c, const lrcsi_cell *cell, const cut_strip *strip,
+                       lrcsi_cell *left, lrcsi_cell *right)
 {
     double g = lrcsi_cells_tolerance(c, left);
     uint32_t *of_left = cell->facet + cell->facets;
@@ -335,9 +333,8 @@ static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const 
 }
 
 /* The same for its segments, except for the one along which it is cut. */
-static void cut_segments(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                         const lrcsi_cells_segment *along, lrcsi_cells_cell *left,
-                         lrcsi_cells_cell *right)
+static void cut_segments(const lrcsi_cells_work *c, const lrcsi_cell *cell,
+                         const lrcsi_cells_segment *along, lrcsi_cell *left, lrcsi_cell *right)
 {
     double g = lrcsi_cells_tolerance(c, left);
     uint32_t *of_left = cell->segment + cell->segments;
@@ -358,7 +355,7 @@ static void cut_segments(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell
 }
 
 /* Is there room for the lists of both parts of a cell? */
-static int has_list_room(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
+static int has_list_room(const lrcsi_cells_work *c, const lrcsi_cell *cell)
 {
     size_t facets = (size_t)(cell->facet - c->facets) + 2 * (size_t)cell->facets;
     size_t segments = (size_t)(cell->segment - c->segments) + 2 * (size_t)cell->segments;
@@ -366,7 +363,7 @@ static int has_list_room(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell
 }
 
 /* The line across the middle of a cell's box, at right angles to its longer side. */
-static void middle_line(const lrcsi_cells_sides *s, double line[3])
+static void middle_line(const lrcsi_clip_sides *s, double line[3])
 {
     int wide = s->high[0] - s->low[0] > s->high[1] - s->low[1];
     line[0] = wide;
@@ -376,27 +373,27 @@ static void middle_line(const lrcsi_cells_sides *s, double line[3])
 
 /* Divides a cell along a segment, which is removed from the list, or (NULL) across its middle. 0 if
    there is no room. */
-static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+static int cut_cell(lrcsi_cells_work *c, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
                     const lrcsi_cells_segment *along)
 {
     double line[3];
     middle_line(s, line);
     cut_strip strip = {along, 0, 0, 0, s->tolerance};
     if (along) {
-        lrcsi_cells_interval interval = {0, 1, 0};
+        lrcsi_clip_interval interval = {0, 1, 0};
         memcpy(line, along->line, sizeof line);
         strip.width = along->line_err + cell->shape_err + 12 * LRCSI_U * c->extent;
-        lrcsi_cells_locate(&cell->shape, s, along->end[0], along->end[1], along->line,
-                           along->err + s->tolerance, along->err + s->tolerance, &interval);
+        lrcsi_clip_locate(&cell->shape, s, along->end[0], along->end[1], along->line,
+                          along->err + s->tolerance, along->err + s->tolerance, &interval);
         strip.from = interval.from * along->length;
         strip.to = interval.to * along->length;
     }
-    if (cell->cuts >= LRCSI_CELLS_MAX_CUTS || cell->shape.count + 2 > LRCSI_CLIP_SIDES ||
-        c->top + 2 > LRCSI_CELLS_STACK || !has_list_room(c, cell)) {
+    if (cell->cuts >= LRCSI_CELL_MAX_CUTS || cell->shape.count + 2 > LRCSI_CLIP_MAX_SIDES ||
+        c->top + 2 > LRCSI_CELL_STACK || !has_list_room(c, cell)) {
         return 0;
     }
-    lrcsi_cells_cell *right = &c->stack[c->top];
-    lrcsi_cells_cell *left = right + 1;
+    lrcsi_cell *right = &c->stack[c->top];
+    lrcsi_cell *left = right + 1;
     *right = *cell;
     right->cuts++;
     right->removed += along != NULL;
@@ -417,15 +414,15 @@ static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
     return 1;
 }
 
-int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
+int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cell *cell, const lrcsi_clip_sides *s)
 {
     return cut_cell(c, cell, s, NULL);
 }
 
 /* Do the halves of a cell with many segments have few in common? At most an eighth of them if
    neither half has more than three quarters of all; otherwise at most one. */
-static int halving_separates(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                             const lrcsi_cells_sides *s)
+static int halving_separates(const lrcsi_cells_work *c, const lrcsi_cell *cell,
+                             const lrcsi_clip_sides *s)
 {
     double line[3];
     uint32_t side[2] = {0, 0};
@@ -444,8 +441,8 @@ static int halving_separates(const lrcsi_cells_work *c, const lrcsi_cells_cell *
                                              : both <= 1 && cell->cuts < MAX_HALVINGS);
 }
 
-int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                       const lrcsi_cells_sides *s, const lrcsi_cells_segment *along)
+int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                       const lrcsi_cells_segment *along)
 {
     return cell->shape.count > MAX_CORNERS || halving_separates(c, cell, s)
                ? lrcsi_cells_halve(c, cell, s)

@@ -216,7 +216,7 @@ void lrcsi_cells_facet_z(const lrcsi_cells_facet *f, const double at[2], double 
     }
 }
 
-double lrcsi_cells_facet_z_bound(const lrcsi_cells_facet *f, const lrcsi_cells_sides *s, int sign)
+double lrcsi_cells_facet_z_bound(const lrcsi_cells_facet *f, const lrcsi_clip_sides *s, int sign)
 {
     double corner = sign > 0 ? f->z_high : f->z_low;
     double err = f->plane_err[0] + f->plane_err[1] * s->tolerance;
@@ -281,7 +281,7 @@ uint32_t lrcsi_cells_connected(const lrcsi_view *view, const unsigned char *kind
                                int k)
 {
     uint32_t other = lrcsi_cells_neighbour(view, facet, k);
-    return other != LRCS_NONE && ((kind[facet] | kind[other]) & LRCSI_CELLS_COPLANAR) == 0 &&
+    return other != LRCS_NONE && ((kind[facet] | kind[other]) & LRCSI_FACET_COPLANAR) == 0 &&
                    !lrcsi_intersection_along(&view->prepared->intersections, facet, k)
                ? other
                : LRCS_NONE;

@@ -10,9 +10,9 @@
 
 /* What is known of a facet in all cells, bits. */
 enum {
-    LRCSI_CELLS_COPLANAR = 1,        /* it overlaps others in its plane: all its edges are events */
-    LRCSI_CELLS_UNKNOWN_CONTACT = 2, /* one of its contacts could not be computed */
-    LRCSI_CELLS_NEIGHBOURS_FOUND = 4
+    LRCSI_FACET_COPLANAR = 1,        /* it overlaps others in its plane: all its edges are events */
+    LRCSI_FACET_UNKNOWN_CONTACT = 2, /* one of its contacts could not be computed */
+    LRCSI_FACET_NEIGHBOURS_FOUND = 4
 };
 
 /* A facet that can hide others (lrcsi_view_casts), in view coordinates. */
@@ -81,7 +81,7 @@ void lrcsi_cells_facet_z(const lrcsi_cells_facet *f, const double at[2], double 
                          double range[2]);
 
 /* A lower bound (sign -1) or an upper bound (1) of a facet's z in the box of the cell. */
-double lrcsi_cells_facet_z_bound(const lrcsi_cells_facet *f, const lrcsi_cells_sides *s, int sign);
+double lrcsi_cells_facet_z_bound(const lrcsi_cells_facet *f, const lrcsi_clip_sides *s, int sign);
 
 /* Which of two facets that certainly cover a point is nearer there, exactly: 1 the second, -1 the
    first, 0 it cannot be decided. */

@@ -69,7 +69,7 @@ static void leave_area_undecided(lrcsi_cells_single *a, double area)
 
 /* Makes the record of f, the first cell, and the error along the sides of f. 0 if rounding may have
    reversed the triangle's orientation. */
-static int make_first_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
+static int make_first_cell(lrcsi_cells_single *a, lrcsi_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     lrcsi_cells_facet *f = &a->shape;
@@ -95,14 +95,14 @@ static int make_first_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
 void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
 {
     lrcsi_cells_work *c = &a->cells;
-    lrcsi_cells_cell cell = {.cuts = 0};
+    lrcsi_cell cell = {.cuts = 0};
     a->facet = facet;
     a->perhaps_hidden = a->perhaps_visible = a->border_area = a->piece_err = 0;
     a->hidden = 0;
     a->wanted = 1;
     lrcsi_target_make(c->view, facet, &a->target);
     lrcsi_target_refine(&a->target, &a->needle, &a->frame);
-    a->area = (lrcsi_cells_found){.visible = 0};
+    a->area = (lrcsi_cell_area){.visible = 0};
     a->moment = (lrcsi_moment){.error = 0};
     c->facet = &a->shape;
     c->area = &a->area;
@@ -123,10 +123,10 @@ void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
 
 /* Returns the cell as a visible piece. The corners of a needle's piece are rounded to the frame
    along the view's axes. */
-static void add_visible_piece(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
-                              const lrcsi_cells_sides *s)
+static void add_visible_piece(lrcsi_cells_single *a, const lrcsi_cell *cell,
+                              const lrcsi_clip_sides *s)
 {
-    lrcsi_cells_found *area = &a->area;
+    lrcsi_cell_area *area = &a->area;
     a->piece = cell->shape;
     if (a->frame.needle) {
         for (uint32_t i = 0; i < cell->shape.count; i++) {
@@ -146,12 +146,12 @@ static void add_visible_piece(lrcsi_cells_single *a, const lrcsi_cells_cell *cel
 }
 
 /* Processes one cell. Returns 1 if it is a visible piece; else it is hidden, cut, or undecided. */
-static int process_single_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
+static int process_single_cell(lrcsi_cells_single *a, lrcsi_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
-    lrcsi_cells_sides s;
+    lrcsi_clip_sides s;
     lrcsi_cells_single_sample sample;
-    lrcsi_cells_sides_make(&cell->shape, lrcsi_cells_tolerance(c, cell), &s);
+    lrcsi_clip_sides_make(&cell->shape, lrcsi_cells_tolerance(c, cell), &s);
     lrcsi_cells_filter_segments(c, cell, &s);
 
     /* 1. A sample. */
@@ -192,7 +192,7 @@ int lrcsi_cells_single_next(lrcsi_cells_single *a)
 {
     lrcsi_cells_work *c = &a->cells;
     while (c->top > 0) {
-        lrcsi_cells_cell cell = c->stack[--c->top];
+        lrcsi_cell cell = c->stack[--c->top];
         uint64_t steps = (uint64_t)1 + a->count + cell.segments;
         if (a->cells_left == 0 || !lrcsi_meter_take(c->meter, steps)) {
             leave_area_undecided(a, lrcsi_clip_area(&cell.shape));
@@ -227,7 +227,7 @@ static void moment_close(lrcsi_cells_single *a, double err)
 
 lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
 {
-    const lrcsi_cells_found *found = &a->area;
+    const lrcsi_cell_area *found = &a->area;
     lrcsi_incidence incidence = lrcsi_view_incidence(a->cells.view, a->facet);
     double whole = incidence.projected;
     double unit = a->frame.unit;
@@ -248,7 +248,7 @@ lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
 #define MAX_SIDES 65536u
 /* Room for the lists of facets of all cells: of f alone, in each on the stack and twice in the
  * last. */
-#define FACET_LISTS (LRCSI_CELLS_STACK + 2)
+#define FACET_LISTS (LRCSI_CELL_STACK + 2)
 
 static uint32_t sides_room(const lrcs_prepared *p)
 {
@@ -272,11 +272,11 @@ size_t lrcsi_cells_single_need(const lrcs_prepared *p)
     size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_cells_single_side));
     need = lrcsi_work_add(need, lrcsi_work_blocks(3, p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need,
-                          lrcsi_work_bytes(segments, LRCSI_CELLS_SEGMENT_LISTS * sizeof(uint32_t)));
+                          lrcsi_work_bytes(segments, LRCSI_CELL_SEGMENT_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(FACET_LISTS, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_crossings_need(p));
-    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_STACK, sizeof(lrcsi_cells_cell)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELL_STACK, sizeof(lrcsi_cell)));
 }
 
 int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *meter,
@@ -294,10 +294,10 @@ int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *m
     a->candidate = lrcsi_work_take(work, count, sizeof *a->candidate);
     c.facets_room = FACET_LISTS;
     c.facets = lrcsi_work_take(work, c.facets_room, sizeof *c.facets);
-    c.segments_room = LRCSI_CELLS_SEGMENT_LISTS * (size_t)c.segment_room;
+    c.segments_room = LRCSI_CELL_SEGMENT_LISTS * (size_t)c.segment_room;
     c.segments = lrcsi_work_take(work, c.segments_room, sizeof *c.segments);
     c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
-    c.stack = lrcsi_work_take(work, LRCSI_CELLS_STACK, sizeof *c.stack);
+    c.stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *c.stack);
     if (!a->side || !a->listed || !a->order || !a->candidate || !c.facets || !c.segments ||
         !c.segment || !c.stack) {
         return LRCS_E_MEMORY;

@@ -18,7 +18,7 @@
 /* May a facet be in front of f? */
 static int is_candidate(const lrcsi_cells_single *a, uint32_t other)
 {
-    return a->listed[other] == a->cells.stamp && a->order[other] != LRCSI_CELLS_ORDER_DISJOINT;
+    return a->listed[other] == a->cells.stamp && a->order[other] != LRCSI_ORDER_DISJOINT;
 }
 
 /* From their planes; if they are coplanar, from the rules of precedence; otherwise from where they
@@ -34,9 +34,7 @@ uint32_t lrcsi_cells_single_order(const lrcsi_cells_single *a, uint32_t other)
                     ? -1
                     : lrcsi_sample_overlap_order(view, other, a->facet);
     }
-    return order > 0   ? LRCSI_CELLS_ORDER_FRONT
-           : order < 0 ? LRCSI_CELLS_ORDER_BEHIND
-                       : LRCSI_CELLS_ORDER_UNDECIDED;
+    return order > 0 ? LRCSI_ORDER_FRONT : order < 0 ? LRCSI_ORDER_BEHIND : LRCSI_ORDER_UNDECIDED;
 }
 
 /* Does another facet lie entirely beyond one side of f? */
@@ -68,7 +66,7 @@ int lrcsi_cells_single_candidates(lrcsi_cells_single *a)
     }
     a->count = 0;
     a->listed[a->facet] = c->stamp;
-    a->order[a->facet] = LRCSI_CELLS_ORDER_DISJOINT;
+    a->order[a->facet] = LRCSI_ORDER_DISJOINT;
     lrcsi_grid_items items;
     while (lrcsi_grid_next_row(grid, &cells, &items)) {
         if (!lrcsi_meter_take(c->meter, items.to - items.from)) {
@@ -82,11 +80,11 @@ int lrcsi_cells_single_candidates(lrcsi_cells_single *a)
                 continue;
             }
             a->listed[other] = c->stamp;
-            a->order[other] = LRCSI_CELLS_ORDER_DISJOINT;
+            a->order[other] = LRCSI_ORDER_DISJOINT;
             if (!facet_apart(a, side, other)) {
                 int front = lrcsi_view_box_behind(&box, its);
-                a->order[other] = front ? (uint32_t)LRCSI_CELLS_ORDER_FRONT
-                                        : (uint32_t)LRCSI_CELLS_ORDER_NOT_COMPUTED;
+                a->order[other] =
+                    front ? (uint32_t)LRCSI_ORDER_FRONT : (uint32_t)LRCSI_ORDER_NOT_COMPUTED;
                 if (a->count < a->side_room) {
                     a->side[a->count][0].err = -1; /* not made yet */
                 }
@@ -126,10 +124,9 @@ static int edge_is_behind(lrcsi_cells_single *a, const uint32_t owner[2])
     for (int i = 0; i < 2 && behind; i++) {
         if (owner[i] != LRCS_NONE && is_candidate(a, owner[i])) {
             uint32_t *order = &a->order[owner[i]];
-            *order = *order == LRCSI_CELLS_ORDER_NOT_COMPUTED
-                         ? lrcsi_cells_single_order(a, owner[i])
-                         : *order;
-            behind = *order == LRCSI_CELLS_ORDER_BEHIND;
+            *order =
+                *order == LRCSI_ORDER_NOT_COMPUTED ? lrcsi_cells_single_order(a, owner[i]) : *order;
+            behind = *order == LRCSI_ORDER_BEHIND;
         }
     }
     return behind;
@@ -171,12 +168,12 @@ static int add_single_contact(lrcsi_cells_single *a, uint32_t other)
     lrcsi_contact contact;
     int side = lrcsi_sample_side(c->view, other, a->facet);
     int kind = side < 0 ? LRCSI_CONTACT_POINT : lrcsi_contact_find(&a->frame, other, &contact);
-    a->order[other] = side > 0   ? LRCSI_CELLS_ORDER_FRONT
-                      : side < 0 ? LRCSI_CELLS_ORDER_BEHIND
-                                 : LRCSI_CELLS_ORDER_NOT_COMPUTED;
+    a->order[other] = side > 0   ? LRCSI_ORDER_FRONT
+                      : side < 0 ? LRCSI_ORDER_BEHIND
+                                 : LRCSI_ORDER_NOT_COMPUTED;
     if (side == 0 && kind != LRCSI_CONTACT_POINT) {
-        a->order[other] = kind == LRCSI_CONTACT_FLAT      ? (uint32_t)LRCSI_CELLS_ORDER_FRONT
-                          : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)LRCSI_CELLS_ORDER_UNDECIDED
+        a->order[other] = kind == LRCSI_CONTACT_FLAT      ? (uint32_t)LRCSI_ORDER_FRONT
+                          : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)LRCSI_ORDER_UNDECIDED
                                                           : c->segment_count;
     }
     if (kind == LRCSI_CONTACT_POINT) {
@@ -202,7 +199,7 @@ static int add_single_contact(lrcsi_cells_single *a, uint32_t other)
     return 1;
 }
 
-int lrcsi_cells_single_segments(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
+int lrcsi_cells_single_segments(lrcsi_cells_single *a, lrcsi_cell *cell)
 {
     lrcsi_cells_work *c = &a->cells;
     const lrcsi_intersections *intersections = &c->view->prepared->intersections;

@@ -10,12 +10,13 @@
    beyond one of its sides. 0 if the meter is spent. */
 int lrcsi_cells_single_candidates(lrcsi_cells_single *a);
 
-/* The depth order, a lrcsi_cells_order, of a candidate whose interior does not intersect that of f.
+/* The depth order, a lrcsi_candidate_order, of a candidate whose interior does not intersect that
+ * of f.
  */
 uint32_t lrcsi_cells_single_order(const lrcsi_cells_single *a, uint32_t other);
 
 /* Lists the segments in the first cell, and finds the depth order of the facets that meet f. 0 if
    there is no room, or the meter is spent. */
-int lrcsi_cells_single_segments(lrcsi_cells_single *a, lrcsi_cells_cell *cell);
+int lrcsi_cells_single_segments(lrcsi_cells_single *a, lrcsi_cell *cell);
 
 #endif

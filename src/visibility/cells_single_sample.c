@@ -30,7 +30,7 @@ static int component_ends(const lrcsi_cells_single *a, const lrcsi_cells_segment
                       : lrcsi_cells_segment_has(a->cells.view->prepared, e, of, component);
 }
 
-uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
+uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cell *cell,
                                    const double at[2], uint32_t component,
                                    const lrcsi_cells_segment **best)
 {
@@ -64,7 +64,7 @@ static void sample_unproject(const lrcsi_cells_single *a, lrcsi_cells_single_sam
             sample->point[k] += weight[i] * lrcsi_prepared_corner(p, a->facet, i)[k];
         }
     }
-    sample->test = LRCSI_CELLS_EXACT;
+    sample->test = LRCSI_TEST_EXACT;
 }
 
 /* Places the sample in the view: f's first corner plus the vector from there. The vector has the
@@ -163,7 +163,7 @@ static int sides_cover(lrcsi_cells_single *a, const lrcsi_cells_single_sample *s
     const lrcsi_needle *needle = a->frame.needle;
     const lrcsi_view *view = a->cells.view;
     uint32_t other = a->candidate[candidate];
-    if (!needle && sample->test == LRCSI_CELLS_EXACT) {
+    if (!needle && sample->test == LRCSI_TEST_EXACT) {
         return lrcsi_sample_covers(view, other, sample->point) ? 1 : -1;
     }
     lrcsi_cells_single_side made[3] = {{.err = -1}};
@@ -172,7 +172,7 @@ static int sides_cover(lrcsi_cells_single *a, const lrcsi_cells_single_sample *s
         sides_make(a, other, sides);
     }
     int inside = 1;
-    int guess = sample->test == LRCSI_CELLS_GUESSED;
+    int guess = sample->test == LRCSI_TEST_GUESSED;
     for (int k = 0; k < 3; k++) {
         double left = lrcsi_line_at(sides[k].line, sample->at[0], sample->at[1]);
         double err = needle ? sides[k].err : guess ? 0 : sides[k].err + tolerance;
@@ -199,20 +199,20 @@ static int candidate_in_front(const lrcsi_cells_single *a, const lrcsi_cells_sin
     if (order < a->cells.segment_count) {
         const lrcsi_cells_segment *e = &a->cells.segment[order];
         double left = lrcsi_line_at(e->line, sample->at[0], sample->at[1]);
-        double w = sample->test == LRCSI_CELLS_GUESSED ? 0 : e->err + tolerance + sample->err;
+        double w = sample->test == LRCSI_TEST_GUESSED ? 0 : e->err + tolerance + sample->err;
         int side = left > w ? 1 : left < -w ? -1 : 0;
         return e->contact == LRCSI_CONTACT_LINE    ? side
                : e->contact == LRCSI_CONTACT_FRONT ? side * side
                                                    : -side * side;
     }
-    return order == LRCSI_CELLS_ORDER_FRONT ? 1 : order == LRCSI_CELLS_ORDER_BEHIND ? -1 : 0;
+    return order == LRCSI_ORDER_FRONT ? 1 : order == LRCSI_ORDER_BEHIND ? -1 : 0;
 }
 
 /* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided. If it is hidden, sample->cut is
    a segment of the component with the fewest segments in the cell; a component with none ends the
    search. Boxes exclude most candidates. The depth order, which takes longest, is computed last. */
-static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
-                            const lrcsi_cells_sides *s, lrcsi_cells_single_sample *sample)
+static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cell *cell,
+                            const lrcsi_clip_sides *s, lrcsi_cells_single_sample *sample)
 {
     uint32_t last = LRCS_NONE;
     int answer = 0;
@@ -221,13 +221,13 @@ static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
         uint32_t other = a->candidate[i];
         uint32_t component = a->classification->component[other];
         uint32_t *order = &a->order[other];
-        if (*order == LRCSI_CELLS_ORDER_BEHIND ||
+        if (*order == LRCSI_ORDER_BEHIND ||
             lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&a->grid.boxes, other)) ||
             (a->frame.needle && sample_is_beyond(a, sample, other))) {
             continue;
         }
         int covered = sides_cover(a, sample, i, s->tolerance);
-        if (covered >= 0 && *order == LRCSI_CELLS_ORDER_NOT_COMPUTED) {
+        if (covered >= 0 && *order == LRCSI_ORDER_NOT_COMPUTED) {
             *order = lrcsi_cells_single_order(a, other);
         }
         int front = covered >= 0 ? candidate_in_front(a, sample, other, s->tolerance) : -1;
@@ -250,17 +250,17 @@ static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
     return answer;
 }
 
-int lrcsi_cells_single_find_sample(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
-                                   const lrcsi_cells_sides *s, lrcsi_cells_single_sample *sample,
+int lrcsi_cells_single_find_sample(lrcsi_cells_single *a, const lrcsi_cell *cell,
+                                   const lrcsi_clip_sides *s, lrcsi_cells_single_sample *sample,
                                    int *guess)
 {
     double margin = 4 * (cell->widest_strip + a->shape.err + s->tolerance);
     double unproject_err = lrcsi_target_unproject_err(&a->target);
     int answer = -1;
-    for (int t = 0; t < LRCSI_CELLS_SAMPLES && answer < 0; t++) {
-        *sample = (lrcsi_cells_single_sample){.test = LRCSI_CELLS_BOUNDED};
+    for (int t = 0; t < LRCSI_SAMPLES && answer < 0; t++) {
+        *sample = (lrcsi_cells_single_sample){.test = LRCSI_TEST_BOUNDED};
         lrcsi_cells_sample_point(cell, t, sample->at);
-        sample->clear = lrcsi_cells_border_distance(s, sample->at);
+        sample->clear = lrcsi_clip_border_distance(s, sample->at);
         if (!(sample->clear > margin)) {
             continue;
         }
@@ -275,10 +275,10 @@ int lrcsi_cells_single_find_sample(lrcsi_cells_single *a, const lrcsi_cells_cell
         }
     }
     if (answer < 0) {
-        *sample = (lrcsi_cells_single_sample){.test = LRCSI_CELLS_GUESSED};
+        *sample = (lrcsi_cells_single_sample){.test = LRCSI_TEST_GUESSED};
         lrcsi_cells_sample_point(cell, 0, sample->at);
         sample_unproject(a, sample);
-        sample->test = LRCSI_CELLS_GUESSED;
+        sample->test = LRCSI_TEST_GUESSED;
         sample_place(a, sample);
         *guess = sample_is_hidden(a, cell, s, sample) > 0;
     }

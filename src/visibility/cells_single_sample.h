@@ -7,12 +7,12 @@
 
 /* How the facets at a sample are found: with error bounds, at its point of the frame; exactly, at a
    nearby point in space; or by the signs of rounded values, which is only a guess. */
-enum lrcsi_cells_test { LRCSI_CELLS_BOUNDED, LRCSI_CELLS_EXACT, LRCSI_CELLS_GUESSED };
+enum lrcsi_sample_test { LRCSI_TEST_BOUNDED, LRCSI_TEST_EXACT, LRCSI_TEST_GUESSED };
 
 /* A sample in a cell. */
 typedef struct lrcsi_cells_single_sample {
     double at[2], clear;
-    int test; /* a lrcsi_cells_test */
+    int test; /* a lrcsi_sample_test */
     double point[3];
     double err;                     /* the distance in the view between `at` and `point` */
     double view[3];                 /* its coordinates in the view, except for the depth */
@@ -26,14 +26,14 @@ typedef struct lrcsi_cells_single_sample {
 /* Takes samples in the cell until one is decided. Returns 1 if f is hidden there, 0 if not, -1 if
    no sample is decided; *guess is then 1 if f is probably hidden, else 0. If it is hidden,
    sample->ends and sample->cut are set. */
-int lrcsi_cells_single_find_sample(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
-                                   const lrcsi_cells_sides *s, lrcsi_cells_single_sample *sample,
+int lrcsi_cells_single_find_sample(lrcsi_cells_single *a, const lrcsi_cell *cell,
+                                   const lrcsi_clip_sides *s, lrcsi_cells_single_sample *sample,
                                    int *guess);
 
 /* Chooses, of a cell's segments, the one whose line passes nearest to a point, so that both parts
    are of similar size. Given a component (or LRCS_NONE), only segments at which it ends count.
    Returns how many there are to choose from. */
-uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
+uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cell *cell,
                                    const double at[2], uint32_t component,
                                    const lrcsi_cells_segment **best);
 

@@ -34,13 +34,13 @@ typedef struct lrcsi_cells_single {
     lrcsi_cells_single_side (*side)[3]; /* sides of the first side_room candidates */
     uint32_t side_room;
     uint32_t *listed;          /* facet: the search that last listed it */
-    uint32_t *order;           /* facet that was listed: its lrcsi_cells_order against f, or the
+    uint32_t *order;           /* facet that was listed: its lrcsi_candidate_order against f, or the
                                   number of a segment */
     lrcsi_crossings crossings; /* of f, once they are needed */
 
     /* Found of f: */
     lrcsi_clip_polygon piece; /* the piece last found */
-    lrcsi_cells_found area;   /* the areas found so far */
+    lrcsi_cell_area area;     /* the areas found so far */
     lrcsi_moment moment;      /* of the pieces; after `close` of the visible region */
     double border_area;       /* area within the error of the sides of f */
     double piece_err;         /* additional error of the area of a needle's pieces */
@@ -51,12 +51,12 @@ typedef struct lrcsi_cells_single {
 
 /* The depth order of a facet against f: one of these, or the number of the segment in which the two
    intersect. */
-enum lrcsi_cells_order {
-    LRCSI_CELLS_ORDER_NOT_COMPUTED = 0x7ffffff0,
-    LRCSI_CELLS_ORDER_FRONT,    /* nearer, wherever a line meets both */
-    LRCSI_CELLS_ORDER_BEHIND,   /* farther */
-    LRCSI_CELLS_ORDER_DISJOINT, /* it lies beyond a side of f: not a candidate */
-    LRCSI_CELLS_ORDER_UNDECIDED /* they intersect along a line that could not be computed */
+enum lrcsi_candidate_order {
+    LRCSI_ORDER_NOT_COMPUTED = 0x7ffffff0,
+    LRCSI_ORDER_FRONT,    /* nearer, wherever a line meets both */
+    LRCSI_ORDER_BEHIND,   /* farther */
+    LRCSI_ORDER_DISJOINT, /* it lies beyond a side of f: not a candidate */
+    LRCSI_ORDER_UNDECIDED /* they intersect along a line that could not be computed */
 };
 
 #endif

@@ -10,12 +10,12 @@
 #include "visibility/visible_area.h"
 
 /* A list for each block: item[first[b] .. first[b + 1]) of block b. */
-typedef struct lrcsi_cells_lists {
+typedef struct lrcsi_block_lists {
     uint32_t *first, *item;
-} lrcsi_cells_lists;
+} lrcsi_block_lists;
 
 /* The grid of blocks into which the view plane is divided. */
-typedef struct lrcsi_cells_grid {
+typedef struct lrcsi_block_grid {
     const lrcsi_classification *classification;
     const unsigned char *answer; /* of uniform facets (visibility/query.h), or NULL */
     uint32_t side;               /* blocks along a side; those on the border hold what is outside */
@@ -23,25 +23,25 @@ typedef struct lrcsi_cells_grid {
     double content_low[2], content_high[2]; /* of these and of all facets, with their errors */
     double size, inverse_size;              /* of a block */
     double rounding; /* more than the rounding errors of positions among the blocks */
-    lrcsi_cells_lists facets, events;
-} lrcsi_cells_grid;
+    lrcsi_block_lists facets, events;
+} lrcsi_block_grid;
 
 /* The largest number of cuts from a block to a cell, of cells on the stack, and of a component's
    edges at the border of a cell. */
-#define LRCSI_CELLS_MAX_CUTS 200u
-#define LRCSI_CELLS_STACK    (LRCSI_CELLS_MAX_CUTS + 2)
+#define LRCSI_CELL_MAX_CUTS 200u
+#define LRCSI_CELL_STACK    (LRCSI_CELL_MAX_CUTS + 2)
 /* Room for the lists of all cells on the stack: so many times all facets, and all segments of a
    block. Ordinary scenes take twice those of a block, a stack of 800 plates 9 times its facets and
    6 times its segments. A cell for whose parts there is no room is left undecided. */
-#define LRCSI_CELLS_FACET_LISTS   16u
-#define LRCSI_CELLS_SEGMENT_LISTS 8u
-#define LRCSI_CELLS_MAX_BORDERS   128u
+#define LRCSI_CELL_FACET_LISTS   16u
+#define LRCSI_CELL_SEGMENT_LISTS 8u
+#define LRCSI_COVER_MAX_BORDERS  128u
 
 /* A part of the view plane that is not decided yet, with lists of its facets and segments. A cut
    makes two cells: the left one is processed first, with all that are cut from it, while the right
    one waits on the stack. The lists of the right one take the place of those of the cell that was
    cut; behind them follow those of the left one. */
-typedef struct lrcsi_cells_cell {
+typedef struct lrcsi_cell {
     lrcsi_clip_polygon shape;
     uint32_t *facet, *segment; /* in the work's lists */
     uint32_t facets, segments;
@@ -51,30 +51,30 @@ typedef struct lrcsi_cells_cell {
     double uncertainty;  /* area not charged yet, by which that of any facet may be wrong */
     double widest_strip; /* of a segment removed from the list */
     double cut_line[3];  /* of the last cut; positive in the cell */
-} lrcsi_cells_cell;
+} lrcsi_cell;
 
 /* Areas of a facet. */
-typedef struct lrcsi_cells_found {
+typedef struct lrcsi_cell_area {
     double visible; /* in cells in which it is visible */
     double visible_err;
     double uncertainty;  /* in strips in which its visibility is undecided */
     double strip_length; /* of those strips */
-} lrcsi_cells_found;
+} lrcsi_cell_area;
 
 /* A segment at the border of a cell: its line, first end and length, and where it is near the cell.
  */
-typedef struct lrcsi_cells_border {
+typedef struct lrcsi_cell_border {
     double line[3], start[2];
     double length;
-    lrcsi_cells_interval interval;
-} lrcsi_cells_border;
+    lrcsi_clip_interval interval;
+} lrcsi_cell_border;
 
 /* What was found of a facet, bits. */
 enum {
-    LRCSI_CELLS_VISIBLE = 1, /* it is visible in a cell */
-    LRCSI_CELLS_HIDDEN = 2,
-    LRCSI_CELLS_UNDECIDED = 4,
-    LRCSI_CELLS_CHARGED = 8 /* listed in a cell of which all the area was charged */
+    LRCSI_FINDING_VISIBLE = 1, /* it is visible in a cell */
+    LRCSI_FINDING_HIDDEN = 2,
+    LRCSI_FINDING_UNDECIDED = 4,
+    LRCSI_FINDING_CHARGED = 8 /* listed in a cell of which all the area was charged */
 };
 
 typedef struct lrcsi_cells_work {
@@ -86,13 +86,13 @@ typedef struct lrcsi_cells_work {
 
     /* Found: */
     unsigned char *state; /* facet: what was found of it, as above */
-    lrcsi_cells_found *area;
+    lrcsi_cell_area *area;
     lrcsi_moment *moment; /* facet: of its visible region; NULL: not wanted */
 
     /* The blocks, and the vertices in them: */
-    lrcsi_cells_grid grid;
+    lrcsi_block_grid grid;
     lrcsi_cells_frame frame;
-    unsigned char *kind; /* facet: LRCSI_CELLS_COPLANAR and so on (visibility/cells_facet.h) */
+    unsigned char *kind; /* facet: LRCSI_FACET_COPLANAR and so on (visibility/cells_facet.h) */
 
     /* The current block: */
     lrcsi_cells_facet *facet; /* facet: its record, if it is listed in the block */
@@ -102,7 +102,7 @@ typedef struct lrcsi_cells_work {
     double facet_err; /* the largest position error of its facets */
 
     /* The cells that wait: */
-    lrcsi_cells_cell *stack;
+    lrcsi_cell *stack;
     uint32_t top;
     uint32_t *facets, *segments; /* the lists of facets and segments of all of them */
     size_t facets_room, segments_room;
@@ -117,13 +117,13 @@ typedef struct lrcsi_cells_work {
     uint32_t *contacts;     /* facet: the last sample whose component it met at a contact */
     uint32_t *component, components; /* facets of the component */
     uint32_t *hit, hits;             /* facets that may cover the sample */
-    lrcsi_cells_border *border;      /* edges of the component at the border of the cell */
+    lrcsi_cell_border *border;       /* edges of the component at the border of the cell */
     uint32_t borders;
 } lrcsi_cells_work;
 
 /* Statements about a cell hold for all points within this distance of it, as computed: its shape
    error, and 16 u of the largest coordinate for distances from lines. */
-static inline double lrcsi_cells_tolerance(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
+static inline double lrcsi_cells_tolerance(const lrcsi_cells_work *c, const lrcsi_cell *cell)
 {
     return 16 * LRCSI_U * c->extent + cell->shape_err;
 }

@@ -143,7 +143,7 @@ double lrcsi_line_through(const double *p, const double *q, double line[3])
     return length;
 }
 
-void lrcsi_cells_sides_make(const lrcsi_clip_polygon *p, double tolerance, lrcsi_cells_sides *s)
+void lrcsi_clip_sides_make(const lrcsi_clip_polygon *p, double tolerance, lrcsi_clip_sides *s)
 {
     s->count = p->count;
     s->tolerance = tolerance;
@@ -176,15 +176,15 @@ void lrcsi_box_range(const double low[2], const double high[2], const double lin
 /* A part of a segment is short if it is less than this fraction of it. */
 #define SHORT_PART 0x1p-20
 
-int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
-                            const double p[2], const double q[2], const double line[3], double w,
-                            double line_w, lrcsi_cells_interval *interval)
+int lrcsi_clip_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_clip_sides *s,
+                           const double p[2], const double q[2], const double line[3], double w,
+                           double line_w, lrcsi_clip_interval *interval)
 {
     double range[2];
     lrcsi_line_range(shape, line, range);
     double deep = lrcsi_min(range[1], -range[0]);
     if (deep < -line_w) {
-        return LRCSI_CELLS_OUTSIDE;
+        return LRCSI_CLIP_OUTSIDE;
     }
     double width = deep <= line_w ? line_w + lrcsi_max(0, deep) : HUGE_VAL;
     interval->from = 0;
@@ -195,7 +195,7 @@ int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_s
         if (a < w && b < w) {
             width = lrcsi_min(width, w + lrcsi_max3(0, a, b));
             if (a < -w && b < -w) {
-                return LRCSI_CELLS_OUTSIDE;
+                return LRCSI_CLIP_OUTSIDE;
             }
         }
         if (a < -w) {
@@ -205,7 +205,7 @@ int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_s
         }
     }
     if (interval->from > interval->to) {
-        return LRCSI_CELLS_OUTSIDE;
+        return LRCSI_CLIP_OUTSIDE;
     }
     /* A short part may be in a corner of the cell, all of it near one side. Its ends have errors
        below w. */
@@ -220,12 +220,12 @@ int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_s
         }
     }
     interval->strip_width = width;
-    return width < HUGE_VAL ? LRCSI_CELLS_BORDER : LRCSI_CELLS_CROSSES;
+    return width < HUGE_VAL ? LRCSI_CLIP_BORDER : LRCSI_CLIP_CROSSES;
 }
 
 /* Sides too short for an accurate line are left out: without them the cell is larger by no more
    than their length. */
-double lrcsi_cells_border_distance(const lrcsi_cells_sides *s, const double at[2])
+double lrcsi_clip_border_distance(const lrcsi_clip_sides *s, const double at[2])
 {
     double shortest = 0x1p-44 * s->perimeter + 64 * s->tolerance;
     double clear = HUGE_VAL;
@@ -245,7 +245,7 @@ double lrcsi_cells_border_distance(const lrcsi_cells_sides *s, const double at[2
    most two corners to a part. */
 static int has_room(const lrcsi_clip_polygon *part)
 {
-    return part->count + 2 <= LRCSI_CLIP_SIDES;
+    return part->count + 2 <= LRCSI_CLIP_MAX_SIDES;
 }
 
 int lrcsi_clip_keep_left(lrcsi_clip_polygon *shape, const double line[3])
