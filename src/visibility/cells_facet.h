@@ -8,6 +8,17 @@
 #include "view/view.h"
 #include "visibility/clip.h"
 
+/* Marks of facets that need no clearing: a facet is marked if its entry is the current number. */
+typedef struct lrcsi_marks {
+    uint32_t *entry; /* facet */
+    uint32_t number;
+} lrcsi_marks;
+
+static inline int lrcsi_marked(const lrcsi_marks *marks, uint32_t facet)
+{
+    return marks->entry[facet] == marks->number;
+}
+
 /* What is known of a facet in all cells, bits. */
 enum {
     LRCSI_FACET_COPLANAR = 1,        /* it overlaps others in its plane: all its edges are events */
@@ -44,6 +55,16 @@ typedef struct lrcsi_cells_segment {
     uint32_t edge;     /* if it is an edge of more than two facets; else LRCS_NONE */
     int contact;       /* the lrcsi_contact_kind of a contact; 0: an edge */
 } lrcsi_cells_segment;
+
+/* Is any facet of an edge, or of a contact, marked? */
+static inline int lrcsi_cells_segment_marked(const lrcsi_topology *topology,
+                                             const lrcsi_cells_segment *e, const lrcsi_marks *marks)
+{
+    return lrcsi_marked(marks, e->owner[0]) ||
+           (e->owner[1] != LRCS_NONE && lrcsi_marked(marks, e->owner[1])) ||
+           (e->edge != LRCS_NONE &&
+            lrcsi_topology_edge_has(topology, e->edge, marks->entry, marks->number));
+}
 
 /* A vertex: in the view, and relative to the middle of a block. */
 typedef struct lrcsi_cells_point {

@@ -71,52 +71,51 @@ static void leave_area_undecided(lrcsi_cells_single *a, double area)
    reversed the triangle's orientation. */
 static int make_first_cell(lrcsi_cells_single *a, lrcsi_cell *cell)
 {
-    lrcsi_cells_work *c = &a->cells;
+    lrcsi_division *d = &a->division;
     lrcsi_cells_facet *f = &a->shape;
     const lrcsi_target *frame = &a->frame;
     double err = frame->needle ? frame->position_err + 8 * LRCSI_U : 20 * LRCSI_U * frame->reach;
     *f = (lrcsi_cells_facet){.err = err, .line_err = err, .number = a->facet};
     lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell->shape);
     lrcsi_clip_box(&cell->shape, f->low, f->high);
-    c->extent = lrcsi_max3(lrcsi_max(-f->low[0], -f->low[1]), f->high[0], f->high[1]);
+    d->extent = lrcsi_max3(lrcsi_max(-f->low[0], -f->low[1]), f->high[0], f->high[1]);
     for (int k = 0; k < 3; k++) {
         f->x[k] = frame->corner[k][0];
         f->y[k] = frame->corner[k][1];
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
-    a->border_area = frame->perimeter * (err + 16 * LRCSI_U * c->extent);
-    a->negligible = MIN_HALVED * lrcsi_clip_area(&cell->shape);
-    cell->facet = c->facets;
+    a->border_area = frame->perimeter * (err + 16 * LRCSI_U * d->extent);
+    a->halved_area = MIN_HALVED * lrcsi_clip_area(&cell->shape);
+    cell->facet = d->facet_lists;
     cell->facet[0] = 0;
-    cell->facets = 1;
+    cell->facet_count = 1;
+    d->facet_err = err;
     return lrcsi_clip_area(&cell->shape) > 8 * err * frame->diameter;
 }
 
 void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
 {
-    lrcsi_cells_work *c = &a->cells;
+    lrcsi_division *d = &a->division;
     lrcsi_cell cell = {.cuts = 0};
     a->facet = facet;
     a->perhaps_hidden = a->perhaps_visible = a->border_area = a->piece_err = 0;
     a->hidden = 0;
     a->wanted = 1;
-    lrcsi_target_make(c->view, facet, &a->target);
+    lrcsi_target_make(d->view, facet, &a->target);
     lrcsi_target_refine(&a->target, &a->needle, &a->frame);
     a->area = (lrcsi_cell_area){.visible = 0};
     a->moment = (lrcsi_moment){.error = 0};
-    c->facet = &a->shape;
-    c->area = &a->area;
-    c->wanted = &a->wanted;
-    c->segment_count = c->top = 0;
-    c->stamp++;
+    d->facet = &a->shape;
+    d->area = &a->area;
+    d->wanted = &a->wanted;
+    d->segment_count = d->stack_count = 0;
     if (!make_first_cell(a, &cell) || !lrcsi_cells_single_candidates(a) ||
-        !lrcsi_cells_single_segments(a, &cell)) {
-        leave_area_undecided(a, lrcsi_view_incidence(c->view, facet).projected / a->frame.unit);
+        !lrcsi_cells_single_segments(a)) {
+        leave_area_undecided(a, lrcsi_view_incidence(d->view, facet).projected / a->frame.unit);
         return;
     }
-    a->cells_left = CELLS_CONSTANT + (uint64_t)CELLS_PER_SEGMENT * cell.segments;
-    c->stack[0] = cell;
-    c->top = 1;
+    lrcsi_division_start(d, &cell);
+    a->cells_left = CELLS_CONSTANT + (uint64_t)CELLS_PER_SEGMENT * cell.segment_count;
 }
 
 /* --- one cell --------------------------------------------------------------------------------- */
@@ -148,11 +147,11 @@ static void add_visible_piece(lrcsi_cells_single *a, const lrcsi_cell *cell,
 /* Processes one cell. Returns 1 if it is a visible piece; else it is hidden, cut, or undecided. */
 static int process_single_cell(lrcsi_cells_single *a, lrcsi_cell *cell)
 {
-    lrcsi_cells_work *c = &a->cells;
+    lrcsi_division *d = &a->division;
     lrcsi_clip_sides s;
     lrcsi_cells_single_sample sample;
-    lrcsi_clip_sides_make(&cell->shape, lrcsi_cells_tolerance(c, cell), &s);
-    lrcsi_cells_filter_segments(c, cell, &s);
+    lrcsi_clip_sides_make(&cell->shape, lrcsi_division_tolerance(d, cell), &s);
+    lrcsi_cells_filter_segments(d, cell, &s);
 
     /* 1. A sample. */
     int guess = 0;
@@ -165,8 +164,8 @@ static int process_single_cell(lrcsi_cells_single *a, lrcsi_cell *cell)
      */
     if (hidden >= 0 && sample.ends == 0) {
         a->area.uncertainty +=
-            cell->uncertainty +
-            lrcsi_cells_thin_uncertainty(cell, &s, sample.clear, cell->removed, a->shape.err);
+            cell->uncertainty + lrcsi_cells_thin_uncertainty(cell, &s, sample.border_distance,
+                                                             cell->removed, d->facet_err);
         a->hidden |= hidden;
         if (!hidden) {
             add_visible_piece(a, cell, &s);
@@ -176,10 +175,10 @@ static int process_single_cell(lrcsi_cells_single *a, lrcsi_cell *cell)
 
     /* 3. Otherwise it is cut along a segment. Without one, it is halved unless it is narrow or
        negligible. */
-    double narrow = NARROW * (cell->widest_strip + a->shape.err + s.tolerance) * s.perimeter;
-    if (sample.cut ? !lrcsi_cells_divide(c, cell, &s, sample.cut)
-                   : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(a->negligible, narrow) &&
-                       lrcsi_cells_halve(c, cell, &s))) {
+    double narrow = NARROW * (cell->widest_strip + d->facet_err + s.tolerance) * s.perimeter;
+    if (sample.cut ? !lrcsi_cells_divide(d, cell, &s, sample.cut)
+                   : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(a->halved_area, narrow) &&
+                       lrcsi_cells_halve(d, cell, &s))) {
         double *perhaps = (hidden < 0 ? guess : hidden) ? &a->perhaps_hidden : &a->perhaps_visible;
         *perhaps += lrcsi_clip_area(&cell->shape);
     }
@@ -190,11 +189,11 @@ static int process_single_cell(lrcsi_cells_single *a, lrcsi_cell *cell)
 
 int lrcsi_cells_single_next(lrcsi_cells_single *a)
 {
-    lrcsi_cells_work *c = &a->cells;
-    while (c->top > 0) {
-        lrcsi_cell cell = c->stack[--c->top];
-        uint64_t steps = (uint64_t)1 + a->count + cell.segments;
-        if (a->cells_left == 0 || !lrcsi_meter_take(c->meter, steps)) {
+    lrcsi_division *d = &a->division;
+    while (d->stack_count > 0) {
+        lrcsi_cell cell = d->stack[--d->stack_count];
+        uint64_t steps = (uint64_t)1 + a->candidate_count + cell.segment_count;
+        if (a->cells_left == 0 || !lrcsi_meter_take(d->meter, steps)) {
             leave_area_undecided(a, lrcsi_clip_area(&cell.shape));
             continue;
         }
@@ -228,7 +227,7 @@ static void moment_close(lrcsi_cells_single *a, double err)
 lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
 {
     const lrcsi_cell_area *found = &a->area;
-    lrcsi_incidence incidence = lrcsi_view_incidence(a->cells.view, a->facet);
+    lrcsi_incidence incidence = lrcsi_view_incidence(a->division.view, a->facet);
     double whole = incidence.projected;
     double unit = a->frame.unit;
     double err = unit * (a->border_area + found->uncertainty + found->visible_err +
@@ -248,7 +247,7 @@ lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
 #define MAX_SIDES 65536u
 /* Room for the lists of facets of all cells: of f alone, in each on the stack and twice in the
  * last. */
-#define FACET_LISTS (LRCSI_CELL_STACK + 2)
+#define SINGLE_FACET_LISTS (LRCSI_CELL_STACK + 2)
 
 static uint32_t sides_room(const lrcs_prepared *p)
 {
@@ -270,11 +269,12 @@ size_t lrcsi_cells_single_need(const lrcs_prepared *p)
 {
     size_t segments = max_segments(p, p->topology.edge_count);
     size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_cells_single_side));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, lrcsi_work_blocks(3, p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need,
                           lrcsi_work_bytes(segments, LRCSI_CELL_SEGMENT_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(FACET_LISTS, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(SINGLE_FACET_LISTS, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_crossings_need(p));
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELL_STACK, sizeof(lrcsi_cell)));
 }
@@ -284,24 +284,26 @@ int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *m
 {
     const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
+    lrcsi_division *d = &a->division;
     *a = (lrcsi_cells_single){
         .classification = classification, .grid = *grid, .side_room = sides_room(p)};
-    lrcsi_cells_work c = {.view = classification->view, .meter = meter};
-    c.segment_room = (uint32_t)max_segments(p, classification->events.count);
+    d->view = classification->view;
+    d->meter = meter;
+    d->segment_room = (uint32_t)max_segments(p, classification->events.count);
+    d->facet_lists_room = SINGLE_FACET_LISTS;
+    d->segment_lists_room = LRCSI_CELL_SEGMENT_LISTS * (size_t)d->segment_room;
     a->side = lrcsi_work_take(work, a->side_room, sizeof *a->side);
-    a->listed = lrcsi_work_take_zero(work, count, sizeof *a->listed);
-    a->order = lrcsi_work_take(work, count, sizeof *a->order);
+    a->listed.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
+    a->order = lrcsi_work_take(work, count, 1);
+    a->contact = lrcsi_work_take(work, count, sizeof *a->contact);
     a->candidate = lrcsi_work_take(work, count, sizeof *a->candidate);
-    c.facets_room = FACET_LISTS;
-    c.facets = lrcsi_work_take(work, c.facets_room, sizeof *c.facets);
-    c.segments_room = LRCSI_CELL_SEGMENT_LISTS * (size_t)c.segment_room;
-    c.segments = lrcsi_work_take(work, c.segments_room, sizeof *c.segments);
-    c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
-    c.stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *c.stack);
-    if (!a->side || !a->listed || !a->order || !a->candidate || !c.facets || !c.segments ||
-        !c.segment || !c.stack) {
+    d->facet_lists = lrcsi_work_take(work, d->facet_lists_room, sizeof *d->facet_lists);
+    d->segment_lists = lrcsi_work_take(work, d->segment_lists_room, sizeof *d->segment_lists);
+    d->segment = lrcsi_work_take(work, d->segment_room, sizeof *d->segment);
+    d->stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *d->stack);
+    if (!a->side || !a->listed.entry || !a->order || !a->contact || !a->candidate ||
+        !d->facet_lists || !d->segment_lists || !d->segment || !d->stack) {
         return LRCS_E_MEMORY;
     }
-    a->cells = c;
     return lrcsi_crossings_make(&classification->search, work, &a->crossings);
 }

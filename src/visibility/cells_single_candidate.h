@@ -13,10 +13,10 @@ int lrcsi_cells_single_candidates(lrcsi_cells_single *a);
 /* The depth order, a lrcsi_candidate_order, of a candidate whose interior does not intersect that
  * of f.
  */
-uint32_t lrcsi_cells_single_order(const lrcsi_cells_single *a, uint32_t other);
+int lrcsi_cells_single_order(const lrcsi_cells_single *a, uint32_t other);
 
-/* Lists the segments in the first cell, and finds the depth order of the facets that meet f. 0 if
+/* Adds the segments to the division, and finds the depth order of the facets that meet f. 0 if
    there is no room, or the meter is spent. */
-int lrcsi_cells_single_segments(lrcsi_cells_single *a, lrcsi_cell *cell);
+int lrcsi_cells_single_segments(lrcsi_cells_single *a);
 
 #endif

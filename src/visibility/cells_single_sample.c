@@ -25,9 +25,10 @@
 static int component_ends(const lrcsi_cells_single *a, const lrcsi_cells_segment *e,
                           uint32_t component)
 {
-    const uint32_t *of = a->classification->component;
-    return e->contact ? of[e->owner[1]] == component
-                      : lrcsi_cells_segment_has(a->cells.view->prepared, e, of, component);
+    const lrcsi_marks of_component = {a->classification->component, component};
+    return e->contact ? lrcsi_marked(&of_component, e->owner[1])
+                      : lrcsi_cells_segment_marked(&a->division.view->prepared->topology, e,
+                                                   &of_component);
 }
 
 uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cell *cell,
@@ -37,8 +38,8 @@ uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cell
     uint32_t count = 0;
     double nearest = HUGE_VAL;
     *best = NULL;
-    for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &a->cells.segment[cell->segment[i]];
+    for (uint32_t i = 0; i < cell->segment_count; i++) {
+        const lrcsi_cells_segment *e = &a->division.segment[cell->segment[i]];
         if (component == LRCS_NONE || component_ends(a, e, component)) {
             double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
             count++;
@@ -55,7 +56,7 @@ uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cell
    rounded. */
 static void sample_unproject(const lrcsi_cells_single *a, lrcsi_cells_single_sample *sample)
 {
-    const lrcs_prepared *p = a->cells.view->prepared;
+    const lrcs_prepared *p = a->division.view->prepared;
     double weight[3];
     lrcsi_target_weights(&a->frame, sample->at, weight);
     for (int k = 0; k < 3; k++) {
@@ -73,21 +74,21 @@ static void sample_unproject(const lrcsi_cells_single *a, lrcsi_cells_single_sam
 static void sample_place(const lrcsi_cells_single *a, lrcsi_cells_single_sample *sample)
 {
     double first[3];
-    lrcsi_view_coordinates(a->cells.view, a->target.origin, first);
+    lrcsi_view_coordinates(a->division.view, a->target.origin, first);
     lrcsi_target_to_axes(&a->frame, sample->at, sample->view);
     sample->view[0] += first[0];
     sample->view[1] += first[1];
     sample->view[2] = first[2];
     sample->view_err = lrcsi_view_point_err(first) + sample->err +
                        (16 * LRCSI_U + 2 * a->frame.position_err) * a->target.reach;
-    sample->box = lrcsi_view_box_about(a->cells.view, sample->view, sample->view_err);
+    sample->box = lrcsi_view_box_about(a->division.view, sample->view, sample->view_err);
 }
 
 /* Does the sample lie beyond a side of a facet, by view coordinates? */
 static int sample_is_beyond(const lrcsi_cells_single *a, const lrcsi_cells_single_sample *sample,
                             uint32_t other)
 {
-    const lrcsi_view *view = a->cells.view;
+    const lrcsi_view *view = a->division.view;
     const uint32_t *corner = view->prepared->scene->facet[other].corner;
     int beyond = 0;
     for (int k = 0; k < 3 && !beyond; k++) {
@@ -109,7 +110,7 @@ static int sample_is_beyond(const lrcsi_cells_single *a, const lrcsi_cells_singl
 static void sides_make(const lrcsi_cells_single *a, uint32_t other, lrcsi_cells_single_side side[3])
 {
     const lrcsi_target *frame = &a->frame;
-    const lrcsi_view *view = a->cells.view;
+    const lrcsi_view *view = a->division.view;
     double corner[3][2];
     double reach[3];
     double length[3];
@@ -161,7 +162,7 @@ static int sides_cover(lrcsi_cells_single *a, const lrcsi_cells_single_sample *s
                        uint32_t candidate, double tolerance)
 {
     const lrcsi_needle *needle = a->frame.needle;
-    const lrcsi_view *view = a->cells.view;
+    const lrcsi_view *view = a->division.view;
     uint32_t other = a->candidate[candidate];
     if (!needle && sample->test == LRCSI_TEST_EXACT) {
         return lrcsi_sample_covers(view, other, sample->point) ? 1 : -1;
@@ -195,9 +196,9 @@ static int sides_cover(lrcsi_cells_single *a, const lrcsi_cells_single_sample *s
 static int candidate_in_front(const lrcsi_cells_single *a, const lrcsi_cells_single_sample *sample,
                               uint32_t other, double tolerance)
 {
-    uint32_t order = a->order[other];
-    if (order < a->cells.segment_count) {
-        const lrcsi_cells_segment *e = &a->cells.segment[order];
+    int order = a->order[other];
+    if (order == LRCSI_ORDER_CONTACT) {
+        const lrcsi_cells_segment *e = &a->division.segment[a->contact[other]];
         double left = lrcsi_line_at(e->line, sample->at[0], sample->at[1]);
         double w = sample->test == LRCSI_TEST_GUESSED ? 0 : e->err + tolerance + sample->err;
         int side = left > w ? 1 : left < -w ? -1 : 0;
@@ -217,10 +218,10 @@ static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cell *cell,
     uint32_t last = LRCS_NONE;
     int answer = 0;
     sample->ends = LRCS_NONE;
-    for (uint32_t i = 0; i < a->count && sample->ends > 0; i++) {
+    for (uint32_t i = 0; i < a->candidate_count && sample->ends > 0; i++) {
         uint32_t other = a->candidate[i];
         uint32_t component = a->classification->component[other];
-        uint32_t *order = &a->order[other];
+        unsigned char *order = &a->order[other];
         if (*order == LRCSI_ORDER_BEHIND ||
             lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&a->grid.boxes, other)) ||
             (a->frame.needle && sample_is_beyond(a, sample, other))) {
@@ -228,7 +229,7 @@ static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cell *cell,
         }
         int covered = sides_cover(a, sample, i, s->tolerance);
         if (covered >= 0 && *order == LRCSI_ORDER_NOT_COMPUTED) {
-            *order = lrcsi_cells_single_order(a, other);
+            *order = (unsigned char)lrcsi_cells_single_order(a, other);
         }
         int front = covered >= 0 ? candidate_in_front(a, sample, other, s->tolerance) : -1;
         if (front < 0 || (answer > 0 && component == last)) {
@@ -260,17 +261,17 @@ int lrcsi_cells_single_find_sample(lrcsi_cells_single *a, const lrcsi_cell *cell
     for (int t = 0; t < LRCSI_SAMPLES && answer < 0; t++) {
         *sample = (lrcsi_cells_single_sample){.test = LRCSI_TEST_BOUNDED};
         lrcsi_cells_sample_point(cell, t, sample->at);
-        sample->clear = lrcsi_clip_border_distance(s, sample->at);
-        if (!(sample->clear > margin)) {
+        sample->border_distance = lrcsi_clip_border_distance(s, sample->at);
+        if (!(sample->border_distance > margin)) {
             continue;
         }
         sample_place(a, sample);
         answer = sample_is_hidden(a, cell, s, sample);
-        if (answer < 0 && !a->frame.needle && sample->clear > margin + unproject_err) {
+        if (answer < 0 && !a->frame.needle && sample->border_distance > margin + unproject_err) {
             sample_unproject(a, sample);
             sample->err = unproject_err;
             sample_place(a, sample);
-            sample->clear -= unproject_err;
+            sample->border_distance -= unproject_err;
             answer = sample_is_hidden(a, cell, s, sample);
         }
     }

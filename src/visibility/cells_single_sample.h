@@ -11,8 +11,9 @@ enum lrcsi_sample_test { LRCSI_TEST_BOUNDED, LRCSI_TEST_EXACT, LRCSI_TEST_GUESSE
 
 /* A sample in a cell. */
 typedef struct lrcsi_cells_single_sample {
-    double at[2], clear;
-    int test; /* a lrcsi_sample_test */
+    double at[2];
+    double border_distance; /* a lower bound of its distance from the border of the cell */
+    int test;               /* a lrcsi_sample_test */
     double point[3];
     double err;                     /* the distance in the view between `at` and `point` */
     double view[3];                 /* its coordinates in the view, except for the depth */

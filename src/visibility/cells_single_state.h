@@ -4,13 +4,25 @@
 #ifndef LRCSI_CELLS_SINGLE_STATE_H
 #define LRCSI_CELLS_SINGLE_STATE_H
 
-#include "visibility/cells_state.h"
+#include "visibility/cells_division.h"
+#include "visibility/classify.h"
 #include "visibility/target.h"
+#include "visibility/visible_area.h"
 
 /* A line: the distance from it is a x + b y + c, with an error of at most err. */
 typedef struct lrcsi_cells_single_side {
     double line[3], err;
 } lrcsi_cells_single_side;
+
+/* The depth order of a facet against f. */
+enum lrcsi_candidate_order {
+    LRCSI_ORDER_NOT_COMPUTED,
+    LRCSI_ORDER_FRONT,     /* nearer, wherever a line meets both */
+    LRCSI_ORDER_BEHIND,    /* farther */
+    LRCSI_ORDER_CONTACT,   /* the two intersect along a segment */
+    LRCSI_ORDER_UNDECIDED, /* they intersect along a line that could not be computed */
+    LRCSI_ORDER_DISJOINT   /* it lies beyond a side of f: not a candidate */
+};
 
 typedef struct lrcsi_cells_single {
     /* Given: */
@@ -23,24 +35,24 @@ typedef struct lrcsi_cells_single {
     lrcsi_target frame;      /* the frame of the cells: the same, or that of a needle */
     lrcsi_needle needle;     /* used if f is a needle */
     lrcsi_cells_facet shape; /* f in its frame */
-    lrcsi_cells_work cells;  /* data that cells share, here with f as the only facet */
-    unsigned char wanted;    /* cells.wanted: 1 */
+    lrcsi_cell_area area;    /* the areas found so far */
+    unsigned char wanted;    /* 1 */
+    lrcsi_division division; /* of f's triangle; `shape`, `area` and `wanted` are those of its only
+                                facet, 0 */
     uint64_t cells_left;     /* the number of cells that may still be processed */
-    double negligible;       /* undecided area too small to be divided further */
+    double halved_area;      /* only a cell with a larger area is halved */
 
     /* What may hide f: */
-    uint32_t *candidate; /* facets */
-    uint32_t count;
+    uint32_t *candidate, candidate_count;
     lrcsi_cells_single_side (*side)[3]; /* sides of the first side_room candidates */
     uint32_t side_room;
-    uint32_t *listed;          /* facet: the search that last listed it */
-    uint32_t *order;           /* facet that was listed: its lrcsi_candidate_order against f, or the
-                                  number of a segment */
+    lrcsi_marks listed;        /* facets that the search for candidates has come to */
+    unsigned char *order;      /* listed facet: its lrcsi_candidate_order */
+    uint32_t *contact;         /* facet with the order CONTACT: the number of that segment */
     lrcsi_crossings crossings; /* of f, once they are needed */
 
     /* Found of f: */
     lrcsi_clip_polygon piece; /* the piece last found */
-    lrcsi_cell_area area;     /* the areas found so far */
     lrcsi_moment moment;      /* of the pieces; after `close` of the visible region */
     double border_area;       /* area within the error of the sides of f */
     double piece_err;         /* additional error of the area of a needle's pieces */
@@ -48,15 +60,5 @@ typedef struct lrcsi_cells_single {
     double perhaps_visible;   /* the rest of the undecided area */
     int hidden;               /* 1 if some of f is hidden */
 } lrcsi_cells_single;
-
-/* The depth order of a facet against f: one of these, or the number of the segment in which the two
-   intersect. */
-enum lrcsi_candidate_order {
-    LRCSI_ORDER_NOT_COMPUTED = 0x7ffffff0,
-    LRCSI_ORDER_FRONT,    /* nearer, wherever a line meets both */
-    LRCSI_ORDER_BEHIND,   /* farther */
-    LRCSI_ORDER_DISJOINT, /* it lies beyond a side of f: not a candidate */
-    LRCSI_ORDER_UNDECIDED /* they intersect along a line that could not be computed */
-};
 
 #endif
