@@ -150,7 +150,8 @@ void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *o
     lrcsi_curve_context context = lrcsi_curve_context_make(view, options);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0, 0, 0};
-        lrcsi_view_progress(view, LRCS_PROGRESS_INTEGRATE, f, view->prepared->scene->facet_count);
+        lrcsi_progress_report(view->progress, LRCS_PROGRESS_INTEGRATE, f,
+                              view->prepared->scene->facet_count);
         if (lrcsi_curve_applies(view, f)) {
             lrcsi_curve_integral_make(&context, f, &integral);
             curved[f] = curve_from_area(&integral, &visible[f]);
@@ -234,8 +235,8 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
         int applies = lrcsi_curve_applies(view, f);
         int partly = sampled && classification->undecided[f] && visible[f].low < visible[f].high;
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0, 0, 0};
-        lrcsi_view_progress(view, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f,
-                            count);
+        lrcsi_progress_report(
+            view->progress, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f, count);
         if (applies) {
             lrcsi_curve_integral_make(&context, f, &integral);
         }

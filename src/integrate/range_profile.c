@@ -420,8 +420,7 @@ static int bins_number(profile_run *run)
 
 /* Takes what curved shapes need besides the classification, the visible areas of all facets and the
    proximity band, and what curved normals need, the stack of the cubature. */
-static int curved_take(profile_run *run, const lrcsi_classification *classification,
-                       lrcs_work *work)
+static int curved_take(profile_run *run, lrcsi_classification *classification, lrcs_work *work)
 {
     const lrcs_prepared *p = run->prepared;
     if (p->curved) {

@@ -172,7 +172,7 @@ static lrcsi_total run_total(const lrcsi_sigma *run, lrcs_facet_record *records)
 {
     const lrcsi_areas areas = {run->visible, run->answer, run->moment};
     const lrcsi_total_details details = {records, run->part_error, run->corrected};
-    lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
+    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_INTEGRATE, 0, 0);
     return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run_band(run), &run->clear,
                             &details);
 }
@@ -274,7 +274,7 @@ static int run_classify(lrcsi_sigma *run, lrcsi_meter *meter)
     if (run->classified) {
         return LRCS_OK;
     }
-    lrcsi_view_progress(&run->view, LRCS_PROGRESS_CLASSIFY, 0, 0);
+    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_CLASSIFY, 0, 0);
     int status = lrcsi_classify_make(&run->view, meter, run->work, &run->classification);
     if (status == LRCS_OK && run->plan.proximity_band) {
         status = lrcsi_proximity_band_make(&run->classification, meter, run->work, &run->band);
@@ -509,7 +509,7 @@ static int run_shadowed(lrcsi_sigma *run)
     if (status != LRCS_OK || run->last <= LRCSI_SIGMA_CLASSIFY) {
         return status;
     }
-    lrcsi_view_progress(&run->view, LRCS_PROGRESS_VISIBILITY, 0, 0);
+    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_VISIBILITY, 0, 0);
     if (run->plan.method == LRCS_METHOD_EXACT) {
         return run_exact(run, run->plan.reason);
     }
@@ -533,7 +533,7 @@ int lrcsi_sigma_stages(lrcsi_sigma *run, const lrcs_prepared *prepared, const lr
     int status = lrcsi_view_face(prepared, pose, backs, run->work, &run->view);
     if (status == LRCS_OK) {
         run->view.progress = options->progress;
-        lrcsi_view_progress(&run->view, LRCS_PROGRESS_VIEW, 0, 0);
+        lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_VIEW, 0, 0);
         status = options->method == LRCS_METHOD_AUTO
                      ? lrcsi_clear_make(&run->view, run->work, &run->clear)
                      : LRCS_OK;

@@ -488,7 +488,7 @@ void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *
     if (cells_allocate(classification, answer, work, &job)) {
         uint32_t size = job.blocks.grid.size;
         for (uint32_t y = 0; y < size; y++) {
-            lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, y, size);
+            lrcsi_progress_report(view->progress, LRCS_PROGRESS_VISIBILITY, y, size);
             for (uint32_t x = 0; x < size; x++) {
                 process_block(&job, x, y);
             }

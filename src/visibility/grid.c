@@ -24,7 +24,7 @@ size_t lrcsi_boxes_need(const lrcs_prepared *prepared)
     size_t need = lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(lrcsi_view_box)),
                                  lrcsi_work_bytes(runs, sizeof(lrcsi_view_box)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(runs, 1));
-    return lrcsi_work_add(need, lrcsi_work_bytes(runs + 1, sizeof(uint32_t)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(runs, sizeof(uint32_t)));
 }
 
 /* A point of the box is m + d, with |d_k| <= h_k. The position of m in the view has an error of at
@@ -59,13 +59,11 @@ int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work 
     *boxes = (lrcsi_boxes){.view = view};
     boxes->run = lrcsi_work_take(work, p->runs.count, sizeof *boxes->run);
     boxes->state = lrcsi_work_take_zero(work, p->runs.count, 1);
-    boxes->start = lrcsi_work_take(work, (size_t)p->runs.count + 1, sizeof *boxes->start);
+    boxes->start = lrcsi_work_take(work, p->runs.count, sizeof *boxes->start);
     boxes->facet = lrcsi_work_take(work, count, sizeof *boxes->facet);
     if (!boxes->run || !boxes->state || !boxes->start || !boxes->facet) {
         return LRCS_E_MEMORY;
     }
-    boxes->opened = &boxes->start[p->runs.count];
-    *boxes->opened = 0;
     for (uint32_t r = 0; r < p->runs.count; r++) {
         if (cast[(size_t)r * LRCSI_RUN] != 0 || !lrcsi_run_alike(cast, r)) {
             double low[3];
@@ -78,20 +76,20 @@ int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work 
     return LRCS_OK;
 }
 
-void lrcsi_boxes_open(const lrcsi_boxes *boxes, uint32_t run)
+void lrcsi_boxes_open(lrcsi_boxes *boxes, uint32_t run)
 {
     const lrcs_scene *scene = boxes->view->prepared->scene;
     if (boxes->state[run] == LRCSI_BOXES_RUN) {
         uint32_t first = run * LRCSI_RUN;
         uint32_t end = lrcsi_run_end(first, scene->facet_count);
-        lrcsi_view_box *box = &boxes->facet[*boxes->opened];
+        lrcsi_view_box *box = &boxes->facet[boxes->facet_count];
         for (uint32_t f = first; f < end; f++) {
             if (lrcsi_view_casts(boxes->view, f)) {
                 box[f - first] = lrcsi_view_box_of(boxes->view, scene->facet[f].corner, 3);
             }
         }
-        boxes->start[run] = *boxes->opened;
-        *boxes->opened += end - first;
+        boxes->start[run] = boxes->facet_count;
+        boxes->facet_count += end - first;
         boxes->state[run] = LRCSI_BOXES_FACETS;
     }
 }
@@ -340,7 +338,7 @@ static int needed_any(needed_cells needed, lrcsi_grid_rect cells)
 }
 
 /* Marks the cells of the readers' boxes. */
-static int needed_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
+static int needed_make(const lrcsi_grid *grid, lrcsi_boxes *boxes,
                        const lrcsi_grid_readers *readers, lrcs_work *work, needed_cells *needed)
 {
     *needed = (needed_cells){NULL, (grid->size + NEEDED_BITS - 1) / NEEDED_BITS};
@@ -371,7 +369,7 @@ static int needed_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
 
 /* Lists the facets that meet cells to be read, in order, and makes their boxes. Status: LRCS_OK;
    LRCS_E_MEMORY. */
-static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, needed_cells needed,
+static int facets_select(const lrcsi_grid *grid, lrcsi_boxes *boxes, needed_cells needed,
                          lrcs_work *work, uint32_t **facet, uint32_t *selected)
 {
     uint32_t count = grid->view->prepared->scene->facet_count;
@@ -419,8 +417,8 @@ static uint64_t facets_put(lrcsi_grid *grid, const uint32_t *facet, uint32_t sel
 /* 1. Mark the cells that will be read. 2. Select the facets that meet them. 3. Count the facets of
    each cell; if there are too many entries, make the cells larger and start again. 4. Fill the
    lists. */
-int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
-                      const lrcsi_grid_readers *readers, lrcs_work *work, lrcsi_grid *grid)
+int lrcsi_grid_facets(const lrcsi_grid *like, lrcsi_boxes *boxes, const lrcsi_grid_readers *readers,
+                      lrcs_work *work, lrcsi_grid *grid)
 {
     size_t mark = work->used;
     const lrcsi_view *view = like->view;
@@ -430,13 +428,13 @@ int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
     uint32_t *facet = NULL;
     uint32_t selected = 0;
     int status;
-    g.boxes = *boxes;
     g.first = g.item = NULL;
     for (;;) {
         status = needed_make(&g, boxes, readers, work, &needed);
         status =
             status == LRCS_OK ? facets_select(&g, boxes, needed, work, &facet, &selected) : status;
         status = status == LRCS_OK ? grid_start(&g, work) : status;
+        g.boxes = *boxes;
         if (status != LRCS_OK || facets_put(&g, facet, selected) <= most) {
             break;
         }

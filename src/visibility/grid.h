@@ -27,8 +27,8 @@ typedef struct lrcsi_boxes {
     lrcsi_view_box *run;
     unsigned char *state; /* run: a lrcsi_boxes_state */
     uint32_t *start;      /* run, if opened: the index in facet[] of the box of its first facet */
-    uint32_t *opened;     /* the number of facets of opened runs */
     lrcsi_view_box *facet;
+    uint32_t facet_count; /* boxes in facet[]: those of all facets of opened runs */
 } lrcsi_boxes;
 
 /* The box of a facet that can hide something, whose run is opened. */
@@ -50,11 +50,11 @@ void lrcsi_boxes_run_bounds(const lrcsi_view *view, const lrcsi_run *run, double
                             double high[3]);
 
 /* Makes the boxes of a run's facets, unless they exist or none can hide anything. */
-void lrcsi_boxes_open(const lrcsi_boxes *boxes, uint32_t run);
+void lrcsi_boxes_open(lrcsi_boxes *boxes, uint32_t run);
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
-    lrcsi_boxes boxes; /* of facets, if these are the items */
+    lrcsi_boxes boxes; /* if facets are the items: their boxes, to be read */
     double low[2];     /* of the window, in the units of boxes */
     double side;
     uint32_t size;   /* cells along each side */
@@ -191,9 +191,9 @@ typedef struct lrcsi_grid_readers {
 
 /* A grid of the facets that can hide something, in at most as many cells as another grid: it lists
    each of them at most LRCSI_GRID_FACET_CELLS times on average. Lists are complete in the cells of
-   the readers' boxes; with readers NULL, in all cells. It makes the boxes of the readers and of all
-   facets that it lists. Status: as above. */
-int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
-                      const lrcsi_grid_readers *readers, lrcs_work *work, lrcsi_grid *grid);
+   the readers' boxes; with readers NULL, in all cells. It opens the runs of the readers and of
+   all facets that it lists. Status: as above. */
+int lrcsi_grid_facets(const lrcsi_grid *like, lrcsi_boxes *boxes, const lrcsi_grid_readers *readers,
+                      lrcs_work *work, lrcsi_grid *grid);
 
 #endif

@@ -155,7 +155,7 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
         if (!classification->undecided[f] || found[f]) {
             continue;
         }
-        lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, f, count);
+        lrcsi_progress_report(view->progress, LRCS_PROGRESS_VISIBILITY, f, count);
         lrcsi_occlude_open(&o, f);
         visible[f] = lrcsi_occlude_area(&o);
         if (moment) {

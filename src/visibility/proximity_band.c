@@ -696,7 +696,7 @@ void lrcsi_proximity_band_join(const lrcsi_proximity_band *band, const unsigned 
     lrcsi_disjoint_flatten(group, p->scene->facet_count);
 }
 
-int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
+int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter *meter,
                               lrcs_work *work, lrcsi_proximity_band *band)
 {
     const lrcsi_view *view = classification->view;

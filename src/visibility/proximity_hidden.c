@@ -74,7 +74,7 @@ size_t lrcsi_proximity_hidden_need(const lrcs_prepared *p)
 void lrcsi_proximity_find_hidden(lrcsi_proximity_band *band, const lrcsi_visible *visible,
                                  lrcsi_meter *meter, lrcs_work *work)
 {
-    const lrcsi_classification *c = band->classification;
+    lrcsi_classification *c = band->classification;
     size_t mark = work->used;
     uint32_t count = c->view->prepared->scene->facet_count;
     unsigned char *candidate = lrcsi_work_take(work, count, 1);

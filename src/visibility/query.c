@@ -203,8 +203,8 @@ size_t lrcsi_query_need(const lrcs_prepared *prepared)
    facet of each region need. 2. Makes one query for each region, at its first facet. 3. If a query
    gave no answer, which is rare, makes a complete grid, and a query for each facet of its region.
  */
-int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter *meter,
-                        lrcs_work *work, lrcsi_grid *facets, unsigned char *answer)
+int lrcsi_query_uniform(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
+                        lrcsi_grid *facets, unsigned char *answer)
 {
     const lrcs_prepared *p = classification->view->prepared;
     const unsigned char *undecided = classification->undecided;

@@ -470,7 +470,7 @@ static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned cha
     for (int ordinary = 1; ordinary >= 0 && others > 0; ordinary--) {
         others = 0;
         for (uint32_t f = 0; (f = next_drawn(&r, answer, f)) < count; f++) {
-            lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, f, count);
+            lrcsi_progress_report(view->progress, LRCS_PROGRESS_VISIBILITY, f, count);
             others += !draw_facet(&r, f, ordinary);
         }
     }

@@ -242,7 +242,7 @@ static void grids_are_made_coarser_for_large_facets(void **state)
 }
 
 /* In so many bytes, and unharmed where they are too few. */
-static int facets_in(const lrcsi_classification *classification, const lrcsi_grid_readers *readers,
+static int facets_in(lrcsi_classification *classification, const lrcsi_grid_readers *readers,
                      size_t size)
 {
     lrcsi_grid grid;
