@@ -52,6 +52,10 @@
 #define MAX_THIN 0x1p-32
 /* How far a strip may extend beyond its segment, in widths: 4 / MAX_THIN. */
 #define STRIP_OVERHANG 0x1p34
+/* A strip of less than this fraction of the square of the largest coordinate is charged to all
+   facets of the cell, whether or not they are near it: a heuristic that saves time, and never
+   charges too little. A hundred such strips are about 4e-16 of that square. */
+#define NEGLIGIBLE_STRIP 0x1p-58
 /* A cell that is no wider than so many strips may be charged whole. */
 #define NARROW_STRIPS 64
 /* A cell with more corners is halved. */
@@ -138,7 +142,7 @@ void lrcsi_cells_charge_border(lrcsi_division *d, lrcsi_cell *cell, const lrcsi_
     double strip = e->interval.strip_width;
     double length = (e->interval.to - e->interval.from) * e->length;
     double uncertainty = strip * (length + STRIP_OVERHANG * strip);
-    if (uncertainty < 0x1p-58 * d->extent * d->extent || length < STRIP_OVERHANG * strip) {
+    if (uncertainty < NEGLIGIBLE_STRIP * d->extent * d->extent || length < STRIP_OVERHANG * strip) {
         cell->uncertainty += uncertainty;
         return;
     }

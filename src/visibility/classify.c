@@ -139,8 +139,8 @@ static int event_beside_run(const lrcsi_view *view, const run_corners *corners, 
         lrcsi_range_extend(turn, &least, &most);
         distance = lrcsi_max(distance, fabs(x) + fabs(y));
     }
-    double err = line.at_err + corners->err;
-    double turn_err = 1.5 * (line.to_err * (distance + 2 * err) + err * line.length);
+    double turn_err =
+        lrcsi_view_turn_err(line.length, line.to_err, distance, line.at_err + corners->err);
     return least > turn_err || most < -turn_err;
 }
 
@@ -234,25 +234,15 @@ void lrcsi_classify_regions(const lrcsi_classification *classification, uint32_t
     lrcsi_events_join(classification->view, classification->joinable, region);
 }
 
-/* The direction in which each facet faces if it can hide others (lrcsi_view_casts), otherwise 0;
-   zeros after the last one. Run by run, without branches: compilers vectorise the inner loop. */
+/* The direction in which each facet faces if it can hide others, otherwise 0; zeros after the last
+   one. */
 static void facets_cast(const lrcsi_view *view, signed char *cast)
 {
-    const int backs = view->backs.cast;
     uint32_t count = view->prepared->scene->facet_count;
-    for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
-        size_t facets = lrcsi_run_end(start, count) - start;
-        signed char facing[LRCSI_RUN] = {0};
-        unsigned char redundant[LRCSI_RUN] = {0};
-        memcpy(facing, view->facing + start, facets);
-        memcpy(redundant, view->prepared->redundant + start, facets);
-        for (uint32_t i = 0; i < LRCSI_RUN; i++) {
-            int front = (facing[i] > 0) & (redundant[i] != LRCSI_REDUNDANT);
-            int back = (facing[i] < 0) & (redundant[i] == LRCSI_NOT_REDUNDANT) & backs;
-            cast[start + i] = (signed char)(front - back);
-        }
+    for (uint32_t f = 0; f < count; f++) {
+        cast[f] = lrcsi_view_casts(view, f) ? view->facing[f] : 0;
     }
-    cast[lrcsi_runs_room(count)] = 0;
+    memset(cast + count, 0, lrcsi_runs_room(count) + 1 - count);
 }
 
 size_t lrcsi_classify_need(const lrcs_prepared *prepared)

@@ -26,8 +26,7 @@
 
 /* The orientation of vertices a, b, c in the view: 1 counter-clockwise, -1 clockwise, 0 collinear.
    From view coordinates if their error allows it, otherwise exactly. The vertex with the largest
-   error is never the origin of both differences, whose errors it would enlarge. The error bound is
-   that of view/side.h. */
+   error is never the origin of both differences, whose errors it would enlarge. */
 static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
 {
     if (c == a || c == b) {
@@ -48,10 +47,8 @@ static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t 
     const double p[2] = {view->point[b].x[0] - at[0], view->point[b].x[1] - at[1]};
     const double q[2] = {view->point[c].x[0] - at[0], view->point[c].x[1] - at[1]};
     double turn = p[0] * q[1] - p[1] * q[0];
-    double e = err[0] + err[1];
-    double f = err[0] + err[2];
-    if (fabs(turn) >
-        1.5 * (e * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * (fabs(p[0]) + fabs(p[1])))) {
+    if (fabs(turn) > lrcsi_view_turn_err(fabs(p[0]) + fabs(p[1]), err[0] + err[1],
+                                         fabs(q[0]) + fabs(q[1]), err[0] + err[2])) {
         return turn > 0 ? 1 : -1;
     }
     const lrcs_point *v = view->prepared->vertex;
