@@ -89,7 +89,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
     size_t exact = lrcsi_occlude_need(prepared);
     size_t raster =
-        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
+        lrcsi_work_add(lrcsi_decisions_need(prepared), lrcsi_visible_need(prepared, size));
     raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
     if (options->accept != LRCS_ACCEPT_BOUND) {
         size_t preview = lrcsi_preview_need(prepared, size);
@@ -311,7 +311,7 @@ static int run_clip(lrcsi_sigma *run, lrcsi_meter *meter)
 
 /* Finds visible areas by one raster of the given size, or of half of it, a quarter and so on until
    it fits into the work area. If `known` is NULL, the areas are taken from the samples alone. */
-static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
+static int run_raster(lrcsi_sigma *run, const lrcsi_decisions *known, uint32_t size)
 {
     lrcsi_outcome *outcome = &run->outcome;
     lrcsi_raster raster;
@@ -366,13 +366,13 @@ static int raster_ends(const lrcsi_sigma *run, int samples_only)
    areas are taken from the samples alone. */
 static int run_rasters(lrcsi_sigma *run, int samples_only)
 {
-    lrcsi_known known;
+    lrcsi_decisions known;
     size_t mark = run->work->used;
     uint32_t size = run->plan.size;
     int status = LRCS_OK;
     if (!samples_only) {
         status = run_classify(run, &run->meter);
-        status = status == LRCS_OK ? lrcsi_visible_known(&run->classification, run->work, &known)
+        status = status == LRCS_OK ? lrcsi_decisions_make(&run->classification, run->work, &known)
                                    : status;
     }
     while (status == LRCS_OK) {

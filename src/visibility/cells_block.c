@@ -12,7 +12,7 @@
 #include "base/work.h"
 #include "view/segment.h"
 #include "visibility/contact.h"
-#include "visibility/grid.h"
+#include "visibility/lists.h"
 #include "visibility/query.h"
 
 /* Limit on the entries of all blocks: so many for each facet, and a constant. */

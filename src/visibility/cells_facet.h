@@ -7,17 +7,7 @@
 #include "base/dd.h"
 #include "view/view.h"
 #include "visibility/clip.h"
-
-/* Marks of facets that need no clearing: a facet is marked if its entry is the current number. */
-typedef struct lrcsi_marks {
-    uint32_t *entry; /* facet */
-    uint32_t number;
-} lrcsi_marks;
-
-static inline int lrcsi_marked(const lrcsi_marks *marks, uint32_t facet)
-{
-    return marks->entry[facet] == marks->number;
-}
+#include "visibility/marks.h"
 
 /* What is known of a facet in all cells, bits. */
 enum {

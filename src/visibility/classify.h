@@ -23,6 +23,7 @@
 #define LRCSI_CLASSIFY_H
 
 #include "visibility/crossing.h"
+#include "visibility/event.h"
 
 typedef struct lrcsi_classification {
     const lrcsi_view *view;

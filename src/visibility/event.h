@@ -5,8 +5,7 @@
 #ifndef LRCSI_EVENT_H
 #define LRCSI_EVENT_H
 
-#include <string.h>
-
+#include "scene/runs.h"
 #include "view/view.h"
 
 typedef struct lrcsi_events {
@@ -34,14 +33,6 @@ size_t lrcsi_events_need(const lrcs_prepared *prepared);
    events, which stay in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
                       lrcsi_events *events);
-
-/* Are all LRCSI_RUN values of a run equal? */
-static inline int lrcsi_run_alike(const signed char *value, uint32_t run)
-{
-    uint64_t word[LRCSI_RUN / sizeof(uint64_t)];
-    memcpy(word, value + (size_t)run * LRCSI_RUN, sizeof word);
-    return word[0] == word[1] && word[0] == (word[0] & 0xff) * 0x0101010101010101u;
-}
 
 /* What lrcsi_events_join does with the facets of a run. */
 enum lrcsi_joined {

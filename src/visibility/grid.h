@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Boxes of facets in the view, and a uniform grid over the window of the scene's bulk, which lists
-   the items (facets or edges) that may lie in each cell. What lies outside the window counts to the
+/* A uniform grid over the window of the scene's bulk, which lists the
+   items (facets or edges) that may lie in each cell. What lies outside the window counts to the
    cells on the border. Conservative: an item is listed in every cell that its box meets. If large
    items make the lists too long, cells are doubled until they are short enough: this bounds the
    memory of a grid for any scene, and the cost of walking through the cells of all items. */
@@ -8,49 +8,8 @@
 #define LRCSI_GRID_H
 
 #include "base/range.h"
-#include "view/box.h"
 #include "view/segment.h"
-#include "visibility/event.h"
-
-/* Boxes in the view of the facets that can hide something. One box for each run (scene/runs.h) is
-   made at first; the boxes of its facets only when they are needed, since the run's box usually
-   suffices. They are stored in the order in which runs are opened, so that memory is written only
-   for those. */
-enum lrcsi_boxes_state {
-    LRCSI_BOXES_NONE,  /* no facet of the run can hide anything */
-    LRCSI_BOXES_RUN,   /* the run's box is made */
-    LRCSI_BOXES_FACETS /* so are those of its facets that can hide something */
-};
-
-typedef struct lrcsi_boxes {
-    const lrcsi_view *view;
-    lrcsi_view_box *run;
-    unsigned char *state; /* run: a lrcsi_boxes_state */
-    uint32_t *start;      /* run, if opened: the index in facet[] of the box of its first facet */
-    lrcsi_view_box *facet;
-    uint32_t facet_count; /* boxes in facet[]: those of all facets of opened runs */
-} lrcsi_boxes;
-
-/* The box of a facet that can hide something, whose run is opened. */
-static inline const lrcsi_view_box *lrcsi_boxes_facet(const lrcsi_boxes *boxes, uint32_t facet)
-{
-    return &boxes->facet[boxes->start[facet / LRCSI_RUN] + facet % LRCSI_RUN];
-}
-
-/* Bytes at most. */
-size_t lrcsi_boxes_need(const lrcs_prepared *prepared);
-
-/* Makes the boxes of runs. Given: cast[], as for lrcsi_events_make. Status: LRCS_OK; LRCS_E_MEMORY.
-   They stay in the work area. */
-int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
-                     lrcsi_boxes *boxes);
-
-/* Bounds of the view coordinates of all facets of a run. */
-void lrcsi_boxes_run_bounds(const lrcsi_view *view, const lrcsi_run *run, double low[3],
-                            double high[3]);
-
-/* Makes the boxes of a run's facets, unless they exist or none can hide anything. */
-void lrcsi_boxes_open(lrcsi_boxes *boxes, uint32_t run);
+#include "visibility/boxes.h"
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
@@ -63,29 +22,6 @@ typedef struct lrcsi_grid {
     uint32_t *first; /* size * size + 1 */
     uint32_t *item;  /* those of cell c: item[first[c] .. first[c + 1]) */
 } lrcsi_grid;
-
-/* Lists of items, made in two passes over the items. `first` begins as lists + 1 zeros.
-   1. lrcsi_lists_put with item NULL counts: list i in first[i + 1].
-   2. lrcsi_lists_room allocates the items. Status: LRCS_OK; LRCS_E_LIMIT, more than `most`;
-      LRCS_E_MEMORY.
-   3. lrcsi_lists_put with the items fills the lists; lrcsi_lists_finish makes first[i] the start of
-      list i again. */
-int lrcsi_lists_room(uint32_t *first, size_t lists, uint64_t most, lrcs_work *work,
-                     uint32_t **item);
-void lrcsi_lists_finish(uint32_t *first, size_t lists);
-
-/* Counts or adds a value in each of the lists from <= i < to. */
-static inline void lrcsi_lists_put(uint32_t *first, uint32_t *item, size_t from, size_t to,
-                                   uint32_t value)
-{
-    for (size_t i = from; i < to; i++) {
-        if (item) {
-            item[first[i]++] = value;
-        } else {
-            first[i + 1]++;
-        }
-    }
-}
 
 /* A rectangle of cells: x0 <= x < x1, y0 <= y < y1. */
 typedef struct lrcsi_grid_rect {

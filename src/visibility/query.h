@@ -3,9 +3,8 @@
 #ifndef LRCSI_QUERY_H
 #define LRCSI_QUERY_H
 
-#include <string.h>
-
 #include "visibility/classify.h"
+#include "visibility/part_set.h"
 
 enum lrcsi_query_answer {
     LRCSI_QUERY_HIDDEN = 0,
@@ -13,14 +12,6 @@ enum lrcsi_query_answer {
     LRCSI_QUERY_UNDECIDED = 2 /* no point inside the facet was found, the depths are too close,
                                  or the meter is spent */
 };
-
-/* The first facet from `facet` on that is marked with a value, or `count` if there is none. */
-static inline uint32_t lrcsi_query_next(const unsigned char *mark, uint32_t facet, uint32_t count,
-                                        int value)
-{
-    const unsigned char *at = facet < count ? memchr(mark + facet, value, count - facet) : NULL;
-    return at ? (uint32_t)(at - mark) : count;
-}
 
 /* All queries take their steps from a meter; NULL: no limit. */
 
@@ -31,14 +22,6 @@ int lrcsi_query_facet(const lrcsi_grid *facets, uint32_t facet, lrcsi_meter *met
 /* A query at a given point of the facet, rounded; undecided if the facet does not cover it. */
 int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double point[3],
                       lrcsi_meter *meter);
-
-/* A set of parts: bit i is part i; the last bit is all parts from there on. */
-typedef uint64_t lrcsi_part_set;
-#define LRCSI_PART_SET_ALL UINT64_MAX
-static inline lrcsi_part_set lrcsi_part_set_of(uint32_t part)
-{
-    return (lrcsi_part_set)1 << (part < 63 ? part : 63);
-}
 
 /* 1 if at a point as in lrcsi_query_facet a facet of a part outside the set hides the facet. */
 int lrcsi_query_hidden_by_others(const lrcsi_grid *facets, uint32_t facet, lrcsi_part_set parts,

@@ -19,6 +19,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/grid.h"
+#include "visibility/marks.h"
 #include "visibility/query.h"
 #include "visibility/raster.h"
 #include "visibility/sample.h"
@@ -425,7 +426,7 @@ static uint32_t next_drawn(const lrcsi_raster *r, const unsigned char *answer, u
 {
     const uint32_t count = r->view->prepared->scene->facet_count;
     if (answer) {
-        return lrcsi_query_next(answer, facet, count, LRCSI_QUERY_UNDECIDED);
+        return lrcsi_marks_next(answer, facet, count, LRCSI_QUERY_UNDECIDED);
     }
     while (facet < count && !lrcsi_view_casts(r->view, facet)) {
         facet++;

@@ -28,6 +28,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/clip.h"
+#include "visibility/marks.h"
 #include "visibility/query.h"
 #include "visibility/sampling_error.h"
 #include "visibility/visible_fraction.h"
@@ -342,8 +343,8 @@ static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, 
     if (!raster->undecided[facet] && fraction.pooled) {
         error = lrcsi_sampling_error_pooled(raster, facet, fraction.longest, fraction.fraction);
     } else if (!raster->undecided[facet]) {
-        error = lrcsi_sampling_error_facet(pool->known->classification->component, raster, facet,
-                                           crossings);
+        error = lrcsi_sampling_error_facet(pool->decisions->classification->component, raster,
+                                           facet, crossings);
     }
     v->low = lrcsi_min(area, (sums->full_visible + sums->visible) * pixel * (1 - 1e-12));
     v->high = lrcsi_max(v->low, area - (sums->full_hidden + sums->hidden) * pixel * (1 - 1e-12));
@@ -351,79 +352,6 @@ static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, 
     double gap = v->high - v->low;
     v->error_estimate = lrcsi_min(gap, sqrt(error.square) * pixel);
     v->bias = lrcsi_min(gap, lrcsi_max(-gap, error.bias * pixel));
-}
-
-/* The event edges that cross a facet: listed, or searched for. */
-static lrcsi_crossings known_crossings(const lrcsi_known *k, uint32_t facet,
-                                       lrcsi_crossings *search)
-{
-    if (facet < k->listed) {
-        return (lrcsi_crossings){facet, k->list[facet].count, k->crossing + k->list[facet].first};
-    }
-    lrcsi_crossings_find(&k->classification->search, facet, NULL, search);
-    return *search;
-}
-
-/* Room for crossings: more than ordinary scenes have. The crossings of facets beyond it are
-   searched for whenever they are needed. */
-static size_t known_room(const lrcs_prepared *prepared)
-{
-    return 4 * (size_t)prepared->scene->facet_count;
-}
-
-size_t lrcsi_visible_known_need(const lrcs_prepared *prepared)
-{
-    size_t facets = prepared->scene->facet_count;
-    size_t need = lrcsi_work_bytes(facets, 1);
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_known_list)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(known_room(prepared), sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_crossings_need(prepared));
-    return lrcsi_work_add(need, lrcsi_query_need(prepared));
-}
-
-/* Queries of uniform facets come first. For each of the others, one search for the event edges that
-   cross it serves two purposes: to prove that it is hidden, and as a list for rasters. */
-int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, lrcsi_known *known)
-{
-    size_t mark = work->used;
-    const lrcs_prepared *p = classification->view->prepared;
-    uint32_t count = p->scene->facet_count;
-    lrcsi_known k = {.classification = classification};
-    k.answer = lrcsi_work_take(work, count, 1);
-    k.list = lrcsi_work_take(work, count, sizeof *k.list);
-    k.crossing = lrcsi_work_take(work, known_room(p), sizeof *k.crossing);
-    int status = k.answer && k.list && k.crossing
-                     ? lrcsi_crossings_make(&classification->search, work, &k.search)
-                     : LRCS_E_MEMORY;
-    status = status == LRCS_OK
-                 ? lrcsi_query_uniform(classification, NULL, work, &k.facets, k.answer)
-                 : status;
-    if (status != LRCS_OK) {
-        work->used = mark;
-        return status;
-    }
-    const unsigned char *undecided = classification->undecided;
-    uint32_t used = 0; /* of crossing[] */
-    k.listed = count;
-    for (uint32_t f = 0; (f = lrcsi_query_next(undecided, f, count, 1)) < count; f++) {
-        if (lrcsi_query_screened(classification, &k.facets, f, NULL, &k.search)) {
-            k.answer[f] = LRCSI_QUERY_HIDDEN;
-            continue;
-        }
-        if (f > k.listed) {
-            continue;
-        }
-        lrcsi_crossings_find(&classification->search, f, NULL, &k.search);
-        if (k.search.count > known_room(p) - used) {
-            k.listed = f;
-        } else {
-            memcpy(k.crossing + used, k.search.edge, k.search.count * sizeof *k.crossing);
-            k.list[f] = (lrcsi_known_list){used, k.search.count};
-            used += k.search.count;
-        }
-    }
-    *known = k;
-    return LRCS_OK;
 }
 
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
@@ -435,39 +363,39 @@ size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 }
 
 /* If the depth order of a facet could not be decided, its sums are 0, and nothing is certain. */
-int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
+int lrcsi_visible_sampled(const lrcsi_decisions *decisions, uint32_t size, lrcs_work *work,
                           lrcsi_raster *raster, lrcsi_visible *visible, int *undecided)
 {
-    const lrcsi_classification *classification = known->classification;
+    const lrcsi_classification *classification = decisions->classification;
     const lrcsi_view *view = classification->view;
     const uint32_t count = view->prepared->scene->facet_count;
     const size_t mark = work->used;
-    int status = lrcsi_raster_make_undecided(view, size, known->answer, work, raster);
+    int status = lrcsi_raster_make_undecided(view, size, decisions->answer, work, raster);
     const size_t end = work->used;
     visible_job job = {.raster = raster};
-    lrcsi_crossings search = known->search;
+    lrcsi_crossings search = decisions->search;
     lrcsi_sample_pool pool;
     if (status == LRCS_OK) {
         job.mixed = lrcsi_work_take(work, lrcsi_work_square(size), 1);
         job.row = lrcsi_work_take(work, size, sizeof *job.row);
-        status = job.mixed && job.row ? lrcsi_visible_fraction_make(known, raster, work, &pool)
+        status = job.mixed && job.row ? lrcsi_visible_fraction_make(decisions, raster, work, &pool)
                                       : LRCS_E_MEMORY;
     }
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    lrcsi_visible_answered(view, known->answer, visible);
+    lrcsi_visible_answered(view, decisions->answer, visible);
     *undecided = memchr(raster->undecided, 1, count) != NULL;
     for (uint32_t f = 0;
-         (f = lrcsi_query_next(known->answer, f, count, LRCSI_QUERY_UNDECIDED)) < count; f++) {
+         (f = lrcsi_marks_next(decisions->answer, f, count, LRCSI_QUERY_UNDECIDED)) < count; f++) {
         if (!classification->undecided[f]) { /* uniform, but its query gave no answer */
             double area = lrcsi_view_projected(view, f);
             visible[f] = (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
             *undecided = 1;
             continue;
         }
-        const lrcsi_crossings crossings = known_crossings(known, f, &search);
+        const lrcsi_crossings crossings = lrcsi_decisions_crossings(decisions, f, &search);
         pixel_sums sums = {0, 0, 0, 0};
         if (!raster->undecided[f]) {
             sums = facet_pixels(&job, f, &crossings);

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "visibility/decisions.h"
 #include "visibility/raster.h"
 #include "visibility/visible_area.h"
 
@@ -34,13 +35,6 @@ static inline lrcsi_visible lrcsi_visible_proved(const lrcsi_view *view, uint32_
 void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
                             lrcsi_visible *visible);
 
-/* Bytes for lrcsi_visible_known, at most. */
-size_t lrcsi_visible_known_need(const lrcs_prepared *prepared);
-
-/* Finds by queries which uniform facets are visible, and which undecided facets are proved hidden.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The result stays in the work area. */
-int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, lrcsi_known *known);
-
 /* Bytes for lrcsi_visible_sampled, at most. */
 size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size);
 
@@ -50,7 +44,7 @@ size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size);
    tiles around undecided facets are drawn. *undecided: 1 if the depth order of some facets could
    not be decided, or the query of a uniform facet had no answer; else 0.
    Status: LRCS_OK; LRCS_E_MEMORY. The raster stays in the work area. */
-int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
+int lrcsi_visible_sampled(const lrcsi_decisions *decisions, uint32_t size, lrcs_work *work,
                           lrcsi_raster *raster, lrcsi_visible *visible, int *undecided);
 
 #endif

@@ -3,6 +3,7 @@
 #ifndef LRCSI_VISIBLE_FRACTION_H
 #define LRCSI_VISIBLE_FRACTION_H
 
+#include "visibility/decisions.h"
 #include "visibility/raster.h"
 #include "visibility/visible_area.h"
 
@@ -14,7 +15,7 @@ typedef struct lrcsi_component_sum {
 
 /* The data that the facets of one raster share. */
 typedef struct lrcsi_sample_pool {
-    const lrcsi_known *known;
+    const lrcsi_decisions *decisions;
     const lrcsi_raster *raster;
     lrcsi_component_sum *sum; /* by component */
 } lrcsi_sample_pool;
@@ -29,7 +30,7 @@ typedef struct lrcsi_visible_fraction {
 size_t lrcsi_visible_fraction_need(const lrcs_prepared *prepared);
 
 /* Status: LRCS_OK; LRCS_E_MEMORY. What it takes stays in the work area. */
-int lrcsi_visible_fraction_make(const lrcsi_known *known, const lrcsi_raster *raster,
+int lrcsi_visible_fraction_make(const lrcsi_decisions *decisions, const lrcsi_raster *raster,
                                 lrcs_work *work, lrcsi_sample_pool *pool);
 
 /* Finds the visible fraction of an undecided facet. */

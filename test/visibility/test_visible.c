@@ -40,11 +40,11 @@ static lrcsi_view seen_from(int i)
 static int undecided_order; /* as the last raster found */
 
 static lrcsi_raster sampled(const lrcsi_view *view, lrcsi_classification *classification,
-                            lrcsi_known *known, lrcsi_visible *visible)
+                            lrcsi_decisions *known, lrcsi_visible *visible)
 {
     lrcsi_raster raster;
     assert_int_equal(lrcsi_classify_make(view, NULL, &work, classification), LRCS_OK);
-    assert_int_equal(lrcsi_visible_known(classification, &work, known), LRCS_OK);
+    assert_int_equal(lrcsi_decisions_make(classification, &work, known), LRCS_OK);
     size_t need = lrcsi_visible_need(view->prepared, N);
     assert_true(work.size - work.used >= need);
     memset(work.bytes + work.used, untouched, need);
@@ -65,7 +65,7 @@ static void active_tiles_hold_what_the_whole_picture_holds(void **state)
         crowd();
         lrcsi_view view = seen_from(i);
         lrcsi_classification classification;
-        lrcsi_known known;
+        lrcsi_decisions known;
         lrcsi_raster whole;
         lrcsi_raster raster = sampled(&view, &classification, &known, visible);
         assert_int_equal(lrcsi_raster_make(&view, N, &work, &whole), LRCS_OK);
@@ -111,7 +111,7 @@ static void tiles_about_undecided_facets_are_active(void **state)
         crowd();
         lrcsi_view view = seen_from(i);
         lrcsi_classification classification;
-        lrcsi_known known;
+        lrcsi_decisions known;
         lrcsi_raster raster = sampled(&view, &classification, &known, visible);
         for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
             lrcsi_edge_functions e = lrcsi_raster_edge_functions(&raster, f);
@@ -160,7 +160,7 @@ static void pixels_covered_by_visible_facets_show_these_in_every_part(void **sta
         crowd();
         lrcsi_view view = seen_from(i);
         lrcsi_classification classification;
-        lrcsi_known known;
+        lrcsi_decisions known;
         lrcsi_raster fine;
         lrcsi_raster raster = sampled(&view, &classification, &known, visible);
         assert_int_equal(lrcsi_raster_make(&view, N * FINE, &work, &fine), LRCS_OK);
@@ -185,7 +185,7 @@ static double check_bounds(const lrcsi_view *view, uint32_t size, unsigned *part
     static lrcsi_visible visible[SCENE_FACETS];
     static lrcsi_visible exact[SCENE_FACETS];
     lrcsi_classification classification;
-    lrcsi_known known;
+    lrcsi_decisions known;
     lrcsi_raster raster;
     double width = 0;
     double all = 0;
@@ -193,7 +193,7 @@ static double check_bounds(const lrcsi_view *view, uint32_t size, unsigned *part
     size_t mark = work.used;
     assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, exact, NULL), LRCS_OK);
     work.used = mark;
-    assert_int_equal(lrcsi_visible_known(&classification, &work, &known), LRCS_OK);
+    assert_int_equal(lrcsi_decisions_make(&classification, &work, &known), LRCS_OK);
     assert_int_equal(lrcsi_visible_sampled(&known, size, &work, &raster, visible, &undecided_order),
                      LRCS_OK);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
@@ -316,7 +316,7 @@ static void what_one_of_several_covers_is_hidden_in_mixed_pixels_too(void **stat
                    (const double[3]){3.75, 0, 4});
     lrcsi_view view = seen_from(0);
     lrcsi_classification classification;
-    lrcsi_known known;
+    lrcsi_decisions known;
     sampled(&view, &classification, &known, visible);
     assert_int_equal(known.answer[hidden], LRCSI_QUERY_UNDECIDED);
     assert_true(visible[hidden].high <= 0);
