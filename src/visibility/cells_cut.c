@@ -357,14 +357,6 @@ static void cut_segments(const lrcsi_division *d, const lrcsi_cell *cell,
     memmove(left->segment, of_left, left->segment_count * sizeof *of_left);
 }
 
-/* Is there room for the lists of both parts of a cell? */
-static int has_list_room(const lrcsi_division *d, const lrcsi_cell *cell)
-{
-    size_t facets = (size_t)(cell->facet - d->facet_lists) + 2 * (size_t)cell->facet_count;
-    size_t segments = (size_t)(cell->segment - d->segment_lists) + 2 * (size_t)cell->segment_count;
-    return facets <= d->facet_lists_room && segments <= d->segment_lists_room;
-}
-
 /* The line across the middle of a cell's box, at right angles to its longer side. */
 static void middle_line(const lrcsi_clip_sides *s, double line[3])
 {
@@ -391,8 +383,12 @@ static int cut_cell(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_
         strip.from = interval.from * along->length;
         strip.to = interval.to * along->length;
     }
+    /* Room for two cells, and behind the lists of those that wait for the lists of both: */
+    size_t facets = (size_t)(cell->facet - d->facet_lists) + 2 * (size_t)cell->facet_count;
+    size_t segments = (size_t)(cell->segment - d->segment_lists) + 2 * (size_t)cell->segment_count;
     if (cell->cuts >= LRCSI_CELL_MAX_CUTS || cell->shape.count + 2 > LRCSI_CLIP_MAX_SIDES ||
-        d->stack_count + 2 > LRCSI_CELL_STACK || !has_list_room(d, cell)) {
+        d->stack_count + 2 > LRCSI_CELL_STACK || facets > d->facet_lists_room ||
+        segments > d->segment_lists_room) {
         return 0;
     }
     lrcsi_cell *right = &d->stack[d->stack_count];

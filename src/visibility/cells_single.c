@@ -67,51 +67,47 @@ static void leave_area_undecided(lrcsi_cells_single *a, double area)
     a->perhaps_visible += 0.5 * area;
 }
 
-/* Makes the record of f, the first cell, and the error along the sides of f. 0 if rounding may have
-   reversed the triangle's orientation. */
-static int make_first_cell(lrcsi_cells_single *a, lrcsi_cell *cell)
+/* 1. Makes the frame of f. 2. Makes the record of f, the first cell, and the error along the sides
+   of f. 3. Lists what may hide f, unless rounding may have reversed the triangle's orientation. */
+void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
 {
     lrcsi_division *d = &a->division;
-    lrcsi_cells_facet *f = &a->shape;
     const lrcsi_target *frame = &a->frame;
+    lrcsi_cells_facet *f = &a->shape;
+    lrcsi_cell cell = {.cuts = 0};
+    a->facet = facet;
+    lrcsi_target_make(d->view, facet, &a->target);
+    lrcsi_target_refine(&a->target, &a->needle, &a->frame);
+
     double err = frame->needle ? frame->position_err + 8 * LRCSI_U : 20 * LRCSI_U * frame->reach;
-    *f = (lrcsi_cells_facet){.err = err, .line_err = err, .number = a->facet};
-    lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell->shape);
-    lrcsi_clip_box(&cell->shape, f->low, f->high);
-    d->extent = lrcsi_max3(lrcsi_max(-f->low[0], -f->low[1]), f->high[0], f->high[1]);
+    *f = (lrcsi_cells_facet){.err = err, .line_err = err, .number = facet};
+    lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell.shape);
+    lrcsi_clip_box(&cell.shape, f->low, f->high);
     for (int k = 0; k < 3; k++) {
         f->x[k] = frame->corner[k][0];
         f->y[k] = frame->corner[k][1];
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
-    a->border_area = frame->perimeter * (err + 16 * LRCSI_U * d->extent);
-    a->halved_area = MIN_HALVED * lrcsi_clip_area(&cell->shape);
-    cell->facet = d->facet_lists;
-    cell->facet[0] = 0;
-    cell->facet_count = 1;
-    d->facet_err = err;
-    return lrcsi_clip_area(&cell->shape) > 8 * err * frame->diameter;
-}
-
-void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
-{
-    lrcsi_division *d = &a->division;
-    lrcsi_cell cell = {.cuts = 0};
-    a->facet = facet;
-    a->perhaps_hidden = a->perhaps_visible = a->border_area = a->piece_err = 0;
-    a->hidden = 0;
     a->wanted = 1;
-    lrcsi_target_make(d->view, facet, &a->target);
-    lrcsi_target_refine(&a->target, &a->needle, &a->frame);
     a->area = (lrcsi_cell_area){.visible = 0};
-    a->moment = (lrcsi_moment){.error = 0};
-    d->facet = &a->shape;
+    d->facet = f;
     d->area = &a->area;
     d->wanted = &a->wanted;
+    d->facet_err = err;
+    d->extent = lrcsi_max3(lrcsi_max(-f->low[0], -f->low[1]), f->high[0], f->high[1]);
     d->segment_count = d->stack_count = 0;
-    if (!make_first_cell(a, &cell) || !lrcsi_cells_single_candidates(a) ||
-        !lrcsi_cells_single_segments(a)) {
-        leave_area_undecided(a, lrcsi_view_incidence(d->view, facet).projected / a->frame.unit);
+    cell.facet = d->facet_lists;
+    cell.facet[0] = 0;
+    cell.facet_count = 1;
+    a->moment = (lrcsi_moment){.error = 0};
+    a->perhaps_hidden = a->perhaps_visible = a->piece_err = 0;
+    a->hidden = 0;
+    a->border_area = frame->perimeter * (err + 16 * LRCSI_U * d->extent);
+    a->halved_area = MIN_HALVED * lrcsi_clip_area(&cell.shape);
+
+    if (!(lrcsi_clip_area(&cell.shape) > 8 * err * frame->diameter) ||
+        !lrcsi_cells_single_candidates(a) || !lrcsi_cells_single_segments(a)) {
+        leave_area_undecided(a, lrcsi_view_incidence(d->view, facet).projected / frame->unit);
         return;
     }
     lrcsi_division_start(d, &cell);

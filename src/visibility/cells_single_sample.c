@@ -19,28 +19,23 @@
    times as far away as its nearest corner and the reach of f together. */
 #define FAR_RATIO 64
 
-/* --- surface components ----------------------------------------------------------------------- */
-
-/* Does a component end at a segment, or meet f there? */
-static int component_ends(const lrcsi_cells_single *a, const lrcsi_cells_segment *e,
-                          uint32_t component)
-{
-    const lrcsi_marks of_component = {a->classification->component, component};
-    return e->contact ? lrcsi_marked(&of_component, e->owner[1])
-                      : lrcsi_cells_segment_marked(&a->division.view->prepared->topology, e,
-                                                   &of_component);
-}
-
 uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cell *cell,
                                    const double at[2], uint32_t component,
                                    const lrcsi_cells_segment **best)
 {
+    const lrcsi_topology *topology = &a->division.view->prepared->topology;
+    const lrcsi_marks of_component = {a->classification->component, component};
     uint32_t count = 0;
     double nearest = HUGE_VAL;
     *best = NULL;
     for (uint32_t i = 0; i < cell->segment_count; i++) {
         const lrcsi_cells_segment *e = &a->division.segment[cell->segment[i]];
-        if (component == LRCS_NONE || component_ends(a, e, component)) {
+        int matters = component == LRCS_NONE;
+        if (!matters) {
+            matters = e->contact ? lrcsi_marked(&of_component, e->owner[1])
+                                 : lrcsi_cells_segment_marked(topology, e, &of_component);
+        }
+        if (matters) {
             double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
             count++;
             *best = far < nearest ? e : *best;

@@ -32,7 +32,8 @@ int lrcsi_cells_single_find_sample(lrcsi_cells_single *a, const lrcsi_cell *cell
                                    int *guess);
 
 /* Chooses, of a cell's segments, the one whose line passes nearest to a point, so that both parts
-   are of similar size. Given a component (or LRCS_NONE), only segments at which it ends count.
+   are of similar size. Given a component (or LRCS_NONE), only segments at which it ends
+   or meets f count.
    Returns how many there are to choose from. */
 uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cell *cell,
                                    const double at[2], uint32_t component,
