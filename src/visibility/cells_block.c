@@ -24,7 +24,7 @@ static uint64_t max_entries(const lrcs_prepared *p)
     return ENTRIES_CONSTANT + (uint64_t)ENTRIES_PER_FACET * p->scene->facet_count;
 }
 
-/* Blocks are squares with BLOCK cells of the classification's grid along a side; twice or four
+/* Blocks are squares with BLOCK buckets of the classification's grid along a side; twice or four
    times as many, and so on, if their lists would otherwise be too long. They fill the whole view
    or, if that would take too many blocks, the window of the scene's bulk. Border blocks around
    them hold what is outside. */
@@ -36,15 +36,15 @@ static size_t max_blocks(const lrcs_prepared *p)
     return 2 * (size_t)p->scene->facet_count + 64;
 }
 
-static void blocks_place(lrcsi_block_grid *g, uint32_t cells)
+static void blocks_place(lrcsi_block_grid *g, uint32_t buckets)
 {
     const lrcsi_grid *grid = &g->classification->search.grid;
     const lrcsi_view *view = g->classification->view;
-    double cell = grid->scale > 0 ? 1 / (grid->scale * view->scale) : 1;
-    double window = grid->size * cell;
-    double across = ceil(view->side / (BLOCK * cell)) + 2;
+    double bucket = grid->buckets_per_unit > 0 ? 1 / (grid->buckets_per_unit * view->scale) : 1;
+    double window = grid->size * bucket;
+    double across = ceil(view->side / (BLOCK * bucket)) + 2;
     int whole = view->side > window && across * across <= (double)max_blocks(view->prepared);
-    g->block_side = cells * cell;
+    g->block_side = buckets * bucket;
     g->size = (uint32_t)ceil((whole ? view->side : window) / g->block_side) + 2;
     for (int k = 0; k < 2; k++) {
         g->low[k] = whole ? view->low[k] : grid->low[k] / view->scale;
@@ -202,8 +202,8 @@ int lrcsi_block_grid_make(const lrcsi_classification *classification, const unsi
     size_t mark = work->used;
     int made = 0;
     *g = (lrcsi_block_grid){.classification = classification, .answer = answer};
-    for (uint32_t cells = BLOCK; !made; cells *= 2) {
-        blocks_place(g, cells);
+    for (uint32_t buckets = BLOCK; !made; buckets *= 2) {
+        blocks_place(g, buckets);
         made = blocks_make(g, &g->facets, 0, work) && blocks_make(g, &g->events, 1, work);
         work->used = made ? work->used : mark;
         if (!made && g->size <= 3) {

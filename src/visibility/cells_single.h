@@ -11,7 +11,7 @@
 size_t lrcsi_cells_single_need(const lrcs_prepared *prepared);
 
 /* Makes the data for all facets of a view; they stay in the work area. Given: a grid of facets
-   whose lists are complete in the cells of every facet that will be opened. Status: LRCS_OK;
+   whose lists are complete in the buckets of every facet that will be opened. Status: LRCS_OK;
    LRCS_E_MEMORY. */
 int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *meter,
                             const lrcsi_grid *grid, lrcs_work *work, lrcsi_cells_single *a);

@@ -57,7 +57,7 @@ int lrcsi_cells_single_candidates(lrcsi_cells_single *a)
     const lrcsi_grid *grid = &a->grid;
     lrcsi_division *d = &a->division;
     lrcsi_view_box box = *lrcsi_boxes_facet(&grid->boxes, a->facet);
-    lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
+    lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
     const uint32_t *corner = d->view->prepared->scene->facet[a->facet].corner;
     lrcsi_view_side side[3];
     for (int k = 0; k < 3; k++) {
@@ -68,7 +68,7 @@ int lrcsi_cells_single_candidates(lrcsi_cells_single *a)
     a->listed.entry[a->facet] = a->listed.number;
     a->order[a->facet] = LRCSI_ORDER_DISJOINT;
     lrcsi_grid_items items;
-    while (lrcsi_grid_next_row(grid, &cells, &items)) {
+    while (lrcsi_grid_next_row(grid, &buckets, &items)) {
         if (!lrcsi_meter_take(d->meter, items.to - items.from)) {
             return 0;
         }

@@ -48,7 +48,7 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *w
                         lrcsi_classification *classification);
 
 /* Finds regions of uniform facets: region[f] is the first facet of that of facet f; there are
-   lrcsi_runs_room entries. */
+   lrcsi_meshlets_room entries. */
 void lrcsi_classify_regions(const lrcsi_classification *classification, uint32_t *region);
 
 /* Can the other facet of a contact hide a part of the facet? */

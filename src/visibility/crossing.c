@@ -18,8 +18,8 @@
    undecided, which is never wrong. */
 #define MAX_LISTED 4096u
 #define MAX_TESTED 512u
-/* If a facet is in at least so many rows and columns of the grid, each row is limited to the cells
-   between its sides: long facets across the grid meet few of the cells of their boxes. */
+/* If a facet is in at least so many rows and columns of the grid, each row is limited to the
+   buckets between its sides: long facets across the grid meet few of the buckets of their boxes. */
 #define MIN_ROWS 3
 
 /* --- one event edge --------------------------------------------------------------------------- */
@@ -171,9 +171,9 @@ typedef struct crossing_query {
     int limit_reached;  /* found: nothing more could have been examined */
 } crossing_query;
 
-/* Searches the cells of the grid that the facet may meet. Finds fewer crossings if a limit is
+/* Searches the buckets of the grid that the facet may meet. Finds fewer crossings if a limit is
    reached or the meter is spent. An event whose box is beside the facet's box does not cross the
-   facet. A cell lists events in the order of their nearest points: after the first one that lies
+   facet. A bucket lists events in the order of their nearest points: after the first one that lies
    behind all of the facet, no other is nearer than the facet. Steps are counted in a register and
    charged at the end. */
 static void crossings_search(lrcsi_event_search *search, crossing_query *query, lrcsi_meter *meter)
@@ -184,7 +184,7 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     const uint32_t facet = query->facet;
     const uint32_t component = query->component;
     const lrcsi_view_box box = *lrcsi_boxes_facet(&search->boxes, facet);
-    const lrcsi_grid_rect all = lrcsi_grid_cells(grid, &box);
+    const lrcsi_grid_rect all = lrcsi_grid_buckets(grid, &box);
     const int slanted = all.x1 - all.x0 >= MIN_ROWS && all.y1 - all.y0 >= MIN_ROWS;
     const uint32_t limit = query->is_limited ? MAX_LISTED : LRCS_NONE;
     const uint64_t metered = meter ? (meter->spent ? 0 : meter->limit - meter->taken) : limit;
@@ -195,7 +195,7 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     uint32_t count = 0;
     int more = 0; /* an event was not examined because a limit was reached */
     lrcsi_view_segment side[3];
-    if (slanted) { /* rows are limited to the cells between the sides */
+    if (slanted) { /* rows are limited to the buckets between the sides */
         lrcsi_grid_sides(grid, view->prepared->scene->facet[facet].corner, 3, 0, side);
     }
     for (uint32_t y = all.y0; y < all.y1 && !more; y++) {
@@ -251,7 +251,7 @@ int lrcsi_crossings_possible(lrcsi_event_search *search, uint32_t facet, lrcsi_m
     const lrcsi_grid *grid = &search->grid;
     crossing_query query = {.facet = facet, .component = LRCS_NONE, .most = 1, .is_limited = 1};
     if (lrcsi_grid_has_items(grid,
-                             lrcsi_grid_cells(grid, lrcsi_boxes_facet(&search->boxes, facet)))) {
+                             lrcsi_grid_buckets(grid, lrcsi_boxes_facet(&search->boxes, facet)))) {
         crossings_search(search, &query, meter);
     }
     *along_side = query.along_side;

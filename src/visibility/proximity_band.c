@@ -487,7 +487,7 @@ static void add_events(band_job *job, uint32_t facet, edge_search *search)
 {
     const lrcsi_grid *grid = &job->grid;
     lrcsi_view_box box = lrcsi_view_box_round(job->view, search->low, search->high);
-    lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
+    lrcsi_grid_rect cells = lrcsi_grid_buckets(grid, &box);
     int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
         lrcsi_grid_rect row = several ? lrcsi_grid_row(grid, search->side, 3, y) : cells;

@@ -373,16 +373,16 @@ static void fill_facet(const lrcsi_raster *r, uint32_t facet)
     }
 }
 
-/* The same for all such facets of a run; most runs reach no active tile. */
-static void fill_run(const lrcsi_raster *r, uint32_t run, const unsigned char *answer)
+/* The same for all such facets of a meshlet; most meshlets reach no active tile. */
+static void fill_meshlet(const lrcsi_raster *r, uint32_t meshlet, const unsigned char *answer)
 {
     const lrcs_prepared *p = r->view->prepared;
-    const uint32_t end = lrcsi_run_end(run * LRCSI_RUN, p->scene->facet_count);
+    const uint32_t end = lrcsi_meshlet_end(meshlet * LRCSI_MESHLET_FACETS, p->scene->facet_count);
     double low[3];
     double high[3];
-    lrcsi_boxes_run_bounds(r->view, &p->runs.run[run], low, high);
+    lrcsi_boxes_meshlet_bounds(r->view, &p->meshlets.meshlet[meshlet], low, high);
     if (bounds_drawn(r, low, high)) {
-        for (uint32_t f = run * LRCSI_RUN; f < end; f++) {
+        for (uint32_t f = meshlet * LRCSI_MESHLET_FACETS; f < end; f++) {
             if (answer[f] == LRCSI_QUERY_VISIBLE) {
                 fill_facet(r, f);
             }
@@ -464,8 +464,8 @@ static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned cha
         activate_tiles(&r, f);
     }
     clear_tiles(&r);
-    for (uint32_t run = 0; answer && run < view->prepared->runs.count; run++) {
-        fill_run(&r, run, answer);
+    for (uint32_t meshlet = 0; answer && meshlet < view->prepared->meshlets.count; meshlet++) {
+        fill_meshlet(&r, meshlet, answer);
     }
     uint32_t others = count; /* facets that may not be ordinary */
     for (int ordinary = 1; ordinary >= 0 && others > 0; ordinary--) {

@@ -68,7 +68,7 @@ static int lists(const lrcsi_grid *grid, const double at[2], uint32_t item)
 {
     uint32_t in[2];
     for (int k = 0; k < 2; k++) {
-        double cell = ((float)(at[k] * grid->view->scale) - grid->low[k]) * grid->scale;
+        double cell = ((float)(at[k] * grid->view->scale) - grid->low[k]) * grid->buckets_per_unit;
         in[k] = (uint32_t)fmin(fmax(cell, 0), grid->size - 1);
     }
     uint32_t cell = in[1] * grid->size + in[0];
@@ -109,7 +109,7 @@ static uint32_t check_grids(void)
                                        NULL, &work, &facets),
                      LRCS_OK);
     const lrcs_prepared *p = view.prepared;
-    assert_true(listed(&facets) <= LRCSI_GRID_FACET_CELLS * p->scene->facet_count);
+    assert_true(listed(&facets) <= LRCSI_GRID_FACET_BUCKETS * p->scene->facet_count);
     assert_true(listed(&classification.search.grid) <= 8 * p->topology.edge_count);
     double at[2];
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -183,8 +183,8 @@ static void edges_are_listed_no_more_often_than_asked_for(void **state)
     assert_int_equal(before, 64);
 }
 
-/* The box of a run holds the corners of its facets, from every direction. */
-static void boxes_of_runs_hold_their_facets(void **state)
+/* The box of a meshlet holds the corners of its facets, from every direction. */
+static void boxes_of_meshlets_hold_their_facets(void **state)
 {
     (void)state;
     lrcs_work work;
@@ -201,14 +201,14 @@ static void boxes_of_runs_hold_their_facets(void **state)
         memset(cast, 1, sizeof cast);
         assert_int_equal(lrcsi_boxes_make(&view, cast, &work, &boxes), LRCS_OK);
         for (uint32_t f = 0; f < 100; f++) {
-            uint32_t run = f / LRCSI_RUN;
-            assert_true(boxes.state[run] != LRCSI_BOXES_NONE);
-            lrcsi_boxes_open(&boxes, run);
-            assert_int_equal(boxes.state[run], LRCSI_BOXES_FACETS);
+            uint32_t meshlet = f / LRCSI_MESHLET_FACETS;
+            assert_true(boxes.state[meshlet] != LRCSI_BOXES_NONE);
+            lrcsi_boxes_open(&boxes, meshlet);
+            assert_int_equal(boxes.state[meshlet], LRCSI_BOXES_FACETS);
             for (int k = 0; k < 9; k++) {
                 double at = view.scale * view.point[scene.scene.facet[f].corner[k / 3]].x[k % 3];
-                assert_true(boxes.run[run].low[k % 3] <= (float)at);
-                assert_true(boxes.run[run].high[k % 3] >= (float)at);
+                assert_true(boxes.meshlet[meshlet].low[k % 3] <= (float)at);
+                assert_true(boxes.meshlet[meshlet].high[k % 3] >= (float)at);
             }
         }
     }
@@ -228,17 +228,17 @@ static void grids_are_made_coarser_for_large_facets(void **state)
     lrcsi_grid grid = lrcsi_grid_empty(&view, 64 * 64);
     assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 0);
     assert_int_equal(grid.size, 64); /* no facet's box is made */
-    for (uint32_t r = 0; r < view.prepared->runs.count; r++) {
+    for (uint32_t r = 0; r < view.prepared->meshlets.count; r++) {
         lrcsi_boxes_open(&boxes, r);
     }
     assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 1);
     assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 0);
     uint32_t cells = 0;
     for (uint32_t f = 0; f < 40; f++) {
-        lrcsi_grid_rect at = lrcsi_grid_cells(&grid, lrcsi_boxes_facet(&boxes, f));
+        lrcsi_grid_rect at = lrcsi_grid_buckets(&grid, lrcsi_boxes_facet(&boxes, f));
         cells += (uint32_t)(at.x1 - at.x0) * (uint32_t)(at.y1 - at.y0);
     }
-    assert_true(grid.size < 64 && cells <= LRCSI_GRID_FACET_CELLS * 40);
+    assert_true(grid.size < 64 && cells <= LRCSI_GRID_FACET_BUCKETS * 40);
 }
 
 /* In so many bytes, and unharmed where they are too few. */
@@ -259,7 +259,7 @@ static void grids_of_facets_fit_into_what_they_ask_for(void **state)
     (void)state;
     static unsigned char all[512];
     static uint32_t region[512];
-    static signed char joinable[512 + LRCSI_RUN];
+    static signed char joinable[512 + LRCSI_MESHLET_FACETS];
     memset(all, 1, sizeof all);
     const lrcsi_grid_readers readers = {all, region, joinable};
     for (uint32_t count = 1; count <= 512; count = 3 * count / 2 + 1) {
@@ -306,7 +306,7 @@ int main(void)
         cmocka_unit_test(what_stands_in_a_cell_is_listed_there_and_not_too_often),
         cmocka_unit_test(cells_of_small_facets_are_as_many_as_those),
         cmocka_unit_test(edges_are_listed_no_more_often_than_asked_for),
-        cmocka_unit_test(boxes_of_runs_hold_their_facets),
+        cmocka_unit_test(boxes_of_meshlets_hold_their_facets),
         cmocka_unit_test(grids_are_made_coarser_for_large_facets),
         cmocka_unit_test(grids_of_facets_fit_into_what_they_ask_for),
         cmocka_unit_test(classifications_fit_into_what_they_ask_for),
