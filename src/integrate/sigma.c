@@ -63,7 +63,7 @@ static int moments_wanted(const lrcs_prepared *prepared)
 size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
 {
     size_t facets = prepared->scene->facet_count;
-    size_t areas = lrcsi_work_bytes(facets, sizeof(lrcsi_visible));
+    size_t areas = lrcsi_work_bytes(facets, sizeof(lrcsi_visible_area));
     size_t errors =
         options->part_error_m2 ? lrcsi_work_bytes(prepared->scene->part_count, sizeof(double)) : 0;
     size_t curved =
@@ -89,7 +89,7 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
     size_t exact = lrcsi_occlude_need(prepared);
     size_t raster =
-        lrcsi_work_add(lrcsi_decisions_need(prepared), lrcsi_visible_need(prepared, size));
+        lrcsi_work_add(lrcsi_decisions_need(prepared), lrcsi_visible_areas_need(prepared, size));
     raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
     if (options->accept != LRCS_ACCEPT_BOUND) {
         size_t preview = lrcsi_preview_need(prepared, size);
@@ -185,8 +185,8 @@ static void run_unshadowed(lrcsi_sigma *run)
     for (uint32_t f = 0; run->curved && f < view->prepared->scene->facet_count; f++) {
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
         run->visible[f] = lrcsi_view_casts(view, f)
-                              ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
-                              : lrcsi_visible_exactly(0);
+                              ? lrcsi_visible_area_unshadowed(&incidence, run->plan.grazing_cos)
+                              : lrcsi_visible_area_exact(0);
     }
     if (run->curved) {
         lrcsi_curve_options options = run_curve_options(run, &run->meter);
@@ -214,11 +214,12 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
     const lrcsi_view *view = &run->view;
     const lrcs_prepared *p = view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        lrcsi_visible *visible = &run->visible[f];
+        lrcsi_visible_area *visible = &run->visible[f];
         int front = view->facing[f] > 0;
         if (front && run->plan.fronts_visible) {
             lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-            lrcsi_visible known = lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos);
+            lrcsi_visible_area known =
+                lrcsi_visible_area_unshadowed(&incidence, run->plan.grazing_cos);
             if (run->plan.shadows_forced) {
                 known.area = visible->area;
                 known.low = lrcsi_min(known.low, visible->low);
@@ -227,10 +228,10 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
             }
             *visible = known;
         }
-        *visible = lrcsi_visible_proved(view, f, *visible);
+        *visible = lrcsi_visible_area_proved(view, f, *visible);
         if (front && run->clear.count > 0 && run->clear.part[p->scene->facet_part[f]]) {
             double projected = lrcsi_view_projected(view, f);
-            *visible = lrcsi_visible_exactly(projected);
+            *visible = lrcsi_visible_area_exact(projected);
         }
     }
 }
@@ -322,9 +323,9 @@ static int run_raster(lrcsi_sigma *run, const lrcsi_decisions *known, uint32_t s
     run->answer = NULL;
     run->moment = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
-        status =
-            known ? lrcsi_visible_sampled(known, size, run->work, &raster, run->visible, &undecided)
-                  : lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
+        status = known ? lrcsi_visible_areas_from_samples(known, size, run->work, &raster,
+                                                          run->visible, &undecided)
+                       : lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
         outcome->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         outcome->size = size;
     }

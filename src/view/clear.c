@@ -29,7 +29,7 @@ static int is_separating(const lrcsi_body *P, const lrcsi_body *Q, const double 
     lrcsi_gap gap = lrcsi_gap_make(P, Q, d, n, 0);
     *slab = gap.separates ? 0 : lrcsi_body_slab(P, gap.height);
     return gap.separates ||
-           (has_slab && gap.contact && lrcsi_body_support(P, n) - gap.low > 4 * gap.height);
+           (has_slab && gap.is_zero && lrcsi_body_support(P, n) - gap.low > 4 * gap.height);
 }
 
 /* Tries planes across n and -n, unless these face away from the laser; n need not have length 1. */
@@ -103,11 +103,11 @@ size_t lrcsi_clear_need(const lrcs_prepared *p)
                                          lrcsi_work_bytes(parts, sizeof(lrcsi_body))));
 }
 
-int lrcsi_clear_make(const lrcsi_view *view, lrcs_work *work, lrcsi_clear *clear)
+int lrcsi_clear_make(const lrcsi_view *view, lrcs_work *work, lrcsi_clear_shapes *clear)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t parts = p->scene->part_count;
-    *clear = (lrcsi_clear){NULL, NULL, 0, 0};
+    *clear = (lrcsi_clear_shapes){NULL, NULL, 0, 0};
     if (!p->extent) {
         return LRCS_OK;
     }

@@ -372,7 +372,7 @@ static void moment_report(const lrcsi_view *view, lrcsi_moment *moment, uint32_t
 /* Reports the areas that are accurate enough and not found yet. Returns the number of facets that
    the cells decided, but less accurately. */
 static uint32_t areas_report(const cells_job *job, int as_single, unsigned char *found,
-                             lrcsi_visible *visible)
+                             lrcsi_visible_area *visible)
 {
     const lrcsi_division *d = &job->blocks.division;
     uint32_t left = 0;
@@ -389,8 +389,8 @@ static uint32_t areas_report(const cells_job *job, int as_single, unsigned char 
         double err = a->uncertainty;
         err += some_visible && some_hidden ? a->visible_err + 64 * LRCSI_U * a->visible : 0;
         if (err <= ACCURACY_OF_FACET * whole || err <= facet_accuracy(d, f, whole, as_single)) {
-            visible[f] =
-                (lrcsi_visible){area, lrcsi_max(0, area - err), lrcsi_min(whole, area + err), 0, 0};
+            visible[f] = (lrcsi_visible_area){area, lrcsi_max(0, area - err),
+                                              lrcsi_min(whole, area + err), 0, 0};
             found[f] = 1;
             if (job->moment) {
                 moment_report(d->view, &job->moment[f], f, some_visible && some_hidden, err);
@@ -471,7 +471,7 @@ static int cells_allocate(const lrcsi_classification *classification, const unsi
 
 void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *meter,
                        lrcs_work *work, const unsigned char *answer, const unsigned char *wanted,
-                       unsigned char *found, lrcsi_visible *visible, lrcsi_moment *moment)
+                       unsigned char *found, lrcsi_visible_area *visible, lrcsi_moment *moment)
 {
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;

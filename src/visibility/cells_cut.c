@@ -208,10 +208,10 @@ static void charge_cut(lrcsi_division *d, uint32_t index, double low, double hig
     d->area[index].uncertainty += lrcsi_max(0, wide) * lrcsi_max(0, length);
 }
 
-double lrcsi_cells_thin_uncertainty(const lrcsi_cell *cell, const lrcsi_clip_sides *s, double clear,
-                                    uint32_t segments, double line_err)
+double lrcsi_cells_thin_uncertainty(const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                                    double border_distance, uint32_t segments, double line_err)
 {
-    if (!(clear < MAX_THIN * s->perimeter)) {
+    if (!(border_distance < MAX_THIN * s->perimeter)) {
         return 0;
     }
     double strips =

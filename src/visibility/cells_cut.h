@@ -25,9 +25,9 @@ void lrcsi_cells_charge_border(lrcsi_division *d, lrcsi_cell *cell, const lrcsi_
 
 /* The undecided area in a thin cell, to be charged to every facet in it: that of the strips of so
    many segments along the whole cell, whose lines have errors of at most line_err. 0 if the cell is
-   not thin. Given: clear, the distance of the sample from the border. */
-double lrcsi_cells_thin_uncertainty(const lrcsi_cell *cell, const lrcsi_clip_sides *s, double clear,
-                                    uint32_t segments, double line_err);
+   not thin. Given: the distance of the sample from the border. */
+double lrcsi_cells_thin_uncertainty(const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                                    double border_distance, uint32_t segments, double line_err);
 
 /* Charges the whole area of a cell that has no room for a sample, if it is narrow. 0 if not. */
 int lrcsi_cells_charge_all(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_sides *s);

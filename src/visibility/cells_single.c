@@ -220,7 +220,7 @@ static void moment_close(lrcsi_cells_single *a, double err)
     }
 }
 
-lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
+lrcsi_visible_area lrcsi_cells_single_close(lrcsi_cells_single *a)
 {
     const lrcsi_cell_area *found = &a->area;
     lrcsi_incidence incidence = lrcsi_view_incidence(a->division.view, a->facet);
@@ -233,8 +233,8 @@ lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
                       : whole;
     err += a->frame.needle ? incidence.error * whole : 0;
     moment_close(a, err);
-    return (lrcsi_visible){seen, lrcsi_max(0, seen - unit * a->perhaps_visible - err),
-                           lrcsi_min(whole, seen + unit * a->perhaps_hidden + err), 0, 0};
+    return (lrcsi_visible_area){seen, lrcsi_max(0, seen - unit * a->perhaps_visible - err),
+                                lrcsi_min(whole, seen + unit * a->perhaps_hidden + err), 0, 0};
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */

@@ -22,6 +22,6 @@ int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *m
    a->moment; that of a needle is not known. */
 void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet);
 int lrcsi_cells_single_next(lrcsi_cells_single *a);
-lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a);
+lrcsi_visible_area lrcsi_cells_single_close(lrcsi_cells_single *a);
 
 #endif

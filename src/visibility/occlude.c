@@ -19,19 +19,19 @@
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-static lrcsi_visible uniform_area(const lrcsi_occlusion *o, uint32_t facet)
+static lrcsi_visible_area uniform_area(const lrcsi_occlusion *o, uint32_t facet)
 {
     double whole = lrcsi_view_incidence(o->classification->view, facet).projected;
     int answer = o->answer[facet];
     double low = answer == LRCSI_QUERY_VISIBLE ? whole : 0;
     double high = answer == LRCSI_QUERY_HIDDEN ? 0 : whole;
-    return (lrcsi_visible){0.5 * (low + high), low, high, 0, 0};
+    return (lrcsi_visible_area){0.5 * (low + high), low, high, 0, 0};
 }
 
 void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
 {
     lrcsi_classification *classification = o->classification;
-    o->area = lrcsi_visible_exactly(0);
+    o->area = lrcsi_visible_area_exact(0);
     o->single.facet = o->single.target.facet = facet;
     o->undecided = o->whole = 0;
     if (!lrcsi_view_casts(classification->view, facet)) {
@@ -58,12 +58,12 @@ int lrcsi_occlude_next(lrcsi_occlusion *o)
     return 1;
 }
 
-lrcsi_visible lrcsi_occlude_close(lrcsi_occlusion *o)
+lrcsi_visible_area lrcsi_occlude_close(lrcsi_occlusion *o)
 {
     return o->undecided ? lrcsi_cells_single_close(&o->single) : o->area;
 }
 
-lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o)
+lrcsi_visible_area lrcsi_occlude_area(lrcsi_occlusion *o)
 {
     while (o->undecided && lrcsi_cells_single_next(&o->single)) {
     }
@@ -118,7 +118,8 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
    those of which no area was found. 4. Returns the answers, moved to the beginning of the work area
    used here, or the areas of all facets. */
 int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                      const unsigned char **answer, lrcsi_visible *visible, lrcsi_moment *moment)
+                      const unsigned char **answer, lrcsi_visible_area *visible,
+                      lrcsi_moment *moment)
 {
     const lrcsi_view *view = classification->view;
     const lrcs_prepared *p = view->prepared;
@@ -169,7 +170,7 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
     if (status == LRCS_OK && answer) {
         *answer = memmove(lrcsi_work_take(work, count, 1), o.answer, count);
     } else if (status == LRCS_OK) {
-        lrcsi_visible_answered(view, o.answer, visible);
+        lrcsi_visible_areas_from_answers(view, o.answer, visible);
     }
     return status;
 }

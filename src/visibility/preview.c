@@ -258,14 +258,15 @@ static preview_bias bias_of_small_facets(const preview_job *job)
     return bias;
 }
 
-static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const preview_bias *bias)
+static lrcsi_visible_area preview_area(const preview_job *job, uint32_t facet,
+                                       const preview_bias *bias)
 {
     const preview_counts *c = &job->counts[facet];
     double area = lrcsi_view_projected(job->view, facet);
     double pixel = job->raster.pixel * job->raster.pixel;
     uint32_t covered = job->raster.covered[facet];
     uint32_t owned = job->raster.owned[facet];
-    lrcsi_visible v = {0, 0, area, 0, 0};
+    lrcsi_visible_area v = {0, 0, area, 0, 0};
     v.area = area * (double)c->fraction;
     if (covered < FEW_SAMPLES && c->fraction > 0 && lrcsi_view_reflects(job->view, facet)) {
         v.bias = bias->remaining * v.area;
@@ -292,7 +293,7 @@ size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size)
 }
 
 int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
-                       lrcsi_visible *visible, int *undecided)
+                       lrcsi_visible_area *visible, int *undecided)
 {
     const uint32_t facets = view->prepared->scene->facet_count;
     const size_t mark = work->used;
@@ -313,7 +314,7 @@ int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
     *undecided = 0;
     for (uint32_t f = 0; f < facets; f++) {
         visible[f] =
-            lrcsi_view_casts(view, f) ? preview_area(&job, f, &bias) : lrcsi_visible_exactly(0);
+            lrcsi_view_casts(view, f) ? preview_area(&job, f, &bias) : lrcsi_visible_area_exact(0);
         *undecided |= job.raster.undecided[f];
     }
     work->used = mark;

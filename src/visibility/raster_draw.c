@@ -111,9 +111,9 @@ static int bounds_drawn(const lrcsi_raster *r, const double low[3], const double
     uint32_t from[2];
     uint32_t to[2];
     for (int k = 0; k < 2; k++) {
-        lrcsi_raster_centres(r, (low[k] - r->view->low[k]) * r->scale,
-                             (high[k] - r->view->low[k]) * r->scale, r->sample_err, &from[k],
-                             &to[k]);
+        lrcsi_raster_centres(r, (low[k] - r->view->low[k]) * r->pixels_per_unit,
+                             (high[k] - r->view->low[k]) * r->pixels_per_unit, r->sample_err,
+                             &from[k], &to[k]);
         if (from[k] >= to[k]) {
             return 0; /* as for most small facets */
         }

@@ -192,7 +192,8 @@ static lrcsi_sampling_error partial_error(const sampled_facet *f, const lrcsi_cr
 /* The projected area of a facet, in square pixels. */
 static double area_in_pixels(const lrcsi_raster *raster, uint32_t facet)
 {
-    return lrcsi_view_projected(raster->view, facet) * raster->scale * raster->scale;
+    return lrcsi_view_projected(raster->view, facet) * raster->pixels_per_unit *
+           raster->pixels_per_unit;
 }
 
 /* The area of the facets that may hide a part of a facet that owns all of its samples: the facets

@@ -13,9 +13,9 @@
    The areas of facets in such pixels are lower bounds of what is visible and of what is hidden.
    Between the bounds of a facet, its samples decide (visibility/visible_fraction.h).
 
-   The driver is lrcsi_visible_sampled:
+   The driver is lrcsi_visible_areas_from_samples:
    1. lrcsi_raster_make_undecided: the samples of the tiles that undecided facets touch.
-   2. lrcsi_visible_answered: the areas of facets that queries decided.
+   2. lrcsi_visible_areas_from_answers: the areas of facets that queries decided.
    3. For each undecided facet: facet_pixels finds its mixed pixels, decides the others, and adds up
       their areas; sampled_area finds the area within the bounds, and its estimated error.
    4. lrcsi_visible_fraction_correct: area that the bounds cut off goes to other facets of the
@@ -35,13 +35,13 @@
 
 /* --- what queries decide ---------------------------------------------------------------------- */
 
-void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
-                            lrcsi_visible *visible)
+void lrcsi_visible_areas_from_answers(const lrcsi_view *view, const unsigned char *answer,
+                                      lrcsi_visible_area *visible)
 {
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (answer[f] != LRCSI_QUERY_UNDECIDED) {
             double area = answer[f] == LRCSI_QUERY_VISIBLE ? lrcsi_view_projected(view, f) : 0;
-            visible[f] = lrcsi_visible_exactly(area);
+            visible[f] = lrcsi_visible_area_exact(area);
         }
     }
 }
@@ -333,7 +333,7 @@ static pixel_sums facet_pixels(const visible_job *job, uint32_t facet,
 /* The area of an undecided facet, its bounds and its estimated error. The area of a pixel is
    side^2 / N^2 within a few roundings, for which 1e-12 of it is subtracted. */
 static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, uint32_t facet,
-                         const lrcsi_crossings *crossings, lrcsi_visible *v)
+                         const lrcsi_crossings *crossings, lrcsi_visible_area *v)
 {
     const lrcsi_raster *raster = pool->raster;
     const double area = lrcsi_view_projected(raster->view, facet);
@@ -354,7 +354,7 @@ static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, 
     v->bias = lrcsi_min(gap, lrcsi_max(-gap, error.bias * pixel));
 }
 
-size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
+size_t lrcsi_visible_areas_need(const lrcs_prepared *prepared, uint32_t size)
 {
     size_t need = lrcsi_work_bytes(lrcsi_work_square(size), 1);
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(visible_row)));
@@ -363,8 +363,9 @@ size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 }
 
 /* If the depth order of a facet could not be decided, its sums are 0, and nothing is certain. */
-int lrcsi_visible_sampled(const lrcsi_decisions *decisions, uint32_t size, lrcs_work *work,
-                          lrcsi_raster *raster, lrcsi_visible *visible, int *undecided)
+int lrcsi_visible_areas_from_samples(const lrcsi_decisions *decisions, uint32_t size,
+                                     lrcs_work *work, lrcsi_raster *raster,
+                                     lrcsi_visible_area *visible, int *undecided)
 {
     const lrcsi_classification *classification = decisions->classification;
     const lrcsi_view *view = classification->view;
@@ -385,13 +386,13 @@ int lrcsi_visible_sampled(const lrcsi_decisions *decisions, uint32_t size, lrcs_
         work->used = mark;
         return status;
     }
-    lrcsi_visible_answered(view, decisions->answer, visible);
+    lrcsi_visible_areas_from_answers(view, decisions->answer, visible);
     *undecided = memchr(raster->undecided, 1, count) != NULL;
     for (uint32_t f = 0;
          (f = lrcsi_marks_next(decisions->answer, f, count, LRCSI_QUERY_UNDECIDED)) < count; f++) {
         if (!classification->undecided[f]) { /* uniform, but its query gave no answer */
             double area = lrcsi_view_projected(view, f);
-            visible[f] = (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
+            visible[f] = (lrcsi_visible_area){0.5 * area, 0, area, 0.5 * area, 0};
             *undecided = 1;
             continue;
         }

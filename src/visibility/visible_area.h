@@ -5,17 +5,17 @@
 
 /* Projected areas in scaled units. Except for rounding, 0 <= low <= area <= high <= the facet's
    projected area. The true area is between low and high. */
-typedef struct lrcsi_visible {
+typedef struct lrcsi_visible_area {
     double area, low, high;
     double error_estimate; /* estimated error of an area from samples; else 0 */
     double bias; /* the part of that error that has a sign: positive if the area is too large */
-} lrcsi_visible;
+} lrcsi_visible_area;
 
 /* An area without uncertainty: that of a facet known to be entirely visible; or 0, if it is hidden.
  */
-static inline lrcsi_visible lrcsi_visible_exactly(double area)
+static inline lrcsi_visible_area lrcsi_visible_area_exact(double area)
 {
-    return (lrcsi_visible){.area = area, .low = area, .high = area};
+    return (lrcsi_visible_area){.area = area, .low = area, .high = area};
 }
 
 /* The first moment of a facet's visible region: the integral of x - c over its projection, c the

@@ -166,7 +166,7 @@ lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sample_pool *poo
 }
 
 void lrcsi_visible_fraction_apply(const lrcsi_sample_pool *pool, uint32_t facet, double area,
-                                  const lrcsi_visible_fraction *found, lrcsi_visible *visible)
+                                  const lrcsi_visible_fraction *found, lrcsi_visible_area *visible)
 {
     double pixel = pool->raster->pixel * pool->raster->pixel;
     double target = area * found->fraction;
@@ -189,7 +189,7 @@ void lrcsi_visible_fraction_apply(const lrcsi_sample_pool *pool, uint32_t facet,
 
 /* The area of a facet after the difference between the samples of its component and the areas so
    far has been distributed, in proportion to the distance of each area from its bound. */
-static double area_corrected(const lrcsi_component_sum *component, const lrcsi_visible *v)
+static double area_corrected(const lrcsi_component_sum *component, const lrcsi_visible_area *v)
 {
     double missing = component->area * component->owned / component->covered - component->applied;
     double room =
@@ -198,14 +198,14 @@ static double area_corrected(const lrcsi_component_sum *component, const lrcsi_v
     return v->area + part * ((missing > 0 ? v->high : v->low) - v->area);
 }
 
-void lrcsi_visible_fraction_correct(const lrcsi_sample_pool *pool, lrcsi_visible *visible)
+void lrcsi_visible_fraction_correct(const lrcsi_sample_pool *pool, lrcsi_visible_area *visible)
 {
     const lrcsi_classification *classification = pool->decisions->classification;
     const unsigned char *undecided = classification->undecided;
     const uint32_t facets = classification->view->prepared->scene->facet_count;
     for (uint32_t f = 0; (f = lrcsi_marks_next(undecided, f, facets, 1)) < facets; f++) {
         const lrcsi_component_sum *component = &pool->sum[classification->component[f]];
-        lrcsi_visible *v = &visible[f];
+        lrcsi_visible_area *v = &visible[f];
         double samples[2];
         if (component->covered > 0 && v->high > v->low &&
             pooled_samples(pool, f, longest_in_pixels(pool->raster, f), &samples[0], &samples[1])) {

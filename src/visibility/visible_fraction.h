@@ -39,10 +39,10 @@ lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sample_pool *poo
 /* Sets visible->area from the fraction found, within visible->low and visible->high.
    Given: area, the projected area of the facet. */
 void lrcsi_visible_fraction_apply(const lrcsi_sample_pool *pool, uint32_t facet, double area,
-                                  const lrcsi_visible_fraction *found, lrcsi_visible *visible);
+                                  const lrcsi_visible_fraction *found, lrcsi_visible_area *visible);
 
 /* Distributes area that the bounds cut off over the other facets of the component. Called once,
    after lrcsi_visible_fraction_apply for all undecided facets. */
-void lrcsi_visible_fraction_correct(const lrcsi_sample_pool *pool, lrcsi_visible *visible);
+void lrcsi_visible_fraction_correct(const lrcsi_sample_pool *pool, lrcsi_visible_area *visible);
 
 #endif

@@ -72,7 +72,7 @@ static void must(int status)
 }
 
 static void agree_facet(agree_way *way, int number, uint32_t facet, double projected,
-                        const lrcsi_visible *found, const lrcsi_visible *clipped)
+                        const lrcsi_visible_area *found, const lrcsi_visible_area *clipped)
 {
     double gap = fmax(found->low - clipped->high, clipped->low - found->high);
     way->compared++;
@@ -88,7 +88,7 @@ static void agree_facet(agree_way *way, int number, uint32_t facet, double proje
 
 /* One direction: all facets that can be visible, together; then each undecided facet alone. */
 static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *work,
-                       unsigned char *wanted, unsigned char *decided, lrcsi_visible *found,
+                       unsigned char *wanted, unsigned char *decided, lrcsi_visible_area *found,
                        agree_sums *sums)
 {
     lrcsi_view view;
@@ -115,7 +115,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
         double projected = lrcsi_view_projected(&view, f);
         start = now_ms();
         must(ref_occlude_open(&o, f));
-        lrcsi_visible clipped = ref_occlude_area(&o);
+        lrcsi_visible_area clipped = ref_occlude_area(&o);
         sums->ms += now_ms() - start;
         int found_together = !wanted[f] || decided[f];
         sums->together.undecided += !found_together;
@@ -127,7 +127,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
             lrcsi_cells_single_open(&a, f);
             while (lrcsi_cells_single_next(&a)) {
             }
-            lrcsi_visible one = lrcsi_cells_single_close(&a);
+            lrcsi_visible_area one = lrcsi_cells_single_close(&a);
             sums->alone.ms += now_ms() - start;
             sums->alone.undecided += a.perhaps_hidden + a.perhaps_visible > 0;
             agree_facet(&sums->alone, number, f, projected, &one, &clipped);
@@ -164,7 +164,7 @@ int main(int argc, char **argv)
         uint32_t count = scene.prepared->scene->facet_count;
         unsigned char *wanted = malloc(count);
         unsigned char *decided = malloc(count);
-        lrcsi_visible *found = malloc(count * sizeof *found);
+        lrcsi_visible_area *found = malloc(count * sizeof *found);
         if (!wanted || !decided || !found) {
             return 2;
         }
