@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "base/vec3.h"
 #include "view/view.h"
 
 /* A sign that plain doubles do not decide. */
@@ -34,8 +35,8 @@ static inline lrcsi_view_side lrcsi_view_side_of(const lrcsi_view *view, uint32_
    in the 1-norm and errors in each coordinate, which include rounding (lrcsi_view_point_err): with
    errors e and f it is e |q| + f |p| + 2 e f, and rounding of 2 u |p| |q| is below a fifth of that,
    because e is at least 10 u |p|. */
-static inline double lrcsi_view_turn_err(double p_length, double p_err, double q_length,
-                                         double q_err)
+static inline double lrcsi_view_cross_err(double p_length, double p_err, double q_length,
+                                          double q_err)
 {
     return 1.5 * (p_err * (q_length + 2 * q_err) + q_err * p_length);
 }
@@ -45,10 +46,10 @@ static inline double lrcsi_view_turn_err(double p_length, double p_err, double q
 static inline int lrcsi_view_side_orient(const lrcsi_view_side *side, const double *x, double err)
 {
     const double q[2] = {x[0] - side->at[0], x[1] - side->at[1]};
-    double turn = side->to[0] * q[1] - side->to[1] * q[0];
-    double turn_err = lrcsi_view_turn_err(side->length, side->to_err, fabs(q[0]) + fabs(q[1]),
-                                          side->at_err + err);
-    return turn > turn_err ? 1 : turn < -turn_err ? -1 : LRCSI_VIEW_UNDECIDED;
+    double cross = lrcsi_vec2_cross(side->to, q);
+    double cross_err = lrcsi_view_cross_err(side->length, side->to_err, fabs(q[0]) + fabs(q[1]),
+                                            side->at_err + err);
+    return cross > cross_err ? 1 : cross < -cross_err ? -1 : LRCSI_VIEW_UNDECIDED;
 }
 
 #endif

@@ -124,9 +124,9 @@ static void meshlet_gather(const lrcsi_classification *c, uint32_t meshlet,
 }
 
 /* Do all corners lie strictly on one side of the line of an event edge, so that it neither crosses
-   a facet of the meshlet nor runs along a side? The error of each turn is that of
+   a facet of the meshlet nor runs along a side? The error of each cross product is that of
    lrcsi_view_side_orient, which increases with the distance and with the error of the point: the
-   largest of both bound the errors of all turns. */
+   largest of both bound the errors of all. */
 static int event_beside_meshlet(const lrcsi_view *view, const meshlet_corners *corners,
                                 uint32_t edge)
 {
@@ -138,13 +138,13 @@ static int event_beside_meshlet(const lrcsi_view *view, const meshlet_corners *c
     for (uint32_t i = 0; i < corners->count; i++) {
         double x = corners->x[i] - line.at[0];
         double y = corners->y[i] - line.at[1];
-        double turn = line.to[0] * y - line.to[1] * x;
-        lrcsi_range_extend(turn, &least, &most);
+        double cross = line.to[0] * y - line.to[1] * x;
+        lrcsi_range_extend(cross, &least, &most);
         distance = lrcsi_max(distance, fabs(x) + fabs(y));
     }
-    double turn_err =
-        lrcsi_view_turn_err(line.length, line.to_err, distance, line.at_err + corners->err);
-    return least > turn_err || most < -turn_err;
+    double cross_err =
+        lrcsi_view_cross_err(line.length, line.to_err, distance, line.at_err + corners->err);
+    return least > cross_err || most < -cross_err;
 }
 
 /* Is it proved that no event edge crosses any facet of a meshlet, nor runs along a side of one in

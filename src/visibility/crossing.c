@@ -27,7 +27,7 @@
 /* The orientation of vertices a, b, c in the view: 1 counter-clockwise, -1 clockwise, 0 collinear.
    From view coordinates if their error allows it, otherwise exactly. The vertex with the largest
    error is never the origin of both differences, whose errors it would enlarge. */
-static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
+static int vertex_orientation(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
 {
     if (c == a || c == b) {
         return 0;
@@ -46,10 +46,10 @@ static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t 
     const double *at = view->point[a].x;
     const double p[2] = {view->point[b].x[0] - at[0], view->point[b].x[1] - at[1]};
     const double q[2] = {view->point[c].x[0] - at[0], view->point[c].x[1] - at[1]};
-    double turn = p[0] * q[1] - p[1] * q[0];
-    if (fabs(turn) > lrcsi_view_turn_err(fabs(p[0]) + fabs(p[1]), err[0] + err[1],
-                                         fabs(q[0]) + fabs(q[1]), err[0] + err[2])) {
-        return turn > 0 ? 1 : -1;
+    double cross = lrcsi_vec2_cross(p, q);
+    if (fabs(cross) > lrcsi_view_cross_err(fabs(p[0]) + fabs(p[1]), err[0] + err[1],
+                                           fabs(q[0]) + fabs(q[1]), err[0] + err[2])) {
+        return cross > 0 ? 1 : -1;
     }
     const lrcs_point *v = view->prepared->vertex;
     return lrcsi_exact_orient(v[a].x, v[b].x, v[c].x, view->direction);
@@ -82,7 +82,7 @@ static int segment_crosses_plainly(const lrcsi_view *view, uint32_t facet, uint3
     const double size = fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]) + fabs(c[0]) +
                         fabs(c[1]) + fabs(s[0]) + fabs(s[1]);
     const double err = from->err + lrcsi_max3(lrcsi_max(i->err, j->err), k->err, to->err);
-    const double turn_err = 4 * err * (size + 2 * err);
+    const double cross_err = 4 * err * (size + 2 * err);
     const double sa = lrcsi_vec2_cross(s, a);
     const double sb = lrcsi_vec2_cross(s, b);
     const double sc = lrcsi_vec2_cross(s, c);
@@ -95,10 +95,10 @@ static int segment_crosses_plainly(const lrcsi_view *view, uint32_t facet, uint3
                   lrcsi_min(lrcsi_max(bc, bc + (sb - sc)), lrcsi_max(ca, ca + (sc - sa))));
     const double most = lrcsi_max3(sa, sb, sc);
     const double least = lrcsi_min3(sa, sb, sc);
-    if (inside < -turn_err || most < -turn_err || least > turn_err) {
+    if (inside < -cross_err || most < -cross_err || least > cross_err) {
         return 0;
     }
-    return inside > turn_err && most > turn_err && least < -turn_err ? 1 : LRCSI_VIEW_UNDECIDED;
+    return inside > cross_err && most > cross_err && least < -cross_err ? 1 : LRCSI_VIEW_UNDECIDED;
 }
 
 /* The same, decided exactly. *along is set if the segment may run along a side: if it lies on the
@@ -114,8 +114,8 @@ static int segment_crosses(const lrcsi_view *view, uint32_t facet, uint32_t p, u
     for (int k = 0; k < 3; k++) {
         uint32_t a = corner[k];
         uint32_t b = corner[k == 2 ? 0 : k + 1];
-        int of_p = view->facing[facet] * vertex_turn(view, a, b, p);
-        int of_q = of_p == 1 ? 1 : view->facing[facet] * vertex_turn(view, a, b, q);
+        int of_p = view->facing[facet] * vertex_orientation(view, a, b, p);
+        int of_q = of_p == 1 ? 1 : view->facing[facet] * vertex_orientation(view, a, b, q);
         if (of_p <= 0 && of_q <= 0) {
             *along |= of_p == 0 && of_q == 0;
             return 0;
@@ -124,7 +124,7 @@ static int segment_crosses(const lrcsi_view *view, uint32_t facet, uint32_t p, u
     int left = 0;
     int right = 0;
     for (int k = 0; k < 3; k++) {
-        int side = vertex_turn(view, p, q, corner[k]);
+        int side = vertex_orientation(view, p, q, corner[k]);
         left |= side > 0;
         right |= side < 0;
     }

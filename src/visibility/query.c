@@ -101,13 +101,13 @@ static int line_meets(const query_line *line, uint32_t facet)
     const double c[2] = {k->x[0] - line->x[0], k->x[1] - line->x[1]};
     const double size = fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]) + fabs(c[0]) + fabs(c[1]);
     const double err = line->x_err + lrcsi_max3(i->err, j->err, k->err);
-    const double turn_err = 1.5 * err * (size + 2 * err);
+    const double cross_err = 1.5 * err * (size + 2 * err);
     const double facing = view->facing[facet];
     const double inside =
         lrcsi_min3(facing * lrcsi_vec2_cross(a, b), facing * lrcsi_vec2_cross(b, c),
                    facing * lrcsi_vec2_cross(c, a));
-    return inside > turn_err ||
-           (!(inside < -turn_err) &&
+    return inside > cross_err ||
+           (!(inside < -cross_err) &&
             lrcsi_sample_covers_towards(view, facet, line->point, line->sense));
 }
 
