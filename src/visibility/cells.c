@@ -49,9 +49,9 @@
    scene's extent. */
 #define ACCURACY_OF_FACET 1e-12
 #define ACCURACY_OF_SCENE 1e-15
-/* If the number of facets that remain to be processed alone, times that of all facets, exceeds
-   MANY_LEFT, errors of up to SINGLE_FACTOR times those of a facet processed alone are accepted: a
-   facet alone is compared with every facet that might hide it. */
+/* Heuristics: if the number of facets that remain to be processed alone, times that of all facets,
+   exceeds MANY_LEFT, errors of up to SINGLE_FACTOR times those of a facet processed alone are
+   accepted: a facet alone is compared with every facet that might hide it. */
 #define MANY_LEFT     65536u
 #define SINGLE_FACTOR 4
 /* A facet is a needle if its projected area is less than this, relative to its diameter squared. */
@@ -100,10 +100,10 @@ static void add_visible_moment(lrcsi_moment *moment, const lrcsi_cells_facet *f,
 /* Adds the facet's area in a cell in which it is visible. Of the sides of the cell and of the facet
    only the parts in both bounding boxes matter; a convex curve in a box is no longer than the box's
    perimeter. */
-static void add_visible_area(const cells_job *job, const lrcsi_cell *cell,
-                             const lrcsi_clip_sides *s, uint32_t facet)
+static void add_visible_area(cells_job *job, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                             uint32_t facet)
 {
-    const lrcsi_division *d = &job->blocks.division;
+    lrcsi_division *d = &job->blocks.division;
     const lrcsi_cells_facet *f = &d->facet[facet];
     lrcsi_cell_area *area = &d->area[facet];
     lrcsi_clip_polygon piece = cell->shape;
@@ -139,10 +139,10 @@ static void add_visible_area(const cells_job *job, const lrcsi_cell *cell,
 
 /* Decides a cell: the facets of the surface are visible in it, all others hidden. surface NULL:
    all facets are hidden. */
-static void decide_cell(const cells_job *job, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+static void decide_cell(cells_job *job, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
                         const lrcsi_cells_surface *surface, double uncertainty)
 {
-    const lrcsi_blocks *b = &job->blocks;
+    lrcsi_blocks *b = &job->blocks;
     for (uint32_t i = 0; i < cell->facet_count; i++) {
         uint32_t f = cell->facet[i];
         if (!b->division.wanted[f]) {
@@ -190,8 +190,8 @@ static const lrcsi_cells_segment *choose_cut(const lrcsi_division *d, const lrcs
     return best;
 }
 
-/* Adds to what was found of all facets in a cell. */
-static void find_all(const lrcsi_blocks *b, const lrcsi_cell *cell, int finding)
+/* Adds a lrcsi_finding to what was found of each facet in a cell. */
+static void add_finding(lrcsi_blocks *b, const lrcsi_cell *cell, int finding)
 {
     for (uint32_t i = 0; i < cell->facet_count; i++) {
         b->finding[cell->facet[i]] |= (unsigned char)finding;
@@ -215,7 +215,7 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
     /* 1. Take a sample. */
     lrcsi_cells_sample_take(d, cell, &s, sample);
     if (sample->outcome == LRCSI_SAMPLE_UNSURE && lrcsi_cells_charge_all(d, cell, &s)) {
-        find_all(b, cell, LRCSI_FINDING_CHARGED);
+        add_finding(b, cell, LRCSI_FINDING_CHARGED);
         return 0;
     }
 
@@ -258,7 +258,7 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
         }
     }
     if (!cut || !lrcsi_cells_divide(d, cell, &s, cut)) {
-        find_all(b, cell, LRCSI_FINDING_UNDECIDED);
+        add_finding(b, cell, LRCSI_FINDING_UNDECIDED);
     }
     return 0;
 }
@@ -266,7 +266,7 @@ static int process_cell(cells_job *job, lrcsi_cell *cell)
 /* --- one block -------------------------------------------------------------------------------- */
 
 /* Leaves all facets of a block undecided. */
-static void leave_block_undecided(const lrcsi_blocks *b, size_t block)
+static void leave_block_undecided(lrcsi_blocks *b, size_t block)
 {
     const lrcsi_block_lists *facets = &b->grid.facets;
     for (uint32_t i = facets->first[block]; i < facets->first[block + 1]; i++) {
@@ -371,7 +371,7 @@ static void moment_report(const lrcsi_view *view, lrcsi_moment *moment, uint32_t
 
 /* Reports the areas that are accurate enough and not found yet. Returns the number of facets that
    the cells decided, but less accurately. */
-static uint32_t areas_report(const cells_job *job, int as_single, unsigned char *found,
+static uint32_t areas_report(cells_job *job, int as_single, unsigned char *found,
                              lrcsi_visible_area *visible)
 {
     const lrcsi_division *d = &job->blocks.division;

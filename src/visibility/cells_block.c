@@ -335,7 +335,7 @@ size_t lrcsi_blocks_max_segments(const lrcsi_blocks *b)
 
 /* 1. Lists the facets of the block, and makes their records. The neighbours of a facet are the same
    in all blocks, and found once. 2. Lists the segments. */
-int lrcsi_blocks_begin(lrcsi_blocks *b, size_t block, const lrcsi_marks *listed, lrcsi_cell *cell)
+int lrcsi_blocks_begin(lrcsi_blocks *b, size_t block, lrcsi_marks *listed, lrcsi_cell *cell)
 {
     lrcsi_division *d = &b->division;
     const lrcsi_view *view = d->view;

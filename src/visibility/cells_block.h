@@ -61,6 +61,6 @@ size_t lrcsi_blocks_max_segments(const lrcsi_blocks *b);
    the only one that waits. Returns 0, and lists no segments, if there is no room. Given: the cell's
    shape, the block's extent, and its middle and number in the frame; listed, in which the facets of
    the block are marked. */
-int lrcsi_blocks_begin(lrcsi_blocks *b, size_t block, const lrcsi_marks *listed, lrcsi_cell *cell);
+int lrcsi_blocks_begin(lrcsi_blocks *b, size_t block, lrcsi_marks *listed, lrcsi_cell *cell);
 
 #endif

@@ -117,8 +117,8 @@ static int sample_nearest(const lrcsi_division *d, const lrcsi_cell *cell,
         return hits == 0 ? LRCSI_SAMPLE_EMPTY : LRCSI_SAMPLE_UNSURE;
     }
     uint32_t changes = 0;
-    for (uint32_t i = 0; i < hits; i++) {
-        uint32_t other = hit[i];
+    for (uint32_t i = 0; i < hits;) {
+        uint32_t other = hit[i++];
         double range[2];
         lrcsi_cells_facet_z(&d->facet[other], at, s->tolerance, range);
         if (other == best || range[1] < best_z) {
@@ -134,7 +134,7 @@ static int sample_nearest(const lrcsi_division *d, const lrcsi_cell *cell,
             best = other;
             best_z = lrcsi_min(best_z, range[0]);
             changes++;
-            i = (uint32_t)-1;
+            i = 0;
         }
     }
     sample->nearest = best;
@@ -177,9 +177,9 @@ void lrcsi_cells_sample_take(const lrcsi_division *d, const lrcsi_cell *cell,
 /* Marks the facets of the segments in the cell's list that belong to the surface. Returns 1 if any
    of these segments is an event edge. */
 static int mark_adjoining(const lrcsi_division *d, const lrcsi_cell *cell,
-                          const lrcsi_cells_surface *surface)
+                          lrcsi_cells_surface *surface)
 {
-    const lrcsi_marks *adjoining = &surface->adjoining;
+    lrcsi_marks *adjoining = &surface->adjoining;
     int has_edge = 0;
     for (uint32_t i = 0; i < cell->segment_count; i++) {
         const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
