@@ -29,7 +29,7 @@ int lrcsi_cells_single_order(const lrcsi_cells_single *a, uint32_t other)
     if (order == 0) {
         const lrcsi_intersection *contact =
             lrcsi_intersection_find(&view->prepared->intersections, a->facet, other);
-        order = contact && !lrcsi_intersection_hides(view, a->facet, contact)
+        order = contact && !lrcsi_sample_contact_hides(view, a->facet, contact)
                     ? -1
                     : lrcsi_sample_overlap_order(view, other, a->facet);
     }
@@ -208,7 +208,7 @@ int lrcsi_cells_single_segments(lrcsi_cells_single *a)
     for (uint32_t i = intersections->first[a->facet]; i < intersections->first[a->facet + 1]; i++) {
         const lrcsi_intersection *contact = &intersections->entry[i];
         if (is_candidate(a, contact->other) &&
-            lrcsi_intersection_hides(d->view, a->facet, contact) &&
+            lrcsi_sample_contact_hides(d->view, a->facet, contact) &&
             !add_single_contact(a, contact->other)) {
             return 0;
         }

@@ -18,19 +18,12 @@
 
 /* --- contacts --------------------------------------------------------------------------------- */
 
-int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,
-                             const lrcsi_intersection *contact)
-{
-    return lrcsi_view_casts(view, contact->other) &&
-           !(contact->kind == LRCSI_INTERSECTION_COPLANAR &&
-             lrcsi_sample_has_precedence(view, facet, contact->other));
-}
-
+/* Can any contact of a facet hide a part of it? */
 static int intersection_divides(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_intersections *intersections = &view->prepared->intersections;
     for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
-        if (lrcsi_intersection_hides(view, facet, &intersections->entry[i])) {
+        if (lrcsi_sample_contact_hides(view, facet, &intersections->entry[i])) {
             return 1;
         }
     }

@@ -51,8 +51,4 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *w
    lrcsi_meshlets_room entries. */
 void lrcsi_classify_regions(const lrcsi_classification *classification, uint32_t *region);
 
-/* Can the other facet of a contact hide a part of the facet? */
-int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,
-                             const lrcsi_intersection *contact);
-
 #endif

@@ -30,6 +30,7 @@
 #include "visibility/clip.h"
 #include "visibility/marks.h"
 #include "visibility/query.h"
+#include "visibility/sample.h"
 #include "visibility/sampling_error.h"
 #include "visibility/visible_fraction.h"
 
@@ -166,7 +167,7 @@ static void mark_mixed(const visible_job *job, const drawn_facet *f,
     for (uint32_t i = contacts->first[f->facet]; i < contacts->first[f->facet + 1]; i++) {
         const lrcsi_intersection *contact = &contacts->entry[i];
         lrcsi_raster_segment s[3];
-        if (!lrcsi_intersection_hides(r->view, f->facet, contact)) {
+        if (!lrcsi_sample_contact_hides(r->view, f->facet, contact)) {
             continue;
         }
         int segments = lrcsi_raster_contact(r, &f->edges, f->facet, contact, s);
