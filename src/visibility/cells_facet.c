@@ -15,8 +15,9 @@
    coordinates with an error of w / H. Let G be twice the computed slope of the facet, an upper
    bound of the true one. Then z at that point has an error of e + G (w + 8 u l^2 / H), where e is
    the error of z of the vertices and l the longest side; the last term is due to the error of the
-   slope itself. Also, z is always between the smallest and the largest z of the corners. If H < 8
-   w, only that is used. */
+   slope itself. Also, z is always between the smallest and the largest z of the corners. Only that
+   is used of a facet with an H below 64 times the position error of its vertices, or below 2^-40 l:
+   G bounds the true slope wherever H exceeds that error by far, and any such limit is right. */
 #include "visibility/cells_facet.h"
 
 #include <math.h>

@@ -12,7 +12,7 @@
 #include "visibility/lists.h"
 
 /* The largest number of buckets along a side. */
-#define MAX_SIDE 2048
+#define MAX_SIZE 2048
 /* Buckets to be read are marked by one bit each. */
 #define NEEDED_BITS 32u
 
@@ -20,24 +20,24 @@
  */
 
 /* The number of buckets along a side of a square grid of about this many. */
-static uint32_t grid_side(size_t buckets)
+static uint32_t grid_size(size_t buckets)
 {
-    return (uint32_t)lrcsi_min(MAX_SIDE, lrcsi_max(1, sqrt((double)buckets)));
+    return (uint32_t)lrcsi_min(MAX_SIZE, lrcsi_max(1, sqrt((double)buckets)));
 }
 
 size_t lrcsi_grid_need(size_t buckets, size_t entries)
 {
-    size_t side = grid_side(buckets);
-    return lrcsi_work_add(lrcsi_work_bytes(side * side + 1, sizeof(uint32_t)),
+    size_t size = grid_size(buckets);
+    return lrcsi_work_add(lrcsi_work_bytes(size * size + 1, sizeof(uint32_t)),
                           lrcsi_work_bytes(entries, sizeof(uint32_t)));
 }
 
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
-    size_t side = grid_side(facets);
-    size_t words = (side + NEEDED_BITS - 1) / NEEDED_BITS;
-    size_t need = lrcsi_work_add(lrcsi_work_bytes(words * side, sizeof(uint32_t)),
+    size_t size = grid_size(facets);
+    size_t words = (size + NEEDED_BITS - 1) / NEEDED_BITS;
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(words * size, sizeof(uint32_t)),
                                  lrcsi_work_bytes(facets, sizeof(uint32_t)));
     return lrcsi_work_add(need, lrcsi_grid_need(facets, LRCSI_GRID_FACET_BUCKETS * facets));
 }
@@ -46,7 +46,7 @@ size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
    proof rests on where it is. */
 lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t buckets)
 {
-    lrcsi_grid grid = {.view = view, .size = grid_side(buckets)};
+    lrcsi_grid grid = {.view = view, .size = grid_size(buckets)};
     const double *bulk = view->prepared->bulk;
     for (int k = 0; k < 2; k++) {
         const double *row = view->R[k];

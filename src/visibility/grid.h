@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* A uniform grid over the window of the scene's bulk, which lists the
-   items (facets or edges) that may lie in each bucket. What lies outside the window counts to the
-   buckets on the border. Conservative: an item is listed in every bucket that its box meets. If
-   large items make the lists too long, buckets are doubled until they are short enough: this bounds
-   the memory of a grid for any scene, and the cost of walking through the buckets of all items. */
+/* A uniform grid over the window of the scene's bulk, whose buckets list the items (facets or
+   edges) that may lie in them. What lies outside the window counts to the buckets on the border.
+   Conservative: an item is listed in every bucket that its box meets. If large items make the lists
+   too long, buckets are doubled until they are short enough: this bounds the memory of a grid for
+   any scene, and the cost of walking through the buckets of all items. */
 #ifndef LRCSI_GRID_H
 #define LRCSI_GRID_H
 
@@ -13,14 +13,13 @@
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
-    lrcsi_boxes boxes; /* if facets are the items: their boxes, to be read */
-    double low[2];     /* of the window, in the units of boxes */
-    double side;
+    lrcsi_boxes boxes;       /* if facets are the items: their boxes, to be read */
+    double low[2], side;     /* of the window, in the units of boxes */
     uint32_t size;           /* buckets along each side */
-    double buckets_per_unit; /* buckets per unit */
+    double buckets_per_unit; /* in the units of boxes */
     double last;             /* size - 1 */
     uint32_t *first;         /* size * size + 1 */
-    uint32_t *item;          /* those of bucket c: item[first[c] .. first[c + 1]) */
+    uint32_t *item;          /* those of bucket b: item[first[b] .. first[b + 1]) */
 } lrcsi_grid;
 
 /* A rectangle of buckets: x0 <= x < x1, y0 <= y < y1. */

@@ -21,6 +21,11 @@
 /* Cosines larger than this have the sign that they seem to have: axes and directions are accurate
    to some 30 u. */
 #define OPENING_COS_MIN 1e-6
+/* The square root of 2, rounded up. */
+#define ROOT_2 1.4143
+/* More than the relative rounding error of a sum of areas: POINTS terms of some 10 operations each.
+ */
+#define ROUNDING (1 + 0x1p-40)
 
 lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
 {
@@ -236,9 +241,9 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
     if (last.t < edge.length + 2 * o->k) {
         return unknown;
     }
-    areas.width = 1.4143 * (edge.length + 4 * o->k);
+    areas.width = ROOT_2 * (edge.length + 4 * o->k);
     double err = 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
-    areas.gain = (areas.gain + err * areas.width) * (1 + 0x1p-40);
-    areas.loss = (areas.loss + err * areas.width) * (1 + 0x1p-40);
+    areas.gain = (areas.gain + err * areas.width) * ROUNDING;
+    areas.loss = (areas.loss + err * areas.width) * ROUNDING;
     return areas;
 }
