@@ -17,9 +17,14 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/length.h"
 #include "base/vec3.h"
 #include "base/work.h"
 #include "view/separation.h"
+
+/* A shorter difference or cross product is due to rounding, and its direction says nothing. Any
+   value is right: planes across any direction may be tried. */
+#define NORMAL_MIN 0x1p-30
 
 /* Does a plane across n, a unit vector to 8 u, separate a pair? If so, *slab is the area that may
    nevertheless be hidden. has_slab: the area of slabs of P across n is known. */
@@ -36,11 +41,11 @@ static int is_separating(const lrcsi_body *P, const lrcsi_body *Q, const double 
 static int is_separated_along(const lrcsi_body *P, const lrcsi_body *Q, const double d[3],
                               const double n[3], int has_slab, double *slab)
 {
-    double length = sqrt(lrcsi_vec3_dot(n, n));
-    if (!(length > 0x1p-30)) {
+    if (!(lrcsi_length(n) > NORMAL_MIN)) {
         return 0;
     }
-    const double up[3] = {n[0] / length, n[1] / length, n[2] / length};
+    double up[3] = {n[0], n[1], n[2]};
+    (void)lrcsi_length_normalise(up);
     const double down[3] = {-up[0], -up[1], -up[2]};
     double cosine = lrcsi_vec3_dot(up, d);
     return (cosine >= -8 * LRCSI_U && is_separating(P, Q, d, up, has_slab, slab)) ||
