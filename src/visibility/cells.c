@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Exact visibility of all undecided facets together, in convex cells of the view plane: for each
    facet a visible area with bounds. The visible pieces are not found here:
-   visibility/cells_single.c finds them, one facet at a time.
+   visibility/facet_cells.c finds them, one facet at a time.
 
    A cell is the convex hull of its corners, which are doubles. It has a list of the facets that may
    be visible in it, and a list of segments: event edges and contacts.
@@ -23,7 +23,7 @@
    6. Area that rounding leaves undecided along events is charged to the facets near them
       (visibility/cells_cut.c; at the border of blocks: lrcsi_cells_charge_border; of cells that are
       given up: lrcsi_cells_charge_all). An area is reported where its error is small enough; other
-   facets are left to visibility/cells_single.c.
+   facets are left to visibility/facet_cells.c.
 
    Error of a facet's area in a cell: the error of the facet's sides times their length in the cell,
    and 4 u b and the cell's shape error times the perimeter of its part there (b: the largest
@@ -326,7 +326,7 @@ static double extent_of(const lrcs_prepared *p)
 
 /* The largest error at which a facet's area is accepted: 1e-12 of the area or 1e-15 of the squared
    extent; or, if as_single, SINGLE_FACTOR times the least error of the facet processed alone
-   (visibility/cells_single.c): 52 u of its diameter times its perimeter, and for each cut a strip
+   (visibility/facet_cells.c): 52 u of its diameter times its perimeter, and for each cut a strip
    128 u of the diameter wide. Needles, and facets larger than the bulk of the scene, are much more
    accurate alone: for these only the first limit applies, unless they represent a curved surface,
    from which they differ by far more. */

@@ -6,7 +6,7 @@
 
 #include "visibility/classify.h"
 
-/* Items first .. first + count - 1 of a list. */
+/* Items first .. first + count - 1 of lrcsi_decisions.crossing. */
 typedef struct lrcsi_decisions_list {
     uint32_t first, count;
 } lrcsi_decisions_list;
@@ -17,8 +17,8 @@ typedef struct lrcsi_decisions {
     unsigned char *answer; /* facet: a lrcsi_query_answer; hidden if it casts no shadow; undecided
                               if samples have to decide */
     uint32_t listed;       /* facets below this have lists */
-    lrcsi_decisions_list
-        *list;              /* facet, if its answer is undecided: the event edges that cross it */
+    /* Facet, if its answer is undecided: the event edges that cross it. */
+    lrcsi_decisions_list *list;
     uint32_t *crossing;     /* the items of these lists: topology edges */
     lrcsi_crossings search; /* room to search for the crossings of a facet without a list */
 } lrcsi_decisions;

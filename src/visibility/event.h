@@ -35,7 +35,7 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
                       lrcsi_events *events);
 
 /* What lrcsi_events_join does with the facets of a meshlet. */
-enum lrcsi_joined {
+enum lrcsi_join {
     LRCSI_JOINED_NONE, /* joins none of them */
     LRCSI_JOINED_ALL,  /* joins all of them into one group */
     LRCSI_JOINED_SOME  /* joins some of them, or all, which is not known in advance */

@@ -43,14 +43,14 @@ void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
     } else if (!lrcsi_query_screened(classification, &o->facets, facet, o->meter,
                                      &o->single.crossings)) {
         o->undecided = 1;
-        lrcsi_cells_single_open(&o->single, facet);
+        lrcsi_facet_cells_open(&o->single, facet);
     }
 }
 
 int lrcsi_occlude_next(lrcsi_occlusion *o)
 {
     if (!o->whole) {
-        return o->undecided && lrcsi_cells_single_next(&o->single);
+        return o->undecided && lrcsi_facet_cells_next(&o->single);
     }
     o->whole = 0;
     lrcsi_target_make(o->classification->view, o->single.facet, &o->single.target);
@@ -60,12 +60,12 @@ int lrcsi_occlude_next(lrcsi_occlusion *o)
 
 lrcsi_visible_area lrcsi_occlude_close(lrcsi_occlusion *o)
 {
-    return o->undecided ? lrcsi_cells_single_close(&o->single) : o->area;
+    return o->undecided ? lrcsi_facet_cells_close(&o->single) : o->area;
 }
 
 lrcsi_visible_area lrcsi_occlude_area(lrcsi_occlusion *o)
 {
-    while (o->undecided && lrcsi_cells_single_next(&o->single)) {
+    while (o->undecided && lrcsi_facet_cells_next(&o->single)) {
     }
     return lrcsi_occlude_close(o);
 }
@@ -82,7 +82,7 @@ static int can_process_together(const lrcs_prepared *prepared)
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
     size_t need = lrcsi_work_blocks(2, prepared->scene->facet_count, 1);
-    size_t single = lrcsi_cells_single_need(prepared);
+    size_t single = lrcsi_facet_cells_need(prepared);
     size_t cells = can_process_together(prepared) ? lrcsi_cells_need(prepared) : 0;
     need = lrcsi_work_add(need, lrcsi_query_need(prepared));
     return lrcsi_work_add(need, single > cells ? single : cells);
@@ -106,7 +106,7 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
     size_t mark = work->used;
     int status = occlude_begin(classification, meter, work, o);
     status = status == LRCS_OK
-                 ? lrcsi_cells_single_make(classification, o->meter, &o->facets, work, &o->single)
+                 ? lrcsi_facet_cells_make(classification, o->meter, &o->facets, work, &o->single)
                  : status;
     if (status != LRCS_OK) {
         work->used = mark;
@@ -150,7 +150,7 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
         }
     }
     if (status == LRCS_OK && left > 0) {
-        status = lrcsi_cells_single_make(classification, meter, &o.facets, work, &o.single);
+        status = lrcsi_facet_cells_make(classification, meter, &o.facets, work, &o.single);
     }
     for (uint32_t f = 0; f < count && left > 0 && status == LRCS_OK; f++) {
         if (!classification->undecided[f] || found[f]) {

@@ -4,7 +4,7 @@
 #ifndef LRCSI_OCCLUDE_H
 #define LRCSI_OCCLUDE_H
 
-#include "visibility/cells_single.h"
+#include "visibility/facet_cells.h"
 
 /* Data for all facets of a view, and the current facet. */
 typedef struct lrcsi_occlusion {
@@ -13,11 +13,11 @@ typedef struct lrcsi_occlusion {
     lrcsi_grid facets;     /* those that can hide others */
     unsigned char *answer; /* facet: a lrcsi_query_answer; UNDECIDED too if it is undecided */
     /* The current facet: */
-    lrcsi_cells_single single; /* its target, its piece, and, if it is undecided, its cells */
-    int undecided;             /* its pieces are found cell by cell; otherwise all of it is visible
-                                  or hidden */
-    lrcsi_visible_area area;   /* its area, unless it is undecided */
-    int whole;                 /* all of it is visible, and its piece has not been returned yet */
+    lrcsi_facet_cells single; /* its target, its piece, and, if it is undecided, its cells */
+    int undecided;            /* its pieces are found cell by cell; otherwise all of it is visible
+                                 or hidden */
+    lrcsi_visible_area area;  /* its area, unless it is undecided */
+    int whole;                /* all of it is visible, and its piece has not been returned yet */
 } lrcsi_occlusion;
 
 /* Bytes at most. */

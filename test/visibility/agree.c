@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Compares three methods: cells of the view plane for all facets together (visibility/cells.h),
-   cells of each facet alone (visibility/cells_single.h), and the clipping that both replaced
+   cells of each facet alone (visibility/facet_cells.h), and the clipping that both replaced
    (test/visibility/reference). For each given model or scene and the given number of directions, it
    tests whether the bounds of all facets overlap, and prints the cost of each method. The exit
    status is 1 if some bounds do not overlap.
@@ -15,7 +15,7 @@
 
 #include "base/work.h"
 #include "visibility/cells.h"
-#include "visibility/cells_single.h"
+#include "visibility/facet_cells.h"
 #include "visibility/reference/occlude.h"
 
 #define MEMORY ((size_t)1 << 30)
@@ -94,7 +94,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
     lrcsi_view view;
     lrcsi_classification classification;
     ref_occluding o;
-    lrcsi_cells_single a;
+    lrcsi_facet_cells a;
     uint32_t count = prepared->scene->facet_count;
     lrcs_pose pose = pose_of(number);
     work->used = 0;
@@ -107,7 +107,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
     lrcsi_cells_areas(&classification, NULL, work, NULL, wanted, decided, found, NULL);
     sums->together.ms += now_ms() - start;
     must(ref_occlude_make(&classification, work, &o));
-    must(lrcsi_cells_single_make(&classification, NULL, &o.cover.facets, work, &a));
+    must(lrcsi_facet_cells_make(&classification, NULL, &o.cover.facets, work, &a));
     for (uint32_t f = 0; f < count; f++) {
         if (!lrcsi_view_casts(&view, f)) {
             continue;
@@ -124,10 +124,10 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
         }
         if (classification.undecided[f]) {
             start = now_ms();
-            lrcsi_cells_single_open(&a, f);
-            while (lrcsi_cells_single_next(&a)) {
+            lrcsi_facet_cells_open(&a, f);
+            while (lrcsi_facet_cells_next(&a)) {
             }
-            lrcsi_visible_area one = lrcsi_cells_single_close(&a);
+            lrcsi_visible_area one = lrcsi_facet_cells_close(&a);
             sums->alone.ms += now_ms() - start;
             sums->alone.undecided += a.perhaps_hidden + a.perhaps_visible > 0;
             agree_facet(&sums->alone, number, f, projected, &one, &clipped);

@@ -6,8 +6,8 @@
    The candidates are the facets that may be in front of f. The segments are all lines at which the
    visibility of f can change: the event edges that cross the interior of f and are nearer than f,
    found exactly (visibility/crossing.h); the contacts of f; and the sides of facets in the plane of
-   f that hide it (visibility/cells_single_candidate.c). A sample finds which facets are in front of
-   f at a point P of a cell (visibility/cells_single_sample.c). Let x be any other point of the
+   f that hide it (visibility/facet_cells_candidate.c). A sample finds which facets are in front of
+   f at a point P of a cell (visibility/facet_cells_sample.c). Let x be any other point of the
    cell.
 
    (1) If nothing is in front of f at P, and no segment is left in the cell, all of the cell is
@@ -37,7 +37,7 @@
    frame's position error, segments are clipped to a box with coordinates of at most 3, and the side
    of another facet on which a point lies is computed in double-double. Areas are then in units of
    twice the projected area of f. */
-#include "visibility/cells_single.h"
+#include "visibility/facet_cells.h"
 
 #include <math.h>
 
@@ -45,8 +45,8 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/cells_cut.h"
-#include "visibility/cells_single_candidate.h"
-#include "visibility/cells_single_sample.h"
+#include "visibility/facet_cells_candidate.h"
+#include "visibility/facet_cells_sample.h"
 
 /* Limit on the cells of a facet: a constant, and so many for each segment. */
 #define CELLS_CONSTANT    4096u
@@ -61,7 +61,7 @@
 /* --- the first cell --------------------------------------------------------------------------- */
 
 /* Leaves an area undecided: it counts as half visible. */
-static void leave_area_undecided(lrcsi_cells_single *a, double area)
+static void leave_area_undecided(lrcsi_facet_cells *a, double area)
 {
     a->perhaps_hidden += 0.5 * area;
     a->perhaps_visible += 0.5 * area;
@@ -69,7 +69,7 @@ static void leave_area_undecided(lrcsi_cells_single *a, double area)
 
 /* 1. Makes the frame of f. 2. Makes the record of f, the first cell, and the error along the sides
    of f. 3. Lists what may hide f, unless rounding may have reversed the triangle's orientation. */
-void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
+void lrcsi_facet_cells_open(lrcsi_facet_cells *a, uint32_t facet)
 {
     lrcsi_division *d = &a->division;
     const lrcsi_target *frame = &a->frame;
@@ -106,7 +106,7 @@ void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
     a->halved_area = MIN_HALVED * lrcsi_clip_area(&cell.shape);
 
     if (!(lrcsi_clip_area(&cell.shape) > 8 * err * frame->diameter) ||
-        !lrcsi_cells_single_candidates(a) || !lrcsi_cells_single_segments(a)) {
+        !lrcsi_facet_cells_candidates(a) || !lrcsi_facet_cells_segments(a)) {
         leave_area_undecided(a, lrcsi_view_incidence(d->view, facet).projected / frame->unit);
         return;
     }
@@ -118,7 +118,7 @@ void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
 
 /* Returns the cell as a visible piece. The corners of a needle's piece are rounded to the frame
    along the view's axes. */
-static void add_visible_piece(lrcsi_cells_single *a, const lrcsi_cell *cell,
+static void add_visible_piece(lrcsi_facet_cells *a, const lrcsi_cell *cell,
                               const lrcsi_clip_sides *s)
 {
     lrcsi_cell_area *area = &a->area;
@@ -141,19 +141,19 @@ static void add_visible_piece(lrcsi_cells_single *a, const lrcsi_cell *cell,
 }
 
 /* Processes one cell. Returns 1 if it is a visible piece; else it is hidden, cut, or undecided. */
-static int process_single_cell(lrcsi_cells_single *a, lrcsi_cell *cell)
+static int process_facet_cell(lrcsi_facet_cells *a, lrcsi_cell *cell)
 {
     lrcsi_division *d = &a->division;
     lrcsi_clip_sides s;
-    lrcsi_cells_single_sample sample;
+    lrcsi_facet_cells_sample sample;
     lrcsi_clip_sides_make(&cell->shape, lrcsi_division_tolerance(d, cell), &s);
     lrcsi_cells_filter_segments(d, cell, &s);
 
     /* 1. A sample. */
     int guess = 0;
-    int hidden = lrcsi_cells_single_find_sample(a, cell, &s, &sample, &guess);
+    int hidden = lrcsi_facet_cells_find_sample(a, cell, &s, &sample, &guess);
     if (hidden <= 0) {
-        sample.ends = lrcsi_cells_single_choose(a, cell, sample.at, LRCS_NONE, &sample.cut);
+        sample.ends = lrcsi_facet_cells_choose(a, cell, sample.at, LRCS_NONE, &sample.cut);
     }
 
     /* 2. If no segment is left that matters, all of the cell is visible or hidden, as the sample.
@@ -183,7 +183,7 @@ static int process_single_cell(lrcsi_cells_single *a, lrcsi_cell *cell)
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-int lrcsi_cells_single_next(lrcsi_cells_single *a)
+int lrcsi_facet_cells_next(lrcsi_facet_cells *a)
 {
     lrcsi_division *d = &a->division;
     while (d->stack_count > 0) {
@@ -194,7 +194,7 @@ int lrcsi_cells_single_next(lrcsi_cells_single *a)
             continue;
         }
         a->cells_left--;
-        if (process_single_cell(a, &cell)) {
+        if (process_facet_cell(a, &cell)) {
             return 1;
         }
     }
@@ -205,7 +205,7 @@ int lrcsi_cells_single_next(lrcsi_cells_single *a)
    the error of their corners and of the centroid, 10 u of the target's reach, along the perimeter.
    All of this is within `reach` of the centroid, or in the facet. If all of the facet is visible,
    its moment is 0. */
-static void moment_close(lrcsi_cells_single *a, double err)
+static void moment_close(lrcsi_facet_cells *a, double err)
 {
     const lrcsi_target *t = &a->target;
     double undecided = a->perhaps_hidden + a->perhaps_visible;
@@ -220,7 +220,7 @@ static void moment_close(lrcsi_cells_single *a, double err)
     }
 }
 
-lrcsi_visible_area lrcsi_cells_single_close(lrcsi_cells_single *a)
+lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *a)
 {
     const lrcsi_cell_area *found = &a->area;
     lrcsi_incidence incidence = lrcsi_view_incidence(a->division.view, a->facet);
@@ -261,10 +261,10 @@ static size_t max_segments(const lrcs_prepared *p, size_t events)
     return events + 3 * contacts;
 }
 
-size_t lrcsi_cells_single_need(const lrcs_prepared *p)
+size_t lrcsi_facet_cells_need(const lrcs_prepared *p)
 {
     size_t segments = max_segments(p, p->topology.edge_count);
-    size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_cells_single_side));
+    size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_facet_cells_side));
     need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, lrcsi_work_blocks(3, p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need,
@@ -275,13 +275,13 @@ size_t lrcsi_cells_single_need(const lrcs_prepared *p)
     return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELL_STACK, sizeof(lrcsi_cell)));
 }
 
-int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *meter,
-                            const lrcsi_grid *grid, lrcs_work *work, lrcsi_cells_single *a)
+int lrcsi_facet_cells_make(lrcsi_classification *classification, lrcsi_meter *meter,
+                           const lrcsi_grid *grid, lrcs_work *work, lrcsi_facet_cells *a)
 {
     const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
     lrcsi_division *d = &a->division;
-    *a = (lrcsi_cells_single){
+    *a = (lrcsi_facet_cells){
         .classification = classification, .grid = *grid, .side_room = sides_room(p)};
     d->view = classification->view;
     d->meter = meter;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Is one facet, f, hidden at a sample in a cell, and by which surface component? Also, along which
-   segment the cell is best cut. What follows for the cell is decided in visibility/cells_single.c.
+   segment the cell is best cut. What follows for the cell is decided in visibility/facet_cells.c.
  */
-#include "visibility/cells_single_sample.h"
+#include "visibility/facet_cells_sample.h"
 
 #include <math.h>
 
@@ -11,17 +11,17 @@
 #include "base/range.h"
 #include "view/side.h"
 #include "visibility/cells_cover.h"
-#include "visibility/cells_single_candidate.h"
 #include "visibility/contact.h"
+#include "visibility/facet_cells_candidate.h"
 #include "visibility/sample.h"
 
 /* The sides of a candidate need better error bounds if its farthest corner is more than this many
    times as far away as its nearest corner and the reach of f together. */
 #define FAR_RATIO 64
 
-uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cell *cell,
-                                   const double at[2], uint32_t component,
-                                   const lrcsi_cells_segment **best)
+uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                  const double at[2], uint32_t component,
+                                  const lrcsi_cells_segment **best)
 {
     const lrcsi_topology *topology = &a->division.view->prepared->topology;
     const lrcsi_marks of_component = {a->classification->component, component};
@@ -49,7 +49,7 @@ uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cell
 
 /* Finds the sample's point in space from its barycentric coordinates; its coordinates are
    rounded. */
-static void sample_unproject(const lrcsi_cells_single *a, lrcsi_cells_single_sample *sample)
+static void sample_unproject(const lrcsi_facet_cells *a, lrcsi_facet_cells_sample *sample)
 {
     const lrcs_prepared *p = a->division.view->prepared;
     double weight[3];
@@ -66,7 +66,7 @@ static void sample_unproject(const lrcsi_cells_single *a, lrcsi_cells_single_sam
 /* Places the sample in the view: f's first corner plus the vector from there. The vector has the
    error of f's own corners, 10 u of their reach, a rounding error of 3 u, and in a needle the
    frame's position error. */
-static void sample_place(const lrcsi_cells_single *a, lrcsi_cells_single_sample *sample)
+static void sample_place(const lrcsi_facet_cells *a, lrcsi_facet_cells_sample *sample)
 {
     double first[3];
     lrcsi_view_coordinates(a->division.view, a->target.origin, first);
@@ -80,7 +80,7 @@ static void sample_place(const lrcsi_cells_single *a, lrcsi_cells_single_sample 
 }
 
 /* Does the sample lie beyond a side of a facet, by view coordinates? */
-static int sample_is_beyond(const lrcsi_cells_single *a, const lrcsi_cells_single_sample *sample,
+static int sample_is_beyond(const lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
                             uint32_t other)
 {
     const lrcsi_view *view = a->division.view;
@@ -102,7 +102,7 @@ static int sample_is_beyond(const lrcsi_cells_single *a, const lrcsi_cells_singl
    rounding included; that of the vector G from n to the point is 12 u r_n + 2 u d, where d is the
    length of f. So T x G has an error of 12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the
    1-norm, and a rounding error of 2 u |T| |G|, which is below 3 u (r_p + r_q) |G|. */
-static void sides_make(const lrcsi_cells_single *a, uint32_t other, lrcsi_cells_single_side side[3])
+static void sides_make(const lrcsi_facet_cells *a, uint32_t other, lrcsi_facet_cells_side side[3])
 {
     const lrcsi_target *frame = &a->frame;
     const lrcsi_view *view = a->division.view;
@@ -153,7 +153,7 @@ static void sides_make(const lrcsi_cells_single *a, uint32_t other, lrcsi_cells_
    side. The sides are computed when they are first needed, and kept as far as there is room. In a
    needle, whose points have the frame's position error, lines in plain doubles nearly always
    suffice. */
-static int sides_cover(lrcsi_cells_single *a, const lrcsi_cells_single_sample *sample,
+static int sides_cover(lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
                        uint32_t candidate, double tolerance)
 {
     const lrcsi_needle *needle = a->frame.needle;
@@ -162,8 +162,8 @@ static int sides_cover(lrcsi_cells_single *a, const lrcsi_cells_single_sample *s
     if (!needle && sample->test == LRCSI_TEST_EXACT) {
         return lrcsi_sample_covers(view, other, sample->point) ? 1 : -1;
     }
-    lrcsi_cells_single_side made[3] = {{.err = -1}};
-    lrcsi_cells_single_side *sides = candidate < a->side_room ? a->side[candidate] : made;
+    lrcsi_facet_cells_side made[3] = {{.err = -1}};
+    lrcsi_facet_cells_side *sides = candidate < a->side_room ? a->side[candidate] : made;
     if (sides[0].err < 0) {
         sides_make(a, other, sides);
     }
@@ -188,7 +188,7 @@ static int sides_cover(lrcsi_cells_single *a, const lrcsi_cells_single_sample *s
 
 /* Is a facet that covers the sample in front of f there? 1 yes, -1 no, 0 it cannot be decided: the
    sample is near the line in which they intersect. */
-static int candidate_in_front(const lrcsi_cells_single *a, const lrcsi_cells_single_sample *sample,
+static int candidate_in_front(const lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
                               uint32_t other, double tolerance)
 {
     int order = a->order[other];
@@ -207,8 +207,8 @@ static int candidate_in_front(const lrcsi_cells_single *a, const lrcsi_cells_sin
 /* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided. If it is hidden, sample->cut is
    a segment of the component with the fewest segments in the cell; a component with none ends the
    search. Boxes exclude most candidates. The depth order, which takes longest, is computed last. */
-static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cell *cell,
-                            const lrcsi_clip_sides *s, lrcsi_cells_single_sample *sample)
+static int sample_is_hidden(lrcsi_facet_cells *a, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                            lrcsi_facet_cells_sample *sample)
 {
     uint32_t last = LRCS_NONE;
     int answer = 0;
@@ -224,7 +224,7 @@ static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cell *cell,
         }
         int covered = sides_cover(a, sample, i, s->tolerance);
         if (covered >= 0 && *order == LRCSI_ORDER_NOT_COMPUTED) {
-            *order = (unsigned char)lrcsi_cells_single_order(a, other);
+            *order = (unsigned char)lrcsi_facet_cells_order(a, other);
         }
         int front = covered >= 0 ? candidate_in_front(a, sample, other, s->tolerance) : -1;
         if (front < 0 || (answer > 0 && component == last)) {
@@ -235,7 +235,7 @@ static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cell *cell,
             continue;
         }
         const lrcsi_cells_segment *cut;
-        uint32_t ends = lrcsi_cells_single_choose(a, cell, sample->at, component, &cut);
+        uint32_t ends = lrcsi_facet_cells_choose(a, cell, sample->at, component, &cut);
         if (ends < sample->ends) {
             sample->ends = ends;
             sample->cut = cut;
@@ -246,15 +246,15 @@ static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cell *cell,
     return answer;
 }
 
-int lrcsi_cells_single_find_sample(lrcsi_cells_single *a, const lrcsi_cell *cell,
-                                   const lrcsi_clip_sides *s, lrcsi_cells_single_sample *sample,
-                                   int *guess)
+int lrcsi_facet_cells_find_sample(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                  const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample,
+                                  int *guess)
 {
     double margin = 4 * (cell->widest_strip + a->shape.err + s->tolerance);
     double unproject_err = lrcsi_target_unproject_err(&a->target);
     int answer = -1;
     for (int t = 0; t < LRCSI_SAMPLES && answer < 0; t++) {
-        *sample = (lrcsi_cells_single_sample){.test = LRCSI_TEST_BOUNDED};
+        *sample = (lrcsi_facet_cells_sample){.test = LRCSI_TEST_BOUNDED};
         lrcsi_cells_sample_point(cell, t, sample->at);
         sample->border_distance = lrcsi_clip_border_distance(s, sample->at);
         if (!(sample->border_distance > margin)) {
@@ -271,7 +271,7 @@ int lrcsi_cells_single_find_sample(lrcsi_cells_single *a, const lrcsi_cell *cell
         }
     }
     if (answer < 0) {
-        *sample = (lrcsi_cells_single_sample){.test = LRCSI_TEST_GUESSED};
+        *sample = (lrcsi_facet_cells_sample){.test = LRCSI_TEST_GUESSED};
         lrcsi_cells_sample_point(cell, 0, sample->at);
         sample_unproject(a, sample);
         sample->test = LRCSI_TEST_GUESSED;

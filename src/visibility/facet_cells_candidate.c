@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* What may hide one facet, f: the candidates, their depth order against f, and the segments along
    which they begin or cease to hide it. Which of them hide it at a point is decided in
-   visibility/cells_single_sample.c. */
-#include "visibility/cells_single_candidate.h"
+   visibility/facet_cells_sample.c. */
+#include "visibility/facet_cells_candidate.h"
 
 #include <math.h>
 
@@ -15,14 +15,14 @@
 /* --- candidates ------------------------------------------------------------------------------- */
 
 /* May a facet be in front of f? */
-static int is_candidate(const lrcsi_cells_single *a, uint32_t other)
+static int is_candidate(const lrcsi_facet_cells *a, uint32_t other)
 {
     return lrcsi_marked(&a->listed, other) && a->order[other] != LRCSI_ORDER_DISJOINT;
 }
 
 /* From their planes; if they are coplanar, from the rules of precedence; otherwise from where they
    overlap. */
-int lrcsi_cells_single_order(const lrcsi_cells_single *a, uint32_t other)
+int lrcsi_facet_cells_order(const lrcsi_facet_cells *a, uint32_t other)
 {
     const lrcsi_view *view = a->division.view;
     int order = lrcsi_sample_side(view, other, a->facet);
@@ -37,7 +37,7 @@ int lrcsi_cells_single_order(const lrcsi_cells_single *a, uint32_t other)
 }
 
 /* Does another facet lie entirely beyond one side of f? */
-static int facet_apart(const lrcsi_cells_single *a, const lrcsi_view_side own[3], uint32_t other)
+static int facet_apart(const lrcsi_facet_cells *a, const lrcsi_view_side own[3], uint32_t other)
 {
     const lrcsi_view *view = a->division.view;
     const uint32_t *its = view->prepared->scene->facet[other].corner;
@@ -52,7 +52,7 @@ static int facet_apart(const lrcsi_cells_single *a, const lrcsi_view_side own[3]
     return apart;
 }
 
-int lrcsi_cells_single_candidates(lrcsi_cells_single *a)
+int lrcsi_facet_cells_candidates(lrcsi_facet_cells *a)
 {
     const lrcsi_grid *grid = &a->grid;
     lrcsi_division *d = &a->division;
@@ -118,14 +118,14 @@ static void segment_ends(lrcsi_cells_segment *e, const double (*end)[2])
 }
 
 /* Is neither of an edge's facets in front of f anywhere? */
-static int edge_is_behind(lrcsi_cells_single *a, const uint32_t owner[2])
+static int edge_is_behind(lrcsi_facet_cells *a, const uint32_t owner[2])
 {
     int behind = 1;
     for (int i = 0; i < 2 && behind; i++) {
         if (owner[i] != LRCS_NONE && is_candidate(a, owner[i])) {
             unsigned char *order = &a->order[owner[i]];
             if (*order == LRCSI_ORDER_NOT_COMPUTED) {
-                *order = (unsigned char)lrcsi_cells_single_order(a, owner[i]);
+                *order = (unsigned char)lrcsi_facet_cells_order(a, owner[i]);
             }
             behind = *order == LRCSI_ORDER_BEHIND;
         }
@@ -134,7 +134,7 @@ static int edge_is_behind(lrcsi_cells_single *a, const uint32_t owner[2])
 }
 
 /* Adds an edge, unless its facets are behind f. 0 if there is no room. */
-static int add_single_edge(lrcsi_cells_single *a, uint32_t edge)
+static int add_facet_edge(lrcsi_facet_cells *a, uint32_t edge)
 {
     lrcsi_division *d = &a->division;
     const lrcs_prepared *p = d->view->prepared;
@@ -163,7 +163,7 @@ static int add_single_edge(lrcsi_cells_single *a, uint32_t edge)
 
 /* Finds the depth order of a facet that meets the interior of f, and adds the segments due to it. 0
    if there is no room. */
-static int add_single_contact(lrcsi_cells_single *a, uint32_t other)
+static int add_facet_contact(lrcsi_facet_cells *a, uint32_t other)
 {
     lrcsi_division *d = &a->division;
     lrcsi_contact contact;
@@ -184,7 +184,7 @@ static int add_single_contact(lrcsi_cells_single *a, uint32_t other)
     if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
         int done = 1;
         for (int k = 0; k < 3 && done; k++) {
-            done = add_single_edge(a, d->view->prepared->topology.facet_edge[other].corner[k]);
+            done = add_facet_edge(a, d->view->prepared->topology.facet_edge[other].corner[k]);
         }
         return done;
     }
@@ -201,7 +201,7 @@ static int add_single_contact(lrcsi_cells_single *a, uint32_t other)
     return 1;
 }
 
-int lrcsi_cells_single_segments(lrcsi_cells_single *a)
+int lrcsi_facet_cells_segments(lrcsi_facet_cells *a)
 {
     lrcsi_division *d = &a->division;
     const lrcsi_intersections *intersections = &d->view->prepared->intersections;
@@ -209,13 +209,13 @@ int lrcsi_cells_single_segments(lrcsi_cells_single *a)
         const lrcsi_intersection *contact = &intersections->entry[i];
         if (is_candidate(a, contact->other) &&
             lrcsi_sample_contact_hides(d->view, a->facet, contact) &&
-            !add_single_contact(a, contact->other)) {
+            !add_facet_contact(a, contact->other)) {
             return 0;
         }
     }
     lrcsi_crossings_find(&a->classification->search, a->facet, d->meter, &a->crossings);
     for (uint32_t i = 0; i < a->crossings.count; i++) {
-        if (!add_single_edge(a, a->crossings.edge[i])) {
+        if (!add_facet_edge(a, a->crossings.edge[i])) {
             return 0;
         }
     }

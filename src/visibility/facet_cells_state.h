@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The data that the modules share which find what is visible of one facet, f
-   (visibility/cells_single.c). */
-#ifndef LRCSI_CELLS_SINGLE_STATE_H
-#define LRCSI_CELLS_SINGLE_STATE_H
+   (visibility/facet_cells.c). */
+#ifndef LRCSI_FACET_CELLS_STATE_H
+#define LRCSI_FACET_CELLS_STATE_H
 
 #include "visibility/cells_division.h"
 #include "visibility/classify.h"
@@ -10,9 +10,9 @@
 #include "visibility/visible_area.h"
 
 /* A line: the distance from it is a x + b y + c, with an error of at most err. */
-typedef struct lrcsi_cells_single_side {
+typedef struct lrcsi_facet_cells_side {
     double line[3], err;
-} lrcsi_cells_single_side;
+} lrcsi_facet_cells_side;
 
 /* The depth order of a facet against f. */
 enum lrcsi_candidate_order {
@@ -24,7 +24,7 @@ enum lrcsi_candidate_order {
     LRCSI_ORDER_DISJOINT   /* it lies beyond a side of f: not a candidate */
 };
 
-typedef struct lrcsi_cells_single {
+typedef struct lrcsi_facet_cells {
     /* Given: */
     lrcsi_classification *classification;
     lrcsi_grid grid; /* of facets */
@@ -44,7 +44,7 @@ typedef struct lrcsi_cells_single {
 
     /* What may hide f: */
     uint32_t *candidate, candidate_count;
-    lrcsi_cells_single_side (*side)[3]; /* sides of the first side_room candidates */
+    lrcsi_facet_cells_side (*side)[3]; /* sides of the first side_room candidates */
     uint32_t side_room;
     lrcsi_marks listed;        /* facets that the search for candidates has come to */
     unsigned char *order;      /* listed facet: its lrcsi_candidate_order */
@@ -59,6 +59,6 @@ typedef struct lrcsi_cells_single {
     double perhaps_hidden;    /* undecided area that is more likely to be hidden */
     double perhaps_visible;   /* the rest of the undecided area */
     int hidden;               /* 1 if some of f is hidden */
-} lrcsi_cells_single;
+} lrcsi_facet_cells;
 
 #endif

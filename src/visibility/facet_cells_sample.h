@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* Samples in the cells of one facet, f: is it hidden there? (visibility/cells_single.c) */
-#ifndef LRCSI_CELLS_SINGLE_SAMPLE_H
-#define LRCSI_CELLS_SINGLE_SAMPLE_H
+/* Samples in the cells of one facet, f: is it hidden there? (visibility/facet_cells.c) */
+#ifndef LRCSI_FACET_CELLS_SAMPLE_H
+#define LRCSI_FACET_CELLS_SAMPLE_H
 
-#include "visibility/cells_single_state.h"
+#include "visibility/facet_cells_state.h"
 
 /* How the facets at a sample are found: with error bounds, at its point of the frame; exactly, at a
    nearby point in space; or by the signs of rounded values, which is only a guess. */
 enum lrcsi_sample_test { LRCSI_TEST_BOUNDED, LRCSI_TEST_EXACT, LRCSI_TEST_GUESSED };
 
 /* A sample in a cell. */
-typedef struct lrcsi_cells_single_sample {
+typedef struct lrcsi_facet_cells_sample {
     double at[2];
     double border_distance; /* a lower bound of its distance from the border of the cell */
     int test;               /* a lrcsi_sample_test */
@@ -22,21 +22,21 @@ typedef struct lrcsi_cells_single_sample {
     uint32_t ends;                  /* of the components in front of f, the fewest segments of the
                                        cell at which one ends or meets f */
     const lrcsi_cells_segment *cut; /* one of these segments */
-} lrcsi_cells_single_sample;
+} lrcsi_facet_cells_sample;
 
 /* Takes samples in the cell until one is decided. Returns 1 if f is hidden there, 0 if not, -1 if
    no sample is decided; *guess is then 1 if f is probably hidden, else 0. If it is hidden,
    sample->ends and sample->cut are set. */
-int lrcsi_cells_single_find_sample(lrcsi_cells_single *a, const lrcsi_cell *cell,
-                                   const lrcsi_clip_sides *s, lrcsi_cells_single_sample *sample,
-                                   int *guess);
+int lrcsi_facet_cells_find_sample(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                  const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample,
+                                  int *guess);
 
 /* Chooses, of a cell's segments, the one whose line passes nearest to a point, so that both parts
    are of similar size. Given a component (or LRCS_NONE), only segments at which it ends
    or meets f count.
    Returns how many there are to choose from. */
-uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cell *cell,
-                                   const double at[2], uint32_t component,
-                                   const lrcsi_cells_segment **best);
+uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                  const double at[2], uint32_t component,
+                                  const lrcsi_cells_segment **best);
 
 #endif
