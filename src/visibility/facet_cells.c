@@ -54,8 +54,8 @@
 /* A cell without room for a sample is halved if its area exceeds its perimeter times this many
    distances that a sample must keep from the border: then it is not too narrow for a sample. */
 #define NARROW 64
-/* It is not halved either if its area is at most this fraction of the area of f: all such cells
-   together are then less than 1e-12 of it. */
+/* It is not halved either if its area is at most this fraction of the area of f: 4096 such cells,
+   more than a facet ordinarily has, are then less than 1e-12 of it. */
 #define MIN_HALVED 0x1p-52
 
 /* --- the first cell --------------------------------------------------------------------------- */
@@ -150,23 +150,22 @@ static int process_facet_cell(lrcsi_facet_cells *a, lrcsi_cell *cell)
     lrcsi_cells_filter_segments(d, cell, &s);
 
     /* 1. A sample. */
-    int guess = 0;
-    int hidden = lrcsi_facet_cells_find_sample(a, cell, &s, &sample, &guess);
-    if (hidden <= 0) {
+    lrcsi_facet_cells_sample_take(a, cell, &s, &sample);
+    if (sample.hidden <= 0) {
         sample.ends = lrcsi_facet_cells_choose(a, cell, sample.at, LRCS_NONE, &sample.cut);
     }
 
     /* 2. If no segment is left that matters, all of the cell is visible or hidden, as the sample.
      */
-    if (hidden >= 0 && sample.ends == 0) {
+    if (sample.hidden >= 0 && sample.ends == 0) {
         a->area.uncertainty +=
             cell->uncertainty + lrcsi_cells_thin_uncertainty(cell, &s, sample.border_distance,
                                                              cell->removed, d->facet_err);
-        a->hidden |= hidden;
-        if (!hidden) {
+        a->hidden |= sample.hidden;
+        if (!sample.hidden) {
             add_visible_piece(a, cell, &s);
         }
-        return !hidden;
+        return !sample.hidden;
     }
 
     /* 3. Otherwise it is cut along a segment. Without one, it is halved unless it is narrow or
@@ -175,7 +174,7 @@ static int process_facet_cell(lrcsi_facet_cells *a, lrcsi_cell *cell)
     if (sample.cut ? !lrcsi_cells_divide(d, cell, &s, sample.cut)
                    : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(a->halved_area, narrow) &&
                        lrcsi_cells_halve(d, cell, &s))) {
-        double *perhaps = (hidden < 0 ? guess : hidden) ? &a->perhaps_hidden : &a->perhaps_visible;
+        double *perhaps = sample.guess ? &a->perhaps_hidden : &a->perhaps_visible;
         *perhaps += lrcsi_clip_area(&cell->shape);
     }
     return 0;

@@ -246,14 +246,13 @@ static int sample_is_hidden(lrcsi_facet_cells *a, const lrcsi_cell *cell, const 
     return answer;
 }
 
-int lrcsi_facet_cells_find_sample(lrcsi_facet_cells *a, const lrcsi_cell *cell,
-                                  const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample,
-                                  int *guess)
+void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                   const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample)
 {
-    double margin = 4 * (cell->widest_strip + a->shape.err + s->tolerance);
+    double margin = 4 * (cell->widest_strip + a->division.facet_err + s->tolerance);
     double unproject_err = lrcsi_target_unproject_err(&a->target);
-    int answer = -1;
-    for (int t = 0; t < LRCSI_SAMPLES && answer < 0; t++) {
+    int hidden = -1;
+    for (int t = 0; t < LRCSI_SAMPLES && hidden < 0; t++) {
         *sample = (lrcsi_facet_cells_sample){.test = LRCSI_TEST_BOUNDED};
         lrcsi_cells_sample_point(cell, t, sample->at);
         sample->border_distance = lrcsi_clip_border_distance(s, sample->at);
@@ -261,22 +260,24 @@ int lrcsi_facet_cells_find_sample(lrcsi_facet_cells *a, const lrcsi_cell *cell,
             continue;
         }
         sample_place(a, sample);
-        answer = sample_is_hidden(a, cell, s, sample);
-        if (answer < 0 && !a->frame.needle && sample->border_distance > margin + unproject_err) {
+        hidden = sample_is_hidden(a, cell, s, sample);
+        if (hidden < 0 && !a->frame.needle && sample->border_distance > margin + unproject_err) {
             sample_unproject(a, sample);
             sample->err = unproject_err;
             sample_place(a, sample);
             sample->border_distance -= unproject_err;
-            answer = sample_is_hidden(a, cell, s, sample);
+            hidden = sample_is_hidden(a, cell, s, sample);
         }
     }
-    if (answer < 0) {
+    int guess = hidden;
+    if (hidden < 0) {
         *sample = (lrcsi_facet_cells_sample){.test = LRCSI_TEST_GUESSED};
         lrcsi_cells_sample_point(cell, 0, sample->at);
         sample_unproject(a, sample);
         sample->test = LRCSI_TEST_GUESSED;
         sample_place(a, sample);
-        *guess = sample_is_hidden(a, cell, s, sample) > 0;
+        guess = sample_is_hidden(a, cell, s, sample) > 0;
     }
-    return answer;
+    sample->hidden = hidden;
+    sample->guess = guess;
 }

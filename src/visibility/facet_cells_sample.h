@@ -15,21 +15,21 @@ typedef struct lrcsi_facet_cells_sample {
     double border_distance; /* a lower bound of its distance from the border of the cell */
     int test;               /* a lrcsi_sample_test */
     double point[3];
-    double err;                     /* the distance in the view between `at` and `point` */
-    double view[3];                 /* its coordinates in the view, except for the depth */
-    double view_err;                /* their error, each */
-    lrcsi_view_box box;             /* around it in the view; its depth does not count */
+    double err;         /* the distance in the view between `at` and `point` */
+    double view[3];     /* its coordinates in the view, except for the depth */
+    double view_err;    /* their error, each */
+    lrcsi_view_box box; /* around it in the view; its depth does not count */
+    int hidden;         /* is f hidden there? 1 yes, 0 no, -1 undecided */
+    int guess;          /* the same if it is decided; else 1 if f is probably hidden, 0 if not */
+    /* If f is hidden: */
     uint32_t ends;                  /* of the components in front of f, the fewest segments of the
                                        cell at which one ends or meets f */
-    const lrcsi_cells_segment *cut; /* one of these segments */
+    const lrcsi_cells_segment *cut; /* one of these segments, if there is any */
 } lrcsi_facet_cells_sample;
 
-/* Takes samples in the cell until one is decided. Returns 1 if f is hidden there, 0 if not, -1 if
-   no sample is decided; *guess is then 1 if f is probably hidden, else 0. If it is hidden,
-   sample->ends and sample->cut are set. */
-int lrcsi_facet_cells_find_sample(lrcsi_facet_cells *a, const lrcsi_cell *cell,
-                                  const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample,
-                                  int *guess);
+/* Takes samples in the cell until one is decided, and returns the last one. */
+void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                   const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample);
 
 /* Chooses, of a cell's segments, the one whose line passes nearest to a point, so that both parts
    are of similar size. Given a component (or LRCS_NONE), only segments at which it ends
