@@ -312,7 +312,7 @@ static int run_clip(lrcsi_sigma *run, lrcsi_meter *meter)
 
 /* Finds visible areas by one raster of the given size, or of half of it, a quarter and so on until
    it fits into the work area. If `known` is NULL, the areas are taken from the samples alone. */
-static int run_raster(lrcsi_sigma *run, const lrcsi_decisions *known, uint32_t size)
+static int run_raster(lrcsi_sigma *run, lrcsi_decisions *known, uint32_t size)
 {
     lrcsi_outcome *outcome = &run->outcome;
     lrcsi_raster raster;

@@ -73,7 +73,7 @@ int lrcsi_decisions_make(lrcsi_classification *classification, lrcs_work *work,
     return LRCS_OK;
 }
 
-lrcsi_crossings lrcsi_decisions_crossings(const lrcsi_decisions *d, uint32_t facet,
+lrcsi_crossings lrcsi_decisions_crossings(lrcsi_decisions *d, uint32_t facet,
                                           lrcsi_crossings *search)
 {
     if (facet < d->listed) {

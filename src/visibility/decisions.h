@@ -32,7 +32,7 @@ int lrcsi_decisions_make(lrcsi_classification *classification, lrcs_work *work,
 
 /* The event edges that cross an undecided facet: listed, or searched for in *search, which has room
    for them. */
-lrcsi_crossings lrcsi_decisions_crossings(const lrcsi_decisions *decisions, uint32_t facet,
+lrcsi_crossings lrcsi_decisions_crossings(lrcsi_decisions *decisions, uint32_t facet,
                                           lrcsi_crossings *search);
 
 #endif

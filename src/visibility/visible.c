@@ -84,7 +84,7 @@ typedef struct drawn_facet {
 } drawn_facet;
 
 /* Makes a facet the current one: finds what it covers. */
-static drawn_facet drawn_facet_make(const visible_job *job, uint32_t facet)
+static drawn_facet drawn_facet_make(visible_job *job, uint32_t facet)
 {
     const lrcsi_raster *r = job->raster;
     const uint32_t *corner = r->view->prepared->scene->facet[facet].corner;
@@ -114,7 +114,7 @@ static size_t pixel_index(const visible_job *job, uint32_t x, uint32_t y)
 /* Marks every pixel of the facet that the segment a b may touch, if the position of each of its
    points has an error of at most a quarter of the margin, by which rows and ranges are widened
    (visibility/span.h). */
-static void mark_segment(const visible_job *job, const drawn_facet *f, const double a[2],
+static void mark_segment(visible_job *job, const drawn_facet *f, const double a[2],
                          const double b[2], double margin)
 {
     const double bottom = f->edges.bottom;
@@ -133,8 +133,7 @@ static void mark_segment(const visible_job *job, const drawn_facet *f, const dou
 }
 
 /* Marks all pixels of the facet that another one touches too. */
-static void mark_overlap(const visible_job *job, const drawn_facet *f,
-                         const lrcsi_edge_functions *other)
+static void mark_overlap(visible_job *job, const drawn_facet *f, const lrcsi_edge_functions *other)
 {
     uint32_t y = other->bottom > f->edges.bottom ? other->bottom : f->edges.bottom;
     for (; y < other->top && y < f->edges.top; y++) {
@@ -151,8 +150,7 @@ static void mark_overlap(const visible_job *job, const drawn_facet *f,
    planes intersect, as far as that may lie in the other facet. If the line is not known to an
    eighth of a pixel, because the planes are close to parallel or the other facet to edge-on, these
    are all pixels that both touch. */
-static void mark_mixed(const visible_job *job, const drawn_facet *f,
-                       const lrcsi_crossings *crossings)
+static void mark_mixed(visible_job *job, const drawn_facet *f, const lrcsi_crossings *crossings)
 {
     const lrcsi_raster *r = job->raster;
     const lrcsi_intersections *contacts = &r->view->prepared->intersections;
@@ -282,8 +280,7 @@ static int pixels_hide_facet(const visible_job *job, const drawn_facet *f)
    entirely is examined alone. Of the pixels that it covers entirely, only mixed ones are: the
    others are decided, and it owns the samples of those that are visible. So their number is that of
    all samples that it owns, less those in the pixels that are examined. */
-static pixel_sums facet_pixels(const visible_job *job, uint32_t facet,
-                               const lrcsi_crossings *crossings)
+static pixel_sums facet_pixels(visible_job *job, uint32_t facet, const lrcsi_crossings *crossings)
 {
     const lrcsi_raster *r = job->raster;
     const drawn_facet f = drawn_facet_make(job, facet);
@@ -333,7 +330,7 @@ static pixel_sums facet_pixels(const visible_job *job, uint32_t facet,
 
 /* The area of an undecided facet, its bounds and its estimated error. The area of a pixel is
    side^2 / N^2 within a few roundings, for which 1e-12 of it is subtracted. */
-static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, uint32_t facet,
+static void sampled_area(lrcsi_sample_pool *pool, const pixel_sums *sums, uint32_t facet,
                          const lrcsi_crossings *crossings, lrcsi_visible_area *v)
 {
     const lrcsi_raster *raster = pool->raster;
@@ -364,9 +361,9 @@ size_t lrcsi_visible_areas_need(const lrcs_prepared *prepared, uint32_t size)
 }
 
 /* If the depth order of a facet could not be decided, its sums are 0, and nothing is certain. */
-int lrcsi_visible_areas_from_samples(const lrcsi_decisions *decisions, uint32_t size,
-                                     lrcs_work *work, lrcsi_raster *raster,
-                                     lrcsi_visible_area *visible, int *undecided)
+int lrcsi_visible_areas_from_samples(lrcsi_decisions *decisions, uint32_t size, lrcs_work *work,
+                                     lrcsi_raster *raster, lrcsi_visible_area *visible,
+                                     int *undecided)
 {
     const lrcsi_classification *classification = decisions->classification;
     const lrcsi_view *view = classification->view;

@@ -165,7 +165,7 @@ lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sample_pool *poo
     return found;
 }
 
-void lrcsi_visible_fraction_apply(const lrcsi_sample_pool *pool, uint32_t facet, double area,
+void lrcsi_visible_fraction_apply(lrcsi_sample_pool *pool, uint32_t facet, double area,
                                   const lrcsi_visible_fraction *found, lrcsi_visible_area *visible)
 {
     double pixel = pool->raster->pixel * pool->raster->pixel;

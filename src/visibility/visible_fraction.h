@@ -38,7 +38,7 @@ lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sample_pool *poo
 
 /* Sets visible->area from the fraction found, within visible->low and visible->high.
    Given: area, the projected area of the facet. */
-void lrcsi_visible_fraction_apply(const lrcsi_sample_pool *pool, uint32_t facet, double area,
+void lrcsi_visible_fraction_apply(lrcsi_sample_pool *pool, uint32_t facet, double area,
                                   const lrcsi_visible_fraction *found, lrcsi_visible_area *visible);
 
 /* Distributes area that the bounds cut off over the other facets of the component. Called once,
