@@ -11,9 +11,9 @@
 void lrcsi_cells_sample_point(const lrcsi_cell *cell, int number, double at[2]);
 
 enum lrcsi_sample_outcome {
-    LRCSI_SAMPLE_UNSURE,
-    LRCSI_SAMPLE_EMPTY, /* no facet covers it */
-    LRCSI_SAMPLE_FOUND  /* a facet covers it, and all others are certainly behind that one */
+    LRCSI_SAMPLE_UNSURE, /* neither is certain */
+    LRCSI_SAMPLE_EMPTY,  /* no facet covers it */
+    LRCSI_SAMPLE_FOUND   /* a facet covers it, and all others are certainly behind that one */
 };
 
 /* A sample in a cell. */
@@ -42,7 +42,7 @@ typedef struct lrcsi_cells_surface {
     int nearest;               /* 1: no other facet is nearer at the sample */
     lrcsi_cell_border *border; /* its edges at the border of the cell */
     uint32_t border_count;
-    lrcsi_marks member;    /* its facets */
+    lrcsi_marks member;    /* its facets, and others that are to be kept */
     lrcsi_marks adjoining; /* the facets of the segments in the cell that belong to it: those that
                               it meets at a contact */
 } lrcsi_cells_surface;
@@ -62,8 +62,7 @@ int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
 
 /* Given: a component that does not cover the cell. Of the facets that each cover the cell alone,
    takes the one nearest at the sample as the surface. Returns 0 if there is none. The facets of the
-   component stay marked as members, and so in the cell's list: the cell is about to be cut along
-   one of its segments. */
+   component stay marked as members: lrcsi_cells_cull keeps them, even those behind that facet. */
 int lrcsi_cells_surface_occluder(const lrcsi_blocks *b, const lrcsi_cell *cell,
                                  const lrcsi_clip_sides *s, const lrcsi_cells_sample *sample,
                                  lrcsi_cells_surface *surface);

@@ -48,6 +48,7 @@ typedef struct lrcsi_cell_border {
     lrcsi_clip_interval interval;
 } lrcsi_cell_border;
 
+/* What is being divided: its facets and segments, and the cells of it that are not decided yet. */
 typedef struct lrcsi_division {
     const lrcsi_view *view;
     lrcsi_meter *meter; /* limit on steps; NULL: none */
