@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* The visible area of a facet with its bounds, and the moment of its visible region. */
+/* The visible area of a facet, projected, with its bounds, and the moment of its visible region:
+   the result of visibility for integration, whichever method found it. */
 #ifndef LRCSI_VISIBLE_AREA_H
 #define LRCSI_VISIBLE_AREA_H
+
+#include <math.h>
+
+#include "view/view.h"
 
 /* Projected areas in scaled units. Except for rounding, 0 <= low <= area <= high <= the facet's
    projected area. The true area is between low and high. */
@@ -16,6 +21,25 @@ typedef struct lrcsi_visible_area {
 static inline lrcsi_visible_area lrcsi_visible_area_exact(double area)
 {
     return (lrcsi_visible_area){.area = area, .low = area, .high = area};
+}
+
+/* The area of a facet that nothing is known to hide: all of it. This is proved for |cos(theta)| >
+   grazing_cos. Otherwise, and for every facet if grazing_cos is 1, the area is only an upper bound,
+   and low is 0. */
+static inline lrcsi_visible_area lrcsi_visible_area_unshadowed(const lrcsi_incidence *incidence,
+                                                               double grazing_cos)
+{
+    double low = fabs(incidence->cos_theta) > grazing_cos ? incidence->projected : 0;
+    return (lrcsi_visible_area){incidence->projected, low, incidence->projected, 0, 0};
+}
+
+/* A visible area, corrected for back sides. In a scene that is closed and outward they are never
+   visible: there a search that did not find one hidden does not prove that it is visible. */
+static inline lrcsi_visible_area lrcsi_visible_area_proved(const lrcsi_view *view, uint32_t facet,
+                                                           lrcsi_visible_area visible)
+{
+    visible.low = view->prepared->solid && view->facing[facet] < 0 ? 0 : visible.low;
+    return visible;
 }
 
 /* The first moment of a facet's visible region: the integral of x - c over its projection, c the
