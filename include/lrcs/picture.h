@@ -26,11 +26,11 @@ typedef struct lrcs_host_picture {
     const lrcs_scene *scene;
     const lrcs_pose *pose;
     const lrcs_facet_record *records; /* of a run for that pose */
-    const char *title;                /* title element of an SVG drawing */
+    const char *title;                /* also the title element of an SVG drawing */
     int colouring;                    /* lrcs_host_colouring */
     int white;                        /* 1: white background; 0: dark background */
-    int annotated; /* 1: PNG pictures have the title and the laser's azimuth and elevation above,
-                      and the body's axes in a corner */
+    int annotated; /* 1: the title and the laser's azimuth and elevation stand above the picture,
+                      and the body's axes in a corner; not in a PNG of less than 320 pixels */
     const char *about; /* what it was made from: in a PNG a comment, in an SVG metadata; or NULL */
 } lrcs_host_picture;
 

@@ -28,7 +28,8 @@ lrcs_pose lrcs_pose_default(void);
 int lrcs_pose_from_direction(const double direction[3], lrcs_pose *pose);
 
 /* From azimuth and elevation, deg, body frame: s_hat = (cos EL cos AZ, cos EL sin AZ, sin EL).
-   Degrees are reduced exactly: (0, 90) is exactly +z. Status: LRCS_OK; LRCS_E_NUMBER (not
+   Any elevation is taken: beyond 90 deg it goes on over the pole, (30, 100) is (210, 80). Degrees
+   are reduced exactly: (0, 90) is exactly +z. Status: LRCS_OK; LRCS_E_NUMBER (not
    finite). */
 int lrcs_pose_from_azel(double az_deg, double el_deg, lrcs_pose *pose);
 

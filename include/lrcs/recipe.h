@@ -45,7 +45,7 @@ typedef struct lrcs_recipe_material {
     lrcs_brdf brdf;
     int two_sided; /* -1: keeps what the model says */
     uint32_t line;
-    int assumed; /* the numbers are assumed, not given: apart from them, facets count as unbound */
+    int assumed; /* 1: the numbers are assumed, not given; their facets count as unassigned */
     lrcs_brdf_error error; /* of brdf */
 } lrcs_recipe_material;
 
@@ -55,7 +55,7 @@ typedef struct lrcs_recipe_material {
      3. MAP_NAME, then MAP_COLOUR (the scene file);
      4. a material of the library with the same name as the model's material;
      5. DEFAULT;
-     6. lrcs_brdf_default, unbound.
+     6. lrcs_brdf_default, unassigned.
    For the facets of a shape only 2, 5 and 6 apply. A NAME also replaces the material of that name
    wherever 2, 3 or 5 assigned it, so that the command line can change a scene file's materials. */
 enum lrcs_binding_kind {

@@ -49,7 +49,7 @@ int lrcsi_forecast_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
 {
     size_t mark = work->used;
     lrcsi_view view;
-    lrcsi_clear clear;
+    lrcsi_clear_shapes clear;
     int status = LRCS_OK;
     for (uint32_t i = 0; i < count && status == LRCS_OK; i++) {
         status = lrcsi_sigma_check(&options[i], NULL);
@@ -58,9 +58,10 @@ int lrcsi_forecast_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     status = status == LRCS_OK ? lrcsi_clear_make(&view, work, &clear) : status;
     if (status == LRCS_OK) {
         const lrcsi_cost cost = lrcsi_cost_count(&view);
-        const lrcsi_clear none = {NULL, NULL, 0, 0};
+        const lrcsi_clear_shapes none = {NULL, NULL, 0, 0};
         for (uint32_t i = 0; i < count; i++) {
-            const lrcsi_clear *shapes = options[i].method == LRCS_METHOD_AUTO ? &clear : &none;
+            const lrcsi_clear_shapes *shapes =
+                options[i].method == LRCS_METHOD_AUTO ? &clear : &none;
             const lrcsi_plan plan = lrcsi_plan_make(&view, shapes, &options[i]);
             seconds[i] = 1e-9 * forecast_ns(&plan, &cost, &options[i]);
         }

@@ -11,28 +11,40 @@
 
 #define NAME_MOST 64u
 
+static void message_print(const char *format, va_list list)
+{
+    cli_watch_end();
+    fputs("lrcs: ", stderr);
+    vfprintf(stderr, format, list);
+    fputc('\n', stderr);
+}
+
 int cli_usage(const cli_command *command, const char *format, ...)
 {
     va_list list;
-    cli_watch_end();
-    fprintf(stderr, "lrcs%s%s: ", command ? " " : "", command ? command->name : "");
     va_start(list, format);
-    vfprintf(stderr, format, list);
+    message_print(format, list);
     va_end(list);
-    fprintf(stderr, "\nTry 'lrcs%s%s --help'.\n", command ? " " : "", command ? command->name : "");
+    fprintf(stderr, "Try 'lrcs%s%s --help'.\n", command ? " " : "", command ? command->name : "");
     return CLI_USAGE;
 }
 
 int cli_fail(const char *format, ...)
 {
     va_list list;
-    cli_watch_end();
-    fputs("lrcs: ", stderr);
     va_start(list, format);
-    vfprintf(stderr, format, list);
+    message_print(format, list);
     va_end(list);
-    fputc('\n', stderr);
     return CLI_FAILED;
+}
+
+int cli_degraded(const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    message_print(format, list);
+    va_end(list);
+    return CLI_DEGRADED;
 }
 
 int cli_failed(const lrcs_host_error *error)
@@ -136,7 +148,7 @@ int cli_args_read(const cli_command *command, int count, char **word, cli_args *
                 return code;
             }
         } else if (!command->operand) {
-            return cli_usage(command, "takes no operand, found '%s'", word[i]);
+            return cli_usage(command, "%s takes no operand, found '%s'", command->name, word[i]);
         } else if (strstr(command->operand, "...")) {
             args->operand = word[i];
             args->given[args->given_count++] = (cli_given){"", word[i]};

@@ -24,7 +24,8 @@ enum cli_exit {
     "pose: one of these; without any, the laser is on the +z axis\n"                               \
     "  --direction x,y,z     direction to the laser in the body frame, of any length\n"            \
     "  --azel AZ,EL          azimuth AZ from +x towards +y, elevation EL towards +z, deg: the\n"   \
-    "                        direction (cos EL cos AZ, cos EL sin AZ, sin EL)\n"                   \
+    "                        direction (cos EL cos AZ, cos EL sin AZ, sin EL). Beyond 90 deg\n"    \
+    "                        EL goes on over the pole: 30,100 is 210,80\n"                         \
     "  --euler SEQ:a,b,c     angles, deg; XYZ intrinsic: R = Rx(a) Ry(b) Rz(c); xyz extrinsic\n"   \
     "  --quaternion w,x,y,z  rotation from the body to the observation frame: x right, y up, z\n"  \
     "                        to the laser (of a direction: by the shortest rotation)\n"
@@ -130,16 +131,22 @@ int cli_whole(const cli_args *args, const char *name, double least, double most,
    option was not given. 0 or CLI_USAGE. */
 int cli_choice(const cli_args *args, const char *name, const char *words, int *place);
 
-/* Prints a message on stderr, "lrcs run: ...", and how to get help. Returns CLI_USAGE. */
+/* Messages on stderr: "lrcs: TEXT" is why a command fails, or why its exit code is 3; "notice:
+   TEXT" is worth knowing and changes no exit code; "wrote FILE" names an output. */
+
+/* Prints "lrcs: TEXT", and how to get help. Returns CLI_USAGE. */
 __attribute__((format(printf, 2, 3))) int cli_usage(const cli_command *command, const char *format,
                                                     ...);
 
 /* The same for the value of an option: "--NAME: expected WHAT, found 'VALUE'". */
 int cli_expected(const cli_args *args, const char *name, const char *what);
 
-/* Prints "lrcs: TEXT" on stderr, also for an error or lack of memory. Returns CLI_FAILED. */
+/* Prints "lrcs: TEXT", also for an error or lack of memory. Returns CLI_FAILED. */
 __attribute__((format(printf, 1, 2))) int cli_fail(const char *format, ...);
 int cli_failed(const lrcs_host_error *error);
+
+/* Prints "lrcs: TEXT", why an answer is not what was asked for. Returns CLI_DEGRADED. */
+__attribute__((format(printf, 1, 2))) int cli_degraded(const char *format, ...);
 int cli_out_of_memory(void);
 
 /* Ends a command: CLI_FAILED with a message if stdout could not be written, else `code`. */
@@ -156,6 +163,10 @@ void cli_pose_azel(const lrcs_pose *pose, double azel_deg[2]);
 int cli_accuracy_read(const cli_args *args, lrcs_run_options *options);
 int cli_normals_read(const cli_args *args, lrcs_host_options *load);
 
+/* Sets how a scene is read for a run with these options: its curved shapes are divided as finely as
+   each pose needs. */
+void cli_division_set(const lrcs_run_options *options, lrcs_host_options *load);
+
 /* 1 if a tolerance applies: under auto, and whenever one is given. Otherwise no tolerance can be
    missed. */
 int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options);
@@ -168,7 +179,7 @@ const char *cli_accepted_by(uint32_t flags);
 void cli_accepted_print(FILE *out, uint32_t flags);
 
 /* The flags of a result, without that of a missed tolerance if no tolerance applies; and the exit
-   code for them, CLI_DONE or CLI_DEGRADED. */
+   code for them, CLI_DONE or CLI_DEGRADED with the message printed. */
 uint32_t cli_flags_in_force(const cli_args *args, const lrcs_run_options *options, uint32_t flags);
 int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uint32_t flags);
 
@@ -216,6 +227,9 @@ int cli_scene_run(const lrcs_host_scene *scene, const lrcs_pose *pose,
 
 /* The title of the scene, or the operand if it has none. */
 const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene);
+
+/* The same with the operand without its folders, for people. */
+const char *cli_scene_name(const cli_args *args, const lrcs_host_scene *scene);
 
 /* Prints the scene for people: its title, and in brackets the file, if the title does not name
    it. */
@@ -346,8 +360,9 @@ int cli_extension(const char *path, const char *extension);
 /* 1 if an option names a file to write. */
 int cli_is_output(const cli_command *command, const char *option);
 
-/* Names on stderr the files that were written, for a command whose report does not name them. */
-void cli_outputs_say(const cli_args *args);
+/* Prints on stderr the names of the files that were written, for a command whose report does not
+   name them; but not that of the option `kept` (or NULL), whose file was there. */
+void cli_outputs_print(const cli_args *args, const char *kept);
 
 /* Checks before the work the files named by options, for every command: charts are FILE.svg or
    FILE.png; no two are the same file; one that is standard output is not beside --json; none is a
@@ -355,8 +370,10 @@ void cli_outputs_say(const cli_args *args);
  */
 int cli_outputs_check(const cli_args *args);
 
-/* Checks that none of them would replace a file that the scene was read from. 0 or CLI_USAGE. */
+/* Checks that none of them would replace a file that the scene was read from; or an input, `what`
+   in a message: "the readings". 0 or CLI_USAGE. */
 int cli_outputs_spare(const cli_args *args, const lrcs_host_scene *scene);
+int cli_outputs_spare_input(const cli_args *args, const char *input, const char *what);
 
 /* Writes what the laser sees as PNG, with what it was made from. Status: as lrcs_host_picture_png.
  */

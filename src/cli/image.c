@@ -12,7 +12,9 @@
 static const char image_help[] =
     "usage: lrcs image SCENE [pose] -o FILE.png [options]\n"
     "\n"
-    "Draws what the laser sees of SCENE, a .3ds, .obj or .stl model, a scene file, or 'demo'.\n"
+    "Draws what the laser sees of SCENE, a .3ds, .obj or .stl model, a scene file, or 'demo',\n"
+    "with a scale bar and the meaning of colours (160 pixels and more), its title, the\n"
+    "direction and the body's axes (320 pixels and more).\n"
     "\n" CLI_POSE_HELP "\n"
     "output: at least one of these\n"
     "  -o FILE.png           a picture\n"
@@ -37,12 +39,15 @@ static const char image_help[] =
     "                        they show a back that does not reflect\n"
     "  --size N              side of the picture in pixels, 16 .. 4096 (default 512)\n"
     "  --ground WHAT         background: dark (default of -o) or white (default of "
-    "--visible)\n" CLI_ACCURACY_HELP CLI_SCENE_HELP "\n"
-    "examples\n"
-    "  lrcs image demo -o demo.png\n"
-    "  lrcs image demo --azel 50,40 --by theta --size 1024 -o demo.png\n"
-    "  lrcs image demo --azel 50,40 --visible demo.svg --vtk demo.vtp\n"
-    "  lrcs image aura.3ds --azel 30,20 --by material --ground white -o aura.png\n";
+    "--visible)\n" CLI_ACCURACY_HELP;
+
+static const char image_help_more[] =
+    CLI_SCENE_HELP "\n"
+                   "examples\n"
+                   "  lrcs image demo -o demo.png\n"
+                   "  lrcs image demo --azel 50,40 --by theta --size 1024 -o demo.png\n"
+                   "  lrcs image demo --azel 50,40 --visible demo.svg --vtk demo.vtp\n"
+                   "  lrcs image aura.3ds --azel 30,20 --by material --ground white -o aura.png\n";
 
 static const cli_option image_options[] = {
     CLI_POSE_OPTIONS,         CLI_ACCURACY_OPTIONS, CLI_SCENE_OPTIONS, {"o", CLI_FILE, 0},
@@ -114,7 +119,8 @@ static lrcs_host_picture picture_of(const image_job *job)
     return (lrcs_host_picture){.scene = &job->scene.scene,
                                .pose = &job->pose,
                                .records = job->records,
-                               .title = job->args->operand,
+                               .title = cli_scene_name(job->args, &job->scene),
+                               .annotated = 1,
                                .colouring = job->colouring,
                                .white = job->white};
 }
@@ -198,7 +204,7 @@ static int image_command(const cli_args *args)
     if (code == 0) {
         cli_notices_print(stderr, &job.scene.notices);
         cli_accepted_print(stderr, job.result.flags);
-        cli_outputs_say(args);
+        cli_outputs_print(args, NULL);
         code = cli_accuracy_code(args, &job.options, job.result.flags);
     }
     free(job.records);
@@ -210,6 +216,6 @@ static int image_command(const cli_args *args)
 }
 
 const cli_command cli_image_command = {
-    "image",    "SCENE",       "give a .3ds, .obj or .stl model, a scene file, or demo",
-    image_help, image_options, image_command,
-    NULL};
+    "image",        "SCENE",       "give a .3ds, .obj or .stl model, a scene file, or demo",
+    image_help,     image_options, image_command,
+    image_help_more};

@@ -44,8 +44,9 @@ static int merge_shards(const cli_args *args, const lrcs_host_sweep_output *file
         return cli_usage(args->command, "-o %s: the shards are %s", file->path, name[format]);
     }
     for (uint32_t i = 0; file->path && i < count; i++) {
-        if (lrcs_host_output_same(file->path, part[i].path)) {
-            return cli_usage(args->command, "-o %s: would overwrite a shard", file->path);
+        int code = cli_outputs_spare_input(args, part[i].path, "a shard");
+        if (code != 0) {
+            return code;
         }
     }
     cli_watch_stage("writing", NULL);
@@ -55,7 +56,7 @@ static int merge_shards(const cli_args *args, const lrcs_host_sweep_output *file
         return cli_failed(&error);
     }
     cli_watch_end();
-    cli_outputs_say(args);
+    cli_outputs_print(args, NULL);
     return CLI_DONE;
 }
 

@@ -66,6 +66,14 @@ int cli_normals_read(const cli_args *args, lrcs_host_options *load)
     return cli_choice(args, "normals", "flat, auto or smooth", &load->build.normals);
 }
 
+void cli_division_set(const lrcs_run_options *options, lrcs_host_options *load)
+{
+    load->build.tolerance = options->tolerance;
+    load->build.facets_only = options->method != LRCS_METHOD_AUTO;
+    load->build.division = LRCS_HOST_DIVISION;
+    load->build.max_facets = LRCS_HOST_FACETS;
+}
+
 int cli_tolerance_judged(const cli_args *args, const lrcs_run_options *options)
 {
     return options->method == LRCS_METHOD_AUTO || cli_value(args, "tolerance") != NULL;
@@ -98,6 +106,12 @@ uint32_t cli_flags_in_force(const cli_args *args, const lrcs_run_options *option
 
 int cli_accuracy_code(const cli_args *args, const lrcs_run_options *options, uint32_t flags)
 {
-    uint32_t degraded = LRCS_FLAG_TOLERANCE_NOT_MET | LRCS_FLAG_MEMORY_FALLBACK;
-    return (cli_flags_in_force(args, options, flags) & degraded) != 0 ? CLI_DEGRADED : CLI_DONE;
+    uint32_t in_force = cli_flags_in_force(args, options, flags);
+    int code = CLI_DONE;
+    if (in_force & LRCS_FLAG_TOLERANCE_NOT_MET) {
+        code = cli_degraded("the tolerance %g is missed", options->tolerance);
+    }
+    return in_force & LRCS_FLAG_MEMORY_FALLBACK
+               ? cli_degraded("memory was short: the answer is coarser than asked for")
+               : code;
 }

@@ -55,11 +55,13 @@ int cli_is_output(const cli_command *command, const char *option)
     return option_kind(command, option) >= CLI_FILE;
 }
 
-void cli_outputs_say(const cli_args *args)
+void cli_outputs_print(const cli_args *args, const char *kept)
 {
     for (int i = 0; i < args->given_count; i++) {
         const cli_given *given = &args->given[i];
-        if (cli_is_output(args->command, given->name) && strcmp(given->value, "-") != 0) {
+        int written = !kept || strcmp(given->name, kept) != 0;
+        if (written && cli_is_output(args->command, given->name) &&
+            strcmp(given->value, "-") != 0) {
             fprintf(stderr, "wrote %s\n", given->value);
         }
     }
@@ -109,6 +111,19 @@ int cli_outputs_spare(const cli_args *args, const lrcs_host_scene *scene)
             lrcs_host_output_check(given->value, scene, &error) != LRCS_OK) {
             return cli_usage(args->command, "%s%s %s", cli_dashes(given->name), given->name,
                              error.text);
+        }
+    }
+    return 0;
+}
+
+int cli_outputs_spare_input(const cli_args *args, const char *input, const char *what)
+{
+    for (int i = 0; i < args->given_count; i++) {
+        const cli_given *given = &args->given[i];
+        if (cli_is_output(args->command, given->name) &&
+            lrcs_host_output_same(given->value, input)) {
+            return cli_usage(args->command, "%s%s %s: would overwrite %s", cli_dashes(given->name),
+                             given->name, given->value, what);
         }
     }
     return 0;
@@ -165,7 +180,7 @@ typedef struct chart_output {
     int png;
 } chart_output;
 
-static int chart_draw(FILE *out, const void *context, lrcs_host_error *error)
+static int chart_output_draw(FILE *out, const void *context, lrcs_host_error *error)
 {
     const chart_output *chart = context;
     return chart->draw(out, chart->context, chart->png, error);
@@ -174,7 +189,7 @@ static int chart_draw(FILE *out, const void *context, lrcs_host_error *error)
 int cli_chart_write(const char *path, cli_chart_writer *draw, const void *context)
 {
     const chart_output chart = {draw, context, cli_extension(path, ".png")};
-    return cli_output_write(path, chart_draw, &chart);
+    return cli_output_write(path, chart_output_draw, &chart);
 }
 
 int cli_charts_write(const cli_args *args, const char *option, cli_chart_writer *draw,

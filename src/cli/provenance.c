@@ -14,6 +14,18 @@ const char *cli_scene_title(const cli_args *args, const lrcs_host_scene *scene)
     return scene->recipe.name && scene->recipe.name[0] ? scene->recipe.name : args->operand;
 }
 
+const char *cli_base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash && slash[1] ? slash + 1 : path;
+}
+
+const char *cli_scene_name(const cli_args *args, const lrcs_host_scene *scene)
+{
+    const char *title = cli_scene_title(args, scene);
+    return title == args->operand ? cli_base_name(title) : title;
+}
+
 void cli_scene_print(const cli_args *args, const lrcs_host_scene *scene)
 {
     const char *title = cli_scene_title(args, scene);
@@ -78,12 +90,6 @@ int cli_materials_assumed(const lrcs_scene *scene)
         }
     }
     return 0;
-}
-
-const char *cli_base_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash && slash[1] ? slash + 1 : path;
 }
 
 /* The hash of a file; that of no bytes if it cannot be read. */
@@ -257,17 +263,17 @@ void cli_provenance_json(const cli_args *args, const lrcs_host_scene *host, lrcs
 
 /* ---- beside a file of numbers ---- */
 
-typedef struct beside {
+typedef struct provenance {
     const cli_args *args;
     const char *path;
     const lrcs_host_scene *scene; /* NULL: made from the operand alone */
     const lrcs_pose *pose;        /* or NULL */
     const char *about;            /* or NULL */
-} beside;
+} provenance;
 
 static void beside_write(FILE *out, const void *context)
 {
-    const beside *from = context;
+    const provenance *from = context;
     lrcs_host_json json = lrcs_host_json_make(out);
     lrcs_host_json_put(&json, "{\nlrcs=%s", from->args->command->name);
     cli_version_json(&json);
@@ -308,7 +314,7 @@ char *cli_beside_name(const char *path)
 int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_host_scene *scene,
                           const lrcs_pose *pose, const char *about)
 {
-    const beside from = {args, path, scene, pose, about};
+    const provenance from = {args, path, scene, pose, about};
     struct stat kind;
     if (strcmp(path, "-") == 0 || stat(path, &kind) != 0 || !S_ISREG(kind.st_mode)) {
         return 0; /* nothing stands beside standard output or a device */
@@ -329,10 +335,10 @@ int cli_provenance_beside(const cli_args *args, const char *path, const lrcs_hos
 
 static void picture_put(FILE *out, const void *context)
 {
-    const beside *from = context;
+    const provenance *from = context;
     const lrcs_host_scene *scene = from->scene;
     fprintf(out, "lrcs %s", lrcs_version());
-    source_put(out, from->args, scene ? cli_scene_title(from->args, scene) : NULL, scene);
+    source_put(out, from->args, scene ? cli_scene_title(from->args, scene) : "", scene);
     for (uint32_t i = 0; scene && i < scene->scene.material_count; i++) {
         const lrcs_material *material = &scene->scene.material[i];
         const lrcs_brdf *brdf = &material->brdf;
@@ -344,7 +350,7 @@ static void picture_put(FILE *out, const void *context)
 
 char *cli_provenance_text(const cli_args *args, const lrcs_host_scene *scene)
 {
-    const beside from = {.args = args, .scene = scene};
+    const provenance from = {.args = args, .scene = scene};
     return cli_text_of(picture_put, &from);
 }
 

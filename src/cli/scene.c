@@ -209,37 +209,6 @@ static void model_put(const scene_job *job, const char *unnamed, FILE *out)
     free(count);
 }
 
-static void brdf_put(const lrcs_material *material, FILE *out)
-{
-    const lrcs_brdf *brdf = &material->brdf;
-    const lrcs_brdf_entry *entry = cli_brdf_entry(brdf);
-    if (entry) {
-        fprintf(out, "like = \"%s\"   # %sA=%g, B=%g, s=%g, m=%g, %s\n", entry->name,
-                entry->source ? "" : "GUESS: ", brdf->A, brdf->B, brdf->s, brdf->m,
-                entry->source ? entry->source : "illustrative");
-        return;
-    }
-    if (!material->brdf_given) {
-        const char *like = suggestion(material->name);
-        fputs("assumed = true    # GUESS: A to m are the default; delete this line with your own",
-              out);
-        if (like) {
-            fprintf(out, "\n# like = \"%s\"   # may suit that name better, in place of A to m",
-                    like);
-        }
-        putc('\n', out);
-    }
-    const char *const key[8] = {"A", "B", "s", "m", "A_error", "B_error", "s_error", "m_error"};
-    const double value[8] = {brdf->A,           brdf->B,           brdf->s,
-                             brdf->m,           material->error.A, material->error.B,
-                             material->error.s, material->error.m};
-    for (int i = 0; i < 8; i++) {
-        if (i < 4 || value[i] > 0.0) {
-            number_put(out, key[i], value[i]);
-        }
-    }
-}
-
 /* Writes a material of the model, with a mapping from its name; if `unnamed` is not NULL, as the
    material of facets without a name, without a mapping. */
 static void material_put(const scene_job *job, uint32_t index, const char *unnamed, FILE *out)
@@ -247,6 +216,7 @@ static void material_put(const scene_job *job, uint32_t index, const char *unnam
     const lrcs_scene *scene = &job->scene.scene;
     const lrcs_material *material = &scene->material[index];
     const char *name = unnamed ? unnamed : material->name;
+    /* 1. What has it, and its name. */
     fprintf(out, "\n# %lu facets, %.4g m2", (unsigned long)job->facets[index], job->area[index]);
     if (material->has_colour) {
         char colour[CLI_COLOUR_TEXT];
@@ -257,7 +227,32 @@ static void material_put(const scene_job *job, uint32_t index, const char *unnam
                                  : "\n[[material]]\nname = ",
                name);
     putc('\n', out);
-    brdf_put(material, out);
+    /* 2. Its numbers, or the library's material that has them. */
+    const lrcs_brdf *brdf = &material->brdf;
+    const lrcs_brdf_entry *entry = cli_brdf_entry(brdf);
+    const char *like = suggestion(material->name);
+    const char *const key[8] = {"A", "B", "s", "m", "A_error", "B_error", "s_error", "m_error"};
+    const double value[8] = {brdf->A,           brdf->B,           brdf->s,
+                             brdf->m,           material->error.A, material->error.B,
+                             material->error.s, material->error.m};
+    if (entry) {
+        fprintf(out, "like = \"%s\"   # %sA=%g, B=%g, s=%g, m=%g, %s\n", entry->name,
+                entry->source ? "" : "GUESS: ", brdf->A, brdf->B, brdf->s, brdf->m,
+                entry->source ? entry->source : "illustrative");
+    } else if (!material->brdf_given) {
+        fputs("assumed = true    # GUESS: A to m are the default; delete this line with your own\n",
+              out);
+        if (like) {
+            fprintf(out, "# like = \"%s\"   # may suit that name better, in place of A to m\n",
+                    like);
+        }
+    }
+    for (int i = 0; !entry && i < 8; i++) {
+        if (i < 4 || value[i] > 0.0) {
+            number_put(out, key[i], value[i]);
+        }
+    }
+    /* 3. Whether its back reflects. */
     int two_sided = 1; /* 1 if all materials of that name are: the key applies to each of them */
     for (uint32_t i = 0; i < scene->material_count; i++) {
         two_sided &=
@@ -266,7 +261,7 @@ static void material_put(const scene_job *job, uint32_t index, const char *unnam
     fputs(two_sided ? "two_sided = true  # as the model says\n"
                     : "# two_sided = true   # if its back reflects, too\n",
           out);
-    if (!unnamed) {
+    if (!unnamed) { /* 4. The mapping. */
         string_put(out, "[[map]]\nname = ", name);
         string_put(out, "\nmaterial = ", name);
         putc('\n', out);
@@ -409,7 +404,7 @@ static int scene_command(const cli_args *args)
     cli_watch_end();
     if (code == 0) {
         cli_notices_print(stderr, &job.scene.notices);
-        cli_outputs_say(args);
+        cli_outputs_print(args, NULL);
     }
     free(job.text);
     free(job.facets);

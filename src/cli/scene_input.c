@@ -126,7 +126,7 @@ static int colour_read(const char *text, size_t size, unsigned char rgb[3])
 
 /* Reads one --material: a colour or a name is what precedes the last '=', since no number contains
    one. */
-static int binding_read(const cli_command *command, const char *text, lrcs_binding *binding)
+static int material_option_read(const cli_command *command, const char *text, lrcs_binding *binding)
 {
     const char *equals = strrchr(text, '=');
     *binding = (lrcs_binding){.kind = LRCS_BIND_DEFAULT, .two_sided = -1};
@@ -209,8 +209,8 @@ int cli_scene_options_read(const cli_args *args, lrcs_host_options *options)
     }
     for (int i = 0; i < args->given_count && code == 0; i++) {
         if (strcmp(args->given[i].name, "material") == 0) {
-            code =
-                binding_read(args->command, args->given[i].value, &all[options->binding_count++]);
+            code = material_option_read(args->command, args->given[i].value,
+                                        &all[options->binding_count++]);
         }
     }
     return code;

@@ -84,8 +84,8 @@ static void case_print(const verify_case *one, lrcs_host_json *json)
 }
 
 /* An axis and an angle from it: s_hat = (sin, 0, cos), that is elevation 90 - angle. */
-static int case_run(const lrcs_host_scene *scene, const lrcs_shape *shape, verify_case *one,
-                    lrcs_host_error *error)
+static int verify_case_run(const lrcs_host_scene *scene, const lrcs_shape *shape, verify_case *one,
+                           lrcs_host_error *error)
 {
     lrcs_run_options options = lrcs_run_options_default();
     lrcs_aspect aspect = {.deg = one->aspect_deg};
@@ -133,7 +133,7 @@ static int shape_verify(const lrcs_shape *shape, const lrcs_brdf *brdf, lrcs_hos
     for (size_t i = 0; i < COUNT_OF(verify_aspects) && status == LRCS_OK; i++) {
         verify_case one = {
             .shape = lrcs_shape_text(shape->kind), .aspect_deg = verify_aspects[i], .brdf = brdf};
-        status = case_run(&scene, shape, &one, &error);
+        status = verify_case_run(&scene, shape, &one, &error);
         if (status != LRCS_OK) {
             break;
         }

@@ -13,7 +13,7 @@
 /* answer[facet] is LRCSI_QUERY_VISIBLE or LRCSI_QUERY_HIDDEN if all or nothing of the facet is
    visible; visible[] has the areas of the other facets, and of all facets if answer is NULL. */
 typedef struct lrcsi_areas {
-    const lrcsi_visible *visible; /* NULL: method facet */
+    const lrcsi_visible_area *visible; /* NULL: method facet */
     const unsigned char *answer;
     const lrcsi_moment *moment;     /* of the visible regions of all facets; NULL: not known */
     const lrcsi_round_piece *piece; /* what facets on curved walls add; NULL: not known */
@@ -32,20 +32,22 @@ static inline const lrcsi_round_piece *lrcsi_areas_piece(const lrcsi_areas *area
 }
 
 /* The visible area of a facet of given incidence. */
-static inline lrcsi_visible lrcsi_areas_of(const lrcsi_areas *areas, const lrcsi_view *view,
-                                           const lrcsi_plan *plan, uint32_t facet,
-                                           const lrcsi_incidence *incidence)
+static inline lrcsi_visible_area lrcsi_areas_of(const lrcsi_areas *areas, const lrcsi_view *view,
+                                                const lrcsi_plan *plan, uint32_t facet,
+                                                const lrcsi_incidence *incidence)
 {
-    const lrcsi_visible nothing = lrcsi_visible_exactly(0);
+    const lrcsi_visible_area nothing = lrcsi_visible_area_exact(0);
     if (lrcsi_areas_answered(areas, facet)) {
         double area = incidence->projected;
-        return areas->answer[facet] == LRCSI_QUERY_VISIBLE ? lrcsi_visible_exactly(area) : nothing;
+        return areas->answer[facet] == LRCSI_QUERY_VISIBLE ? lrcsi_visible_area_exact(area)
+                                                           : nothing;
     }
     if (areas->visible) {
         return areas->visible[facet];
     }
-    return lrcsi_view_casts(view, facet) ? lrcsi_visible_unshadowed(incidence, plan->grazing_cos)
-                                         : nothing;
+    return lrcsi_view_casts(view, facet)
+               ? lrcsi_visible_area_unshadowed(incidence, plan->grazing_cos)
+               : nothing;
 }
 
 /* May some of a facet be visible? Given: areas of any method but facet. */

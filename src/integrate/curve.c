@@ -117,7 +117,8 @@ static lrcsi_curved integral_part(const lrcsi_curve_integral *integral, double f
 /* --- from areas ------------------------------------------------------------------------------- */
 
 /* The contribution of a facet of which only the visible area is known. */
-static lrcsi_curved curve_from_area(lrcsi_curve_integral *integral, const lrcsi_visible *visible)
+static lrcsi_curved curve_from_area(lrcsi_curve_integral *integral,
+                                    const lrcsi_visible_area *visible)
 {
     if (!(visible->high > 0)) {
         return integral_part(integral, 0);
@@ -144,13 +145,14 @@ static lrcsi_curved curve_from_area(lrcsi_curve_integral *integral, const lrcsi_
 }
 
 void lrcsi_curve_from_areas(const lrcsi_view *view, const lrcsi_curve_options *options,
-                            const lrcsi_visible *visible, lrcsi_curved *curved)
+                            const lrcsi_visible_area *visible, lrcsi_curved *curved)
 {
     lrcsi_curve_integral integral;
     lrcsi_curve_context context = lrcsi_curve_context_make(view, options);
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0, 0, 0};
-        lrcsi_view_progress(view, LRCS_PROGRESS_INTEGRATE, f, view->prepared->scene->facet_count);
+        lrcsi_progress_report(view->progress, LRCS_PROGRESS_INTEGRATE, f,
+                              view->prepared->scene->facet_count);
         if (lrcsi_curve_applies(view, f)) {
             lrcsi_curve_integral_make(&context, f, &integral);
             curved[f] = curve_from_area(&integral, &visible[f]);
@@ -200,7 +202,7 @@ double lrcsi_curve_position_err(const lrcsi_curve_integral *integral, const lrcs
 /* The contribution of a facet with curved normals, from its visible pieces. Given: o, which has
    opened the facet, and is closed here. */
 static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occlusion *o,
-                                      lrcsi_visible *visible)
+                                      lrcsi_visible_area *visible)
 {
     const lrcsi_target *target = &o->single.target;
     double area_err = 20 * LRCSI_U * target->reach * target->perimeter;
@@ -210,7 +212,7 @@ static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occl
                               o->single.piece.count);
     }
     area_err += o->single.piece_err;
-    *visible = lrcsi_visible_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
+    *visible = lrcsi_visible_area_proved(integral->view, integral->facet, lrcsi_occlude_close(o));
     lrcsi_curved part = integral_part(integral, 1);
     part.visibility = LRCS_FOUR_PI * (lrcsi_curve_upper_bound(integral) *
                                           (visible->high - visible->low + area_err) +
@@ -221,7 +223,8 @@ static lrcsi_curved curve_from_pieces(lrcsi_curve_integral *integral, lrcsi_occl
 /* Clips facets and integrates: all, or, with areas from samples, those with curved normals that are
    partly visible. */
 static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_options *options,
-                      int sampled, lrcs_work *work, lrcsi_visible *visible, lrcsi_curved *curved)
+                      int sampled, lrcs_work *work, lrcsi_visible_area *visible,
+                      lrcsi_curved *curved)
 {
     const lrcsi_view *view = classification->view;
     uint32_t count = view->prepared->scene->facet_count;
@@ -234,8 +237,8 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
         int applies = lrcsi_curve_applies(view, f);
         int partly = sampled && classification->undecided[f] && visible[f].low < visible[f].high;
         curved[f] = (lrcsi_curved){0, 0, 0, 0, 0, 0, 0, 0, 0};
-        lrcsi_view_progress(view, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f,
-                            count);
+        lrcsi_progress_report(
+            view->progress, sampled ? LRCS_PROGRESS_INTEGRATE : LRCS_PROGRESS_VISIBILITY, f, count);
         if (applies) {
             lrcsi_curve_integral_make(&context, f, &integral);
         }
@@ -246,7 +249,7 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
                 lrcsi_curve_context_add(&context, curved[f].glint + curved[f].diffuse);
                 continue;
             }
-            visible[f] = lrcsi_visible_proved(view, f, lrcsi_occlude_area(&o));
+            visible[f] = lrcsi_visible_area_proved(view, f, lrcsi_occlude_area(&o));
         }
         if (applies) {
             curved[f] = curve_from_area(&integral, &visible[f]);
@@ -259,14 +262,14 @@ static int curve_clip(lrcsi_classification *classification, const lrcsi_curve_op
 
 int lrcsi_curve_from_pieces(lrcsi_classification *classification,
                             const lrcsi_curve_options *options, lrcs_work *work,
-                            lrcsi_visible *visible, lrcsi_curved *curved)
+                            lrcsi_visible_area *visible, lrcsi_curved *curved)
 {
     return curve_clip(classification, options, 0, work, visible, curved);
 }
 
 int lrcsi_curve_from_samples(lrcsi_classification *classification,
                              const lrcsi_curve_options *options, lrcs_work *work,
-                             lrcsi_visible *visible, lrcsi_curved *curved)
+                             lrcsi_visible_area *visible, lrcsi_curved *curved)
 {
     return curve_clip(classification, options, 1, work, visible, curved);
 }

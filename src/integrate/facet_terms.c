@@ -86,7 +86,7 @@ static double fraction_of(double part, double whole)
    areas; and the error of f_r cos^2, times the upper bound of the visible area. */
 lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t facet, const lrcsi_incidence *incidence,
-                                         const lrcsi_visible *visible, lrcsi_patches *patches)
+                                         const lrcsi_visible_area *visible, lrcsi_patches *patches)
 {
     const lrcs_prepared *p = view->prepared;
     lrcs_brdf brdf = lrcsi_plan_brdf(plan, lrcsi_prepared_material(p, facet));

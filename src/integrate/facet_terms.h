@@ -18,7 +18,7 @@ typedef struct lrcsi_facet_terms {
    area. */
 lrcsi_facet_terms lrcsi_facet_terms_make(const lrcsi_view *view, const lrcsi_plan *plan,
                                          uint32_t facet, const lrcsi_incidence *incidence,
-                                         const lrcsi_visible *visible, lrcsi_patches *patches);
+                                         const lrcsi_visible_area *visible, lrcsi_patches *patches);
 
 /* A bound on the underflow error of a facet's terms, scaled: some 30 operations lose at most
    2^-1075 each, and no later operation enlarges a loss relative to its term. */

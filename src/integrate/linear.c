@@ -213,7 +213,8 @@ int lrcsi_linear_make(const lrcsi_view *view, const lrcs_brdf *brdf, const lrcsi
 /* The centroids of two facets are the means of their corners, whose differences are accurate; that
    of the sector is their mean, weighted by area. */
 lrcsi_linear_moment lrcsi_linear_moment_make(const lrcsi_view *view, uint32_t facet,
-                                             const lrcsi_patch *patch, const lrcsi_visible *visible,
+                                             const lrcsi_patch *patch,
+                                             const lrcsi_visible_area *visible,
                                              const lrcsi_moment *moment)
 {
     const lrcs_prepared *p = view->prepared;

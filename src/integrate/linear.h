@@ -38,7 +38,8 @@ typedef struct lrcsi_linear_moment {
 
 /* Given: the facet's patch, visible area and moment. */
 lrcsi_linear_moment lrcsi_linear_moment_make(const lrcsi_view *view, uint32_t facet,
-                                             const lrcsi_patch *patch, const lrcsi_visible *visible,
+                                             const lrcsi_patch *patch,
+                                             const lrcsi_visible_area *visible,
                                              const lrcsi_moment *moment);
 
 #endif

@@ -20,7 +20,7 @@ static int back_reflects(const lrcsi_view *view, uint32_t facet)
            !(part->reach > 0 && part->solid);
 }
 
-int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible_area *visible,
                          const lrcsi_proximity_band *band)
 {
     if (band && band->hidden[band->region[facet]]) {
@@ -38,8 +38,8 @@ int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_vis
                : LRCSI_PATCH_HIDDEN;
 }
 
-int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
-                              const lrcsi_proximity_band *band)
+int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet,
+                              const lrcsi_visible_area *visible, const lrcsi_proximity_band *band)
 {
     uint32_t partner = lrcsi_patch_partner(view->prepared, facet);
     return view->prepared->skip[partner] ? LRCSI_PATCH_HIDDEN
@@ -47,7 +47,7 @@ int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet, const lrcs
 }
 
 lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
-                                               const lrcsi_visible *visible,
+                                               const lrcsi_visible_area *visible,
                                                const lrcsi_proximity_band *band)
 {
     double error = incidence->error + 8 * LRCSI_U;
@@ -67,7 +67,8 @@ lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence,
 }
 
 double lrcsi_patch_hidden_fraction(const lrcsi_incidence *incidence, uint32_t facet,
-                                   const lrcsi_visible *visible, const lrcsi_proximity_band *band)
+                                   const lrcsi_visible_area *visible,
+                                   const lrcsi_proximity_band *band)
 {
     return !band || band->hidden[band->region[facet]] || !(visible[facet].high > 0)
                ? 0

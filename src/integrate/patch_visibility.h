@@ -27,10 +27,10 @@ typedef struct lrcsi_patch_fractions {
 
 /* The state of a facet that is not skipped, a lrcsi_patch_state; that of its partner, which counts
    as hidden if it is skipped. */
-int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
+int lrcsi_patch_state_of(const lrcsi_view *view, uint32_t facet, const lrcsi_visible_area *visible,
                          const lrcsi_proximity_band *band);
-int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet, const lrcsi_visible *visible,
-                              const lrcsi_proximity_band *band);
+int lrcsi_patch_partner_state(const lrcsi_view *view, uint32_t facet,
+                              const lrcsi_visible_area *visible, const lrcsi_proximity_band *band);
 
 /* Is something of a patch in this state visible? */
 static inline int lrcsi_patch_is_visible(int state)
@@ -40,11 +40,12 @@ static inline int lrcsi_patch_is_visible(int state)
 
 /* The fractions of a facet of which a side that reflects faces the laser. */
 lrcsi_patch_fractions lrcsi_patch_fractions_of(const lrcsi_incidence *incidence, uint32_t facet,
-                                               const lrcsi_visible *visible,
+                                               const lrcsi_visible_area *visible,
                                                const lrcsi_proximity_band *band);
 
 /* An upper bound of the visible fraction of a facet that counts as hidden. */
 double lrcsi_patch_hidden_fraction(const lrcsi_incidence *incidence, uint32_t facet,
-                                   const lrcsi_visible *visible, const lrcsi_proximity_band *band);
+                                   const lrcsi_visible_area *visible,
+                                   const lrcsi_proximity_band *band);
 
 #endif

@@ -67,7 +67,7 @@ static int samples_suffice(const lrcsi_view *view, const lrcs_run_options *optio
 
 /* Chooses the method, with its reason. If nothing else suffices, auto chooses clipping, because a
    raster whose bound meets the tolerance costs more in most cases. */
-static void plan_method(lrcsi_plan *plan, const lrcsi_view *view, const lrcsi_clear *clear,
+static void plan_method(lrcsi_plan *plan, const lrcsi_view *view, const lrcsi_clear_shapes *clear,
                         const lrcs_run_options *options)
 {
     int samples = samples_suffice(view, options);
@@ -99,7 +99,7 @@ static void plan_method(lrcsi_plan *plan, const lrcsi_view *view, const lrcsi_cl
     plan->samples_only = plan->method == LRCS_METHOD_ZBUFFER && samples;
 }
 
-lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
+lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear_shapes *clear,
                            const lrcs_run_options *options)
 {
     const lrcs_prepared *p = view->prepared;
@@ -223,7 +223,7 @@ static lrcs_effect term_effect(int term, int assigned, int seen, const term_text
                 : (lrcs_effect){0, assigned ? text->unseen : text->none};
 }
 
-static lrcs_effect closed_effect(const lrcsi_view *view, const lrcsi_clear *clear)
+static lrcs_effect closed_effect(const lrcsi_view *view, const lrcsi_clear_shapes *clear)
 {
     const lrcs_prepared *p = view->prepared;
     if (clear->all) {
@@ -238,8 +238,8 @@ static lrcs_effect closed_effect(const lrcsi_view *view, const lrcsi_clear *clea
                        : (lrcs_effect){0, "no part is a curved shape"};
 }
 
-void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, const lrcsi_clear *clear,
-                        uint32_t seen, lrcs_effect *effect)
+void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan,
+                        const lrcsi_clear_shapes *clear, uint32_t seen, lrcs_effect *effect)
 {
     static const term_text glint = {"a material has A > 0", "A = 0 for every material",
                                     "nothing seen has A > 0",

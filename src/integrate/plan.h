@@ -42,7 +42,7 @@ lrcsi_view_backs lrcsi_plan_backs(const lrcs_prepared *prepared, const lrcs_run_
 
 /* Makes the plan. Given: a view made with lrcsi_plan_backs, the shapes that nothing hides in it,
    and the options. */
-lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear *clear,
+lrcsi_plan lrcsi_plan_make(const lrcsi_view *view, const lrcsi_clear_shapes *clear,
                            const lrcs_run_options *options);
 
 /* The BRDF of a material, without the terms that the plan leaves out. */
@@ -50,7 +50,7 @@ lrcs_brdf lrcsi_plan_brdf(const lrcsi_plan *plan, const lrcs_material *material)
 
 /* Fills effect[LRCS_EFFECTS]: whether each is on, and why. `seen` has the bits GLINT and DIFFUSE if
    some facet that may be visible has that term. */
-void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan, const lrcsi_clear *clear,
-                        uint32_t seen, lrcs_effect *effect);
+void lrcsi_plan_effects(const lrcsi_view *view, const lrcsi_plan *plan,
+                        const lrcsi_clear_shapes *clear, uint32_t seen, lrcs_effect *effect);
 
 #endif

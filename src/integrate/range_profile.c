@@ -86,7 +86,7 @@ typedef struct profile_run {
     lrcsi_range_bins bins;
     lrcsi_curve_options curve_options; /* its stack is NULL if all normals are flat */
     lrcsi_curve_context curves;
-    lrcsi_visible *visible; /* of every facet; NULL if no facet replaces a curved shape */
+    lrcsi_visible_area *visible; /* of every facet; NULL if no facet replaces a curved shape */
     lrcsi_proximity_band band_memory;
     lrcsi_proximity_band *band; /* NULL: none was made */
     lrcsi_patches patches;
@@ -199,7 +199,7 @@ static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t 
     double corner_err = 2 * LRCSI_U * f->range_max + 1.01 * f->range_dd_err;
     const double(*normal)[3] = f->curve ? (const double(*)[3])f->curve->normal : NULL;
     if (run->plan.fronts_visible && run->view->facing[facet] > 0) {
-        lrcsi_visible known = lrcsi_visible_unshadowed(incidence, run->plan.grazing_cos);
+        lrcsi_visible_area known = lrcsi_visible_area_unshadowed(incidence, run->plan.grazing_cos);
         lrcsi_range_add_triangle(&run->bins, f, known.area, f->range, normal, corner_err);
         if (run->visible) {
             run->visible[facet] = known;
@@ -223,7 +223,8 @@ static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t 
                                      corner_err);
         }
     }
-    lrcsi_visible visible = lrcsi_visible_proved(run->view, facet, lrcsi_occlude_close(o));
+    lrcsi_visible_area visible =
+        lrcsi_visible_area_proved(run->view, facet, lrcsi_occlude_close(o));
     if (o->undecided) {
         const lrcsi_target *target = &o->single.target;
         area_err += 20 * LRCSI_U * target->reach * target->perimeter + o->single.piece_err;
@@ -238,7 +239,7 @@ static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t 
 static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occlusion *o)
 {
     lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
-    lrcsi_visible whole = lrcsi_visible_exactly(incidence.projected);
+    lrcsi_visible_area whole = lrcsi_visible_area_exact(incidence.projected);
     lrcsi_curve_integral curve;
     lrcsi_range_facet f = {.curve = NULL};
     double before = lrcsi_sum_value(&run->bins.glint) + lrcsi_sum_value(&run->bins.diffuse);
@@ -382,7 +383,7 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
     need = lrcsi_work_add(need, prepared->smooth ? lrcsi_cubature_need() : 0);
     if (prepared->curved) {
         size_t facets = prepared->scene->facet_count;
-        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible)));
+        need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible_area)));
         need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
         need = lrcsi_work_add(need, lrcsi_proximity_hidden_need(prepared));
     }
@@ -420,8 +421,7 @@ static int bins_number(profile_run *run)
 
 /* Takes what curved shapes need besides the classification, the visible areas of all facets and the
    proximity band, and what curved normals need, the stack of the cubature. */
-static int curved_take(profile_run *run, const lrcsi_classification *classification,
-                       lrcs_work *work)
+static int curved_take(profile_run *run, lrcsi_classification *classification, lrcs_work *work)
 {
     const lrcs_prepared *p = run->prepared;
     if (p->curved) {
@@ -451,7 +451,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
 {
     const lrcs_prepared *p = run->prepared;
     const lrcs_run_options options = {.method = LRCS_METHOD_EXACT};
-    const lrcsi_clear clear = {0};
+    const lrcsi_clear_shapes clear = {0};
     lrcsi_classification classification;
     lrcsi_occlusion o;
     int status = lrcsi_view_face(p, pose, lrcsi_plan_backs(p, &options), work, view);

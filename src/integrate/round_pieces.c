@@ -40,7 +40,7 @@ typedef struct pieces_job {
     const lrcsi_view *view;
     const lrcsi_plan *plan;
     const lrcsi_proximity_band *band;
-    const lrcsi_visible *visible;
+    const lrcsi_visible_area *visible;
     lrcsi_round_wall wall; /* of the current part */
     double target;         /* the relative remainder that rules should have */
 } pieces_job;
@@ -272,7 +272,7 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
         area_err += 20 * LRCSI_U * target->reach * target->perimeter;
     }
     area_err += o->undecided ? o->single.piece_err : 0;
-    lrcsi_visible area = lrcsi_occlude_close(o);
+    lrcsi_visible_area area = lrcsi_occlude_close(o);
     double gain = lrcsi_min(job->band->gain_above[facet] * projected, projected - area.low);
     double loss = lrcsi_min(job->band->loss_above[facet] * projected, area.high);
     *piece =
@@ -396,19 +396,32 @@ static void job_take_wall(pieces_job *job, uint32_t facet)
     }
 }
 
+/* What finds the visible pieces of facets; NULL if there is too little memory. */
+static lrcsi_occlusion *occlusion_make(lrcsi_classification *classification, lrcsi_meter *meter,
+                                       lrcs_work *work)
+{
+    lrcsi_occlusion *o = lrcsi_work_take(work, 1, sizeof *o);
+    return o && lrcsi_occlude_make(classification, meter, work, o) == LRCS_OK ? o : NULL;
+}
+
+size_t lrcsi_round_pieces_need(const lrcs_prepared *prepared)
+{
+    return lrcsi_work_add(lrcsi_work_bytes(1, sizeof(lrcsi_occlusion)),
+                          lrcsi_occlude_need(prepared));
+}
+
 /* 1. Which sectors: all of whose integrals and margins are known; the integrals over their pieces.
    2. The margins at the border of the set. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
-                             const lrcsi_proximity_band *band, const lrcsi_visible *visible,
+                             const lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
                              lrcsi_meter *meter, lrcs_work *work, lrcsi_round_piece *piece)
 {
     const lrcsi_view *view = classification->view;
     const uint32_t count = view->prepared->scene->facet_count;
     const size_t mark = work->used;
     pieces_job job = {.view = view, .plan = plan, .band = band, .visible = visible};
-    lrcsi_occlusion o;
+    lrcsi_occlusion *o = NULL; /* not on the stack: it is large */
     lrcsi_round_sector sector;
-    int begun = 0;
     job.target =
         lrcsi_min(REMAINDER_HIGH, lrcsi_max(REMAINDER_LOW, RULE_FRACTION * plan->tolerance));
     for (uint32_t f = 0; f < count; f++) {
@@ -424,23 +437,23 @@ void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_p
             !sector_is_candidate(&job, &sector) || !sector_has_margins(&job, &sector)) {
             continue;
         }
-        if (!begun && lrcsi_occlude_make(classification, meter, work, &o) != LRCS_OK) {
+        if (!o && !(o = occlusion_make(classification, meter, work))) {
+            work->used = mark;
             return;
         }
-        begun = 1;
         int known = 1;
         for (int i = 0; i < sector.facets && known; i++) {
-            known = facet_integrate(&job, &o, sector.facet[i], &piece[sector.facet[i]]);
+            known = facet_integrate(&job, o, sector.facet[i], &piece[sector.facet[i]]);
         }
         for (int i = 0; i < sector.facets; i++) {
             piece[sector.facet[i]].known = known;
         }
     }
-    for (uint32_t f = 0; f < count && begun; f++) { /* 2 */
+    for (uint32_t f = 0; f < count && o; f++) { /* 2 */
         if (piece[f].known) {
             job_take_wall(&job, f);
             if (lrcsi_round_sector_make(&job.wall, f, &sector) && sector.facet[0] == f) {
-                sector_add_margins(&job, &o.facets, &sector, meter, piece);
+                sector_add_margins(&job, &o->facets, &sector, meter, piece);
             }
         }
     }

@@ -38,11 +38,14 @@ typedef struct lrcsi_round_piece {
     double own;          /* bound on |T - M| that its own part causes */
 } lrcsi_round_piece;
 
+/* Bytes at most. */
+size_t lrcsi_round_pieces_need(const lrcs_prepared *prepared);
+
 /* Finds the sectors, and what their facets add. Given: the visible areas of all facets; a band
    whose hidden regions are marked. Returned: piece[facet_count]. Without enough memory, or if steps
    run out, no sector is found. */
 void lrcsi_round_pieces_make(lrcsi_classification *classification, const lrcsi_plan *plan,
-                             const lrcsi_proximity_band *band, const lrcsi_visible *visible,
+                             const lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
                              lrcsi_meter *meter, lrcs_work *work, lrcsi_round_piece *piece);
 
 #endif

@@ -145,7 +145,7 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_re
 {
     const lrcsi_view *view = &run->view;
     const lrcsi_plan *plan = &run->plan;
-    const lrcsi_clear *clear = &run->clear;
+    const lrcsi_clear_shapes *clear = &run->clear;
     const lrcs_prepared *p = view->prepared;
     const lrcs_scene *scene = p->scene;
     lrcsi_patches patches[2] = {{.derivatives = 1}, {.derivatives = 1}};

@@ -12,7 +12,7 @@ typedef struct lrcsi_shape_terms {
     double glint, diffuse;
     double
         rounding; /* bound: error of the closed form, and of the direction in the shape's frame */
-    double visibility; /* bound: what the slab of lrcsi_clear may hide */
+    double visibility; /* bound: what the slab of lrcsi_clear_shapes may hide */
     double silhouette; /* projected area of the side towards the laser, rounded */
 } lrcsi_shape_terms;
 

@@ -63,7 +63,7 @@ static int moments_wanted(const lrcs_prepared *prepared)
 size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *options)
 {
     size_t facets = prepared->scene->facet_count;
-    size_t areas = lrcsi_work_bytes(facets, sizeof(lrcsi_visible));
+    size_t areas = lrcsi_work_bytes(facets, sizeof(lrcsi_visible_area));
     size_t errors =
         options->part_error_m2 ? lrcsi_work_bytes(prepared->scene->part_count, sizeof(double)) : 0;
     size_t curved =
@@ -88,9 +88,10 @@ size_t lrcs_sigma_need(const lrcs_prepared *prepared, const lrcs_run_options *op
     need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
     need = lrcsi_work_add(need, lrcsi_proximity_hidden_need(prepared));
     uint32_t size = options->resolution != 0 ? options->resolution : LAST_SIZE;
-    size_t exact = lrcsi_occlude_need(prepared);
+    size_t exact =
+        moments_wanted(prepared) ? lrcsi_round_pieces_need(prepared) : lrcsi_occlude_need(prepared);
     size_t raster =
-        lrcsi_work_add(lrcsi_visible_known_need(prepared), lrcsi_visible_need(prepared, size));
+        lrcsi_work_add(lrcsi_decisions_need(prepared), lrcsi_visible_areas_need(prepared, size));
     raster = lrcsi_work_add(raster, prepared->smooth ? exact : 0);
     if (options->accept != LRCS_ACCEPT_BOUND) {
         size_t preview = lrcsi_preview_need(prepared, size);
@@ -176,7 +177,7 @@ static lrcsi_total run_total(const lrcsi_sigma *run, lrcs_facet_record *records)
 {
     const lrcsi_areas areas = {run->visible, run->answer, run->moment, run->piece};
     const lrcsi_total_details details = {records, run->part_error, run->corrected};
-    lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
+    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_INTEGRATE, 0, 0);
     return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run_band(run), &run->clear,
                             &details);
 }
@@ -189,8 +190,8 @@ static void run_unshadowed(lrcsi_sigma *run)
     for (uint32_t f = 0; run->curved && f < view->prepared->scene->facet_count; f++) {
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
         run->visible[f] = lrcsi_view_casts(view, f)
-                              ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
-                              : lrcsi_visible_exactly(0);
+                              ? lrcsi_visible_area_unshadowed(&incidence, run->plan.grazing_cos)
+                              : lrcsi_visible_area_exact(0);
     }
     if (run->curved) {
         lrcsi_curve_options options = run_curve_options(run, &run->meter);
@@ -218,11 +219,12 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
     const lrcsi_view *view = &run->view;
     const lrcs_prepared *p = view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
-        lrcsi_visible *visible = &run->visible[f];
+        lrcsi_visible_area *visible = &run->visible[f];
         int front = view->facing[f] > 0;
         if (front && run->plan.fronts_visible) {
             lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-            lrcsi_visible known = lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos);
+            lrcsi_visible_area known =
+                lrcsi_visible_area_unshadowed(&incidence, run->plan.grazing_cos);
             if (run->plan.shadows_forced) {
                 known.area = visible->area;
                 known.low = lrcsi_min(known.low, visible->low);
@@ -231,10 +233,10 @@ static void areas_apply_proofs(const lrcsi_sigma *run)
             }
             *visible = known;
         }
-        *visible = lrcsi_visible_proved(view, f, *visible);
+        *visible = lrcsi_visible_area_proved(view, f, *visible);
         if (front && run->clear.count > 0 && run->clear.part[p->scene->facet_part[f]]) {
             double projected = lrcsi_view_projected(view, f);
-            *visible = lrcsi_visible_exactly(projected);
+            *visible = lrcsi_visible_area_exact(projected);
         }
     }
 }
@@ -284,7 +286,7 @@ static int run_classify(lrcsi_sigma *run, lrcsi_meter *meter)
     if (run->classified) {
         return LRCS_OK;
     }
-    lrcsi_view_progress(&run->view, LRCS_PROGRESS_CLASSIFY, 0, 0);
+    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_CLASSIFY, 0, 0);
     int status = lrcsi_classify_make(&run->view, meter, run->work, &run->classification);
     if (status == LRCS_OK && run->plan.proximity_band) {
         status = lrcsi_proximity_band_make(&run->classification, meter, run->work, &run->band);
@@ -321,7 +323,7 @@ static int run_clip(lrcsi_sigma *run, lrcsi_meter *meter)
 
 /* Finds visible areas by one raster of the given size, or of half of it, a quarter and so on until
    it fits into the work area. If `known` is NULL, the areas are taken from the samples alone. */
-static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
+static int run_raster(lrcsi_sigma *run, lrcsi_decisions *known, uint32_t size)
 {
     lrcsi_outcome *outcome = &run->outcome;
     lrcsi_raster raster;
@@ -332,9 +334,9 @@ static int run_raster(lrcsi_sigma *run, const lrcsi_known *known, uint32_t size)
     run->answer = NULL;
     run->moment = NULL;
     for (; status == LRCS_E_MEMORY && size >= 1; size /= 2) {
-        status =
-            known ? lrcsi_visible_sampled(known, size, run->work, &raster, run->visible, &undecided)
-                  : lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
+        status = known ? lrcsi_visible_areas_from_samples(known, size, run->work, &raster,
+                                                          run->visible, &undecided)
+                       : lrcsi_preview_make(&run->view, size, run->work, run->visible, &undecided);
         outcome->flags |= status == LRCS_E_MEMORY ? LRCS_FLAG_MEMORY_FALLBACK : 0u;
         outcome->size = size;
     }
@@ -376,13 +378,13 @@ static int raster_ends(const lrcsi_sigma *run, int samples_only)
    areas are taken from the samples alone. */
 static int run_rasters(lrcsi_sigma *run, int samples_only)
 {
-    lrcsi_known known;
+    lrcsi_decisions known;
     size_t mark = run->work->used;
     uint32_t size = run->plan.size;
     int status = LRCS_OK;
     if (!samples_only) {
         status = run_classify(run, &run->meter);
-        status = status == LRCS_OK ? lrcsi_visible_known(&run->classification, run->work, &known)
+        status = status == LRCS_OK ? lrcsi_decisions_make(&run->classification, run->work, &known)
                                    : status;
     }
     while (status == LRCS_OK) {
@@ -519,7 +521,7 @@ static int run_shadowed(lrcsi_sigma *run)
     if (status != LRCS_OK || run->last <= LRCSI_SIGMA_CLASSIFY) {
         return status;
     }
-    lrcsi_view_progress(&run->view, LRCS_PROGRESS_VISIBILITY, 0, 0);
+    lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_VISIBILITY, 0, 0);
     if (run->plan.method == LRCS_METHOD_EXACT) {
         return run_exact(run, run->plan.reason);
     }
@@ -543,7 +545,7 @@ int lrcsi_sigma_stages(lrcsi_sigma *run, const lrcs_prepared *prepared, const lr
     int status = lrcsi_view_face(prepared, pose, backs, run->work, &run->view);
     if (status == LRCS_OK) {
         run->view.progress = options->progress;
-        lrcsi_view_progress(&run->view, LRCS_PROGRESS_VIEW, 0, 0);
+        lrcsi_progress_report(run->view.progress, LRCS_PROGRESS_VIEW, 0, 0);
         status = options->method == LRCS_METHOD_AUTO
                      ? lrcsi_clear_make(&run->view, run->work, &run->clear)
                      : LRCS_OK;

@@ -107,7 +107,7 @@ static void record_shape(const lrcsi_total_run *run, const lrcs_part *part,
             }
             lrcsi_incidence incidence = lrcsi_view_incidence(run->view, f);
             double area = incidence.projected;
-            lrcsi_visible whole = lrcsi_visible_exactly(area);
+            lrcsi_visible_area whole = lrcsi_visible_area_exact(area);
             lrcsi_facet_terms facet =
                 lrcsi_facet_terms_make(run->view, run->plan, f, &incidence, &whole, &patches);
             if (adding) {
@@ -154,7 +154,8 @@ static void records_start(const lrcsi_total_run *run)
         run->details.records[f] = (lrcs_facet_record){0, 0, 0, 0, 0};
         if (!p->skip[f]) {
             lrcsi_incidence incidence = lrcsi_view_incidence(run->view, f);
-            lrcsi_visible visible = lrcsi_areas_of(run->areas, run->view, run->plan, f, &incidence);
+            lrcsi_visible_area visible =
+                lrcsi_areas_of(run->areas, run->view, run->plan, f, &incidence);
             run->details.records[f].area_m2 = lrcsi_prepared_area(p, 0.5 * p->normal[f].length);
             run->details.records[f].cos_theta = incidence.cos_theta;
             run->details.records[f].visible_area_m2 = lrcsi_prepared_area(p, visible.area);
@@ -197,7 +198,7 @@ static void total_finish(lrcsi_total_run *run)
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
-                             const lrcsi_proximity_band *band, const lrcsi_clear *clear,
+                             const lrcsi_proximity_band *band, const lrcsi_clear_shapes *clear,
                              const lrcsi_total_details *details)
 {
     const lrcs_prepared *p = view->prepared;

@@ -84,7 +84,7 @@ static void block_visible(lrcsi_total_run *run, const total_batch *batch, uint32
         if (lrcsi_areas_answered(run->areas, facet)) {
             continue;
         }
-        const lrcsi_visible *found = &run->areas->visible[facet];
+        const lrcsi_visible_area *found = &run->areas->visible[facet];
         visible[i] = found->area;
         high[i] = lrcsi_max(found->high, found->area);
         if (found->low < found->high) {

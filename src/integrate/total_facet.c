@@ -13,7 +13,7 @@
 
 /* Counts a facet that is hidden or partly visible. If the area of a clipped facet cannot be
    distinguished from 0, the facet counts as hidden; if not from the projected area, as visible. */
-void lrcsi_total_count(lrcsi_total *total, double projected, const lrcsi_visible *visible)
+void lrcsi_total_count(lrcsi_total *total, double projected, const lrcsi_visible_area *visible)
 {
     int below = visible->area < projected;
     int clipped = visible->error_estimate == 0 && visible->high - visible->low < projected;
@@ -31,7 +31,7 @@ void lrcsi_total_note_terms(lrcsi_total_sums *sums, const lrcs_brdf *brdf)
 
 /* Adds the errors due to an uncertain visible area. Given: sigma per unit of visible area. */
 void lrcsi_total_add_area_error(lrcsi_total_sums *sums, double per_area,
-                                const lrcsi_visible *visible)
+                                const lrcsi_visible_area *visible)
 {
     double area_err = lrcsi_max(visible->area - visible->low, visible->high - visible->area);
     sums->visibility += per_area * area_err;
@@ -59,7 +59,8 @@ void lrcsi_total_add_reflecting(lrcsi_total_run *run, uint32_t facet)
 {
     lrcsi_total_sums *sums = &run->sums;
     lrcsi_incidence incidence = lrcsi_view_incidence(run->view, facet);
-    lrcsi_visible visible = lrcsi_areas_of(run->areas, run->view, run->plan, facet, &incidence);
+    lrcsi_visible_area visible =
+        lrcsi_areas_of(run->areas, run->view, run->plan, facet, &incidence);
     lrcs_brdf brdf =
         lrcsi_plan_brdf(run->plan, lrcsi_prepared_material(run->view->prepared, facet));
     lrcsi_total_note_terms(sums, &brdf);

@@ -52,7 +52,7 @@ typedef struct lrcsi_total_run {
     const lrcsi_areas *areas;
     const lrcsi_curved *curved;       /* NULL: all normals are flat */
     const lrcsi_proximity_band *band; /* NULL: none was made */
-    const lrcsi_clear *clear;         /* NULL: no shape is evaluated by its closed form */
+    const lrcsi_clear_shapes *clear;  /* NULL: no shape is evaluated by its closed form */
     lrcsi_total_details details;
     int tessellation; /* 1: facets replace curved shapes, and the error of that can be bounded */
     lrcsi_patches patches;
@@ -84,10 +84,10 @@ void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
 
 /* Adds the errors due to an uncertain visible area. Given: sigma per unit of visible area. */
 void lrcsi_total_add_area_error(lrcsi_total_sums *sums, double per_area,
-                                const lrcsi_visible *visible);
+                                const lrcsi_visible_area *visible);
 
 /* Counts a facet that is hidden or partly visible. */
-void lrcsi_total_count(lrcsi_total *total, double projected, const lrcsi_visible *visible);
+void lrcsi_total_count(lrcsi_total *total, double projected, const lrcsi_visible_area *visible);
 
 /* Notes the terms of a material of which some facet may be visible. */
 void lrcsi_total_note_terms(lrcsi_total_sums *sums, const lrcs_brdf *brdf);

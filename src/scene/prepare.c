@@ -17,9 +17,9 @@
 #include "scene/bulk.h"
 #include "scene/coincident.h"
 #include "scene/extent.h"
+#include "scene/meshlets.h"
 #include "scene/neighbours.h"
 #include "scene/proximity.h"
-#include "scene/runs.h"
 #include "scene/solid.h"
 
 /* Checks what lrcs_scene_build guarantees, so that no later stage needs to. Returned: the exponent
@@ -214,7 +214,7 @@ static int prepare_normals(lrcs_prepared *p, lrcs_work *work)
 }
 
 /* Tries to prove that a solid scene of one shell is convex; finds which facets are close
-   to curved shapes, and the extents of parts; last, makes the runs of facets. */
+   to curved shapes, and the extents of parts; last, makes the meshlets. */
 static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
 {
     int status = LRCS_OK;
@@ -237,7 +237,7 @@ static int prepare_proofs(lrcs_prepared *p, lrcs_work *work)
     if (status == LRCS_OK && p->curved) {
         status = lrcsi_extents_make(p, work);
     }
-    return status == LRCS_OK ? lrcsi_runs_make(p, work, &p->runs) : status;
+    return status == LRCS_OK ? lrcsi_meshlets_make(p, work, &p->meshlets) : status;
 }
 
 /* ---- public ---- */
@@ -275,12 +275,13 @@ size_t lrcs_prepare_need(const lrcs_scene *scene)
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(contacts, sizeof(lrcsi_intersection)));
     proof = lrcsi_work_add(proof, lrcsi_work_bytes(facets, sizeof(lrcsi_normal)));
     proof = lrcsi_work_add(proof, lrcsi_batches_need(scene));
-    /* 4. The proof of convexity; proximity of curved shapes, found with a tree; extents; runs. */
+    /* 4. The proof of convexity; proximity of curved shapes, found with a tree; extents; meshlets.
+     */
     size_t pairs = lrcsi_proximity_need(scene);
     size_t scratch =
         larger(lrcsi_convex_exact_need(scene), pairs > 0 ? lrcsi_tree_need(scene->facet_count) : 0);
     proof = lrcsi_work_add(proof, lrcsi_work_add(pairs, lrcsi_extents_need(scene)));
-    proof = lrcsi_work_add(proof, larger(scratch, lrcsi_runs_need(scene->facet_count)));
+    proof = lrcsi_work_add(proof, larger(scratch, lrcsi_meshlets_need(scene->facet_count)));
     return larger(lrcsi_work_add(need, larger(search, proof)), larger(edges, coincident));
 }
 

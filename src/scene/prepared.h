@@ -76,52 +76,54 @@ typedef struct lrcsi_proximity {
     size_t count;
 } lrcsi_proximity;
 
-/* Runs of facets (scene/runs.h). Run r has the facets LRCSI_RUN r .. LRCSI_RUN (r + 1) - 1; the
-   last run may have fewer. */
-#define LRCSI_RUN 16u
+/* Meshlets (scene/meshlets.h): meshlet m has LRCSI_MESHLET_FACETS facets from LRCSI_MESHLET_FACETS
+   m on; the last one may have fewer. */
+#define LRCSI_MESHLET_FACETS 16u
 
-typedef struct lrcsi_run {
+typedef struct lrcsi_meshlet {
     double low[3], high[3]; /* the box around its facets, except those always redundant */
     uint32_t first_side;
     int has_contacts; /* some facet has a contact or is marked in `met`
                          (mesh/contact/intersection.h) */
-} lrcsi_run;
+} lrcsi_meshlet;
 
-/* A side of a facet of a run that has no neighbour, or one in an earlier run. */
-typedef struct lrcsi_run_side {
+/* A side of a facet of a meshlet that has no neighbour, or one in an earlier meshlet. */
+typedef struct lrcsi_meshlet_side {
     uint32_t facet, other;
     uint32_t edge; /* of the topology */
-} lrcsi_run_side;
+} lrcsi_meshlet_side;
 
-typedef struct lrcsi_runs {
-    lrcsi_run *run; /* one more than the number of runs, for its first_side */
+typedef struct lrcsi_meshlets {
+    lrcsi_meshlet *meshlet; /* one more than the number of meshlets, for its first_side */
     uint32_t count;
-    unsigned char *first; /* facet: the first facet connected with it within the run, counted from
-                             the run's first facet */
-    lrcsi_run_side *side; /* those of run r: side[run[r].first_side .. run[r + 1].first_side) */
-    /* A compact form, which suffices where all facets of a run have equal properties in a view: */
-    unsigned char *whole; /* run: 1 if all its facets are connected within it */
-    uint32_t *link;       /* the runs to which the sides of run r lead, each once, and LRCS_NONE if
-                             a side has no neighbour: link[first_link[r] .. first_link[r + 1]) */
+    unsigned char *first; /* facet: the first facet connected with it within the meshlet, counted
+                             from the meshlet's first facet */
+    lrcsi_meshlet_side
+        *side; /* those of meshlet m: side[meshlet[m].first_side .. meshlet[m + 1].first_side) */
+    /* A compact form, which suffices where all facets of a meshlet have equal properties in a view:
+     */
+    unsigned char *whole; /* meshlet: 1 if all its facets are connected within it */
+    uint32_t *link; /* the meshlets to which the sides of meshlet m lead, each once, and LRCS_NONE
+                       if a side has no neighbour: link[first_link[m] .. first_link[m + 1]) */
     uint32_t *first_link;
-} lrcsi_runs;
+} lrcsi_meshlets;
 
-static inline uint32_t lrcsi_runs_count(uint32_t facet_count)
+static inline uint32_t lrcsi_meshlets_count(uint32_t facet_count)
 {
-    return facet_count / LRCSI_RUN + (facet_count % LRCSI_RUN != 0);
+    return facet_count / LRCSI_MESHLET_FACETS + (facet_count % LRCSI_MESHLET_FACETS != 0);
 }
 
-/* The number of facets rounded up to whole runs. Arrays of so many entries can be processed a whole
-   run at a time. */
-static inline size_t lrcsi_runs_room(uint32_t facet_count)
+/* The number of facets rounded up to whole meshlets. Arrays of so many entries can be processed a
+   whole meshlet at a time. */
+static inline size_t lrcsi_meshlets_room(uint32_t facet_count)
 {
-    return (size_t)lrcsi_runs_count(facet_count) * LRCSI_RUN;
+    return (size_t)lrcsi_meshlets_count(facet_count) * LRCSI_MESHLET_FACETS;
 }
 
-/* The end of a run that starts at a facet. */
-static inline uint32_t lrcsi_run_end(uint32_t start, uint32_t facet_count)
+/* The end of a meshlet that starts at a facet. */
+static inline uint32_t lrcsi_meshlet_end(uint32_t start, uint32_t facet_count)
 {
-    return facet_count - start < LRCSI_RUN ? facet_count : start + LRCSI_RUN;
+    return facet_count - start < LRCSI_MESHLET_FACETS ? facet_count : start + LRCSI_MESHLET_FACETS;
 }
 
 /* The extent of a part (scene/extent.h). */
@@ -147,7 +149,7 @@ struct lrcs_prepared {
     lrcsi_neighbours neighbours;       /* of facets that are not redundant */
     lrcsi_intersections intersections; /* between facets that are not redundant, but not between a
                                           facet and its opposite */
-    lrcsi_runs runs;                   /* facets that follow one another */
+    lrcsi_meshlets meshlets;           /* facets that follow one another */
     uint32_t *shell;                   /* facet: its shell (scene/solid.h) if all are closed; else
                                           NULL */
     double centre[3];                  /* of the box around the live facets */

@@ -17,9 +17,14 @@
 #include <math.h>
 
 #include "base/constant.h"
+#include "base/length.h"
 #include "base/vec3.h"
 #include "base/work.h"
 #include "view/separation.h"
+
+/* A shorter difference or cross product is due to rounding, and its direction says nothing. Any
+   value is right: planes across any direction may be tried. */
+#define NORMAL_MIN 0x1p-30
 
 /* Does a plane across n, a unit vector to 8 u, separate a pair? If so, *slab is the area that may
    nevertheless be hidden. has_slab: the area of slabs of P across n is known. */
@@ -29,18 +34,18 @@ static int is_separating(const lrcsi_body *P, const lrcsi_body *Q, const double 
     lrcsi_gap gap = lrcsi_gap_make(P, Q, d, n, 0);
     *slab = gap.separates ? 0 : lrcsi_body_slab(P, gap.height);
     return gap.separates ||
-           (has_slab && gap.contact && lrcsi_body_support(P, n) - gap.low > 4 * gap.height);
+           (has_slab && gap.is_zero && lrcsi_body_support(P, n) - gap.low > 4 * gap.height);
 }
 
 /* Tries planes across n and -n, unless these face away from the laser; n need not have length 1. */
 static int is_separated_along(const lrcsi_body *P, const lrcsi_body *Q, const double d[3],
                               const double n[3], int has_slab, double *slab)
 {
-    double length = sqrt(lrcsi_vec3_dot(n, n));
-    if (!(length > 0x1p-30)) {
+    if (!(lrcsi_length(n) > NORMAL_MIN)) {
         return 0;
     }
-    const double up[3] = {n[0] / length, n[1] / length, n[2] / length};
+    double up[3] = {n[0], n[1], n[2]};
+    (void)lrcsi_length_normalise(up);
     const double down[3] = {-up[0], -up[1], -up[2]};
     double cosine = lrcsi_vec3_dot(up, d);
     return (cosine >= -8 * LRCSI_U && is_separating(P, Q, d, up, has_slab, slab)) ||
@@ -103,11 +108,11 @@ size_t lrcsi_clear_need(const lrcs_prepared *p)
                                          lrcsi_work_bytes(parts, sizeof(lrcsi_body))));
 }
 
-int lrcsi_clear_make(const lrcsi_view *view, lrcs_work *work, lrcsi_clear *clear)
+int lrcsi_clear_make(const lrcsi_view *view, lrcs_work *work, lrcsi_clear_shapes *clear)
 {
     const lrcs_prepared *p = view->prepared;
     uint32_t parts = p->scene->part_count;
-    *clear = (lrcsi_clear){NULL, NULL, 0, 0};
+    *clear = (lrcsi_clear_shapes){NULL, NULL, 0, 0};
     if (!p->extent) {
         return LRCS_OK;
     }

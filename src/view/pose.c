@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/degrees.h"
+#include "base/length.h"
 #include "base/rotate.h"
-#include "base/vec3.h"
 
 lrcs_pose lrcs_pose_default(void)
 {
@@ -66,9 +66,9 @@ int lrcs_pose_from_direction(const double direction[3], lrcs_pose *pose)
     if (status != LRCS_OK) {
         return status;
     }
-    double length = sqrt(lrcsi_vec3_dot(d, d));
-    const double s_hat[3] = {d[0] / length, d[1] / length, d[2] / length};
     memcpy(pose->direction, d, sizeof d);
+    double s_hat[3] = {d[0], d[1], d[2]};
+    (void)lrcsi_length_normalise(s_hat); /* it is not 0 */
     shortest_arc(s_hat, pose->R);
     return LRCS_OK;
 }

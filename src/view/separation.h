@@ -46,8 +46,8 @@ double lrcsi_body_slab(const lrcsi_body *body, double height);
 /* Does a plane across n separate P, in front of it, from Q, behind it? */
 typedef struct lrcsi_gap {
     int separates; /* 1: it does, so that Q hides nothing of P */
-    int contact;   /* 1: to within rounding P and Q touch the plane: Q may hide only points of P at
-                      which n . x < low + height */
+    int is_zero;   /* 1: to within rounding the gap is 0, so that both are at the plane: Q may hide
+                      only points of P at which n . x < low + height */
     double low;    /* the lowest n . x over P */
     double height;
 } lrcsi_gap;

@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "base/vec3.h"
 #include "view/view.h"
 
 /* A sign that plain doubles do not decide. */
@@ -30,17 +31,25 @@ static inline lrcsi_view_side lrcsi_view_side_of(const lrcsi_view *view, uint32_
     return side;
 }
 
+/* The error of p x q in the view, where p and q are differences of positions with the given lengths
+   in the 1-norm and errors in each coordinate, which include rounding (lrcsi_view_point_err): with
+   errors e and f it is e |q| + f |p| + 2 e f, and rounding of 2 u |p| |q| is below a fifth of that,
+   because e is at least 10 u |p|. */
+static inline double lrcsi_view_cross_err(double p_length, double p_err, double q_length,
+                                          double q_err)
+{
+    return 1.5 * (p_err * (q_length + 2 * q_err) + q_err * p_length);
+}
+
 /* Given: a point x with an error of err in each coordinate. Returned: 1 if it lies to the left of
-   the segment's line, -1 if to the right, or LRCSI_VIEW_UNDECIDED. Let p be the direction and q the
-   difference, with errors e and f including rounding (lrcsi_view_point_err): p x q has an error of
-   e |q| + f |p| + 2 e f in the 1-norm, and of 2 u |p| |q| more, below a fifth of that. */
+   the segment's line, -1 if to the right, or LRCSI_VIEW_UNDECIDED. */
 static inline int lrcsi_view_side_orient(const lrcsi_view_side *side, const double *x, double err)
 {
     const double q[2] = {x[0] - side->at[0], x[1] - side->at[1]};
-    double turn = side->to[0] * q[1] - side->to[1] * q[0];
-    double f = side->at_err + err;
-    double turn_err = 1.5 * (side->to_err * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * side->length);
-    return turn > turn_err ? 1 : turn < -turn_err ? -1 : LRCSI_VIEW_UNDECIDED;
+    double cross = lrcsi_vec2_cross(side->to, q);
+    double cross_err = lrcsi_view_cross_err(side->length, side->to_err, fabs(q[0]) + fabs(q[1]),
+                                            side->at_err + err);
+    return cross > cross_err ? 1 : cross < -cross_err ? -1 : LRCSI_VIEW_UNDECIDED;
 }
 
 #endif

@@ -52,17 +52,19 @@ typedef struct lrcsi_view {
     double low[2], side;      /* the square window around the projection of the live facets */
     uint32_t front, back;     /* live facets facing either way */
     lrcsi_view_backs backs;
-    lrcs_progress *progress; /* where a run reports its progress; may be NULL */
+    lrcs_progress *progress; /* the caller's, in which a run of this view reports its progress; may
+                                be NULL */
 } lrcsi_view;
 
-/* Reports how many parts of a stage are done, and how many there are (lrcs_progress_stage). */
-static inline void lrcsi_view_progress(const lrcsi_view *view, int stage, uint32_t done,
-                                       uint32_t total)
+/* Reports how many parts of a stage are done, and how many there are (lrcs_progress_stage), unless
+   progress is NULL. */
+static inline void lrcsi_progress_report(lrcs_progress *progress, int stage, uint32_t done,
+                                         uint32_t total)
 {
-    if (view->progress) {
-        view->progress->stage = (uint32_t)stage;
-        view->progress->done = done;
-        view->progress->total = total;
+    if (progress) {
+        progress->stage = (uint32_t)stage;
+        progress->done = done;
+        progress->total = total;
     }
 }
 

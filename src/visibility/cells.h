@@ -19,6 +19,6 @@ size_t lrcsi_cells_need(const lrcs_prepared *prepared);
    beginning, and has no meaning for other facets at the end. */
 void lrcsi_cells_areas(const lrcsi_classification *classification, lrcsi_meter *meter,
                        lrcs_work *work, const unsigned char *answer, const unsigned char *wanted,
-                       unsigned char *found, lrcsi_visible *visible, lrcsi_moment *moment);
+                       unsigned char *found, lrcsi_visible_area *visible, lrcsi_moment *moment);
 
 #endif

@@ -37,7 +37,7 @@
    segment in the interior of one (mesh/contact/intersection.h), along parts of edges of both
    (lrcsi_intersection_along), or in a common plane. Such an edge, and every edge of a facet that
    has another facet in its plane, counts as an event edge, so that no component continues across
-   it. A facet with a contact that could not be computed (LRCSI_CELLS_UNKNOWN_CONTACT) is never part
+   it. A facet with a contact that could not be computed (LRCSI_FACET_UNKNOWN_CONTACT) is never part
    of a component that covers a cell. Contacts in points do not matter: paths to points in general
    position miss them.
 
@@ -55,20 +55,42 @@
 /* The search of a component of more facets than this ends at the first event edge that crosses the
    cell. In a smaller one all are found, and the cell is cut along the one that divides it best. */
 #define SMALL_COMPONENT 8u
+/* A sample stays undecided if the nearest facet so far is replaced more often than this: a
+   heuristic limit on the time that is spent on one sample. Depth orders that form a cycle would not
+   end. */
+#define MAX_CHANGES 8u
 
-/* Finds the facet nearest to the laser at a point. Returns FOUND if all others that may cover the
-   point are certainly behind it; UNSURE or NONE as lrcsi_cells_nearest. */
-static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                        const lrcsi_cells_sides *s, const double at[2], uint32_t *best)
+/* --- the sample ------------------------------------------------------------------------------- */
+
+/* Does a facet certainly cover the sample? */
+static int covers_sample(const lrcsi_cells_sample *sample, uint32_t facet)
 {
+    return sample->covers[facet] == 2 * sample->listed.number + 1;
+}
+
+/* May a facet cover the sample? */
+static int may_cover_sample(const lrcsi_cells_sample *sample, uint32_t facet)
+{
+    return sample->covers[facet] >> 1 == sample->listed.number;
+}
+
+/* Finds the facets that may cover a sample, and which of them is nearest to the laser. Returns a
+   lrcsi_sample_outcome. */
+static int sample_nearest(const lrcsi_division *d, const lrcsi_cell *cell,
+                          const lrcsi_clip_sides *s, lrcsi_cells_sample *sample)
+{
+    const double at[2] = {sample->at[0], sample->at[1]};
+    const lrcsi_marks listed = sample->listed;
+    uint32_t *const hit = sample->hit;
+    uint32_t *const covers = sample->covers;
+    uint32_t hits = 0;
+    uint32_t best = LRCS_NONE;
     double best_z = -HUGE_VAL;
-    c->hits = 0;
-    *best = LRCS_NONE;
-    for (uint32_t i = 0; i < cell->facets; i++) {
+    for (uint32_t i = 0; i < cell->facet_count; i++) {
         uint32_t index = cell->facet[i];
-        const lrcsi_cells_facet *f = &c->facet[index];
+        const lrcsi_cells_facet *f = &d->facet[index];
         double w = f->err + s->tolerance;
-        c->listed[index] = c->stamp;
+        listed.entry[index] = listed.number;
         double outside = lrcsi_max3(lrcsi_max(f->low[0] - at[0], at[0] - f->high[0]),
                                     f->low[1] - at[1], at[1] - f->high[1]);
         if (outside > w) {
@@ -80,47 +102,49 @@ static int cells_sample(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
         if (inside < -w) {
             continue;
         }
-        c->hit[c->hits++] = index;
-        int covers = inside > w && !f->sliver;
-        c->covers[index] = 2 * c->stamp + (uint32_t)covers;
+        hit[hits++] = index;
+        int certain = inside > w && !f->sliver;
+        covers[index] = 2 * listed.number + (uint32_t)certain;
         double range[2];
         lrcsi_cells_facet_z(f, at, s->tolerance, range);
-        if (covers && (*best == LRCS_NONE || range[0] > best_z)) {
-            *best = index;
+        if (certain && (best == LRCS_NONE || range[0] > best_z)) {
+            best = index;
             best_z = range[0];
         }
     }
-    if (*best == LRCS_NONE) {
-        return c->hits == 0 ? LRCSI_CELLS_NONE : LRCSI_CELLS_UNSURE;
+    sample->hit_count = hits;
+    if (best == LRCS_NONE) {
+        return hits == 0 ? LRCSI_SAMPLE_EMPTY : LRCSI_SAMPLE_UNSURE;
     }
     uint32_t changes = 0;
-    for (uint32_t i = 0; i < c->hits; i++) {
-        uint32_t other = c->hit[i];
+    for (uint32_t i = 0; i < hits;) {
+        uint32_t other = hit[i++];
         double range[2];
-        lrcsi_cells_facet_z(&c->facet[other], at, s->tolerance, range);
-        if (other == *best || range[1] < best_z) {
+        lrcsi_cells_facet_z(&d->facet[other], at, s->tolerance, range);
+        if (other == best || range[1] < best_z) {
             continue;
         }
-        int order = c->covers[other] % 2 == 1 && changes < 8
-                        ? lrcsi_cells_facet_order(c->view, *best, other)
+        int order = covers_sample(sample, other) && changes < MAX_CHANGES
+                        ? lrcsi_cells_facet_order(d->view, best, other)
                         : 0;
         if (order == 0) {
-            return LRCSI_CELLS_UNSURE;
+            return LRCSI_SAMPLE_UNSURE;
         }
         if (order > 0) { /* the earlier ones are compared with it again */
-            *best = other;
+            best = other;
             best_z = lrcsi_min(best_z, range[0]);
             changes++;
-            i = (uint32_t)-1;
+            i = 0;
         }
     }
-    return LRCSI_CELLS_FOUND;
+    sample->nearest = best;
+    return LRCSI_SAMPLE_FOUND;
 }
 
 /* The weight of corner i is 1 in the first sample, 1 + 0.2 i in the second, 1 + 1.5 / (1 + i) in
    the third. With equal weights, all samples in a symmetric cell could be on its axis, and so on an
    edge between facets. */
-void lrcsi_cells_sample_point(const lrcsi_cells_cell *cell, int number, double at[2])
+void lrcsi_cells_sample_point(const lrcsi_cell *cell, int number, double at[2])
 {
     double sum = 0;
     at[0] = at[1] = 0;
@@ -134,66 +158,139 @@ void lrcsi_cells_sample_point(const lrcsi_cells_cell *cell, int number, double a
     at[1] /= sum;
 }
 
-int lrcsi_cells_nearest(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                        const lrcsi_cells_sides *s, uint32_t *best, double at[2], double *clear)
+void lrcsi_cells_sample_take(const lrcsi_division *d, const lrcsi_cell *cell,
+                             const lrcsi_clip_sides *s, lrcsi_cells_sample *sample)
 {
-    int answer = LRCSI_CELLS_UNSURE;
-    for (int t = 0; t < LRCSI_CELLS_SAMPLES && answer == LRCSI_CELLS_UNSURE; t++) {
-        lrcsi_cells_sample_point(cell, t, at);
-        *clear = lrcsi_cells_border_distance(s, at);
-        c->stamp++;
-        if (*clear > 4 * (cell->widest_strip + c->facet_err + s->tolerance)) {
-            answer = cells_sample(c, cell, s, at, best);
+    sample->outcome = LRCSI_SAMPLE_UNSURE;
+    for (int t = 0; t < LRCSI_SAMPLES && sample->outcome == LRCSI_SAMPLE_UNSURE; t++) {
+        lrcsi_cells_sample_point(cell, t, sample->at);
+        sample->border_distance = lrcsi_clip_border_distance(s, sample->at);
+        sample->listed.number++;
+        if (sample->border_distance > 4 * (cell->widest_strip + d->facet_err + s->tolerance)) {
+            sample->outcome = sample_nearest(d, cell, s, sample);
         }
     }
-    return answer;
 }
 
-/* Do all segments of the component in the list belong to contacts? Marks the facets that meet the
-   component there. */
-static int contacts_only(lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
+/* --- the surface that covers the cell --------------------------------------------------------- */
+
+/* Marks the facets of the segments in the cell's list that belong to the surface. Returns 1 if any
+   of these segments is an event edge. */
+static int mark_adjoining(const lrcsi_division *d, const lrcsi_cell *cell,
+                          lrcsi_cells_surface *surface)
 {
-    int only = 1;
-    for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[cell->segment[i]];
-        if (lrcsi_cells_of_component(c, e)) {
-            only &= e->contact != 0;
-            c->contacts[e->owner[0]] = c->stamp;
+    lrcsi_marks *adjoining = &surface->adjoining;
+    int has_edge = 0;
+    for (uint32_t i = 0; i < cell->segment_count; i++) {
+        const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
+        if (lrcsi_cells_segment_marked(&d->view->prepared->topology, e, &surface->member)) {
+            has_edge |= e->contact == 0;
+            adjoining->entry[e->owner[0]] = adjoining->number;
             if (e->owner[1] != LRCS_NONE) {
-                c->contacts[e->owner[1]] = c->stamp;
+                adjoining->entry[e->owner[1]] = adjoining->number;
             }
         }
     }
-    return only;
+    return has_edge;
 }
 
-/* Does a facet alone cover the cell? */
-static int covers_alone(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                        const lrcsi_cells_sides *s, uint32_t index)
+/* Where side k of a facet of the component lies: a lrcsi_clip_location. Given: is the facet across
+   it removed from the list? Returned, unless it is outside: the side, and where it is near the
+   cell. */
+static int locate_side(const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                       const lrcsi_cells_facet *f, int k, int removed, lrcsi_cell_border *side)
 {
-    const lrcsi_cells_facet *f = &c->facet[index];
+    int n = k == 2 ? 0 : k + 1;
+    const double p[2] = {f->x[k], f->y[k]};
+    const double q[2] = {f->x[n], f->y[n]};
     double w = f->err + s->tolerance;
-    for (int k = 0; k < 3; k++) {
-        double range[2];
-        lrcsi_line_range(&cell->shape, f->side[k], range);
-        if (!(range[0] > w)) {
-            return 0;
+    double line_w = (f->sliver ? f->err : f->line_err) + s->tolerance;
+    if (lrcsi_clip_box_outside(s, p, q, w)) {
+        return LRCSI_CLIP_OUTSIDE;
+    }
+    *side = (lrcsi_cell_border){
+        {f->side[k][0], f->side[k][1], f->side[k][2]}, {p[0], p[1]}, f->length[k], {0, 1, 0}};
+    if (f->sliver) {
+        lrcsi_line_through(p, q, side->line);
+    }
+    int place =
+        lrcsi_clip_locate_near(&cell->shape, s, p, q, side->line, w, line_w, &side->interval);
+    return place == LRCSI_CLIP_CROSSES && removed
+               ? lrcsi_clip_locate_near(&cell->shape, s, p, q, side->line, w + cell->widest_strip,
+                                        line_w + cell->widest_strip, &side->interval)
+               : place;
+}
+
+int lrcsi_cells_surface_find(const lrcsi_blocks *b, const lrcsi_cell *cell,
+                             const lrcsi_clip_sides *s, const lrcsi_cells_sample *sample,
+                             int extent, lrcsi_cells_surface *surface)
+{
+    const lrcsi_division *d = &b->division;
+    uint32_t count = 1;
+    int covers = 1;
+    surface->member.number++;
+    surface->adjoining.number++;
+    const uint32_t member = surface->member.number;
+    uint32_t *const mark = surface->member.entry;
+    surface->nearest = 1;
+    surface->border_count = 0;
+    surface->facet[0] = sample->nearest;
+    mark[sample->nearest] = member;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t facet = surface->facet[i];
+        const lrcsi_cells_facet *f = &d->facet[facet];
+        covers &= (b->kind[facet] & LRCSI_FACET_UNKNOWN_CONTACT) == 0 &&
+                  (facet == sample->nearest || !may_cover_sample(sample, facet));
+        for (int k = 0; k < 3; k++) {
+            lrcsi_cell_border side;
+            uint32_t next = f->neighbour[k];
+            if (next != LRCS_NONE && mark[next] == member) {
+                continue;
+            }
+            int is_listed = next != LRCS_NONE && lrcsi_marked(&sample->listed, next);
+            int place = is_listed && extent == LRCSI_SURFACE_LISTED
+                            ? LRCSI_CLIP_CROSSES
+                            : locate_side(cell, s, f, k, next != LRCS_NONE && !is_listed, &side);
+            if (place == LRCSI_CLIP_CROSSES && is_listed) {
+                mark[next] = member;
+                surface->facet[count++] = next;
+            } else if (place == LRCSI_CLIP_CROSSES && count > SMALL_COMPONENT) {
+                surface->facet_count = count;
+                return 0;
+            } else if (place == LRCSI_CLIP_CROSSES) {
+                covers = 0;
+            } else if (place == LRCSI_CLIP_BORDER && next != LRCS_NONE) {
+                covers &= surface->border_count < LRCSI_SURFACE_BORDERS;
+                if (covers) {
+                    surface->border[surface->border_count++] = side;
+                }
+            }
         }
     }
-    return (c->kind[index] & LRCSI_CELLS_UNKNOWN_CONTACT) == 0;
+    surface->facet_count = count;
+    return covers && !mark_adjoining(d, cell, surface);
 }
 
-int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                              const lrcsi_cells_sides *s, const double at[2])
+int lrcsi_cells_surface_occluder(const lrcsi_blocks *b, const lrcsi_cell *cell,
+                                 const lrcsi_clip_sides *s, const lrcsi_cells_sample *sample,
+                                 lrcsi_cells_surface *surface)
 {
+    const lrcsi_division *d = &b->division;
     uint32_t occluder = LRCS_NONE;
     double best_z = -HUGE_VAL;
-    for (uint32_t i = 0; i < c->hits; i++) {
-        uint32_t index = c->hit[i];
+    for (uint32_t i = 0; i < sample->hit_count; i++) {
+        uint32_t index = sample->hit[i];
+        const lrcsi_cells_facet *f = &d->facet[index];
         double range[2];
-        lrcsi_cells_facet_z(&c->facet[index], at, s->tolerance, range);
-        if (c->covers[index] == 2 * c->stamp + 1 && range[0] > best_z &&
-            covers_alone(c, cell, s, index)) {
+        lrcsi_cells_facet_z(f, sample->at, s->tolerance, range);
+        int covers = covers_sample(sample, index) && range[0] > best_z &&
+                     (b->kind[index] & LRCSI_FACET_UNKNOWN_CONTACT) == 0;
+        for (int k = 0; k < 3 && covers; k++) {
+            double distance[2];
+            lrcsi_line_range(&cell->shape, f->side[k], distance);
+            covers = distance[0] > f->err + s->tolerance;
+        }
+        if (covers) {
             occluder = index;
             best_z = range[0];
         }
@@ -201,130 +298,51 @@ int lrcsi_cells_find_occluder(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
     if (occluder == LRCS_NONE) {
         return 0;
     }
-    c->borders = 0;
-    c->component[0] = occluder;
-    c->components = 1;
-    c->in_component[occluder] = c->stamp;
-    contacts_only(c, cell);
+    surface->nearest = 0;
+    surface->border_count = 0;
+    surface->facet[0] = occluder;
+    surface->facet_count = 1;
+    surface->member.entry[occluder] = surface->member.number;
+    (void)mark_adjoining(d, cell, surface);
     return 1;
 }
 
-/* Where side k of a facet of the component lies: a lrcsi_cells_location. Given: is the facet across
-   it removed from the list? Returned, unless it is outside: the side, and where it is near the
-   cell. */
-static int locate_side(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                       const lrcsi_cells_facet *f, int k, int removed, lrcsi_cells_border *side)
-{
-    int n = k == 2 ? 0 : k + 1;
-    const double p[2] = {f->x[k], f->y[k]};
-    const double q[2] = {f->x[n], f->y[n]};
-    double w = f->err + s->tolerance;
-    double line_w = (f->sliver ? f->err : f->line_err) + s->tolerance;
-    if (lrcsi_cells_box_outside(s, p, q, w)) {
-        return LRCSI_CELLS_OUTSIDE;
-    }
-    *side = (lrcsi_cells_border){
-        {f->side[k][0], f->side[k][1], f->side[k][2]}, {p[0], p[1]}, f->length[k], {0, 1, 0}};
-    if (f->sliver) {
-        lrcsi_line_through(p, q, side->line);
-    }
-    int place =
-        lrcsi_cells_locate_near(&cell->shape, s, p, q, side->line, w, line_w, &side->interval);
-    return place == LRCSI_CELLS_CROSSES && removed
-               ? lrcsi_cells_locate_near(&cell->shape, s, p, q, side->line, w + cell->widest_strip,
-                                         line_w + cell->widest_strip, &side->interval)
-               : place;
-}
-
-int lrcsi_cells_component(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                          const lrcsi_cells_sides *s, uint32_t best, int within)
-{
-    int covers = 1;
-    for (uint32_t i = 0; within && i < c->components; i++) {
-        c->in_component[c->component[i]] = 0;
-    }
-    c->borders = 0;
-    c->component[0] = best;
-    c->components = 1;
-    c->in_component[best] = c->stamp;
-    for (uint32_t i = 0; i < c->components; i++) {
-        uint32_t facet = c->component[i];
-        const lrcsi_cells_facet *f = &c->facet[facet];
-        covers &= (c->kind[facet] & LRCSI_CELLS_UNKNOWN_CONTACT) == 0 &&
-                  (facet == best || (c->covers[facet] >> 1) != c->stamp);
-        for (int k = 0; k < 3; k++) {
-            lrcsi_cells_border side;
-            uint32_t next = f->neighbour[k];
-            if (next != LRCS_NONE && c->in_component[next] == c->stamp) {
-                continue;
-            }
-            int listed = next != LRCS_NONE && c->listed[next] == c->stamp;
-            int place = listed && !within
-                            ? LRCSI_CELLS_CROSSES
-                            : locate_side(cell, s, f, k, next != LRCS_NONE && !listed, &side);
-            if (place == LRCSI_CELLS_CROSSES && listed) {
-                c->in_component[next] = c->stamp;
-                c->component[c->components++] = next;
-            } else if (place == LRCSI_CELLS_CROSSES && c->components > SMALL_COMPONENT) {
-                return 0;
-            } else if (place == LRCSI_CELLS_CROSSES) {
-                covers = 0;
-            } else if (place == LRCSI_CELLS_BORDER && next != LRCS_NONE) {
-                covers &= c->borders < LRCSI_CELLS_MAX_BORDERS;
-                if (covers) {
-                    c->border[c->borders++] = side;
-                }
-            }
-        }
-    }
-    return covers && contacts_only(c, cell);
-}
-
-int lrcsi_cells_segment_has(const lrcs_prepared *prepared, const lrcsi_cells_segment *e,
-                            const uint32_t *mark, uint32_t value)
-{
-    if (mark[e->owner[0]] == value || (e->owner[1] != LRCS_NONE && mark[e->owner[1]] == value)) {
-        return 1;
-    }
-    return e->edge != LRCS_NONE &&
-           lrcsi_topology_edge_has(&prepared->topology, e->edge, mark, value);
-}
-
-int lrcsi_cells_of_component(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
-{
-    return lrcsi_cells_segment_has(c->view->prepared, e, c->in_component, c->stamp);
-}
+/* --- what is behind it ------------------------------------------------------------------------ */
 
 /* Is no facet of an edge in the list any more, or not both facets of a contact? */
-static int segment_is_unlisted(const lrcsi_cells_work *c, const lrcsi_cells_segment *e)
+static int segment_is_unlisted(const lrcsi_division *d, const lrcsi_marks *listed,
+                               const lrcsi_cells_segment *e)
 {
     if (e->contact) {
-        return c->listed[e->owner[0]] != c->stamp || e->owner[1] == LRCS_NONE ||
-               c->listed[e->owner[1]] != c->stamp;
+        return !lrcsi_marked(listed, e->owner[0]) || e->owner[1] == LRCS_NONE ||
+               !lrcsi_marked(listed, e->owner[1]);
     }
-    return !lrcsi_cells_segment_has(c->view->prepared, e, c->listed, c->stamp);
+    return !lrcsi_cells_segment_marked(&d->view->prepared->topology, e, listed);
 }
 
-/* Is a facet in the list, and does no contact in the cell join it with the component? */
-static int has_no_contact(const lrcsi_cells_work *c, uint32_t facet)
+/* Is a facet in the list, and does no contact in the cell join it with the surface? */
+static int has_no_contact(const lrcsi_marks *listed, const lrcsi_cells_surface *surface,
+                          uint32_t facet)
 {
-    return facet != LRCS_NONE && c->listed[facet] == c->stamp && c->contacts[facet] != c->stamp;
+    return facet != LRCS_NONE && lrcsi_marked(listed, facet) &&
+           !lrcsi_marked(&surface->adjoining, facet);
 }
 
-/* Is the part of an edge in the cell behind the component, which covers the cell? If the component
+/* Is the part of an edge in the cell behind the surface, which covers the cell? If the surface
    is one facet, both ends of the part are compared with its plane. Otherwise, if a facet of the
-   edge has no contact with the component, one point of the part is compared with the facet that
-   covers it. Given: low, the lowest z of the component in the cell. */
-static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                          const lrcsi_cells_sides *s, const lrcsi_cells_segment *e, double w,
-                          double low)
+   edge has no contact with the surface, one point of the part is compared with the facet that
+   covers it. Given: low, the lowest z of the surface in the cell. */
+static int segment_behind(const lrcsi_division *d, const lrcsi_marks *listed,
+                          const lrcsi_cells_surface *surface, const lrcsi_cell *cell,
+                          const lrcsi_clip_sides *s, const lrcsi_cells_segment *e, double low)
 {
+    double w = e->err + s->tolerance;
     double z_err = 2 * e->z_err;
     if (lrcsi_max(e->end[0][2], e->end[1][2]) + z_err < low) {
         return 1;
     }
-    lrcsi_cells_interval interval = {0, 1, 0};
-    lrcsi_cells_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w, w, &interval);
+    lrcsi_clip_interval interval = {0, 1, 0};
+    lrcsi_clip_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w, w, &interval);
     double at[2][3];
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++) {
@@ -335,13 +353,14 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
     if (lrcsi_max(at[0][2], at[1][2]) + z_err < low) {
         return 1;
     }
-    if (c->components == 1) {
-        const lrcsi_cells_facet *f = &c->facet[c->component[0]];
+    if (surface->facet_count == 1) {
+        const lrcsi_cells_facet *f = &d->facet[surface->facet[0]];
         double err = f->plane_err[0] + f->plane_err[1] * w + z_err;
         return at[0][2] + err < f->z[0] * at[0][0] + f->z[1] * at[0][1] + f->z[2] &&
                at[1][2] + err < f->z[0] * at[1][0] + f->z[1] * at[1][1] + f->z[2];
     }
-    if (!has_no_contact(c, e->owner[0]) && !has_no_contact(c, e->owner[1])) {
+    if (!has_no_contact(listed, surface, e->owner[0]) &&
+        !has_no_contact(listed, surface, e->owner[1])) {
         return 0;
     }
     double middle[3];
@@ -353,12 +372,12 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
             return 0;
         }
     }
-    for (uint32_t i = 0; i < c->components; i++) {
-        const lrcsi_cells_facet *f = &c->facet[c->component[i]];
-        double clear = f->sliver ? HUGE_VAL : 2 * f->err + w;
-        if (lrcsi_line_at(f->side[0], middle[0], middle[1]) > clear &&
-            lrcsi_line_at(f->side[1], middle[0], middle[1]) > clear &&
-            lrcsi_line_at(f->side[2], middle[0], middle[1]) > clear) {
+    for (uint32_t i = 0; i < surface->facet_count; i++) {
+        const lrcsi_cells_facet *f = &d->facet[surface->facet[i]];
+        double inside = f->sliver ? HUGE_VAL : 2 * f->err + w;
+        if (lrcsi_line_at(f->side[0], middle[0], middle[1]) > inside &&
+            lrcsi_line_at(f->side[1], middle[0], middle[1]) > inside &&
+            lrcsi_line_at(f->side[2], middle[0], middle[1]) > inside) {
             double range[2];
             lrcsi_cells_facet_z(f, middle, w, range);
             return middle[2] + z_err < range[0];
@@ -367,49 +386,53 @@ static int segment_behind(const lrcsi_cells_work *c, const lrcsi_cells_cell *cel
     return 0;
 }
 
-/* Is a facet that certainly covers the sample behind the component there? at NULL: yes. */
-static int behind_at(const lrcsi_cells_work *c, const lrcsi_cells_sides *s, const double *at,
-                     uint32_t facet)
+/* Is a facet that certainly covers the sample behind the surface there? */
+static int behind_at_sample(const lrcsi_division *d, const lrcsi_clip_sides *s,
+                            const lrcsi_cells_sample *sample, const lrcsi_cells_surface *surface,
+                            uint32_t facet)
 {
     double range[2];
-    double of_component[2];
-    if (!at) {
+    double of_surface[2];
+    if (surface->nearest) {
         return 1;
     }
-    lrcsi_cells_facet_z(&c->facet[facet], at, s->tolerance, range);
-    lrcsi_cells_facet_z(&c->facet[c->component[0]], at, s->tolerance, of_component);
-    return range[1] < of_component[0];
+    lrcsi_cells_facet_z(&d->facet[facet], sample->at, s->tolerance, range);
+    lrcsi_cells_facet_z(&d->facet[surface->facet[0]], sample->at, s->tolerance, of_surface);
+    return range[1] < of_surface[0];
 }
 
-void lrcsi_cells_cull(lrcsi_cells_work *c, lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                      const double *at, double uncertainty)
+void lrcsi_cells_cull(lrcsi_blocks *b, lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                      const lrcsi_cells_surface *surface, double uncertainty,
+                      lrcsi_cells_sample *sample)
 {
-    double low = HUGE_VAL;
-    for (uint32_t i = 0; i < c->components; i++) {
-        low = lrcsi_min(low, lrcsi_cells_facet_z_bound(&c->facet[c->component[i]], s, -1));
+    const lrcsi_division *d = &b->division;
+    const lrcsi_marks member = surface->member;
+    double low = HUGE_VAL; /* the lowest z of the surface in the cell */
+    for (uint32_t i = 0; i < surface->facet_count; i++) {
+        low = lrcsi_min(low, lrcsi_cells_facet_z_bound(&d->facet[surface->facet[i]], s, -1));
     }
     uint32_t kept = 0;
-    for (uint32_t i = 0; i < cell->facets; i++) {
+    for (uint32_t i = 0; i < cell->facet_count; i++) {
         uint32_t f = cell->facet[i];
-        if (c->in_component[f] != c->stamp &&
-            ((c->covers[f] == 2 * c->stamp + 1 && c->contacts[f] != c->stamp &&
-              behind_at(c, s, at, f)) ||
-             c->facet[f].z_high < low || lrcsi_cells_facet_z_bound(&c->facet[f], s, 1) < low)) {
-            c->listed[f] = 0;
-            c->state[f] |= LRCSI_CELLS_HIDDEN;
-            c->area[f].uncertainty += c->wanted[f] ? cell->uncertainty + uncertainty : 0;
+        if (!lrcsi_marked(&member, f) &&
+            ((covers_sample(sample, f) && !lrcsi_marked(&surface->adjoining, f) &&
+              behind_at_sample(d, s, sample, surface, f)) ||
+             d->facet[f].z_high < low || lrcsi_cells_facet_z_bound(&d->facet[f], s, 1) < low)) {
+            sample->listed.entry[f] = 0;
+            b->finding[f] |= LRCSI_FINDING_HIDDEN;
+            d->area[f].uncertainty += d->wanted[f] ? cell->uncertainty + uncertainty : 0;
             continue;
         }
         cell->facet[kept++] = f;
     }
-    cell->facets = kept;
+    cell->facet_count = kept;
     kept = 0;
-    for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[cell->segment[i]];
-        if (!segment_is_unlisted(c, e) &&
-            (e->contact || !segment_behind(c, cell, s, e, e->err + s->tolerance, low))) {
+    for (uint32_t i = 0; i < cell->segment_count; i++) {
+        const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
+        if (!segment_is_unlisted(d, &sample->listed, e) &&
+            (e->contact || !segment_behind(d, &sample->listed, surface, cell, s, e, low))) {
             cell->segment[kept++] = cell->segment[i];
         }
     }
-    cell->segments = kept;
+    cell->segment_count = kept;
 }

@@ -13,7 +13,7 @@
    Segments at the border. Let w be the sum of the segment's error (`err`, `line_err`:
    visibility/cells_facet.c), 16 u times the largest coordinate of the block, and the shape error.
    If the computed distance of a segment from the cell exceeds w, the segment does not meet the
-   cell. If no point of the segment is more than w inside the cell (LRCSI_CELLS_BORDER), its part in
+   cell. If no point of the segment is more than w inside the cell (LRCSI_CLIP_BORDER), its part in
    the cell lies within 2 w of the line along a side of the cell, or 4 w in a corner; or within 2 w
    of its own line, with the cell on one side of that line. Let c be the distance of the sample P
    from these lines; it exceeds 4 w. The path from P to x then crosses the segment only if x lies
@@ -52,6 +52,10 @@
 #define MAX_THIN 0x1p-32
 /* How far a strip may extend beyond its segment, in widths: 4 / MAX_THIN. */
 #define STRIP_OVERHANG 0x1p34
+/* A strip of less than this fraction of the square of the largest coordinate is charged to all
+   facets of the cell, whether or not they are near it: a heuristic that saves time, and never
+   charges too little. A hundred such strips are about 4e-16 of that square. */
+#define NEGLIGIBLE_STRIP 0x1p-58
 /* A cell that is no wider than so many strips may be charged whole. */
 #define NARROW_STRIPS 64
 /* A cell with more corners is halved. */
@@ -132,13 +136,13 @@ static void facet_along(const lrcsi_cells_facet *f, const double line[3], const 
 /* Charges the undecided area of a segment at the border to the facets near it: to each no more than
    the area of the strip along the facet's length. A negligible area is charged to all facets of the
    list later. */
-void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
-                               const lrcsi_cells_sides *s, const lrcsi_cells_border *e)
+void lrcsi_cells_charge_border(lrcsi_division *d, lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                               const lrcsi_cell_border *e)
 {
     double strip = e->interval.strip_width;
     double length = (e->interval.to - e->interval.from) * e->length;
     double uncertainty = strip * (length + STRIP_OVERHANG * strip);
-    if (uncertainty < 0x1p-58 * c->extent * c->extent || length < STRIP_OVERHANG * strip) {
+    if (uncertainty < NEGLIGIBLE_STRIP * d->extent * d->extent || length < STRIP_OVERHANG * strip) {
         cell->uncertainty += uncertainty;
         return;
     }
@@ -148,10 +152,10 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
         box[0][k] = lrcsi_max(s->low[k], lrcsi_min(e->start[k], to));
         box[1][k] = lrcsi_min(s->high[k], lrcsi_max(e->start[k], to));
     }
-    for (uint32_t i = 0; i < cell->facets; i++) {
+    for (uint32_t i = 0; i < cell->facet_count; i++) {
         uint32_t facet = cell->facet[i];
-        const lrcsi_cells_facet *f = &c->facet[facet];
-        if (!c->wanted[facet]) {
+        const lrcsi_cells_facet *f = &d->facet[facet];
+        if (!d->wanted[facet]) {
             continue;
         }
         double far = 4 * strip + f->err + s->tolerance;
@@ -167,14 +171,14 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
             continue;
         }
         corners_along(f, e->line, e->start, along);
-        if (lrcsi_min(uncertainty, strip * (along[1] - along[0])) > c->negligible) {
+        if (lrcsi_min(uncertainty, strip * (along[1] - along[0])) > d->negligible) {
             facet_along(f, e->line, e->start, 2 * far, along);
-            c->area[facet].strip_length +=
+            d->area[facet].strip_length +=
                 lrcsi_min(uncertainty / strip, lrcsi_max(0, along[1] - along[0]));
         }
         if (along[1] > e->interval.from * e->length - beyond &&
             along[0] < e->interval.to * e->length + beyond) {
-            c->area[facet].uncertainty +=
+            d->area[facet].uncertainty +=
                 lrcsi_min(uncertainty, strip * (along[1] - along[0] + 2 * far));
         }
     }
@@ -182,11 +186,11 @@ void lrcsi_cells_charge_border(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
 
 /* Charges a facet whose area is wanted for its part of the strip of a cut. Its corners have
    computed distances between `low` and `high` from the line. */
-static void charge_cut(lrcsi_cells_work *c, uint32_t index, double low, double high,
+static void charge_cut(lrcsi_division *d, uint32_t index, double low, double high,
                        const cut_strip *strip)
 {
     const lrcsi_cells_segment *e = strip->along;
-    const lrcsi_cells_facet *f = &c->facet[index];
+    const lrcsi_cells_facet *f = &d->facet[index];
     double far = f->err + strip->tolerance;
     double beyond = STRIP_OVERHANG * strip->width + far;
     double along[2];
@@ -196,18 +200,18 @@ static void charge_cut(lrcsi_cells_work *c, uint32_t index, double low, double h
     }
     corners_along(f, e->line, e->end[0], along);
     double length = lrcsi_min(along[1], strip->to) - lrcsi_max(along[0], strip->from) + 2 * beyond;
-    if (wide * length > c->negligible) {
+    if (wide * length > d->negligible) {
         facet_along(f, e->line, e->end[0], strip->width + 2 * far, along);
         length = lrcsi_min(along[1], strip->to) - lrcsi_max(along[0], strip->from) + 2 * beyond;
-        c->area[index].strip_length += lrcsi_max(0, length);
+        d->area[index].strip_length += lrcsi_max(0, length);
     }
-    c->area[index].uncertainty += lrcsi_max(0, wide) * lrcsi_max(0, length);
+    d->area[index].uncertainty += lrcsi_max(0, wide) * lrcsi_max(0, length);
 }
 
-double lrcsi_cells_thin_uncertainty(const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
-                                    double clear, uint32_t segments, double line_err)
+double lrcsi_cells_thin_uncertainty(const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                                    double border_distance, uint32_t segments, double line_err)
 {
-    if (!(clear < MAX_THIN * s->perimeter)) {
+    if (!(border_distance < MAX_THIN * s->perimeter)) {
         return 0;
     }
     double strips =
@@ -215,20 +219,18 @@ double lrcsi_cells_thin_uncertainty(const lrcsi_cells_cell *cell, const lrcsi_ce
     return lrcsi_min(strips, lrcsi_clip_area(&cell->shape) + s->tolerance * s->perimeter);
 }
 
-int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                           const lrcsi_cells_sides *s)
+int lrcsi_cells_charge_all(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_sides *s)
 {
-    double wide = NARROW_STRIPS * (cell->widest_strip + c->facet_err + s->tolerance);
+    double wide = NARROW_STRIPS * (cell->widest_strip + d->facet_err + s->tolerance);
     double area = lrcsi_clip_area(&cell->shape) + 2 * s->tolerance * s->perimeter;
     if (!(area < wide * s->perimeter)) {
         return 0;
     }
-    for (uint32_t i = 0; i < cell->facets; i++) {
+    for (uint32_t i = 0; i < cell->facet_count; i++) {
         uint32_t facet = cell->facet[i];
-        c->state[facet] |= LRCSI_CELLS_CHARGED;
-        if (c->wanted[facet]) {
-            c->area[facet].uncertainty += cell->uncertainty + area;
-            c->area[facet].strip_length += 0.5 * s->perimeter;
+        if (d->wanted[facet]) {
+            d->area[facet].uncertainty += cell->uncertainty + area;
+            d->area[facet].strip_length += 0.5 * s->perimeter;
         }
     }
     return 1;
@@ -238,7 +240,7 @@ int lrcsi_cells_charge_all(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
 
 /* A segment met the cell that this one was cut from. Does it meet this one too? If not, its own
    line or that of the cut separates them. */
-static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment *e, double w)
+static int segment_stays(const lrcsi_cell *cell, const lrcsi_cells_segment *e, double w)
 {
     if (!(lrcsi_line_at(cell->cut_line, e->end[0][0], e->end[0][1]) > w) &&
         !(lrcsi_line_at(cell->cut_line, e->end[1][0], e->end[1][1]) > w)) {
@@ -255,33 +257,32 @@ static int segment_stays(const lrcsi_cells_cell *cell, const lrcsi_cells_segment
     return left && right;
 }
 
-void lrcsi_cells_filter_segments(lrcsi_cells_work *c, lrcsi_cells_cell *cell,
-                                 const lrcsi_cells_sides *s)
+void lrcsi_cells_filter_segments(lrcsi_division *d, lrcsi_cell *cell, const lrcsi_clip_sides *s)
 {
     uint32_t kept = 0;
-    for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[cell->segment[i]];
+    for (uint32_t i = 0; i < cell->segment_count; i++) {
+        const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
         double w = e->err + s->tolerance;
         if (cell->cuts > 0 && segment_stays(cell, e, w)) {
             cell->segment[kept++] = cell->segment[i];
             continue;
         }
-        lrcsi_cells_interval interval;
-        int place = lrcsi_cells_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w,
-                                       e->line_err + s->tolerance, &interval);
-        if (place == LRCSI_CELLS_CROSSES) {
+        lrcsi_clip_interval interval;
+        int place = lrcsi_clip_locate(&cell->shape, s, e->end[0], e->end[1], e->line, w,
+                                      e->line_err + s->tolerance, &interval);
+        if (place == LRCSI_CLIP_CROSSES) {
             cell->segment[kept++] = cell->segment[i];
-        } else if (place == LRCSI_CELLS_BORDER) {
+        } else if (place == LRCSI_CLIP_BORDER) {
             cell->removed++;
             cell->widest_strip = lrcsi_max(cell->widest_strip, interval.strip_width);
-            lrcsi_cells_charge_border(c, cell, s,
-                                      &(lrcsi_cells_border){{e->line[0], e->line[1], e->line[2]},
-                                                            {e->end[0][0], e->end[0][1]},
-                                                            e->length,
-                                                            interval});
+            lrcsi_cells_charge_border(d, cell, s,
+                                      &(lrcsi_cell_border){{e->line[0], e->line[1], e->line[2]},
+                                                           {e->end[0][0], e->end[0][1]},
+                                                           e->length,
+                                                           interval});
         }
     }
-    cell->segments = kept;
+    cell->segment_count = kept;
 }
 
 /* Are all corners of a cell beyond one side of a facet? Returns at the first corner after which
@@ -304,69 +305,60 @@ static int facet_beyond(const lrcsi_cells_facet *f, const lrcsi_clip_polygon *sh
 
 /* Lists the facets of a cell that may be near its right part, and those that may be near its left
    part. What is near neither is not in the cell. */
-static void cut_facets(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const cut_strip *strip,
-                       lrcsi_cells_cell *left, lrcsi_cells_cell *right)
+static void cut_facets(lrcsi_division *d, const lrcsi_cell *cell, const cut_strip *strip,
+                       lrcsi_cell *left, lrcsi_cell *right)
 {
-    double g = lrcsi_cells_tolerance(c, left);
-    uint32_t *of_left = cell->facet + cell->facets;
-    left->facets = right->facets = 0;
-    for (uint32_t i = 0; i < cell->facets; i++) {
+    double g = lrcsi_division_tolerance(d, left);
+    uint32_t *of_left = cell->facet + cell->facet_count;
+    left->facet_count = right->facet_count = 0;
+    for (uint32_t i = 0; i < cell->facet_count; i++) {
         uint32_t index = cell->facet[i];
-        const lrcsi_cells_facet *f = &c->facet[index];
+        const lrcsi_cells_facet *f = &d->facet[index];
         double w = f->err + g + strip->width;
         double range[2];
         facet_range(f, left->cut_line, range);
         int on_left = range[1] > -w;
         int on_right = range[0] < w;
         if (on_left && on_right) {
-            if (strip->along && c->wanted[index]) {
-                charge_cut(c, index, range[0], range[1], strip);
+            if (strip->along && d->wanted[index]) {
+                charge_cut(d, index, range[0], range[1], strip);
             }
             on_left = !facet_beyond(f, &left->shape, f->err + g);
             on_right = !facet_beyond(f, &right->shape, f->err + g);
         }
-        of_left[left->facets] = index;
-        left->facets += on_left != 0;
-        right->facet[right->facets] = index;
-        right->facets += on_right != 0;
+        of_left[left->facet_count] = index;
+        left->facet_count += on_left != 0;
+        right->facet[right->facet_count] = index;
+        right->facet_count += on_right != 0;
     }
-    left->facet = right->facet + right->facets;
-    memmove(left->facet, of_left, left->facets * sizeof *of_left);
+    left->facet = right->facet + right->facet_count;
+    memmove(left->facet, of_left, left->facet_count * sizeof *of_left);
 }
 
 /* The same for its segments, except for the one along which it is cut. */
-static void cut_segments(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                         const lrcsi_cells_segment *along, lrcsi_cells_cell *left,
-                         lrcsi_cells_cell *right)
+static void cut_segments(const lrcsi_division *d, const lrcsi_cell *cell,
+                         const lrcsi_cells_segment *along, lrcsi_cell *left, lrcsi_cell *right)
 {
-    double g = lrcsi_cells_tolerance(c, left);
-    uint32_t *of_left = cell->segment + cell->segments;
-    left->segments = right->segments = 0;
-    for (uint32_t i = 0; i < cell->segments; i++) {
+    double g = lrcsi_division_tolerance(d, left);
+    uint32_t *of_left = cell->segment + cell->segment_count;
+    left->segment_count = right->segment_count = 0;
+    for (uint32_t i = 0; i < cell->segment_count; i++) {
         uint32_t index = cell->segment[i];
-        const lrcsi_cells_segment *e = &c->segment[index];
+        const lrcsi_cells_segment *e = &d->segment[index];
         double w = e->err + g;
         double from = lrcsi_line_at(left->cut_line, e->end[0][0], e->end[0][1]);
         double to = lrcsi_line_at(left->cut_line, e->end[1][0], e->end[1][1]);
-        of_left[left->segments] = index;
-        left->segments += e != along && lrcsi_max(from, to) > -w;
-        right->segment[right->segments] = index;
-        right->segments += e != along && lrcsi_min(from, to) < w;
+        of_left[left->segment_count] = index;
+        left->segment_count += e != along && lrcsi_max(from, to) > -w;
+        right->segment[right->segment_count] = index;
+        right->segment_count += e != along && lrcsi_min(from, to) < w;
     }
-    left->segment = right->segment + right->segments;
-    memmove(left->segment, of_left, left->segments * sizeof *of_left);
-}
-
-/* Is there room for the lists of both parts of a cell? */
-static int has_list_room(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell)
-{
-    size_t facets = (size_t)(cell->facet - c->facets) + 2 * (size_t)cell->facets;
-    size_t segments = (size_t)(cell->segment - c->segments) + 2 * (size_t)cell->segments;
-    return facets <= c->facets_room && segments <= c->segments_room;
+    left->segment = right->segment + right->segment_count;
+    memmove(left->segment, of_left, left->segment_count * sizeof *of_left);
 }
 
 /* The line across the middle of a cell's box, at right angles to its longer side. */
-static void middle_line(const lrcsi_cells_sides *s, double line[3])
+static void middle_line(const lrcsi_clip_sides *s, double line[3])
 {
     int wide = s->high[0] - s->low[0] > s->high[1] - s->low[1];
     line[0] = wide;
@@ -376,27 +368,31 @@ static void middle_line(const lrcsi_cells_sides *s, double line[3])
 
 /* Divides a cell along a segment, which is removed from the list, or (NULL) across its middle. 0 if
    there is no room. */
-static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s,
+static int cut_cell(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
                     const lrcsi_cells_segment *along)
 {
     double line[3];
     middle_line(s, line);
     cut_strip strip = {along, 0, 0, 0, s->tolerance};
     if (along) {
-        lrcsi_cells_interval interval = {0, 1, 0};
+        lrcsi_clip_interval interval = {0, 1, 0};
         memcpy(line, along->line, sizeof line);
-        strip.width = along->line_err + cell->shape_err + 12 * LRCSI_U * c->extent;
-        lrcsi_cells_locate(&cell->shape, s, along->end[0], along->end[1], along->line,
-                           along->err + s->tolerance, along->err + s->tolerance, &interval);
+        strip.width = along->line_err + cell->shape_err + 12 * LRCSI_U * d->extent;
+        lrcsi_clip_locate(&cell->shape, s, along->end[0], along->end[1], along->line,
+                          along->err + s->tolerance, along->err + s->tolerance, &interval);
         strip.from = interval.from * along->length;
         strip.to = interval.to * along->length;
     }
-    if (cell->cuts >= LRCSI_CELLS_MAX_CUTS || cell->shape.count + 2 > LRCSI_CLIP_SIDES ||
-        c->top + 2 > LRCSI_CELLS_STACK || !has_list_room(c, cell)) {
+    /* Room for two cells, and behind the lists of those that wait for the lists of both: */
+    size_t facets = (size_t)(cell->facet - d->facet_lists) + 2 * (size_t)cell->facet_count;
+    size_t segments = (size_t)(cell->segment - d->segment_lists) + 2 * (size_t)cell->segment_count;
+    if (cell->cuts >= LRCSI_CELL_MAX_CUTS || cell->shape.count + 2 > LRCSI_CLIP_MAX_SIDES ||
+        d->stack_count + 2 > LRCSI_CELL_STACK || facets > d->facet_lists_room ||
+        segments > d->segment_lists_room) {
         return 0;
     }
-    lrcsi_cells_cell *right = &c->stack[c->top];
-    lrcsi_cells_cell *left = right + 1;
+    lrcsi_cell *right = &d->stack[d->stack_count];
+    lrcsi_cell *left = right + 1;
     *right = *cell;
     right->cuts++;
     right->removed += along != NULL;
@@ -411,43 +407,43 @@ static int cut_cell(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrc
         right->cut_line[k] = -line[k];
     }
     left->shape_err = right->shape_err = cell->shape_err + divide_err;
-    cut_facets(c, cell, &strip, left, right);
-    cut_segments(c, cell, along, left, right);
-    c->top += 2;
+    cut_facets(d, cell, &strip, left, right);
+    cut_segments(d, cell, along, left, right);
+    d->stack_count += 2;
     return 1;
 }
 
-int lrcsi_cells_halve(lrcsi_cells_work *c, const lrcsi_cells_cell *cell, const lrcsi_cells_sides *s)
+int lrcsi_cells_halve(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_sides *s)
 {
-    return cut_cell(c, cell, s, NULL);
+    return cut_cell(d, cell, s, NULL);
 }
 
 /* Do the halves of a cell with many segments have few in common? At most an eighth of them if
    neither half has more than three quarters of all; otherwise at most one. */
-static int halving_separates(const lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                             const lrcsi_cells_sides *s)
+static int halving_separates(const lrcsi_division *d, const lrcsi_cell *cell,
+                             const lrcsi_clip_sides *s)
 {
     double line[3];
     uint32_t side[2] = {0, 0};
     middle_line(s, line);
-    for (uint32_t i = 0; cell->segments > MAX_SEGMENTS && i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &c->segment[cell->segment[i]];
+    for (uint32_t i = 0; cell->segment_count > MAX_SEGMENTS && i < cell->segment_count; i++) {
+        const lrcsi_cells_segment *e = &d->segment[cell->segment[i]];
         double a = lrcsi_line_at(line, e->end[0][0], e->end[0][1]);
         double b = lrcsi_line_at(line, e->end[1][0], e->end[1][1]);
         side[0] += a > 0 || b > 0;
         side[1] += !(a > 0 && b > 0);
     }
     uint32_t larger = side[0] > side[1] ? side[0] : side[1];
-    uint32_t both = side[0] + side[1] - cell->segments;
-    return cell->segments > MAX_SEGMENTS &&
-           (larger <= cell->segments / 4 * 3 ? both <= cell->segments / 8
-                                             : both <= 1 && cell->cuts < MAX_HALVINGS);
+    uint32_t both = side[0] + side[1] - cell->segment_count;
+    return cell->segment_count > MAX_SEGMENTS &&
+           (larger <= cell->segment_count / 4 * 3 ? both <= cell->segment_count / 8
+                                                  : both <= 1 && cell->cuts < MAX_HALVINGS);
 }
 
-int lrcsi_cells_divide(lrcsi_cells_work *c, const lrcsi_cells_cell *cell,
-                       const lrcsi_cells_sides *s, const lrcsi_cells_segment *along)
+int lrcsi_cells_divide(lrcsi_division *d, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                       const lrcsi_cells_segment *along)
 {
-    return cell->shape.count > MAX_CORNERS || halving_separates(c, cell, s)
-               ? lrcsi_cells_halve(c, cell, s)
-               : cut_cell(c, cell, s, along);
+    return cell->shape.count > MAX_CORNERS || halving_separates(d, cell, s)
+               ? lrcsi_cells_halve(d, cell, s)
+               : cut_cell(d, cell, s, along);
 }

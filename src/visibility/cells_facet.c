@@ -15,8 +15,9 @@
    coordinates with an error of w / H. Let G be twice the computed slope of the facet, an upper
    bound of the true one. Then z at that point has an error of e + G (w + 8 u l^2 / H), where e is
    the error of z of the vertices and l the longest side; the last term is due to the error of the
-   slope itself. Also, z is always between the smallest and the largest z of the corners. If H < 8
-   w, only that is used. */
+   slope itself. Also, z is always between the smallest and the largest z of the corners. Only that
+   is used of a facet with an H below 64 times the position error of its vertices, or below 2^-40 l:
+   G bounds the true slope wherever H exceeds that error by far, and any such limit is right. */
 #include "visibility/cells_facet.h"
 
 #include <math.h>
@@ -216,7 +217,7 @@ void lrcsi_cells_facet_z(const lrcsi_cells_facet *f, const double at[2], double 
     }
 }
 
-double lrcsi_cells_facet_z_bound(const lrcsi_cells_facet *f, const lrcsi_cells_sides *s, int sign)
+double lrcsi_cells_facet_z_bound(const lrcsi_cells_facet *f, const lrcsi_clip_sides *s, int sign)
 {
     double corner = sign > 0 ? f->z_high : f->z_low;
     double err = f->plane_err[0] + f->plane_err[1] * s->tolerance;
@@ -281,7 +282,7 @@ uint32_t lrcsi_cells_connected(const lrcsi_view *view, const unsigned char *kind
                                int k)
 {
     uint32_t other = lrcsi_cells_neighbour(view, facet, k);
-    return other != LRCS_NONE && ((kind[facet] | kind[other]) & LRCSI_CELLS_COPLANAR) == 0 &&
+    return other != LRCS_NONE && ((kind[facet] | kind[other]) & LRCSI_FACET_COPLANAR) == 0 &&
                    !lrcsi_intersection_along(&view->prepared->intersections, facet, k)
                ? other
                : LRCS_NONE;

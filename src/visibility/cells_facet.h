@@ -7,12 +7,13 @@
 #include "base/dd.h"
 #include "view/view.h"
 #include "visibility/clip.h"
+#include "visibility/marks.h"
 
 /* What is known of a facet in all cells, bits. */
 enum {
-    LRCSI_CELLS_COPLANAR = 1,        /* it overlaps others in its plane: all its edges are events */
-    LRCSI_CELLS_UNKNOWN_CONTACT = 2, /* one of its contacts could not be computed */
-    LRCSI_CELLS_NEIGHBOURS_FOUND = 4
+    LRCSI_FACET_COPLANAR = 1,        /* it overlaps others in its plane: all its edges are events */
+    LRCSI_FACET_UNKNOWN_CONTACT = 2, /* one of its contacts could not be computed */
+    LRCSI_FACET_NEIGHBOURS_FOUND = 4
 };
 
 /* A facet that can hide others (lrcsi_view_casts), in view coordinates. */
@@ -44,6 +45,16 @@ typedef struct lrcsi_cells_segment {
     uint32_t edge;     /* if it is an edge of more than two facets; else LRCS_NONE */
     int contact;       /* the lrcsi_contact_kind of a contact; 0: an edge */
 } lrcsi_cells_segment;
+
+/* Is any facet of an edge, or of a contact, marked? */
+static inline int lrcsi_cells_segment_marked(const lrcsi_topology *topology,
+                                             const lrcsi_cells_segment *e, const lrcsi_marks *marks)
+{
+    return lrcsi_marked(marks, e->owner[0]) ||
+           (e->owner[1] != LRCS_NONE && lrcsi_marked(marks, e->owner[1])) ||
+           (e->edge != LRCS_NONE &&
+            lrcsi_topology_edge_has(topology, e->edge, marks->entry, marks->number));
+}
 
 /* A vertex: in the view, and relative to the middle of a block. */
 typedef struct lrcsi_cells_point {
@@ -81,7 +92,7 @@ void lrcsi_cells_facet_z(const lrcsi_cells_facet *f, const double at[2], double 
                          double range[2]);
 
 /* A lower bound (sign -1) or an upper bound (1) of a facet's z in the box of the cell. */
-double lrcsi_cells_facet_z_bound(const lrcsi_cells_facet *f, const lrcsi_cells_sides *s, int sign);
+double lrcsi_cells_facet_z_bound(const lrcsi_cells_facet *f, const lrcsi_clip_sides *s, int sign);
 
 /* Which of two facets that certainly cover a point is nearer there, exactly: 1 the second, -1 the
    first, 0 it cannot be decided. */

@@ -13,24 +13,17 @@
 #include "visibility/sample.h"
 
 /* The largest number of rows and listed events that are examined to decide whether any event may
-   cross a run. */
-#define RUN_STEPS 1024u
+   cross a meshlet. */
+#define MESHLET_STEPS 1024u
 
 /* --- contacts --------------------------------------------------------------------------------- */
 
-int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,
-                             const lrcsi_intersection *contact)
-{
-    return lrcsi_view_casts(view, contact->other) &&
-           !(contact->kind == LRCSI_INTERSECTION_COPLANAR &&
-             lrcsi_sample_has_precedence(view, facet, contact->other));
-}
-
+/* Can any contact of a facet hide a part of it? */
 static int intersection_divides(const lrcsi_view *view, uint32_t facet)
 {
     const lrcsi_intersections *intersections = &view->prepared->intersections;
     for (uint32_t i = intersections->first[facet]; i < intersections->first[facet + 1]; i++) {
-        if (lrcsi_intersection_hides(view, facet, &intersections->entry[i])) {
+        if (lrcsi_sample_contact_hides(view, facet, &intersections->entry[i])) {
             return 1;
         }
     }
@@ -87,24 +80,26 @@ static int events_sort(lrcsi_classification *c, lrcs_work *work)
     return c->search.event ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-/* --- runs ------------------------------------------------------------------------------------- */
+/* --- meshlets
+ * ------------------------------------------------------------------------------------- */
 
-/* The corners in the view of the facets of a run that can hide others. */
-typedef struct run_corners {
+/* The corners in the view of the facets of a meshlet that can hide others. */
+typedef struct meshlet_corners {
     uint32_t count; /* 0: not gathered yet */
     double err;     /* no coordinate of any of them has a larger error */
-    double x[3 * LRCSI_RUN], y[3 * LRCSI_RUN];
-} run_corners;
+    double x[3 * LRCSI_MESHLET_FACETS], y[3 * LRCSI_MESHLET_FACETS];
+} meshlet_corners;
 
 /* Leaves out the corners that a facet shares with the one before it: most of them. */
-static void run_gather(const lrcsi_classification *c, uint32_t run, run_corners *corners)
+static void meshlet_gather(const lrcsi_classification *c, uint32_t meshlet,
+                           meshlet_corners *corners)
 {
     const lrcs_scene *scene = c->view->prepared->scene;
-    const uint32_t end = lrcsi_run_end(run * LRCSI_RUN, scene->facet_count);
+    const uint32_t end = lrcsi_meshlet_end(meshlet * LRCSI_MESHLET_FACETS, scene->facet_count);
     uint32_t before[3] = {LRCS_NONE, LRCS_NONE, LRCS_NONE};
     uint32_t count = 0;
     corners->err = 0;
-    for (uint32_t f = run * LRCSI_RUN; f < end; f++) {
+    for (uint32_t f = meshlet * LRCSI_MESHLET_FACETS; f < end; f++) {
         if (c->cast[f] == 0) {
             continue;
         }
@@ -122,10 +117,11 @@ static void run_gather(const lrcsi_classification *c, uint32_t run, run_corners 
 }
 
 /* Do all corners lie strictly on one side of the line of an event edge, so that it neither crosses
-   a facet of the run nor runs along a side? The error of each turn is that of
+   a facet of the meshlet nor runs along a side? The error of each cross product is that of
    lrcsi_view_side_orient, which increases with the distance and with the error of the point: the
-   largest of both bound the errors of all turns. */
-static int event_beside_run(const lrcsi_view *view, const run_corners *corners, uint32_t edge)
+   largest of both bound the errors of all. */
+static int event_beside_meshlet(const lrcsi_view *view, const meshlet_corners *corners,
+                                uint32_t edge)
 {
     const lrcsi_edge *e = &view->prepared->topology.edge[edge];
     const lrcsi_view_side line = lrcsi_view_side_of(view, e->low, e->high);
@@ -135,32 +131,33 @@ static int event_beside_run(const lrcsi_view *view, const run_corners *corners, 
     for (uint32_t i = 0; i < corners->count; i++) {
         double x = corners->x[i] - line.at[0];
         double y = corners->y[i] - line.at[1];
-        double turn = line.to[0] * y - line.to[1] * x;
-        lrcsi_range_extend(turn, &least, &most);
+        double cross = line.to[0] * y - line.to[1] * x;
+        lrcsi_range_extend(cross, &least, &most);
         distance = lrcsi_max(distance, fabs(x) + fabs(y));
     }
-    double err = line.at_err + corners->err;
-    double turn_err = 1.5 * (line.to_err * (distance + 2 * err) + err * line.length);
-    return least > turn_err || most < -turn_err;
+    double cross_err =
+        lrcsi_view_cross_err(line.length, line.to_err, distance, line.at_err + corners->err);
+    return least > cross_err || most < -cross_err;
 }
 
-/* Is it proved that no event edge crosses any facet of a run, nor runs along a side of one in front
-   of it? The cells of most runs far from events list nothing, which takes one step per row to see.
-   An event that is not behind the run is beside it if their boxes are disjoint, or else if all of
-   the run lies on one side of the event's line: most of those near a long straight contour do.
-   Returns 0 if this takes more steps than testing the facets of the run. */
-static int run_clear(lrcsi_classification *c, uint32_t run, lrcsi_meter *meter)
+/* Is it proved that no event edge crosses any facet of a meshlet, nor runs along a side of one in
+   front of it? The buckets of most meshlets far from events list nothing, which takes one step per
+   row to see. An event that is not behind the meshlet is beside it if their boxes are disjoint, or
+   else if all of the meshlet lies on one side of the event's line: most of those near a long
+   straight contour do. Returns 0 if this takes more steps than testing the facets of the meshlet.
+ */
+static int meshlet_has_no_events(lrcsi_classification *c, uint32_t meshlet, lrcsi_meter *meter)
 {
     const lrcsi_grid *grid = &c->search.grid;
-    const lrcsi_view_box box = c->search.boxes.run[run];
+    const lrcsi_view_box box = c->search.boxes.meshlet[meshlet];
     const uint32_t search = ++c->search.searches;
-    lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
-    uint32_t steps = RUN_STEPS;
-    run_corners corners;
+    lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
+    uint32_t steps = MESHLET_STEPS;
+    meshlet_corners corners;
     corners.count = 0;
     corners.err = 0;
     lrcsi_grid_items items;
-    while (lrcsi_grid_next_row(grid, &cells, &items)) {
+    while (lrcsi_grid_next_row(grid, &buckets, &items)) {
         const uint32_t listed = items.to - items.from;
         if (1 + listed > steps) {
             return 0;
@@ -173,9 +170,9 @@ static int run_clear(lrcsi_classification *c, uint32_t run, lrcsi_meter *meter)
                 continue;
             }
             if (corners.count == 0) {
-                run_gather(c, run, &corners);
+                meshlet_gather(c, meshlet, &corners);
             }
-            if (!event_beside_run(c->view, &corners, event->edge)) {
+            if (!event_beside_meshlet(c->view, &corners, event->edge)) {
                 (void)lrcsi_meter_take(meter, 1 + i - items.from);
                 return 0;
             }
@@ -190,19 +187,19 @@ static int run_clear(lrcsi_classification *c, uint32_t run, lrcsi_meter *meter)
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-/* Decides which facets are undecided: none of a run without contacts that no event can cross; in
-   other runs each facet is tested. If the facets to be tested are large, the grid of events is made
-   again with larger cells. */
+/* Decides which facets are undecided: none of a meshlet without contacts that no event can cross;
+   in other meshlets each facet is tested. If the facets to be tested are large, the grid of events
+   is made again with larger buckets. */
 static int facets_decide(lrcsi_classification *c, lrcsi_meter *meter, lrcs_work *work)
 {
     const lrcs_prepared *p = c->view->prepared;
     size_t mark = work->used;
     int status = lrcsi_grid_edges(c->events.edge, c->events.count, max_event_entries(p), work,
                                   &c->search.grid);
-    for (uint32_t r = 0; r < p->runs.count && status == LRCS_OK; r++) {
-        if (c->search.boxes.state[r] == LRCSI_BOXES_RUN &&
-            (p->runs.run[r].has_contacts || !run_clear(c, r, meter))) {
-            lrcsi_boxes_open(&c->search.boxes, r);
+    for (uint32_t m = 0; m < p->meshlets.count && status == LRCS_OK; m++) {
+        if (c->search.boxes.state[m] == LRCSI_BOXES_MESHLET &&
+            (p->meshlets.meshlet[m].has_contacts || !meshlet_has_no_events(c, m, meter))) {
+            lrcsi_boxes_open(&c->search.boxes, m);
         }
     }
     if (status == LRCS_OK && lrcsi_grid_fit(&c->search.grid, &c->search.boxes)) {
@@ -210,10 +207,10 @@ static int facets_decide(lrcsi_classification *c, lrcsi_meter *meter, lrcs_work 
         status = lrcsi_grid_edges(c->events.edge, c->events.count, max_event_entries(p), work,
                                   &c->search.grid);
     }
-    for (uint32_t r = 0; r < p->runs.count && status == LRCS_OK; r++) {
-        uint32_t end = lrcsi_run_end(r * LRCSI_RUN, p->scene->facet_count);
-        for (uint32_t f = r * LRCSI_RUN; f < end && c->search.boxes.state[r] == LRCSI_BOXES_FACETS;
-             f++) {
+    for (uint32_t m = 0; m < p->meshlets.count && status == LRCS_OK; m++) {
+        uint32_t end = lrcsi_meshlet_end(m * LRCSI_MESHLET_FACETS, p->scene->facet_count);
+        for (uint32_t f = m * LRCSI_MESHLET_FACETS;
+             f < end && c->search.boxes.state[m] == LRCSI_BOXES_FACETS; f++) {
             if (c->cast[f] == 0) {
                 continue;
             }
@@ -234,32 +231,22 @@ void lrcsi_classify_regions(const lrcsi_classification *classification, uint32_t
     lrcsi_events_join(classification->view, classification->joinable, region);
 }
 
-/* The direction in which each facet faces if it can hide others (lrcsi_view_casts), otherwise 0;
-   zeros after the last one. Run by run, without branches: compilers vectorise the inner loop. */
+/* The direction in which each facet faces if it can hide others, otherwise 0; zeros after the last
+   one. */
 static void facets_cast(const lrcsi_view *view, signed char *cast)
 {
-    const int backs = view->backs.cast;
     uint32_t count = view->prepared->scene->facet_count;
-    for (uint32_t start = 0; start < count; start += LRCSI_RUN) {
-        size_t facets = lrcsi_run_end(start, count) - start;
-        signed char facing[LRCSI_RUN] = {0};
-        unsigned char redundant[LRCSI_RUN] = {0};
-        memcpy(facing, view->facing + start, facets);
-        memcpy(redundant, view->prepared->redundant + start, facets);
-        for (uint32_t i = 0; i < LRCSI_RUN; i++) {
-            int front = (facing[i] > 0) & (redundant[i] != LRCSI_REDUNDANT);
-            int back = (facing[i] < 0) & (redundant[i] == LRCSI_NOT_REDUNDANT) & backs;
-            cast[start + i] = (signed char)(front - back);
-        }
+    for (uint32_t f = 0; f < count; f++) {
+        cast[f] = lrcsi_view_casts(view, f) ? view->facing[f] : 0;
     }
-    cast[lrcsi_runs_room(count)] = 0;
+    memset(cast + count, 0, lrcsi_meshlets_room(count) + 1 - count);
 }
 
 size_t lrcsi_classify_need(const lrcs_prepared *prepared)
 {
     size_t edges = prepared->topology.edge_count;
     size_t facets = prepared->scene->facet_count;
-    size_t room = lrcsi_runs_room(prepared->scene->facet_count);
+    size_t room = lrcsi_meshlets_room(prepared->scene->facet_count);
     size_t need = lrcsi_work_add(lrcsi_work_blocks(2, room + 1, 1), lrcsi_work_bytes(facets, 1));
     need = lrcsi_work_add(need, lrcsi_work_bytes(room, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_boxes_need(prepared));
@@ -268,15 +255,16 @@ size_t lrcsi_classify_need(const lrcs_prepared *prepared)
     return lrcsi_work_add(need, lrcsi_grid_need(facets, max_event_entries(prepared)));
 }
 
-/* The grid of events has about one cell for every facet that can hide others: then most facets meet
-   no cell that lists an event, and need no further test. Called: facets_cast, lrcsi_boxes_make,
-   lrcsi_events_make, events_sort, lrcsi_events_join (components), facets_decide. */
+/* The grid of events has about one bucket for every facet that can hide others: then most facets
+   meet no bucket that lists an event, and need no further test. Called: facets_cast,
+   lrcsi_boxes_make, lrcsi_events_make, events_sort, lrcsi_events_join (components), facets_decide.
+ */
 int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *work,
                         lrcsi_classification *classification)
 {
     size_t mark = work->used;
     uint32_t count = view->prepared->scene->facet_count;
-    size_t room = lrcsi_runs_room(count);
+    size_t room = lrcsi_meshlets_room(count);
     lrcsi_classification c = {.view = view, .search = {.view = view}};
     c.search.grid = lrcsi_grid_empty(view, view->front + (view->backs.cast ? view->back : 0));
     c.undecided = lrcsi_work_take_zero(work, count, 1);

@@ -23,6 +23,7 @@
 #define LRCSI_CLASSIFY_H
 
 #include "visibility/crossing.h"
+#include "visibility/event.h"
 
 typedef struct lrcsi_classification {
     const lrcsi_view *view;
@@ -47,11 +48,7 @@ int lrcsi_classify_make(const lrcsi_view *view, lrcsi_meter *meter, lrcs_work *w
                         lrcsi_classification *classification);
 
 /* Finds regions of uniform facets: region[f] is the first facet of that of facet f; there are
-   lrcsi_runs_room entries. */
+   lrcsi_meshlets_room entries. */
 void lrcsi_classify_regions(const lrcsi_classification *classification, uint32_t *region);
-
-/* Can the other facet of a contact hide a part of the facet? */
-int lrcsi_intersection_hides(const lrcsi_view *view, uint32_t facet,
-                             const lrcsi_intersection *contact);
 
 #endif

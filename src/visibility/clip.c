@@ -143,7 +143,7 @@ double lrcsi_line_through(const double *p, const double *q, double line[3])
     return length;
 }
 
-void lrcsi_cells_sides_make(const lrcsi_clip_polygon *p, double tolerance, lrcsi_cells_sides *s)
+void lrcsi_clip_sides_make(const lrcsi_clip_polygon *p, double tolerance, lrcsi_clip_sides *s)
 {
     s->count = p->count;
     s->tolerance = tolerance;
@@ -173,18 +173,20 @@ void lrcsi_box_range(const double low[2], const double high[2], const double lin
     range[1] = middle + half;
 }
 
-/* A part of a segment is short if it is less than this fraction of it. */
+/* A part of a segment is short if it is less than this fraction of it: a heuristic that saves time.
+   What is tested of a short part (below) would hold of any, but a longer one that is near a side
+   along all its length is rare. */
 #define SHORT_PART 0x1p-20
 
-int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
-                            const double p[2], const double q[2], const double line[3], double w,
-                            double line_w, lrcsi_cells_interval *interval)
+int lrcsi_clip_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_clip_sides *s,
+                           const double p[2], const double q[2], const double line[3], double w,
+                           double line_w, lrcsi_clip_interval *interval)
 {
     double range[2];
     lrcsi_line_range(shape, line, range);
     double deep = lrcsi_min(range[1], -range[0]);
     if (deep < -line_w) {
-        return LRCSI_CELLS_OUTSIDE;
+        return LRCSI_CLIP_OUTSIDE;
     }
     double width = deep <= line_w ? line_w + lrcsi_max(0, deep) : HUGE_VAL;
     interval->from = 0;
@@ -195,7 +197,7 @@ int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_s
         if (a < w && b < w) {
             width = lrcsi_min(width, w + lrcsi_max3(0, a, b));
             if (a < -w && b < -w) {
-                return LRCSI_CELLS_OUTSIDE;
+                return LRCSI_CLIP_OUTSIDE;
             }
         }
         if (a < -w) {
@@ -205,7 +207,7 @@ int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_s
         }
     }
     if (interval->from > interval->to) {
-        return LRCSI_CELLS_OUTSIDE;
+        return LRCSI_CLIP_OUTSIDE;
     }
     /* A short part may be in a corner of the cell, all of it near one side. Its ends have errors
        below w. */
@@ -220,24 +222,37 @@ int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_s
         }
     }
     interval->strip_width = width;
-    return width < HUGE_VAL ? LRCSI_CELLS_BORDER : LRCSI_CELLS_CROSSES;
+    return width < HUGE_VAL ? LRCSI_CLIP_BORDER : LRCSI_CLIP_CROSSES;
 }
 
-/* Sides too short for an accurate line are left out: without them the cell is larger by no more
-   than their length. */
-double lrcsi_cells_border_distance(const lrcsi_cells_sides *s, const double at[2])
+/* A side is left out if it is no longer than this fraction of the perimeter plus so many
+   tolerances: a heuristic, since any may be left out. The direction of such a side says little, and
+   its line may pass close to points that are far from the side: that would make the bound small. */
+#define SHORT_SIDE            0x1p-44
+#define SHORT_SIDE_TOLERANCES 64
+/* More than all relative rounding errors, which are below 4 u. */
+#define DISTANCE_FACTOR 0.98
+
+/* A point at a distance d from a side that is left out is no farther than d and the lengths of all
+   sides left out from a corner of one that is not, and so from its line: the least distance from
+   the lines of the latter, less these lengths, is at most d. It is also at most the distance from
+   the border elsewhere. Corners are doubles, b their largest coordinate. The direction of a line
+   has an error of 2 u, which moves it by 5.7 u b within the cell; its constant has an error of 2.9
+   u b; and the value at a point one of 5.7 u b: together less than the tolerance, which is at least
+   16 u b. */
+double lrcsi_clip_border_distance(const lrcsi_clip_sides *s, const double at[2])
 {
-    double shortest = 0x1p-44 * s->perimeter + 64 * s->tolerance;
-    double clear = HUGE_VAL;
+    double shortest = SHORT_SIDE * s->perimeter + SHORT_SIDE_TOLERANCES * s->tolerance;
+    double least = HUGE_VAL;
     double left_out = 0;
     for (uint32_t i = 0; i < s->count; i++) {
         if (s->length[i] > shortest) {
-            clear = lrcsi_min(clear, lrcsi_line_at(s->line[i], at[0], at[1]) - s->shift[i]);
+            least = lrcsi_min(least, lrcsi_line_at(s->line[i], at[0], at[1]) - s->shift[i]);
         } else {
             left_out += s->length[i];
         }
     }
-    return 0.98 * clear - left_out - s->tolerance;
+    return DISTANCE_FACTOR * least - left_out - s->tolerance;
 }
 
 /* A line crosses two sides of a convex shape, and each part has at most one corner more; but of
@@ -245,7 +260,7 @@ double lrcsi_cells_border_distance(const lrcsi_cells_sides *s, const double at[2
    most two corners to a part. */
 static int has_room(const lrcsi_clip_polygon *part)
 {
-    return part->count + 2 <= LRCSI_CLIP_SIDES;
+    return part->count + 2 <= LRCSI_CLIP_MAX_SIDES;
 }
 
 int lrcsi_clip_keep_left(lrcsi_clip_polygon *shape, const double line[3])

@@ -11,9 +11,9 @@
 #include "base/range.h"
 
 /* A convex polygon, counter-clockwise. */
-#define LRCSI_CLIP_SIDES 32u
+#define LRCSI_CLIP_MAX_SIDES 32u
 typedef struct lrcsi_clip_polygon {
-    double corner[LRCSI_CLIP_SIDES][2];
+    double corner[LRCSI_CLIP_MAX_SIDES][2];
     uint32_t count;
 } lrcsi_clip_polygon;
 
@@ -64,17 +64,17 @@ static inline double lrcsi_line_at(const double line[3], double x, double y)
 }
 
 /* Half-planes that contain a cell, one along each of its sides. */
-typedef struct lrcsi_cells_sides {
-    double line[LRCSI_CLIP_SIDES][3];
-    double shift[LRCSI_CLIP_SIDES]; /* how far each line was moved outward */
-    double length[LRCSI_CLIP_SIDES];
+typedef struct lrcsi_clip_sides {
+    double line[LRCSI_CLIP_MAX_SIDES][3];
+    double shift[LRCSI_CLIP_MAX_SIDES]; /* how far each line was moved outward */
+    double length[LRCSI_CLIP_MAX_SIDES];
     uint32_t count;
     double low[2], high[2];
     double perimeter;
     double tolerance; /* statements about the cell hold for all points within this distance of it */
-} lrcsi_cells_sides;
+} lrcsi_clip_sides;
 
-void lrcsi_cells_sides_make(const lrcsi_clip_polygon *p, double tolerance, lrcsi_cells_sides *s);
+void lrcsi_clip_sides_make(const lrcsi_clip_polygon *p, double tolerance, lrcsi_clip_sides *s);
 
 /* The least and the largest signed distance of a cell's corners from a line. */
 static inline void lrcsi_line_range(const lrcsi_clip_polygon *shape, const double line[3],
@@ -94,45 +94,45 @@ void lrcsi_box_range(const double low[2], const double high[2], const double lin
 
 /* Where a segment is in a cell or near it: between two fractions of its length; and, if it is at
    the border, the width of the undecided strip around it. */
-typedef struct lrcsi_cells_interval {
+typedef struct lrcsi_clip_interval {
     double from, to, strip_width;
-} lrcsi_cells_interval;
+} lrcsi_clip_interval;
 
 /* Is the box of a segment from p to q farther than w from that of the cell? */
-static inline int lrcsi_cells_box_outside(const lrcsi_cells_sides *s, const double p[2],
-                                          const double q[2], double w)
+static inline int lrcsi_clip_box_outside(const lrcsi_clip_sides *s, const double p[2],
+                                         const double q[2], double w)
 {
     double x = lrcsi_max(s->low[0] - lrcsi_max(p[0], q[0]), lrcsi_min(p[0], q[0]) - s->high[0]);
     double y = lrcsi_max(s->low[1] - lrcsi_max(p[1], q[1]), lrcsi_min(p[1], q[1]) - s->high[1]);
     return lrcsi_max(x, y) > w;
 }
 
-enum lrcsi_cells_location {
-    LRCSI_CELLS_OUTSIDE, /* the segment is farther from the cell than its error */
-    LRCSI_CELLS_BORDER,  /* it extends into the cell by no more than its error; in a corner of the
+enum lrcsi_clip_location {
+    LRCSI_CLIP_OUTSIDE, /* the segment is farther from the cell than its error */
+    LRCSI_CLIP_BORDER,  /* it extends into the cell by no more than its error; in a corner of the
                             cell, by no more than twice that */
-    LRCSI_CELLS_CROSSES  /* neither is certain */
+    LRCSI_CLIP_CROSSES  /* neither is certain */
 };
 
-/* The position of a segment relative to a cell: a lrcsi_cells_location. Given: the ends p and q
+/* The position of a segment relative to a cell: a lrcsi_clip_location. Given: the ends p and q
    with the error w, and their line with the error line_w. The interval is returned unless
    it is outside. */
-int lrcsi_cells_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
-                            const double p[2], const double q[2], const double line[3], double w,
-                            double line_w, lrcsi_cells_interval *interval);
+int lrcsi_clip_locate_near(const lrcsi_clip_polygon *shape, const lrcsi_clip_sides *s,
+                           const double p[2], const double q[2], const double line[3], double w,
+                           double line_w, lrcsi_clip_interval *interval);
 
 /* The same; boxes are compared first. */
-static inline int lrcsi_cells_locate(const lrcsi_clip_polygon *shape, const lrcsi_cells_sides *s,
-                                     const double p[2], const double q[2], const double line[3],
-                                     double w, double line_w, lrcsi_cells_interval *interval)
+static inline int lrcsi_clip_locate(const lrcsi_clip_polygon *shape, const lrcsi_clip_sides *s,
+                                    const double p[2], const double q[2], const double line[3],
+                                    double w, double line_w, lrcsi_clip_interval *interval)
 {
-    return lrcsi_cells_box_outside(s, p, q, w)
-               ? LRCSI_CELLS_OUTSIDE
-               : lrcsi_cells_locate_near(shape, s, p, q, line, w, line_w, interval);
+    return lrcsi_clip_box_outside(s, p, q, w)
+               ? LRCSI_CLIP_OUTSIDE
+               : lrcsi_clip_locate_near(shape, s, p, q, line, w, line_w, interval);
 }
 
 /* A lower bound of the distance of a point in the cell from the cell's border. */
-double lrcsi_cells_border_distance(const lrcsi_cells_sides *s, const double at[2]);
+double lrcsi_clip_border_distance(const lrcsi_clip_sides *s, const double at[2]);
 
 /* Keeps the part to the left of a line. Returns 0, and leaves the shape as it is, if the part would
    have more sides than there is room for. */

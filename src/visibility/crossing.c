@@ -18,17 +18,16 @@
    undecided, which is never wrong. */
 #define MAX_LISTED 4096u
 #define MAX_TESTED 512u
-/* If a facet is in at least so many rows and columns of the grid, each row is limited to the cells
-   between its sides: long facets across the grid meet few of the cells of their boxes. */
+/* If a facet is in at least so many rows and columns of the grid, each row is limited to the
+   buckets between its sides: long facets across the grid meet few of the buckets of their boxes. */
 #define MIN_ROWS 3
 
 /* --- one event edge --------------------------------------------------------------------------- */
 
 /* The orientation of vertices a, b, c in the view: 1 counter-clockwise, -1 clockwise, 0 collinear.
    From view coordinates if their error allows it, otherwise exactly. The vertex with the largest
-   error is never the origin of both differences, whose errors it would enlarge. The error bound is
-   that of view/side.h. */
-static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
+   error is never the origin of both differences, whose errors it would enlarge. */
+static int vertex_orientation(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t c)
 {
     if (c == a || c == b) {
         return 0;
@@ -47,12 +46,10 @@ static int vertex_turn(const lrcsi_view *view, uint32_t a, uint32_t b, uint32_t 
     const double *at = view->point[a].x;
     const double p[2] = {view->point[b].x[0] - at[0], view->point[b].x[1] - at[1]};
     const double q[2] = {view->point[c].x[0] - at[0], view->point[c].x[1] - at[1]};
-    double turn = p[0] * q[1] - p[1] * q[0];
-    double e = err[0] + err[1];
-    double f = err[0] + err[2];
-    if (fabs(turn) >
-        1.5 * (e * (fabs(q[0]) + fabs(q[1]) + 2 * f) + f * (fabs(p[0]) + fabs(p[1])))) {
-        return turn > 0 ? 1 : -1;
+    double cross = lrcsi_vec2_cross(p, q);
+    if (fabs(cross) > lrcsi_view_cross_err(fabs(p[0]) + fabs(p[1]), err[0] + err[1],
+                                           fabs(q[0]) + fabs(q[1]), err[0] + err[2])) {
+        return cross > 0 ? 1 : -1;
     }
     const lrcs_point *v = view->prepared->vertex;
     return lrcsi_exact_orient(v[a].x, v[b].x, v[c].x, view->direction);
@@ -85,7 +82,7 @@ static int segment_crosses_plainly(const lrcsi_view *view, uint32_t facet, uint3
     const double size = fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]) + fabs(c[0]) +
                         fabs(c[1]) + fabs(s[0]) + fabs(s[1]);
     const double err = from->err + lrcsi_max3(lrcsi_max(i->err, j->err), k->err, to->err);
-    const double turn_err = 4 * err * (size + 2 * err);
+    const double cross_err = 4 * err * (size + 2 * err);
     const double sa = lrcsi_vec2_cross(s, a);
     const double sb = lrcsi_vec2_cross(s, b);
     const double sc = lrcsi_vec2_cross(s, c);
@@ -98,10 +95,10 @@ static int segment_crosses_plainly(const lrcsi_view *view, uint32_t facet, uint3
                   lrcsi_min(lrcsi_max(bc, bc + (sb - sc)), lrcsi_max(ca, ca + (sc - sa))));
     const double most = lrcsi_max3(sa, sb, sc);
     const double least = lrcsi_min3(sa, sb, sc);
-    if (inside < -turn_err || most < -turn_err || least > turn_err) {
+    if (inside < -cross_err || most < -cross_err || least > cross_err) {
         return 0;
     }
-    return inside > turn_err && most > turn_err && least < -turn_err ? 1 : LRCSI_VIEW_UNDECIDED;
+    return inside > cross_err && most > cross_err && least < -cross_err ? 1 : LRCSI_VIEW_UNDECIDED;
 }
 
 /* The same, decided exactly. *along is set if the segment may run along a side: if it lies on the
@@ -117,8 +114,8 @@ static int segment_crosses(const lrcsi_view *view, uint32_t facet, uint32_t p, u
     for (int k = 0; k < 3; k++) {
         uint32_t a = corner[k];
         uint32_t b = corner[k == 2 ? 0 : k + 1];
-        int of_p = view->facing[facet] * vertex_turn(view, a, b, p);
-        int of_q = of_p == 1 ? 1 : view->facing[facet] * vertex_turn(view, a, b, q);
+        int of_p = view->facing[facet] * vertex_orientation(view, a, b, p);
+        int of_q = of_p == 1 ? 1 : view->facing[facet] * vertex_orientation(view, a, b, q);
         if (of_p <= 0 && of_q <= 0) {
             *along |= of_p == 0 && of_q == 0;
             return 0;
@@ -127,7 +124,7 @@ static int segment_crosses(const lrcsi_view *view, uint32_t facet, uint32_t p, u
     int left = 0;
     int right = 0;
     for (int k = 0; k < 3; k++) {
-        int side = vertex_turn(view, p, q, corner[k]);
+        int side = vertex_orientation(view, p, q, corner[k]);
         left |= side > 0;
         right |= side < 0;
     }
@@ -174,9 +171,9 @@ typedef struct crossing_query {
     int limit_reached;  /* found: nothing more could have been examined */
 } crossing_query;
 
-/* Searches the cells of the grid that the facet may meet. Finds fewer crossings if a limit is
+/* Searches the buckets of the grid that the facet may meet. Finds fewer crossings if a limit is
    reached or the meter is spent. An event whose box is beside the facet's box does not cross the
-   facet. A cell lists events in the order of their nearest points: after the first one that lies
+   facet. A bucket lists events in the order of their nearest points: after the first one that lies
    behind all of the facet, no other is nearer than the facet. Steps are counted in a register and
    charged at the end. */
 static void crossings_search(lrcsi_event_search *search, crossing_query *query, lrcsi_meter *meter)
@@ -187,7 +184,7 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     const uint32_t facet = query->facet;
     const uint32_t component = query->component;
     const lrcsi_view_box box = *lrcsi_boxes_facet(&search->boxes, facet);
-    const lrcsi_grid_rect all = lrcsi_grid_cells(grid, &box);
+    const lrcsi_grid_rect all = lrcsi_grid_buckets(grid, &box);
     const int slanted = all.x1 - all.x0 >= MIN_ROWS && all.y1 - all.y0 >= MIN_ROWS;
     const uint32_t limit = query->is_limited ? MAX_LISTED : LRCS_NONE;
     const uint64_t metered = meter ? (meter->spent ? 0 : meter->limit - meter->taken) : limit;
@@ -198,7 +195,7 @@ static void crossings_search(lrcsi_event_search *search, crossing_query *query, 
     uint32_t count = 0;
     int more = 0; /* an event was not examined because a limit was reached */
     lrcsi_view_segment side[3];
-    if (slanted) { /* rows are limited to the cells between the sides */
+    if (slanted) { /* rows are limited to the buckets between the sides */
         lrcsi_grid_sides(grid, view->prepared->scene->facet[facet].corner, 3, 0, side);
     }
     for (uint32_t y = all.y0; y < all.y1 && !more; y++) {
@@ -254,7 +251,7 @@ int lrcsi_crossings_possible(lrcsi_event_search *search, uint32_t facet, lrcsi_m
     const lrcsi_grid *grid = &search->grid;
     crossing_query query = {.facet = facet, .component = LRCS_NONE, .most = 1, .is_limited = 1};
     if (lrcsi_grid_has_items(grid,
-                             lrcsi_grid_cells(grid, lrcsi_boxes_facet(&search->boxes, facet)))) {
+                             lrcsi_grid_buckets(grid, lrcsi_boxes_facet(&search->boxes, facet)))) {
         crossings_search(search, &query, meter);
     }
     *along_side = query.along_side;

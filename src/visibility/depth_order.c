@@ -53,10 +53,10 @@ static void order_try(const lrcsi_body *front, const lrcsi_body *back, const dou
     if (gap.separates) {
         order->front_is_free = order->back_by_outline = proof_make(front, 1, n, -HUGE_VAL, 0);
     }
-    if (gap.contact && has_slab(front, own)) {
+    if (gap.is_zero && has_slab(front, own)) {
         order->front_is_free = proof_make(front, 1, n, gap.low + gap.height, gap.height);
     }
-    if (gap.contact && has_slab(back, own)) {
+    if (gap.is_zero && has_slab(back, own)) {
         double high = lrcsi_body_support_all(back, n);
         order->back_by_outline = proof_make(back, -1, n, gap.height - high, gap.height);
     }

@@ -55,15 +55,16 @@ static void mark_edge_event(uint32_t *mark, uint32_t edge)
     mark[edge / MARK_BITS] |= (uint32_t)1 << edge % MARK_BITS;
 }
 
-/* Do all facets of the runs around a run have the same value as all of its own facets? */
-static int run_surrounded(const lrcs_prepared *p, const signed char *value, uint32_t run)
+/* Do all facets of the meshlets around a meshlet have the same value as all of its own facets? */
+static int meshlet_surrounded(const lrcs_prepared *p, const signed char *value, uint32_t meshlet)
 {
-    signed char own = value[(size_t)run * LRCSI_RUN];
-    for (uint32_t i = p->runs.first_link[run]; i < p->runs.first_link[run + 1]; i++) {
-        uint32_t other = p->runs.link[i];
-        if (other == LRCS_NONE
-                ? own != 0
-                : value[(size_t)other * LRCSI_RUN] != own || !lrcsi_run_alike(value, other)) {
+    signed char own = value[(size_t)meshlet * LRCSI_MESHLET_FACETS];
+    for (uint32_t i = p->meshlets.first_link[meshlet]; i < p->meshlets.first_link[meshlet + 1];
+         i++) {
+        uint32_t other = p->meshlets.link[i];
+        if (other == LRCS_NONE ? own != 0
+                               : value[(size_t)other * LRCSI_MESHLET_FACETS] != own ||
+                                     !lrcsi_meshlet_alike(value, other)) {
             return 0;
         }
     }
@@ -71,15 +72,15 @@ static int run_surrounded(const lrcs_prepared *p, const signed char *value, uint
 }
 
 /* Marks events among the plain edges (scene/neighbours.h): two facets continue each other across
-   such an edge if both can hide others and face the same way. A run whose facets all have the same
-   value as those around it has none. */
+   such an edge if both can hide others and face the same way. A meshlet whose facets all have the
+   same value as those around it has none. */
 static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t *mark)
 {
     uint32_t count = p->scene->facet_count;
-    for (uint32_t r = 0; r < p->runs.count; r++) {
-        uint32_t start = r * LRCSI_RUN;
-        uint32_t end = lrcsi_run_end(start, count);
-        int alike = lrcsi_run_alike(cast, r);
+    for (uint32_t m = 0; m < p->meshlets.count; m++) {
+        uint32_t start = m * LRCSI_MESHLET_FACETS;
+        uint32_t end = lrcsi_meshlet_end(start, count);
+        int alike = lrcsi_meshlet_alike(cast, m);
         for (uint32_t f = start; f < end && !alike; f++) {
             for (int k = 0; k < 3; k++) {
                 uint32_t other = p->neighbours.facet[f].corner[k];
@@ -88,11 +89,12 @@ static void mark_plain(const lrcs_prepared *p, const signed char *cast, uint32_t
                 }
             }
         }
-        if (alike && run_surrounded(p, cast, r)) {
+        if (alike && meshlet_surrounded(p, cast, m)) {
             continue;
         }
-        for (uint32_t i = p->runs.run[r].first_side; i < p->runs.run[r + 1].first_side; i++) {
-            const lrcsi_run_side *side = &p->runs.side[i];
+        for (uint32_t i = p->meshlets.meshlet[m].first_side;
+             i < p->meshlets.meshlet[m + 1].first_side; i++) {
+            const lrcsi_meshlet_side *side = &p->meshlets.side[i];
             if (cast[side->facet] != cast[side->other]) {
                 mark_edge_event(mark, side->edge);
             }
@@ -144,54 +146,57 @@ int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work
 
 /* --- groups ----------------------------------------------------------------------------------- */
 
-/* The entry of a facet in group[]: in a run whose facets are all joined, that of the first one. */
+/* The entry of a facet in group[]: in a meshlet whose facets are all joined, that of the first one.
+ */
 static inline uint32_t group_entry(const lrcs_prepared *p, const signed char *joinable,
                                    uint32_t facet)
 {
-    uint32_t run = facet / LRCSI_RUN;
-    return lrcsi_events_joined(p, joinable, run) == LRCSI_JOINED_ALL ? run * LRCSI_RUN : facet;
+    uint32_t meshlet = facet / LRCSI_MESHLET_FACETS;
+    return lrcsi_events_joined(p, joinable, meshlet) == LRCSI_JOINED_ALL
+               ? meshlet * LRCSI_MESHLET_FACETS
+               : facet;
 }
 
 /* Sets group[facet] to the first facet of its group. Groups are named by their first facets, which
-   are in this run or in earlier runs that are finished already. */
+   are in this meshlet or in earlier meshlets that are finished already. */
 static void groups_name(const lrcs_prepared *p, const signed char *joinable, uint32_t *group)
 {
     uint32_t count = p->scene->facet_count;
-    for (uint32_t r = 0; r < p->runs.count; r++) {
-        uint32_t start = r * LRCSI_RUN;
-        int joined = lrcsi_events_joined(p, joinable, r);
+    for (uint32_t m = 0; m < p->meshlets.count; m++) {
+        uint32_t start = m * LRCSI_MESHLET_FACETS;
+        int joined = lrcsi_events_joined(p, joinable, m);
         if (joined == LRCSI_JOINED_SOME) {
-            for (uint32_t f = start; f < lrcsi_run_end(start, count); f++) {
+            for (uint32_t f = start; f < lrcsi_meshlet_end(start, count); f++) {
                 group[f] = group[group[f]];
             }
             continue;
         }
         uint32_t step = joined == LRCSI_JOINED_NONE;
         uint32_t root = group[group[start]];
-        for (uint32_t i = 0; i < LRCSI_RUN; i++) {
+        for (uint32_t i = 0; i < LRCSI_MESHLET_FACETS; i++) {
             group[start + i] = root + step * i;
         }
     }
 }
 
-/* 1. Run by run, joins the facets of a run among themselves, and then to earlier runs, while they
-   are in the cache. The groups do not depend on the order. A run that is joined as a whole is
-   represented by its first facet. It is joined to the runs to which its sides lead; side by side
-   only if one of these is joined in part. 2. Joins facets across irregular edges. 3. Names the
-   groups. */
+/* 1. Meshlet by meshlet, joins the facets of a meshlet among themselves, and then to earlier
+   meshlets, while they are in the cache. The groups do not depend on the order. A meshlet that is
+   joined as a whole is represented by its first facet. It is joined to the meshlets to which its
+   sides lead; side by side only if one of these is joined in part. 2. Joins facets across irregular
+   edges. 3. Names the groups. */
 void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group)
 {
     const lrcs_prepared *p = view->prepared;
-    const lrcsi_runs *runs = &p->runs;
-    for (uint32_t r = 0; r < runs->count; r++) {
-        const uint32_t start = r * LRCSI_RUN;
-        const uint32_t end = lrcsi_run_end(start, p->scene->facet_count);
-        const int joined = lrcsi_events_joined(p, joinable, r);
-        const int alike = lrcsi_run_alike(joinable, r);
+    const lrcsi_meshlets *meshlets = &p->meshlets;
+    for (uint32_t m = 0; m < meshlets->count; m++) {
+        const uint32_t start = m * LRCSI_MESHLET_FACETS;
+        const uint32_t end = lrcsi_meshlet_end(start, p->scene->facet_count);
+        const int joined = lrcsi_events_joined(p, joinable, m);
+        const int alike = lrcsi_meshlet_alike(joinable, m);
         int by_sides = joined == LRCSI_JOINED_SOME;
         group[start] = start;
         for (uint32_t f = start; f < end && joined == LRCSI_JOINED_SOME; f++) {
-            group[f] = alike ? start + runs->first[f] : f;
+            group[f] = alike ? start + meshlets->first[f] : f;
             for (int k = 0; k < 3 && !alike && joinable[f] != 0; k++) {
                 uint32_t other = p->neighbours.facet[f].corner[k];
                 if (other >= start && other < f && joinable[other] == joinable[f]) {
@@ -199,18 +204,19 @@ void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint
                 }
             }
         }
-        for (uint32_t i = runs->first_link[r];
-             i < runs->first_link[r + 1] && joined == LRCSI_JOINED_ALL && !by_sides; i++) {
-            uint32_t other = runs->link[i];
-            int its = other < r ? lrcsi_events_joined(p, joinable, other) : LRCSI_JOINED_NONE;
+        for (uint32_t i = meshlets->first_link[m];
+             i < meshlets->first_link[m + 1] && joined == LRCSI_JOINED_ALL && !by_sides; i++) {
+            uint32_t other = meshlets->link[i];
+            int its = other < m ? lrcsi_events_joined(p, joinable, other) : LRCSI_JOINED_NONE;
             by_sides = its == LRCSI_JOINED_SOME;
-            if (its == LRCSI_JOINED_ALL && joinable[(size_t)other * LRCSI_RUN] == joinable[start]) {
-                lrcsi_disjoint_union(group, other * LRCSI_RUN, start);
+            if (its == LRCSI_JOINED_ALL &&
+                joinable[(size_t)other * LRCSI_MESHLET_FACETS] == joinable[start]) {
+                lrcsi_disjoint_union(group, other * LRCSI_MESHLET_FACETS, start);
             }
         }
-        for (uint32_t i = runs->run[r].first_side; by_sides && i < runs->run[r + 1].first_side;
-             i++) {
-            const lrcsi_run_side *side = &runs->side[i];
+        for (uint32_t i = meshlets->meshlet[m].first_side;
+             by_sides && i < meshlets->meshlet[m + 1].first_side; i++) {
+            const lrcsi_meshlet_side *side = &meshlets->side[i];
             if (side->other < side->facet && joinable[side->facet] != 0 &&
                 joinable[side->other] == joinable[side->facet]) {
                 lrcsi_disjoint_union(group, group_entry(p, joinable, side->other),

@@ -5,8 +5,7 @@
 #ifndef LRCSI_EVENT_H
 #define LRCSI_EVENT_H
 
-#include <string.h>
-
+#include "scene/meshlets.h"
 #include "view/view.h"
 
 typedef struct lrcsi_events {
@@ -30,38 +29,30 @@ int lrcsi_edge_kind_of(const lrcsi_view *view, uint32_t edge, uint32_t part, uin
 size_t lrcsi_events_need(const lrcs_prepared *prepared);
 
 /* Given: cast[facet], the direction in which it faces (1 or -1) if it can hide something, otherwise
-   0; after the last facet zeros that fill its run, and one more (lrcsi_runs_room). Returned:
-   events, which stay in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
+   0; after the last facet zeros that fill its meshlet, and one more (lrcsi_meshlets_room).
+   Returned: events, which stay in the work area. Status: LRCS_OK; LRCS_E_MEMORY. */
 int lrcsi_events_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
                       lrcsi_events *events);
 
-/* Are all LRCSI_RUN values of a run equal? */
-static inline int lrcsi_run_alike(const signed char *value, uint32_t run)
-{
-    uint64_t word[LRCSI_RUN / sizeof(uint64_t)];
-    memcpy(word, value + (size_t)run * LRCSI_RUN, sizeof word);
-    return word[0] == word[1] && word[0] == (word[0] & 0xff) * 0x0101010101010101u;
-}
-
-/* What lrcsi_events_join does with the facets of a run. */
-enum lrcsi_joined {
+/* What lrcsi_events_join does with the facets of a meshlet. */
+enum lrcsi_join {
     LRCSI_JOINED_NONE, /* joins none of them */
     LRCSI_JOINED_ALL,  /* joins all of them into one group */
     LRCSI_JOINED_SOME  /* joins some of them, or all, which is not known in advance */
 };
 
 static inline int lrcsi_events_joined(const lrcs_prepared *p, const signed char *joinable,
-                                      uint32_t run)
+                                      uint32_t meshlet)
 {
-    return !lrcsi_run_alike(joinable, run)          ? LRCSI_JOINED_SOME
-           : joinable[(size_t)run * LRCSI_RUN] == 0 ? LRCSI_JOINED_NONE
-           : p->runs.whole[run]                     ? LRCSI_JOINED_ALL
-                                                    : LRCSI_JOINED_SOME;
+    return !lrcsi_meshlet_alike(joinable, meshlet)                 ? LRCSI_JOINED_SOME
+           : joinable[(size_t)meshlet * LRCSI_MESHLET_FACETS] == 0 ? LRCSI_JOINED_NONE
+           : p->meshlets.whole[meshlet]                            ? LRCSI_JOINED_ALL
+                                                                   : LRCSI_JOINED_SOME;
 }
 
 /* Joins facets into groups (base/disjoint.h) across all edges that are not event edges.
    Given: joinable[facet], as `cast`, but also 0 for facets that are not to be joined. Returned: the
-   first facet of each facet's group; group[] has lrcsi_runs_room entries. */
+   first facet of each facet's group; group[] has lrcsi_meshlets_room entries. */
 void lrcsi_events_join(const lrcsi_view *view, const signed char *joinable, uint32_t *group);
 
 #endif

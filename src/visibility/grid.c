@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Boxes of runs and facets; the cells of a grid, and how items are sorted into them: counted first,
-   then filled, in item order. Nothing is decided about visibility. */
+/* The buckets of a grid, and how items are sorted into them: counted first, then filled, in item
+   order. Nothing is decided about visibility. */
 #include "visibility/grid.h"
 
 #include <math.h>
@@ -8,125 +8,45 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/event.h"
+#include "visibility/lists.h"
 
-/* The largest number of cells along a side. */
-#define MAX_SIDE 2048
-/* Cells to be read are marked by one bit each. */
+/* The largest number of buckets along a side. */
+#define MAX_SIZE 2048
+/* Buckets to be read are marked by one bit each. */
 #define NEEDED_BITS 32u
-
-/* --- boxes -------------------------------------------------------------------------------------
- */
-
-size_t lrcsi_boxes_need(const lrcs_prepared *prepared)
-{
-    size_t facets = prepared->scene->facet_count;
-    size_t runs = prepared->runs.count;
-    size_t need = lrcsi_work_add(lrcsi_work_bytes(facets, sizeof(lrcsi_view_box)),
-                                 lrcsi_work_bytes(runs, sizeof(lrcsi_view_box)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(runs, 1));
-    return lrcsi_work_add(need, lrcsi_work_bytes(runs + 1, sizeof(uint32_t)));
-}
-
-/* A point of the box is m + d, with |d_k| <= h_k. The position of m in the view has an error of at
-   most lrcsi_view_point_err, which includes a sum; a row of the axes has an error of 4 u. So d
-   contributes at most sum (|R_k| + 4 u) h_k, computed with a relative error of 4 u. */
-void lrcsi_boxes_run_bounds(const lrcsi_view *view, const lrcsi_run *run, double low[3],
-                            double high[3])
-{
-    double middle[3];
-    double half[3];
-    double x[3];
-    for (int k = 0; k < 3; k++) {
-        middle[k] = 0.5 * (run->low[k] + run->high[k]);
-        half[k] = (1 + 2 * LRCSI_U) * lrcsi_max(run->high[k] - middle[k], middle[k] - run->low[k]);
-    }
-    lrcsi_view_coordinates(view, middle, x);
-    double err = lrcsi_view_point_err(x) + 8 * LRCSI_U * (half[0] + half[1] + half[2]);
-    for (int k = 0; k < 3; k++) {
-        const double *row = view->R[k];
-        double wide = fabs(row[0]) * half[0] + fabs(row[1]) * half[1] + fabs(row[2]) * half[2];
-        wide += 16 * LRCSI_U * wide + err;
-        low[k] = x[k] - wide;
-        high[k] = x[k] + wide;
-    }
-}
-
-int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
-                     lrcsi_boxes *boxes)
-{
-    const lrcs_prepared *p = view->prepared;
-    uint32_t count = p->scene->facet_count;
-    *boxes = (lrcsi_boxes){.view = view};
-    boxes->run = lrcsi_work_take(work, p->runs.count, sizeof *boxes->run);
-    boxes->state = lrcsi_work_take_zero(work, p->runs.count, 1);
-    boxes->start = lrcsi_work_take(work, (size_t)p->runs.count + 1, sizeof *boxes->start);
-    boxes->facet = lrcsi_work_take(work, count, sizeof *boxes->facet);
-    if (!boxes->run || !boxes->state || !boxes->start || !boxes->facet) {
-        return LRCS_E_MEMORY;
-    }
-    boxes->opened = &boxes->start[p->runs.count];
-    *boxes->opened = 0;
-    for (uint32_t r = 0; r < p->runs.count; r++) {
-        if (cast[(size_t)r * LRCSI_RUN] != 0 || !lrcsi_run_alike(cast, r)) {
-            double low[3];
-            double high[3];
-            lrcsi_boxes_run_bounds(view, &p->runs.run[r], low, high);
-            boxes->run[r] = lrcsi_view_box_round(view, low, high);
-            boxes->state[r] = LRCSI_BOXES_RUN;
-        }
-    }
-    return LRCS_OK;
-}
-
-void lrcsi_boxes_open(const lrcsi_boxes *boxes, uint32_t run)
-{
-    const lrcs_scene *scene = boxes->view->prepared->scene;
-    if (boxes->state[run] == LRCSI_BOXES_RUN) {
-        uint32_t first = run * LRCSI_RUN;
-        uint32_t end = lrcsi_run_end(first, scene->facet_count);
-        lrcsi_view_box *box = &boxes->facet[*boxes->opened];
-        for (uint32_t f = first; f < end; f++) {
-            if (lrcsi_view_casts(boxes->view, f)) {
-                box[f - first] = lrcsi_view_box_of(boxes->view, scene->facet[f].corner, 3);
-            }
-        }
-        boxes->start[run] = *boxes->opened;
-        *boxes->opened += end - first;
-        boxes->state[run] = LRCSI_BOXES_FACETS;
-    }
-}
 
 /* --- the grid ----------------------------------------------------------------------------------
  */
 
-/* The number of cells along a side of a square grid of about this many. */
-static uint32_t grid_side(size_t cells)
+/* The number of buckets along a side of a square grid of about this many. */
+static uint32_t grid_size(size_t buckets)
 {
-    return (uint32_t)lrcsi_min(MAX_SIDE, lrcsi_max(1, sqrt((double)cells)));
+    return (uint32_t)lrcsi_min(MAX_SIZE, lrcsi_max(1, sqrt((double)buckets)));
 }
 
-size_t lrcsi_grid_need(size_t cells, size_t entries)
+size_t lrcsi_grid_need(size_t buckets, size_t entries)
 {
-    size_t side = grid_side(cells);
-    return lrcsi_work_add(lrcsi_work_bytes(side * side + 1, sizeof(uint32_t)),
+    size_t size = grid_size(buckets);
+    return lrcsi_work_add(lrcsi_work_bytes(size * size + 1, sizeof(uint32_t)),
                           lrcsi_work_bytes(entries, sizeof(uint32_t)));
 }
 
 size_t lrcsi_grid_facets_need(const lrcs_prepared *prepared)
 {
     size_t facets = prepared->scene->facet_count;
-    size_t side = grid_side(facets);
-    size_t words = (side + NEEDED_BITS - 1) / NEEDED_BITS;
-    size_t need = lrcsi_work_add(lrcsi_work_bytes(words * side, sizeof(uint32_t)),
+    size_t size = grid_size(facets);
+    size_t words = (size + NEEDED_BITS - 1) / NEEDED_BITS;
+    size_t need = lrcsi_work_add(lrcsi_work_bytes(words * size, sizeof(uint32_t)),
                                  lrcsi_work_bytes(facets, sizeof(uint32_t)));
-    return lrcsi_work_add(need, lrcsi_grid_need(facets, LRCSI_GRID_FACET_CELLS * facets));
+    return lrcsi_work_add(need, lrcsi_grid_need(facets, LRCSI_GRID_FACET_BUCKETS * facets));
 }
 
 /* The window: what the view's own has in common with the projection of the box around the bulk. No
    proof rests on where it is. */
-lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells)
+lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t buckets)
 {
-    lrcsi_grid grid = {.view = view, .size = grid_side(cells)};
+    lrcsi_grid grid = {.view = view, .size = grid_size(buckets)};
     const double *bulk = view->prepared->bulk;
     for (int k = 0; k < 2; k++) {
         const double *row = view->R[k];
@@ -136,19 +56,19 @@ lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells)
         grid.low[k] = low * view->scale;
         grid.side = lrcsi_max(grid.side, (high - low) * view->scale);
     }
-    grid.scale = grid.side > 0 ? grid.size / grid.side : 0;
+    grid.buckets_per_unit = grid.side > 0 ? grid.size / grid.side : 0;
     grid.last = grid.size - 1.0;
     return grid;
 }
 
-/* Doubles the size of the cells; the grid has no lists then. Halving the scale is exact, except for
-   numbers so small that they are in cell 0 in any case: the new cell of a coordinate is half the
-   old one, rounded down. */
+/* Doubles the size of the buckets; the grid has no lists then. Halving the scale is exact, except
+   for numbers so small that they are in bucket 0 in any case: the new bucket of a coordinate is
+   half the old one, rounded down. */
 static void grid_coarsen(lrcsi_grid *grid)
 {
     grid->first = grid->item = NULL;
     grid->size = (grid->size + 1) / 2;
-    grid->scale /= 2;
+    grid->buckets_per_unit /= 2;
     grid->last = grid->size - 1.0;
 }
 
@@ -163,32 +83,12 @@ static int grid_start(lrcsi_grid *grid, lrcs_work *work)
     return grid->first ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-int lrcsi_lists_room(uint32_t *first, size_t lists, uint64_t most, lrcs_work *work, uint32_t **item)
-{
-    uint64_t total = 0;
-    for (size_t i = 0; i <= lists; i++) {
-        total += first[i];
-        first[i] = (uint32_t)total;
-    }
-    if (total > most) {
-        return LRCS_E_LIMIT;
-    }
-    *item = lrcsi_work_take(work, (size_t)total, sizeof **item);
-    return *item ? LRCS_OK : LRCS_E_MEMORY;
-}
-
-void lrcsi_lists_finish(uint32_t *first, size_t lists)
-{
-    memmove(first + 1, first, lists * sizeof *first);
-    first[0] = 0;
-}
-
 static int grid_room(lrcs_work *work, lrcsi_grid *grid)
 {
     return lrcsi_lists_room(grid->first, grid_count(grid), LRCS_NONE - 1, work, &grid->item);
 }
 
-/* Counts or lists an item in a row of cells. Returns how many they are. */
+/* Counts or lists an item in a row of buckets. Returns how many they are. */
 static uint32_t grid_put(lrcsi_grid *grid, uint32_t y, uint32_t x0, uint32_t x1, uint32_t item)
 {
     lrcsi_lists_put(grid->first + (size_t)y * grid->size, grid->item, x0, x1, item);
@@ -213,15 +113,15 @@ void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count,
 lrcsi_grid_rect lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_view_segment *side, int sides,
                                uint32_t y)
 {
-    double bottom = y > 0 ? grid->low[1] + y / grid->scale : -HUGE_VAL;
-    double top = y + 1 < grid->size ? grid->low[1] + (y + 1) / grid->scale : HUGE_VAL;
+    double bottom = y > 0 ? grid->low[1] + y / grid->buckets_per_unit : -HUGE_VAL;
+    double top = y + 1 < grid->size ? grid->low[1] + (y + 1) / grid->buckets_per_unit : HUGE_VAL;
     double x[2];
-    lrcsi_grid_rect cells = {0, 0, (uint16_t)y, (uint16_t)(y + 1)};
+    lrcsi_grid_rect buckets = {0, 0, (uint16_t)y, (uint16_t)(y + 1)};
     if (lrcsi_view_segments_range(side, sides, bottom, top, x)) {
-        cells.x0 = lrcsi_grid_cell(grid, x[0], 0);
-        cells.x1 = (uint16_t)(lrcsi_grid_cell(grid, x[1], 0) + 1);
+        buckets.x0 = lrcsi_grid_bucket(grid, x[0], 0);
+        buckets.x1 = (uint16_t)(lrcsi_grid_bucket(grid, x[1], 0) + 1);
     }
-    return cells;
+    return buckets;
 }
 
 /* Counts or lists the edges. Returns the number of entries, or of those up to the first edge with
@@ -234,21 +134,21 @@ static uint64_t edges_put(lrcsi_grid *grid, const uint32_t *edge, uint32_t count
         const lrcsi_edge *e = &view->prepared->topology.edge[edge[i]];
         const uint32_t ends[2] = {e->low, e->high};
         const lrcsi_view_box box = lrcsi_view_box_of(view, ends, 2);
-        const lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
-        const int one_row = cells.y1 - cells.y0 == 1;
+        const lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
+        const int one_row = buckets.y1 - buckets.y0 == 1;
         lrcsi_view_segment segment;
         if (!one_row) {
             lrcsi_grid_sides(grid, ends, 2, 0, &segment);
         }
-        for (uint32_t y = cells.y0; y < cells.y1; y++) {
-            const lrcsi_grid_rect row = one_row ? cells : lrcsi_grid_row(grid, &segment, 1, y);
+        for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
+            const lrcsi_grid_rect row = one_row ? buckets : lrcsi_grid_row(grid, &segment, 1, y);
             listed += grid_put(grid, y, row.x0, row.x1, i);
         }
     }
     return listed;
 }
 
-/* In one cell each edge is listed once: that is not too often. */
+/* In one bucket each edge is listed once: that is not too often. */
 int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_work *work,
                      lrcsi_grid *grid)
 {
@@ -270,7 +170,7 @@ int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_w
 
 /* --- facets ----------------------------------------------------------------------------------- */
 
-/* In one cell each facet is listed once, so that this ends. */
+/* In one bucket each facet is listed once, so that this ends. */
 int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
 {
     uint32_t count = grid->view->prepared->scene->facet_count;
@@ -278,29 +178,29 @@ int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes)
         uint64_t filled = 0;
         uint64_t facets = 0;
         for (uint32_t f = 0; f < count; f++) {
-            if (boxes->state[f / LRCSI_RUN] != LRCSI_BOXES_FACETS) {
-                f += LRCSI_RUN - 1;
+            if (boxes->state[f / LRCSI_MESHLET_FACETS] != LRCSI_BOXES_FACETS) {
+                f += LRCSI_MESHLET_FACETS - 1;
             } else if (lrcsi_view_casts(grid->view, f)) {
-                lrcsi_grid_rect cells = lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f));
-                filled += (uint64_t)(cells.x1 - cells.x0) * (cells.y1 - cells.y0);
+                lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f));
+                filled += (uint64_t)(buckets.x1 - buckets.x0) * (buckets.y1 - buckets.y0);
                 facets++;
             }
         }
-        if (filled <= LRCSI_GRID_FACET_CELLS * facets) {
+        if (filled <= LRCSI_GRID_FACET_BUCKETS * facets) {
             return fits > 0;
         }
         grid_coarsen(grid);
     }
 }
 
-/* The cells whose lists will be read, one bit each; each row begins with a new word. bit NULL: all
-   cells. Facets that meet none of these cells are not listed. */
-typedef struct needed_cells {
+/* The buckets whose lists will be read, one bit each; each row begins with a new word. bit NULL:
+   all buckets. Facets that meet none of these buckets are not listed. */
+typedef struct needed_buckets {
     uint32_t *bit;
     size_t words; /* of a row */
-} needed_cells;
+} needed_buckets;
 
-/* The bits of one word of a row for cells x0 .. x1 - 1. */
+/* The bits of one word of a row for buckets x0 .. x1 - 1. */
 static uint32_t needed_bits(uint32_t word, uint32_t x0, uint32_t x1)
 {
     uint32_t bits = ~(uint32_t)0;
@@ -313,24 +213,24 @@ static uint32_t needed_bits(uint32_t word, uint32_t x0, uint32_t x1)
     return bits;
 }
 
-/* Marks these cells. */
-static void needed_mark(const needed_cells *needed, lrcsi_grid_rect cells)
+/* Marks these buckets. */
+static void needed_mark(const needed_buckets *needed, lrcsi_grid_rect buckets)
 {
-    uint32_t last = (cells.x1 - 1u) / NEEDED_BITS;
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        for (uint32_t word = cells.x0 / NEEDED_BITS; word <= last; word++) {
-            needed->bit[y * needed->words + word] |= needed_bits(word, cells.x0, cells.x1);
+    uint32_t last = (buckets.x1 - 1u) / NEEDED_BITS;
+    for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
+        for (uint32_t word = buckets.x0 / NEEDED_BITS; word <= last; word++) {
+            needed->bit[y * needed->words + word] |= needed_bits(word, buckets.x0, buckets.x1);
         }
     }
 }
 
-/* Is any of these cells marked? */
-static int needed_any(needed_cells needed, lrcsi_grid_rect cells)
+/* Is any of these buckets marked? */
+static int needed_any(needed_buckets needed, lrcsi_grid_rect buckets)
 {
-    uint32_t last = (cells.x1 - 1u) / NEEDED_BITS;
-    for (uint32_t y = cells.y0; y < cells.y1; y++) {
-        for (uint32_t word = cells.x0 / NEEDED_BITS; word <= last; word++) {
-            if ((needed.bit[y * needed.words + word] & needed_bits(word, cells.x0, cells.x1)) !=
+    uint32_t last = (buckets.x1 - 1u) / NEEDED_BITS;
+    for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
+        for (uint32_t word = buckets.x0 / NEEDED_BITS; word <= last; word++) {
+            if ((needed.bit[y * needed.words + word] & needed_bits(word, buckets.x0, buckets.x1)) !=
                 0) {
                 return 1;
             }
@@ -339,57 +239,58 @@ static int needed_any(needed_cells needed, lrcsi_grid_rect cells)
     return 0;
 }
 
-/* Marks the cells of the readers' boxes. */
-static int needed_make(const lrcsi_grid *grid, const lrcsi_boxes *boxes,
-                       const lrcsi_grid_readers *readers, lrcs_work *work, needed_cells *needed)
+/* Marks the buckets of the readers' boxes. */
+static int needed_make(const lrcsi_grid *grid, lrcsi_boxes *boxes,
+                       const lrcsi_grid_readers *readers, lrcs_work *work, needed_buckets *needed)
 {
-    *needed = (needed_cells){NULL, (grid->size + NEEDED_BITS - 1) / NEEDED_BITS};
+    *needed = (needed_buckets){NULL, (grid->size + NEEDED_BITS - 1) / NEEDED_BITS};
     if (!readers) {
         return LRCS_OK;
     }
     needed->bit = lrcsi_work_take_zero(work, needed->words * grid->size, sizeof *needed->bit);
     const lrcs_prepared *p = grid->view->prepared;
-    for (uint32_t r = 0; r < p->runs.count && needed->bit; r++) {
-        uint32_t start = r * LRCSI_RUN;
-        uint32_t end = lrcsi_run_end(start, p->scene->facet_count);
-        if (boxes->state[r] == LRCSI_BOXES_NONE) {
+    for (uint32_t m = 0; m < p->meshlets.count && needed->bit; m++) {
+        uint32_t start = m * LRCSI_MESHLET_FACETS;
+        uint32_t end = lrcsi_meshlet_end(start, p->scene->facet_count);
+        if (boxes->state[m] == LRCSI_BOXES_NONE) {
             continue;
         }
-        if (readers->region && lrcsi_events_joined(p, readers->joinable, r) == LRCSI_JOINED_ALL) {
+        if (readers->region && lrcsi_events_joined(p, readers->joinable, m) == LRCSI_JOINED_ALL) {
             end = start + 1; /* the others are not the first of their region, nor undecided */
         }
         for (uint32_t f = start; f < end; f++) {
             if ((readers->undecided[f] || (readers->region && readers->region[f] == f)) &&
                 lrcsi_view_casts(grid->view, f)) {
-                lrcsi_boxes_open(boxes, r);
-                needed_mark(needed, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f)));
+                lrcsi_boxes_open(boxes, m);
+                needed_mark(needed, lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f)));
             }
         }
     }
     return needed->bit ? LRCS_OK : LRCS_E_MEMORY;
 }
 
-/* Lists the facets that meet cells to be read, in order, and makes their boxes. Status: LRCS_OK;
+/* Lists the facets that meet buckets to be read, in order, and makes their boxes. Status: LRCS_OK;
    LRCS_E_MEMORY. */
-static int facets_select(const lrcsi_grid *grid, const lrcsi_boxes *boxes, needed_cells needed,
+static int facets_select(const lrcsi_grid *grid, lrcsi_boxes *boxes, needed_buckets needed,
                          lrcs_work *work, uint32_t **facet, uint32_t *selected)
 {
     uint32_t count = grid->view->prepared->scene->facet_count;
     size_t mark = work->used;
     uint32_t *list = lrcsi_work_take(work, count, sizeof *list);
     uint32_t listed = 0;
-    for (uint32_t start = 0; start < count && list; start += LRCSI_RUN) {
-        uint32_t run = start / LRCSI_RUN;
-        if (boxes->state[run] == LRCSI_BOXES_NONE ||
-            (needed.bit && !needed_any(needed, lrcsi_grid_cells(grid, &boxes->run[run])))) {
+    for (uint32_t start = 0; start < count && list; start += LRCSI_MESHLET_FACETS) {
+        uint32_t meshlet = start / LRCSI_MESHLET_FACETS;
+        if (boxes->state[meshlet] == LRCSI_BOXES_NONE ||
+            (needed.bit &&
+             !needed_any(needed, lrcsi_grid_buckets(grid, &boxes->meshlet[meshlet])))) {
             continue;
         }
-        lrcsi_boxes_open(boxes, run);
-        uint32_t end = lrcsi_run_end(start, count);
+        lrcsi_boxes_open(boxes, meshlet);
+        uint32_t end = lrcsi_meshlet_end(start, count);
         for (uint32_t f = start; f < end; f++) {
             if (lrcsi_view_casts(grid->view, f) &&
                 (!needed.bit ||
-                 needed_any(needed, lrcsi_grid_cells(grid, lrcsi_boxes_facet(boxes, f))))) {
+                 needed_any(needed, lrcsi_grid_buckets(grid, lrcsi_boxes_facet(boxes, f))))) {
                 list[listed++] = f;
             }
         }
@@ -408,35 +309,36 @@ static uint64_t facets_put(lrcsi_grid *grid, const uint32_t *facet, uint32_t sel
 {
     uint64_t listed = 0;
     for (uint32_t i = 0; i < selected; i++) {
-        lrcsi_grid_rect cells = lrcsi_grid_cells(grid, lrcsi_boxes_facet(&grid->boxes, facet[i]));
-        for (uint32_t y = cells.y0; y < cells.y1; y++) {
-            listed += grid_put(grid, y, cells.x0, cells.x1, facet[i]);
+        lrcsi_grid_rect buckets =
+            lrcsi_grid_buckets(grid, lrcsi_boxes_facet(&grid->boxes, facet[i]));
+        for (uint32_t y = buckets.y0; y < buckets.y1; y++) {
+            listed += grid_put(grid, y, buckets.x0, buckets.x1, facet[i]);
         }
     }
     return listed;
 }
 
-/* 1. Mark the cells that will be read. 2. Select the facets that meet them. 3. Count the facets of
-   each cell; if there are too many entries, make the cells larger and start again. 4. Fill the
-   lists. */
-int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
-                      const lrcsi_grid_readers *readers, lrcs_work *work, lrcsi_grid *grid)
+/* 1. Mark the buckets that will be read. 2. Select the facets that meet them. 3. Count the facets
+   of each bucket; if there are too many entries, make the buckets larger and start again. 4. Fill
+   the lists. */
+int lrcsi_grid_facets(const lrcsi_grid *like, lrcsi_boxes *boxes, const lrcsi_grid_readers *readers,
+                      lrcs_work *work, lrcsi_grid *grid)
 {
     size_t mark = work->used;
     const lrcsi_view *view = like->view;
-    uint64_t most = LRCSI_GRID_FACET_CELLS * ((uint64_t)view->front + view->back);
+    uint64_t most = LRCSI_GRID_FACET_BUCKETS * ((uint64_t)view->front + view->back);
     lrcsi_grid g = *like;
-    needed_cells needed;
+    needed_buckets needed;
     uint32_t *facet = NULL;
     uint32_t selected = 0;
     int status;
-    g.boxes = *boxes;
     g.first = g.item = NULL;
     for (;;) {
         status = needed_make(&g, boxes, readers, work, &needed);
         status =
             status == LRCS_OK ? facets_select(&g, boxes, needed, work, &facet, &selected) : status;
         status = status == LRCS_OK ? grid_start(&g, work) : status;
+        g.boxes = *boxes;
         if (status != LRCS_OK || facets_put(&g, facet, selected) <= most) {
             break;
         }

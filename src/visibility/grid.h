@@ -1,120 +1,56 @@
 /* SPDX-License-Identifier: MIT */
-/* Boxes of facets in the view, and a uniform grid over the window of the scene's bulk, which lists
-   the items (facets or edges) that may lie in each cell. What lies outside the window counts to the
-   cells on the border. Conservative: an item is listed in every cell that its box meets. If large
-   items make the lists too long, cells are doubled until they are short enough: this bounds the
-   memory of a grid for any scene, and the cost of walking through the cells of all items. */
+/* A uniform grid over the window of the scene's bulk, whose buckets list the items (facets or
+   edges) that may lie in them. What lies outside the window counts to the buckets on the border.
+   Conservative: an item is listed in every bucket that its box meets. If large items make the lists
+   too long, buckets are doubled until they are short enough: this bounds the memory of a grid for
+   any scene, and the cost of walking through the buckets of all items. */
 #ifndef LRCSI_GRID_H
 #define LRCSI_GRID_H
 
 #include "base/range.h"
-#include "view/box.h"
 #include "view/segment.h"
-#include "visibility/event.h"
-
-/* Boxes in the view of the facets that can hide something. One box for each run (scene/runs.h) is
-   made at first; the boxes of its facets only when they are needed, since the run's box usually
-   suffices. They are stored in the order in which runs are opened, so that memory is written only
-   for those. */
-enum lrcsi_boxes_state {
-    LRCSI_BOXES_NONE,  /* no facet of the run can hide anything */
-    LRCSI_BOXES_RUN,   /* the run's box is made */
-    LRCSI_BOXES_FACETS /* so are those of its facets that can hide something */
-};
-
-typedef struct lrcsi_boxes {
-    const lrcsi_view *view;
-    lrcsi_view_box *run;
-    unsigned char *state; /* run: a lrcsi_boxes_state */
-    uint32_t *start;      /* run, if opened: the index in facet[] of the box of its first facet */
-    uint32_t *opened;     /* the number of facets of opened runs */
-    lrcsi_view_box *facet;
-} lrcsi_boxes;
-
-/* The box of a facet that can hide something, whose run is opened. */
-static inline const lrcsi_view_box *lrcsi_boxes_facet(const lrcsi_boxes *boxes, uint32_t facet)
-{
-    return &boxes->facet[boxes->start[facet / LRCSI_RUN] + facet % LRCSI_RUN];
-}
-
-/* Bytes at most. */
-size_t lrcsi_boxes_need(const lrcs_prepared *prepared);
-
-/* Makes the boxes of runs. Given: cast[], as for lrcsi_events_make. Status: LRCS_OK; LRCS_E_MEMORY.
-   They stay in the work area. */
-int lrcsi_boxes_make(const lrcsi_view *view, const signed char *cast, lrcs_work *work,
-                     lrcsi_boxes *boxes);
-
-/* Bounds of the view coordinates of all facets of a run. */
-void lrcsi_boxes_run_bounds(const lrcsi_view *view, const lrcsi_run *run, double low[3],
-                            double high[3]);
-
-/* Makes the boxes of a run's facets, unless they exist or none can hide anything. */
-void lrcsi_boxes_open(const lrcsi_boxes *boxes, uint32_t run);
+#include "visibility/boxes.h"
 
 typedef struct lrcsi_grid {
     const lrcsi_view *view;
-    lrcsi_boxes boxes; /* of facets, if these are the items */
-    double low[2];     /* of the window, in the units of boxes */
-    double side;
-    uint32_t size;   /* cells along each side */
-    double scale;    /* cells per unit */
-    double last;     /* size - 1 */
-    uint32_t *first; /* size * size + 1 */
-    uint32_t *item;  /* those of cell c: item[first[c] .. first[c + 1]) */
+    lrcsi_boxes boxes;       /* if facets are the items: their boxes, to be read */
+    double low[2], side;     /* of the window, in the units of boxes */
+    uint32_t size;           /* buckets along each side */
+    double buckets_per_unit; /* in the units of boxes */
+    double last;             /* size - 1 */
+    uint32_t *first;         /* size * size + 1 */
+    uint32_t *item;          /* those of bucket b: item[first[b] .. first[b + 1]) */
 } lrcsi_grid;
 
-/* Lists of items, made in two passes over the items. `first` begins as lists + 1 zeros.
-   1. lrcsi_lists_put with item NULL counts: list i in first[i + 1].
-   2. lrcsi_lists_room allocates the items. Status: LRCS_OK; LRCS_E_LIMIT, more than `most`;
-      LRCS_E_MEMORY.
-   3. lrcsi_lists_put with the items fills the lists; lrcsi_lists_finish makes first[i] the start of
-      list i again. */
-int lrcsi_lists_room(uint32_t *first, size_t lists, uint64_t most, lrcs_work *work,
-                     uint32_t **item);
-void lrcsi_lists_finish(uint32_t *first, size_t lists);
-
-/* Counts or adds a value in each of the lists from <= i < to. */
-static inline void lrcsi_lists_put(uint32_t *first, uint32_t *item, size_t from, size_t to,
-                                   uint32_t value)
-{
-    for (size_t i = from; i < to; i++) {
-        if (item) {
-            item[first[i]++] = value;
-        } else {
-            first[i + 1]++;
-        }
-    }
-}
-
-/* A rectangle of cells: x0 <= x < x1, y0 <= y < y1. */
+/* A rectangle of buckets: x0 <= x < x1, y0 <= y < y1. */
 typedef struct lrcsi_grid_rect {
     uint16_t x0, x1, y0, y1;
 } lrcsi_grid_rect;
 
-/* The cell of a coordinate in units of boxes, kept within 0 .. size - 1; of two coordinates the
-   larger is never in the lower cell. */
-static inline uint16_t lrcsi_grid_cell(const lrcsi_grid *grid, double x, int axis)
+/* The bucket of a coordinate in units of boxes, kept within 0 .. size - 1; of two coordinates the
+   larger is never in the lower bucket. */
+static inline uint16_t lrcsi_grid_bucket(const lrcsi_grid *grid, double x, int axis)
 {
-    double cell = (x - grid->low[axis]) * grid->scale;
-    return (uint16_t)lrcsi_min(grid->last, lrcsi_max(0, cell));
+    double bucket = (x - grid->low[axis]) * grid->buckets_per_unit;
+    return (uint16_t)lrcsi_min(grid->last, lrcsi_max(0, bucket));
 }
 
-/* The cells that a box meets. */
-static inline lrcsi_grid_rect lrcsi_grid_cells(const lrcsi_grid *grid, const lrcsi_view_box *box)
+/* The buckets that a box meets. */
+static inline lrcsi_grid_rect lrcsi_grid_buckets(const lrcsi_grid *grid, const lrcsi_view_box *box)
 {
-    return (lrcsi_grid_rect){.x0 = lrcsi_grid_cell(grid, (double)box->low[0], 0),
-                             .x1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[0], 0) + 1),
-                             .y0 = lrcsi_grid_cell(grid, (double)box->low[1], 1),
-                             .y1 = (uint16_t)(lrcsi_grid_cell(grid, (double)box->high[1], 1) + 1)};
+    return (lrcsi_grid_rect){.x0 = lrcsi_grid_bucket(grid, (double)box->low[0], 0),
+                             .x1 = (uint16_t)(lrcsi_grid_bucket(grid, (double)box->high[0], 0) + 1),
+                             .y0 = lrcsi_grid_bucket(grid, (double)box->low[1], 1),
+                             .y1 =
+                                 (uint16_t)(lrcsi_grid_bucket(grid, (double)box->high[1], 1) + 1)};
 }
 
 /* The sides of a facet (count 3), or an edge (count 2, one side), for lrcsi_grid_row. near: rows
-   include all cells within this distance of them. */
+   include all buckets within this distance of them. */
 void lrcsi_grid_sides(const lrcsi_grid *grid, const uint32_t *corner, int count, double near,
                       lrcsi_view_segment *side);
 
-/* The cells of row y that a polygon with these sides, in the units of boxes, may meet; rows and
+/* The buckets of row y that a polygon with these sides, in the units of boxes, may meet; rows and
    columns on the border extend to infinity. Empty (x0 == x1) if there are none. */
 lrcsi_grid_rect lrcsi_grid_row(const lrcsi_grid *grid, const lrcsi_view_segment *side, int sides,
                                uint32_t y);
@@ -124,8 +60,8 @@ typedef struct lrcsi_grid_items {
     uint32_t from, to;
 } lrcsi_grid_items;
 
-/* The items of cells x0 <= x < x1 of row y, each once for each cell that lists it: the lists of a
-   row follow one another. */
+/* The items of buckets x0 <= x < x1 of row y, each once for each bucket that lists it: the lists of
+   a row follow one another. */
 static inline lrcsi_grid_items lrcsi_grid_row_items(const lrcsi_grid *grid, uint32_t y, uint32_t x0,
                                                     uint32_t x1)
 {
@@ -133,7 +69,7 @@ static inline lrcsi_grid_items lrcsi_grid_row_items(const lrcsi_grid *grid, uint
     return (lrcsi_grid_items){row[x0], row[x1]};
 }
 
-/* Walks over a rectangle of cells row by row: the items of its first row, which is then removed
+/* Walks over a rectangle of buckets row by row: the items of its first row, which is then removed
    from it. Returns 0 if no row is left. */
 static inline int lrcsi_grid_next_row(const lrcsi_grid *grid, lrcsi_grid_rect *rect,
                                       lrcsi_grid_items *items)
@@ -145,7 +81,7 @@ static inline int lrcsi_grid_next_row(const lrcsi_grid *grid, lrcsi_grid_rect *r
     return 1;
 }
 
-/* Do these cells list any item? */
+/* Do these buckets list any item? */
 static inline int lrcsi_grid_has_items(const lrcsi_grid *grid, lrcsi_grid_rect rect)
 {
     lrcsi_grid_items items;
@@ -157,25 +93,25 @@ static inline int lrcsi_grid_has_items(const lrcsi_grid *grid, lrcsi_grid_rect r
     return 0;
 }
 
-/* How often a facet is listed at most, on average. Facets that fill 16 cells fill at most 9 of
+/* How often a facet is listed at most, on average. Facets that fill 16 buckets fill at most 9 of
    twice the size: a coarser grid has lists little more than twice as long, and fewer of them per
    facet. */
-#define LRCSI_GRID_FACET_CELLS 16u
+#define LRCSI_GRID_FACET_BUCKETS 16u
 
-/* A grid of the window with at most `cells` cells, but at least one, without lists. */
-lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t cells);
+/* A grid of the window with at most `buckets` buckets, but at least one, without lists. */
+lrcsi_grid lrcsi_grid_empty(const lrcsi_view *view, uint32_t buckets);
 
-/* Lists edges in an empty grid, each in the cells along it: item i stands for topology edge
+/* Lists edges in an empty grid, each in the buckets along it: item i stands for topology edge
    edge[i]. Until there are at most `most` entries, or one per edge, the grid is made coarser.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. */
 int lrcsi_grid_edges(const uint32_t *edge, uint32_t count, uint64_t most, lrcs_work *work,
                      lrcsi_grid *grid);
 
-/* Bytes at most for a grid with so many cells and entries. */
-size_t lrcsi_grid_need(size_t cells, size_t entries);
+/* Bytes at most for a grid with so many buckets and entries. */
+size_t lrcsi_grid_need(size_t buckets, size_t entries);
 
 /* Makes an empty grid coarser until the facets whose boxes are made meet at most
-   LRCSI_GRID_FACET_CELLS cells on average. Returns 1 if the grid has changed. */
+   LRCSI_GRID_FACET_BUCKETS buckets on average. Returns 1 if the grid has changed. */
 int lrcsi_grid_fit(lrcsi_grid *grid, const lrcsi_boxes *boxes);
 
 /* Bytes at most for a grid of facets. */
@@ -189,11 +125,11 @@ typedef struct lrcsi_grid_readers {
     const signed char *joinable;    /* of each facet (visibility/classify.h); with region */
 } lrcsi_grid_readers;
 
-/* A grid of the facets that can hide something, in at most as many cells as another grid: it lists
-   each of them at most LRCSI_GRID_FACET_CELLS times on average. Lists are complete in the cells of
-   the readers' boxes; with readers NULL, in all cells. It makes the boxes of the readers and of all
-   facets that it lists. Status: as above. */
-int lrcsi_grid_facets(const lrcsi_grid *like, const lrcsi_boxes *boxes,
-                      const lrcsi_grid_readers *readers, lrcs_work *work, lrcsi_grid *grid);
+/* A grid of the facets that can hide something, in at most as many buckets as another grid: it
+   lists each of them at most LRCSI_GRID_FACET_BUCKETS times on average. Lists are complete in the
+   buckets of the readers' boxes; with readers NULL, in all buckets. It opens the meshlets of the
+   readers and of all facets that it lists. Status: as above. */
+int lrcsi_grid_facets(const lrcsi_grid *like, lrcsi_boxes *boxes, const lrcsi_grid_readers *readers,
+                      lrcs_work *work, lrcsi_grid *grid);
 
 #endif

@@ -19,19 +19,19 @@
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-static lrcsi_visible uniform_area(const lrcsi_occlusion *o, uint32_t facet)
+static lrcsi_visible_area uniform_area(const lrcsi_occlusion *o, uint32_t facet)
 {
     double whole = lrcsi_view_incidence(o->classification->view, facet).projected;
     int answer = o->answer[facet];
     double low = answer == LRCSI_QUERY_VISIBLE ? whole : 0;
     double high = answer == LRCSI_QUERY_HIDDEN ? 0 : whole;
-    return (lrcsi_visible){0.5 * (low + high), low, high, 0, 0};
+    return (lrcsi_visible_area){0.5 * (low + high), low, high, 0, 0};
 }
 
 void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
 {
     lrcsi_classification *classification = o->classification;
-    o->area = lrcsi_visible_exactly(0);
+    o->area = lrcsi_visible_area_exact(0);
     o->single.facet = o->single.target.facet = facet;
     o->undecided = o->whole = 0;
     if (!lrcsi_view_casts(classification->view, facet)) {
@@ -43,14 +43,14 @@ void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet)
     } else if (!lrcsi_query_screened(classification, &o->facets, facet, o->meter,
                                      &o->single.crossings)) {
         o->undecided = 1;
-        lrcsi_cells_single_open(&o->single, facet);
+        lrcsi_facet_cells_open(&o->single, facet);
     }
 }
 
 int lrcsi_occlude_next(lrcsi_occlusion *o)
 {
     if (!o->whole) {
-        return o->undecided && lrcsi_cells_single_next(&o->single);
+        return o->undecided && lrcsi_facet_cells_next(&o->single);
     }
     o->whole = 0;
     lrcsi_target_make(o->classification->view, o->single.facet, &o->single.target);
@@ -58,14 +58,14 @@ int lrcsi_occlude_next(lrcsi_occlusion *o)
     return 1;
 }
 
-lrcsi_visible lrcsi_occlude_close(lrcsi_occlusion *o)
+lrcsi_visible_area lrcsi_occlude_close(lrcsi_occlusion *o)
 {
-    return o->undecided ? lrcsi_cells_single_close(&o->single) : o->area;
+    return o->undecided ? lrcsi_facet_cells_close(&o->single) : o->area;
 }
 
-lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o)
+lrcsi_visible_area lrcsi_occlude_area(lrcsi_occlusion *o)
 {
-    while (o->undecided && lrcsi_cells_single_next(&o->single)) {
+    while (o->undecided && lrcsi_facet_cells_next(&o->single)) {
     }
     return lrcsi_occlude_close(o);
 }
@@ -82,7 +82,7 @@ static int can_process_together(const lrcs_prepared *prepared)
 size_t lrcsi_occlude_need(const lrcs_prepared *prepared)
 {
     size_t need = lrcsi_work_blocks(2, prepared->scene->facet_count, 1);
-    size_t single = lrcsi_cells_single_need(prepared);
+    size_t single = lrcsi_facet_cells_need(prepared);
     size_t cells = can_process_together(prepared) ? lrcsi_cells_need(prepared) : 0;
     need = lrcsi_work_add(need, lrcsi_query_need(prepared));
     return lrcsi_work_add(need, single > cells ? single : cells);
@@ -106,7 +106,7 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
     size_t mark = work->used;
     int status = occlude_begin(classification, meter, work, o);
     status = status == LRCS_OK
-                 ? lrcsi_cells_single_make(classification, o->meter, &o->facets, work, &o->single)
+                 ? lrcsi_facet_cells_make(classification, o->meter, &o->facets, work, &o->single)
                  : status;
     if (status != LRCS_OK) {
         work->used = mark;
@@ -118,7 +118,8 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
    those of which no area was found. 4. Returns the answers, moved to the beginning of the work area
    used here, or the areas of all facets. */
 int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                      const unsigned char **answer, lrcsi_visible *visible, lrcsi_moment *moment)
+                      const unsigned char **answer, lrcsi_visible_area *visible,
+                      lrcsi_moment *moment)
 {
     const lrcsi_view *view = classification->view;
     const lrcs_prepared *p = view->prepared;
@@ -149,13 +150,13 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
         }
     }
     if (status == LRCS_OK && left > 0) {
-        status = lrcsi_cells_single_make(classification, meter, &o.facets, work, &o.single);
+        status = lrcsi_facet_cells_make(classification, meter, &o.facets, work, &o.single);
     }
     for (uint32_t f = 0; f < count && left > 0 && status == LRCS_OK; f++) {
         if (!classification->undecided[f] || found[f]) {
             continue;
         }
-        lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, f, count);
+        lrcsi_progress_report(view->progress, LRCS_PROGRESS_VISIBILITY, f, count);
         lrcsi_occlude_open(&o, f);
         visible[f] = lrcsi_occlude_area(&o);
         if (moment) {
@@ -169,7 +170,7 @@ int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, 
     if (status == LRCS_OK && answer) {
         *answer = memmove(lrcsi_work_take(work, count, 1), o.answer, count);
     } else if (status == LRCS_OK) {
-        lrcsi_visible_answered(view, o.answer, visible);
+        lrcsi_visible_areas_from_answers(view, o.answer, visible);
     }
     return status;
 }

@@ -4,7 +4,7 @@
 #ifndef LRCSI_OCCLUDE_H
 #define LRCSI_OCCLUDE_H
 
-#include "visibility/cells_single.h"
+#include "visibility/facet_cells.h"
 
 /* Data for all facets of a view, and the current facet. */
 typedef struct lrcsi_occlusion {
@@ -13,11 +13,11 @@ typedef struct lrcsi_occlusion {
     lrcsi_grid facets;     /* those that can hide others */
     unsigned char *answer; /* facet: a lrcsi_query_answer; UNDECIDED too if it is undecided */
     /* The current facet: */
-    lrcsi_cells_single single; /* its target, its piece, and, if it is undecided, its cells */
-    int undecided;             /* its pieces are found cell by cell; otherwise all of it is visible
-                                  or hidden */
-    lrcsi_visible area;        /* its area, unless it is undecided */
-    int whole;                 /* all of it is visible, and its piece has not been returned yet */
+    lrcsi_facet_cells single; /* its target, its piece, and, if it is undecided, its cells */
+    int undecided;            /* its pieces are found cell by cell; otherwise all of it is visible
+                                 or hidden */
+    lrcsi_visible_area area;  /* its area, unless it is undecided */
+    int whole;                /* all of it is visible, and its piece has not been returned yet */
 } lrcsi_occlusion;
 
 /* Bytes at most. */
@@ -39,10 +39,10 @@ int lrcsi_occlude_make(lrcsi_classification *classification, lrcsi_meter *meter,
    perimeter of o->single.target, is due to the rounding of the corners. */
 void lrcsi_occlude_open(lrcsi_occlusion *o, uint32_t facet);
 int lrcsi_occlude_next(lrcsi_occlusion *o);
-lrcsi_visible lrcsi_occlude_close(lrcsi_occlusion *o);
+lrcsi_visible_area lrcsi_occlude_close(lrcsi_occlusion *o);
 
 /* Closes a facet whose pieces are not needed, only its area; to be called right after open. */
-lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o);
+lrcsi_visible_area lrcsi_occlude_area(lrcsi_occlusion *o);
 
 /* All facets: uniform ones by one exact sample; undecided ones together if there are many
    (visibility/cells.h), otherwise one by one. If the limit on cells is reached, the bounds of the
@@ -53,6 +53,7 @@ lrcsi_visible lrcsi_occlude_area(lrcsi_occlusion *o);
    Unless NULL, moment[] has the moments of all facets.
    Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. Only *answer stays in the work area. */
 int lrcsi_occlude_all(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
-                      const unsigned char **answer, lrcsi_visible *visible, lrcsi_moment *moment);
+                      const unsigned char **answer, lrcsi_visible_area *visible,
+                      lrcsi_moment *moment);
 
 #endif

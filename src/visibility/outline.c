@@ -21,6 +21,11 @@
 /* Cosines larger than this have the sign that they seem to have: axes and directions are accurate
    to some 30 u. */
 #define OPENING_COS_MIN 1e-6
+/* The square root of 2, rounded up. */
+#define ROOT_2 1.4143
+/* More than the relative rounding error of a sum of areas: POINTS terms of some 10 operations each.
+ */
+#define ROUNDING (1 + 0x1p-40)
 
 lrcsi_outline lrcsi_outline_make(const lrcsi_view *view, uint32_t index)
 {
@@ -106,21 +111,6 @@ int lrcsi_outline_inside(const lrcsi_outline *o, const lrcsi_view *view, int fac
     return (facing > 0 && cosine > OPENING_COS_MIN) || (facing < 0 && cosine < -OPENING_COS_MIN);
 }
 
-/* The point of the true solid that is farthest in a direction of the view plane, in projection. */
-static void support_point(const lrcsi_outline *o, const double w[2], double point[2])
-{
-    double n[3];
-    double x[3];
-    for (int k = 0; k < 3; k++) {
-        n[k] = o->axis[k][0] * w[0] + o->axis[k][1] * w[1];
-    }
-    lrcsi_support_point(&o->solid, n, x);
-    for (int i = 0; i < 2; i++) {
-        point[i] =
-            o->centre[i] + x[0] * o->axis[0][i] + x[1] * o->axis[1][i] + x[2] * o->axis[2][i];
-    }
-}
-
 /* An edge, and the coordinates of support points about it. */
 typedef struct edge_frame {
     const lrcsi_outline *outline;
@@ -133,15 +123,24 @@ typedef struct outline_point {
     double t, depth, slope;
 } outline_point;
 
-/* The support point in the direction outward + slope along; the slope of its tangent is the same.
- */
+/* The point of the true solid that is farthest in the direction outward + slope along of the view
+   plane, in projection; the slope of its tangent is the same. */
 static outline_point outline_point_at(const edge_frame *edge, double slope)
 {
+    const lrcsi_outline *o = edge->outline;
     const double w[2] = {edge->outward[0] + slope * edge->along[0],
                          edge->outward[1] + slope * edge->along[1]};
-    double q[2];
-    support_point(edge->outline, w, q);
-    const double off[2] = {q[0] - edge->a[0], q[1] - edge->a[1]};
+    double n[3];
+    double x[3];
+    double off[2];
+    for (int k = 0; k < 3; k++) {
+        n[k] = o->axis[k][0] * w[0] + o->axis[k][1] * w[1];
+    }
+    lrcsi_support_point(&o->solid, n, x);
+    for (int i = 0; i < 2; i++) {
+        off[i] = o->centre[i] + x[0] * o->axis[0][i] + x[1] * o->axis[1][i] + x[2] * o->axis[2][i];
+        off[i] -= edge->a[i];
+    }
     return (outline_point){edge->along[0] * off[0] + edge->along[1] * off[1],
                            -(edge->outward[0] * off[0] + edge->outward[1] * off[1]), slope};
 }
@@ -242,9 +241,9 @@ lrcsi_outline_areas lrcsi_outline_areas_make(const lrcsi_outline *o, const doubl
     if (last.t < edge.length + 2 * o->k) {
         return unknown;
     }
-    areas.width = 1.4143 * (edge.length + 4 * o->k);
+    areas.width = ROOT_2 * (edge.length + 4 * o->k);
     double err = 4 * (o->err + lrcsi_view_point_err(a) + lrcsi_view_point_err(b));
-    areas.gain = (areas.gain + err * areas.width) * (1 + 0x1p-40);
-    areas.loss = (areas.loss + err * areas.width) * (1 + 0x1p-40);
+    areas.gain = (areas.gain + err * areas.width) * ROUNDING;
+    areas.loss = (areas.loss + err * areas.width) * ROUNDING;
     return areas;
 }

@@ -114,7 +114,7 @@ static int facet_add(ring_list *list, lrcsi_occlusion *o, uint32_t facet)
             ring_add_facet(list, target, (const double(*)[2])o->single.piece.corner);
         }
     }
-    lrcsi_visible visible = lrcsi_occlude_close(o);
+    lrcsi_visible_area visible = lrcsi_occlude_close(o);
     list->bound += visible.high - visible.low;
     if (!o->undecided) {
         return LRCS_OK;

@@ -67,9 +67,9 @@ static int continues_beyond(const preview_job *job, uint32_t facet, uint32_t x, 
 }
 
 /* The owner of the sample at x, y. */
-typedef struct preview_owned {
+typedef struct preview_sample {
     uint32_t facet, x, y;
-} preview_owned;
+} preview_sample;
 
 static int preview_reflects(const preview_job *job, uint32_t owner)
 {
@@ -79,7 +79,7 @@ static int preview_reflects(const preview_job *job, uint32_t owner)
 /* Counts the border between two adjacent samples of different owners; `position` is their pixel
    along the border. There is none between facets that are adjacent across a side of a. */
 static void count_border(preview_job *job, preview_border *border, uint32_t position,
-                         preview_owned a, preview_owned b)
+                         preview_sample a, preview_sample b)
 {
     job->outline += preview_reflects(job, a.facet) != preview_reflects(job, b.facet);
     if (a.facet != LRCS_NONE && b.facet != LRCS_NONE) {
@@ -92,7 +92,7 @@ static void count_border(preview_job *job, preview_border *border, uint32_t posi
         border->last + 1 == position && border->facet[0] == a.facet && border->facet[1] == b.facet;
     *border = (preview_border){{a.facet, b.facet}, position, continues ? border->length + 1 : 1};
     for (int k = 0; k < 2; k++) {
-        const preview_owned *beyond = k == 0 ? &b : &a;
+        const preview_sample *beyond = k == 0 ? &b : &a;
         uint32_t facet = border->facet[k];
         if (facet == LRCS_NONE) {
             continue;
@@ -119,8 +119,8 @@ static void count_samples(preview_job *job)
         for (uint32_t x = 0; x < size; x++) {
             uint32_t owner = row[x];
             if (next[x] != owner) {
-                count_border(job, &along, x, (preview_owned){owner, x, y},
-                             (preview_owned){next[x], x, y + 1});
+                count_border(job, &along, x, (preview_sample){owner, x, y},
+                             (preview_sample){next[x], x, y + 1});
             }
             if (x + 1 < size && row[x + 1] == owner) {
                 continue;
@@ -130,8 +130,8 @@ static void count_samples(preview_job *job)
             }
             from = x + 1;
             if (x + 1 < size) {
-                count_border(job, &job->column[x], y + 1, (preview_owned){owner, x, y},
-                             (preview_owned){row[x + 1], x + 1, y});
+                count_border(job, &job->column[x], y + 1, (preview_sample){owner, x, y},
+                             (preview_sample){row[x + 1], x + 1, y});
             }
         }
     }
@@ -258,14 +258,15 @@ static preview_bias bias_of_small_facets(const preview_job *job)
     return bias;
 }
 
-static lrcsi_visible preview_area(const preview_job *job, uint32_t facet, const preview_bias *bias)
+static lrcsi_visible_area preview_area(const preview_job *job, uint32_t facet,
+                                       const preview_bias *bias)
 {
     const preview_counts *c = &job->counts[facet];
     double area = lrcsi_view_projected(job->view, facet);
     double pixel = job->raster.pixel * job->raster.pixel;
     uint32_t covered = job->raster.covered[facet];
     uint32_t owned = job->raster.owned[facet];
-    lrcsi_visible v = {0, 0, area, 0, 0};
+    lrcsi_visible_area v = {0, 0, area, 0, 0};
     v.area = area * (double)c->fraction;
     if (covered < FEW_SAMPLES && c->fraction > 0 && lrcsi_view_reflects(job->view, facet)) {
         v.bias = bias->remaining * v.area;
@@ -292,7 +293,7 @@ size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size)
 }
 
 int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
-                       lrcsi_visible *visible, int *undecided)
+                       lrcsi_visible_area *visible, int *undecided)
 {
     const uint32_t facets = view->prepared->scene->facet_count;
     const size_t mark = work->used;
@@ -313,7 +314,7 @@ int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
     *undecided = 0;
     for (uint32_t f = 0; f < facets; f++) {
         visible[f] =
-            lrcsi_view_casts(view, f) ? preview_area(&job, f, &bias) : lrcsi_visible_exactly(0);
+            lrcsi_view_casts(view, f) ? preview_area(&job, f, &bias) : lrcsi_visible_area_exact(0);
         *undecided |= job.raster.undecided[f];
     }
     work->used = mark;

@@ -15,6 +15,6 @@ size_t lrcsi_preview_need(const lrcs_prepared *prepared, uint32_t size);
    facets could not be decided, else 0. Status: LRCS_OK; LRCS_E_MEMORY. Nothing stays in the work
    area. */
 int lrcsi_preview_make(const lrcsi_view *view, uint32_t size, lrcs_work *work,
-                       lrcsi_visible *visible, int *undecided);
+                       lrcsi_visible_area *visible, int *undecided);
 
 #endif

@@ -449,7 +449,7 @@ static int add_events(band_job *job, uint32_t facet, facet_search *search)
 {
     const lrcsi_grid *grid = &job->events.grid;
     lrcsi_view_box box = lrcsi_view_box_round(job->view, search->where.low, search->where.high);
-    lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
+    lrcsi_grid_rect cells = lrcsi_grid_buckets(grid, &box);
     int several = cells.y1 - cells.y0 > 1 && cells.x1 - cells.x0 > 1; /* rows and columns */
     uint32_t *seen = job->seen[search->above];
     for (uint32_t y = cells.y0; y < cells.y1; y++) {
@@ -683,7 +683,7 @@ void lrcsi_proximity_band_join(const lrcsi_proximity_band *band, const unsigned 
     lrcsi_disjoint_flatten(group, p->scene->facet_count);
 }
 
-int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
+int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter *meter,
                               lrcs_work *work, lrcsi_proximity_band *band)
 {
     const lrcsi_view *view = classification->view;

@@ -156,7 +156,7 @@
 #include "visibility/query.h"
 
 typedef struct lrcsi_proximity_band {
-    const lrcsi_classification *classification;
+    lrcsi_classification *classification;
     double *mismatch;   /* facet: fraction of its area where visibility may differ, 0 .. 1 */
     double *gain;       /* facet: fraction that the facets hide and the true shapes may not */
     double *loss;       /* facet: fraction that the true shapes may hide and the facets do not */
@@ -177,7 +177,7 @@ size_t lrcsi_proximity_band_need(const lrcs_prepared *prepared);
 /* For a scene with prepared->proximity.reach. No region is marked hidden yet. Facets that neither
    reflect nor belong to a curved part are left out: mismatch 0. Status: LRCS_OK; LRCS_E_MEMORY;
    LRCS_E_LIMIT. The fractions stay in the work area; scratch memory is released. */
-int lrcsi_proximity_band_make(const lrcsi_classification *classification, lrcsi_meter *meter,
+int lrcsi_proximity_band_make(lrcsi_classification *classification, lrcsi_meter *meter,
                               lrcs_work *work, lrcsi_proximity_band *band);
 
 /* Joins facets of one part across edges into groups, each named by its first facet: facets of

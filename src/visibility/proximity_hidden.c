@@ -11,7 +11,7 @@
 
 /* Other parts hide a region entirely or not at all: entirely if at most half of one of its front
    facets is visible. */
-static void find_hidden_regions(lrcsi_proximity_band *band, const lrcsi_visible *visible)
+static void find_hidden_regions(lrcsi_proximity_band *band, const lrcsi_visible_area *visible)
 {
     const lrcsi_view *view = band->classification->view;
     const lrcs_prepared *p = view->prepared;
@@ -28,7 +28,7 @@ static void find_hidden_regions(lrcsi_proximity_band *band, const lrcsi_visible 
 }
 
 /* Marks facets that are hidden and meet bands, but not those of all parts. Returns their number. */
-static uint32_t mark_candidates(const lrcsi_proximity_band *band, const lrcsi_visible *visible,
+static uint32_t mark_candidates(const lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
                                 unsigned char *candidate)
 {
     const lrcsi_view *view = band->classification->view;
@@ -71,10 +71,10 @@ size_t lrcsi_proximity_hidden_need(const lrcs_prepared *p)
     return p->proximity.reach ? lrcsi_work_add(need, lrcsi_grid_facets_need(p)) : 0;
 }
 
-void lrcsi_proximity_find_hidden(lrcsi_proximity_band *band, const lrcsi_visible *visible,
+void lrcsi_proximity_find_hidden(lrcsi_proximity_band *band, const lrcsi_visible_area *visible,
                                  lrcsi_meter *meter, lrcs_work *work)
 {
-    const lrcsi_classification *c = band->classification;
+    lrcsi_classification *c = band->classification;
     size_t mark = work->used;
     uint32_t count = c->view->prepared->scene->facet_count;
     unsigned char *candidate = lrcsi_work_take(work, count, 1);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The visibility of a facet along one line of sight, against the facets listed in the grid cells of
-   the line. Which of two facets is nearer is decided by visibility/sample.h, unless their boxes
+/* The visibility of a facet along one line of sight, against the facets listed in the grid buckets
+   of the line. Which of two facets is nearer is decided by visibility/sample.h, unless their boxes
    already show it. */
 #include "visibility/query.h"
 
@@ -52,15 +52,15 @@ typedef struct query_line {
     lrcsi_meter *meter;
     uint32_t facet;
     double point[3];
-    double x[3], x_err;     /* the point in view coordinates, and the error of each */
-    lrcsi_view_box at;      /* the line in the view; in depth, the whole facet */
-    int sense;              /* the sense of the infinitesimal by which it is moved */
-    lrcsi_grid_rect cells;  /* in rows that are still to be searched */
-    lrcsi_grid_items items; /* of the current row, those that remain */
+    double x[3], x_err;      /* the point in view coordinates, and the error of each */
+    lrcsi_view_box at;       /* the line in the view; in depth, the whole facet */
+    int sense;               /* the sense of the infinitesimal by which it is moved */
+    lrcsi_grid_rect buckets; /* in rows that are still to be searched */
+    lrcsi_grid_items items;  /* of the current row, those that remain */
 } query_line;
 
-/* Finds the grid cells of the line through line->point. */
-static void line_find_cells(query_line *line)
+/* Finds the grid buckets of the line through line->point. */
+static void line_find_buckets(query_line *line)
 {
     const lrcsi_view *view = line->grid->view;
     const lrcsi_view_box *own = lrcsi_boxes_facet(&line->grid->boxes, line->facet);
@@ -69,7 +69,7 @@ static void line_find_cells(query_line *line)
     line->at = lrcsi_view_box_about(view, line->x, line->x_err);
     line->at.low[2] = own->low[2];
     line->at.high[2] = own->high[2];
-    line->cells = lrcsi_grid_cells(line->grid, &line->at);
+    line->buckets = lrcsi_grid_buckets(line->grid, &line->at);
 }
 
 /* Returns 0 if no point inside the facet was found. */
@@ -81,7 +81,7 @@ static int line_start(query_line *line, const lrcsi_grid *facets, uint32_t facet
     if (line->sense == 0) {
         return 0;
     }
-    line_find_cells(line);
+    line_find_buckets(line);
     return 1;
 }
 
@@ -101,13 +101,13 @@ static int line_meets(const query_line *line, uint32_t facet)
     const double c[2] = {k->x[0] - line->x[0], k->x[1] - line->x[1]};
     const double size = fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]) + fabs(c[0]) + fabs(c[1]);
     const double err = line->x_err + lrcsi_max3(i->err, j->err, k->err);
-    const double turn_err = 1.5 * err * (size + 2 * err);
+    const double cross_err = 1.5 * err * (size + 2 * err);
     const double facing = view->facing[facet];
     const double inside =
         lrcsi_min3(facing * lrcsi_vec2_cross(a, b), facing * lrcsi_vec2_cross(b, c),
                    facing * lrcsi_vec2_cross(c, a));
-    return inside > turn_err ||
-           (!(inside < -turn_err) &&
+    return inside > cross_err ||
+           (!(inside < -cross_err) &&
             lrcsi_sample_covers_towards(view, facet, line->point, line->sense));
 }
 
@@ -129,7 +129,7 @@ static uint32_t line_next(query_line *line)
             }
         }
         line->items.from = line->items.to;
-        if (!lrcsi_grid_next_row(grid, &line->cells, &line->items) ||
+        if (!lrcsi_grid_next_row(grid, &line->buckets, &line->items) ||
             !lrcsi_meter_take(line->meter, line->items.to - line->items.from)) {
             return LRCS_NONE;
         }
@@ -174,7 +174,7 @@ int lrcsi_query_point(const lrcsi_grid *facets, uint32_t facet, const double poi
     if (!lrcsi_sample_covers(facets->view, facet, point)) {
         return LRCSI_QUERY_UNDECIDED;
     }
-    line_find_cells(&line);
+    line_find_buckets(&line);
     return line_answer(&line);
 }
 
@@ -194,7 +194,7 @@ int lrcsi_query_hidden_by_others(const lrcsi_grid *facets, uint32_t facet, lrcsi
 
 size_t lrcsi_query_need(const lrcs_prepared *prepared)
 {
-    size_t room = lrcsi_runs_room(prepared->scene->facet_count);
+    size_t room = lrcsi_meshlets_room(prepared->scene->facet_count);
     return lrcsi_work_add(lrcsi_work_bytes(room, sizeof(uint32_t)),
                           lrcsi_grid_facets_need(prepared));
 }
@@ -203,14 +203,14 @@ size_t lrcsi_query_need(const lrcs_prepared *prepared)
    facet of each region need. 2. Makes one query for each region, at its first facet. 3. If a query
    gave no answer, which is rare, makes a complete grid, and a query for each facet of its region.
  */
-int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter *meter,
-                        lrcs_work *work, lrcsi_grid *facets, unsigned char *answer)
+int lrcsi_query_uniform(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
+                        lrcsi_grid *facets, unsigned char *answer)
 {
     const lrcs_prepared *p = classification->view->prepared;
     const unsigned char *undecided = classification->undecided;
     uint32_t count = p->scene->facet_count;
     uint32_t unanswered = 0;
-    uint32_t *region = lrcsi_work_take(work, lrcsi_runs_room(count), sizeof *region);
+    uint32_t *region = lrcsi_work_take(work, lrcsi_meshlets_room(count), sizeof *region);
     size_t mark = work->used;
     if (!region) {
         return LRCS_E_MEMORY;
@@ -222,13 +222,13 @@ int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter 
     if (status != LRCS_OK) {
         return status;
     }
-    for (uint32_t r = 0; r < p->runs.count; r++) {
-        uint32_t start = r * LRCSI_RUN;
-        uint32_t end = lrcsi_run_end(start, count);
-        int one_region = lrcsi_events_joined(p, classification->joinable, r) == LRCSI_JOINED_ALL;
+    for (uint32_t m = 0; m < p->meshlets.count; m++) {
+        uint32_t start = m * LRCSI_MESHLET_FACETS;
+        uint32_t end = lrcsi_meshlet_end(start, count);
+        int one_region = lrcsi_events_joined(p, classification->joinable, m) == LRCSI_JOINED_ALL;
         memset(answer + start, LRCSI_QUERY_HIDDEN, end - start);
-        if (classification->search.boxes.state[r] == LRCSI_BOXES_NONE) {
-            continue; /* no facet of the run can be visible */
+        if (classification->search.boxes.state[m] == LRCSI_BOXES_NONE) {
+            continue; /* no facet of the meshlet can be visible */
         }
         for (uint32_t f = start; f < (one_region ? start + 1 : end); f++) {
             if (undecided[f]) {

@@ -3,8 +3,6 @@
 #ifndef LRCSI_QUERY_H
 #define LRCSI_QUERY_H
 
-#include <string.h>
-
 #include "scene/part_set.h"
 #include "visibility/classify.h"
 
@@ -14,14 +12,6 @@ enum lrcsi_query_answer {
     LRCSI_QUERY_UNDECIDED = 2 /* no point inside the facet was found, the depths are too close,
                                  or the meter is spent */
 };
-
-/* The first facet from `facet` on that is marked with a value, or `count` if there is none. */
-static inline uint32_t lrcsi_query_next(const unsigned char *mark, uint32_t facet, uint32_t count,
-                                        int value)
-{
-    const unsigned char *at = facet < count ? memchr(mark + facet, value, count - facet) : NULL;
-    return at ? (uint32_t)(at - mark) : count;
-}
 
 /* All queries take their steps from a meter; NULL: no limit. */
 
@@ -43,9 +33,10 @@ size_t lrcsi_query_need(const lrcs_prepared *prepared);
 /* Makes a grid of facets for queries of undecided facets, and makes one query for each region of
    uniform facets. Returned: answer[facet], a lrcsi_query_answer: that of a uniform facet; UNDECIDED
    for undecided facets; HIDDEN for those that cannot be visible.
-   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The grid stays in the work area. */
-int lrcsi_query_uniform(const lrcsi_classification *classification, lrcsi_meter *meter,
-                        lrcs_work *work, lrcsi_grid *facets, unsigned char *answer);
+   Status: LRCS_OK; LRCS_E_MEMORY; LRCS_E_LIMIT. The grid stays in the work area.
+   Boxes of the classification that are needed are made. */
+int lrcsi_query_uniform(lrcsi_classification *classification, lrcsi_meter *meter, lrcs_work *work,
+                        lrcsi_grid *facets, unsigned char *answer);
 
 /* Tries to prove that one surface component hides an undecided facet entirely. Returns 1 if that is
    proved; 0 if not, or if the meter is spent. If it needs the crossings of the facet, they are

@@ -13,11 +13,12 @@ void lrcsi_raster_layout(const lrcsi_view *view, uint32_t size, lrcsi_raster *ra
 {
     lrcsi_raster r = {.view = view, .size = size};
     r.pixel = view->side / size;
-    r.scale = view->side > 0 ? size / view->side : 0;
+    r.pixels_per_unit = view->side > 0 ? size / view->side : 0;
     for (int k = 0; k < 2; k++) {
         r.radius += lrcsi_max(fabs(view->low[k]), fabs(view->low[k] + view->side));
     }
-    r.sample_err = lrcsi_view_unproject_err(view, r.radius, 0) * r.scale + 8 * LRCSI_U * size;
+    r.sample_err =
+        lrcsi_view_unproject_err(view, r.radius, 0) * r.pixels_per_unit + 8 * LRCSI_U * size;
     *raster = r;
 }
 
@@ -31,9 +32,9 @@ void lrcsi_raster_sample(const lrcsi_raster *raster, uint32_t x, uint32_t y, dou
 double lrcsi_raster_point(const lrcsi_raster *raster, uint32_t vertex, double xy[2])
 {
     const lrcsi_view_vertex *at = &raster->view->point[vertex];
-    xy[0] = (at->x[0] - raster->view->low[0]) * raster->scale;
-    xy[1] = (at->x[1] - raster->view->low[1]) * raster->scale;
-    return at->err * raster->scale + raster->sample_err;
+    xy[0] = (at->x[0] - raster->view->low[0]) * raster->pixels_per_unit;
+    xy[1] = (at->x[1] - raster->view->low[1]) * raster->pixels_per_unit;
+    return at->err * raster->pixels_per_unit + raster->sample_err;
 }
 
 /* Error of a value in a touched pixel. Corners have errors of position_err, and so has the sample.

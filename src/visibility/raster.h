@@ -16,17 +16,17 @@
 
 typedef struct lrcsi_raster {
     const lrcsi_view *view;
-    uint32_t size;         /* N */
-    double pixel;          /* side of a pixel, scaled units */
-    double scale;          /* pixels per scaled unit */
-    double sample_err;     /* error bound of the pixel coordinates of samples */
-    double radius;         /* |x| + |y| of a sample in the view is at most this */
-    uint32_t tiles;        /* along each side */
-    unsigned char *active; /* tiles * tiles: 1 if the samples of the tile are drawn */
-    uint32_t *owner;       /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
-    float *depth;          /* N * N: height of an ordinary owner's plane (visibility/raster_draw.c),
-                              0 for other owners; -HUGE_VALF: no owner; HUGE_VALF: the owner is
-                              known to be visible */
+    uint32_t size;          /* N */
+    double pixel;           /* side of a pixel, scaled units */
+    double pixels_per_unit; /* scaled units */
+    double sample_err;      /* error bound of the pixel coordinates of samples */
+    double radius;          /* |x| + |y| of a sample in the view is at most this */
+    uint32_t tiles;         /* along each side */
+    unsigned char *active;  /* tiles * tiles: 1 if the samples of the tile are drawn */
+    uint32_t *owner;        /* N * N, row 0 at the bottom: facet, or LRCS_NONE */
+    float *depth;      /* N * N: height of an ordinary owner's plane (visibility/raster_draw.c),
+                          0 for other owners; -HUGE_VALF: no owner; HUGE_VALF: the owner is
+                          known to be visible */
     float *occluder;   /* N * N: a height; what is lower is hidden in the whole pixel by one facet.
                           -HUGE_VALF: none known; HUGE_VALF: a facet known to be visible covers
                           the pixel, and all others are hidden. NULL: not needed */
@@ -55,7 +55,7 @@ size_t lrcsi_raster_undecided_need(const lrcs_prepared *prepared, uint32_t size)
 int lrcsi_raster_make_undecided(const lrcsi_view *view, uint32_t size, const unsigned char *answer,
                                 lrcs_work *work, lrcsi_raster *raster);
 
-/* Sets size, pixel, scale, sample_err and radius only: a raster without samples. */
+/* Sets size, pixel, pixels_per_unit, sample_err and radius only: a raster without samples. */
 void lrcsi_raster_layout(const lrcsi_view *view, uint32_t size, lrcsi_raster *raster);
 
 /* The pixels along one axis whose centres lie within low .. high, coordinates with errors up to

@@ -19,6 +19,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/grid.h"
+#include "visibility/marks.h"
 #include "visibility/query.h"
 #include "visibility/raster.h"
 #include "visibility/sample.h"
@@ -55,7 +56,7 @@ static inline uint32_t tile_next(const unsigned char *tiles, uint32_t x, uint32_
 /* Activates the tiles of all pixels that the facet may touch, and of two pixels around them. For
    each row of tiles: the tiles from the first to the last column that the facet may touch in
    the row's pixels and in two rows of pixels on either side. */
-static void activate_tiles(const lrcsi_raster *raster, uint32_t facet)
+static void activate_tiles(lrcsi_raster *raster, uint32_t facet)
 {
     const uint32_t tile = LRCSI_RASTER_TILE;
     const lrcsi_edge_functions e = lrcsi_raster_edge_functions(raster, facet);
@@ -86,7 +87,7 @@ static inline lrcsi_pixel_span tile_span(const unsigned char *tiles, uint32_t *x
 }
 
 /* Samples of active tiles have no owner, and nothing is hidden in their pixels. */
-static void clear_tiles(const lrcsi_raster *r)
+static void clear_tiles(lrcsi_raster *r)
 {
     for (uint32_t y = 0; y < r->size; y++) {
         const unsigned char *tiles = tile_row(r, y);
@@ -110,9 +111,9 @@ static int bounds_drawn(const lrcsi_raster *r, const double low[3], const double
     uint32_t from[2];
     uint32_t to[2];
     for (int k = 0; k < 2; k++) {
-        lrcsi_raster_centres(r, (low[k] - r->view->low[k]) * r->scale,
-                             (high[k] - r->view->low[k]) * r->scale, r->sample_err, &from[k],
-                             &to[k]);
+        lrcsi_raster_centres(r, (low[k] - r->view->low[k]) * r->pixels_per_unit,
+                             (high[k] - r->view->low[k]) * r->pixels_per_unit, r->sample_err,
+                             &from[k], &to[k]);
         if (from[k] >= to[k]) {
             return 0; /* as for most small facets */
         }
@@ -163,8 +164,7 @@ static int sample_covered(const lrcsi_raster *r, uint32_t facet, uint32_t x, uin
 
 /* 1 if the facet is nearer than the owner of a sample that both cover: from heights in doubles,
    else exactly. Most pairs have the same order at all samples; it is computed only once. */
-static int facet_nearer(const lrcsi_raster *r, raster_facet *f, uint32_t owner, uint32_t x,
-                        uint32_t y)
+static int facet_nearer(lrcsi_raster *r, raster_facet *f, uint32_t owner, uint32_t x, uint32_t y)
 {
     if (owner != f->last_owner) {
         f->last_owner = owner;
@@ -226,8 +226,7 @@ static inline uint32_t draw_lanes(uint32_t *restrict owner, float *restrict dept
    an ordinary facet: with z the largest magnitude of a corner's depth, the heights of covered
    samples are at most z, and they change by at most 2 z along the span. Rounding the first height,
    the slope, two products and two sums adds less than 2^-21 z. */
-static void draw_row_span(const lrcsi_raster *r, raster_facet *f, uint32_t y, uint32_t x0,
-                          uint32_t x1)
+static void draw_row_span(lrcsi_raster *r, raster_facet *f, uint32_t y, uint32_t x0, uint32_t x1)
 {
     size_t start = (size_t)y * r->size + x0;
     float first = (float)plane_height(&f->plane, x0, y);
@@ -255,7 +254,7 @@ static void draw_row_span(const lrcsi_raster *r, raster_facet *f, uint32_t y, ui
 
 /* Draws samples x0 <= x < x1 of a row for which edge functions do not decide whether the facet
    covers them. */
-static inline void draw_if_covered(const lrcsi_raster *r, raster_facet *f, uint32_t y, uint32_t x0,
+static inline void draw_if_covered(lrcsi_raster *r, raster_facet *f, uint32_t y, uint32_t x0,
                                    uint32_t x1)
 {
     for (uint32_t x = x0; x < x1; x++) {
@@ -282,7 +281,7 @@ static inline void raise_lanes(float *restrict occluder, float first, float slop
 
 /* Raises the occluder heights of the pixels of a row that an ordinary facet covers entirely, to
    `drop` below its heights at their centres. */
-static void raise_row_span(const lrcsi_raster *r, const raster_facet *f, double drop, uint32_t y,
+static void raise_row_span(lrcsi_raster *r, const raster_facet *f, double drop, uint32_t y,
                            lrcsi_pixel_span full)
 {
     float *occluder = r->occluder + (size_t)y * r->size + full.x0;
@@ -301,7 +300,7 @@ static void raise_row_span(const lrcsi_raster *r, const raster_facet *f, double 
    drop: in a pixel that the facet covers entirely, its heights differ from that at the centre by at
    most half the sum of its slopes. The height error is added, and, for floats, as much as above
    with z + drop in the place of z. */
-static int draw_facet(const lrcsi_raster *r, uint32_t facet, int ordinary)
+static int draw_facet(lrcsi_raster *r, uint32_t facet, int ordinary)
 {
     double low[3];
     double high[3];
@@ -339,7 +338,7 @@ static int draw_facet(const lrcsi_raster *r, uint32_t facet, int ordinary)
 
 /* Makes a facet that is known to be entirely visible the owner of all active samples that it
    covers. In the pixels that it covers entirely, everything else is hidden. */
-static void fill_facet(const lrcsi_raster *r, uint32_t facet)
+static void fill_facet(lrcsi_raster *r, uint32_t facet)
 {
     double low[3];
     double high[3];
@@ -372,16 +371,16 @@ static void fill_facet(const lrcsi_raster *r, uint32_t facet)
     }
 }
 
-/* The same for all such facets of a run; most runs reach no active tile. */
-static void fill_run(const lrcsi_raster *r, uint32_t run, const unsigned char *answer)
+/* The same for all such facets of a meshlet; most meshlets reach no active tile. */
+static void fill_meshlet(lrcsi_raster *r, uint32_t meshlet, const unsigned char *answer)
 {
     const lrcs_prepared *p = r->view->prepared;
-    const uint32_t end = lrcsi_run_end(run * LRCSI_RUN, p->scene->facet_count);
+    const uint32_t end = lrcsi_meshlet_end(meshlet * LRCSI_MESHLET_FACETS, p->scene->facet_count);
     double low[3];
     double high[3];
-    lrcsi_boxes_run_bounds(r->view, &p->runs.run[run], low, high);
+    lrcsi_boxes_meshlet_bounds(r->view, &p->meshlets.meshlet[meshlet], low, high);
     if (bounds_drawn(r, low, high)) {
-        for (uint32_t f = run * LRCSI_RUN; f < end; f++) {
+        for (uint32_t f = meshlet * LRCSI_MESHLET_FACETS; f < end; f++) {
             if (answer[f] == LRCSI_QUERY_VISIBLE) {
                 fill_facet(r, f);
             }
@@ -425,7 +424,7 @@ static uint32_t next_drawn(const lrcsi_raster *r, const unsigned char *answer, u
 {
     const uint32_t count = r->view->prepared->scene->facet_count;
     if (answer) {
-        return lrcsi_query_next(answer, facet, count, LRCSI_QUERY_UNDECIDED);
+        return lrcsi_marks_next(answer, facet, count, LRCSI_QUERY_UNDECIDED);
     }
     while (facet < count && !lrcsi_view_casts(r->view, facet)) {
         facet++;
@@ -463,14 +462,14 @@ static int raster_make(const lrcsi_view *view, uint32_t size, const unsigned cha
         activate_tiles(&r, f);
     }
     clear_tiles(&r);
-    for (uint32_t run = 0; answer && run < view->prepared->runs.count; run++) {
-        fill_run(&r, run, answer);
+    for (uint32_t meshlet = 0; answer && meshlet < view->prepared->meshlets.count; meshlet++) {
+        fill_meshlet(&r, meshlet, answer);
     }
     uint32_t others = count; /* facets that may not be ordinary */
     for (int ordinary = 1; ordinary >= 0 && others > 0; ordinary--) {
         others = 0;
         for (uint32_t f = 0; (f = next_drawn(&r, answer, f)) < count; f++) {
-            lrcsi_view_progress(view, LRCS_PROGRESS_VISIBILITY, f, count);
+            lrcsi_progress_report(view->progress, LRCS_PROGRESS_VISIBILITY, f, count);
             others += !draw_facet(&r, f, ordinary);
         }
     }

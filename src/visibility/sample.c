@@ -93,6 +93,14 @@ int lrcsi_sample_has_precedence(const lrcsi_view *view, uint32_t winner, uint32_
     return winner < loser;
 }
 
+int lrcsi_sample_contact_hides(const lrcsi_view *view, uint32_t facet,
+                               const lrcsi_intersection *contact)
+{
+    return lrcsi_view_casts(view, contact->other) &&
+           !(contact->kind == LRCSI_INTERSECTION_COPLANAR &&
+             lrcsi_sample_has_precedence(view, facet, contact->other));
+}
+
 /* 1 if all corners of `other` lie in front of the facet's plane or on it, -1 if behind or on it; 0
    otherwise, and if all lie on it. */
 static int plane_side(const lrcsi_view *view, uint32_t facet, uint32_t other)

@@ -26,6 +26,10 @@ int lrcsi_sample_above(const lrcsi_view *view, uint32_t facet, const double poin
    otherwise the facet with the lower index. */
 int lrcsi_sample_has_precedence(const lrcsi_view *view, uint32_t winner, uint32_t loser);
 
+/* Can the other facet of a contact hide a part of the facet? */
+int lrcsi_sample_contact_hides(const lrcsi_view *view, uint32_t facet,
+                               const lrcsi_intersection *contact);
+
 /* 1 if the first facet is nearer on every line of sight that meets both, -1 if the second is,
    because one of them lies on one side of the other's plane; otherwise 0, also if they lie in one
    plane. Exact. */

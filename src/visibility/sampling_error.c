@@ -24,6 +24,7 @@
 #include <math.h>
 
 #include "base/range.h"
+#include "visibility/sample.h"
 
 /* Squares of estimates, in pixels, calibrated on scenes of seeds 101 and 102 (make bounds), on the
    demo and on three models (make estimate). */
@@ -164,7 +165,7 @@ static lrcsi_sampling_error partial_error(const sampled_facet *f, const lrcsi_cr
         add_line_error(f, &line[0], &error);
     }
     for (uint32_t i = contacts->first[f->facet]; i < contacts->first[f->facet + 1]; i++) {
-        if (lrcsi_intersection_hides(r->view, f->facet, &contacts->entry[i])) {
+        if (lrcsi_sample_contact_hides(r->view, f->facet, &contacts->entry[i])) {
             int lines = lrcsi_raster_contact(r, &f->edges, f->facet, &contacts->entry[i], line);
             for (int k = 0; k < lines; k++) {
                 add_line_error(f, &line[k], &error);
@@ -192,7 +193,8 @@ static lrcsi_sampling_error partial_error(const sampled_facet *f, const lrcsi_cr
 /* The projected area of a facet, in square pixels. */
 static double area_in_pixels(const lrcsi_raster *raster, uint32_t facet)
 {
-    return lrcsi_view_projected(raster->view, facet) * raster->scale * raster->scale;
+    return lrcsi_view_projected(raster->view, facet) * raster->pixels_per_unit *
+           raster->pixels_per_unit;
 }
 
 /* The area of the facets that may hide a part of a facet that owns all of its samples: the facets

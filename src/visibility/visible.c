@@ -13,9 +13,9 @@
    The areas of facets in such pixels are lower bounds of what is visible and of what is hidden.
    Between the bounds of a facet, its samples decide (visibility/visible_fraction.h).
 
-   The driver is lrcsi_visible_sampled:
+   The driver is lrcsi_visible_areas_from_samples:
    1. lrcsi_raster_make_undecided: the samples of the tiles that undecided facets touch.
-   2. lrcsi_visible_answered: the areas of facets that queries decided.
+   2. lrcsi_visible_areas_from_answers: the areas of facets that queries decided.
    3. For each undecided facet: facet_pixels finds its mixed pixels, decides the others, and adds up
       their areas; sampled_area finds the area within the bounds, and its estimated error.
    4. lrcsi_visible_fraction_correct: area that the bounds cut off goes to other facets of the
@@ -28,19 +28,21 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/clip.h"
+#include "visibility/marks.h"
 #include "visibility/query.h"
+#include "visibility/sample.h"
 #include "visibility/sampling_error.h"
 #include "visibility/visible_fraction.h"
 
 /* --- what queries decide ---------------------------------------------------------------------- */
 
-void lrcsi_visible_answered(const lrcsi_view *view, const unsigned char *answer,
-                            lrcsi_visible *visible)
+void lrcsi_visible_areas_from_answers(const lrcsi_view *view, const unsigned char *answer,
+                                      lrcsi_visible_area *visible)
 {
     for (uint32_t f = 0; f < view->prepared->scene->facet_count; f++) {
         if (answer[f] != LRCSI_QUERY_UNDECIDED) {
             double area = answer[f] == LRCSI_QUERY_VISIBLE ? lrcsi_view_projected(view, f) : 0;
-            visible[f] = lrcsi_visible_exactly(area);
+            visible[f] = lrcsi_visible_area_exact(area);
         }
     }
 }
@@ -82,7 +84,7 @@ typedef struct drawn_facet {
 } drawn_facet;
 
 /* Makes a facet the current one: finds what it covers. */
-static drawn_facet drawn_facet_make(const visible_job *job, uint32_t facet)
+static drawn_facet drawn_facet_make(visible_job *job, uint32_t facet)
 {
     const lrcsi_raster *r = job->raster;
     const uint32_t *corner = r->view->prepared->scene->facet[facet].corner;
@@ -112,7 +114,7 @@ static size_t pixel_index(const visible_job *job, uint32_t x, uint32_t y)
 /* Marks every pixel of the facet that the segment a b may touch, if the position of each of its
    points has an error of at most a quarter of the margin, by which rows and ranges are widened
    (visibility/span.h). */
-static void mark_segment(const visible_job *job, const drawn_facet *f, const double a[2],
+static void mark_segment(visible_job *job, const drawn_facet *f, const double a[2],
                          const double b[2], double margin)
 {
     const double bottom = f->edges.bottom;
@@ -131,8 +133,7 @@ static void mark_segment(const visible_job *job, const drawn_facet *f, const dou
 }
 
 /* Marks all pixels of the facet that another one touches too. */
-static void mark_overlap(const visible_job *job, const drawn_facet *f,
-                         const lrcsi_edge_functions *other)
+static void mark_overlap(visible_job *job, const drawn_facet *f, const lrcsi_edge_functions *other)
 {
     uint32_t y = other->bottom > f->edges.bottom ? other->bottom : f->edges.bottom;
     for (; y < other->top && y < f->edges.top; y++) {
@@ -149,8 +150,7 @@ static void mark_overlap(const visible_job *job, const drawn_facet *f,
    planes intersect, as far as that may lie in the other facet. If the line is not known to an
    eighth of a pixel, because the planes are close to parallel or the other facet to edge-on, these
    are all pixels that both touch. */
-static void mark_mixed(const visible_job *job, const drawn_facet *f,
-                       const lrcsi_crossings *crossings)
+static void mark_mixed(visible_job *job, const drawn_facet *f, const lrcsi_crossings *crossings)
 {
     const lrcsi_raster *r = job->raster;
     const lrcsi_intersections *contacts = &r->view->prepared->intersections;
@@ -165,7 +165,7 @@ static void mark_mixed(const visible_job *job, const drawn_facet *f,
     for (uint32_t i = contacts->first[f->facet]; i < contacts->first[f->facet + 1]; i++) {
         const lrcsi_intersection *contact = &contacts->entry[i];
         lrcsi_raster_segment s[3];
-        if (!lrcsi_intersection_hides(r->view, f->facet, contact)) {
+        if (!lrcsi_sample_contact_hides(r->view, f->facet, contact)) {
             continue;
         }
         int segments = lrcsi_raster_contact(r, &f->edges, f->facet, contact, s);
@@ -280,8 +280,7 @@ static int pixels_hide_facet(const visible_job *job, const drawn_facet *f)
    entirely is examined alone. Of the pixels that it covers entirely, only mixed ones are: the
    others are decided, and it owns the samples of those that are visible. So their number is that of
    all samples that it owns, less those in the pixels that are examined. */
-static pixel_sums facet_pixels(const visible_job *job, uint32_t facet,
-                               const lrcsi_crossings *crossings)
+static pixel_sums facet_pixels(visible_job *job, uint32_t facet, const lrcsi_crossings *crossings)
 {
     const lrcsi_raster *r = job->raster;
     const drawn_facet f = drawn_facet_make(job, facet);
@@ -331,8 +330,8 @@ static pixel_sums facet_pixels(const visible_job *job, uint32_t facet,
 
 /* The area of an undecided facet, its bounds and its estimated error. The area of a pixel is
    side^2 / N^2 within a few roundings, for which 1e-12 of it is subtracted. */
-static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, uint32_t facet,
-                         const lrcsi_crossings *crossings, lrcsi_visible *v)
+static void sampled_area(lrcsi_sample_pool *pool, const pixel_sums *sums, uint32_t facet,
+                         const lrcsi_crossings *crossings, lrcsi_visible_area *v)
 {
     const lrcsi_raster *raster = pool->raster;
     const double area = lrcsi_view_projected(raster->view, facet);
@@ -342,8 +341,8 @@ static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, 
     if (!raster->undecided[facet] && fraction.pooled) {
         error = lrcsi_sampling_error_pooled(raster, facet, fraction.longest, fraction.fraction);
     } else if (!raster->undecided[facet]) {
-        error = lrcsi_sampling_error_facet(pool->known->classification->component, raster, facet,
-                                           crossings);
+        error = lrcsi_sampling_error_facet(pool->decisions->classification->component, raster,
+                                           facet, crossings);
     }
     v->low = lrcsi_min(area, (sums->full_visible + sums->visible) * pixel * (1 - 1e-12));
     v->high = lrcsi_max(v->low, area - (sums->full_hidden + sums->hidden) * pixel * (1 - 1e-12));
@@ -353,80 +352,7 @@ static void sampled_area(const lrcsi_sample_pool *pool, const pixel_sums *sums, 
     v->bias = lrcsi_min(gap, lrcsi_max(-gap, error.bias * pixel));
 }
 
-/* The event edges that cross a facet: listed, or searched for. */
-static lrcsi_crossings known_crossings(const lrcsi_known *k, uint32_t facet,
-                                       lrcsi_crossings *search)
-{
-    if (facet < k->listed) {
-        return (lrcsi_crossings){facet, k->list[facet].count, k->crossing + k->list[facet].first};
-    }
-    lrcsi_crossings_find(&k->classification->search, facet, NULL, search);
-    return *search;
-}
-
-/* Room for crossings: more than ordinary scenes have. The crossings of facets beyond it are
-   searched for whenever they are needed. */
-static size_t known_room(const lrcs_prepared *prepared)
-{
-    return 4 * (size_t)prepared->scene->facet_count;
-}
-
-size_t lrcsi_visible_known_need(const lrcs_prepared *prepared)
-{
-    size_t facets = prepared->scene->facet_count;
-    size_t need = lrcsi_work_bytes(facets, 1);
-    need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_known_list)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(known_room(prepared), sizeof(uint32_t)));
-    need = lrcsi_work_add(need, lrcsi_crossings_need(prepared));
-    return lrcsi_work_add(need, lrcsi_query_need(prepared));
-}
-
-/* Queries of uniform facets come first. For each of the others, one search for the event edges that
-   cross it serves two purposes: to prove that it is hidden, and as a list for rasters. */
-int lrcsi_visible_known(lrcsi_classification *classification, lrcs_work *work, lrcsi_known *known)
-{
-    size_t mark = work->used;
-    const lrcs_prepared *p = classification->view->prepared;
-    uint32_t count = p->scene->facet_count;
-    lrcsi_known k = {.classification = classification};
-    k.answer = lrcsi_work_take(work, count, 1);
-    k.list = lrcsi_work_take(work, count, sizeof *k.list);
-    k.crossing = lrcsi_work_take(work, known_room(p), sizeof *k.crossing);
-    int status = k.answer && k.list && k.crossing
-                     ? lrcsi_crossings_make(&classification->search, work, &k.search)
-                     : LRCS_E_MEMORY;
-    status = status == LRCS_OK
-                 ? lrcsi_query_uniform(classification, NULL, work, &k.facets, k.answer)
-                 : status;
-    if (status != LRCS_OK) {
-        work->used = mark;
-        return status;
-    }
-    const unsigned char *undecided = classification->undecided;
-    uint32_t used = 0; /* of crossing[] */
-    k.listed = count;
-    for (uint32_t f = 0; (f = lrcsi_query_next(undecided, f, count, 1)) < count; f++) {
-        if (lrcsi_query_screened(classification, &k.facets, f, NULL, &k.search)) {
-            k.answer[f] = LRCSI_QUERY_HIDDEN;
-            continue;
-        }
-        if (f > k.listed) {
-            continue;
-        }
-        lrcsi_crossings_find(&classification->search, f, NULL, &k.search);
-        if (k.search.count > known_room(p) - used) {
-            k.listed = f;
-        } else {
-            memcpy(k.crossing + used, k.search.edge, k.search.count * sizeof *k.crossing);
-            k.list[f] = (lrcsi_known_list){used, k.search.count};
-            used += k.search.count;
-        }
-    }
-    *known = k;
-    return LRCS_OK;
-}
-
-size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
+size_t lrcsi_visible_areas_need(const lrcs_prepared *prepared, uint32_t size)
 {
     size_t need = lrcsi_work_bytes(lrcsi_work_square(size), 1);
     need = lrcsi_work_add(need, lrcsi_work_bytes(size, sizeof(visible_row)));
@@ -435,39 +361,40 @@ size_t lrcsi_visible_need(const lrcs_prepared *prepared, uint32_t size)
 }
 
 /* If the depth order of a facet could not be decided, its sums are 0, and nothing is certain. */
-int lrcsi_visible_sampled(const lrcsi_known *known, uint32_t size, lrcs_work *work,
-                          lrcsi_raster *raster, lrcsi_visible *visible, int *undecided)
+int lrcsi_visible_areas_from_samples(lrcsi_decisions *decisions, uint32_t size, lrcs_work *work,
+                                     lrcsi_raster *raster, lrcsi_visible_area *visible,
+                                     int *undecided)
 {
-    const lrcsi_classification *classification = known->classification;
+    const lrcsi_classification *classification = decisions->classification;
     const lrcsi_view *view = classification->view;
     const uint32_t count = view->prepared->scene->facet_count;
     const size_t mark = work->used;
-    int status = lrcsi_raster_make_undecided(view, size, known->answer, work, raster);
+    int status = lrcsi_raster_make_undecided(view, size, decisions->answer, work, raster);
     const size_t end = work->used;
     visible_job job = {.raster = raster};
-    lrcsi_crossings search = known->search;
+    lrcsi_crossings search = decisions->search;
     lrcsi_sample_pool pool;
     if (status == LRCS_OK) {
         job.mixed = lrcsi_work_take(work, lrcsi_work_square(size), 1);
         job.row = lrcsi_work_take(work, size, sizeof *job.row);
-        status = job.mixed && job.row ? lrcsi_visible_fraction_make(known, raster, work, &pool)
+        status = job.mixed && job.row ? lrcsi_visible_fraction_make(decisions, raster, work, &pool)
                                       : LRCS_E_MEMORY;
     }
     if (status != LRCS_OK) {
         work->used = mark;
         return status;
     }
-    lrcsi_visible_answered(view, known->answer, visible);
+    lrcsi_visible_areas_from_answers(view, decisions->answer, visible);
     *undecided = memchr(raster->undecided, 1, count) != NULL;
     for (uint32_t f = 0;
-         (f = lrcsi_query_next(known->answer, f, count, LRCSI_QUERY_UNDECIDED)) < count; f++) {
+         (f = lrcsi_marks_next(decisions->answer, f, count, LRCSI_QUERY_UNDECIDED)) < count; f++) {
         if (!classification->undecided[f]) { /* uniform, but its query gave no answer */
             double area = lrcsi_view_projected(view, f);
-            visible[f] = (lrcsi_visible){0.5 * area, 0, area, 0.5 * area, 0};
+            visible[f] = (lrcsi_visible_area){0.5 * area, 0, area, 0.5 * area, 0};
             *undecided = 1;
             continue;
         }
-        const lrcsi_crossings crossings = known_crossings(known, f, &search);
+        const lrcsi_crossings crossings = lrcsi_decisions_crossings(decisions, f, &search);
         pixel_sums sums = {0, 0, 0, 0};
         if (!raster->undecided[f]) {
             sums = facet_pixels(&job, f, &crossings);

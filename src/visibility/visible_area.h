@@ -1,24 +1,45 @@
 /* SPDX-License-Identifier: MIT */
-/* The visible area of a facet with its bounds, and what exact queries decide before samples are
-   taken. */
+/* The visible area of a facet, projected, with its bounds, and the moment of its visible region:
+   the result of visibility for integration, whichever method found it. */
 #ifndef LRCSI_VISIBLE_AREA_H
 #define LRCSI_VISIBLE_AREA_H
 
-#include "visibility/classify.h"
+#include <math.h>
+
+#include "view/view.h"
 
 /* Projected areas in scaled units. Except for rounding, 0 <= low <= area <= high <= the facet's
    projected area. The true area is between low and high. */
-typedef struct lrcsi_visible {
+typedef struct lrcsi_visible_area {
     double area, low, high;
     double error_estimate; /* estimated error of an area from samples; else 0 */
     double bias; /* the part of that error that has a sign: positive if the area is too large */
-} lrcsi_visible;
+} lrcsi_visible_area;
 
 /* An area without uncertainty: that of a facet known to be entirely visible; or 0, if it is hidden.
  */
-static inline lrcsi_visible lrcsi_visible_exactly(double area)
+static inline lrcsi_visible_area lrcsi_visible_area_exact(double area)
 {
-    return (lrcsi_visible){.area = area, .low = area, .high = area};
+    return (lrcsi_visible_area){.area = area, .low = area, .high = area};
+}
+
+/* The area of a facet that nothing is known to hide: all of it. This is proved for |cos(theta)| >
+   grazing_cos. Otherwise, and for every facet if grazing_cos is 1, the area is only an upper bound,
+   and low is 0. */
+static inline lrcsi_visible_area lrcsi_visible_area_unshadowed(const lrcsi_incidence *incidence,
+                                                               double grazing_cos)
+{
+    double low = fabs(incidence->cos_theta) > grazing_cos ? incidence->projected : 0;
+    return (lrcsi_visible_area){incidence->projected, low, incidence->projected, 0, 0};
+}
+
+/* A visible area, corrected for back sides. In a scene that is closed and outward they are never
+   visible: there a search that did not find one hidden does not prove that it is visible. */
+static inline lrcsi_visible_area lrcsi_visible_area_proved(const lrcsi_view *view, uint32_t facet,
+                                                           lrcsi_visible_area visible)
+{
+    visible.low = view->prepared->solid && view->facing[facet] < 0 ? 0 : visible.low;
+    return visible;
 }
 
 /* The first moment of a facet's visible region: the integral of x - c over its projection, c the
@@ -28,22 +49,5 @@ typedef struct lrcsi_moment {
     double error; /* bound on the error of either component; HUGE_VAL: the moment is not known */
     double reach; /* scratch of its computation: the largest distance from c of what is visible */
 } lrcsi_moment;
-
-/* Items first .. first + count - 1 of a list. */
-typedef struct lrcsi_known_list {
-    uint32_t first, count;
-} lrcsi_known_list;
-
-/* What exact queries decide about facets before samples are taken. */
-typedef struct lrcsi_known {
-    lrcsi_classification *classification;
-    lrcsi_grid facets;
-    unsigned char *answer;  /* facet: a lrcsi_query_answer; hidden if it casts no shadow; undecided
-                               if samples have to decide */
-    uint32_t listed;        /* facets below this have lists */
-    lrcsi_known_list *list; /* facet, if its answer is undecided: the event edges that cross it */
-    uint32_t *crossing;     /* the items of these lists: topology edges */
-    lrcsi_crossings search; /* room to search for the crossings of a facet without a list */
-} lrcsi_known;
 
 #endif

@@ -23,6 +23,7 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/clip.h"
+#include "visibility/marks.h"
 #include "visibility/query.h"
 
 /* Fewer samples than this are few; for a long facet, fewer than four for each pixel of its length.
@@ -37,18 +38,18 @@ size_t lrcsi_visible_fraction_need(const lrcs_prepared *prepared)
     return lrcsi_work_bytes(prepared->scene->facet_count, sizeof(lrcsi_component_sum));
 }
 
-int lrcsi_visible_fraction_make(const lrcsi_known *known, const lrcsi_raster *raster,
+int lrcsi_visible_fraction_make(const lrcsi_decisions *decisions, const lrcsi_raster *raster,
                                 lrcs_work *work, lrcsi_sample_pool *pool)
 {
-    const lrcsi_classification *classification = known->classification;
+    const lrcsi_classification *classification = decisions->classification;
     uint32_t facets = raster->view->prepared->scene->facet_count;
-    *pool = (lrcsi_sample_pool){known, raster, NULL};
+    *pool = (lrcsi_sample_pool){decisions, raster, NULL};
     pool->sum = lrcsi_work_take(work, facets, sizeof *pool->sum);
     if (!pool->sum) {
         return LRCS_E_MEMORY;
     }
     const unsigned char *undecided = classification->undecided; /* they are few */
-    for (uint32_t f = 0; (f = lrcsi_query_next(undecided, f, facets, 1)) < facets; f++) {
+    for (uint32_t f = 0; (f = lrcsi_marks_next(undecided, f, facets, 1)) < facets; f++) {
         pool->sum[classification->component[f]] = (lrcsi_component_sum){0, 0, 0, 0, 0, 0};
     }
     return LRCS_OK;
@@ -61,13 +62,13 @@ static uint32_t samples_add_neighbours(const lrcsi_sample_pool *pool, uint32_t f
 {
     const lrcsi_raster *raster = pool->raster;
     const lrcsi_topology *topology = &raster->view->prepared->topology;
-    const uint32_t *component = pool->known->classification->component;
+    const uint32_t *component = pool->decisions->classification->component;
     uint32_t count = 0;
     for (int k = 0; k < 3; k++) {
         const lrcsi_edge *edge = &topology->edge[topology->facet_edge[facet].corner[k]];
         for (uint32_t i = 0; i < edge->uses; i++) {
             uint32_t other = topology->use[edge->first_use + i].facet;
-            int answer = pool->known->answer[other];
+            int answer = pool->decisions->answer[other];
             if (other == facet || component[other] != component[facet]) {
                 continue;
             }
@@ -146,9 +147,9 @@ static double fraction_of_point(const lrcsi_sample_pool *pool, uint32_t facet)
 {
     double point[3];
     random_point(pool->raster, facet, point);
-    int answer = lrcsi_query_point(&pool->known->facets, facet, point, NULL);
+    int answer = lrcsi_query_point(&pool->decisions->facets, facet, point, NULL);
     if (answer == LRCSI_QUERY_UNDECIDED) {
-        answer = lrcsi_query_facet(&pool->known->facets, facet, NULL);
+        answer = lrcsi_query_facet(&pool->decisions->facets, facet, NULL);
     }
     return answer == LRCSI_QUERY_VISIBLE ? 1 : answer == LRCSI_QUERY_HIDDEN ? 0 : 0.5;
 }
@@ -164,8 +165,8 @@ lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sample_pool *poo
     return found;
 }
 
-void lrcsi_visible_fraction_apply(const lrcsi_sample_pool *pool, uint32_t facet, double area,
-                                  const lrcsi_visible_fraction *found, lrcsi_visible *visible)
+void lrcsi_visible_fraction_apply(lrcsi_sample_pool *pool, uint32_t facet, double area,
+                                  const lrcsi_visible_fraction *found, lrcsi_visible_area *visible)
 {
     double pixel = pool->raster->pixel * pool->raster->pixel;
     double target = area * found->fraction;
@@ -175,7 +176,8 @@ void lrcsi_visible_fraction_apply(const lrcsi_sample_pool *pool, uint32_t facet,
     }
     visible->area = lrcsi_min(visible->high, lrcsi_max(visible->low, target));
     if (found->pooled) {
-        lrcsi_component_sum *component = &pool->sum[pool->known->classification->component[facet]];
+        lrcsi_component_sum *component =
+            &pool->sum[pool->decisions->classification->component[facet]];
         component->owned += pool->raster->owned[facet];
         component->covered += pool->raster->covered[facet];
         component->area += area;
@@ -187,7 +189,7 @@ void lrcsi_visible_fraction_apply(const lrcsi_sample_pool *pool, uint32_t facet,
 
 /* The area of a facet after the difference between the samples of its component and the areas so
    far has been distributed, in proportion to the distance of each area from its bound. */
-static double area_corrected(const lrcsi_component_sum *component, const lrcsi_visible *v)
+static double area_corrected(const lrcsi_component_sum *component, const lrcsi_visible_area *v)
 {
     double missing = component->area * component->owned / component->covered - component->applied;
     double room =
@@ -196,14 +198,14 @@ static double area_corrected(const lrcsi_component_sum *component, const lrcsi_v
     return v->area + part * ((missing > 0 ? v->high : v->low) - v->area);
 }
 
-void lrcsi_visible_fraction_correct(const lrcsi_sample_pool *pool, lrcsi_visible *visible)
+void lrcsi_visible_fraction_correct(const lrcsi_sample_pool *pool, lrcsi_visible_area *visible)
 {
-    const lrcsi_classification *classification = pool->known->classification;
+    const lrcsi_classification *classification = pool->decisions->classification;
     const unsigned char *undecided = classification->undecided;
     const uint32_t facets = classification->view->prepared->scene->facet_count;
-    for (uint32_t f = 0; (f = lrcsi_query_next(undecided, f, facets, 1)) < facets; f++) {
+    for (uint32_t f = 0; (f = lrcsi_marks_next(undecided, f, facets, 1)) < facets; f++) {
         const lrcsi_component_sum *component = &pool->sum[classification->component[f]];
-        lrcsi_visible *v = &visible[f];
+        lrcsi_visible_area *v = &visible[f];
         double samples[2];
         if (component->covered > 0 && v->high > v->low &&
             pooled_samples(pool, f, longest_in_pixels(pool->raster, f), &samples[0], &samples[1])) {

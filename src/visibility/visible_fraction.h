@@ -3,6 +3,7 @@
 #ifndef LRCSI_VISIBLE_FRACTION_H
 #define LRCSI_VISIBLE_FRACTION_H
 
+#include "visibility/decisions.h"
 #include "visibility/raster.h"
 #include "visibility/visible_area.h"
 
@@ -14,7 +15,7 @@ typedef struct lrcsi_component_sum {
 
 /* The data that the facets of one raster share. */
 typedef struct lrcsi_sample_pool {
-    const lrcsi_known *known;
+    const lrcsi_decisions *decisions;
     const lrcsi_raster *raster;
     lrcsi_component_sum *sum; /* by component */
 } lrcsi_sample_pool;
@@ -29,7 +30,7 @@ typedef struct lrcsi_visible_fraction {
 size_t lrcsi_visible_fraction_need(const lrcs_prepared *prepared);
 
 /* Status: LRCS_OK; LRCS_E_MEMORY. What it takes stays in the work area. */
-int lrcsi_visible_fraction_make(const lrcsi_known *known, const lrcsi_raster *raster,
+int lrcsi_visible_fraction_make(const lrcsi_decisions *decisions, const lrcsi_raster *raster,
                                 lrcs_work *work, lrcsi_sample_pool *pool);
 
 /* Finds the visible fraction of an undecided facet. */
@@ -37,11 +38,11 @@ lrcsi_visible_fraction lrcsi_visible_fraction_facet(const lrcsi_sample_pool *poo
 
 /* Sets visible->area from the fraction found, within visible->low and visible->high.
    Given: area, the projected area of the facet. */
-void lrcsi_visible_fraction_apply(const lrcsi_sample_pool *pool, uint32_t facet, double area,
-                                  const lrcsi_visible_fraction *found, lrcsi_visible *visible);
+void lrcsi_visible_fraction_apply(lrcsi_sample_pool *pool, uint32_t facet, double area,
+                                  const lrcsi_visible_fraction *found, lrcsi_visible_area *visible);
 
 /* Distributes area that the bounds cut off over the other facets of the component. Called once,
    after lrcsi_visible_fraction_apply for all undecided facets. */
-void lrcsi_visible_fraction_correct(const lrcsi_sample_pool *pool, lrcsi_visible *visible);
+void lrcsi_visible_fraction_correct(const lrcsi_sample_pool *pool, lrcsi_visible_area *visible);
 
 #endif

@@ -87,6 +87,7 @@ near block_to_paste_makes_a_scene "$(value sigma_m2)" 3.27656091132
 brdf 0 0.3 1 0.2 0 75 5 | awk '{ srand(NR); print $1, $2 + 0.002 * (rand() - 0.5) }' >lambert.txt
 run fit lambert.txt
 same no_glint_exits_3 "$rc" 3
+same and_says_why "$(printf '%s\n' "$err" | grep -c '^lrcs: .*: the readings leave [1-4] of four parameters undetermined$')" 1
 same no_glint_is_said "$(printf '%s\n' "$out" | grep -c '^A may be 0: no glint is needed')" 1
 same no_slope_is_said "$(printf '%s\n' "$out" | grep -c '^s not determined: there may be no glint')" 1
 same no_glint_in_the_material "$(printf '%s\n' "$out" | grep -e '^--material' | grep -c '=0,0.[0-9+.-]*,0,0.[0-9]*')" 1

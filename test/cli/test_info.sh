@@ -74,4 +74,15 @@ if [ -d "$models" ]; then
 else
     echo "# $models is not there: its models are not tried"
 fi
+# A hexagonal prism has faces, whatever its unit: turns of 60 deg are no curved surface.
+{
+    echo 'mtllib none.mtl'
+    for z in 0 3; do printf 'v 1 0 %s\nv 0.5 0.8660254 %s\nv -0.5 0.8660254 %s\nv -1 0 %s\nv -0.5 -0.8660254 %s\nv 0.5 -0.8660254 %s\n' $z $z $z $z $z $z; done
+    echo 's 1'
+    printf 'f 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n'
+} >"$scratch/hexagon.obj"
+for unit in m mm in; do
+    run info "$scratch/hexagon.obj" --unit $unit --json
+    same "a_hexagonal_prism_in_${unit}_has_no_curved_part" "$rc $(printf '%s\n' "$out" | grep -c '"turn_estimate_deg"')" "0 0"
+done
 finish

@@ -26,6 +26,7 @@ swept euler pair.toml --euler XYZ:0:90:10,30,0
 swept turn pair.toml --direction 1,1,0 --rotate 1,1,2:0:90:10
 swept sphere pair.toml --sphere 60
 swept joint bus.toml --joint 'bus, and; "x":0:60:5' --vary 'bus, and; "x".size_x:1:2:0.5' --azel 10,20
+same an_axis_is_named_by_its_joint "$(grep -c '>joint of bus, and; [^<]* (deg)<' joint.svg)" 1
 printf 'time,x,y,z\n0,1,0,0\n1,1,1,0\n3,0,1,0.5\n' >track.csv
 run sweep pair.toml --poses track.csv --tolerance 0.01 -o poses.csv --plot poses.svg
 run plot poses.csv -o again.svg

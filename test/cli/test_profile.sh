@@ -37,6 +37,7 @@ usage_error a_width_with_its_unit "--bin: expected a length in m without unit, >
 failure not_a_pulse_over_too_many "pulse of 1e+06 m reaches over more bins" profile demo --bin 1 --pulse-fwhm 1e6
 run profile pair.toml --azel 50,40 --bin 0.1 --tolerance 1e-30 --json
 same a_tolerance_given_and_missed_is_exit_3 "$rc $(printf '%s\n' "$out" | grep -c '"met": false')" "3 1"
+same and_the_reason_is_said "$(printf '%s\n' "$err" | grep -c '^lrcs: the tolerance .* is missed$')" 1
 run profile demo --azel 50,40 --bin 0.1 --json
 same no_tolerance_no_judgement "$rc $(printf '%s\n' "$out" | grep -c '"asked": null')" "0 1"
 

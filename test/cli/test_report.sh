@@ -52,10 +52,19 @@ deviation=$("$tool" run box.toml --azel 10,50 --material 1,0.25+-0.05,0.2,0.5 --
 same errors_of_materials_stand_beside_sigma "$rc $(grep -c 'stated errors of materials leave it uncertain by <b>' error.html) $(grep -c "<data id=\"material_deviation_m2\" value=\"$deviation\">" error.html)" "0 1 1"
 same without_errors_nothing_is_said_of_them "$(grep -c 'stated errors of materials\|material_deviation' page.html)" 0
 run report plates.toml $quick --method zbuffer --resolution 16 -o - --azel 10,50
-same no_tolerance_is_spoken_of_where_none_is_in_force "$rc $(printf '%s\n' "$out" | grep -c 'the tolerance of')" "0 0"
+same no_tolerance_is_spoken_of_where_none_is_in_force "$rc $(printf '%s\n' "$out" | grep -c 'the tolerance of\|tolerance_not_met')" "0 0"
 run report plates.toml $quick --method zbuffer --resolution 16 --tolerance 1e-9 -o - --azel 10,50
 printf '%s' "$out" >stdout.html
 same a_missed_tolerance_exits_3 "$rc" 3
+
+# The run of a page is that of lrcs run at any tolerance: as many facets, and the same scene.
+# shellcheck disable=SC2086
+run report demo $quick --azel 50,40 -o demo.html
+run run demo --azel 50,40 --json
+total=$(printf '%s\n' "$out" | sed -n 's/.*"facets": {"total": \([0-9]*\),.*/\1/p')
+same facets_and_scene_are_those_of_the_run "$(grep -c "Of $total facets" demo.html) $(grep -c "id=\"scene_hash\">$(value scene_hash | tr -d '"')<" demo.html)" "1 1"
+run info demo --json
+same facets_of_the_model_are_those_of_info "$(grep -c ">Facets, curved shapes divided for a tolerance of 1e-4<.*>$(value facets); the run has $total<" demo.html)" 1
 
 command -v python3 >/dev/null || { skip what_python_reads "no python3"; finish; exit; }
 # The command lines that the page names make the same again.
@@ -139,7 +148,7 @@ check("method_and_scene_are_those_of_the_run", root.find(".//*[@id='method']").t
 check("every_effect_has_its_reason", all(e["name"].replace("_", " ") in text and e["reason"] in text for e in run["effects"]))
 clean = lambda t: t.replace("\uffff", "\ufffd").replace("\x07", "\ufffd")
 check("notices_are_there", all(" ".join(clean(n).split()) in text for n in run["notices"] + info["notices"]
-      if n in run["notices"] or "have no material bound" not in n))  # info's shapes are finer
+      if n in run["notices"] or "have no material assigned" not in n))  # info's shapes are finer
 def rows(label): return [[(c, "".join(c.itertext())) for c in r] for r in root.find(".//%sdiv[@aria-label='%s']//%stbody" % (H, label, H))]
 for key, label in (("parts", "Shares of parts"), ("materials", "Shares of materials")):
     want = [(clean(s["name"]) or ("(default)" if key == "materials" else "(no name)"), s["sigma_m2"]) for s in run["shares"][key] if s["sigma_m2"] > 0]

@@ -103,7 +103,7 @@ async function use(frame) {
   page.getElementById("brightest").click(); await frames()
   log.push({name: "brightest", ...state(page), ...pictures(view, page)})
   const map = page.getElementById("map"), box = map.getBoundingClientRect()
-  const at = {clientX: box.left + 44 + (box.width - 64) * 0.25, clientY: box.top + 8 + (box.height - 70) * 0.5}
+  const at = {clientX: box.left + 60 + (box.width - 80) * 0.25, clientY: box.top + 8 + (box.height - 90) * 0.5}
   map.setPointerCapture = () => {}
   map.dispatchEvent(new view.PointerEvent("pointerdown", {...at, buttons: 1, pointerId: 1, bubbles: true})); await frames()
   log.push({name: "click", ...state(page), ...pictures(view, page)})

@@ -41,6 +41,7 @@ same length_of_a_direction_does_not_matter "$(sigma_of --direction 0,0,8)" "$z"
 same negative_numbers_are_values "$(sigma_of --direction -1,0,0)" "$x"
 same negative_numbers_after_equals "$(sigma_of --direction=-2,0,0)" "$x"
 same azel_negative_elevation "$(sigma_of --azel -90,-90)" "$z"
+same an_elevation_beyond_90_goes_on_over_the_pole "$(sigma_of --azel 30,100)" "$(sigma_of --azel 210,80)"
 same euler_identity "$(sigma_of --euler XYZ:0,0,0)" "$z"
 same euler_quarter_turn "$(sigma_of --euler YXZ:-90,0,0)" "$x"
 same quaternion_identity "$(sigma_of --quaternion 2,0,0,0)" "$z"
@@ -50,6 +51,7 @@ same seventeen_digits "$(printf '%s' "$x" | grep -cE '^[0-9.]{15,19}$')" 1
 # ---- exit codes ----
 run run "$pair" --tolerance 1e-12 --method zbuffer --resolution 16 --json
 same tolerance_asked_and_not_met_exits_3 "$rc" 3
+same and_says_why "$err" "lrcs: the tolerance 1e-12 is missed"
 same tolerance_says_so "$(value tolerance | grep -c '"met": false')" 1
 run run "$pair" --method zbuffer --resolution 16 --json
 same forced_method_without_a_tolerance_exits_0 "$rc" 0
@@ -132,7 +134,7 @@ same unit_scales_the_model "$(value area_m2)" 4.9999999999999998e-07
 # ---- patience ----
 printf '[[part]]\nname = "ball"\nshape = "sphere"\nradius = 1\nmaterial = "matt"\n[[material]]\nname = "matt"\nA = 0\nB = 0.3\ns = 0.2\nm = 1\n' >ball.toml
 run run ball.toml --tolerance 1e-8 --method facet
-same many_facets_are_announced "$(printf '%s\n' "$err" | grep -c '^lrcs: [0-9]* facets for a tolerance of 1e-08: .* takes a while$')" 1
+same many_facets_are_announced "$(printf '%s\n' "$err" | grep -c '^notice: [0-9]* facets for a tolerance of 1e-08: .* takes a while$')" 1
 run run ball.toml --tolerance 1e-1
 same few_are_not "$(printf '%s\n' "$err" | grep -c 'takes a while')" 0
 

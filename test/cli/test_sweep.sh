@@ -53,6 +53,7 @@ done
 # v_obs = R v_body: a turn of the body about x is the first Euler angle of XYZ.
 alike rotate_about_x_is_an_euler_angle 'sweep pair.toml --rotate x:0:90:30 | column 3,5' 'sweep pair.toml --euler XYZ:0:90:30,0,0 | column 5,7'
 alike rotate_about_a_vector 'sweep pair.toml --rotate 0,0,2:0:90:30 --azel 10,20 | column 3' 'sweep pair.toml --rotate z:0:90:30 --azel 10,20 | column 3'
+alike an_elevation_beyond_90_goes_on_over_the_pole 'sweep box.toml --az 30 --el 100 | column 4' 'sweep box.toml --az 210 --el 80 | column 4'
 # The laser at azimuth 0, the body turned by +30 deg about z: the body sees it at azimuth -30.
 alike a_turn_about_z_moves_the_laser_back 'sweep box.toml --rotate z:30 --azel 0,0 | column 3 | cut -c1-12' 'sweep box.toml --az -30 --el 0 | column 4 | cut -c1-12'
 
@@ -149,8 +150,8 @@ usage_error two_poses_to_turn_from "--direction and --azel both" sweep demo --ro
 usage_error range_without_a_step "A:B:STEP or one number, found '0:10'" sweep demo --az 0:10
 usage_error range_of_four "A:B:STEP" sweep demo --az 0:10:1:1
 usage_error range_of_words "A:B:STEP or one number, found 'north'" sweep demo --az north
-usage_error step_of_zero "STEP does not lead from A to B" sweep demo --az 0:10:0
-usage_error step_the_wrong_way "STEP does not lead from A to B" sweep demo --az 0:10:-1
+usage_error step_of_zero "a STEP that leads from A to B" sweep demo --az 0:10:0
+usage_error step_the_wrong_way "a STEP that leads from A to B" sweep demo --az 0:10:-1
 usage_error too_many_digits "at most 15 are exact" sweep demo --az 0:1:0.12345678901234567
 usage_error too_many_rows "more than 2^53" sweep demo --az 0:100000000:0.000001 --el 0:1000:0.1
 usage_error euler_without_angles "three of XYZ" sweep demo --euler XYZ

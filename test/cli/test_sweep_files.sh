@@ -175,6 +175,34 @@ else
     skip "sigINT_says_how_to_go_on" "no timeout"
 fi
 
+# ---- what is replaced, and what is too large ----
+cp whole.csv there.csv
+# shellcheck disable=SC2086
+run sweep $what -o there.csv
+same what_is_replaced_is_named "$rc $(printf '%s\n' "$err" | grep -c '^notice: there.csv exists, of a sweep of 50 rows, and is replaced when this sweep is complete')" "0 1"
+# shellcheck disable=SC2086
+run sweep $what -o there.csv --resume
+same nothing_is_replaced_by_resume "$rc $(printf '%s\n' "$err" | grep -c 'replaced\|^wrote') $(printf '%s\n' "$err" | grep -c '^notice: there.csv is complete: no row is computed$')" "0 0 1"
+echo hello >there.csv
+# shellcheck disable=SC2086
+run sweep $what -o there.csv
+same so_is_a_file_of_no_sweep "$rc $(printf '%s\n' "$err" | grep -c '^notice: there.csv exists, and is replaced')" "0 1"
+huge='box.toml --az 0:360:0.00001 --el -90:90:0.000001' # 6e15 rows
+# shellcheck disable=SC2086
+failure more_rows_than_the_disk_holds_are_refused "huge.csv: 6480000216000001 rows take at least" sweep $huge -o huge.csv
+# shellcheck disable=SC2086
+failure more_rows_than_memory_holds_are_not_kept "--plot, --stats and --brightest keep 16 bytes of each" sweep $huge --stats
+same nothing_is_left_of_them "$(ls huge.* 2>/dev/null)" ""
+if command -v timeout >/dev/null; then
+    # shellcheck disable=SC2086
+    timeout -s INT 10 "$tool" sweep $huge 2>pace.txt >/dev/null &
+    watched=$!
+    while kill -0 $watched 2>/dev/null && ! grep -q 'notice: .* rows to go take some' pace.txt; do sleep 0.1; done
+    kill -s INT $watched
+    wait $watched
+    same a_long_sweep_says_how_long "$(grep -c '^notice: [0-9]* rows to go take some [0-9]* years at the rate of the first seconds$' pace.txt)" 1
+fi
+
 # ---- two at once ----
 # The second process says who holds the file, and the first one's rows are as if it had been alone.
 long='box.toml --az 0:360:0.01'

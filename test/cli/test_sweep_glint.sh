@@ -35,7 +35,7 @@ done
 same along_a_normal_all_glint_is_in_doubt "$(awk -F, '$1 == 5 || $1 == 15 { d = $9 / (16 * atan2(0, -1) * sin(atan2(0, -1) / 16)) - 1; print d * d < 1e-20, $10 }' rows.csv | tr '\n' ' ')" "1 1 1 1 "
 same between_normals_no_side_shines "$(awk -F, '$1 == 0 || $1 == 10 || $1 == 20 { print $9 < 1e-5, $10 }' rows.csv | tr '\n' ' ')" "1 0 1 0 1 0 "
 dominated=$(awk -F, '/^[0-9]/ && $10 == 1' rows.csv | wc -l | tr -d ' ')
-same the_last_lines_count_these_rows "$(printf '%s\n' "$said" | grep -c "^lrcs: in $dominated of 21 rows the glint of one flat face")" 1
+same the_last_lines_count_these_rows "$(printf '%s\n' "$said" | grep -c "^notice: in $dominated of 21 rows the glint of one flat face")" 1
 for plain in box.toml rough.toml "tube.toml --normals smooth"; do
     # shellcheck disable=SC2086 # options are words
     run sweep $plain --az 0:45:9 --el 0

@@ -26,7 +26,7 @@ usage_error a_map_wants_times_that_ascend "--plot: a map needs poses in the orde
 usage_error not_one_plot_twice "--plot and --plot name the same file" $cut --plot x.svg --plot ./x.svg
 printf 'time,x,y,z\n0,1,0,0\n1,1,1,0\n3,0,1,0.5\n' >track.csv
 ln -s track.csv track.svg
-usage_error not_over_the_poses "--poses and --plot name the same file" sweep box.toml --poses track.csv --plot track.svg
+usage_error not_over_the_poses "--plot track.svg: would overwrite the poses" sweep box.toml --poses track.csv --plot track.svg
 ln -s box.toml box.svg
 usage_error not_over_the_scene "--plot box.svg: would overwrite box.toml" $cut --plot box.svg
 same nothing_was_written "$(ls x.svg 2>/dev/null)" ""

@@ -14,7 +14,7 @@ usage_error verify_takes_no_operand "found 'x'" verify x
 
 usage_error misspelt_option_names_the_nearest "'--dirction'; the nearest is --direction" run demo --dirction 1,0,0
 run run demo --threads 2
-same an_option_like_no_other_suggests_none "$rc $(printf '%s\n' "$err" | sed -n 1p)" "2 lrcs run: unknown option '--threads'"
+same an_option_like_no_other_suggests_none "$rc $(printf '%s\n' "$err" | sed -n 1p)" "2 lrcs: unknown option '--threads'"
 run xyzzy
 same a_command_like_no_other_lists_all "$rc $(printf '%s\n' "$err" | sed -n 1p)" "2 lrcs: unknown command 'xyzzy'; expected one of run, image, profile, info, scene, shape, verify, converge, sweep, merge, plot, report, fit, vectors, compare"
 usage_error shortened_option_names_the_whole "the nearest is --tolerance" run demo --tol=1e-3

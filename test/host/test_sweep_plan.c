@@ -77,8 +77,9 @@ static void faults_begin_with_their_key(void **state)
         const char *key, *text;
         int status;
         const char *says;
-    } bad[] = {{"az", "0:10:-1", LRCS_E_ARGUMENT, "az: STEP does not lead from A to B"},
-               {"el", "0:10:0", LRCS_E_ARGUMENT, "el: STEP does not lead"},
+    } bad[] = {{"az", "0:10:-1", LRCS_E_ARGUMENT,
+                "az: expected A:B:STEP with a STEP that leads from A to B"},
+               {"el", "0:10:0", LRCS_E_ARGUMENT, "el: expected A:B:STEP with a STEP"},
                {"az", "0:10:1:2", LRCS_E_ARGUMENT, "az: expected A:B:STEP or one number"},
                {"az", "0.12345678901234567:1:1", LRCS_E_ARGUMENT, "az: a number has too many"},
                {"euler", "XXZ:0,0,0", LRCS_E_ARGUMENT, "euler: expected"},

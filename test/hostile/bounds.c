@@ -284,7 +284,7 @@ static void run_profile(const hostile_case *c, unsigned number, int sided,
 /* Does the truth lie between the bounds of a facet's area, but for the error of its projected area?
  */
 static void check_bounds(const hostile_case *c, const lrcsi_view *view, uint32_t facet,
-                         const lrcsi_visible *area, int together)
+                         const lrcsi_visible_area *area, int together)
 {
     lrcsi_incidence incidence = lrcsi_view_incidence(view, facet);
     double truth = (double)(c->share[facet] * incidence.projected);
@@ -304,7 +304,7 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
 {
     static unsigned char wanted[MOST];
     static unsigned char decided[MOST];
-    static lrcsi_visible together[MOST];
+    static lrcsi_visible_area together[MOST];
     lrcsi_view view;
     lrcsi_classification classification;
     lrcsi_occlusion o;
@@ -319,7 +319,7 @@ static void run_areas(const hostile_case *c, const lrcs_prepared *prepared, cons
         wanted[f] = lrcsi_view_casts(&view, f) != 0;
         if (wanted[f]) {
             lrcsi_occlude_open(&o, f);
-            lrcsi_visible alone = lrcsi_occlude_area(&o);
+            lrcsi_visible_area alone = lrcsi_occlude_area(&o);
             check_bounds(c, &view, f, &alone, 0);
         }
     }

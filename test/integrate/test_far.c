@@ -151,7 +151,7 @@ static void a_mast_neither_slows_nor_blurs_the_rest(void **state)
         }
         check_most(r[1].bound_m2, 8 * r[0].bound_m2);
         /* the box of each side of it that is seen may hold all that the grid lists */
-        double lists = 4.0 * LRCSI_GRID_FACET_CELLS * scene.scene.facet_count;
+        double lists = 4.0 * LRCSI_GRID_FACET_BUCKETS * scene.scene.facet_count;
         check_most((double)r[1].steps, 1.5 * (double)r[0].steps + lists);
     }
 }

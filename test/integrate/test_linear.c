@@ -45,7 +45,7 @@ static void scene_make(const lrcs_shape *shape, double division, const lrcs_brdf
     lrcs_build_options options = lrcs_build_options_default();
     lrcs_run_options run = lrcs_run_options_default();
     const lrcs_prepared *prepared;
-    lrcsi_clear clear;
+    lrcsi_clear_shapes clear;
     lrcs_pose pose;
     options.tolerance = division;
     lrcs_work work = lrcs_work_make(memory, sizeof memory);

@@ -49,7 +49,7 @@ static void scene_make(const lrcs_shape *shape, const lrcs_place *place, const l
     lrcs_build_options options = lrcs_build_options_default();
     lrcs_run_options run = lrcs_run_options_default();
     const lrcs_prepared *prepared;
-    lrcsi_clear clear;
+    lrcsi_clear_shapes clear;
     lrcs_pose pose;
     s->place = *place;
     options.tolerance = division;

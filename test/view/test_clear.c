@@ -63,7 +63,7 @@ static int clear_run(const clear_case *c, const double R[3][3], double shift)
         pair_prepare(c->first, c->other, c->at, R, shift, &scene, &work);
     lrcs_pose pose;
     lrcsi_view view;
-    lrcsi_clear clear;
+    lrcsi_clear_shapes clear;
     double d[3];
     for (int k = 0; k < 3; k++) {
         d[k] = R[k][0] * c->direction[0] + R[k][1] * c->direction[1] + R[k][2] * c->direction[2];
@@ -125,7 +125,7 @@ static void clear_of(const lrcs_recipe *recipe, const lrcs_mesh *models, const d
     lrcs_scene scene;
     lrcs_pose pose;
     lrcsi_view view;
-    lrcsi_clear found;
+    lrcsi_clear_shapes found;
     assert_int_equal(lrcs_scene_build(recipe, models, &build, &work, &scene, NULL), LRCS_OK);
     work = lrcs_work_make(run_area, sizeof run_area);
     assert_int_equal(lrcs_prepare_run(&scene, &work, &prepared), LRCS_OK);

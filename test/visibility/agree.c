@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Compares three methods: cells of the view plane for all facets together (visibility/cells.h),
-   cells of each facet alone (visibility/cells_single.h), and the clipping that both replaced
+   cells of each facet alone (visibility/facet_cells.h), and the clipping that both replaced
    (test/visibility/reference). For each given model or scene and the given number of directions, it
    tests whether the bounds of all facets overlap, and prints the cost of each method. The exit
    status is 1 if some bounds do not overlap.
@@ -15,7 +15,7 @@
 
 #include "base/work.h"
 #include "visibility/cells.h"
-#include "visibility/cells_single.h"
+#include "visibility/facet_cells.h"
 #include "visibility/reference/occlude.h"
 
 #define MEMORY ((size_t)1 << 30)
@@ -72,7 +72,7 @@ static void must(int status)
 }
 
 static void agree_facet(agree_way *way, int number, uint32_t facet, double projected,
-                        const lrcsi_visible *found, const lrcsi_visible *clipped)
+                        const lrcsi_visible_area *found, const lrcsi_visible_area *clipped)
 {
     double gap = fmax(found->low - clipped->high, clipped->low - found->high);
     way->compared++;
@@ -88,13 +88,13 @@ static void agree_facet(agree_way *way, int number, uint32_t facet, double proje
 
 /* One direction: all facets that can be visible, together; then each undecided facet alone. */
 static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *work,
-                       unsigned char *wanted, unsigned char *decided, lrcsi_visible *found,
+                       unsigned char *wanted, unsigned char *decided, lrcsi_visible_area *found,
                        agree_sums *sums)
 {
     lrcsi_view view;
     lrcsi_classification classification;
     ref_occluding o;
-    lrcsi_cells_single a;
+    lrcsi_facet_cells a;
     uint32_t count = prepared->scene->facet_count;
     lrcs_pose pose = pose_of(number);
     work->used = 0;
@@ -107,7 +107,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
     lrcsi_cells_areas(&classification, NULL, work, NULL, wanted, decided, found, NULL);
     sums->together.ms += now_ms() - start;
     must(ref_occlude_make(&classification, work, &o));
-    must(lrcsi_cells_single_make(&classification, NULL, &o.cover.facets, work, &a));
+    must(lrcsi_facet_cells_make(&classification, NULL, &o.cover.facets, work, &a));
     for (uint32_t f = 0; f < count; f++) {
         if (!lrcsi_view_casts(&view, f)) {
             continue;
@@ -115,7 +115,7 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
         double projected = lrcsi_view_projected(&view, f);
         start = now_ms();
         must(ref_occlude_open(&o, f));
-        lrcsi_visible clipped = ref_occlude_area(&o);
+        lrcsi_visible_area clipped = ref_occlude_area(&o);
         sums->ms += now_ms() - start;
         int found_together = !wanted[f] || decided[f];
         sums->together.undecided += !found_together;
@@ -124,10 +124,10 @@ static void agree_pose(const lrcs_prepared *prepared, int number, lrcs_work *wor
         }
         if (classification.undecided[f]) {
             start = now_ms();
-            lrcsi_cells_single_open(&a, f);
-            while (lrcsi_cells_single_next(&a)) {
+            lrcsi_facet_cells_open(&a, f);
+            while (lrcsi_facet_cells_next(&a)) {
             }
-            lrcsi_visible one = lrcsi_cells_single_close(&a);
+            lrcsi_visible_area one = lrcsi_facet_cells_close(&a);
             sums->alone.ms += now_ms() - start;
             sums->alone.undecided += a.perhaps_hidden + a.perhaps_visible > 0;
             agree_facet(&sums->alone, number, f, projected, &one, &clipped);
@@ -164,7 +164,7 @@ int main(int argc, char **argv)
         uint32_t count = scene.prepared->scene->facet_count;
         unsigned char *wanted = malloc(count);
         unsigned char *decided = malloc(count);
-        lrcsi_visible *found = malloc(count * sizeof *found);
+        lrcsi_visible_area *found = malloc(count * sizeof *found);
         if (!wanted || !decided || !found) {
             return 2;
         }

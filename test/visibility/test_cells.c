@@ -12,7 +12,7 @@ static test_scene scene;
 static lrcs_work work;
 static lrcsi_view view;
 static lrcsi_classification classification;
-static lrcsi_visible found[SCENE_FACETS];
+static lrcsi_visible_area found[SCENE_FACETS];
 static lrcsi_moment moment[SCENE_FACETS];
 static unsigned char wanted[SCENE_FACETS];
 static unsigned char finished[SCENE_FACETS]; /* its area was found */
@@ -63,7 +63,7 @@ static void add_piece(const lrcsi_clip_polygon *piece, const double about[2], do
 static uint32_t moments_known; /* components, of facets that are undecided */
 
 /* The visible area of a facet by its pieces; its moment by them, by clipping and by cells agree. */
-static lrcsi_visible clip_with_moment(lrcsi_occlusion *o, uint32_t f)
+static lrcsi_visible_area clip_with_moment(lrcsi_occlusion *o, uint32_t f)
 {
     double first[2] = {0, 0};
     lrcsi_occlude_open(o, f);
@@ -74,7 +74,7 @@ static lrcsi_visible clip_with_moment(lrcsi_occlusion *o, uint32_t f)
                                   (corner[0][1] + corner[1][1] + corner[2][1]) / 3};
         add_piece(&o->single.piece, centre, first);
     }
-    lrcsi_visible clipped = lrcsi_occlude_close(o);
+    lrcsi_visible_area clipped = lrcsi_occlude_close(o);
     const lrcsi_moment *by_pieces = &o->single.moment;
     double size = o->single.target.diameter;
     double rounding = 1e-14 * size * size * size;
@@ -105,7 +105,7 @@ static uint32_t agree(const double direction[3])
         if (!lrcsi_view_casts(&view, f)) {
             continue;
         }
-        lrcsi_visible clipped = clip_with_moment(&o, f);
+        lrcsi_visible_area clipped = clip_with_moment(&o, f);
         if (!open[f]) {
             double told = 1e-12 * lrcsi_view_projected(&view, f) + 1e-15 * extent * extent;
             check_most(found[f].high - found[f].area, told * (1 + 1e-9));
@@ -536,7 +536,7 @@ static void steps_that_run_out_leave_facets_open(void **state)
 static void memory_that_does_not_suffice_leaves_all_open(void **state)
 {
     (void)state;
-    static lrcsi_visible ample[SCENE_FACETS];
+    static lrcsi_visible_area ample[SCENE_FACETS];
     uint32_t left;
     hatch(30);
     turned((const double[3]){0, 0, 1});
@@ -592,7 +592,7 @@ static void hidden_facets_are_left_out_and_change_nothing(void **state)
                 (const double[3]){0, 2.2, 0});
     turned((const double[3]){0.05, 0.1, 1});
     static unsigned char answer[SCENE_FACETS];
-    static lrcsi_visible listed[SCENE_FACETS];
+    static lrcsi_visible_area listed[SCENE_FACETS];
     lrcsi_grid facets;
     assert_int_equal(lrcsi_query_uniform(&classification, NULL, &work, &facets, answer), LRCS_OK);
     uint32_t left;

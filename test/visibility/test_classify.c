@@ -12,7 +12,7 @@ static lrcs_work work;
 static lrcsi_view view;
 static lrcsi_classification classification;
 static lrcsi_crossings crossings;
-static uint32_t region_of[SCENE_FACETS + LRCSI_RUN];
+static uint32_t region_of[SCENE_FACETS + LRCSI_MESHLET_FACETS];
 static lrcsi_grid facets;
 
 static void look_from(double x, double y, double z)
@@ -224,8 +224,9 @@ static void check_joins(void)
     }
 }
 
-/* Runs whose facets all face alike are joined at once; spheres and boxes have such runs and others,
-   in file order and shuffled, with the winding of some facets reversed, and with open edges. */
+/* Meshlets whose facets all face alike are joined at once; spheres and boxes have such meshlets and
+   others, in file order and shuffled, with the winding of some facets reversed, and with open
+   edges. */
 static void components_and_regions_are_joined_across_every_edge(void **state)
 {
     (void)state;
@@ -373,8 +374,8 @@ static void whole_components_screen_and_others_do_not(void **state)
 
 static int listed(const lrcsi_grid *grid, const double xy[2], uint32_t item)
 {
-    uint32_t x = lrcsi_grid_cell(grid, xy[0] * view.scale, 0);
-    uint32_t y = lrcsi_grid_cell(grid, xy[1] * view.scale, 1);
+    uint32_t x = lrcsi_grid_bucket(grid, xy[0] * view.scale, 0);
+    uint32_t y = lrcsi_grid_bucket(grid, xy[1] * view.scale, 1);
     size_t cell = (size_t)y * grid->size + x;
     for (uint32_t i = grid->first[cell]; i < grid->first[cell + 1]; i++) {
         if (grid->item[i] == item) {
@@ -437,8 +438,9 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
 {
     (void)state;
     static unsigned char reads[SCENE_FACETS];
-    static uint32_t region[SCENE_FACETS];                  /* no facet is the first of its region */
-    static signed char joinable[SCENE_FACETS + LRCSI_RUN]; /* no run is of one region */
+    static uint32_t region[SCENE_FACETS]; /* no facet is the first of its region */
+    static signed char
+        joinable[SCENE_FACETS + LRCSI_MESHLET_FACETS]; /* no meshlet is of one region */
     scene_start(&scene);
     scene_sphere(&scene, (const double[3]){0, 0, 0}, 1, 20);
     scene_box(&scene, (const double[3]){-3, -0.1, -0.1}, (const double[3]){3, 0.1, 0.2});
@@ -459,7 +461,7 @@ static void grids_have_complete_lists_where_they_are_read(void **state)
         for (uint32_t f = 0; f < scene.scene.facet_count; f += every) {
             lrcsi_grid_rect at =
                 lrcsi_view_casts(&view, f)
-                    ? lrcsi_grid_cells(&some, lrcsi_boxes_facet(&classification.search.boxes, f))
+                    ? lrcsi_grid_buckets(&some, lrcsi_boxes_facet(&classification.search.boxes, f))
                     : (lrcsi_grid_rect){0};
             for (uint32_t y = at.y0; y < at.y1; y++) {
                 for (uint32_t x = at.x0; x < at.x1; x++) {

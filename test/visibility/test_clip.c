@@ -44,7 +44,7 @@ static void a_line_splits_what_it_crosses(void **state)
 static void both_parts_have_the_corners_of_the_cut(void **state)
 {
     (void)state;
-    enum { SIDES = LRCSI_CLIP_SIDES - 2 };
+    enum { SIDES = LRCSI_CLIP_MAX_SIDES - 2 };
     lrcsi_clip_polygon round = {.count = SIDES};
     lrcsi_clip_polygon left;
     lrcsi_clip_polygon right;
@@ -136,7 +136,7 @@ static void a_shape_with_too_many_crossings_is_refused(void **state)
         double guard[2];
     } s;
     const double line[3] = {0, 1, 0};
-    for (uint32_t count = 3; count <= LRCSI_CLIP_SIDES; count++) {
+    for (uint32_t count = 3; count <= LRCSI_CLIP_MAX_SIDES; count++) {
         s.shape.count = count;
         s.guard[0] = s.guard[1] = 7;
         for (uint32_t i = 0; i < count; i++) {

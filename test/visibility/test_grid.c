@@ -1,33 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Grids list what stands in a cell, and never more than they have asked memory for: whatever the
+/* Grids list what stands in a bucket, and never more than they have asked memory for: whatever the
    size of the facets, in every number of bytes. */
 #include "visibility/grid.h"
 
-#include "scenes.h"
 #include "visibility/classify.h"
+#include "visibility/stacked.h"
 
-static test_scene scene;
 static unsigned char little[1u << 20];
-static uint64_t seed;
-
-/* Exact in binary: from 0 to `most`. */
-static double random_to(double most)
-{
-    return most * random_below(&seed, 4096) / 4096;
-}
-
-/* Triangles one above the other that all reach over half of the view. */
-static void shards(uint32_t count)
-{
-    scene_start(&scene);
-    seed = count;
-    for (uint32_t i = 0; i < count; i++) {
-        double z = 0x1p-8 * i;
-        scene_triangle(&scene, (const double[3]){random_to(0.25), random_to(0.25), z},
-                       (const double[3]){2 - random_to(0.25), random_to(0.25), z},
-                       (const double[3]){random_to(0.25), 2 - random_to(0.25), z});
-    }
-}
 
 /* Surface components of 2 n^2 facets that share their corners, one above the other. */
 static void components(uint32_t count, uint32_t n)
@@ -63,16 +42,17 @@ static uint32_t listed(const lrcsi_grid *grid)
     return grid->first[(size_t)grid->size * grid->size];
 }
 
-/* In the cell of a place in the view, counted by hand. */
+/* In the bucket of a place in the view, counted by hand. */
 static int lists(const lrcsi_grid *grid, const double at[2], uint32_t item)
 {
     uint32_t in[2];
     for (int k = 0; k < 2; k++) {
-        double cell = ((float)(at[k] * grid->view->scale) - grid->low[k]) * grid->scale;
-        in[k] = (uint32_t)fmin(fmax(cell, 0), grid->size - 1);
+        double bucket =
+            ((float)(at[k] * grid->view->scale) - grid->low[k]) * grid->buckets_per_unit;
+        in[k] = (uint32_t)fmin(fmax(bucket, 0), grid->size - 1);
     }
-    uint32_t cell = in[1] * grid->size + in[0];
-    for (uint32_t i = grid->first[cell]; i < grid->first[cell + 1]; i++) {
+    uint32_t bucket = in[1] * grid->size + in[0];
+    for (uint32_t i = grid->first[bucket]; i < grid->first[bucket + 1]; i++) {
         if (grid->item[i] == item) {
             return 1;
         }
@@ -96,8 +76,8 @@ static void place_on(const lrcsi_view *view, const uint32_t *vertex, int count, 
     at[1] /= sum;
 }
 
-/* Every facet and event edge is listed wherever it is, every facet's cells are those of its box,
-   and no list is longer than was asked for. Returns the grid's cells along a side. */
+/* Every facet and event edge is listed wherever it is, every facet's buckets are those of its box,
+   and no list is longer than was asked for. Returns the grid's buckets along a side. */
 static uint32_t check_grids(void)
 {
     lrcs_work work;
@@ -109,7 +89,7 @@ static uint32_t check_grids(void)
                                        NULL, &work, &facets),
                      LRCS_OK);
     const lrcs_prepared *p = view.prepared;
-    assert_true(listed(&facets) <= LRCSI_GRID_FACET_CELLS * p->scene->facet_count);
+    assert_true(listed(&facets) <= LRCSI_GRID_FACET_BUCKETS * p->scene->facet_count);
     assert_true(listed(&classification.search.grid) <= 8 * p->topology.edge_count);
     double at[2];
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -130,11 +110,11 @@ static uint32_t check_grids(void)
     return facets.size;
 }
 
-static void what_stands_in_a_cell_is_listed_there_and_not_too_often(void **state)
+static void what_stands_in_a_bucket_is_listed_there_and_not_too_often(void **state)
 {
     (void)state;
     for (uint32_t count = 1; count <= 512; count *= 2) {
-        shards(count);
+        stacked_triangles(count);
         assert_true(check_grids() <= 4); /* or each would be listed more than 16 times */
     }
     for (uint32_t count = 1; count <= 64; count *= 2) {
@@ -143,7 +123,7 @@ static void what_stands_in_a_cell_is_listed_there_and_not_too_often(void **state
     }
 }
 
-static void cells_of_small_facets_are_as_many_as_those(void **state)
+static void buckets_of_small_facets_are_as_many_as_those(void **state)
 {
     (void)state;
     components(1, 32);
@@ -152,12 +132,12 @@ static void cells_of_small_facets_are_as_many_as_those(void **state)
     assert_int_equal(check_grids(), 64);
 }
 
-/* Large triangles in many cells, whose edges alone make them fewer. */
+/* Large triangles in many buckets, whose edges alone make them fewer. */
 static void edges_are_listed_no_more_often_than_asked_for(void **state)
 {
     (void)state;
     lrcs_work work;
-    shards(40);
+    stacked_triangles(40);
     lrcsi_view view = view_of_scene(&work);
     const lrcs_prepared *p = view.prepared;
     uint32_t edge[120];
@@ -183,43 +163,12 @@ static void edges_are_listed_no_more_often_than_asked_for(void **state)
     assert_int_equal(before, 64);
 }
 
-/* The box of a run holds the corners of its facets, from every direction. */
-static void boxes_of_runs_hold_their_facets(void **state)
-{
-    (void)state;
-    lrcs_work work;
-    shards(100);
-    for (int i = 0; i < 50; i++) {
-        lrcs_pose pose;
-        lrcsi_view view;
-        const lrcs_prepared *prepared = scene_prepare(&scene, &work);
-        const double direction[3] = {random_to(2) - 1, i % 5 == 0 ? 0 : random_to(2) - 1, 0.5};
-        assert_int_equal(lrcs_pose_from_direction(direction, &pose), LRCS_OK);
-        assert_int_equal(lrcsi_view_make(prepared, &pose, &work, &view), LRCS_OK);
-        lrcsi_boxes boxes;
-        signed char cast[101];
-        memset(cast, 1, sizeof cast);
-        assert_int_equal(lrcsi_boxes_make(&view, cast, &work, &boxes), LRCS_OK);
-        for (uint32_t f = 0; f < 100; f++) {
-            uint32_t run = f / LRCSI_RUN;
-            assert_true(boxes.state[run] != LRCSI_BOXES_NONE);
-            lrcsi_boxes_open(&boxes, run);
-            assert_int_equal(boxes.state[run], LRCSI_BOXES_FACETS);
-            for (int k = 0; k < 9; k++) {
-                double at = view.scale * view.point[scene.scene.facet[f].corner[k / 3]].x[k % 3];
-                assert_true(boxes.run[run].low[k % 3] <= (float)at);
-                assert_true(boxes.run[run].high[k % 3] >= (float)at);
-            }
-        }
-    }
-}
-
-/* Facets in so many cells make a grid coarser, until they are in 16 each on average. */
+/* Facets in so many buckets make a grid coarser, until they are in 16 each on average. */
 static void grids_are_made_coarser_for_large_facets(void **state)
 {
     (void)state;
     lrcs_work work;
-    shards(40);
+    stacked_triangles(40);
     lrcsi_view view = view_of_scene(&work);
     lrcsi_boxes boxes;
     signed char cast[41];
@@ -228,21 +177,21 @@ static void grids_are_made_coarser_for_large_facets(void **state)
     lrcsi_grid grid = lrcsi_grid_empty(&view, 64 * 64);
     assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 0);
     assert_int_equal(grid.size, 64); /* no facet's box is made */
-    for (uint32_t r = 0; r < view.prepared->runs.count; r++) {
+    for (uint32_t r = 0; r < view.prepared->meshlets.count; r++) {
         lrcsi_boxes_open(&boxes, r);
     }
     assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 1);
     assert_int_equal(lrcsi_grid_fit(&grid, &boxes), 0);
-    uint32_t cells = 0;
+    uint32_t buckets = 0;
     for (uint32_t f = 0; f < 40; f++) {
-        lrcsi_grid_rect at = lrcsi_grid_cells(&grid, lrcsi_boxes_facet(&boxes, f));
-        cells += (uint32_t)(at.x1 - at.x0) * (uint32_t)(at.y1 - at.y0);
+        lrcsi_grid_rect at = lrcsi_grid_buckets(&grid, lrcsi_boxes_facet(&boxes, f));
+        buckets += (uint32_t)(at.x1 - at.x0) * (uint32_t)(at.y1 - at.y0);
     }
-    assert_true(grid.size < 64 && cells <= LRCSI_GRID_FACET_CELLS * 40);
+    assert_true(grid.size < 64 && buckets <= LRCSI_GRID_FACET_BUCKETS * 40);
 }
 
 /* In so many bytes, and unharmed where they are too few. */
-static int facets_in(const lrcsi_classification *classification, const lrcsi_grid_readers *readers,
+static int facets_in(lrcsi_classification *classification, const lrcsi_grid_readers *readers,
                      size_t size)
 {
     lrcsi_grid grid;
@@ -259,12 +208,12 @@ static void grids_of_facets_fit_into_what_they_ask_for(void **state)
     (void)state;
     static unsigned char all[512];
     static uint32_t region[512];
-    static signed char joinable[512 + LRCSI_RUN];
+    static signed char joinable[512 + LRCSI_MESHLET_FACETS];
     memset(all, 1, sizeof all);
     const lrcsi_grid_readers readers = {all, region, joinable};
     for (uint32_t count = 1; count <= 512; count = 3 * count / 2 + 1) {
         lrcs_work work;
-        shards(count);
+        stacked_triangles(count);
         lrcsi_view view = view_of_scene(&work);
         lrcsi_classification classification;
         assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
@@ -284,7 +233,7 @@ static void classifications_fit_into_what_they_ask_for(void **state)
     (void)state;
     for (uint32_t count = 1; count <= 512; count = 3 * count / 2 + 1) {
         lrcs_work work;
-        shards(count);
+        stacked_triangles(count);
         lrcsi_view view = view_of_scene(&work);
         size_t need = lrcsi_classify_need(view.prepared);
         int before = LRCS_E_MEMORY;
@@ -303,10 +252,9 @@ static void classifications_fit_into_what_they_ask_for(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_stands_in_a_cell_is_listed_there_and_not_too_often),
-        cmocka_unit_test(cells_of_small_facets_are_as_many_as_those),
+        cmocka_unit_test(what_stands_in_a_bucket_is_listed_there_and_not_too_often),
+        cmocka_unit_test(buckets_of_small_facets_are_as_many_as_those),
         cmocka_unit_test(edges_are_listed_no_more_often_than_asked_for),
-        cmocka_unit_test(boxes_of_runs_hold_their_facets),
         cmocka_unit_test(grids_are_made_coarser_for_large_facets),
         cmocka_unit_test(grids_of_facets_fit_into_what_they_ask_for),
         cmocka_unit_test(classifications_fit_into_what_they_ask_for),

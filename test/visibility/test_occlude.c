@@ -119,7 +119,7 @@ static double share_left(const double direction[3], double *error)
     assert_int_equal(lrcsi_classify_make(&view, NULL, &work, &classification), LRCS_OK);
     assert_int_equal(lrcsi_occlude_make(&classification, NULL, &work, &o), LRCS_OK);
     lrcsi_occlude_open(&o, 0);
-    lrcsi_visible seen = lrcsi_occlude_area(&o);
+    lrcsi_visible_area seen = lrcsi_occlude_area(&o);
     double whole = lrcsi_view_incidence(&view, 0).projected;
     *error = (seen.high - seen.low) / whole;
     return seen.area / whole;
@@ -332,7 +332,7 @@ static void a_needle_shows_its_share_in_pieces(void **state)
         }
         double off =
             o.single.piece_err + 20 * 0x1p-53 * o.single.target.reach * o.single.target.perimeter;
-        lrcsi_visible seen = lrcsi_occlude_close(&o);
+        lrcsi_visible_area seen = lrcsi_occlude_close(&o);
         check_abs(area, seen.area, off);
         check_most(off, 1e-14);
         assert_true(seen.area > 0);
@@ -371,7 +371,7 @@ static void a_fan_costs_pieces_along_its_rim_only(void **state)
     while (lrcsi_occlude_next(&o)) {
         steps++;
     }
-    lrcsi_visible seen = lrcsi_occlude_close(&o);
+    lrcsi_visible_area seen = lrcsi_occlude_close(&o);
     long double sector = 0.25L * 0.5L * sinl(2 * SCENE_PI / SECTORS);
     long double truth = (8 - SECTORS * sector) / 64; /* scaled by 1/8 */
     check_abs(seen.area, (double)truth, 1e-15);
@@ -385,9 +385,9 @@ static void a_fan_costs_pieces_along_its_rim_only(void **state)
 static void answers_and_areas_tell_what_areas_alone_tell(void **state)
 {
     (void)state;
-    static lrcsi_visible all[SECTORS + 3];
-    static lrcsi_visible some[SECTORS + 3];
-    const lrcsi_visible untouched = {-1, -2, -3, -4, -5};
+    static lrcsi_visible_area all[SECTORS + 3];
+    static lrcsi_visible_area some[SECTORS + 3];
+    const lrcsi_visible_area untouched = {-1, -2, -3, -4, -5};
     const unsigned char *answer;
     uint32_t times[3] = {0, 0, 0};
     fan_over_plate();

@@ -8,7 +8,7 @@
 
 static test_scene scene;
 static lrcs_work work;
-static lrcsi_visible visible[SCENE_FACETS], truth[SCENE_FACETS];
+static lrcsi_visible_area visible[SCENE_FACETS], truth[SCENE_FACETS];
 
 static const double seen_along[][3] = {{0, 0, 1},     {1, 0, 1}, {0.3, -0.4, 0.5},
                                        {-1, -2, 0.1}, {1, 1, 1}, {-0.7, 0.2, -0.9}};
@@ -82,7 +82,7 @@ static void check_shares(const lrcsi_view *view, uint32_t size, unsigned *parted
     }
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
         double area = lrcsi_view_projected(view, f);
-        const lrcsi_visible *v = &visible[f];
+        const lrcsi_visible_area *v = &visible[f];
         if (!lrcsi_view_casts(view, f)) {
             assert_true(v->area == 0 && v->high == 0);
             continue;

@@ -40,17 +40,18 @@ static lrcsi_view seen_from(int i)
 static int undecided_order; /* as the last raster found */
 
 static lrcsi_raster sampled(const lrcsi_view *view, lrcsi_classification *classification,
-                            lrcsi_known *known, lrcsi_visible *visible)
+                            lrcsi_decisions *known, lrcsi_visible_area *visible)
 {
     lrcsi_raster raster;
     assert_int_equal(lrcsi_classify_make(view, NULL, &work, classification), LRCS_OK);
-    assert_int_equal(lrcsi_visible_known(classification, &work, known), LRCS_OK);
-    size_t need = lrcsi_visible_need(view->prepared, N);
+    assert_int_equal(lrcsi_decisions_make(classification, &work, known), LRCS_OK);
+    size_t need = lrcsi_visible_areas_need(view->prepared, N);
     assert_true(work.size - work.used >= need);
     memset(work.bytes + work.used, untouched, need);
     size_t before = work.peak = work.used;
-    assert_int_equal(lrcsi_visible_sampled(known, N, &work, &raster, visible, &undecided_order),
-                     LRCS_OK);
+    assert_int_equal(
+        lrcsi_visible_areas_from_samples(known, N, &work, &raster, visible, &undecided_order),
+        LRCS_OK);
     assert_true(work.peak - before <= need);
     return raster;
 }
@@ -58,14 +59,14 @@ static lrcsi_raster sampled(const lrcsi_view *view, lrcsi_classification *classi
 static void active_tiles_hold_what_the_whole_picture_holds(void **state)
 {
     (void)state;
-    static lrcsi_visible visible[SCENE_FACETS];
+    static lrcsi_visible_area visible[SCENE_FACETS];
     unsigned active = 0;
     unsigned left = 0;
     for (int i = 0; i < 4; i++) {
         crowd();
         lrcsi_view view = seen_from(i);
         lrcsi_classification classification;
-        lrcsi_known known;
+        lrcsi_decisions known;
         lrcsi_raster whole;
         lrcsi_raster raster = sampled(&view, &classification, &known, visible);
         assert_int_equal(lrcsi_raster_make(&view, N, &work, &whole), LRCS_OK);
@@ -105,13 +106,13 @@ static void active_tiles_hold_what_the_whole_picture_holds(void **state)
 static void tiles_about_undecided_facets_are_active(void **state)
 {
     (void)state;
-    static lrcsi_visible visible[SCENE_FACETS];
+    static lrcsi_visible_area visible[SCENE_FACETS];
     unsigned seen = 0;
     for (int i = 0; i < 4; i++) {
         crowd();
         lrcsi_view view = seen_from(i);
         lrcsi_classification classification;
-        lrcsi_known known;
+        lrcsi_decisions known;
         lrcsi_raster raster = sampled(&view, &classification, &known, visible);
         for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
             lrcsi_edge_functions e = lrcsi_raster_edge_functions(&raster, f);
@@ -154,13 +155,13 @@ static void tangle(uint64_t seed)
 static void pixels_covered_by_visible_facets_show_these_in_every_part(void **state)
 {
     (void)state;
-    static lrcsi_visible visible[SCENE_FACETS];
+    static lrcsi_visible_area visible[SCENE_FACETS];
     unsigned full = 0;
     for (int i = 0; i < 4; i++) {
         crowd();
         lrcsi_view view = seen_from(i);
         lrcsi_classification classification;
-        lrcsi_known known;
+        lrcsi_decisions known;
         lrcsi_raster fine;
         lrcsi_raster raster = sampled(&view, &classification, &known, visible);
         assert_int_equal(lrcsi_raster_make(&view, N * FINE, &work, &fine), LRCS_OK);
@@ -182,10 +183,10 @@ static void pixels_covered_by_visible_facets_show_these_in_every_part(void **sta
    of the widths of the bounds, in relation to all that is visible. */
 static double check_bounds(const lrcsi_view *view, uint32_t size, unsigned *parted)
 {
-    static lrcsi_visible visible[SCENE_FACETS];
-    static lrcsi_visible exact[SCENE_FACETS];
+    static lrcsi_visible_area visible[SCENE_FACETS];
+    static lrcsi_visible_area exact[SCENE_FACETS];
     lrcsi_classification classification;
-    lrcsi_known known;
+    lrcsi_decisions known;
     lrcsi_raster raster;
     double width = 0;
     double all = 0;
@@ -193,11 +194,12 @@ static double check_bounds(const lrcsi_view *view, uint32_t size, unsigned *part
     size_t mark = work.used;
     assert_int_equal(lrcsi_occlude_all(&classification, NULL, &work, NULL, exact, NULL), LRCS_OK);
     work.used = mark;
-    assert_int_equal(lrcsi_visible_known(&classification, &work, &known), LRCS_OK);
-    assert_int_equal(lrcsi_visible_sampled(&known, size, &work, &raster, visible, &undecided_order),
-                     LRCS_OK);
+    assert_int_equal(lrcsi_decisions_make(&classification, &work, &known), LRCS_OK);
+    assert_int_equal(
+        lrcsi_visible_areas_from_samples(&known, size, &work, &raster, visible, &undecided_order),
+        LRCS_OK);
     for (uint32_t f = 0; f < scene.scene.facet_count; f++) {
-        const lrcsi_visible *v = &visible[f];
+        const lrcsi_visible_area *v = &visible[f];
         double rounding = 1e-14 * view->side * view->side;
         check_most(v->low, exact[f].high + rounding);
         check_most(exact[f].low, v->high + rounding);
@@ -304,7 +306,7 @@ static void nothing_is_visible_below_the_occluded_height_of_a_pixel(void **state
 static void what_one_of_several_covers_is_hidden_in_mixed_pixels_too(void **state)
 {
     (void)state;
-    static lrcsi_visible visible[SCENE_FACETS];
+    static lrcsi_visible_area visible[SCENE_FACETS];
     scene_start(&scene);
     scene_triangle(&scene, (const double[3]){-8, -4, 1}, (const double[3]){2, -4, 1},
                    (const double[3]){0.5, 8, 1});
@@ -316,7 +318,7 @@ static void what_one_of_several_covers_is_hidden_in_mixed_pixels_too(void **stat
                    (const double[3]){3.75, 0, 4});
     lrcsi_view view = seen_from(0);
     lrcsi_classification classification;
-    lrcsi_known known;
+    lrcsi_decisions known;
     sampled(&view, &classification, &known, visible);
     assert_int_equal(known.answer[hidden], LRCSI_QUERY_UNDECIDED);
     assert_true(visible[hidden].high <= 0);

@@ -47,9 +47,8 @@ static const cli_option compare_options[] = {
 
 /* Reads the options and the two operands, and checks that no output replaces a file that is read.
  */
-static int options_read(compare_job *job, const char **folder)
+static int compare_options_read(compare_job *job, const char **folder)
 {
-    static const char *const option[] = {"json", "junit"};
     const cli_args *args = job->args;
     const char *name[2] = {NULL, NULL};
     int count = 0;
@@ -74,15 +73,10 @@ static int options_read(compare_job *job, const char **folder)
     int code = cli_whole(args, "tier", 1.0, LRCS_HOST_KIT_TIERS, &judgement->tier);
     code = code ? code : cli_whole(args, "pixels", 2.0, PIXELS_MOST, &judgement->pixels);
     code = code ? code : cli_choice(args, "class", "exact, float or raster", &judgement->grade);
-    const char *const input[] = {job->theirs, job->facets};
-    for (int i = 0; i < 4 && code == 0; i++) {
-        const char *path = cli_value(args, option[i % 2]);
-        if (path && input[i / 2] && lrcs_host_output_same(path, input[i / 2])) {
-            code = cli_usage(args->command, "--%s %s: would overwrite what is to be judged",
-                             option[i % 2], path);
-        }
-    }
-    return code;
+    code = code ? code : cli_outputs_spare_input(args, job->theirs, "what is to be judged");
+    return code == 0 && job->facets
+               ? cli_outputs_spare_input(args, job->facets, "what is to be judged")
+               : code;
 }
 
 /* ---- the command ---- */
@@ -126,7 +120,7 @@ static int compare_command(const cli_args *args)
     const char *folder = NULL;
     memset(&job, 0, sizeof job);
     job.args = args;
-    int code = options_read(&job, &folder);
+    int code = compare_options_read(&job, &folder);
     code = code ? code : compare_make(&job, folder);
     const char *json = cli_value(args, "json");
     const char *junit = cli_value(args, "junit");

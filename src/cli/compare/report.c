@@ -131,7 +131,7 @@ static const char *material_of(const lrcs_host_judgement *job, const compare_cas
     return scene->material[scene->facet_material[facet]].name;
 }
 
-static void facets_print(const lrcs_host_judgement *job, const lrcs_host_kit_facets *facets)
+static void facets_table(const lrcs_host_judgement *job, const lrcs_host_kit_facets *facets)
 {
     const char *cosines = lrcs_host_cosines_text(facets);
     printf("facets       of %lu case%s%s\n", (unsigned long)facets->cases, plural(facets->cases),
@@ -219,7 +219,7 @@ void cli_compare_table(const compare_job *asked)
     findings_print(job);
     unexplained_print(job);
     if (asked->facets) {
-        facets_print(job, &job->by_facet);
+        facets_table(job, &job->by_facet);
     }
     if (asked->items) {
         items_print(job, &job->by_item, asked->items);

@@ -78,7 +78,9 @@ static int settings_check(const lrcs_host_convergence *all)
             return cli_fail("%s: the error, %.3g m2, exceeds its bound, %.3g m2", one->name,
                             one->error_m2, one->bound_m2);
         }
-        code = one->flags & LRCS_FLAG_MEMORY_FALLBACK ? CLI_DEGRADED : code;
+        if (one->flags & LRCS_FLAG_MEMORY_FALLBACK) {
+            code = cli_degraded("%s: memory was short: it is coarser than its name", one->name);
+        }
     }
     return code;
 }

@@ -34,7 +34,7 @@ static double end_angle(const fit_material *material, int most)
 }
 
 /* Takes the readings, or their residuals, that are kept or that are excluded. */
-static void points_take(const fit_job *job, int residuals, int outlier, chart_points *points)
+static void fit_points_take(const fit_job *job, int residuals, int outlier, chart_points *points)
 {
     const fit_material *material = &job->material[0];
     points->count = 0;
@@ -120,8 +120,8 @@ static void axis_choose(chart_points points[CHART_SERIES], lrcs_host_chart *char
     }
 }
 
-static int chart_draw(const fit_job *job, int residuals, const char *path,
-                      lrcs_host_series series[CHART_SERIES], chart_points points[CHART_SERIES])
+static int fit_chart_draw(const fit_job *job, int residuals, const char *path,
+                          lrcs_host_series series[CHART_SERIES], chart_points points[CHART_SERIES])
 {
     const fit_material *material = &job->material[0];
     const lrcs_brdf *brdf = &material->fit.brdf;
@@ -182,8 +182,8 @@ int cli_fit_chart(const fit_job *job, int residuals, const char *path)
         for (size_t i = 0; i < CHART_SERIES; i++) {
             points[i] = (chart_points){number + 2 * i * room, number + (2 * i + 1) * room, 0};
         }
-        points_take(job, residuals, 0, &points[CHART_KEPT]);
-        points_take(job, residuals, 1, &points[CHART_OUTLIERS]);
+        fit_points_take(job, residuals, 0, &points[CHART_KEPT]);
+        fit_points_take(job, residuals, 1, &points[CHART_OUTLIERS]);
         for (int k = CHART_FIT; k < CHART_SERIES; k++) {
             static const double line[] = {0.0, 2.0, -2.0};
             static const int parts[] = {3, 1, 2};
@@ -207,7 +207,7 @@ int cli_fit_chart(const fit_job *job, int residuals, const char *path)
                 }
             }
         }
-        code = chart_draw(job, residuals, path, series, points);
+        code = fit_chart_draw(job, residuals, path, series, points);
     }
     free(number);
     free(label);

@@ -78,15 +78,7 @@ static int fit_read(fit_job *job)
         }
         job->options.unit = job->panel / LRCS_PI;
     }
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        const cli_given *given = &args->given[i];
-        if (cli_is_output(args->command, given->name) &&
-            lrcs_host_output_same(given->value, args->operand)) {
-            return cli_usage(args->command, "--%s %s: would overwrite the readings", given->name,
-                             given->value);
-        }
-    }
-    return code;
+    return code ? code : cli_outputs_spare_input(args, args->operand, "the readings");
 }
 
 /* ---- materials ---- */
@@ -230,7 +222,10 @@ static int fit_report(const fit_job *job)
     cli_notices_print(stderr, &job->readings.notices);
     for (uint32_t i = 0; i < job->materials; i++) {
         cli_brdf_warnings_print(job->material[i].name, &job->material[i].fit.brdf);
-        code = cli_fit_undetermined(&job->material[i].fit) ? CLI_DEGRADED : code;
+        int open = cli_fit_undetermined(&job->material[i].fit);
+        code = open > 0 ? cli_degraded("%s: the readings leave %d of four parameters undetermined",
+                                       job->material[i].name, open)
+                        : code;
     }
     if (cli_value(args, "json")) {
         cli_fit_json(job);

@@ -130,7 +130,7 @@ static void table_materials(const lrcs_host_inventory *all, const lrcs_scene *sc
                material->brdf.B, material->brdf.s, material->brdf.m,
                material->brdf_given             ? ""
                : cli_material_guessed(material) ? "  (assumed)"
-                                                : "  (unbound)",
+                                                : "  (unassigned)",
                material->two_sided ? "  two-sided" : "", material->omitted ? "  left out" : "");
     }
 }

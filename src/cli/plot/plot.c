@@ -78,7 +78,7 @@ static void differences_list(const lrcs_host_rows_head *head, const lrcs_host_ro
 }
 
 /* Reports how a file differs from the first. */
-static void differences_say(const plot_job *job, uint32_t k)
+static void differences_print(const plot_job *job, uint32_t k)
 {
     const lrcs_host_rows_head *first = &job->file[0].data.head;
     const lrcs_host_rows_head *other = &job->file[k].data.head;
@@ -121,7 +121,7 @@ static int overlay_check(const plot_job *job)
                            LRCS_HOST_SWEEP_CURVES, (unsigned long long)curves);
 }
 
-static int job_read(plot_job *job)
+static int plot_files_read(plot_job *job)
 {
     const cli_args *args = job->args;
     int code = cli_stats_read(args, &job->stats);
@@ -149,20 +149,13 @@ static int job_read(plot_job *job)
     return code;
 }
 
-static int job_run(plot_job *job)
+static int plot_run(plot_job *job)
 {
     const cli_args *args = job->args;
-    int code = job_read(job);
+    int code = plot_files_read(job);
     cli_watch_end();
-    for (int i = 0; i < args->given_count && code == 0; i++) {
-        const cli_given *given = &args->given[i];
-        int written = cli_is_output(args->command, given->name);
-        for (uint32_t k = 0; k < job->count && written && code == 0; k++) {
-            if (lrcs_host_output_same(given->value, job->file[k].path)) {
-                code = cli_usage(args->command, "%s%s %s: would overwrite what is read",
-                                 cli_dashes(given->name), given->name, given->value);
-            }
-        }
+    for (uint32_t k = 0; k < job->count && code == 0; k++) {
+        code = cli_outputs_spare_input(args, job->file[k].path, "what is read");
     }
     const int plotted = cli_value(args, "o") != NULL;
     if (code == 0 && !plotted && !job->stats) {
@@ -183,7 +176,7 @@ static int job_run(plot_job *job)
         for (uint32_t k = 0; k < job->count && job->count > 1 && code == 0; k++) {
             job->plot[k].name = differ ? job->plot[k].title : cli_base_name(job->file[k].path);
             if (k > 0) {
-                differences_say(job, k);
+                differences_print(job, k);
             }
         }
         code = code ? code : cli_plot_write(args, job->plot, job->count);
@@ -214,8 +207,6 @@ static int table_run(const cli_args *args, const char *path, int kind)
             files++;
         } else if (strcmp(one->name, "o") != 0) {
             return cli_usage(args->command, "--%s is for sweeps: %s is %s", one->name, path, what);
-        } else if (lrcs_host_output_same(one->value, path)) {
-            return cli_usage(args->command, "-o %s: would overwrite what is read", one->value);
         } else {
             outputs++;
         }
@@ -223,8 +214,11 @@ static int table_run(const cli_args *args, const char *path, int kind)
     if (files > 1) {
         return cli_usage(args->command, "%s is %s: these are drawn one by one", path, what);
     }
-    return outputs > 0 ? cli_table_draw(args, path, kind)
-                       : cli_usage(args->command, "nothing to do: give -o OUT.svg");
+    if (outputs == 0) {
+        return cli_usage(args->command, "nothing to do: give -o OUT.svg");
+    }
+    int code = cli_outputs_spare_input(args, path, "what is read");
+    return code ? code : cli_table_draw(args, path, kind);
 }
 
 static int plot_command(const cli_args *args)
@@ -238,9 +232,9 @@ static int plot_command(const cli_args *args)
     }
     size_t room = (size_t)args->given_count + 1;
     plot_job job = {args, 0, calloc(room, sizeof *job.file), calloc(room, sizeof *job.plot), 0};
-    int code = job.file && job.plot ? job_run(&job) : cli_out_of_memory();
+    int code = job.file && job.plot ? plot_run(&job) : cli_out_of_memory();
     if (code == CLI_DONE) {
-        cli_outputs_say(args);
+        cli_outputs_print(args, NULL);
     }
     for (uint32_t k = 0; k < job.count; k++) {
         lrcs_host_sweep_data_free(&job.file[k].data);

@@ -53,7 +53,7 @@ int cli_table_kind(const char *path)
                                                 : TABLE_NONE;
 }
 
-static int job_refuse(const table_job *job, const char *what, lrcs_host_error *error)
+static int table_refuse(const table_job *job, const char *what, lrcs_host_error *error)
 {
     snprintf(error->text, sizeof error->text, "%s: %s", job->path, what);
     return LRCS_E_SYNTAX;
@@ -67,27 +67,27 @@ static int about_of_json(table_job *job, lrcs_host_error *error)
     lrcs_host_file json;
     char *name = cli_beside_name(job->path);
     if (!name) {
-        return job_refuse(job, "out of memory", error);
+        return table_refuse(job, "out of memory", error);
     }
     int status = lrcs_host_file_read(name, &json, error);
     free(name);
     if (status != LRCS_OK) {
-        return job_refuse(job,
-                          "expected its FILE" CLI_BESIDE ", which lrcs converge writes beside "
-                          "it and which states the truth",
-                          error);
+        return table_refuse(job,
+                            "expected its FILE" CLI_BESIDE ", which lrcs converge writes beside "
+                            "it and which states the truth",
+                            error);
     }
     job->text = strndup((const char *)json.bytes, json.size);
     lrcs_host_file_free(&json);
     if (!job->text) {
-        return job_refuse(job, "out of memory", error);
+        return table_refuse(job, "out of memory", error);
     }
     snprintf(
         hash, sizeof hash, "\"hash\": \"fnv1a:%016llx\"",
         (unsigned long long)lrcs_host_hash(LRCS_HOST_HASH_START, job->file.bytes, job->file.size));
     char *at = strstr(job->text, key);
     if (!at || !strstr(job->text, hash)) {
-        return job_refuse(job, "is not the table that its FILE" CLI_BESIDE " describes", error);
+        return table_refuse(job, "is not the table that its FILE" CLI_BESIDE " describes", error);
     }
     job->about = at + strlen(key);
     lrcs_host_json_unquote(job->about);
@@ -129,7 +129,7 @@ static int profile_read(table_job *job, lrcs_host_error *error)
         double value[5] = {0.0}; /* near, far, glint, diffuse, pulse */
         profile_row *grown = realloc(profile->row, (profile->rows + 1) * sizeof *grown);
         if (!grown) {
-            return job_refuse(job, "out of memory", error);
+            return table_refuse(job, "out of memory", error);
         }
         profile->row = grown;
         for (int i = 0; i < 5 && column[i] != LRCS_NONE && status == LRCS_OK; i++) {
@@ -210,7 +210,7 @@ static int converge_row_take(table_job *job, const uint32_t column[ROWS], lrcs_h
     lrcs_host_convergence_setting *setting = &converge->setting[converge->settings];
     double value[ROWS];
     if (converge->settings == LRCS_HOST_CONVERGENCE_SETTINGS) {
-        return job_refuse(job, "has too many rows for lrcs converge", error);
+        return table_refuse(job, "has too many rows for lrcs converge", error);
     }
     int status = setting_name_read(job, column, setting, error);
     for (int i = ROW_RESOLUTION; i < ROWS && status == LRCS_OK; i++) {
@@ -256,7 +256,7 @@ static int converge_read(table_job *job, lrcs_host_error *error)
         (!(truth->sigma_m2 >= 0.0) || !(truth->bound_m2 >= 0.0) ||
          !lrcs_host_key_text(job->about, "direction", text, sizeof text) ||
          lrcs_host_numbers_read(text, converge->pose.direction, 3) != LRCS_OK)) {
-        status = job_refuse(job, "its " CLI_BESIDE " file states no truth or direction", error);
+        status = table_refuse(job, "its " CLI_BESIDE " file states no truth or direction", error);
     }
     while (status == LRCS_OK && (more = lrcs_host_table_read(&job->table, error)) != 0) {
         status = more < 0 ? more : converge_row_take(job, column, error);
@@ -274,7 +274,7 @@ static int table_chart(FILE *out, const void *context, int png, lrcs_host_error 
 }
 
 /* Reads the whole table, from the names of its columns. */
-static int job_read(table_job *job, lrcs_host_error *error)
+static int table_file_read(table_job *job, lrcs_host_error *error)
 {
     int status = lrcs_host_file_read(job->path, &job->file, error);
     if (status != LRCS_OK) {
@@ -284,7 +284,7 @@ static int job_read(table_job *job, lrcs_host_error *error)
         status = about_of_json(job, error);
     } else { /* the first line without "# " */
         job->text = strndup((const char *)job->file.bytes, job->file.size);
-        status = job->text ? LRCS_OK : job_refuse(job, "out of memory", error);
+        status = job->text ? LRCS_OK : table_refuse(job, "out of memory", error);
     }
     if (status != LRCS_OK) {
         return status;
@@ -304,7 +304,7 @@ static int job_read(table_job *job, lrcs_host_error *error)
     lrcs_host_table_names(&job->table);
     status = job->kind == TABLE_CONVERGE ? converge_read(job, error) : profile_read(job, error);
     if (status == LRCS_OK && job->profile.rows + job->converge.all.settings == 0) {
-        return job_refuse(job, "has no rows: nothing to draw", error);
+        return table_refuse(job, "has no rows: nothing to draw", error);
     }
     return status;
 }
@@ -318,10 +318,10 @@ int cli_table_draw(const cli_args *args, const char *path, int kind)
     }
     job->path = path;
     job->kind = kind;
-    int code = job_read(job, &error) == LRCS_OK ? 0 : cli_failed(&error);
+    int code = table_file_read(job, &error) == LRCS_OK ? 0 : cli_failed(&error);
     code = code ? code : cli_charts_write(args, "o", table_chart, job);
     if (code == CLI_DONE) {
-        cli_outputs_say(args);
+        cli_outputs_print(args, NULL);
     }
     free(job->text);
     free(job->profile.row);

@@ -13,8 +13,8 @@
 
 /* The density of each group of bins as two points, and the pulse at its first bin as one. Returns
    the number of groups. */
-static uint32_t points_take(const profile_job *job, uint32_t group, double *x, double *density,
-                            double *middle, double *pulse)
+static uint32_t profile_points_take(const profile_job *job, uint32_t group, double *x,
+                                    double *density, double *middle, double *pulse)
 {
     size_t count = 0;
     for (uint32_t i = 0; i < job->rows; i += group, count++) {
@@ -34,8 +34,8 @@ static uint32_t points_take(const profile_job *job, uint32_t group, double *x, d
     return (uint32_t)count;
 }
 
-static int chart_draw(const profile_job *job, double *number, size_t room, int png, FILE *out,
-                      lrcs_host_error *error)
+static int profile_chart_draw(const profile_job *job, double *number, size_t room, int png,
+                              FILE *out, lrcs_host_error *error)
 {
     uint32_t group = 1 + job->rows / CHART_STEPS;
     const lrcs_profile *p = &job->profile.list;
@@ -51,8 +51,8 @@ static int chart_draw(const profile_job *job, double *number, size_t room, int p
                                    .y = number + 3 * room,
                                    .colour = LRCS_HOST_VERMILION,
                                    .marker = LRCS_HOST_NO_MARKER}};
-    uint32_t groups =
-        points_take(job, group, number, number + room, number + 2 * room, number + 3 * room);
+    uint32_t groups = profile_points_take(job, group, number, number + room, number + 2 * room,
+                                          number + 3 * room);
     series[0].count = 2 * groups;
     series[1].count = job->fwhm_m > 0.0 ? groups : 0;
     if (series[1].count <= CHART_MARKED) {
@@ -88,7 +88,7 @@ int cli_profile_chart(FILE *out, const void *context, int png, lrcs_host_error *
         snprintf(error->text, sizeof error->text, "out of memory");
         return LRCS_E_SYSTEM;
     }
-    int status = chart_draw(job, number, room, png, out, error);
+    int status = profile_chart_draw(job, number, room, png, out, error);
     free(number);
     return status;
 }

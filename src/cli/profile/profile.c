@@ -59,7 +59,7 @@ double cli_profile_sigma(const lrcs_profile_bin *bin)
 
 /* ---- options ---- */
 
-static int options_read(profile_job *job)
+static int profile_options_read(profile_job *job)
 {
     const cli_args *args = job->args;
     lrcs_run_options options = lrcs_run_options_default();
@@ -147,7 +147,7 @@ static int profile_command(const cli_args *args)
     profile_job job;
     memset(&job, 0, sizeof job);
     job.args = args;
-    int code = options_read(&job);
+    int code = profile_options_read(&job);
     cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job.load, &job.scene);
     code = code ? code : cli_outputs_spare(args, &job.scene);
@@ -179,7 +179,9 @@ static int profile_command(const cli_args *args)
             cli_profile_table(&job);
         }
     }
-    code = code == 0 && job.asked > 0.0 && !job.met ? CLI_DEGRADED : code;
+    if (code == 0 && job.asked > 0.0 && !job.met) {
+        code = cli_degraded("the tolerance %g is missed", job.asked);
+    }
     free(about);
     free(job.row);
     lrcs_host_profile_free(&job.profile);

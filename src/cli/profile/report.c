@@ -181,7 +181,7 @@ static void row_print(const profile_job *job, const profile_row *row)
 }
 
 /* Prints all bins, or, if there are many, the strongest, by range. */
-static void rows_print(const profile_job *job)
+static void bins_print(const profile_job *job)
 {
     profile_row *sorted = calloc((size_t)job->rows + 1, sizeof *sorted);
     printf("  %12s %12s %14s %9s %12s%s\n", "from (m)", "to (m)", "sigma (m2)", "bound", "m2 per m",
@@ -259,12 +259,12 @@ void cli_profile_table(const profile_job *job)
     if (job->asked > 0.0) {
         printf("; tolerance %g %s", job->asked, job->met ? "met" : "NOT met");
     }
-    printf("\nrange        m from the body's origin, away from the laser; %lu bins of %g m\n",
-           (unsigned long)p->count, job->bin_m);
+    printf("\nrange        m from the body's origin, away from the laser; %lu bin%s of %g m\n",
+           (unsigned long)p->count, p->count == 1 ? "" : "s", job->bin_m);
     if (job->fwhm_m > 0.0) {
         printf("pulse        Gaussian, %g m wide at half maximum in range\n", job->fwhm_m);
     }
-    rows_print(job);
+    bins_print(job);
     if (job->csv) {
         printf("rows         %s\n", job->csv);
     }

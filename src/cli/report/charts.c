@@ -64,9 +64,9 @@ static void cuts_section(FILE *out, const report_job *job)
                {REPORT_CUT_YZ, "y and z", "the angle is the elevation, from +y over +z"}};
     cli_page_section(out, "cuts", "Cuts through three planes");
     cli_page(out,
-             "<p>Away from the middle \xcf\x83 grows, in dBsm: the numbers stand on the rings. "
-             "The laser goes around the body in steps of %u\xc2\xb0; what is narrower than "
-             "that may stand between them.</p>\n<div class=\"pair\">\n",
+             "<p>The distance from the centre is \xcf\x83 in dBsm, by the numbers on the rings; "
+             "angles are in degrees. The laser circles the body in steps of %u\xc2\xb0: a peak "
+             "that is narrower may be missed.</p>\n<div class=\"pair\">\n",
              job->cut_step);
     for (int i = 0; i < 3; i++) {
         const report_sweep *sweep = &job->sweep[cut[i].kind];
@@ -102,34 +102,31 @@ static void most_cell(FILE *out, const cli_shares *shares, const shares_row *row
     fputs("</td>", out);
 }
 
-static void peak_row(FILE *out, const report_job *job, uint32_t i)
-{
-    const report_sweep *map = &job->sweep[REPORT_MAP];
-    const cli_shares *shares = &job->peak_shares[i];
-    double value[LRCS_HOST_PLAN_COLUMNS];
-    lrcs_host_plan_values(&map->plan, job->peak[i], value);
-    double sigma_m2 = map->row[job->peak[i]][0];
-    fputs("\n<tr>", out);
-    cli_page_cells(out, "%.6g%.6g%.5g%.4g", value[0], value[1], sigma_m2, cli_dbsm(sigma_m2));
-    cli_page(out, "<td class=\"n\">%f</td>", cli_share_of(shares, cli_shares_glint(shares)));
-    most_cell(out, shares, shares->part, shares->parts, "(no name)");
-    most_cell(out, shares, shares->material, shares->materials, "(default)");
-    fputs("</tr>", out);
-}
-
 static void peaks_section(FILE *out, const report_job *job)
 {
+    const report_sweep *map = &job->sweep[REPORT_MAP];
     cli_page_section(out, "peaks", "The brightest directions, and what contributes to them");
     fputs("<p>Peaks of the map: directions that outshine all their neighbours.", out);
-    fputs(job->peaks > 0 ? "</p>\n" : " There are none: nothing returns.</p>\n", out);
-    if (job->peaks > 0) {
-        cli_page_table(out, "Peaks of the map",
-                       "#Az, deg|#El, deg|#\xcf\x83, m\xc2\xb2|#dBsm|#Glint|Parts|Materials");
-        for (uint32_t i = 0; i < job->peaks; i++) {
-            peak_row(out, job, i);
-        }
-        cli_page_table_end(out);
+    if (job->peaks == 0) {
+        fputs(" There are none: nothing returns.</p>\n</section>\n", out);
+        return;
     }
+    fputs("</p>\n", out);
+    cli_page_table(out, "Peaks of the map",
+                   "#Az, deg|#El, deg|#\xcf\x83, m\xc2\xb2|#dBsm|#Glint|Parts|Materials");
+    for (uint32_t i = 0; i < job->peaks; i++) {
+        const cli_shares *shares = &job->peak_shares[i];
+        double value[LRCS_HOST_PLAN_COLUMNS];
+        lrcs_host_plan_values(&map->plan, job->peak[i], value);
+        double sigma_m2 = map->row[job->peak[i]][0];
+        fputs("\n<tr>", out);
+        cli_page_cells(out, "%.6g%.6g%.5g%.4g", value[0], value[1], sigma_m2, cli_dbsm(sigma_m2));
+        cli_page(out, "<td class=\"n\">%f</td>", cli_share_of(shares, cli_shares_glint(shares)));
+        most_cell(out, shares, shares->part, shares->parts, "(no name)");
+        most_cell(out, shares, shares->material, shares->materials, "(default)");
+        fputs("</tr>", out);
+    }
+    cli_page_table_end(out);
     fputs("</section>\n", out);
 }
 

@@ -189,10 +189,10 @@ static void materials_put(FILE *out, const lrcs_scene *scene)
     fputs(scene->material_count > 0 ? "]" : ",\n\"materials\":[]", out);
 }
 
-static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
+static int explore_data_put(FILE *out, const report_job *job, explore_mesh *mesh)
 {
     const report_sweep *map = &job->sweep[REPORT_MAP];
-    const lrcs_scene *scene = &job->scene.scene;
+    const lrcs_scene *scene = &job->run.scene.scene;
     double azel_deg[2];
     double least[3];
     double most[3];
@@ -215,7 +215,7 @@ static int data_put(FILE *out, const report_job *job, explore_mesh *mesh)
         }
     }
     fputs("<script type=\"application/json\" id=\"data\">{", out);
-    cli_pose_azel(&job->pose, azel_deg);
+    cli_pose_azel(&job->run.pose, azel_deg);
     lrcs_host_number_put(out, "\"start\":[", azel_deg[0]);
     lrcs_host_number_put(out, ",", azel_deg[1]);
     lrcs_host_number_put(out, "],\n\"radius\":", radius > 0.0 ? radius : 1.0);
@@ -271,7 +271,7 @@ static void page_notes(FILE *out, const report_job *job, const explore_mesh *mes
             "Dark grey: the back of a surface that reflects from its front only.</p>\n</main>\n"
             "<footer><p>Made by lrcs %s; scene hash <code>%016llx</code>. This page loads "
             "nothing.</p></footer>\n",
-            lrcs_version(), (unsigned long long)lrcs_scene_hash(&job->scene.scene));
+            lrcs_version(), (unsigned long long)lrcs_scene_hash(&job->run.scene.scene));
 }
 
 int cli_report_explore_page(FILE *out, const void *context, lrcs_host_error *error)
@@ -282,7 +282,7 @@ int cli_report_explore_page(FILE *out, const void *context, lrcs_host_error *err
     cli_report_head(out, job, "", ", explorer", explore_policy, explore_style);
     fputs("</header>\n<main>\n", out);
     fwrite(explore_controls, 1, sizeof explore_controls, out);
-    int code = data_put(out, job, &mesh);
+    int code = explore_data_put(out, job, &mesh);
     page_notes(out, job, &mesh);
     fputs("<script>\n", out);
     fwrite(explore_script, 1, sizeof explore_script, out);

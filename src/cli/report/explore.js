@@ -101,6 +101,7 @@
     }
     context.putImageData(picture, 0, 0);
     drawTriad(context, n, x, y, z);
+    drawLength(context, n, scale);
   }
   // The body's axes, the farthest first.
   function drawTriad(context, n, x, y, z) {
@@ -119,8 +120,21 @@
     });
   }
 
+  // A bar of 1, 2 or 5 times a power of ten metres, at most a quarter of the picture.
+  function drawLength(context, n, scale) {
+    const power = Math.pow(10, Math.floor(Math.log10(0.25 * n / scale)));
+    const length = [5, 2, 1].map((k) => k * power).find((l) => l * scale <= 0.25 * n);
+    const right = n - n / 24, left = right - length * scale, y = n - n / 12, tick = n / 80;
+    context.strokeStyle = context.fillStyle = "#fff";
+    context.beginPath();
+    [[left, y - tick], [left, y + tick], [left, y], [right, y], [right, y - tick], [right, y + tick]].forEach((p, i) =>
+      i === 0 ? context.moveTo(...p) : context.lineTo(...p));
+    context.stroke();
+    context.fillText(Number(length.toPrecision(1)) + " m", (left + right) / 2, y + n / 28);
+  }
+
   // ---- the map ----
-  const box = {left: 44, right: 20, top: 8, bottom: 62};
+  const box = {left: 60, right: 20, top: 8, bottom: 82};
   let ground = null;
   function drawGround() {
     ground = document.createElement("canvas");
@@ -153,6 +167,13 @@
     context.textAlign = "right";
     context.textBaseline = "middle";
     for (let e = -90; e <= 90; e += 45) context.fillText(String(e).replace("-", "\u2212") + "\u00b0", box.left - 6, Y(e));
+    context.textAlign = "center";
+    context.fillText("azimuth", box.left + wide / 2, h - box.bottom + 29);
+    context.save();
+    context.translate(9, box.top + high / 2);
+    context.rotate(-Math.PI / 2);
+    context.fillText("elevation", 0, 0);
+    context.restore();
     if (most > -Infinity) drawScale(context, wide, h);
     const x = X(turn(view.az)), y = Y(view.el);
     [["#000", 4], ["#fff", 2]].forEach(([style, width]) => {
@@ -172,9 +193,10 @@
     }
     context.fillStyle = context.strokeStyle;
     context.textBaseline = "top";
-    [["left", least, 0], ["center", (least + most) / 2, 0.5], ["right", most, 1]].forEach(([align, value, t]) => {
+    const shown = (value) => value.toFixed(1).replace("-", "\u2212");
+    [["left", shown(least), 0], ["center", "\u03c3 (dBsm)", 0.5], ["right", shown(most), 1]].forEach(([align, text, t]) => {
       context.textAlign = align;
-      context.fillText(value.toFixed(1).replace("-", "\u2212") + (t === 0.5 ? " dBsm" : ""), box.left + wide * t, h - 19);
+      context.fillText(text, box.left + wide * t, h - 19);
     });
   }
 

@@ -16,19 +16,23 @@ void cli_report_head(FILE *out, const report_job *job, const char *attribute, co
             "<meta name=\"color-scheme\" content=\"light dark\" />\n%s",
             attribute, meta);
     cli_page(out, "<title>%s: laser radar cross-section%s</title>\n<style>\n",
-             cli_report_title(job), more);
+             cli_scene_name(job->args, &job->run.scene), more);
     fwrite(page_style, 1, sizeof page_style, out);
     fputs(style, out);
     cli_page(out,
              "</style>\n</head>\n<body>\n<header>\n"
              "<p class=\"kind\">Laser radar cross-section</p>\n<h1>%s</h1>\n",
-             cli_report_title(job));
+             cli_scene_name(job->args, &job->run.scene));
 }
 
-/* sigma and its accuracy in one sentence. */
-static void lead_sigma(FILE *out, const report_job *job)
+/* sigma and its accuracy, what its materials leave open, where the laser stands, the verdict. */
+static void page_lead(FILE *out, const report_job *job)
 {
-    const lrcs_result *r = &job->result;
+    const lrcs_result *r = &job->run.result;
+    double s_hat[3];
+    double azel_deg[2];
+    cli_pose_unit(&job->run.pose, s_hat);
+    cli_pose_azel(&job->run.pose, azel_deg);
     cli_page(out, "<p class=\"lead\"><b>\xcf\x83 = %.6g m\xc2\xb2</b>", r->sigma_m2);
     if (r->sigma_m2 > 0.0) {
         cli_page(out, " <span>%.6g dBsm</span>", cli_dbsm(r->sigma_m2));
@@ -37,34 +41,23 @@ static void lead_sigma(FILE *out, const report_job *job)
     if (r->sigma_m2 > 0.0) {
         cli_page(out, ", which is %.2e of \xcf\x83", r->bound_m2 / r->sigma_m2);
     }
-    if (!cli_tolerance_judged(job->args, &job->options)) {
-        fputs(".", out);
-        return;
+    if (cli_tolerance_judged(job->args, &job->run.options)) {
+        cli_page(out, "; the tolerance of %.3g", job->run.options.tolerance);
+        fputs(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET ? " is <b>not met</b>"
+              : r->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE
+                  ? " is met by the likely error, <b>an estimate</b>, alone"
+              : r->flags & LRCS_FLAG_ACCEPTED_UNJUDGED
+                  ? " is <b>not judged</b>: any answer was accepted"
+                  : " is met",
+              out);
     }
-    cli_page(out, "; the tolerance of %.3g", job->options.tolerance);
-    fputs(r->flags & LRCS_FLAG_TOLERANCE_NOT_MET ? " is <b>not met</b>."
-          : r->flags & LRCS_FLAG_ACCEPTED_BY_ESTIMATE
-              ? " is met by the likely error, <b>an estimate</b>, alone."
-          : r->flags & LRCS_FLAG_ACCEPTED_UNJUDGED
-              ? " is <b>not judged</b>: any answer was accepted."
-              : " is met.",
-          out);
-}
-
-/* sigma, what its materials leave open, where the laser stands, the verdict. */
-static void page_lead(FILE *out, const report_job *job)
-{
-    double s_hat[3];
-    double azel_deg[2];
-    cli_pose_unit(&job->pose, s_hat);
-    cli_pose_azel(&job->pose, azel_deg);
-    double deviation = job->uncertainty.deviation_m2;
-    lead_sigma(out, job);
-    if (job->uncertainty.stated) {
+    putc('.', out);
+    if (job->run.uncertainty.stated) {
+        double deviation = job->run.uncertainty.deviation_m2;
         cli_page(out, " The stated errors of materials leave it uncertain by <b>%.3g m\xc2\xb2",
                  deviation);
-        if (job->result.sigma_m2 > 0.0) {
-            cli_page(out, ", %.3g %%", 100.0 * deviation / job->result.sigma_m2);
+        if (r->sigma_m2 > 0.0) {
+            cli_page(out, ", %.3g %%", 100.0 * deviation / r->sigma_m2);
         }
         fputs("</b> (one standard deviation).", out);
     }

@@ -23,8 +23,9 @@ static const char report_help[] =
     "  --explore             writes an interactive page instead: the body can be rotated,\n"
     "                        beside a map of sigma. It holds its script, and loads nothing. A\n"
     "                        body of more than 20000 facets is drawn simplified\n"
-    "  --seconds S           approximate time for cuts, map and comparison (default 40): it\n"
-    "                        decides their steps, and is exceeded if a pose takes seconds\n"
+    "  --seconds S           approximate time, by the clock, for cuts, map and comparison\n"
+    "                        (default 40): it decides their steps, and is exceeded if a pose\n"
+    "                        takes seconds\n"
     "  --cut-step DEG        step of the cuts, a divisor of 90 (default: as the time allows)\n"
     "  --map-step DEG        step of the map, likewise\n"
     "  --jobs N              number of threads for cuts and map (default: one for each\n"
@@ -71,8 +72,8 @@ static int report_read(report_job *job)
         !cli_extension(job->path, ".htm")) {
         return cli_expected(args, "o", "FILE.html");
     }
-    int code = cli_pose_read(args, &job->pose);
-    code = code ? code : cli_accuracy_read(args, &job->options);
+    int code = cli_pose_read(args, &job->run.pose);
+    code = code ? code : cli_accuracy_read(args, &job->run.options);
     code = code ? code : cli_positive(args, "seconds", "a time > 0", &job->seconds);
     if (code == 0 && cli_value(args, "explore") && cli_value(args, "cut-step")) {
         return cli_usage(args->command, "--cut-step: there are no cuts with --explore");
@@ -80,13 +81,14 @@ static int report_read(report_job *job)
     code = code ? code : step_read(args, "cut-step", &job->cut_step);
     code = code ? code : step_read(args, "map-step", &job->map_step);
     code = code ? code : cli_whole(args, "jobs", 1.0, REPORT_JOBS, &job->threads);
-    code = code ? code : cli_scene_options_read(args, &job->load);
-    code = code ? code : cli_normals_read(args, &job->load);
-    job->load.build.tolerance = job->options.tolerance;
-    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
-    job->sweep_options = job->options;
-    job->sweep_load = job->load;
-    if (job->options.tolerance < REPORT_TOLERANCE) {
+    code = code ? code : cli_scene_options_read(args, &job->run.load);
+    code = code ? code : cli_normals_read(args, &job->run.load);
+    cli_division_set(&job->run.options, &job->run.load);
+    job->run.sampling = lrcs_uncertainty_options_default();
+    job->run.shares_asked = 1;
+    job->sweep_options = job->run.options;
+    job->sweep_load = job->run.load;
+    if (job->run.options.tolerance < REPORT_TOLERANCE) {
         job->sweep_options.tolerance = job->sweep_load.build.tolerance = REPORT_TOLERANCE;
     }
     return code;
@@ -101,15 +103,15 @@ static int report_compare(report_job *job)
     converge_job *compare = &job->converge;
     double least = 1.0;
     *compare = (converge_job){.args = job->args,
-                              .title = cli_report_title(job),
-                              .all = {.pose = job->pose,
-                                      .load = job->load,
+                              .title = cli_scene_name(job->args, &job->run.scene),
+                              .all = {.pose = job->run.pose,
+                                      .load = job->run.load,
                                       .digits = 1,
                                       .seconds = REPORT_COMPARE * job->seconds}};
     lrcs_host_convergence *all = &compare->all;
-    all->load.build.normals = LRCS_NORMALS_FLAT; /* as in lrcs converge */
-    while (all->digits < LRCS_HOST_CONVERGENCE_MESHES && least > 1.5 * job->options.tolerance &&
-           (least > 1e-3 || 3.0 * job->pose_s < all->seconds)) {
+    all->load.build = lrcs_build_options_default(); /* as in lrcs converge */
+    while (all->digits < LRCS_HOST_CONVERGENCE_MESHES && least > 1.5 * job->run.options.tolerance &&
+           (least > 1e-3 || 3.0 * job->run.seconds < all->seconds)) {
         least /= 10.0;
         all->digits += least < 0.05;
     }
@@ -129,28 +131,34 @@ static int report_compare(report_job *job)
 
 /* ---- the command ---- */
 
-/* Computes all that the page shows; of an interactive page, the map alone. */
+/* The scene as lrcs info reads it. */
+static int report_info(report_job *job)
+{
+    lrcs_host_error error;
+    lrcs_build_options build = lrcs_build_options_default();
+    build.normals = LRCS_NORMALS_SMOOTH;
+    return lrcs_host_scene_vary(&job->run.scene, &job->run.scene.recipe, &build, &job->info_scene,
+                                &error) == LRCS_OK
+               ? cli_inventory_make(job->args, &job->run.scene, &job->info_scene.scene, &job->info)
+               : cli_failed(&error);
+}
+
+/* Computes all that the page shows; of an interactive page, the map alone, and the body as it is
+   drawn. */
 static int report_measure(report_job *job, int explore)
 {
-    int code = cli_scene_read(job->args, &job->load, &job->scene);
-    code = code ? code : cli_outputs_spare(job->args, &job->scene);
-    if (code == 0 && explore) {
-        cli_watch_stage("preparing", &job->scene);
-        code = cli_scene_prepare(&job->scene);
+    if (explore) {
+        job->run.load.build.division = 0.0;
+        job->run.load.build.max_facets = lrcs_build_options_default().max_facets;
+        int code = cli_scene_read(job->args, &job->run.load, &job->run.scene);
+        code = code ? code : cli_outputs_spare(job->args, &job->run.scene);
+        cli_watch_stage("preparing", &job->run.scene);
+        code = code ? code : cli_scene_prepare(&job->run.scene);
         return code ? code : cli_report_map(job);
     }
-    if (code == 0) {
-        lrcs_host_error error;
-        lrcs_build_options smooth = job->load.build;
-        smooth.normals = LRCS_NORMALS_SMOOTH;
-        code = lrcs_host_scene_vary(&job->scene, &job->scene.recipe, &smooth, &job->info_scene,
-                                    &error) == LRCS_OK
-                   ? cli_inventory_make(job->args, &job->scene, &job->info_scene.scene, &job->info)
-                   : cli_failed(&error);
-    }
-    cli_watch_stage("pose and pictures", &job->scene);
-    code = code ? code : cli_report_run(job);
+    int code = cli_report_run(job);
     code = code ? code : cli_report_summary_make(job);
+    code = code ? code : report_info(job);
     code = code ? code : cli_report_sweeps(job);
     cli_watch_stage("comparing accuracy", NULL);
     return code ? code : report_compare(job);
@@ -173,14 +181,10 @@ static void report_free(report_job *job)
     lrcs_host_convergence_free(&job->converge.all);
     free(job->chart.bytes);
     free(job->summary.bytes);
-    free(job->records);
-    free(job->image.facet);
-    lrcs_host_shares_free(&job->shares);
     lrcs_host_inventory_free(&job->info);
     lrcs_host_scene_free(&job->info_scene);
     lrcs_host_scene_free(&job->sweep_scene);
-    lrcs_host_scene_free(&job->scene);
-    cli_scene_options_free(&job->load);
+    cli_run_free(&job->run);
 }
 
 static int report_command(const cli_args *args)
@@ -189,7 +193,7 @@ static int report_command(const cli_args *args)
     if (!job) {
         return cli_out_of_memory();
     }
-    job->args = args;
+    job->args = job->run.args = args;
     int code = report_read(job);
     int explore = cli_value(args, "explore") != NULL;
     code = code ? code : report_measure(job, explore);
@@ -198,9 +202,9 @@ static int report_command(const cli_args *args)
                                    job);
     if (code == 0) {
         cli_watch_end();
-        cli_notices_print(stderr, &job->scene.notices);
-        cli_outputs_say(args);
-        code = cli_accuracy_code(args, &job->options, job->result.flags);
+        cli_notices_print(stderr, &job->run.scene.notices);
+        cli_outputs_print(args, NULL);
+        code = cli_accuracy_code(args, &job->run.options, job->run.result.flags);
     }
     report_free(job);
     free(job);

@@ -5,6 +5,7 @@
 
 #include "cli/converge/converge.h"
 #include "cli/info/info.h"
+#include "cli/run/run.h"
 #include "cli/sweep/sweep.h"
 
 #include <lrcs/picture.h>
@@ -42,38 +43,27 @@ typedef struct report_job {
     double seconds;              /* approximate time for sweeps and comparisons */
     uint32_t cut_step, map_step; /* deg; 0 if chosen by the available time */
     uint32_t threads;            /* 0 for one per processor */
-    lrcs_pose pose;
-    lrcs_run_options options;
-    lrcs_host_options load;
-    lrcs_host_scene info_scene; /* with the normals of its files */
+    run_job run;                 /* as lrcs run computes it, with shares */
+    lrcs_host_scene info_scene;  /* as lrcs info reads it, with the normals of its files */
     lrcs_host_inventory info;
-    lrcs_host_scene scene; /* of the run */
-    lrcs_result result;
-    lrcs_facet_record *records;
-    lrcs_image image;
-    double pose_s;
-    cli_shares shares;
     report_bytes picture[REPORT_PICTURES][2];
     lrcs_run_options sweep_options;
     lrcs_host_options sweep_load;
-    lrcs_host_scene sweep_scene; /* as coarse as its tolerance allows; empty if not needed */
+    lrcs_host_scene sweep_scene; /* for the tolerance of the sweeps; empty if that of the run
+                                    serves */
     report_sweep sweep[REPORT_SWEEPS];
     uint64_t peak[REPORT_PEAKS];
     cli_shares peak_shares[REPORT_PEAKS];
     uint32_t peaks;
     converge_job converge;
     report_bytes chart;
-    report_bytes summary;         /* the verdict that lrcs run prints */
-    lrcs_uncertainty uncertainty; /* of sigma, by the errors of materials */
+    report_bytes summary; /* the verdict that lrcs run prints */
 } report_job;
 
 /* ---- what it measures: 0 or an exit code with the message printed ---- */
 
-/* Runs the scene, with pictures and shares. */
+/* Reads and runs the scene, and makes pictures and shares. */
 int cli_report_run(report_job *job);
-
-/* The scene's title, or the name of its file. */
-const char *cli_report_title(const report_job *job);
 
 /* Computes the sweeps, their drawings and peaks. */
 int cli_report_sweeps(report_job *job);
@@ -136,7 +126,7 @@ void cli_page_figure(FILE *out, const report_bytes *svg, const char *label, cons
 void cli_page_picture(FILE *out, const report_bytes picture[2], const char *label);
 void cli_page_figure_end(FILE *out);
 
-/* Computes the verdict of lrcs run for the run of the page, 0 or an exit code; writes it as
+/* Makes the verdict of lrcs run for the run of the page, 0 or an exit code; writes it as
    markup. */
 int cli_report_summary_make(report_job *job);
 void cli_report_summary(FILE *out, const report_job *job);

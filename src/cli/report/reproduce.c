@@ -93,11 +93,7 @@ static void lines_write(FILE *out, const void *context)
     line_begin(out, job, "image", 1, 1);
     fputs(" --by material -o material.png\n", out);
     line_begin(out, job, "info", 0, 0);
-    fputs(lrcs_host_scene_tessellated(&job->scene.scene) &&
-                  job->load.build.tolerance != lrcs_build_options_default().tolerance
-              ? " # shapes as fine as by default\n"
-              : "\n",
-          out);
+    putc('\n', out);
     for (int kind = 0; kind < REPORT_SWEEPS; kind++) {
         sweep_line(out, job, kind);
     }
@@ -110,7 +106,7 @@ void cli_report_reproduce(FILE *out, const report_job *job)
     cli_page_section(out, "again", "How to reproduce it");
     fputs("<dl class=\"facts\">\n", out);
     cli_page_fact(out, "Version", "lrcs %s", lrcs_version());
-    for (const lrcs_host_input *input = job->scene.input; input; input = input->next) {
+    for (const lrcs_host_input *input = job->run.scene.input; input; input = input->next) {
         char text[CLI_FILE_TEXT];
         cli_file_text(input, text);
         cli_page_fact(out, "File", "%s", text);
@@ -120,7 +116,7 @@ void cli_report_reproduce(FILE *out, const report_job *job)
             "</dl>\n"
             "<p>The first line reproduces this page, the others what is on it, one by "
             "one.</p>\n",
-            (unsigned long long)lrcs_scene_hash(&job->scene.scene));
+            (unsigned long long)lrcs_scene_hash(&job->run.scene.scene));
     char *lines = cli_text_of(lines_write, job);
     if (lines) {
         cli_page(out, "<pre tabindex=\"0\"><code>%s</code></pre>\n", lines);

@@ -16,10 +16,22 @@ static void fact_put(FILE *out, const char *name, const char *id, double value, 
     cli_page(out, " %s</dd></div>\n", unit);
 }
 
-static void sigma_facts(FILE *out, const report_job *job)
+static void budget_row(FILE *out, const report_job *job, const char *name, const char *id,
+                       double value, const char *why)
+{
+    cli_page(out, "\n<tr><td>%s</td><td class=\"n\">", name);
+    cli_page_bound(out, id, value, 3);
+    cli_page(out, "</td><td class=\"n\">%.2e</td><td class=\"why\">%s</td></tr>",
+             job->run.result.sigma_m2 > 0.0 ? value / job->run.result.sigma_m2 : -1.0, why);
+}
+
+/* The value with its parts, the method, and the bound by cause. */
+void cli_report_sigma(FILE *out, const report_job *job)
 {
     static const char m2[] = "m\xc2\xb2";
-    const lrcs_result *r = &job->result;
+    const lrcs_result *r = &job->run.result;
+    const lrcs_budget *budget = &r->budget;
+    cli_page_section(out, "sigma", "\xcf\x83 and its certificate");
     fputs("<dl class=\"facts\">\n", out);
     fact_put(out, "\xcf\x83", "sigma_m2", r->sigma_m2, 10, m2);
     if (r->sigma_m2 > 0.0) {
@@ -30,9 +42,9 @@ static void sigma_facts(FILE *out, const report_job *job)
     fputs("<div><dt>Bound, proved</dt><dd>", out);
     cli_page_bound(out, "bound_m2", r->bound_m2, 3);
     fputs(" m\xc2\xb2</dd></div>\n", out);
-    if (job->uncertainty.stated) {
+    if (job->run.uncertainty.stated) {
         fact_put(out, "Materials, one standard deviation", "material_deviation_m2",
-                 job->uncertainty.deviation_m2, 3, m2);
+                 job->run.uncertainty.deviation_m2, 3, m2);
     }
     if (r->estimate_m2 >= 0.0) {
         fact_put(out, "Likely error, an estimate", "estimate_m2", r->estimate_m2, 3, m2);
@@ -43,20 +55,22 @@ static void sigma_facts(FILE *out, const report_job *job)
     }
     fact_put(out, "Silhouette", "projected_area_m2", r->projected_area_m2, 8, m2);
     fputs("</dl>\n", out);
-}
-
-static void budget_row(FILE *out, const report_job *job, const char *name, const char *id,
-                       double value, const char *why)
-{
-    cli_page(out, "\n<tr><td>%s</td><td class=\"n\">", name);
-    cli_page_bound(out, id, value, 3);
-    cli_page(out, "</td><td class=\"n\">%.2e</td><td class=\"why\">%s</td></tr>",
-             job->result.sigma_m2 > 0.0 ? value / job->result.sigma_m2 : -1.0, why);
-}
-
-static void budget_table(FILE *out, const report_job *job)
-{
-    const lrcs_budget *budget = &job->result.budget;
+    cli_page(out, "<p>Method <b id=\"method\">%s</b>", lrcs_method_text(r->method));
+    if (r->resolution != 0) {
+        cli_page(out, " on a raster of %u x %u", r->resolution, r->resolution);
+    }
+    cli_page(out, "%s%s", job->run.options.method == LRCS_METHOD_AUTO ? ", chosen by auto: " : ": ",
+             r->method_reason);
+    cli_page_text(
+        out,
+        ". Normals are %s. Of %lu facets %lu face the laser; of those that could reflect %lu "
+        "are hidden and %lu partly hidden. The pose took %.3g ms, preparing the scene %.3g "
+        "ms, loading it %.3g ms.",
+        lrcs_normals_text(job->run.scene.scene.normals), (unsigned long)r->facets_total,
+        (unsigned long)r->facets_front, (unsigned long)r->facets_hidden,
+        (unsigned long)r->facets_partial, 1e3 * job->run.seconds,
+        1e3 * job->run.scene.seconds_prepare, 1e3 * job->run.scene.seconds_load);
+    fputs("</p>\n", out);
     cli_page_fold(out, "Where the bound comes from");
     cli_page_table(out, "The bound by cause", "Cause|#Bound, m\xc2\xb2|#of \xcf\x83|What it holds");
     budget_row(out, job, "Visibility", "visibility_m2", budget->visibility_m2,
@@ -70,27 +84,7 @@ static void budget_table(FILE *out, const report_job *job)
                "every step of the arithmetic");
     cli_page_table_end(out);
     fputs("</details>\n", out);
-}
-
-static void method_words(FILE *out, const report_job *job)
-{
-    const lrcs_result *r = &job->result;
-    cli_page(out, "<p>Method <b id=\"method\">%s</b>", lrcs_method_text(r->method));
-    if (r->resolution != 0) {
-        cli_page(out, " on a raster of %u x %u", r->resolution, r->resolution);
-    }
-    cli_page(out, "%s%s", job->options.method == LRCS_METHOD_AUTO ? ", chosen by auto: " : ": ",
-             r->method_reason);
-    cli_page_text(
-        out,
-        ". Normals are %s. Of %lu facets %lu face the laser; of those that could reflect %lu "
-        "are hidden and %lu partly hidden. The pose took %.3g ms, preparing the scene %.3g "
-        "ms, loading it %.3g ms.",
-        lrcs_normals_text(job->scene.scene.normals), (unsigned long)r->facets_total,
-        (unsigned long)r->facets_front, (unsigned long)r->facets_hidden,
-        (unsigned long)r->facets_partial, 1e3 * job->pose_s, 1e3 * job->scene.seconds_prepare,
-        1e3 * job->scene.seconds_load);
-    fputs("</p>\n", out);
+    fputs("</section>\n", out);
 }
 
 void cli_report_effects(FILE *out, const report_job *job)
@@ -102,7 +96,7 @@ void cli_report_effects(FILE *out, const report_job *job)
     cli_page_fold(out, "Effects, and why");
     cli_page_table(out, "Effects", "Effect||Why");
     for (int i = 0; i < LRCS_EFFECTS; i++) {
-        const lrcs_effect *effect = &job->result.effect[i];
+        const lrcs_effect *effect = &job->run.result.effect[i];
         fputs("\n<tr><td class=\"name\">", out);
         for (const char *at = lrcs_effect_text(i); *at; at++) {
             putc(*at == '_' ? ' ' : *at, out);
@@ -113,15 +107,6 @@ void cli_report_effects(FILE *out, const report_job *job)
     }
     cli_page_table_end(out);
     fputs("</details>\n</section>\n", out);
-}
-
-void cli_report_sigma(FILE *out, const report_job *job)
-{
-    cli_page_section(out, "sigma", "\xcf\x83 and its certificate");
-    sigma_facts(out, job);
-    method_words(out, job);
-    budget_table(out, job);
-    fputs("</section>\n", out);
 }
 
 /* ---- shares ---- */
@@ -155,7 +140,7 @@ static void share_table(FILE *out, const cli_shares *shares, const char *label, 
 
 void cli_report_shares(FILE *out, const report_job *job)
 {
-    const cli_shares *shares = &job->shares;
+    const cli_shares *shares = &job->run.shares;
     cli_page_section(out, "shares", "What contributes to \xcf\x83");
     fputs("<h3>Parts</h3>\n", out);
     share_table(out, shares, "Shares of parts",

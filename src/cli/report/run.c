@@ -1,15 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The run of a report: the scene from its pose, with the contribution of each facet and the
-   pictures of what the laser sees. */
+/* The run of a report, which is that of lrcs run, and the pictures of what the laser sees. */
 #include "cli/report/report.h"
 
 #include <stdlib.h>
-
-const char *cli_report_title(const report_job *job)
-{
-    const char *name = cli_scene_title(job->args, &job->scene);
-    return name == job->args->operand ? cli_base_name(name) : name;
-}
 
 /* Draws what the laser sees on a dark and on a white background, which share one image: of the size
    that the legend leaves. */
@@ -18,29 +11,31 @@ static int pictures_make(report_job *job, int kind)
     static const int look[REPORT_PICTURES] = {LRCS_HOST_BY_SIGMA, LRCS_HOST_BY_MATERIAL};
     lrcs_host_error error;
     lrcs_result result;
-    lrcs_host_picture picture = {.scene = &job->scene.scene,
-                                 .pose = &job->pose,
-                                 .records = job->records,
-                                 .title = cli_report_title(job),
+    lrcs_host_picture picture = {.scene = &job->run.scene.scene,
+                                 .pose = &job->run.pose,
+                                 .records = job->run.records,
+                                 .title = cli_scene_name(job->args, &job->run.scene),
                                  .colouring = look[kind],
                                  .annotated = 1};
     uint32_t side = lrcs_host_picture_need(&picture, CLI_PICTURE_DEFAULT);
-    free(job->image.facet);
-    job->image.size = side;
-    job->image.facet = calloc((size_t)side * side, sizeof(uint32_t));
-    if (!job->image.facet) {
+    free(job->run.image.facet);
+    job->run.image.size = side;
+    job->run.image.facet = calloc((size_t)side * side, sizeof(uint32_t));
+    if (!job->run.image.facet) {
         return cli_out_of_memory();
     }
-    lrcs_run_options coarse = job->options;
+    lrcs_run_options coarse = job->run.options;
     coarse.method = LRCS_METHOD_FACET; /* only its image is used */
-    int code = cli_scene_run(&job->scene, &job->pose, &coarse, &result, NULL, &job->image, NULL);
+    int code = cli_scene_run(&job->run.scene, &job->run.pose, &coarse, &result, NULL,
+                             &job->run.image, NULL);
     for (int white = 0; white < 2 && code == 0; white++) {
         FILE *out = cli_report_bytes_begin(&job->picture[kind][white]);
         if (!out) {
             return CLI_FAILED;
         }
         picture.white = white;
-        int status = lrcs_host_picture_png(out, &picture, &job->image, CLI_PICTURE_DEFAULT, &error);
+        int status =
+            lrcs_host_picture_png(out, &picture, &job->run.image, CLI_PICTURE_DEFAULT, &error);
         code = cli_report_bytes_end(out);
         code = status == LRCS_OK ? code : cli_failed(&error);
     }
@@ -49,25 +44,9 @@ static int pictures_make(report_job *job, int kind)
 
 int cli_report_run(report_job *job)
 {
-    job->records = calloc((size_t)job->scene.scene.facet_count + 1, sizeof *job->records);
-    if (!job->records) {
-        return cli_out_of_memory();
-    }
-    cli_watch_stage("preparing", &job->scene);
-    int code = cli_scene_prepare(&job->scene);
-    if (code == 0) {
-        cli_watch_stage("pose", NULL);
-        job->options.progress = cli_watch_run();
-        code = cli_scene_run(&job->scene, &job->pose, &job->options, &job->result, job->records,
-                             NULL, &job->pose_s);
-    }
-    if (code != 0) {
-        return code;
-    }
-    job->options.progress = NULL; /* sweeps run in threads */
+    int code = cli_run_scene(&job->run);
+    job->run.options.progress = NULL; /* sweeps run in threads */
     cli_watch_stage("pictures", NULL);
-    code = cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
-                           &job->shares);
     for (int kind = 0; kind < REPORT_PICTURES && code == 0; kind++) {
         code = pictures_make(job, kind);
     }

@@ -22,7 +22,12 @@ static void model_facts(FILE *out, const report_job *job)
     const lrcs_mesh_report *r = &job->info.report;
     fputs("<dl class=\"facts\">\n", out);
     cli_page_fact(out, "Parts", "%u", job->info.parts);
-    cli_page_fact(out, "Facets", "%u", scene->facet_count);
+    if (lrcs_host_scene_tessellated(scene)) {
+        cli_page_fact(out, "Facets, curved shapes divided for a tolerance of 1e-4",
+                      "%u; the run has %u", scene->facet_count, job->run.result.facets_total);
+    } else {
+        cli_page_fact(out, "Facets", "%u", scene->facet_count);
+    }
     cli_page_fact(out, "Vertices", "%u", scene->vertex_count);
     cli_page_fact(out, "Box", "%.5g \xc3\x97 %.5g \xc3\x97 %.5g\xc2\xa0m",
                   r->box_max[0] - r->box_min[0], r->box_max[1] - r->box_min[1],
@@ -129,12 +134,13 @@ static void materials_section(FILE *out, const report_job *job)
 
 void cli_report_notices(FILE *out, const report_job *job)
 {
-    const lrcs_host_notices *notices = &job->scene.notices;
+    const lrcs_host_notices *notices = &job->run.scene.notices;
     char text[LRCS_HOST_INVENTORY_NOTICE];
     uint32_t count = notices->count;
     cli_page_section(out, "notices", "Warnings and notices");
     fputs("<ul class=\"notices\">\n", out);
-    for (uint32_t bits = job->result.flags; bits != 0; bits &= bits - 1) {
+    uint32_t flags = cli_flags_in_force(job->args, &job->run.options, job->run.result.flags);
+    for (uint32_t bits = flags; bits != 0; bits &= bits - 1) {
         cli_page(out, "<li><b>%s</b>: the answer is degraded, and its bound wider for it</li>\n",
                  lrcs_flag_text(CLI_LOWEST(bits)));
         count++;
@@ -150,7 +156,7 @@ void cli_report_notices(FILE *out, const report_job *job)
             count++;
         }
     }
-    for (uint32_t bits = job->result.notices; bits != 0; bits &= bits - 1) {
+    for (uint32_t bits = job->run.result.notices; bits != 0; bits &= bits - 1) {
         cli_page(out, "<li>%s</li>\n", lrcs_notice_text(CLI_LOWEST(bits)));
         count++;
     }

@@ -2,40 +2,20 @@
 /* The summary at the top of the page: the verdict of lrcs run, in its words. This file decides how
    those lines become markup, not their text. */
 #include "cli/report/report.h"
-#include "cli/run/run.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #define SUMMARY_INDENT 13u /* column of the text of a line, after its name */
 
 int cli_report_summary_make(report_job *job)
 {
-    run_job *run = calloc(1, sizeof *run);
-    if (!run) {
-        return cli_out_of_memory();
-    }
-    run->args = job->args;
-    run->pose = job->pose;
-    run->options = job->options;
-    run->load = job->load;
-    run->scene = job->scene;
-    run->result = job->result;
-    run->records = job->records;
-    run->sampling = lrcs_uncertainty_options_default();
-    int code = cli_run_materials(run);
-    code = code ? code : cli_run_caveats(run);
+    int code = cli_run_caveats(&job->run);
     FILE *out = code == 0 ? cli_report_bytes_begin(&job->summary) : NULL;
-    if (out) {
-        cli_run_verdict(run, out);
-        code = cli_report_bytes_end(out);
-    } else if (code == 0) {
-        code = CLI_FAILED;
+    if (!out) {
+        return code ? code : CLI_FAILED;
     }
-    job->uncertainty = run->uncertainty;
-    free(run->sensitivity);
-    free(run);
-    return code;
+    cli_run_verdict(&job->run, out);
+    return cli_report_bytes_end(out);
 }
 
 /* Lines are "name       text"; a line without a name continues the previous one. The first is a

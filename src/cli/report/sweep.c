@@ -7,10 +7,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 
-#define SWEEP_PART 0.65 /* share of the time for sweeps */
+#define SWEEP_PART  0.65 /* share of the time for sweeps */
+#define TRIAL_MOST  4096u
+#define TRIAL_POSES "4096"
 
 /* ---- how fine ---- */
 
@@ -32,33 +32,49 @@ static double steps_poses(uint32_t cut, uint32_t map)
     return 3.0 * (360.0 / cut) + map_poses(map);
 }
 
-/* The approximate number of poses that can be computed in a time: by the processor time of a pose's
-   second run, because the first finds out how much memory it needs. */
-static int poses_count(report_job *job, const lrcs_host_scene *scene, double time, double *poses)
+/* A trial of some directions, whose results are not kept: consecutive ones are far apart. */
+static int trial_pose(void *context, uint64_t index, lrcs_pose *pose)
+{
+    return lrcs_host_plan_pose(context, index * 7919 % TRIAL_MOST, pose);
+}
+
+static int trial_take(void *context, uint64_t index, const lrcs_pose *pose,
+                      const lrcs_result *result, const lrcs_uncertainty *uncertainty,
+                      const lrcs_host_glint_sum *glint, lrcs_host_error *error)
+{
+    (void)context, (void)index, (void)pose, (void)result, (void)uncertainty, (void)glint,
+        (void)error;
+    return LRCS_OK;
+}
+
+/* The approximate number of poses that can be computed in a time: from the time that trials of 4,
+   8, 16, .. poses take, in as many threads as the sweeps, until one takes 5 % of it. The first ones
+   also divide shapes more finely, which later ones find done. */
+static int poses_count(const report_job *job, const lrcs_host_scene *scene, double time,
+                       double *poses)
 {
     const lrcs_uncertainty_options how = lrcs_uncertainty_options_default();
+    const lrcs_host_plan_text all = {"sphere", TRIAL_POSES};
     lrcs_host_error error;
-    lrcs_result result;
-    lrcs_uncertainty uncertainty;
-    int stated = cli_errors_stated(&scene->scene);
-    double seconds = 0.0;
-    lrcs_sensitivity *each = calloc(scene->scene.material_count + 1, sizeof *each);
-    int status = LRCS_OK;
-    if (!each) {
-        return cli_out_of_memory();
+    lrcs_host_plan plan;
+    double seconds = 0.0, spent = 0.0;
+    int status = lrcs_host_plan_make(&all, 1, NULL, &plan, &error);
+    for (uint64_t count = 4; status == LRCS_OK && seconds < 0.05 * time && count <= TRIAL_MOST;
+         count *= 2) {
+        const lrcs_host_sweep sweep = {.uncertainty =
+                                           cli_errors_stated(&scene->scene) ? &how : NULL,
+                                       .count = count,
+                                       .threads = job->threads,
+                                       .pose = trial_pose,
+                                       .take = trial_take,
+                                       .refine = 1,
+                                       .context = &plan};
+        double begun = cli_seconds();
+        status = lrcs_host_sweep_run(scene, &job->sweep_options, &sweep, NULL, &error);
+        seconds = cli_seconds() - begun;
+        spent += seconds;
+        *poses = fmax(time - spent, 0.0) * (double)count / fmax(seconds, 1e-6);
     }
-    for (int i = 0; i < 2 && status == LRCS_OK; i++) {
-        clock_t begun = clock();
-        status = stated ? lrcs_host_scene_uncertainty(scene, &job->pose, &job->sweep_options, &how,
-                                                      &result, each, &uncertainty, &error)
-                        : lrcs_host_scene_run(scene, &job->pose, &job->sweep_options, &result, NULL,
-                                              NULL, NULL, &error);
-        seconds = (double)(clock() - begun) / CLOCKS_PER_SEC;
-    }
-    free(each);
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    double threads = job->threads > 0 ? job->threads : processors > 0 ? (double)processors : 1.0;
-    *poses = time * threads / fmax(seconds, 1e-6);
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
 
@@ -100,8 +116,8 @@ static int sweep_plan_make(const report_job *job, int kind, report_sweep *sweep)
     sweep->plot =
         (lrcs_host_sweep_chart){.dbsm = 1, .polar = kind != REPORT_MAP, .plan = &sweep->plan};
     lrcs_host_sweep_chart_choose(&sweep->plot);
-    sweep->plot.title = cli_report_title(job);
-    sweep->plot.open = cli_materials_assumed(&job->scene.scene);
+    sweep->plot.title = cli_scene_name(job->args, &job->run.scene);
+    sweep->plot.open = cli_materials_assumed(&job->run.scene.scene);
     sweep->plot.map = kind == REPORT_MAP; /* even if it has few rows */
     return status == LRCS_OK ? 0 : cli_failed(&error);
 }
@@ -182,6 +198,7 @@ static int sweep_run(report_job *job, const lrcs_host_scene *scene, sweep_walk *
                                    .threads = job->threads,
                                    .pose = walk_pose,
                                    .take = walk_take,
+                                   .refine = 1,
                                    .context = walk};
     if (lrcs_host_sweep_run(scene, &job->sweep_options, &sweep, NULL, &error) != LRCS_OK) {
         cli_progress_clear(walk->progress);
@@ -226,12 +243,15 @@ static int sweep_draw(report_sweep *sweep)
 
 /* ---- all of them ---- */
 
-/* The scene as coarse as its tolerance allows, if shapes depend on that. */
+/* The scene as lrcs sweep reads it: that of the run, unless its shapes are divided otherwise. */
 static int scene_choose(report_job *job, lrcs_host_scene **scene)
 {
-    *scene = &job->scene;
-    if (job->sweep_options.tolerance == job->options.tolerance ||
-        !lrcs_host_scene_tessellated(&job->scene.scene)) {
+    const lrcs_build_options *run = &job->run.load.build;
+    const lrcs_build_options *build = &job->sweep_load.build;
+    int same =
+        run->tolerance == build->tolerance && run->division == build->division && !run->halvings;
+    *scene = &job->run.scene;
+    if (same || !lrcs_host_scene_tessellated(&job->run.scene.scene)) {
         return 0;
     }
     *scene = &job->sweep_scene;

@@ -87,8 +87,11 @@ static void polygons_write(FILE *out, const void *context)
 
 lrcs_host_picture cli_run_picture(const run_job *job)
 {
-    return (lrcs_host_picture){
-        .scene = &job->scene.scene, .pose = &job->pose, .records = job->records};
+    return (lrcs_host_picture){.scene = &job->scene.scene,
+                               .pose = &job->pose,
+                               .records = job->records,
+                               .title = cli_scene_name(job->args, &job->scene),
+                               .annotated = 1};
 }
 
 static int image_write(FILE *out, const void *context, lrcs_host_error *error)

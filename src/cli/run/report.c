@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-static void notice_say(lrcs_host_json *json, const char *text)
+static void notice_put(lrcs_host_json *json, const char *text)
 {
     if (json) {
         lrcs_host_json_text(json, NULL, text);
@@ -17,13 +17,13 @@ void cli_run_notices(const run_job *job, lrcs_host_json *json)
 {
     const lrcs_host_notices *notices = &job->scene.notices;
     for (uint32_t i = 0; i < notices->count; i++) {
-        notice_say(json, notices->text[i]);
+        notice_put(json, notices->text[i]);
     }
     for (uint32_t bits = job->result.notices; bits != 0; bits &= bits - 1) {
-        notice_say(json, lrcs_notice_text(CLI_LOWEST(bits)));
+        notice_put(json, lrcs_notice_text(CLI_LOWEST(bits)));
     }
     if (job->options.resolution != 0 && job->result.resolution == 0) {
-        notice_say(json, "--resolution has no effect: no raster was needed");
+        notice_put(json, "--resolution has no effect: no raster was needed");
     }
 }
 

@@ -101,7 +101,7 @@ static const cli_option run_options[] = {CLI_POSE_OPTIONS,
 
 /* ---- options ---- */
 
-static int options_read(run_job *job)
+static int run_options_read(run_job *job)
 {
     const cli_args *args = job->args;
     uint32_t steps = 0;
@@ -111,10 +111,8 @@ static int options_read(run_job *job)
     job->options.steps = steps;
     code = code ? code : cli_run_outputs_read(job);
     code = code ? code : cli_scene_options_read(args, &job->load);
-    job->load.build.tolerance = job->asked = job->options.tolerance;
-    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
-    job->load.build.division = LRCS_HOST_DIVISION;
-    job->load.build.max_facets = LRCS_HOST_FACETS;
+    job->asked = job->options.tolerance;
+    cli_division_set(&job->options, &job->load);
     code = code ? code : cli_run_budget_read(job);
     code = code ? code : cli_run_emulation_read(job);
     code = code ? code : cli_run_materials_read(job);
@@ -135,13 +133,13 @@ static void long_run_notice(run_job *job)
         !(job->budget.asked_ms > 0.0) && !job->announced) {
         job->announced = 1;
         fprintf(stderr,
-                "lrcs: %lu facets for a tolerance of %g: preparing and running them takes a "
+                "notice: %lu facets for a tolerance of %g: preparing and running them takes a "
                 "while\n",
                 (unsigned long)scene->facet_count, job->options.tolerance);
     }
 }
 
-static int run_prepare(run_job *job)
+static int run_scene_prepare(run_job *job)
 {
     long_run_notice(job);
     cli_watch_stage("preparing", &job->scene);
@@ -171,7 +169,7 @@ static int run_records(run_job *job)
 static int run_pose(run_job *job)
 {
     lrcs_host_error error;
-    int code = job->scene.prepared ? 0 : run_prepare(job);
+    int code = job->scene.prepared ? 0 : run_scene_prepare(job);
     int done = job->divided && !job->image_path;
     if (code == 0 && !done) {
         code = run_records(job);
@@ -205,7 +203,7 @@ int cli_run_divide(run_job *job)
 {
     lrcs_host_scene *scene = &job->scene;
     job->divided = scene->levels != NULL;
-    int code = job->divided ? run_prepare(job) : 0;
+    int code = job->divided ? run_scene_prepare(job) : 0;
     double *part_error = calloc(scene->scene.part_count + (size_t)1, sizeof *part_error);
     for (int finer = job->divided; finer && code == 0;) {
         cli_watch_stage("pose", NULL);
@@ -228,7 +226,7 @@ int cli_run_divide(run_job *job)
 }
 
 /* A search for the best settings already has their result; files and shares need the run itself. */
-static int run_scene(run_job *job)
+int cli_run_scene(run_job *job)
 {
     int searched = job->budget.asked_ms > 0.0;
     int files = job->facets || job->polygons_path || job->image_path || job->shares_asked;
@@ -244,6 +242,17 @@ static int run_scene(run_job *job)
                ? cli_shares_make(&job->scene, &job->scene.scene, job->records, job->result.sigma_m2,
                                  &job->shares)
                : code;
+}
+
+void cli_run_free(run_job *job)
+{
+    free(job->records);
+    free(job->image.facet);
+    free(job->sensitivity);
+    lrcs_host_shares_free(&job->shares);
+    lrcs_host_polygons_free(&job->polygons);
+    lrcs_host_scene_free(&job->scene);
+    cli_scene_options_free(&job->load);
 }
 
 /* The flag of a result of a search refers to a tolerance that was tried; if no tolerance applies,
@@ -280,11 +289,16 @@ static int run_outputs(run_job *job)
             cli_run_table(job);
         }
     }
-    int late = job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS;
-    /* a bound that exceeds sigma is not a useful answer for a time budget */
-    int empty = job->budget.asked_ms > 0.0 && job->result.bound_m2 > job->result.sigma_m2;
-    return late || empty ? CLI_DEGRADED
-                         : cli_accuracy_code(job->args, &job->options, job->result.flags);
+    if (job->budget.spent_ms > job->budget.asked_ms + BUDGET_GRACE_MS) {
+        return cli_degraded("the time budget of %g ms is exceeded: %.3g ms", job->budget.asked_ms,
+                            job->budget.spent_ms);
+    }
+    if (job->budget.asked_ms > 0.0 && job->result.bound_m2 > job->result.sigma_m2) {
+        return cli_degraded("the bound exceeds sigma: the time budget is too short");
+    }
+    lrcs_run_options asked = job->options; /* a search tries other tolerances */
+    asked.tolerance = job->asked > 0.0 ? job->asked : asked.tolerance;
+    return cli_accuracy_code(job->args, &asked, job->result.flags);
 }
 
 static int run_command(const cli_args *args)
@@ -292,19 +306,13 @@ static int run_command(const cli_args *args)
     run_job job;
     memset(&job, 0, sizeof job);
     job.args = args;
-    int code = options_read(&job);
-    code = code ? code : run_scene(&job);
+    int code = run_options_read(&job);
+    code = code ? code : cli_run_scene(&job);
     if (code == 0) {
         run_judge(&job);
         code = run_outputs(&job);
     }
-    free(job.records);
-    free(job.image.facet);
-    free(job.sensitivity);
-    lrcs_host_shares_free(&job.shares);
-    lrcs_host_polygons_free(&job.polygons);
-    lrcs_host_scene_free(&job.scene);
-    cli_scene_options_free(&job.load);
+    cli_run_free(&job);
     return code;
 }
 

@@ -75,6 +75,11 @@ typedef struct run_job {
     lrcs_attitude_slope attitude;  /* if asked for */
 } run_job;
 
+/* Reads the scene and runs it from the pose, by the options of the job: result, records, shares,
+   image, material uncertainty. 0, CLI_FAILED or CLI_USAGE. */
+int cli_run_scene(run_job *job);
+void cli_run_free(run_job *job);
+
 /* Reads the options of output files, 0 or CLI_USAGE; writes them, 0 or CLI_FAILED. */
 int cli_run_outputs_read(run_job *job);
 int cli_run_outputs_write(const run_job *job);

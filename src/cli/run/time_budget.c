@@ -71,15 +71,13 @@ static int tolerance_matters(const run_job *job)
 
 /* Runs one setting, job->options, as lrcs run does: 0, CLI_FAILED or CLI_USAGE. A scene with curved
    shapes is read again, because it depends on the setting. */
-static int setting_run(run_job *job, budget_answer *answer)
+static int budget_setting_run(run_job *job, budget_answer *answer)
 {
     int code = 0;
     memset(answer, 0, sizeof *answer);
     if (lrcs_host_scene_tessellated(&job->scene.scene)) {
         lrcs_host_scene_free(&job->scene);
-        job->load.build.tolerance = job->options.tolerance;
-        job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
-        job->load.build.division = LRCS_HOST_DIVISION;
+        cli_division_set(&job->options, &job->load);
         job->load.build.halvings = NULL;
         code = cli_scene_read(job->args, &job->load, &job->scene);
         code = code ? code : cli_run_divide(job);
@@ -105,7 +103,7 @@ static int setting_run(run_job *job, budget_answer *answer)
    the run failed, if nobody reads, or if the answer meets the tolerance asked for. */
 static int setting_send(run_job *job, int answers, budget_answer *answer)
 {
-    return setting_run(job, answer) == 0 &&
+    return budget_setting_run(job, answer) == 0 &&
            write(answers, answer, sizeof *answer) == (ssize_t)sizeof *answer &&
            !cli_run_meets(&answer->result, job->asked);
 }
@@ -228,7 +226,7 @@ static int answer_is_better(const budget_answer *answer, const budget_answer *be
 }
 
 /* Reads the child's answers until it ends. */
-static void answers_read(int answers, pid_t child, budget_answer *best)
+static void budget_answers_read(int answers, pid_t child, budget_answer *best)
 {
     budget_answer answer;
     ssize_t count;
@@ -328,13 +326,13 @@ int cli_run_budget(run_job *job)
     job->options.tolerance =
         tolerance_matters(job) ? rungs[0] : lrcs_run_options_default().tolerance;
     job->options.method = LRCS_METHOD_FACET;
-    int code = setting_run(job, &best);
+    int code = budget_setting_run(job, &best);
     if (code != 0) {
         return code;
     }
     int answers = cli_run_meets(&best.result, job->asked) ? -1 : child_start(job, &child);
     if (answers >= 0) {
-        answers_read(answers, child, &best);
+        budget_answers_read(answers, child, &best);
     }
     job->budget.spent_ms = 1e3 * (cli_seconds() - job->budget.start);
     return budget_settle(job, &best);

@@ -81,8 +81,8 @@ static int column_width(const lrcs_host_plan *plan, uint32_t column)
     return size > VALUE_WIDTH ? size : VALUE_WIDTH;
 }
 
-static void numbers_print(const lrcs_host_plan *plan, uint32_t rank, uint64_t row,
-                          const double sigma[2], const cli_shares *shares)
+static void peak_numbers_print(const lrcs_host_plan *plan, uint32_t rank, uint64_t row,
+                               const double sigma[2], const cli_shares *shares)
 {
     double value[LRCS_HOST_PLAN_COLUMNS];
     char bound[LRCS_HOST_BOUND_SIZE];
@@ -97,8 +97,8 @@ static void numbers_print(const lrcs_host_plan *plan, uint32_t rank, uint64_t ro
 }
 
 /* Names the first rows of a list, until their share suffices, and sums up the others. */
-static void rows_print(const cli_shares *shares, const char *what, const shares_row *row,
-                       uint32_t count, const char *nameless)
+static void peak_rows_print(const cli_shares *shares, const char *what, const shares_row *row,
+                            uint32_t count, const char *nameless)
 {
     uint32_t named = cli_shares_named(shares, row, count);
     printf("     %-10s", what);
@@ -117,7 +117,8 @@ static void rows_print(const cli_shares *shares, const char *what, const shares_
 
 /* Also says if a facet of a coarse curved part glints along its own normal and makes most of
    sigma. */
-static void facets_print(const cli_shares *shares, const lrcs_host_glint *coarse, uint32_t count)
+static void peak_facets_print(const cli_shares *shares, const lrcs_host_glint *coarse,
+                              uint32_t count)
 {
     const shares_facet *facet = &shares->facet[0];
     int normal = 0;
@@ -162,10 +163,10 @@ int cli_brightest_print(const lrcs_host_plan *plan, const double (*row)[2], uint
         cli_shares shares;
         code = cli_row_shares(plan, peak[i], base, options, build, &shares);
         if (code == 0) {
-            numbers_print(plan, i, peak[i], row[peak[i]], &shares);
-            rows_print(&shares, "parts", shares.part, shares.parts, "(no name)");
-            rows_print(&shares, "materials", shares.material, shares.materials, "(default)");
-            facets_print(&shares, coarse, coarse_count);
+            peak_numbers_print(plan, i, peak[i], row[peak[i]], &shares);
+            peak_rows_print(&shares, "parts", shares.part, shares.parts, "(no name)");
+            peak_rows_print(&shares, "materials", shares.material, shares.materials, "(default)");
+            peak_facets_print(&shares, coarse, coarse_count);
         }
         lrcs_host_shares_free(&shares);
     }

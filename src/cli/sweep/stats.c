@@ -92,23 +92,7 @@ static double value_error(const lrcs_distribution_value *value)
     return fmax(at[MOST] - at[VALUE], at[VALUE] - at[LEAST]);
 }
 
-static void histogram_print(FILE *out, const sweep_stats *stats)
-{
-    const double *cdf = stats->all.cdf[VALUE];
-    fprintf(out, "  share of rows by sigma in dBsm, and of all up to there\n");
-    if (stats->all.bins == 0 || cdf[0] > 0.0) {
-        double percent = stats->all.bins ? 100.0 * cdf[0] : 100.0;
-        fprintf(out, "  %8s %7s  %7.2f %%  %7.2f %%\n", stats->all.bins ? "less" : "sigma 0", "",
-                percent, percent);
-    }
-    for (uint32_t i = 0; i < stats->all.bins; i++) {
-        int bar = (int)lround(stats->all.share[i] / stats->all.fullest * TEXT_BAR);
-        fprintf(out, "  %7.1f .. %5.1f  %7.2f %%  %7.2f %%  %.*s\n", stats->all.edge_dbsm[i],
-                stats->all.edge_dbsm[i + 1], 100.0 * stats->all.share[i], 100.0 * cdf[i + 1], bar,
-                "########################################");
-    }
-}
-
+/* The mean, the percentiles between the extremes, and the histogram. */
 static void stats_print(FILE *out, const sweep_stats *stats)
 {
     char error[LRCS_HOST_BOUND_SIZE];
@@ -137,7 +121,19 @@ static void stats_print(FILE *out, const sweep_stats *stats)
               "  seldom too narrow; an estimate, not a bound\n",
               out);
     }
-    histogram_print(out, stats);
+    const double *cdf = stats->all.cdf[VALUE];
+    fprintf(out, "  share of rows by sigma in dBsm, and of all up to there\n");
+    if (stats->all.bins == 0 || cdf[0] > 0.0) {
+        double percent = stats->all.bins ? 100.0 * cdf[0] : 100.0;
+        fprintf(out, "  %8s %7s  %7.2f %%  %7.2f %%\n", stats->all.bins ? "less" : "sigma 0", "",
+                percent, percent);
+    }
+    for (uint32_t i = 0; i < stats->all.bins; i++) {
+        int bar = (int)lround(stats->all.share[i] / stats->all.fullest * TEXT_BAR);
+        fprintf(out, "  %7.1f .. %5.1f  %7.2f %%  %7.2f %%  %.*s\n", stats->all.edge_dbsm[i],
+                stats->all.edge_dbsm[i + 1], 100.0 * stats->all.share[i], 100.0 * cdf[i + 1], bar,
+                "########################################");
+    }
 }
 
 /* ---- JSON ---- */
@@ -294,14 +290,14 @@ static int chart_write(FILE *out, const void *context, int png, lrcs_host_error 
              (unsigned long long)stats->all.rows, stats->weights, stats->all.mean_m2.at[VALUE],
              stats->all.percentile_m2[STATS_MEDIAN].at[VALUE],
              stats->all.banded ? "; shaded: 68 % by the errors of materials" : "");
-    snprintf(bars, sizeof bars, "histogram: 1 is %.3g %% in %.3g dB", 100.0 * stats->all.fullest,
-             stats->all.edge_dbsm[1] - stats->all.edge_dbsm[0]);
+    snprintf(bars, sizeof bars, "histogram: highest bar %.3g %% in %.3g dB",
+             100.0 * stats->all.fullest, stats->all.edge_dbsm[1] - stats->all.edge_dbsm[0]);
     char *about = cli_text_of(about_put, stats->head);
     const lrcs_host_chart chart = {.title = words,
                                    .note = note,
                                    .about = about,
                                    .x_name = "sigma (dBsm)",
-                                   .y_name = "share of all rows",
+                                   .y_name = "share of all rows; histogram: of its highest bar",
                                    .y_from_0 = 1,
                                    .series = series,
                                    .series_count = series_make(from, bars, series)};

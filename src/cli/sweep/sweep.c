@@ -15,7 +15,9 @@ static const char sweep_help[] =
     "\n"
     "what varies: RANGE is A:B:STEP, from A by STEP up to B, with B if STEP leads\n"
     "to it, or one number\n"
-    "  --az RANGE, --el RANGE  azimuth and elevation of the laser in the body frame, deg\n"
+    "  --az RANGE, --el RANGE  azimuth and elevation of the laser in the body frame, deg;\n"
+    "                        elevations beyond 90 deg go on over the pole, so that\n"
+    "                        --el 0:360:1 is a full circle\n"
     "  --euler SEQ:a,b,c     Euler angles, deg, each a RANGE; XYZ: R = Rx(a) Ry(b) Rz(c)\n"
     "  --rotate AXIS:RANGE   rotation about the body's x, y, z or u,v,w, deg; from the pose of\n"
     "                        --direction, --azel, .. (default: laser on the +z axis)\n"
@@ -32,7 +34,9 @@ static const char sweep_help[] =
     "\n"
     "output\n"
     "  -o FILE               FILE.csv, FILE.jsonl or FILE.npy (NumPy: sigma and bound; with\n"
-    "                        FILE.npy.head); without it CSV on standard output\n"
+    "                        FILE.npy.head); without it CSV on standard output. A FILE that\n"
+    "                        exists is replaced, with a notice. Rows that its disk cannot hold\n"
+    "                        are refused; no more than 17.1 GB (16 GiB) can be read back\n"
     "  --json                JSON lines on standard output\n"
     "  --resume              continues FILE.partial, whose rows are checked; never replaces a\n"
     "                        complete FILE\n"
@@ -94,6 +98,7 @@ typedef struct sweep_job {
     lrcs_host_rows_head head;
     lrcs_host_sweep_output file;
     cli_progress progress;
+    cli_pace pace;
     lrcs_host_sweep_chart plot;
     uint32_t brightest;
     int stats;
@@ -146,7 +151,7 @@ static void signals_watch(void)
 
 /* ---- options ---- */
 
-static int job_read(sweep_job *job)
+static int sweep_options_read(sweep_job *job)
 {
     const cli_args *args = job->args;
     int code = cli_rows_output_read(args, &job->file);
@@ -162,19 +167,17 @@ static int job_read(sweep_job *job)
     if (code == 0 && job->stats && cli_value(args, "shard")) {
         return cli_usage(args->command, "--stats needs the whole sweep: leave out --shard");
     }
-    job->load.build.tolerance = job->options.tolerance;
-    job->load.build.facets_only = job->options.method != LRCS_METHOD_AUTO;
-    job->load.build.division = LRCS_HOST_DIVISION;
-    job->load.build.max_facets = LRCS_HOST_FACETS;
+    cli_division_set(&job->options, &job->load);
     if (code == 0 && job->file.npy && cli_value(args, "shard")) {
         return cli_usage(args->command,
                          "--shard writes .csv or .jsonl; lrcs merge makes the .npy of them");
     }
-    return code;
+    int kept = cli_value(args, "plot") || job->brightest > 0 || job->stats;
+    return code ? code : cli_size_check(args, &job->plan, &job->file, kept);
 }
 
 /* Checks that no output replaces a file that is read. */
-static int job_files_check(const sweep_job *job)
+static int sweep_files_check(const sweep_job *job)
 {
     const cli_args *args = job->args;
     lrcs_host_error error;
@@ -183,29 +186,19 @@ static int job_files_check(const sweep_job *job)
         lrcs_host_output_check(job->file.partial, &job->scene, &error) != LRCS_OK) {
         return cli_usage(args->command, "-o %s", error.text);
     }
-    for (int i = 0; poses && i < args->given_count; i++) {
-        const cli_given *given = &args->given[i];
-        if (!cli_is_output(args->command, given->name) ||
-            !lrcs_host_output_same(given->value, poses)) {
-            continue;
-        }
-        return strcmp(given->name, "o") == 0
-                   ? cli_usage(args->command, "-o %s: would overwrite the poses", given->value)
-                   : cli_usage(args->command, "--poses and --%s name the same file: '%s', '%s'",
-                               given->name, poses, given->value);
-    }
-    return cli_outputs_spare(args, &job->scene);
+    int code = poses ? cli_outputs_spare_input(args, poses, "the poses") : 0;
+    return code ? code : cli_outputs_spare(args, &job->scene);
 }
 
 /* ---- the rows ---- */
 
-static int job_pose(void *context, uint64_t index, lrcs_pose *pose)
+static int row_pose(void *context, uint64_t index, lrcs_pose *pose)
 {
     const sweep_job *job = context;
     return lrcs_host_plan_pose(&job->plan, index, pose);
 }
 
-static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const lrcs_result *result,
+static int row_take(void *context, uint64_t index, const lrcs_pose *pose, const lrcs_result *result,
                     const lrcs_uncertainty *uncertainty, const lrcs_host_glint_sum *glint,
                     lrcs_host_error *error)
 {
@@ -232,11 +225,13 @@ static int job_take(void *context, uint64_t index, const lrcs_pose *pose, const 
     }
     job->notices |= result->notices;
     int status = lrcs_host_sweep_output_put(&job->file, &row, error);
+    status =
+        status == LRCS_OK ? cli_pace_take(&job->pace, &job->file, &job->progress, error) : status;
     cli_progress_show(&job->progress, job->file.next - job->file.first);
     return status;
 }
 
-static int job_scene(void *context, uint64_t index, lrcs_host_scene *scene, lrcs_host_error *error)
+static int row_scene(void *context, uint64_t index, lrcs_host_scene *scene, lrcs_host_error *error)
 {
     const sweep_job *job = context;
     return lrcs_host_plan_scene(&job->plan, index, &job->scene, &job->load.build, scene, error);
@@ -250,9 +245,9 @@ static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
     lrcs_host_sweep sweep = {.first = job->file.next,
                              .count = end - job->file.next,
                              .threads = job->threads,
-                             .pose = job_pose,
-                             .scene = scene ? NULL : job_scene,
-                             .take = job_take,
+                             .pose = row_pose,
+                             .scene = scene ? NULL : row_scene,
+                             .take = row_take,
                              .refine = 1,
                              .uncertainty = job->head.fields.materials ? &how : NULL,
                              .glint = job->head.fields.glint ? job->coarse : NULL,
@@ -266,7 +261,7 @@ static int rows_run(sweep_job *job, const lrcs_host_scene *scene, uint64_t end)
     return cli_failed(&error);
 }
 
-static int job_run(sweep_job *job)
+static int rows_compute(sweep_job *job)
 {
     lrcs_host_error error;
     lrcs_host_scene scene;
@@ -280,7 +275,7 @@ static int job_run(sweep_job *job)
         while (!apart && code == 0 && job->file.next < job->file.end) {
             uint64_t end = (job->file.next / job->plan.poses + 1) * job->plan.poses;
             memset(&scene, 0, sizeof scene);
-            if (job_scene(job, job->file.next, &scene, &error) != LRCS_OK) {
+            if (row_scene(job, job->file.next, &scene, &error) != LRCS_OK) {
                 return cli_failed(&error);
             }
             code = rows_run(job, &scene, end < job->file.end ? end : job->file.end);
@@ -299,7 +294,7 @@ static int job_run(sweep_job *job)
 /* ---- the command ---- */
 
 /* Prints a summary for people; the rows contain all of it too. */
-static void job_summary(const sweep_job *job)
+static void sweep_summary_print(const sweep_job *job)
 {
     const lrcs_host_tally *tally = &job->file.tally;
     for (uint32_t bits = job->notices; bits != 0; bits &= bits - 1) {
@@ -310,7 +305,7 @@ static void job_summary(const sweep_job *job)
         if (tally->rows > 1) {
             snprintf(spread, sizeof spread, "%.3g m2", lrcs_host_tally_error(tally));
         }
-        fprintf(stderr, "mean of sigma %.10g m2, standard error %s, mean bound %.3g m2\n",
+        fprintf(stderr, "notice: mean of sigma %.10g m2, standard error %s, mean bound %.3g m2\n",
                 tally->mean, spread, tally->bound / (double)tally->rows);
     }
     char missed[60];
@@ -320,18 +315,18 @@ static void job_summary(const sweep_job *job)
              job->options.tolerance);
     const struct {
         int count;
-        const char *in, *what;
+        const char *begin, *what;
     } said[] = {
-        {LRCS_HOST_TALLY_MISSED, "", missed},
-        {LRCS_HOST_TALLY_ESTIMATED, "", estimated},
-        {LRCS_HOST_TALLY_UNJUDGED, "", "are accepted whatever their error"},
-        {LRCS_HOST_TALLY_DOMINATED, "in ",
+        {LRCS_HOST_TALLY_MISSED, "lrcs: ", missed},
+        {LRCS_HOST_TALLY_ESTIMATED, "notice: ", estimated},
+        {LRCS_HOST_TALLY_UNJUDGED, "notice: ", "are accepted whatever their error"},
+        {LRCS_HOST_TALLY_DOMINATED, "notice: in ",
          "the glint of one flat face of a curved part makes most of sigma: its normal is the "
          "mesh's, not the surface's"},
-        {LRCS_HOST_TALLY_STARVED, "", "were short of memory"}};
+        {LRCS_HOST_TALLY_STARVED, "lrcs: ", "were short of memory"}};
     for (size_t i = 0; i < sizeof said / sizeof said[0]; i++) {
         if (tally->count[said[i].count] > 0) {
-            fprintf(stderr, "lrcs: %s%llu of %llu rows %s\n", said[i].in,
+            fprintf(stderr, "%s%llu of %llu rows %s\n", said[i].begin,
                     (unsigned long long)tally->count[said[i].count],
                     (unsigned long long)tally->rows, said[i].what);
         }
@@ -351,7 +346,7 @@ static void coarse_print(const sweep_job *job)
         fprintf(
             stderr,
             "notice: glint: %lu curved part%s too coarse for the slope of their material: near the "
-            "normals of facets sigma may be off by %.2g %% of its glint, an estimate (--normals "
+            "normals of facets sigma may be off by %.3g %% of its glint, an estimate (--normals "
             "auto)\n",
             (unsigned long)coarse, coarse == 1 ? " is" : "s are", 100.0 * worst);
     }
@@ -363,7 +358,7 @@ static void coarse_print(const sweep_job *job)
    2. Memory for what depends on all rows: plots, statistics, peaks.
    3. The rows: those of an existing file, then those that are computed.
    4. Plots, statistics, peaks, the summary. */
-static int job_rows(sweep_job *job)
+static int sweep_rows_write(sweep_job *job)
 {
     const lrcs_host_tally *tally = &job->file.tally;
     const cli_args *args = job->args;
@@ -394,11 +389,19 @@ static int job_rows(sweep_job *job)
     if (lrcs_host_sweep_output_open(&job->file, resume, &error) != LRCS_OK) {
         return cli_failed(&error);
     }
-    code = job_run(job);
+    const int complete = resume && job->file.descriptor < 0;
+    if (complete) {
+        fprintf(stderr, "notice: %s is complete: no row is computed\n", cli_value(args, "o"));
+    } else if (job->file.path && !resume) {
+        cli_replaced_print(args, &job->file);
+    }
+    job->pace = (cli_pace){cli_seconds(), job->file.next, 0, 0};
+    code = rows_compute(job);
     int closed = lrcs_host_sweep_output_close(&job->file, code == 0, &error);
     /* cli_finish checks standard output */
     closed = closed == LRCS_OK || !job->file.path ? 0 : cli_failed(&error);
-    if (code != 0 && job->file.next > job->file.first && job->file.path && closed == 0) {
+    if (code != 0 && job->file.next > job->file.first && job->file.path && closed == 0 &&
+        !job->pace.too_large) {
         fprintf(stderr, "lrcs: %s holds %llu of %llu rows; --resume continues with them\n",
                 job->file.partial, (unsigned long long)(job->file.next - job->file.first),
                 (unsigned long long)(job->file.end - job->file.first));
@@ -417,8 +420,8 @@ static int job_rows(sweep_job *job)
     if (code != 0) {
         return code;
     }
-    job_summary(job);
-    cli_outputs_say(args);
+    sweep_summary_print(job);
+    cli_outputs_print(args, complete ? "o" : NULL);
     return tally->count[LRCS_HOST_TALLY_MISSED] > 0 || tally->count[LRCS_HOST_TALLY_STARVED] > 0
                ? CLI_DEGRADED
                : CLI_DONE;
@@ -431,11 +434,11 @@ static int sweep_command(const cli_args *args)
         return cli_out_of_memory();
     }
     job->args = args;
-    int code = job_read(job);
+    int code = sweep_options_read(job);
     cli_watch_stage("loading", NULL);
     code = code ? code : cli_scene_read(args, &job->load, &job->scene);
     code = code ? code : cli_plan_check(args, &job->plan, &job->scene);
-    code = code ? code : job_files_check(job);
+    code = code ? code : sweep_files_check(job);
     if (code == 0) {
         cli_notices_print(stderr, &job->scene.notices);
         /* if a slope is varied, parts that are fine now may be too coarse in some rows */
@@ -446,7 +449,7 @@ static int sweep_command(const cli_args *args)
         }
         coarse_print(job);
     }
-    code = code ? code : job_rows(job);
+    code = code ? code : sweep_rows_write(job);
     free(job->row);
     free(job->band);
     free(job->coarse);

@@ -35,6 +35,29 @@ int cli_rows_head_make(const cli_args *args, const lrcs_host_plan *plan,
    case. */
 int cli_rows_output_read(const cli_args *args, lrcs_host_sweep_output *output);
 
+/* ---- how large it is ---- */
+
+/* Refuses a sweep whose rows cannot fit: on the disk of its file; or in memory, if plots,
+   statistics or peaks need all of them (kept). 0 or CLI_FAILED. */
+int cli_size_check(const cli_args *args, const lrcs_host_plan *plan,
+                   const lrcs_host_sweep_output *file, int kept);
+
+/* Prints a notice if a sweep that is not resumed will replace a file. */
+void cli_replaced_print(const cli_args *args, const lrcs_host_sweep_output *file);
+
+/* The pace of a sweep since a time and a row. */
+typedef struct cli_pace {
+    double begun; /* s */
+    uint64_t first;
+    int said, too_large;
+} cli_pace;
+
+/* Call after each row. Once, after two seconds, prints a notice if the sweep will take more than
+   ten minutes or its file will be too large to be read back. Status: LRCS_OK; LRCS_E_LIMIT: it is
+   to become a map, and will be too large for that. */
+int cli_pace_take(cli_pace *pace, const lrcs_host_sweep_output *file, const cli_progress *progress,
+                  lrcs_host_error *error);
+
 /* ---- plots ---- */
 
 /* Reads --dbsm, --polar and --projection and checks them, if plots are asked for (by --plot, or -o

@@ -126,9 +126,10 @@ static void polar_line(const polar_layout *layout, const lrcs_host_series *serie
     }
 }
 
-/* Numbers of the pole and the rings along a ray between two spokes, on a background that covers
-   the lines. */
-static void polar_numbers(const polar_layout *layout)
+/* The numbers of the pole and the rings, along a ray between two spokes, on a background that
+   covers the lines; the title; and the meaning of the distance and of the angle, as text beside the
+   chart. */
+static void polar_labels(const polar_layout *layout, double left)
 {
     for (uint32_t i = 0; i < layout->axis.count; i++) {
         const lrcsi_tick *tick = &layout->axis.tick[i];
@@ -138,11 +139,7 @@ static void polar_numbers(const polar_layout *layout)
                                     polar_point(layout, 75.0, fraction), LRCSI_CHART_SMALL - 1.0);
         }
     }
-}
-
-/* The meaning of the distance and of the angle, as text beside the chart. */
-static void polar_names(const polar_layout *layout, double left)
-{
+    lrcsi_chart_title(layout->plotter, layout->chart->title, layout->chart->note);
     char text[256];
     lrcsi_plot_text label = {.text = text,
                              .at = {left, LRCSI_CHART_TOP + 24.0},
@@ -178,8 +175,6 @@ void lrcsi_polar_draw(const lrcs_host_chart *chart, lrcsi_plotter *plotter)
     for (uint32_t i = 0; i < chart->series_count; i++) {
         polar_line(&layout, &chart->series[i]);
     }
-    polar_numbers(&layout);
-    lrcsi_chart_title(plotter, chart->title, chart->note);
-    polar_names(&layout, right);
+    polar_labels(&layout, right);
     lrcsi_chart_legend(plotter, chart, right, LRCSI_CHART_TOP + 72.0);
 }

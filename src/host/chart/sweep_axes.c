@@ -25,6 +25,7 @@ lrcsi_axis_words lrcsi_axis_words_of(const char *name)
                                            {"euler_b_deg", "Euler angle b"},
                                            {"euler_c_deg", "Euler angle c"},
                                            {"rotate_deg", "rotation"}};
+    static const char joint[] = ".joint"; /* NAME.joint_deg */
     lrcsi_axis_words words = {.unit = NULL};
     size_t size = strlen(name);
     snprintf(words.text, sizeof words.text, "%s", name);
@@ -39,6 +40,10 @@ lrcsi_axis_words lrcsi_axis_words_of(const char *name)
         if (strcmp(name, known[i][0]) == 0) {
             snprintf(words.text, sizeof words.text, "%s", known[i][1]);
         }
+    }
+    size = strlen(words.text);
+    if (size > strlen(joint) && strcmp(words.text + size - strlen(joint), joint) == 0) {
+        snprintf(words.text, sizeof words.text, "joint of %.*s", (int)(size - strlen(joint)), name);
     }
     return words;
 }

@@ -38,16 +38,6 @@ static int text_line_next(lrcs_host_table *table, const char **line, const char 
     return 0;
 }
 
-/* Some countries use commas in numbers, so semicolons and tabs have precedence as separators. */
-static char line_separator(const char *line, const char *end)
-{
-    size_t size = (size_t)(end - line);
-    return memchr(line, ';', size)    ? ';'
-           : memchr(line, '\t', size) ? '\t'
-           : memchr(line, ',', size)  ? ','
-                                      : ' ';
-}
-
 /* One field from *line on, which is moved to its separator. */
 static lrcs_host_field field_cut(const lrcs_host_table *table, const char **line, const char *end)
 {
@@ -72,22 +62,6 @@ static lrcs_host_field field_cut(const lrcs_host_table *table, const char **line
     return (lrcs_host_field){at, (size_t)(last - at)};
 }
 
-/* How many fields a line has; one more than fit if there are too many. */
-static uint32_t line_split(lrcs_host_table *table, const char *line, const char *end)
-{
-    for (uint32_t fields = 0; fields < LRCS_HOST_FIELDS;) {
-        table->field[fields++] = field_cut(table, &line, end);
-        while (table->separator == ' ' && line < end && byte_is_blank(*line)) {
-            line++;
-        }
-        if (line == end) {
-            return fields;
-        }
-        line += table->separator != ' ';
-    }
-    return LRCS_HOST_FIELDS + 1;
-}
-
 lrcs_host_table lrcs_host_table_make(const char *path, const lrcs_host_file *file)
 {
     lrcs_host_table table = {.path = path, .at = (const char *)file->bytes};
@@ -96,20 +70,38 @@ lrcs_host_table lrcs_host_table_make(const char *path, const lrcs_host_file *fil
     return table;
 }
 
+/* 1. The next line. 2. The separator, by the first line: some countries use commas in numbers, so
+   semicolons and tabs have precedence. 3. The fields. 4. Every line has as many as the first. */
 int lrcs_host_table_read(lrcs_host_table *table, lrcs_host_error *error)
 {
     const char *line;
     const char *end;
-    if (!text_line_next(table, &line, &end)) {
+    if (!text_line_next(table, &line, &end)) { /* 1 */
         return 0;
     }
-    table->separator = table->columns ? table->separator : line_separator(line, end);
-    uint32_t fields = line_split(table, line, end);
-    if (fields > LRCS_HOST_FIELDS) {
-        return lrcsi_host_fail(error, LRCS_E_LIMIT, "%s: line %llu: more than %u columns",
-                               table->path, (unsigned long long)table->line, LRCS_HOST_FIELDS);
+    if (table->columns == 0) { /* 2 */
+        size_t size = (size_t)(end - line);
+        table->separator = memchr(line, ';', size)    ? ';'
+                           : memchr(line, '\t', size) ? '\t'
+                           : memchr(line, ',', size)  ? ','
+                                                      : ' ';
     }
-    if (table->columns && fields != table->columns) {
+    uint32_t fields = 0; /* 3 */
+    for (;;) {
+        if (fields == LRCS_HOST_FIELDS) {
+            return lrcsi_host_fail(error, LRCS_E_LIMIT, "%s: line %llu: more than %u columns",
+                                   table->path, (unsigned long long)table->line, LRCS_HOST_FIELDS);
+        }
+        table->field[fields++] = field_cut(table, &line, end);
+        while (table->separator == ' ' && line < end && byte_is_blank(*line)) {
+            line++;
+        }
+        if (line == end) {
+            break;
+        }
+        line += table->separator != ' ';
+    }
+    if (table->columns && fields != table->columns) { /* 4 */
         return lrcsi_host_fail(
             error, LRCS_E_SYNTAX,
             "%s: line %llu: found %lu field%s, expected %lu as in the first line", table->path,

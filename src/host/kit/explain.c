@@ -269,8 +269,8 @@ static int mistake_fits(const lrcsi_search *search, const lrcsi_mistake *mistake
 }
 
 /* Names the other mistakes that explain the same cases equally well. */
-static int ties_say(const lrcsi_search *search, const search_score *best,
-                    lrcs_host_finding *finding)
+static int ties_append(const lrcsi_search *search, const search_score *best,
+                       lrcs_host_finding *finding)
 {
     uint32_t ties = 0;
     if (best->first == lrcsi_mistakes) {
@@ -298,8 +298,8 @@ static int ties_say(const lrcsi_search *search, const search_score *best,
 
 /* If the frame is wrong, the kit's square no longer contains the scene: most of the remaining cases
    show less than they should, because part of the scene is outside. */
-static void clipped_say(const lrcsi_search *search, const search_score *best,
-                        lrcs_host_finding *finding)
+static void clipped_append(const lrcsi_search *search, const search_score *best,
+                           lrcs_host_finding *finding)
 {
     int mark = (int)search->job->findings;
     uint32_t left = 0;
@@ -365,9 +365,9 @@ static int finding_make(lrcsi_search *search, const search_score *best)
     }
     finding->rest = lrcsi_search_upper_median(search->room, count);
     /* 4. Mistakes that explain them equally well; what a wrong pose moves out of the window. */
-    status = ties_say(search, best, finding);
+    status = ties_append(search, best, finding);
     if (status == LRCS_OK && best->first->pose) {
-        clipped_say(search, best, finding);
+        clipped_append(search, best, finding);
     }
     return status;
 }
@@ -450,30 +450,6 @@ static int finding_next(lrcsi_search *search, int *found)
 
 /* 1. Causes visible in the table. 2. Mistakes of the catalogue, one after the other, as long as one
    explains something. 3. Other causes. 4. Counts of what is left. */
-static int findings_make(lrcsi_search *search)
-{
-    lrcs_host_judgement *job = search->job;
-    int status = LRCS_OK;
-    int found = 1;
-    cases_divide(search);
-    lrcsi_symptoms_format(search);
-    while (found && status == LRCS_OK && search->failing_count > 0) {
-        status = finding_next(search, &found);
-        cases_divide(search);
-    }
-    status = status == LRCS_OK ? lrcsi_symptoms_rest(search) : status;
-    if (status != LRCS_OK) {
-        return status;
-    }
-    for (uint32_t i = 0; i < job->kit.cases; i++) {
-        int lack = lrcs_host_judge_lack(job, &job->kit.list[i]);
-        job->not_numbers += lack == LRCS_HOST_LACK_NUMBER;
-        job->negatives += lack == LRCS_HOST_LACK_SIGN;
-        job->unexplained += lack == LRCS_HOST_LACK_REASON;
-    }
-    return LRCS_OK;
-}
-
 int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *error)
 {
     size_t count = (size_t)judgement->kit.cases + 1;
@@ -484,10 +460,26 @@ int lrcs_host_judge_explain(lrcs_host_judgement *judgement, lrcs_host_error *err
     search.other_answer = calloc(count, sizeof(double));
     search.room = calloc(count, sizeof(double));
     search.explains = calloc(count, 1);
-    int status = search.failing && search.passing && search.answer && search.other_answer &&
-                         search.room && search.explains
-                     ? findings_make(&search)
-                     : lrcsi_host_out_of_memory(error);
+    int room = search.failing && search.passing && search.answer && search.other_answer &&
+               search.room && search.explains;
+    int status = LRCS_OK;
+    if (!room) {
+        status = lrcsi_host_out_of_memory(error);
+    } else {
+        cases_divide(&search);
+        lrcsi_symptoms_format(&search);                                                /* 1 */
+        for (int found = 1; found && status == LRCS_OK && search.failing_count > 0;) { /* 2 */
+            status = finding_next(&search, &found);
+            cases_divide(&search);
+        }
+        status = status == LRCS_OK ? lrcsi_symptoms_rest(&search) : status; /* 3 */
+    }
+    for (uint32_t i = 0; status == LRCS_OK && i < judgement->kit.cases; i++) { /* 4 */
+        int lack = lrcs_host_judge_lack(judgement, &judgement->kit.list[i]);
+        judgement->not_numbers += lack == LRCS_HOST_LACK_NUMBER;
+        judgement->negatives += lack == LRCS_HOST_LACK_SIGN;
+        judgement->unexplained += lack == LRCS_HOST_LACK_REASON;
+    }
     free(search.failing);
     free(search.passing);
     free(search.answer);

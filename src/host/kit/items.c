@@ -69,33 +69,6 @@ static double images_agree(const items_image *truth, const items_image *theirs,
     return shown > 0 ? (double)same / (double)shown : 1.0;
 }
 
-/* The facets that lose most pixels, with the number of the truth's pixels that show something else.
- */
-static int facets_lost(const lrcs_scene *scene, const items_image *truth, const items_image *theirs,
-                       lrcs_host_kit_image *image, lrcs_host_error *error)
-{
-    uint32_t *lost = calloc((size_t)scene->facet_count + 1, sizeof *lost);
-    if (!lost) {
-        return lrcsi_host_out_of_memory(error);
-    }
-    for (uint32_t i = 0; i < truth->side * truth->side; i++) {
-        uint32_t a = item_at(truth, i / truth->side, i % truth->side);
-        uint32_t b = item_at(theirs, i / truth->side, i % truth->side);
-        lost[a < scene->facet_count ? a : scene->facet_count] += a != b;
-    }
-    for (uint32_t n = 0; n < LRCS_HOST_KIT_TOP; n++) {
-        uint32_t best = 0;
-        for (uint32_t i = 1; i < scene->facet_count; i++) {
-            best = lost[i] > lost[best] ? i : best;
-        }
-        image->facet[n] = best;
-        image->lost[n] = lost[best];
-        lost[best] = 0;
-    }
-    free(lost);
-    return LRCS_OK;
-}
-
 /* Reads an image if its file exists (*found). Status: as lrcs_host_judge. */
 static int item_image_read(const char *path, uint32_t side, items_image *image, int *found,
                            lrcs_host_error *error)
@@ -121,10 +94,13 @@ static int item_image_read(const char *path, uint32_t side, items_image *image, 
     return LRCS_OK;
 }
 
+/* Judges an image: the convention in which it agrees with the truth; if it agrees in none, the
+   facets that lose most pixels, with the number of the truth's pixels that show something else. */
 static int image_judge(lrcs_host_judgement *job, const lrcs_host_kit_case *one,
                        const items_image *truth, const items_image *theirs, lrcs_host_error *error)
 {
     lrcs_host_kit_items *found = &job->by_item;
+    const uint32_t facets = job->kit.scene[one->scene].host.scene.facet_count;
     double first = 0.0;
     double most = 0.0;
     size_t best = 0;
@@ -136,14 +112,33 @@ static int image_judge(lrcs_host_judgement *job, const lrcs_host_kit_case *one,
     }
     if (first >= AGREE || most >= AGREE) {
         found->way[first >= AGREE ? 0 : best]++;
-        return 0;
+        return LRCS_OK;
     }
     if (found->differ++ >= LRCS_HOST_KIT_NAMED) {
-        return 0;
+        return LRCS_OK;
     }
     lrcs_host_kit_image *image = &found->image[found->named++];
     *image = (lrcs_host_kit_image){.one = one, .agree = first};
-    return facets_lost(&job->kit.scene[one->scene].host.scene, truth, theirs, image, error);
+    uint32_t *lost = calloc((size_t)facets + 1, sizeof *lost);
+    if (!lost) {
+        return lrcsi_host_out_of_memory(error);
+    }
+    for (uint32_t i = 0; i < truth->side * truth->side; i++) {
+        uint32_t a = item_at(truth, i / truth->side, i % truth->side);
+        uint32_t b = item_at(theirs, i / truth->side, i % truth->side);
+        lost[a < facets ? a : facets] += a != b;
+    }
+    for (uint32_t n = 0; n < LRCS_HOST_KIT_TOP; n++) {
+        uint32_t worst = 0;
+        for (uint32_t i = 1; i < facets; i++) {
+            worst = lost[i] > lost[worst] ? i : worst;
+        }
+        image->facet[n] = worst;
+        image->lost[n] = lost[worst];
+        lost[worst] = 0;
+    }
+    free(lost);
+    return LRCS_OK;
 }
 
 /* Judges the image of a case if there is one (*found). Status: as lrcs_host_judge. */

@@ -406,35 +406,11 @@ const lrcsi_mistake lrcsi_mistakes[] = {
 /* Relative to the scene's size: more than rounding, less than any distance in it. */
 #define MOVED 0x1p-30
 
-/* Moves every facet towards the laser by a share of the distance: backs by all of it, fronts by up
-   to half, later ones by more. Corners are no longer shared. */
-static void facets_move(const lrcs_host_kit_case *one, const lrcs_scene *from, lrcs_scene *scene)
-{
-    double size = 0.0;
-    for (uint32_t i = 0; i < from->vertex_count; i++) {
-        for (int k = 0; k < 3; k++) {
-            size = fmax(size, fabs(from->vertex[i].x[k]));
-        }
-    }
-    double most = MOVED * size;
-    for (uint32_t i = 0; i < from->facet_count; i++) {
-        int back = one->records[i].cos_theta < 0.0;
-        double by = most * (back ? 1.0 : 0.5 * i / from->facet_count);
-        for (uint32_t k = 0; k < 3; k++) {
-            lrcs_point *corner = &scene->vertex[3 * i + k];
-            *corner = from->vertex[from->facet[i].corner[k]];
-            for (int axis = 0; axis < 3; axis++) {
-                corner->x[axis] += by * one->direction[axis];
-            }
-            scene->facet[i].corner[k] = 3 * i + k;
-        }
-    }
-    scene->vertex_count = 3 * from->facet_count;
-}
-
 /* The records of a case if of coplanar facets the wrong one is seen: backs before fronts, then the
    last before the first. Depths of one plane that differ by rounding make this mistake in some
-   pixels. The true records must be there already. */
+   pixels. Every facet is moved towards the laser by a share of the distance: backs by all of it,
+   fronts by up to half, later ones by more; corners are no longer shared. The true records must
+   be there already. */
 static int run_wrong_coplanar(const lrcs_host_kit *kit, const lrcs_host_kit_case *one,
                               lrcs_facet_record *records, lrcs_host_error *error)
 {
@@ -449,7 +425,25 @@ static int run_wrong_coplanar(const lrcs_host_kit *kit, const lrcs_host_kit_case
     lrcs_host_scene moved = {.scene = *from};
     moved.scene.vertex = vertex;
     moved.scene.facet = facet;
-    facets_move(one, from, &moved.scene);
+    moved.scene.vertex_count = 3 * from->facet_count;
+    double size = 0.0;
+    for (uint32_t i = 0; i < from->vertex_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            size = fmax(size, fabs(from->vertex[i].x[k]));
+        }
+    }
+    for (uint32_t i = 0; i < from->facet_count; i++) {
+        int back = one->records[i].cos_theta < 0.0;
+        double by = MOVED * size * (back ? 1.0 : 0.5 * i / from->facet_count);
+        for (uint32_t k = 0; k < 3; k++) {
+            lrcs_point *corner = &vertex[3 * i + k];
+            *corner = from->vertex[from->facet[i].corner[k]];
+            for (int axis = 0; axis < 3; axis++) {
+                corner->x[axis] += by * one->direction[axis];
+            }
+            facet[i].corner[k] = 3 * i + k;
+        }
+    }
     int status = lrcs_host_scene_prepare(&moved, error);
     status = status == LRCS_OK ? lrcsi_kit_run(&moved, &one->pose, 0, records, error) : status;
     lrcs_host_scene_free(&moved);

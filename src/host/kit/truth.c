@@ -101,38 +101,34 @@ static int case_run(truth_run *run, lrcsi_vectors_case *one, lrcs_host_error *er
                       : LRCS_OK;
 }
 
-/* Writes NAME.facets.csv with the facets of all cases, and runs the cases for it. */
-static int truth_file(truth_run *run, lrcsi_vectors_job *job, const lrcsi_vectors_scene *scene,
-                      lrcs_host_error *error)
-{
-    lrcs_host_output out;
-    char path[LRCSI_KIT_PATH];
-    int status = lrcsi_kit_path(path, error, "%s/truth/%s.facets.csv", job->folder, scene->name);
-    status = status == LRCS_OK ? lrcs_host_output_open(path, &out, error) : status;
-    if (status != LRCS_OK) {
-        return status;
-    }
-    run->out = out.stream;
-    fputs("scene,attitude,facet,cos_theta,visible_area_m2,sigma_m2\n", run->out);
-    for (uint32_t i = 0; i < job->cases && status == LRCS_OK; i++) {
-        status = job->list[i].scene == scene ? case_run(run, &job->list[i], error) : LRCS_OK;
-    }
-    return lrcsi_host_output_end(&out, status, error);
-}
-
+/* 1. The scene as others read it, and memory. 2. NAME.facets.csv with the facets of all cases,
+   which are run for it. */
 int lrcsi_vectors_truth_write(lrcsi_vectors_job *job, const lrcsi_vectors_scene *scene,
                               lrcs_host_error *error)
 {
-    truth_run run = {.job = job};
+    truth_run run = {.job = job}; /* 1 */
+    lrcs_host_output out;
+    char path[LRCSI_KIT_PATH];
+    uint32_t side = job->resolution > 0 ? job->resolution : 1;
     int status = lrcsi_kit_scene_read(job->folder, scene->name, job->binding, job->bindings,
                                       &run.host, error);
     if (status == LRCS_OK) {
-        uint32_t side = job->resolution > 0 ? job->resolution : 1;
         run.image.size = side;
         run.image.facet = malloc((size_t)side * side * sizeof *run.image.facet);
         run.records = malloc(((size_t)run.host.scene.facet_count + 1) * sizeof *run.records);
-        status = run.image.facet && run.records ? truth_file(&run, job, scene, error)
-                                                : lrcsi_host_out_of_memory(error);
+        status =
+            run.image.facet && run.records
+                ? lrcsi_kit_path(path, error, "%s/truth/%s.facets.csv", job->folder, scene->name)
+                : lrcsi_host_out_of_memory(error);
+    }
+    status = status == LRCS_OK ? lrcs_host_output_open(path, &out, error) : status;
+    if (status == LRCS_OK) { /* 2 */
+        run.out = out.stream;
+        fputs("scene,attitude,facet,cos_theta,visible_area_m2,sigma_m2\n", run.out);
+        for (uint32_t i = 0; i < job->cases && status == LRCS_OK; i++) {
+            status = job->list[i].scene == scene ? case_run(&run, &job->list[i], error) : LRCS_OK;
+        }
+        status = lrcsi_host_output_end(&out, status, error);
     }
     free(run.image.facet);
     free(run.records);

@@ -2,6 +2,7 @@
 /* Visible polygons as vector graphics: one path per facet, in metres, under one transform to the
    drawing. colouring.c decides colours, legend.c the legend below. */
 #include "host/chart/svg.h"
+#include "host/picture/annotate.h"
 #include "host/picture/legend.h"
 #include "host/picture/palette.h"
 
@@ -11,6 +12,8 @@
 #define DRAWING_HEIGHT 900.0 /* at most */
 #define DRAWING_MARGIN 24.0
 #define DRAWING_LEGEND 300.0 /* at most */
+#define DRAWING_AXES   20.0  /* the length of the body's axes, in the upper right corner */
+#define DRAWING_TITLE  64.0  /* the height of title, pose and axes */
 #define DRAWING_SEAM   0.7   /* the width of outlines, which cover the gaps between facets */
 
 /* The layout: x = left + metre (u - low[0]), y = top - metre (v - high[1]). */
@@ -42,9 +45,10 @@ static drawing_layout drawing_place(const lrcsi_colouring *colouring, const lrcs
     layout.metre = isfinite(metre) ? metre : 0.0;
     double width = layout.metre * (layout.high[0] - layout.low[0]);
     layout.left = 0.5 * (DRAWING_WIDTH - width);
+    layout.top += colouring->picture->annotated ? DRAWING_TITLE - DRAWING_MARGIN : 0.0;
     layout.legend = lrcsi_legend_height(colouring, DRAWING_WIDTH, DRAWING_LEGEND);
-    layout.height =
-        2.0 * DRAWING_MARGIN + layout.metre * (layout.high[1] - layout.low[1]) + layout.legend;
+    layout.height = layout.top + DRAWING_MARGIN + layout.metre * (layout.high[1] - layout.low[1]) +
+                    layout.legend;
     return layout;
 }
 
@@ -134,6 +138,11 @@ void lrcs_host_picture_svg(FILE *out, const lrcs_host_picture *picture,
         const lrcsi_plot_point corner[4] = {
             {0.0, 0.0}, {DRAWING_WIDTH, 0.0}, {DRAWING_WIDTH, layout.height}, {0.0, layout.height}};
         svg.plotter.area(&svg.plotter, corner, 4, lrcsi_colouring_background(&colouring));
+    }
+    if (picture->annotated) {
+        const lrcsi_plot_point corner = {DRAWING_WIDTH - 0.6 * DRAWING_TITLE, 0.5 * DRAWING_TITLE};
+        lrcsi_annotate(&colouring, &svg.plotter, DRAWING_WIDTH - DRAWING_TITLE, corner,
+                       DRAWING_AXES);
     }
     facets_draw(out, &colouring, polygons, &layout);
     lrcsi_legend_draw(&colouring, &svg.plotter, layout.height - layout.legend, DRAWING_WIDTH,

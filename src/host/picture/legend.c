@@ -22,28 +22,8 @@
 
 /* ---- the scale bar ---- */
 
-/* The largest of 1, 2, 5 x 10^n that does not exceed `limit`; its name with a unit. */
-static double length_choose(double limit, char name[32])
-{
-    int decade = (int)floor(log10(limit) + 1e-9);
-    double mantissa = limit / pow(10.0, decade);
-    int digit = mantissa >= 5.0 ? 5 : mantissa >= 2.0 ? 2 : 1;
-    if (decade < -6 || decade > 6) {
-        snprintf(name, 32, "%de%d m", digit, decade);
-    } else if (decade >= 3) {
-        snprintf(name, 32, "%d%.*s km", digit, decade - 3, "000");
-    } else if (decade >= -1) {
-        snprintf(name, 32, decade < 0 ? "0.%d%.*s m" : "%d%.*s m", digit, decade > 0 ? decade : 0,
-                 "000");
-    } else if (decade >= -3) {
-        snprintf(name, 32, "%d%.*s mm", digit, decade + 3, "000");
-    } else {
-        snprintf(name, 32, "%d%.*s um", digit, decade + 6, "000");
-    }
-    return digit * pow(10.0, decade);
-}
-
-/* The scale bar with its ends, at height y. */
+/* The scale bar with its ends and its name, at height y: the largest of 1, 2, 5 x 10^n metres that
+   is not longer than LEGEND_LENGTH of the width. `scale`: units of the drawing per metre. */
 static void length_draw(lrcsi_plotter *plotter, double y, double width, double scale,
                         uint32_t colour)
 {
@@ -52,7 +32,22 @@ static void length_draw(lrcsi_plotter *plotter, double y, double width, double s
     if (!(scale > 0.0) || !isfinite(limit) || !(limit > 0.0)) {
         return; /* nothing is visible */
     }
-    double length = scale * length_choose(limit, name);
+    int decade = (int)floor(log10(limit) + 1e-9);
+    double mantissa = limit / pow(10.0, decade);
+    int digit = mantissa >= 5.0 ? 5 : mantissa >= 2.0 ? 2 : 1;
+    if (decade < -6 || decade > 6) {
+        snprintf(name, sizeof name, "%de%d m", digit, decade);
+    } else if (decade >= 3) {
+        snprintf(name, sizeof name, "%d%.*s km", digit, decade - 3, "000");
+    } else if (decade >= -1) {
+        snprintf(name, sizeof name, decade < 0 ? "0.%d%.*s m" : "%d%.*s m", digit,
+                 decade > 0 ? decade : 0, "000");
+    } else if (decade >= -3) {
+        snprintf(name, sizeof name, "%d%.*s mm", digit, decade + 3, "000");
+    } else {
+        snprintf(name, sizeof name, "%d%.*s um", digit, decade + 6, "000");
+    }
+    double length = scale * (digit * pow(10.0, decade));
     double x = LEGEND_MARGIN;
     lrcsi_plot_line(plotter, x, y, x + length, y, colour, LEGEND_LINE);
     lrcsi_plot_line(plotter, x, y - 4.0, x, y + 4.0, colour, LEGEND_LINE);
@@ -171,23 +166,6 @@ static void materials_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plot
     }
 }
 
-/* ---- what returns nothing ---- */
-
-/* The swatch of what returns nothing, above the scale bar; left out where there is no room. */
-static void grey_draw(lrcsi_plotter *plotter, double top, double width, uint32_t colour)
-{
-    const lrcsi_plot_text label = {.text = "returns nothing",
-                                   .at = {LEGEND_MARGIN + LEGEND_SWATCH + 6.0, top + 10.0},
-                                   .size = LEGEND_TYPE,
-                                   .colour = colour};
-    if ((LEGEND_LENGTH + 0.06) * width < LEGEND_GREY) {
-        return;
-    }
-    lrcsi_plot_rectangle(plotter, LEGEND_MARGIN, top - 0.5, LEGEND_MARGIN + LEGEND_SWATCH,
-                         top - 0.5 + LEGEND_SWATCH, LRCSI_COLOURING_GREY);
-    plotter->text(plotter, &label);
-}
-
 /* ---- the whole legend ---- */
 
 double lrcsi_legend_height(const lrcsi_colouring *colouring, double width, double height_max)
@@ -211,8 +189,15 @@ void lrcsi_legend_draw(const lrcsi_colouring *colouring, lrcsi_plotter *plotter,
     if (colouring->scaled) {
         scale_draw(colouring, plotter, top, width, colour);
     }
-    if (colouring->greys) {
-        grey_draw(plotter, top, width, colour);
+    if (colouring->greys && (LEGEND_LENGTH + 0.06) * width >= LEGEND_GREY) {
+        /* the swatch of what returns nothing, above the scale bar, where there is room */
+        const lrcsi_plot_text label = {.text = "returns nothing",
+                                       .at = {LEGEND_MARGIN + LEGEND_SWATCH + 6.0, top + 10.0},
+                                       .size = LEGEND_TYPE,
+                                       .colour = colour};
+        lrcsi_plot_rectangle(plotter, LEGEND_MARGIN, top - 0.5, LEGEND_MARGIN + LEGEND_SWATCH,
+                             top - 0.5 + LEGEND_SWATCH, LRCSI_COLOURING_GREY);
+        plotter->text(plotter, &label);
     }
     length_draw(plotter, top + 16.0 + 0.5 * LEGEND_BAR, width, scale, colour);
 }

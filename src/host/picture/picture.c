@@ -10,6 +10,7 @@
 
 #define OVERSAMPLE      2u    /* raster cells per pixel in x and in y: smooth outlines */
 #define LEGEND_FROM     160u  /* smaller pictures have no legend */
+#define ANNOTATED_FROM  320u  /* smaller pictures have no title, pose and axes */
 #define LEGEND_FRACTION 0.4   /* the largest fraction of the height that it takes */
 #define PICTURE_UNITS   640.0 /* larger pictures have larger text */
 #define OUTLINE_LIGHT   0.55  /* brightness of an outline relative to its surroundings */
@@ -33,7 +34,7 @@ static picture_layout picture_place(const lrcs_host_picture *picture, uint32_t s
         lrcsi_colouring colouring = lrcsi_colouring_make(&plain);
         double side = size / at.unit;
         at.legend = lrcsi_legend_height(&colouring, side, LEGEND_FRACTION * side);
-        at.title = picture->annotated ? LRCSI_ANNOTATE_TITLE : 0.0;
+        at.title = picture->annotated && size >= ANNOTATED_FROM ? LRCSI_ANNOTATE_TITLE : 0.0;
         above_and_below = (uint32_t)lround((at.legend + at.title) * at.unit);
     }
     at.side = size - 2 * margin - above_and_below;

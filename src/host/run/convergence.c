@@ -251,7 +251,7 @@ static int settings_repeat(lrcs_host_convergence *job, lrcs_host_error *error)
 /* ---- the truth ---- */
 
 /* 1 if a shape is not rotated or scaled; it may be translated. */
-static int stands_plain(const lrcs_recipe_part *part)
+static int is_only_translated(const lrcs_recipe_part *part)
 {
     const lrcs_place plain = lrcs_place_default();
     for (int i = 0; i < 3; i++) {
@@ -272,7 +272,7 @@ static int truth_closed(lrcs_host_convergence *job)
 {
     const lrcs_recipe *recipe = &job->mesh[0].scene.recipe;
     const lrcs_scene *scene = &job->mesh[0].scene.scene;
-    if (recipe->part_count != 1 || recipe->part[0].file || !stands_plain(&recipe->part[0]) ||
+    if (recipe->part_count != 1 || recipe->part[0].file || !is_only_translated(&recipe->part[0]) ||
         scene->facet_count == 0) {
         return 0;
     }

@@ -12,10 +12,11 @@
 #include "base/vec3.h"
 #include "optics/aliasing.h"
 
-/* Neighbours that turn by less are treated as halves of one flat polygon; those that turn by more
-   (60 deg), as faces of a box with a smoothing group. */
+/* Neighbours that turn by less are treated as halves of one flat polygon; those that turn by 60 deg
+   or more, as faces of a box with a smoothing group. The turn of a hexagonal prism, whose
+   coordinates are rounded to floats, is 60 deg. */
 #define COPLANAR_TURN 1e-3
-#define SHARP_TURN    (LRCS_PI / 3.0)
+#define SHARP_TURN    (LRCS_PI / 3.0 - 1e-4)
 
 /* An edge of a facet, lower vertex first. */
 typedef struct glint_edge {

@@ -218,8 +218,8 @@ static uint32_t file_key_line(const lrcs_host_file *scene_file, uint32_t first)
 
 /* Puts before an error about a part's model the line that names the file, and after it where a
    relative name was looked for. */
-static void lost_model_place(lrcs_host_error *error, int status, const char *path,
-                             const lrcs_host_file *scene_file, const lrcs_recipe_part *part)
+static void model_error_locate(lrcs_host_error *error, int status, const char *path,
+                               const lrcs_host_file *scene_file, const lrcs_recipe_part *part)
 {
     char cause[sizeof error->text];
     char here[256] = ".";
@@ -267,7 +267,7 @@ static int models_read(lrcs_host_scene *scene, const char *path, const lrcs_host
             status = lrcsi_host_model_read(scene, name, &file, &scene->model[i], error);
             lrcs_host_file_free(&file);
         } else if (error && recipe->part[i].line != 0) {
-            lost_model_place(error, status, path, given, &recipe->part[i]);
+            model_error_locate(error, status, path, given, &recipe->part[i]);
         }
     }
     return status;

@@ -224,7 +224,7 @@ static void scene_notes(lrcs_host_scene *host)
         facets[scene->facet_material[i]]++;
     }
     uint64_t omitted = 0;
-    uint64_t unbound = 0;
+    uint64_t unassigned = 0;
     uint64_t assumed = 0;
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const lrcs_material *material = &scene->material[i];
@@ -236,7 +236,7 @@ static void scene_notes(lrcs_host_scene *host)
             continue;
         }
         if (!material->brdf_given && material->source == 0) {
-            unbound += facets[i];
+            unassigned += facets[i];
         } else if (!material->brdf_given) {
             assumed += facets[i];
             guess = guess ? guess : &material->brdf;
@@ -251,11 +251,12 @@ static void scene_notes(lrcs_host_scene *host)
             "%llu fully transparent facets are left out (--keep-transparent keeps them)",
             (unsigned long long)omitted);
     }
-    if (unbound > 0) {
-        lrcsi_host_note(&host->notices,
-                        "%llu of %lu facets have no material bound: they have A=1, B=0.25, s=0.2, "
-                        "m=0.5 (--material binds one)",
-                        (unsigned long long)unbound, (unsigned long)scene->facet_count);
+    if (unassigned > 0) {
+        lrcsi_host_note(
+            &host->notices,
+            "%llu of %lu facets have no material assigned: they have A=1, B=0.25, s=0.2, "
+            "m=0.5 (--material assigns one)",
+            (unsigned long long)unassigned, (unsigned long)scene->facet_count);
     }
     if (assumed > 0) {
         assumed_note(host, assumed, same ? guess : NULL);

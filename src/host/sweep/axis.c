@@ -83,7 +83,7 @@ static const char *range_make(const range_number number[3], lrcs_host_range *ran
         return range_long;
     }
     if (span != 0 && (step == 0 || (step > 0) != (span > 0))) {
-        return "STEP does not lead from A to B";
+        return "expected A:B:STEP with a STEP that leads from A to B";
     }
     *range = (lrcs_host_range){first, step, span != 0 ? (uint64_t)(span / step) + 1 : 1, decimals};
     return NULL;

@@ -132,11 +132,24 @@ static void data_row_take(void *context, const lrcs_host_row *row)
     }
 }
 
-/* Reads the rows of a map, or of a text from the first one to the checksum. */
-static int data_rows(const char *path, const lrcs_host_rows *rows, const lrcs_host_sweep_map *map,
+/* From opened rows: the plan, then the rows of a map, or of a text from the first one to the
+   checksum. */
+static int data_read(const char *path, lrcs_host_rows *rows, const lrcs_host_sweep_map *map,
                      lrcs_host_sweep_data *data, lrcs_host_error *error)
 {
+    const char *column[LRCS_HOST_PLAN_COLUMNS];
     uint64_t first, count;
+    int banded = rows->fields.materials && !map;
+    data->row = calloc(rows->rows + 1, sizeof *data->row);
+    data->band = banded ? calloc(rows->rows + 1, sizeof *data->band) : NULL;
+    if (!data->row || (banded && !data->band) ||
+        lrcsi_rows_head_read(rows, &data->words, &data->head, column) != LRCS_OK) {
+        return lrcsi_host_out_of_memory(error);
+    }
+    int status = data_plan(path, rows, column, data, error);
+    if (status != LRCS_OK) {
+        return status;
+    }
     int track = data->plan.track.row != NULL;
     if (map && track) {
         return lrcsi_host_fail(error, LRCS_E_UNSUPPORTED,
@@ -151,8 +164,8 @@ static int data_rows(const char *path, const lrcs_host_rows *rows, const lrcs_ho
     if (map) {
         return LRCS_OK;
     }
-    int status = lrcsi_rows_read(path, rows, track ? NULL : &data->plan, data_row_take, data,
-                                 &first, &count, error);
+    status = lrcsi_rows_read(path, rows, track ? NULL : &data->plan, data_row_take, data, &first,
+                             &count, error);
     return status != LRCS_OK || count == rows->rows
                ? status
                : lrcsi_host_fail(error, LRCS_E_INDEX,
@@ -160,27 +173,26 @@ static int data_rows(const char *path, const lrcs_host_rows *rows, const lrcs_ho
                                  path, (unsigned long long)count, (unsigned long long)rows->rows);
 }
 
-/* From opened rows: the plan, then all rows. */
-static int data_read(const char *path, lrcs_host_rows *rows, const lrcs_host_sweep_map *map,
-                     lrcs_host_sweep_data *data, lrcs_host_error *error)
+int lrcs_host_sweep_read(const char *path, lrcs_host_sweep_data *data, lrcs_host_error *error)
 {
-    const char *column[LRCS_HOST_PLAN_COLUMNS];
-    int banded = rows->fields.materials && !map;
-    data->row = calloc(rows->rows + 1, sizeof *data->row);
-    data->band = banded ? calloc(rows->rows + 1, sizeof *data->band) : NULL;
-    if (!data->row || (banded && !data->band) ||
-        lrcsi_rows_head_read(rows, &data->words, &data->head, column) != LRCS_OK) {
-        return lrcsi_host_out_of_memory(error);
-    }
-    int status = data_plan(path, rows, column, data, error);
-    return status == LRCS_OK ? data_rows(path, rows, map, data, error) : status;
-}
-
-static int data_read_text(const char *path, lrcs_host_sweep_data *data, lrcs_host_error *error)
-{
+    lrcs_host_sweep_map map;
     lrcs_host_file file;
     lrcs_host_rows rows;
-    int status = lrcs_host_file_read(path, &file, error);
+    size_t size = strlen(path);
+    int status;
+    memset(data, 0, sizeof *data);
+    if (size > 4 && strcasecmp(path + size - 4, ".npy") == 0) {
+        status = lrcs_host_sweep_map_open(path, &map);
+        status = status == LRCS_OK
+                     ? data_read(path, &map.rows, &map, data, error)
+                     : lrcsi_host_fail(error, status,
+                                       "%s: expected a map of lrcs sweep with its FILE.npy.head, "
+                                       "both as they were written",
+                                       path);
+        lrcs_host_sweep_map_close(&map);
+        return status;
+    }
+    status = lrcs_host_file_read(path, &file, error);
     if (status != LRCS_OK) {
         return status;
     }
@@ -194,27 +206,6 @@ static int data_read_text(const char *path, lrcs_host_sweep_data *data, lrcs_hos
         status = data_read(path, &rows, NULL, data, error);
     }
     lrcs_host_file_free(&file);
-    return status;
-}
-
-int lrcs_host_sweep_read(const char *path, lrcs_host_sweep_data *data, lrcs_host_error *error)
-{
-    lrcs_host_sweep_map map;
-    size_t size = strlen(path);
-    memset(data, 0, sizeof *data);
-    if (size <= 4 || strcasecmp(path + size - 4, ".npy") != 0) {
-        return data_read_text(path, data, error);
-    }
-    int status = lrcs_host_sweep_map_open(path, &map);
-    if (status != LRCS_OK) {
-        status = lrcsi_host_fail(error, status,
-                                 "%s: expected a map of lrcs sweep with its FILE.npy.head, both as "
-                                 "they were written",
-                                 path);
-    } else {
-        status = data_read(path, &map.rows, &map, data, error);
-    }
-    lrcs_host_sweep_map_close(&map);
     return status;
 }
 

@@ -140,7 +140,7 @@ static void file_take(lrcs_host_sweep_output *file, const lrcs_host_row *row)
 /* ---- bytes on their way ---- */
 
 /* Opens the buffer in which rows are collected before they are written together. */
-static int waiting_begin(lrcs_host_sweep_output *file, lrcs_host_error *error)
+static int buffer_begin(lrcs_host_sweep_output *file, lrcs_host_error *error)
 {
     free(file->waiting);
     file->waiting = NULL;
@@ -166,7 +166,7 @@ static int bytes_place(int descriptor, const char *bytes, size_t size, uint64_t 
    followed by the checksum of all rows so far, in one write, which overwrites the previous
    checksum. The checksum is never longer than what overwrites it. Status: LRCS_OK;
    LRCS_E_SYSTEM. */
-static int waiting_flush(lrcs_host_sweep_output *file, int last, lrcs_host_error *error)
+static int buffer_flush(lrcs_host_sweep_output *file, int last, lrcs_host_error *error)
 {
     fflush(file->stream);
     size_t rows = file->waiting_size;
@@ -183,7 +183,7 @@ static int waiting_flush(lrcs_host_sweep_output *file, int last, lrcs_host_error
         good = fwrite(file->waiting, 1, file->waiting_size, stdout) == file->waiting_size &&
                fflush(stdout) == 0;
     }
-    return good ? waiting_begin(file, error)
+    return good ? buffer_begin(file, error)
                 : lrcsi_host_fail_file(error, file->path ? file->partial : "standard output",
                                        "write");
 }
@@ -194,16 +194,16 @@ static int waiting_flush(lrcs_host_sweep_output *file, int last, lrcs_host_error
    of this sweep and shard, which is no failure yet; summed, whether a checksum follows the rows, or
    they end in a truncated line. file->size and file->sum are set to match.
    Status: LRCS_OK; LRCS_E_SYNTAX (a row is damaged). */
-static int rows_recover(lrcs_host_sweep_output *file, const char *path, const lrcs_host_file *there,
-                        const char *head, size_t head_size, int *same, int *summed,
-                        lrcs_host_error *error)
+static int rows_recover(lrcs_host_sweep_output *file, const char *path,
+                        const lrcs_host_file *existing, const char *head, size_t head_size,
+                        int *same, int *summed, lrcs_host_error *error)
 {
     lrcs_host_rows rows;
     lrcs_host_row row;
     lrcs_host_error fault;
-    const char *bytes = (const char *)there->bytes;
-    *same = there->size >= head_size && memcmp(bytes, head, head_size) == 0 &&
-            lrcs_host_rows_open(bytes, there->size, &rows) == LRCS_OK;
+    const char *bytes = (const char *)existing->bytes;
+    *same = existing->size >= head_size && memcmp(bytes, head, head_size) == 0 &&
+            lrcs_host_rows_open(bytes, existing->size, &rows) == LRCS_OK;
     if (!*same) {
         return LRCS_OK;
     }
@@ -241,18 +241,19 @@ static int rows_recover(lrcs_host_sweep_output *file, const char *path, const lr
 static int partial_continue(lrcs_host_sweep_output *file, const char *head, size_t head_size,
                             lrcs_host_error *error)
 {
-    lrcs_host_file there = {NULL, 0};
+    lrcs_host_file existing = {NULL, 0};
     int summed;
     int same = 1;
-    int status = lrcs_host_file_read(file->partial, &there, error);
+    int status = lrcs_host_file_read(file->partial, &existing, error);
     if (status != LRCS_OK) {
         return status;
     }
-    int torn = there.size < head_size && memcmp(there.bytes, head, there.size) == 0;
+    int torn = existing.size < head_size && memcmp(existing.bytes, head, existing.size) == 0;
     if (!torn) {
-        status = rows_recover(file, file->partial, &there, head, head_size, &same, &summed, error);
+        status =
+            rows_recover(file, file->partial, &existing, head, head_size, &same, &summed, error);
     }
-    lrcs_host_file_free(&there);
+    lrcs_host_file_free(&existing);
     if (status == LRCS_OK && !same) {
         return lrcsi_host_fail(error, LRCS_E_SYNTAX,
                                "%s: belongs to another sweep (scene, options, shard or version): "
@@ -295,23 +296,23 @@ static int map_recover(lrcs_host_sweep_output *file, char *const head[2], const 
 
 /* Recovers the rows of FILE, which exists and is never replaced by a sweep that is resumed. LRCS_OK
    if it is complete and belongs to this very sweep. */
-static int whole_recover(lrcs_host_sweep_output *file, char *const head[2], const size_t size[2],
-                         lrcs_host_error *error)
+static int complete_recover(lrcs_host_sweep_output *file, char *const head[2], const size_t size[2],
+                            lrcs_host_error *error)
 {
-    lrcs_host_file there;
+    lrcs_host_file existing;
     int summed = file->npy;
     int status = LRCS_OK;
     int same;
     if (file->npy) {
         same = map_recover(file, head, size);
     } else {
-        status = lrcs_host_file_read(file->path, &there, error);
+        status = lrcs_host_file_read(file->path, &existing, error);
         if (status != LRCS_OK) {
             return status;
         }
-        status = rows_recover(file, file->path, &there, head[file->format], size[file->format],
+        status = rows_recover(file, file->path, &existing, head[file->format], size[file->format],
                               &same, &summed, error);
-        lrcs_host_file_free(&there);
+        lrcs_host_file_free(&existing);
     }
     if (status == LRCS_OK && !same) {
         return lrcsi_host_fail(
@@ -337,7 +338,7 @@ int lrcs_host_sweep_output_open(lrcs_host_sweep_output *file, int resume, lrcs_h
     size_t size[2] = {0, 0};
     file->next = file->first;
     file->sum = LRCS_HOST_HASH_START;
-    int status = waiting_begin(file, error);
+    int status = buffer_begin(file, error);
     if (status == LRCS_OK && !file->path) {
         lrcs_host_rows_head_write(file->stream, file->format, file->head, file->plan);
         return LRCS_OK;
@@ -356,7 +357,7 @@ int lrcs_host_sweep_output_open(lrcs_host_sweep_output *file, int resume, lrcs_h
         return status;
     }
     if (resume && stat(file->path, &about) == 0) {
-        status = whole_recover(file, text, size, error);
+        status = complete_recover(file, text, size, error);
     } else if (resume && stat(file->partial, &about) == 0) {
         status = partial_continue(file, text[file->format], size[file->format], error);
     } else { /* an existing FILE.partial is never overwritten: it may contain hours of work */
@@ -389,7 +390,7 @@ int lrcs_host_sweep_output_put(lrcs_host_sweep_output *file, const lrcs_host_row
         return LRCS_OK;
     }
     file->flushed = now;
-    return waiting_flush(file, 0, error);
+    return buffer_flush(file, 0, error);
 }
 
 /* Reads the rows of FILE.npy.partial once more. */
@@ -441,7 +442,7 @@ int lrcs_host_sweep_output_close(lrcs_host_sweep_output *file, int all, lrcs_hos
     if (all && lrcs_host_plan_is_sphere(file->plan) && file->tally.rows == file->plan->rows) {
         lrcs_host_rows_mean_write(file->stream, file->format, &file->tally);
     }
-    int status = waiting_flush(file, all, error);
+    int status = buffer_flush(file, all, error);
     if (status != LRCS_OK || !file->path) {
         return status;
     }

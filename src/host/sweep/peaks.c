@@ -53,7 +53,7 @@ static peaks_grid peaks_grid_make(const lrcs_host_plan *plan, const double (*row
     return grid;
 }
 
-static int row_outshines(const peaks_grid *grid, uint64_t other, uint64_t row)
+static int row_is_brighter(const peaks_grid *grid, uint64_t other, uint64_t row)
 {
     double a = grid->row[other][0];
     double b = grid->row[row][0];
@@ -87,7 +87,8 @@ static int points_are_next(const peaks_grid *grid, uint64_t a, uint64_t b)
     return square <= near;
 }
 
-static int sphere_outshines(const peaks_grid *grid, uint64_t first, uint64_t at, uint64_t row)
+static int lattice_neighbour_is_brighter(const peaks_grid *grid, uint64_t first, uint64_t at,
+                                         uint64_t row)
 {
     uint64_t next = 2;
     for (uint64_t step = 1; step < grid->inner;) {
@@ -95,7 +96,7 @@ static int sphere_outshines(const peaks_grid *grid, uint64_t first, uint64_t at,
             uint64_t other = side == 0
                                  ? at + step
                                  : at - step; /* wraps round below 0 and is then out of range */
-            if (other < grid->inner && row_outshines(grid, first + other, row) &&
+            if (other < grid->inner && row_is_brighter(grid, first + other, row) &&
                 points_are_next(grid, first + other, first + at)) {
                 return 1;
             }
@@ -104,14 +105,14 @@ static int sphere_outshines(const peaks_grid *grid, uint64_t first, uint64_t at,
         step = next;
         next = sum;
     }
-    return row_outshines(grid, first + at, row);
+    return row_is_brighter(grid, first + at, row);
 }
 
 /* ---- neighbours ---- */
 
 /* 1 if any row at these places, or of the neighbouring poses, is brighter. Places may lie one step
    outside of their axes: then there is no such row. */
-static int places_outshine(const peaks_grid *grid, const int64_t *place, uint64_t row)
+static int neighbour_is_brighter(const peaks_grid *grid, const int64_t *place, uint64_t row)
 {
     uint64_t first = 0;
     uint64_t own = row % grid->inner;
@@ -124,14 +125,14 @@ static int places_outshine(const peaks_grid *grid, const int64_t *place, uint64_
         first += (uint64_t)at * grid->stride[i];
     }
     if (grid->plan->kind == LRCS_HOST_PLAN_SPHERE) {
-        return sphere_outshines(grid, first, own, row);
+        return lattice_neighbour_is_brighter(grid, first, own, row);
     }
     if (grid->plan->kind != LRCS_HOST_PLAN_TRACK) {
-        return row_outshines(grid, first, row);
+        return row_is_brighter(grid, first, row);
     }
-    return row_outshines(grid, first + own, row) ||
-           (own > 0 && row_outshines(grid, first + own - 1, row)) ||
-           (own + 1 < grid->inner && row_outshines(grid, first + own + 1, row));
+    return row_is_brighter(grid, first + own, row) ||
+           (own > 0 && row_is_brighter(grid, first + own - 1, row)) ||
+           (own + 1 < grid->inner && row_is_brighter(grid, first + own + 1, row));
 }
 
 /* Visits all neighbouring places, like an odometer. */
@@ -158,7 +159,7 @@ static int row_is_peak(const peaks_grid *grid, uint64_t row)
         high[grid->az] = (int64_t)grid->plan->axis[grid->az].range.count - 1;
     }
     for (;;) {
-        if (places_outshine(grid, at, row)) {
+        if (neighbour_is_brighter(grid, at, row)) {
             return 0;
         }
         uint32_t i = axes;

@@ -109,32 +109,27 @@ static int sweep_pose(const sweep_run *run, uint32_t worker, const lrcs_host_sce
     return status;
 }
 
-/* Status: that of the first step that fails, with its sentence. */
-static int sweep_one(const sweep_run *run, uint32_t worker, uint64_t index, sweep_slot *one)
-{
-    const lrcs_host_sweep *sweep = run->sweep;
-    lrcs_host_scene own;
-    int status = sweep->pose(sweep->context, index, &one->pose);
-    if (status != LRCS_OK) {
-        return lrcsi_host_fail(&one->error, status, "%s", lrcs_status_text(status));
-    }
-    if (!sweep->scene) {
-        return sweep_pose(run, worker, run->scene, one);
-    }
-    memset(&own, 0, sizeof own);
-    status = sweep->scene(sweep->context, index, &own, &one->error);
-    if (status == LRCS_OK) {
-        status = sweep_pose(run, worker, &own, one);
-        lrcs_host_scene_free(&own);
-    }
-    return status;
-}
-
+/* A worker's task: the pose, in the sweep's scene or in its own. one->status is that of the first
+   step that fails, with its sentence. */
 static void sweep_work(void *context, uint32_t worker, uint64_t index, void *slot)
 {
     const sweep_run *run = context;
+    const lrcs_host_sweep *sweep = run->sweep;
     sweep_slot *one = slot;
-    one->status = sweep_one(run, worker, index, one);
+    lrcs_host_scene own;
+    one->status = sweep->pose(sweep->context, index, &one->pose);
+    if (one->status != LRCS_OK) {
+        lrcsi_host_fail(&one->error, one->status, "%s", lrcs_status_text(one->status));
+    } else if (!sweep->scene) {
+        one->status = sweep_pose(run, worker, run->scene, one);
+    } else {
+        memset(&own, 0, sizeof own);
+        one->status = sweep->scene(sweep->context, index, &own, &one->error);
+        if (one->status == LRCS_OK) {
+            one->status = sweep_pose(run, worker, &own, one);
+            lrcs_host_scene_free(&own);
+        }
+    }
     one->memory_short =
         run->threads > 1 &&
         (one->status == LRCS_E_SYSTEM || one->status == LRCS_E_MEMORY ||

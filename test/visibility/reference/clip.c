@@ -8,7 +8,7 @@
 
 static void polygon_add(lrcsi_clip_polygon *polygon, double x, double y)
 {
-    if (polygon->count < LRCSI_CLIP_SIDES) {
+    if (polygon->count < LRCSI_CLIP_MAX_SIDES) {
         polygon->corner[polygon->count][0] = x;
         polygon->corner[polygon->count][1] = y;
     }
@@ -40,7 +40,7 @@ int ref_clip_split(const lrcsi_clip_polygon *from, const lrcsi_clip_line *line,
         p = q;
         side = next;
     }
-    return left->count <= LRCSI_CLIP_SIDES && right->count <= LRCSI_CLIP_SIDES;
+    return left->count <= LRCSI_CLIP_MAX_SIDES && right->count <= LRCSI_CLIP_MAX_SIDES;
 }
 
 /* At least the length of a line's direction, and at most 1.42 times that. */

@@ -58,7 +58,7 @@ void ref_cover_start(ref_cover *cover, const lrcsi_target *target)
 {
     const lrcsi_grid *facets = &cover->facets;
     lrcsi_view_box box = *lrcsi_boxes_facet(&facets->boxes, target->facet);
-    lrcsi_grid_rect cells = lrcsi_grid_cells(facets, &box);
+    lrcsi_grid_rect cells = lrcsi_grid_buckets(facets, &box);
     cover->count = 0;
     cover->searches++;
     cover->listed[target->facet] = cover->searches;

@@ -29,6 +29,7 @@
 
 #include "base/range.h"
 #include "base/work.h"
+#include "visibility/sample.h"
 
 #define U     0x1p-53
 #define WIDTH (32 * U)
@@ -191,7 +192,7 @@ int ref_cuts_make(lrcsi_classification *classification, const lrcsi_target *targ
     }
     cuts_crossing(cuts, classification, crossings);
     for (uint32_t i = first; i < end; i++) {
-        if (lrcsi_intersection_hides(target->view, target->facet, &intersections->entry[i])) {
+        if (lrcsi_sample_contact_hides(target->view, target->facet, &intersections->entry[i])) {
             cuts_contact(cuts, classification, intersections->entry[i].other);
         }
     }

@@ -343,7 +343,7 @@ static int cells_open(ref_occluding *o, uint32_t facet)
     return status;
 }
 
-static lrcsi_visible cells_area(const ref_occluding *o)
+static lrcsi_visible_area cells_area(const ref_occluding *o)
 {
     lrcsi_incidence incidence = lrcsi_view_incidence(o->classification->view, o->frame.facet);
     double unit = o->frame.unit;
@@ -351,34 +351,34 @@ static lrcsi_visible cells_area(const ref_occluding *o)
     double error = unit * (own * o->frame.perimeter + o->area_err);
     double left = lrcsi_max(0, lrcsi_min(incidence.projected, unit * o->area));
     error += o->frame.needle ? incidence.error * incidence.projected : 0;
-    return (lrcsi_visible){left, lrcsi_max(0, left - unit * o->uncertainty[1] - error),
-                           lrcsi_min(incidence.projected, left + unit * o->uncertainty[0] + error),
-                           0, 0};
+    return (lrcsi_visible_area){
+        left, lrcsi_max(0, left - unit * o->uncertainty[1] - error),
+        lrcsi_min(incidence.projected, left + unit * o->uncertainty[0] + error), 0, 0};
 }
 
-lrcsi_visible ref_occlude_unknown(const lrcsi_view *view, uint32_t facet)
+lrcsi_visible_area ref_occlude_unknown(const lrcsi_view *view, uint32_t facet)
 {
     double whole = lrcsi_view_incidence(view, facet).projected;
-    return (lrcsi_visible){0.5 * whole, 0, whole, 0, 0};
+    return (lrcsi_visible_area){0.5 * whole, 0, whole, 0, 0};
 }
 
-static lrcsi_visible answered_area(const ref_occluding *o, uint32_t facet)
+static lrcsi_visible_area answered_area(const ref_occluding *o, uint32_t facet)
 {
     if (o->uniform[facet] == LRCSI_QUERY_HIDDEN) {
-        return (lrcsi_visible){0, 0, 0, 0, 0};
+        return (lrcsi_visible_area){0, 0, 0, 0, 0};
     }
     if (o->uniform[facet] == LRCSI_QUERY_UNDECIDED) {
         return ref_occlude_unknown(o->classification->view, facet);
     }
     double whole = lrcsi_view_incidence(o->classification->view, facet).projected;
-    return (lrcsi_visible){whole, whole, whole, 0, 0};
+    return (lrcsi_visible_area){whole, whole, whole, 0, 0};
 }
 
 int ref_occlude_open(ref_occluding *o, uint32_t facet)
 {
     lrcsi_classification *classification = o->classification;
     o->mark = o->work->used;
-    o->answer = (lrcsi_visible){0, 0, 0, 0, 0};
+    o->answer = (lrcsi_visible_area){0, 0, 0, 0, 0};
     o->target.facet = facet;
     o->undecided = o->whole = 0;
     o->top = 0;
@@ -411,13 +411,13 @@ int ref_occlude_next(ref_occluding *o)
     return 1;
 }
 
-lrcsi_visible ref_occlude_close(ref_occluding *o)
+lrcsi_visible_area ref_occlude_close(ref_occluding *o)
 {
     o->work->used = o->mark;
     return o->undecided ? cells_area(o) : o->answer;
 }
 
-lrcsi_visible ref_occlude_area(ref_occluding *o)
+lrcsi_visible_area ref_occlude_area(ref_occluding *o)
 {
     while (occlude_cells(o)) {
     }
@@ -465,8 +465,8 @@ int ref_occlude_make(lrcsi_classification *classification, lrcs_work *work, ref_
     return status;
 }
 
-int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work, lrcsi_visible *visible,
-                    uint32_t *starved)
+int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work,
+                    lrcsi_visible_area *visible, uint32_t *starved)
 {
     const lrcsi_view *view = classification->view;
     size_t mark = work->used;
@@ -474,7 +474,7 @@ int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work, lrcsi
     int status = ref_occlude_make(classification, work, &o);
     *starved = 0;
     if (status == LRCS_OK) {
-        lrcsi_visible_answered(view, o.uniform, visible);
+        lrcsi_visible_areas_from_answers(view, o.uniform, visible);
     }
     /* 1. If many facets are undecided, all of them together, by cells of the view plane. */
     unsigned char *found = lrcsi_work_take_zero(work, view->prepared->scene->facet_count, 1);

@@ -38,8 +38,8 @@ typedef struct ref_occluding {
     lrcsi_target frame;  /* the same, in the frame in which it is divided */
     lrcsi_needle needle; /* its frame, if it is a needle */
     ref_cuts cuts;       /* what may divide it */
-    lrcsi_clip_polygon piece; /* the last piece found */
-    lrcsi_visible answer;     /* of a facet that is not undecided */
+    lrcsi_clip_polygon piece;  /* the last piece found */
+    lrcsi_visible_area answer; /* of a facet that is not undecided */
     int undecided;
     int whole;             /* 1 if all of it is visible, and no piece has been requested yet */
     uint64_t cells;        /* the number of cells that may still be divided */
@@ -67,20 +67,20 @@ int ref_occlude_make(lrcsi_classification *classification, lrcs_work *work, ref_
    closed; a facet that failed to open is closed. */
 int ref_occlude_open(ref_occluding *o, uint32_t facet);
 int ref_occlude_next(ref_occluding *o);
-lrcsi_visible ref_occlude_close(ref_occluding *o);
+lrcsi_visible_area ref_occlude_close(ref_occluding *o);
 
 /* The area of an open facet, if no piece has been requested. Closes the facet. */
-lrcsi_visible ref_occlude_area(ref_occluding *o);
+lrcsi_visible_area ref_occlude_area(ref_occluding *o);
 
 /* The area of a facet of which nothing is known, with its bounds. */
-lrcsi_visible ref_occlude_unknown(const lrcsi_view *view, uint32_t facet);
+lrcsi_visible_area ref_occlude_unknown(const lrcsi_view *view, uint32_t facet);
 
 /* The visible areas of all facets: of uniform facets from one exact sample, of undecided facets
    cell by cell, unless one component hides the whole facet. A facet for whose cuts there is not
    enough memory is bounded by 0 and its whole area; *starved counts those. If a facet needs more
    cells than the limit, its bounds follow from the cells that were processed. Status: LRCS_OK;
    LRCS_E_MEMORY; LRCS_E_LIMIT. Nothing stays in the work area. */
-int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work, lrcsi_visible *visible,
-                    uint32_t *starved);
+int ref_occlude_all(lrcsi_classification *classification, lrcs_work *work,
+                    lrcsi_visible_area *visible, uint32_t *starved);
 
 #endif

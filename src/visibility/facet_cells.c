@@ -6,8 +6,8 @@
    The candidates are the facets that may be in front of f. The segments are all lines at which the
    visibility of f can change: the event edges that cross the interior of f and are nearer than f,
    found exactly (visibility/crossing.h); the contacts of f; and the sides of facets in the plane of
-   f that hide it (visibility/cells_single_candidate.c). A sample finds which facets are in front of
-   f at a point P of a cell (visibility/cells_single_sample.c). Let x be any other point of the
+   f that hide it (visibility/facet_cells_candidate.c). A sample finds which facets are in front of
+   f at a point P of a cell (visibility/facet_cells_sample.c). Let x be any other point of the
    cell.
 
    (1) If nothing is in front of f at P, and no segment is left in the cell, all of the cell is
@@ -37,7 +37,7 @@
    frame's position error, segments are clipped to a box with coordinates of at most 3, and the side
    of another facet on which a point lies is computed in double-double. Areas are then in units of
    twice the projected area of f. */
-#include "visibility/cells_single.h"
+#include "visibility/facet_cells.h"
 
 #include <math.h>
 
@@ -45,8 +45,8 @@
 #include "base/range.h"
 #include "base/work.h"
 #include "visibility/cells_cut.h"
-#include "visibility/cells_single_candidate.h"
-#include "visibility/cells_single_sample.h"
+#include "visibility/facet_cells_candidate.h"
+#include "visibility/facet_cells_sample.h"
 
 /* Limit on the cells of a facet: a constant, and so many for each segment. */
 #define CELLS_CONSTANT    4096u
@@ -54,79 +54,74 @@
 /* A cell without room for a sample is halved if its area exceeds its perimeter times this many
    distances that a sample must keep from the border: then it is not too narrow for a sample. */
 #define NARROW 64
-/* It is not halved either if its area is at most this fraction of the area of f: all such cells
-   together are then less than 1e-12 of it. */
+/* It is not halved either if its area is at most this fraction of the area of f: 4096 such cells,
+   more than a facet ordinarily has, are then less than 1e-12 of it. */
 #define MIN_HALVED 0x1p-52
 
 /* --- the first cell --------------------------------------------------------------------------- */
 
 /* Leaves an area undecided: it counts as half visible. */
-static void leave_area_undecided(lrcsi_cells_single *a, double area)
+static void leave_area_undecided(lrcsi_facet_cells *a, double area)
 {
     a->perhaps_hidden += 0.5 * area;
     a->perhaps_visible += 0.5 * area;
 }
 
-/* Makes the record of f, the first cell, and the error along the sides of f. 0 if rounding may have
-   reversed the triangle's orientation. */
-static int make_first_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
+/* 1. Makes the frame of f. 2. Makes the record of f, the first cell, and the error along the sides
+   of f. 3. Lists what may hide f, unless rounding may have reversed the triangle's orientation. */
+void lrcsi_facet_cells_open(lrcsi_facet_cells *a, uint32_t facet)
 {
-    lrcsi_cells_work *c = &a->cells;
-    lrcsi_cells_facet *f = &a->shape;
+    lrcsi_division *d = &a->division;
     const lrcsi_target *frame = &a->frame;
+    lrcsi_cells_facet *f = &a->shape;
+    lrcsi_cell cell = {.cuts = 0};
+    a->facet = facet;
+    lrcsi_target_make(d->view, facet, &a->target);
+    lrcsi_target_refine(&a->target, &a->needle, &a->frame);
+
     double err = frame->needle ? frame->position_err + 8 * LRCSI_U : 20 * LRCSI_U * frame->reach;
-    *f = (lrcsi_cells_facet){.err = err, .line_err = err, .number = a->facet};
-    lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell->shape);
-    lrcsi_clip_box(&cell->shape, f->low, f->high);
-    c->extent = lrcsi_max3(lrcsi_max(-f->low[0], -f->low[1]), f->high[0], f->high[1]);
+    *f = (lrcsi_cells_facet){.err = err, .line_err = err, .number = facet};
+    lrcsi_clip_triangle((const double(*)[2])frame->corner, &cell.shape);
+    lrcsi_clip_box(&cell.shape, f->low, f->high);
     for (int k = 0; k < 3; k++) {
         f->x[k] = frame->corner[k][0];
         f->y[k] = frame->corner[k][1];
         lrcsi_line_through(frame->corner[k], frame->corner[(k + 1) % 3], f->side[k]);
     }
-    a->border_area = frame->perimeter * (err + 16 * LRCSI_U * c->extent);
-    a->negligible = MIN_HALVED * lrcsi_clip_area(&cell->shape);
-    cell->facet = c->facets;
-    cell->facet[0] = 0;
-    cell->facets = 1;
-    return lrcsi_clip_area(&cell->shape) > 8 * err * frame->diameter;
-}
-
-void lrcsi_cells_single_open(lrcsi_cells_single *a, uint32_t facet)
-{
-    lrcsi_cells_work *c = &a->cells;
-    lrcsi_cells_cell cell = {.cuts = 0};
-    a->facet = facet;
-    a->perhaps_hidden = a->perhaps_visible = a->border_area = a->piece_err = 0;
-    a->hidden = 0;
     a->wanted = 1;
-    lrcsi_target_make(c->view, facet, &a->target);
-    lrcsi_target_refine(&a->target, &a->needle, &a->frame);
-    a->area = (lrcsi_cells_found){.visible = 0};
+    a->area = (lrcsi_cell_area){.visible = 0};
+    d->facet = f;
+    d->area = &a->area;
+    d->wanted = &a->wanted;
+    d->facet_err = err;
+    d->extent = lrcsi_max3(lrcsi_max(-f->low[0], -f->low[1]), f->high[0], f->high[1]);
+    d->segment_count = d->stack_count = 0;
+    cell.facet = d->facet_lists;
+    cell.facet[0] = 0;
+    cell.facet_count = 1;
     a->moment = (lrcsi_moment){.error = 0};
-    c->facet = &a->shape;
-    c->area = &a->area;
-    c->wanted = &a->wanted;
-    c->segment_count = c->top = 0;
-    c->stamp++;
-    if (!make_first_cell(a, &cell) || !lrcsi_cells_single_candidates(a) ||
-        !lrcsi_cells_single_segments(a, &cell)) {
-        leave_area_undecided(a, lrcsi_view_incidence(c->view, facet).projected / a->frame.unit);
+    a->perhaps_hidden = a->perhaps_visible = a->piece_err = 0;
+    a->hidden = 0;
+    a->border_area = frame->perimeter * (err + 16 * LRCSI_U * d->extent);
+    a->halved_area = MIN_HALVED * lrcsi_clip_area(&cell.shape);
+
+    if (!(lrcsi_clip_area(&cell.shape) > 8 * err * frame->diameter) ||
+        !lrcsi_facet_cells_candidates(a) || !lrcsi_facet_cells_segments(a)) {
+        leave_area_undecided(a, lrcsi_view_incidence(d->view, facet).projected / frame->unit);
         return;
     }
-    a->cells_left = CELLS_CONSTANT + (uint64_t)CELLS_PER_SEGMENT * cell.segments;
-    c->stack[0] = cell;
-    c->top = 1;
+    lrcsi_division_start(d, &cell);
+    a->cells_left = CELLS_CONSTANT + (uint64_t)CELLS_PER_SEGMENT * cell.segment_count;
 }
 
 /* --- one cell --------------------------------------------------------------------------------- */
 
 /* Returns the cell as a visible piece. The corners of a needle's piece are rounded to the frame
    along the view's axes. */
-static void add_visible_piece(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
-                              const lrcsi_cells_sides *s)
+static void add_visible_piece(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                              const lrcsi_clip_sides *s)
 {
-    lrcsi_cells_found *area = &a->area;
+    lrcsi_cell_area *area = &a->area;
     a->piece = cell->shape;
     if (a->frame.needle) {
         for (uint32_t i = 0; i < cell->shape.count; i++) {
@@ -146,41 +141,40 @@ static void add_visible_piece(lrcsi_cells_single *a, const lrcsi_cells_cell *cel
 }
 
 /* Processes one cell. Returns 1 if it is a visible piece; else it is hidden, cut, or undecided. */
-static int process_single_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
+static int process_facet_cell(lrcsi_facet_cells *a, lrcsi_cell *cell)
 {
-    lrcsi_cells_work *c = &a->cells;
-    lrcsi_cells_sides s;
-    lrcsi_cells_single_sample sample;
-    lrcsi_cells_sides_make(&cell->shape, lrcsi_cells_tolerance(c, cell), &s);
-    lrcsi_cells_filter_segments(c, cell, &s);
+    lrcsi_division *d = &a->division;
+    lrcsi_clip_sides s;
+    lrcsi_facet_cells_sample sample;
+    lrcsi_clip_sides_make(&cell->shape, lrcsi_division_tolerance(d, cell), &s);
+    lrcsi_cells_filter_segments(d, cell, &s);
 
     /* 1. A sample. */
-    int guess = 0;
-    int hidden = lrcsi_cells_single_find_sample(a, cell, &s, &sample, &guess);
-    if (hidden <= 0) {
-        sample.ends = lrcsi_cells_single_choose(a, cell, sample.at, LRCS_NONE, &sample.cut);
+    lrcsi_facet_cells_sample_take(a, cell, &s, &sample);
+    if (sample.hidden <= 0) {
+        sample.ends = lrcsi_facet_cells_choose(a, cell, sample.at, LRCS_NONE, &sample.cut);
     }
 
     /* 2. If no segment is left that matters, all of the cell is visible or hidden, as the sample.
      */
-    if (hidden >= 0 && sample.ends == 0) {
+    if (sample.hidden >= 0 && sample.ends == 0) {
         a->area.uncertainty +=
-            cell->uncertainty +
-            lrcsi_cells_thin_uncertainty(cell, &s, sample.clear, cell->removed, a->shape.err);
-        a->hidden |= hidden;
-        if (!hidden) {
+            cell->uncertainty + lrcsi_cells_thin_uncertainty(cell, &s, sample.border_distance,
+                                                             cell->removed, d->facet_err);
+        a->hidden |= sample.hidden;
+        if (!sample.hidden) {
             add_visible_piece(a, cell, &s);
         }
-        return !hidden;
+        return !sample.hidden;
     }
 
     /* 3. Otherwise it is cut along a segment. Without one, it is halved unless it is narrow or
        negligible. */
-    double narrow = NARROW * (cell->widest_strip + a->shape.err + s.tolerance) * s.perimeter;
-    if (sample.cut ? !lrcsi_cells_divide(c, cell, &s, sample.cut)
-                   : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(a->negligible, narrow) &&
-                       lrcsi_cells_halve(c, cell, &s))) {
-        double *perhaps = (hidden < 0 ? guess : hidden) ? &a->perhaps_hidden : &a->perhaps_visible;
+    double narrow = NARROW * (cell->widest_strip + d->facet_err + s.tolerance) * s.perimeter;
+    if (sample.cut ? !lrcsi_cells_divide(d, cell, &s, sample.cut)
+                   : !(lrcsi_clip_area(&cell->shape) > lrcsi_max(a->halved_area, narrow) &&
+                       lrcsi_cells_halve(d, cell, &s))) {
+        double *perhaps = sample.guess ? &a->perhaps_hidden : &a->perhaps_visible;
         *perhaps += lrcsi_clip_area(&cell->shape);
     }
     return 0;
@@ -188,18 +182,18 @@ static int process_single_cell(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
 
 /* --- one facet -------------------------------------------------------------------------------- */
 
-int lrcsi_cells_single_next(lrcsi_cells_single *a)
+int lrcsi_facet_cells_next(lrcsi_facet_cells *a)
 {
-    lrcsi_cells_work *c = &a->cells;
-    while (c->top > 0) {
-        lrcsi_cells_cell cell = c->stack[--c->top];
-        uint64_t steps = (uint64_t)1 + a->count + cell.segments;
-        if (a->cells_left == 0 || !lrcsi_meter_take(c->meter, steps)) {
+    lrcsi_division *d = &a->division;
+    while (d->stack_count > 0) {
+        lrcsi_cell cell = d->stack[--d->stack_count];
+        uint64_t steps = (uint64_t)1 + a->candidate_count + cell.segment_count;
+        if (a->cells_left == 0 || !lrcsi_meter_take(d->meter, steps)) {
             leave_area_undecided(a, lrcsi_clip_area(&cell.shape));
             continue;
         }
         a->cells_left--;
-        if (process_single_cell(a, &cell)) {
+        if (process_facet_cell(a, &cell)) {
             return 1;
         }
     }
@@ -210,7 +204,7 @@ int lrcsi_cells_single_next(lrcsi_cells_single *a)
    the error of their corners and of the centroid, 10 u of the target's reach, along the perimeter.
    All of this is within `reach` of the centroid, or in the facet. If all of the facet is visible,
    its moment is 0. */
-static void moment_close(lrcsi_cells_single *a, double err)
+static void moment_close(lrcsi_facet_cells *a, double err)
 {
     const lrcsi_target *t = &a->target;
     double undecided = a->perhaps_hidden + a->perhaps_visible;
@@ -225,10 +219,10 @@ static void moment_close(lrcsi_cells_single *a, double err)
     }
 }
 
-lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
+lrcsi_visible_area lrcsi_facet_cells_close(lrcsi_facet_cells *a)
 {
-    const lrcsi_cells_found *found = &a->area;
-    lrcsi_incidence incidence = lrcsi_view_incidence(a->cells.view, a->facet);
+    const lrcsi_cell_area *found = &a->area;
+    lrcsi_incidence incidence = lrcsi_view_incidence(a->division.view, a->facet);
     double whole = incidence.projected;
     double unit = a->frame.unit;
     double err = unit * (a->border_area + found->uncertainty + found->visible_err +
@@ -238,8 +232,8 @@ lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
                       : whole;
     err += a->frame.needle ? incidence.error * whole : 0;
     moment_close(a, err);
-    return (lrcsi_visible){seen, lrcsi_max(0, seen - unit * a->perhaps_visible - err),
-                           lrcsi_min(whole, seen + unit * a->perhaps_hidden + err), 0, 0};
+    return (lrcsi_visible_area){seen, lrcsi_max(0, seen - unit * a->perhaps_visible - err),
+                                lrcsi_min(whole, seen + unit * a->perhaps_hidden + err), 0, 0};
 }
 
 /* --- all facets ------------------------------------------------------------------------------- */
@@ -248,7 +242,7 @@ lrcsi_visible lrcsi_cells_single_close(lrcsi_cells_single *a)
 #define MAX_SIDES 65536u
 /* Room for the lists of facets of all cells: of f alone, in each on the stack and twice in the
  * last. */
-#define FACET_LISTS (LRCSI_CELLS_STACK + 2)
+#define SINGLE_FACET_LISTS (LRCSI_CELL_STACK + 2)
 
 static uint32_t sides_room(const lrcs_prepared *p)
 {
@@ -266,42 +260,45 @@ static size_t max_segments(const lrcs_prepared *p, size_t events)
     return events + 3 * contacts;
 }
 
-size_t lrcsi_cells_single_need(const lrcs_prepared *p)
+size_t lrcsi_facet_cells_need(const lrcs_prepared *p)
 {
     size_t segments = max_segments(p, p->topology.edge_count);
-    size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_cells_single_side));
+    size_t need = lrcsi_work_bytes(sides_room(p), 3 * sizeof(lrcsi_facet_cells_side));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(p->scene->facet_count, 1));
     need = lrcsi_work_add(need, lrcsi_work_blocks(3, p->scene->facet_count, sizeof(uint32_t)));
     need = lrcsi_work_add(need,
-                          lrcsi_work_bytes(segments, LRCSI_CELLS_SEGMENT_LISTS * sizeof(uint32_t)));
+                          lrcsi_work_bytes(segments, LRCSI_CELL_SEGMENT_LISTS * sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_work_bytes(segments, sizeof(lrcsi_cells_segment)));
-    need = lrcsi_work_add(need, lrcsi_work_bytes(FACET_LISTS, sizeof(uint32_t)));
+    need = lrcsi_work_add(need, lrcsi_work_bytes(SINGLE_FACET_LISTS, sizeof(uint32_t)));
     need = lrcsi_work_add(need, lrcsi_crossings_need(p));
-    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELLS_STACK, sizeof(lrcsi_cells_cell)));
+    return lrcsi_work_add(need, lrcsi_work_bytes(LRCSI_CELL_STACK, sizeof(lrcsi_cell)));
 }
 
-int lrcsi_cells_single_make(lrcsi_classification *classification, lrcsi_meter *meter,
-                            const lrcsi_grid *grid, lrcs_work *work, lrcsi_cells_single *a)
+int lrcsi_facet_cells_make(lrcsi_classification *classification, lrcsi_meter *meter,
+                           const lrcsi_grid *grid, lrcs_work *work, lrcsi_facet_cells *a)
 {
     const lrcs_prepared *p = classification->view->prepared;
     uint32_t count = p->scene->facet_count;
-    *a = (lrcsi_cells_single){
+    lrcsi_division *d = &a->division;
+    *a = (lrcsi_facet_cells){
         .classification = classification, .grid = *grid, .side_room = sides_room(p)};
-    lrcsi_cells_work c = {.view = classification->view, .meter = meter};
-    c.segment_room = (uint32_t)max_segments(p, classification->events.count);
+    d->view = classification->view;
+    d->meter = meter;
+    d->segment_room = (uint32_t)max_segments(p, classification->events.count);
+    d->facet_lists_room = SINGLE_FACET_LISTS;
+    d->segment_lists_room = LRCSI_CELL_SEGMENT_LISTS * (size_t)d->segment_room;
     a->side = lrcsi_work_take(work, a->side_room, sizeof *a->side);
-    a->listed = lrcsi_work_take_zero(work, count, sizeof *a->listed);
-    a->order = lrcsi_work_take(work, count, sizeof *a->order);
+    a->listed.entry = lrcsi_work_take_zero(work, count, sizeof(uint32_t));
+    a->order = lrcsi_work_take(work, count, 1);
+    a->contact = lrcsi_work_take(work, count, sizeof *a->contact);
     a->candidate = lrcsi_work_take(work, count, sizeof *a->candidate);
-    c.facets_room = FACET_LISTS;
-    c.facets = lrcsi_work_take(work, c.facets_room, sizeof *c.facets);
-    c.segments_room = LRCSI_CELLS_SEGMENT_LISTS * (size_t)c.segment_room;
-    c.segments = lrcsi_work_take(work, c.segments_room, sizeof *c.segments);
-    c.segment = lrcsi_work_take(work, c.segment_room, sizeof *c.segment);
-    c.stack = lrcsi_work_take(work, LRCSI_CELLS_STACK, sizeof *c.stack);
-    if (!a->side || !a->listed || !a->order || !a->candidate || !c.facets || !c.segments ||
-        !c.segment || !c.stack) {
+    d->facet_lists = lrcsi_work_take(work, d->facet_lists_room, sizeof *d->facet_lists);
+    d->segment_lists = lrcsi_work_take(work, d->segment_lists_room, sizeof *d->segment_lists);
+    d->segment = lrcsi_work_take(work, d->segment_room, sizeof *d->segment);
+    d->stack = lrcsi_work_take(work, LRCSI_CELL_STACK, sizeof *d->stack);
+    if (!a->side || !a->listed.entry || !a->order || !a->contact || !a->candidate ||
+        !d->facet_lists || !d->segment_lists || !d->segment || !d->stack) {
         return LRCS_E_MEMORY;
     }
-    a->cells = c;
     return lrcsi_crossings_make(&classification->search, work, &a->crossings);
 }

@@ -1,48 +1,45 @@
 /* SPDX-License-Identifier: MIT */
 /* What may hide one facet, f: the candidates, their depth order against f, and the segments along
    which they begin or cease to hide it. Which of them hide it at a point is decided in
-   visibility/cells_single_sample.c. */
-#include "visibility/cells_single_candidate.h"
+   visibility/facet_cells_sample.c. */
+#include "visibility/facet_cells_candidate.h"
 
 #include <math.h>
 
 #include "base/constant.h"
 #include "base/length.h"
 #include "view/side.h"
-#include "visibility/cells_block.h"
 #include "visibility/contact.h"
 #include "visibility/sample.h"
 
 /* --- candidates ------------------------------------------------------------------------------- */
 
 /* May a facet be in front of f? */
-static int is_candidate(const lrcsi_cells_single *a, uint32_t other)
+static int is_candidate(const lrcsi_facet_cells *a, uint32_t other)
 {
-    return a->listed[other] == a->cells.stamp && a->order[other] != LRCSI_CELLS_ORDER_DISJOINT;
+    return lrcsi_marked(&a->listed, other) && a->order[other] != LRCSI_ORDER_DISJOINT;
 }
 
 /* From their planes; if they are coplanar, from the rules of precedence; otherwise from where they
    overlap. */
-uint32_t lrcsi_cells_single_order(const lrcsi_cells_single *a, uint32_t other)
+int lrcsi_facet_cells_order(const lrcsi_facet_cells *a, uint32_t other)
 {
-    const lrcsi_view *view = a->cells.view;
+    const lrcsi_view *view = a->division.view;
     int order = lrcsi_sample_side(view, other, a->facet);
     if (order == 0) {
         const lrcsi_intersection *contact =
             lrcsi_intersection_find(&view->prepared->intersections, a->facet, other);
-        order = contact && !lrcsi_intersection_hides(view, a->facet, contact)
+        order = contact && !lrcsi_sample_contact_hides(view, a->facet, contact)
                     ? -1
                     : lrcsi_sample_overlap_order(view, other, a->facet);
     }
-    return order > 0   ? LRCSI_CELLS_ORDER_FRONT
-           : order < 0 ? LRCSI_CELLS_ORDER_BEHIND
-                       : LRCSI_CELLS_ORDER_UNDECIDED;
+    return order > 0 ? LRCSI_ORDER_FRONT : order < 0 ? LRCSI_ORDER_BEHIND : LRCSI_ORDER_UNDECIDED;
 }
 
 /* Does another facet lie entirely beyond one side of f? */
-static int facet_apart(const lrcsi_cells_single *a, const lrcsi_view_side own[3], uint32_t other)
+static int facet_apart(const lrcsi_facet_cells *a, const lrcsi_view_side own[3], uint32_t other)
 {
-    const lrcsi_view *view = a->cells.view;
+    const lrcsi_view *view = a->division.view;
     const uint32_t *its = view->prepared->scene->facet[other].corner;
     int apart = 0;
     for (int k = 0; k < 3 && !apart; k++) {
@@ -55,42 +52,43 @@ static int facet_apart(const lrcsi_cells_single *a, const lrcsi_view_side own[3]
     return apart;
 }
 
-int lrcsi_cells_single_candidates(lrcsi_cells_single *a)
+int lrcsi_facet_cells_candidates(lrcsi_facet_cells *a)
 {
     const lrcsi_grid *grid = &a->grid;
-    lrcsi_cells_work *c = &a->cells;
+    lrcsi_division *d = &a->division;
     lrcsi_view_box box = *lrcsi_boxes_facet(&grid->boxes, a->facet);
-    lrcsi_grid_rect cells = lrcsi_grid_cells(grid, &box);
-    const uint32_t *corner = c->view->prepared->scene->facet[a->facet].corner;
+    lrcsi_grid_rect buckets = lrcsi_grid_buckets(grid, &box);
+    const uint32_t *corner = d->view->prepared->scene->facet[a->facet].corner;
     lrcsi_view_side side[3];
     for (int k = 0; k < 3; k++) {
-        side[k] = lrcsi_view_side_of(c->view, corner[k], corner[k == 2 ? 0 : k + 1]);
+        side[k] = lrcsi_view_side_of(d->view, corner[k], corner[k == 2 ? 0 : k + 1]);
     }
-    a->count = 0;
-    a->listed[a->facet] = c->stamp;
-    a->order[a->facet] = LRCSI_CELLS_ORDER_DISJOINT;
+    a->candidate_count = 0;
+    a->listed.number++;
+    a->listed.entry[a->facet] = a->listed.number;
+    a->order[a->facet] = LRCSI_ORDER_DISJOINT;
     lrcsi_grid_items items;
-    while (lrcsi_grid_next_row(grid, &cells, &items)) {
-        if (!lrcsi_meter_take(c->meter, items.to - items.from)) {
+    while (lrcsi_grid_next_row(grid, &buckets, &items)) {
+        if (!lrcsi_meter_take(d->meter, items.to - items.from)) {
             return 0;
         }
         for (uint32_t i = items.from; i < items.to; i++) {
             uint32_t other = grid->item[i];
             const lrcsi_view_box *its = lrcsi_boxes_facet(&grid->boxes, other);
-            if (a->listed[other] == c->stamp || lrcsi_view_box_beside(its, &box) ||
+            if (lrcsi_marked(&a->listed, other) || lrcsi_view_box_beside(its, &box) ||
                 lrcsi_view_box_behind(its, &box)) {
                 continue;
             }
-            a->listed[other] = c->stamp;
-            a->order[other] = LRCSI_CELLS_ORDER_DISJOINT;
+            a->listed.entry[other] = a->listed.number;
+            a->order[other] = LRCSI_ORDER_DISJOINT;
             if (!facet_apart(a, side, other)) {
                 int front = lrcsi_view_box_behind(&box, its);
-                a->order[other] = front ? (uint32_t)LRCSI_CELLS_ORDER_FRONT
-                                        : (uint32_t)LRCSI_CELLS_ORDER_NOT_COMPUTED;
-                if (a->count < a->side_room) {
-                    a->side[a->count][0].err = -1; /* not made yet */
+                a->order[other] =
+                    front ? (uint32_t)LRCSI_ORDER_FRONT : (uint32_t)LRCSI_ORDER_NOT_COMPUTED;
+                if (a->candidate_count < a->side_room) {
+                    a->side[a->candidate_count][0].err = -1; /* not made yet */
                 }
-                a->candidate[a->count++] = other;
+                a->candidate[a->candidate_count++] = other;
             }
         }
     }
@@ -120,33 +118,33 @@ static void segment_ends(lrcsi_cells_segment *e, const double (*end)[2])
 }
 
 /* Is neither of an edge's facets in front of f anywhere? */
-static int edge_is_behind(lrcsi_cells_single *a, const uint32_t owner[2])
+static int edge_is_behind(lrcsi_facet_cells *a, const uint32_t owner[2])
 {
     int behind = 1;
     for (int i = 0; i < 2 && behind; i++) {
         if (owner[i] != LRCS_NONE && is_candidate(a, owner[i])) {
-            uint32_t *order = &a->order[owner[i]];
-            *order = *order == LRCSI_CELLS_ORDER_NOT_COMPUTED
-                         ? lrcsi_cells_single_order(a, owner[i])
-                         : *order;
-            behind = *order == LRCSI_CELLS_ORDER_BEHIND;
+            unsigned char *order = &a->order[owner[i]];
+            if (*order == LRCSI_ORDER_NOT_COMPUTED) {
+                *order = (unsigned char)lrcsi_facet_cells_order(a, owner[i]);
+            }
+            behind = *order == LRCSI_ORDER_BEHIND;
         }
     }
     return behind;
 }
 
 /* Adds an edge, unless its facets are behind f. 0 if there is no room. */
-static int add_single_edge(lrcsi_cells_single *a, uint32_t edge)
+static int add_facet_edge(lrcsi_facet_cells *a, uint32_t edge)
 {
-    lrcsi_cells_work *c = &a->cells;
-    const lrcs_prepared *p = c->view->prepared;
+    lrcsi_division *d = &a->division;
+    const lrcs_prepared *p = d->view->prepared;
     const lrcsi_edge *of = &p->topology.edge[edge];
-    lrcsi_cells_segment *e = lrcsi_cells_edge(c, edge);
+    lrcsi_cells_segment *e = lrcsi_division_edge(d, edge);
     if (!e) {
         return 0;
     }
     if (e->edge == LRCS_NONE && edge_is_behind(a, e->owner)) {
-        c->segment_count--;
+        d->segment_count--;
         return 1;
     }
     double end[2][2];
@@ -165,19 +163,20 @@ static int add_single_edge(lrcsi_cells_single *a, uint32_t edge)
 
 /* Finds the depth order of a facet that meets the interior of f, and adds the segments due to it. 0
    if there is no room. */
-static int add_single_contact(lrcsi_cells_single *a, uint32_t other)
+static int add_facet_contact(lrcsi_facet_cells *a, uint32_t other)
 {
-    lrcsi_cells_work *c = &a->cells;
+    lrcsi_division *d = &a->division;
     lrcsi_contact contact;
-    int side = lrcsi_sample_side(c->view, other, a->facet);
+    int side = lrcsi_sample_side(d->view, other, a->facet);
     int kind = side < 0 ? LRCSI_CONTACT_POINT : lrcsi_contact_find(&a->frame, other, &contact);
-    a->order[other] = side > 0   ? LRCSI_CELLS_ORDER_FRONT
-                      : side < 0 ? LRCSI_CELLS_ORDER_BEHIND
-                                 : LRCSI_CELLS_ORDER_NOT_COMPUTED;
+    a->order[other] = side > 0   ? LRCSI_ORDER_FRONT
+                      : side < 0 ? LRCSI_ORDER_BEHIND
+                                 : LRCSI_ORDER_NOT_COMPUTED;
     if (side == 0 && kind != LRCSI_CONTACT_POINT) {
-        a->order[other] = kind == LRCSI_CONTACT_FLAT      ? (uint32_t)LRCSI_CELLS_ORDER_FRONT
-                          : kind == LRCSI_CONTACT_UNKNOWN ? (uint32_t)LRCSI_CELLS_ORDER_UNDECIDED
-                                                          : c->segment_count;
+        a->order[other] = kind == LRCSI_CONTACT_FLAT      ? LRCSI_ORDER_FRONT
+                          : kind == LRCSI_CONTACT_UNKNOWN ? LRCSI_ORDER_UNDECIDED
+                                                          : LRCSI_ORDER_CONTACT;
+        a->contact[other] = d->segment_count;
     }
     if (kind == LRCSI_CONTACT_POINT) {
         return 1;
@@ -185,11 +184,11 @@ static int add_single_contact(lrcsi_cells_single *a, uint32_t other)
     if (kind == LRCSI_CONTACT_FLAT || kind == LRCSI_CONTACT_UNKNOWN) {
         int done = 1;
         for (int k = 0; k < 3 && done; k++) {
-            done = add_single_edge(a, c->view->prepared->topology.facet_edge[other].corner[k]);
+            done = add_facet_edge(a, d->view->prepared->topology.facet_edge[other].corner[k]);
         }
         return done;
     }
-    lrcsi_cells_segment *e = lrcsi_cells_segment_new(c);
+    lrcsi_cells_segment *e = lrcsi_division_segment(d);
     if (!e) {
         return 0;
     }
@@ -202,24 +201,23 @@ static int add_single_contact(lrcsi_cells_single *a, uint32_t other)
     return 1;
 }
 
-int lrcsi_cells_single_segments(lrcsi_cells_single *a, lrcsi_cells_cell *cell)
+int lrcsi_facet_cells_segments(lrcsi_facet_cells *a)
 {
-    lrcsi_cells_work *c = &a->cells;
-    const lrcsi_intersections *intersections = &c->view->prepared->intersections;
+    lrcsi_division *d = &a->division;
+    const lrcsi_intersections *intersections = &d->view->prepared->intersections;
     for (uint32_t i = intersections->first[a->facet]; i < intersections->first[a->facet + 1]; i++) {
         const lrcsi_intersection *contact = &intersections->entry[i];
         if (is_candidate(a, contact->other) &&
-            lrcsi_intersection_hides(c->view, a->facet, contact) &&
-            !add_single_contact(a, contact->other)) {
+            lrcsi_sample_contact_hides(d->view, a->facet, contact) &&
+            !add_facet_contact(a, contact->other)) {
             return 0;
         }
     }
-    lrcsi_crossings_find(&a->classification->search, a->facet, c->meter, &a->crossings);
+    lrcsi_crossings_find(&a->classification->search, a->facet, d->meter, &a->crossings);
     for (uint32_t i = 0; i < a->crossings.count; i++) {
-        if (!add_single_edge(a, a->crossings.edge[i])) {
+        if (!add_facet_edge(a, a->crossings.edge[i])) {
             return 0;
         }
     }
-    lrcsi_cells_list_segments(c, cell);
-    return lrcsi_meter_take(c->meter, (uint64_t)a->count + cell->segments);
+    return lrcsi_meter_take(d->meter, (uint64_t)a->candidate_count + d->segment_count);
 }

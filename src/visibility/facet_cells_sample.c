@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Is one facet, f, hidden at a sample in a cell, and by which surface component? Also, along which
-   segment the cell is best cut. What follows for the cell is decided in visibility/cells_single.c.
+   segment the cell is best cut. What follows for the cell is decided in visibility/facet_cells.c.
  */
-#include "visibility/cells_single_sample.h"
+#include "visibility/facet_cells_sample.h"
 
 #include <math.h>
 
@@ -11,35 +11,31 @@
 #include "base/range.h"
 #include "view/side.h"
 #include "visibility/cells_cover.h"
-#include "visibility/cells_single_candidate.h"
 #include "visibility/contact.h"
+#include "visibility/facet_cells_candidate.h"
 #include "visibility/sample.h"
 
 /* The sides of a candidate need better error bounds if its farthest corner is more than this many
    times as far away as its nearest corner and the reach of f together. */
 #define FAR_RATIO 64
 
-/* --- surface components ----------------------------------------------------------------------- */
-
-/* Does a component end at a segment, or meet f there? */
-static int component_ends(const lrcsi_cells_single *a, const lrcsi_cells_segment *e,
-                          uint32_t component)
+uint32_t lrcsi_facet_cells_choose(const lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                  const double at[2], uint32_t component,
+                                  const lrcsi_cells_segment **best)
 {
-    const uint32_t *of = a->classification->component;
-    return e->contact ? of[e->owner[1]] == component
-                      : lrcsi_cells_segment_has(a->cells.view->prepared, e, of, component);
-}
-
-uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
-                                   const double at[2], uint32_t component,
-                                   const lrcsi_cells_segment **best)
-{
+    const lrcsi_topology *topology = &a->division.view->prepared->topology;
+    const lrcsi_marks of_component = {a->classification->component, component};
     uint32_t count = 0;
     double nearest = HUGE_VAL;
     *best = NULL;
-    for (uint32_t i = 0; i < cell->segments; i++) {
-        const lrcsi_cells_segment *e = &a->cells.segment[cell->segment[i]];
-        if (component == LRCS_NONE || component_ends(a, e, component)) {
+    for (uint32_t i = 0; i < cell->segment_count; i++) {
+        const lrcsi_cells_segment *e = &a->division.segment[cell->segment[i]];
+        int matters = component == LRCS_NONE;
+        if (!matters) {
+            matters = e->contact ? lrcsi_marked(&of_component, e->owner[1])
+                                 : lrcsi_cells_segment_marked(topology, e, &of_component);
+        }
+        if (matters) {
             double far = fabs(lrcsi_line_at(e->line, at[0], at[1]));
             count++;
             *best = far < nearest ? e : *best;
@@ -53,9 +49,9 @@ uint32_t lrcsi_cells_single_choose(const lrcsi_cells_single *a, const lrcsi_cell
 
 /* Finds the sample's point in space from its barycentric coordinates; its coordinates are
    rounded. */
-static void sample_unproject(const lrcsi_cells_single *a, lrcsi_cells_single_sample *sample)
+static void sample_unproject(const lrcsi_facet_cells *a, lrcsi_facet_cells_sample *sample)
 {
-    const lrcs_prepared *p = a->cells.view->prepared;
+    const lrcs_prepared *p = a->division.view->prepared;
     double weight[3];
     lrcsi_target_weights(&a->frame, sample->at, weight);
     for (int k = 0; k < 3; k++) {
@@ -64,30 +60,30 @@ static void sample_unproject(const lrcsi_cells_single *a, lrcsi_cells_single_sam
             sample->point[k] += weight[i] * lrcsi_prepared_corner(p, a->facet, i)[k];
         }
     }
-    sample->test = LRCSI_CELLS_EXACT;
+    sample->test = LRCSI_TEST_EXACT;
 }
 
 /* Places the sample in the view: f's first corner plus the vector from there. The vector has the
    error of f's own corners, 10 u of their reach, a rounding error of 3 u, and in a needle the
    frame's position error. */
-static void sample_place(const lrcsi_cells_single *a, lrcsi_cells_single_sample *sample)
+static void sample_place(const lrcsi_facet_cells *a, lrcsi_facet_cells_sample *sample)
 {
     double first[3];
-    lrcsi_view_coordinates(a->cells.view, a->target.origin, first);
+    lrcsi_view_coordinates(a->division.view, a->target.origin, first);
     lrcsi_target_to_axes(&a->frame, sample->at, sample->view);
     sample->view[0] += first[0];
     sample->view[1] += first[1];
     sample->view[2] = first[2];
     sample->view_err = lrcsi_view_point_err(first) + sample->err +
                        (16 * LRCSI_U + 2 * a->frame.position_err) * a->target.reach;
-    sample->box = lrcsi_view_box_about(a->cells.view, sample->view, sample->view_err);
+    sample->box = lrcsi_view_box_about(a->division.view, sample->view, sample->view_err);
 }
 
 /* Does the sample lie beyond a side of a facet, by view coordinates? */
-static int sample_is_beyond(const lrcsi_cells_single *a, const lrcsi_cells_single_sample *sample,
+static int sample_is_beyond(const lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
                             uint32_t other)
 {
-    const lrcsi_view *view = a->cells.view;
+    const lrcsi_view *view = a->division.view;
     const uint32_t *corner = view->prepared->scene->facet[other].corner;
     int beyond = 0;
     for (int k = 0; k < 3 && !beyond; k++) {
@@ -106,10 +102,10 @@ static int sample_is_beyond(const lrcsi_cells_single *a, const lrcsi_cells_singl
    rounding included; that of the vector G from n to the point is 12 u r_n + 2 u d, where d is the
    length of f. So T x G has an error of 12 u (r_p + r_q) |G| + (12 u r_n + 2 u d) |T| in the
    1-norm, and a rounding error of 2 u |T| |G|, which is below 3 u (r_p + r_q) |G|. */
-static void sides_make(const lrcsi_cells_single *a, uint32_t other, lrcsi_cells_single_side side[3])
+static void sides_make(const lrcsi_facet_cells *a, uint32_t other, lrcsi_facet_cells_side side[3])
 {
     const lrcsi_target *frame = &a->frame;
-    const lrcsi_view *view = a->cells.view;
+    const lrcsi_view *view = a->division.view;
     double corner[3][2];
     double reach[3];
     double length[3];
@@ -157,22 +153,22 @@ static void sides_make(const lrcsi_cells_single *a, uint32_t other, lrcsi_cells_
    side. The sides are computed when they are first needed, and kept as far as there is room. In a
    needle, whose points have the frame's position error, lines in plain doubles nearly always
    suffice. */
-static int sides_cover(lrcsi_cells_single *a, const lrcsi_cells_single_sample *sample,
+static int sides_cover(lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
                        uint32_t candidate, double tolerance)
 {
     const lrcsi_needle *needle = a->frame.needle;
-    const lrcsi_view *view = a->cells.view;
+    const lrcsi_view *view = a->division.view;
     uint32_t other = a->candidate[candidate];
-    if (!needle && sample->test == LRCSI_CELLS_EXACT) {
+    if (!needle && sample->test == LRCSI_TEST_EXACT) {
         return lrcsi_sample_covers(view, other, sample->point) ? 1 : -1;
     }
-    lrcsi_cells_single_side made[3] = {{.err = -1}};
-    lrcsi_cells_single_side *sides = candidate < a->side_room ? a->side[candidate] : made;
+    lrcsi_facet_cells_side made[3] = {{.err = -1}};
+    lrcsi_facet_cells_side *sides = candidate < a->side_room ? a->side[candidate] : made;
     if (sides[0].err < 0) {
         sides_make(a, other, sides);
     }
     int inside = 1;
-    int guess = sample->test == LRCSI_CELLS_GUESSED;
+    int guess = sample->test == LRCSI_TEST_GUESSED;
     for (int k = 0; k < 3; k++) {
         double left = lrcsi_line_at(sides[k].line, sample->at[0], sample->at[1]);
         double err = needle ? sides[k].err : guess ? 0 : sides[k].err + tolerance;
@@ -192,43 +188,43 @@ static int sides_cover(lrcsi_cells_single *a, const lrcsi_cells_single_sample *s
 
 /* Is a facet that covers the sample in front of f there? 1 yes, -1 no, 0 it cannot be decided: the
    sample is near the line in which they intersect. */
-static int candidate_in_front(const lrcsi_cells_single *a, const lrcsi_cells_single_sample *sample,
+static int candidate_in_front(const lrcsi_facet_cells *a, const lrcsi_facet_cells_sample *sample,
                               uint32_t other, double tolerance)
 {
-    uint32_t order = a->order[other];
-    if (order < a->cells.segment_count) {
-        const lrcsi_cells_segment *e = &a->cells.segment[order];
+    int order = a->order[other];
+    if (order == LRCSI_ORDER_CONTACT) {
+        const lrcsi_cells_segment *e = &a->division.segment[a->contact[other]];
         double left = lrcsi_line_at(e->line, sample->at[0], sample->at[1]);
-        double w = sample->test == LRCSI_CELLS_GUESSED ? 0 : e->err + tolerance + sample->err;
+        double w = sample->test == LRCSI_TEST_GUESSED ? 0 : e->err + tolerance + sample->err;
         int side = left > w ? 1 : left < -w ? -1 : 0;
         return e->contact == LRCSI_CONTACT_LINE    ? side
                : e->contact == LRCSI_CONTACT_FRONT ? side * side
                                                    : -side * side;
     }
-    return order == LRCSI_CELLS_ORDER_FRONT ? 1 : order == LRCSI_CELLS_ORDER_BEHIND ? -1 : 0;
+    return order == LRCSI_ORDER_FRONT ? 1 : order == LRCSI_ORDER_BEHIND ? -1 : 0;
 }
 
 /* Is f hidden at a sample? 1 yes, 0 no, -1 it cannot be decided. If it is hidden, sample->cut is
    a segment of the component with the fewest segments in the cell; a component with none ends the
    search. Boxes exclude most candidates. The depth order, which takes longest, is computed last. */
-static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
-                            const lrcsi_cells_sides *s, lrcsi_cells_single_sample *sample)
+static int sample_is_hidden(lrcsi_facet_cells *a, const lrcsi_cell *cell, const lrcsi_clip_sides *s,
+                            lrcsi_facet_cells_sample *sample)
 {
     uint32_t last = LRCS_NONE;
     int answer = 0;
     sample->ends = LRCS_NONE;
-    for (uint32_t i = 0; i < a->count && sample->ends > 0; i++) {
+    for (uint32_t i = 0; i < a->candidate_count && sample->ends > 0; i++) {
         uint32_t other = a->candidate[i];
         uint32_t component = a->classification->component[other];
-        uint32_t *order = &a->order[other];
-        if (*order == LRCSI_CELLS_ORDER_BEHIND ||
+        unsigned char *order = &a->order[other];
+        if (*order == LRCSI_ORDER_BEHIND ||
             lrcsi_view_box_beside(&sample->box, lrcsi_boxes_facet(&a->grid.boxes, other)) ||
             (a->frame.needle && sample_is_beyond(a, sample, other))) {
             continue;
         }
         int covered = sides_cover(a, sample, i, s->tolerance);
-        if (covered >= 0 && *order == LRCSI_CELLS_ORDER_NOT_COMPUTED) {
-            *order = lrcsi_cells_single_order(a, other);
+        if (covered >= 0 && *order == LRCSI_ORDER_NOT_COMPUTED) {
+            *order = (unsigned char)lrcsi_facet_cells_order(a, other);
         }
         int front = covered >= 0 ? candidate_in_front(a, sample, other, s->tolerance) : -1;
         if (front < 0 || (answer > 0 && component == last)) {
@@ -239,7 +235,7 @@ static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
             continue;
         }
         const lrcsi_cells_segment *cut;
-        uint32_t ends = lrcsi_cells_single_choose(a, cell, sample->at, component, &cut);
+        uint32_t ends = lrcsi_facet_cells_choose(a, cell, sample->at, component, &cut);
         if (ends < sample->ends) {
             sample->ends = ends;
             sample->cut = cut;
@@ -250,37 +246,38 @@ static int sample_is_hidden(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
     return answer;
 }
 
-int lrcsi_cells_single_find_sample(lrcsi_cells_single *a, const lrcsi_cells_cell *cell,
-                                   const lrcsi_cells_sides *s, lrcsi_cells_single_sample *sample,
-                                   int *guess)
+void lrcsi_facet_cells_sample_take(lrcsi_facet_cells *a, const lrcsi_cell *cell,
+                                   const lrcsi_clip_sides *s, lrcsi_facet_cells_sample *sample)
 {
-    double margin = 4 * (cell->widest_strip + a->shape.err + s->tolerance);
+    double margin = 4 * (cell->widest_strip + a->division.facet_err + s->tolerance);
     double unproject_err = lrcsi_target_unproject_err(&a->target);
-    int answer = -1;
-    for (int t = 0; t < LRCSI_CELLS_SAMPLES && answer < 0; t++) {
-        *sample = (lrcsi_cells_single_sample){.test = LRCSI_CELLS_BOUNDED};
+    int hidden = -1;
+    for (int t = 0; t < LRCSI_SAMPLES && hidden < 0; t++) {
+        *sample = (lrcsi_facet_cells_sample){.test = LRCSI_TEST_BOUNDED};
         lrcsi_cells_sample_point(cell, t, sample->at);
-        sample->clear = lrcsi_cells_border_distance(s, sample->at);
-        if (!(sample->clear > margin)) {
+        sample->border_distance = lrcsi_clip_border_distance(s, sample->at);
+        if (!(sample->border_distance > margin)) {
             continue;
         }
         sample_place(a, sample);
-        answer = sample_is_hidden(a, cell, s, sample);
-        if (answer < 0 && !a->frame.needle && sample->clear > margin + unproject_err) {
+        hidden = sample_is_hidden(a, cell, s, sample);
+        if (hidden < 0 && !a->frame.needle && sample->border_distance > margin + unproject_err) {
             sample_unproject(a, sample);
             sample->err = unproject_err;
             sample_place(a, sample);
-            sample->clear -= unproject_err;
-            answer = sample_is_hidden(a, cell, s, sample);
+            sample->border_distance -= unproject_err;
+            hidden = sample_is_hidden(a, cell, s, sample);
         }
     }
-    if (answer < 0) {
-        *sample = (lrcsi_cells_single_sample){.test = LRCSI_CELLS_GUESSED};
+    int guess = hidden;
+    if (hidden < 0) {
+        *sample = (lrcsi_facet_cells_sample){.test = LRCSI_TEST_GUESSED};
         lrcsi_cells_sample_point(cell, 0, sample->at);
         sample_unproject(a, sample);
-        sample->test = LRCSI_CELLS_GUESSED;
+        sample->test = LRCSI_TEST_GUESSED;
         sample_place(a, sample);
-        *guess = sample_is_hidden(a, cell, s, sample) > 0;
+        guess = sample_is_hidden(a, cell, s, sample) > 0;
     }
-    return answer;
+    sample->hidden = hidden;
+    sample->guess = guess;
 }
