@@ -18,6 +18,6 @@ double lrcsi_bound_area(const lrcs_prepared *p, double scaled);
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
                              const lrcsi_proximity_band *band, const lrcsi_clear *clear,
-                             const lrcsi_total_details *details);
+                             lrcsi_total_details *details);
 
 #endif
