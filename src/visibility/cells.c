@@ -308,7 +308,7 @@ static double facet_accuracy(const lrcsi_cells_work *c, uint32_t facet, double p
     }
     double extent = extent_of(c->view->prepared);
     const lrcs_scene *scene = c->view->prepared->scene;
-    int ordinary = scene->part[scene->facet_part[facet]].reach > 0 ||
+    int ordinary = scene->part[scene->facet_part[facet]].bounds.reach > 0 ||
                    (projected > MAX_NEEDLE_AREA * diameter * diameter && diameter < 2 * extent);
     double alone = LRCSI_U * diameter * (104 * diameter + 128 * c->area[facet].strip_length);
     alone = as_single ? SINGLE_FACTOR * alone : 0;
