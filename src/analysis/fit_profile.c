@@ -10,10 +10,12 @@
 
 #include "base/range.h"
 
+/* More strides than doublings lead through any range of the search, and more iterations than the
+   tolerance below needs. */
 #define PROFILE_STRIDES    60
 #define PROFILE_ITERATIONS 24
 
-#define PROFILE_SHAPES 12
+#define PROFILE_SHAPES 12 /* intervals between the values of s or m at which a walk looks */
 
 /* The relative error to which a limit is found, in the square root of the rise. */
 #define PROFILE_TOLERANCE 1e-4
@@ -22,6 +24,7 @@
    minimum and is not due to rounding. */
 #define PROFILE_LOWER 1e-6
 
+/* Of a matrix whose diagonal is 1: a smaller pivot is a row that depends on others. */
 #define PROFILE_PIVOT 1e-12
 
 /* ---- by derivatives ---- */
@@ -47,7 +50,7 @@ static void matrix_invert(double m[LRCS_FIT_PARAMETERS][LRCS_FIT_PARAMETERS],
     }
 }
 
-lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixed,
+lrcsi_fit_spread lrcsi_fit_spread_make(lrcsi_fit_data *data, unsigned fixed,
                                        const lrcsi_fit_parameters *best, double noise)
 {
     const double scale[LRCS_FIT_PARAMETERS] = {1.0, 1.0, best->at[LRCS_FIT_A],
@@ -84,7 +87,7 @@ lrcsi_fit_spread lrcsi_fit_spread_make(const lrcsi_fit_data *data, unsigned fixe
 /* ---- by profile ---- */
 
 typedef struct profile_walk {
-    const lrcsi_fit_data *data;
+    lrcsi_fit_data *data;
     int parameter;
     double rise;
     const lrcsi_fit_parameters *best, *full;
@@ -92,9 +95,9 @@ typedef struct profile_walk {
     lrcsi_fit_parameters low;  /* the lowest minimum found */
 } profile_walk;
 
-/* Minimizes from a parameter vector with the profiled parameter fixed at x; *lowest
-   becomes the lower of this minimum and *lowest. */
-static void walk_minimize(const profile_walk *walk, double x, const lrcsi_fit_parameters *from,
+/* Minimizes from a parameter vector with the profiled parameter fixed at x; *lowest becomes the
+   lower of this minimum and *lowest. */
+static void walk_minimize(profile_walk *walk, double x, const lrcsi_fit_parameters *from,
                           lrcsi_fit_parameters *lowest)
 {
     lrcsi_fit_parameters parameters = *from;
@@ -106,7 +109,7 @@ static void walk_minimize(const profile_walk *walk, double x, const lrcsi_fit_pa
 /* The best minimum over several shapes of a term, with the profiled parameter at x: a glint may lie
    between readings or be wide, and a maximum may separate the two. A and m use shapes of the glint,
    B and s those of the diffuse term. */
-static lrcsi_fit_parameters walk_shape(const profile_walk *walk, double x)
+static lrcsi_fit_parameters walk_shape(profile_walk *walk, double x)
 {
     int p = walk->parameter;
     int shape = p == LRCS_FIT_A || p == LRCS_FIT_M ? LRCS_FIT_S : LRCS_FIT_M;
@@ -195,13 +198,15 @@ static double walk_limit(profile_walk *walk, double stride, int direction)
     return direction < 0 && end == 0.0 ? 0.0 : direction * HUGE_VAL;
 }
 
-int lrcsi_fit_profile(const lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
+int lrcsi_fit_profile(lrcsi_fit_data *data, const lrcsi_fit_spread *spread, double rise,
                       const lrcsi_fit_parameters *best, lrcsi_fit_parameters *full,
                       double limit[LRCS_FIT_PARAMETERS][2])
 {
     lrcsi_fit_parameters low = *full;
     for (int p = 0; p < LRCS_FIT_PARAMETERS; p++) {
         profile_walk walk = {data, p, rise, best, full, *best, low};
+        /* The first stride: about where the limit is expected, at most half a unit of a logarithm;
+           strides double until the limit is passed. */
         double stride_max = p < LRCS_FIT_S ? HUGE_VAL : 0.5;
         double stride = lrcsi_min(2.0 * spread->error[p], stride_max);
         stride = stride > 0.0 && stride < HUGE_VAL ? stride : 0.1;

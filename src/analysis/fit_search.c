@@ -9,11 +9,13 @@
 
 #include "base/range.h"
 
+/* The nodes of the grid in log(s) and log(1 + m). */
 #define SEARCH_S_STEPS 24
 #define SEARCH_M_STEPS 10
 
-/* Least squares, reweighted with the inverse of the previous residuals: after five passes
-   the sum of absolute residuals is close enough to its minimum for a starting point. */
+/* Least squares, reweighted with the inverse of the previous residuals: after five passes the sum
+   of absolute residuals is close enough to its minimum for a starting point. A residual below this
+   fraction of their mean is weighted as if it were that large. */
 #define SEARCH_PASSES 5
 #define SEARCH_FLOOR  0.01
 
@@ -42,7 +44,7 @@ static double node_sum(const lrcsi_fit_data *data)
 
 /* Weights readings and columns by the inverse of the residuals, each taken as at least SEARCH_FLOOR
    of their mean. */
-static void node_weigh(const lrcsi_fit_data *data, double mean)
+static void node_weigh(lrcsi_fit_data *data, double mean)
 {
     double floor = lrcsi_max(SEARCH_FLOOR * mean, 0x1p-500);
     for (uint32_t i = 0; i < data->count; i++) {
@@ -55,7 +57,7 @@ static void node_weigh(const lrcsi_fit_data *data, double mean)
 }
 
 /* The least sum of absolute residuals for the s and m of a node. */
-static double node_minimize(const lrcsi_fit_data *data, const lrcsi_fit_parameters *node)
+static double node_minimize(lrcsi_fit_data *data, const lrcsi_fit_parameters *node)
 {
     const unsigned shapes = 1u << LRCS_FIT_S | 1u << LRCS_FIT_M;
     lrcsi_fit_parameters parameters = *node;
@@ -105,7 +107,7 @@ static uint32_t start_enter(lrcsi_fit_parameters start[LRCSI_FIT_STARTS], uint32
     return count;
 }
 
-uint32_t lrcsi_fit_search(const lrcsi_fit_data *data, lrcsi_fit_parameters start[LRCSI_FIT_STARTS])
+uint32_t lrcsi_fit_search(lrcsi_fit_data *data, lrcsi_fit_parameters start[LRCSI_FIT_STARTS])
 {
     double sum[SEARCH_S_STEPS][SEARCH_M_STEPS];
     uint32_t count = 0;

@@ -65,7 +65,6 @@
 #include "integrate/facet_terms.h"
 #include "integrate/range_bins.h"
 #include "integrate/tessellation.h"
-#include "integrate/total.h"
 #include "view/frame.h"
 #include "visibility/occlude.h"
 #include "visibility/proximity_hidden.h"
@@ -193,7 +192,7 @@ static double fan_add(profile_run *run, const lrcsi_range_facet *f, const lrcsi_
 
 /* Adds the visible pieces of a facet, and returns the area D of part (2). On a convex surface
    fronts are visible without clipping, except those at grazing incidence. */
-static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t facet,
+static double pieces_add(profile_run *run, lrcsi_range_facet *f, uint32_t facet,
                          const lrcsi_incidence *incidence, lrcsi_occlusion *o)
 {
     double corner_err = 2 * LRCSI_U * f->range_max + 1.01 * f->range_dd_err;
@@ -209,7 +208,7 @@ static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t 
     double area_err = 0;
     lrcsi_occlude_open(o, facet);
     if (f->curve && o->undecided) {
-        f->curve->sum.surface.position_err = lrcsi_curve_position_err(f->curve, &o->single.target);
+        f->position_err = lrcsi_curve_position_err(f->curve, &o->single.target);
     }
     while (lrcsi_occlude_next(o)) {
         const lrcsi_target *target = &o->single.target;
@@ -226,8 +225,7 @@ static double pieces_add(profile_run *run, const lrcsi_range_facet *f, uint32_t 
     lrcsi_visible_area visible =
         lrcsi_visible_area_proved(run->view, facet, lrcsi_occlude_close(o));
     if (o->undecided) {
-        const lrcsi_target *target = &o->single.target;
-        area_err += 20 * LRCSI_U * target->reach * target->perimeter + o->single.piece_err;
+        area_err += lrcsi_occlude_corner_err(&o->single.target) + o->single.piece_err;
     }
     if (run->visible) {
         run->visible[facet] = visible;
@@ -246,6 +244,7 @@ static void facet_add_profile(profile_run *run, uint32_t facet, lrcsi_occlusion 
     if (lrcsi_curve_applies(run->view, facet)) {
         lrcsi_curve_integral_make(&run->curves, facet, &curve);
         f.curve = &curve;
+        f.position_err = curve.surface.position_err;
         f.upper_bound = LRCS_FOUR_PI * lrcsi_curve_upper_bound(&curve) * (1 + incidence.error);
     } else {
         lrcsi_facet_terms terms =
@@ -318,7 +317,7 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
     facet_ranges(run, facet, &f);
     facet_ranges(run, error.partner, &other);
     const lrcs_part *part = &run->prepared->scene->part[run->prepared->scene->facet_part[facet]];
-    double reach = ldexp(part->reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
+    double reach = ldexp(part->bounds.reach, -run->prepared->exponent) * (1 + 4 * LRCSI_U) +
                    8 * LRCSI_U * f.range_max + 1.01 * f.range_dd_err; /* with the corners' errors */
     int order[3];
     lrcsi_range_order(f.range, order);
@@ -354,14 +353,14 @@ static void tessellation_add_error(profile_run *run, uint32_t facet)
 
 /* --- all facets ------------------------------------------------------------------------------- */
 
-/* The largest reach of the parts whose curvature is known, m. That of other parts may be infinite;
+/* The largest reach of the parts whose bounds are known, m. That of other parts may be infinite;
    no tessellation error is added for their facets. */
 static double max_reach(const lrcs_prepared *prepared)
 {
     double reach = 0;
     for (uint32_t i = 0; i < prepared->scene->part_count; i++) {
         const lrcs_part *part = &prepared->scene->part[i];
-        reach = part->curvature_known ? lrcsi_max(reach, part->reach) : reach;
+        reach = part->bounds.known ? lrcsi_max(reach, part->bounds.reach) : reach;
     }
     return reach;
 }
@@ -371,8 +370,9 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
     if (!(bin_m > 0)) {
         return 0;
     }
+    /* The depth of the scene in any pose: the diagonal of its box is at most 2 sqrt(3) radius. */
     double depth = ldexp(2 * 1.7320508075688774 * prepared->radius, prepared->exponent) +
-                   2 * max_reach(prepared); /* of the scene, in any pose */
+                   2 * max_reach(prepared);
     double bins_max = depth / bin_m + 4;
     size_t bins =
         bins_max < LRCS_PROFILE_BINS ? (size_t)bins_max + 1 : (size_t)LRCS_PROFILE_BINS + 4;
@@ -380,8 +380,8 @@ size_t lrcs_profile_need(const lrcs_prepared *prepared, double bin_m)
     need = lrcsi_work_add(need, lrcsi_work_bytes(bins, sizeof(lrcsi_range_sums)));
     need = lrcsi_work_add(need, lrcsi_view_need(prepared));
     need = lrcsi_work_add(need, lrcsi_classify_need(prepared));
-    need = lrcsi_work_add(need, prepared->smooth ? lrcsi_cubature_need() : 0);
-    if (prepared->curved) {
+    need = lrcsi_work_add(need, prepared->has_curved_normals ? lrcsi_cubature_need() : 0);
+    if (prepared->has_curved_shapes) {
         size_t facets = prepared->scene->facet_count;
         need = lrcsi_work_add(need, lrcsi_work_bytes(facets, sizeof(lrcsi_visible_area)));
         need = lrcsi_work_add(need, lrcsi_proximity_band_need(prepared));
@@ -424,7 +424,7 @@ static int bins_number(profile_run *run)
 static int curved_take(profile_run *run, lrcsi_classification *classification, lrcs_work *work)
 {
     const lrcs_prepared *p = run->prepared;
-    if (p->curved) {
+    if (p->has_curved_shapes) {
         run->visible = lrcsi_work_take_zero(work, p->scene->facet_count, sizeof *run->visible);
         int status = run->visible ? LRCS_OK : LRCS_E_MEMORY;
         if (status == LRCS_OK && run->plan.proximity_band) {
@@ -435,7 +435,7 @@ static int curved_take(profile_run *run, lrcsi_classification *classification, l
             return status;
         }
     }
-    if (p->smooth) {
+    if (p->has_curved_normals) {
         run->curve_options =
             (lrcsi_curve_options){&run->plan, CURVE_TOLERANCE, NULL, lrcsi_cubature_stack(work), 0};
         if (!run->curve_options.stack) {
@@ -476,7 +476,7 @@ static int profile_sum(profile_run *run, lrcsi_view *view, const lrcs_pose *pose
             facet_add_profile(run, facet, &o);
         }
     }
-    if (status != LRCS_OK || !p->curved || !lrcsi_tessellation_known(p, &run->plan)) {
+    if (status != LRCS_OK || !p->has_curved_shapes || !lrcsi_tessellation_known(p, &run->plan)) {
         return status;
     }
     if (run->band) {
@@ -506,12 +506,12 @@ static void profile_finish(const profile_run *run, lrcs_profile *profile)
         profile->bin[i] = (lrcs_profile_bin){
             lrcsi_prepared_area(p, glint),
             lrcsi_prepared_area(p, diffuse),
-            lrcsi_bound_area(p, (sums->bound + sums->tessellation + (glint + diffuse) * adding) *
-                                    outward),
-            lrcsi_bound_area(
+            lrcsi_prepared_bound(
+                p, (sums->bound + sums->tessellation + (glint + diffuse) * adding) * outward),
+            lrcsi_prepared_bound(
                 p, (sums->bound + sums->tessellation_variation + (glint + diffuse) * adding) *
                        outward),
-            p->smooth ? lrcsi_bound_area(p, sums->estimate * outward) : 0,
+            p->has_curved_normals ? lrcsi_prepared_bound(p, sums->estimate * outward) : 0,
             ldexp(moment, p->exponent)};
         if (profile->bin[i].variation_m2 < profile->bin[i].bound_m2) {
             profile->bin[i].variation_m2 = profile->bin[i].bound_m2;
@@ -523,11 +523,11 @@ static void profile_finish(const profile_run *run, lrcs_profile *profile)
     profile->first = profile->count > 0 ? run->bins.first + run->bins.begin : 0;
     profile->sigma_glint_m2 = lrcsi_prepared_area(p, glint);
     profile->sigma_diffuse_m2 = lrcsi_prepared_area(p, diffuse);
-    profile->bound_m2 = lrcsi_bound_area(
+    profile->bound_m2 = lrcsi_prepared_bound(
         p, (run->bins.bound + run->tessellation + (glint + diffuse) * adding) * outward);
     profile->curvature_estimate_m2 =
-        p->smooth ? lrcsi_bound_area(p, run->bins.estimate * outward) : -1;
-    profile->tessellation_known = !p->curved || lrcsi_tessellation_known(p, &run->plan);
+        p->has_curved_normals ? lrcsi_prepared_bound(p, run->bins.estimate * outward) : -1;
+    profile->tessellation_known = !p->has_curved_shapes || lrcsi_tessellation_known(p, &run->plan);
     profile->range_err_m = ldexp(run->bins.range_err, p->exponent);
 }
 

@@ -33,8 +33,6 @@
 #define MAX_REACHES 12.0
 #define MIN_COSINE  0.25
 #define MAX_TURN    0.12
-/* Covers the roundings of sums of positive terms. */
-#define ROUNDED_UP (1 + 1e-9)
 
 typedef struct pieces_job {
     const lrcsi_view *view;
@@ -82,7 +80,7 @@ static triangle_rule triangle_rule_choose(const pieces_job *job, const lrcsi_rou
     while (n + 1 < LRCSI_MEAN_RULES && !(best[n] <= target)) {
         n++;
     }
-    return (triangle_rule){&lrcsi_mean_rules[n], best[n] * ROUNDED_UP};
+    return (triangle_rule){&lrcsi_mean_rules[n], best[n] * LRCSI_ROUND_UPWARD};
 }
 
 /* Adds the integral of G over the triangle `corner`, of the given area, to a sum. */
@@ -125,7 +123,7 @@ static int triangle_centre(const pieces_job *job, const double corner[3][2],
     for (int i = 0; i < 3; i++) {
         *radius = lrcsi_max(*radius, lrcsi_length_flat(corner[i][0] - at[0], corner[i][1] - at[1]));
     }
-    *radius *= ROUNDED_UP;
+    *radius *= LRCSI_ROUND_UPWARD;
     return lrcsi_round_point_make(&job->wall.surface, at, centre);
 }
 
@@ -233,10 +231,10 @@ static double facet_bound(const pieces_job *job, uint32_t facet)
         apart = lrcsi_max(apart, fabs(lrcsi_round_height(surface, &centre) - slope / centre.s - z));
     }
     lrcsi_reflection bound = lrcsi_reflect_bound(&job->wall.brdf, atan(sqrt(incidence.tan2)),
-                                                 2 * surface->part->curvature.turn);
-    return incidence.cos_theta >= MIN_COSINE && surface->part->curvature.turn <= MAX_TURN &&
+                                                 2 * surface->part->bounds.patch.turn);
+    return incidence.cos_theta >= MIN_COSINE && surface->part->bounds.patch.turn <= MAX_TURN &&
                    apart < MAX_REACHES * p->proximity.reach[p->scene->facet_part[facet]]
-               ? (bound.glint + bound.diffuse) * ROUNDED_UP
+               ? (bound.glint + bound.diffuse) * LRCSI_ROUND_UPWARD
                : HUGE_VAL;
 }
 
@@ -275,15 +273,15 @@ static int facet_integrate(const pieces_job *job, lrcsi_occlusion *o, uint32_t f
     lrcsi_visible_area area = lrcsi_occlude_close(o);
     double gain = lrcsi_min(job->band->gain_above[facet] * projected, projected - area.low);
     double loss = lrcsi_min(job->band->loss_above[facet] * projected, area.high);
-    *piece =
-        (lrcsi_round_piece){.known = 1,
-                            .glint = sum.glint,
-                            .diffuse = sum.diffuse,
-                            .rounding = sum.rounding,
-                            .visibility = bound * (area.high - area.low + area_err) * ROUNDED_UP,
-                            .above = bound * lrcsi_max(0, gain) * ROUNDED_UP,
-                            .below = bound * lrcsi_max(0, loss) * ROUNDED_UP,
-                            .own = sum.remainder};
+    *piece = (lrcsi_round_piece){.known = 1,
+                                 .glint = sum.glint,
+                                 .diffuse = sum.diffuse,
+                                 .rounding = sum.rounding,
+                                 .visibility =
+                                     bound * (area.high - area.low + area_err) * LRCSI_ROUND_UPWARD,
+                                 .above = bound * lrcsi_max(0, gain) * LRCSI_ROUND_UPWARD,
+                                 .below = bound * lrcsi_max(0, loss) * LRCSI_ROUND_UPWARD,
+                                 .own = sum.remainder};
     return known;
 }
 

@@ -16,8 +16,6 @@
    a bound on its integral. */
 #define MARGIN_PARTS_MAX 8
 #define MARGIN_TARGET    1e-6
-/* Covers the roundings of sums of positive terms. */
-#define ROUNDED_UP (1 + 1e-9)
 
 const double lrcsi_round_ratios[LRCSI_ROUND_RATIOS] = {1.5, 2.5, 4.0, 7.0, 12.0, 24.0};
 
@@ -85,11 +83,11 @@ static double side_bend(const lrcsi_round_wall *wall, const lrcsi_round_side *si
     double h = fabs(side->half);
     if (!side->is_row && s->alpha == 0) {
         double second = h * h / s->beta;
-        *slope = second * r * ROUNDED_UP;
-        return 0.5 * second * r * r * ROUNDED_UP;
+        *slope = second * r * LRCSI_ROUND_UPWARD;
+        return 0.5 * second * r * r * LRCSI_ROUND_UPWARD;
     }
     double radius = side->is_row ? side->rho : sqrt(-s->gamma);
-    double grown = radius * lrcsi_exp(h * r) * ROUNDED_UP;
+    double grown = radius * lrcsi_exp(h * r) * LRCSI_ROUND_UPWARD;
     *slope = h * h * r * grown;
     return 0.5 * (h * r) * (h * r) * grown;
 }
@@ -130,8 +128,9 @@ static double margin_bound(const lrcsi_round_wall *wall, const lrcsi_round_side 
                            double *slope)
 {
     double bend = side_bend(wall, side, r * part->half, slope);
-    *width = (part->apart + part->turned * r + bend) * ROUNDED_UP + wall->surface.position_err;
-    *slope = (part->turned + *slope * part->half) * ROUNDED_UP;
+    *width =
+        (part->apart + part->turned * r + bend) * LRCSI_ROUND_UPWARD + wall->surface.position_err;
+    *slope = (part->turned + *slope * part->half) * LRCSI_ROUND_UPWARD;
     return lrcsi_round_bound(&wall->surface, &wall->brdf, &part->centre,
                              r * part->length + out * *width);
 }
@@ -159,7 +158,7 @@ static double margin_remainder(const lrcsi_round_wall *wall, const lrcsi_round_s
         }
         error_across = lrcsi_min(error_across, 2 * m / ((2 * across + 1) * (1 - q)));
     }
-    return (error_along + error_across) * ROUNDED_UP;
+    return (error_along + error_across) * LRCSI_ROUND_UPWARD;
 }
 
 /* Adds the integral over a part of a margin. */
@@ -217,7 +216,7 @@ int lrcsi_round_margin_make(const lrcsi_round_wall *wall, const lrcsi_round_side
                 return 0;
             }
             double bound = margin_bound(wall, side, &part, 1, 1, &width, &slope);
-            double size = bound * (part.length + slope) * ROUNDED_UP;
+            double size = bound * (part.length + slope) * LRCSI_ROUND_UPWARD;
             margin->largest += 2 * size * width;
             margin->width = lrcsi_max(margin->width, width);
             sum->remainder += margin_remainder(wall, side, &part, along->points, across->points);

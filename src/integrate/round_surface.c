@@ -63,7 +63,7 @@ lrcsi_round_surface lrcsi_round_surface_make(const lrcsi_view *view, uint32_t in
     s.a = lrcsi_vec3_dot(s.axis[2], d);
     s.in_plane = lrcsi_length_flat(lrcsi_vec3_dot(s.axis[0], d), lrcsi_vec3_dot(s.axis[1], d));
     s.position_err = 64 * LRCSI_U * (distance + 2 * (radius + height)) +
-                     2 * ldexp(part->position_err, -p->exponent);
+                     2 * ldexp(part->bounds.position_err, -p->exponent);
     return s;
 }
 

@@ -16,19 +16,18 @@
 #include "integrate/linear.h"
 #include "integrate/patch.h"
 #include "optics/reflect.h"
-#include "visibility/query.h"
 
-/* The visible fraction of a facet that reflects. */
-static double visible_fraction(const lrcsi_sigma *run, uint32_t facet, double projected)
+/* The visible fraction of a facet that reflects, as the sum of Eq. 2 has it; 0 if the sum does not
+   include the facet. */
+static double visible_fraction(const lrcsi_sigma *run, uint32_t facet,
+                               const lrcsi_incidence *incidence)
 {
-    if (run->answer && run->answer[facet] != LRCSI_QUERY_UNDECIDED) {
-        return run->answer[facet] == LRCSI_QUERY_VISIBLE ? 1 : 0;
+    const lrcsi_areas areas = {run->visible, run->answer, run->moment, NULL};
+    if (!lrcsi_areas_is_summed(&areas, &run->view, facet)) {
+        return 0;
     }
-    if (!run->visible) {
-        return lrcsi_view_casts(&run->view, facet) ? 1 : 0;
-    }
-    double area = run->visible[facet].area;
-    return area == projected ? 1 : area / projected; /* 1 even if both are 0 */
+    lrcsi_visible_area visible = lrcsi_areas_of(&areas, &run->view, &run->plan, facet, incidence);
+    return lrcsi_areas_fraction(visible.area, incidence->projected);
 }
 
 /* The derivative dg/ds = g 2 u / s^3, from g u. */
@@ -114,7 +113,7 @@ static lrcsi_unit_response correction_response(const lrcsi_sigma *run, const lrc
 {
     const lrcsi_view *view = &run->view;
     const lrcs_scene *scene = view->prepared->scene;
-    const lrcs_curvature *c = &scene->part[scene->facet_part[facet]].curvature;
+    const lrcs_patch_bounds *c = &scene->part[scene->facet_part[facet]].bounds.patch;
     double projected = lrcsi_view_projected(view, facet);
     lrcsi_unit_response at = {0, 0, 0, 0};
     for (int i = 0; i < 2; i++) {
@@ -157,7 +156,7 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_re
         }
         uint32_t material = scene->facet_material[f];
         lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
-        double fraction = visible_fraction(run, f, incidence.projected);
+        double fraction = visible_fraction(run, f, &incidence);
         lrcsi_response *to = &response[material];
         const double s = brdf[material].s;
         const double u = incidence.tan2;
@@ -166,8 +165,8 @@ void lrcsi_response_make(const lrcsi_sigma *run, const lrcs_brdf *brdf, lrcsi_re
                                plan->diffuse == LRCSI_TERM_OMITTED ? 0 : brdf[material].B, s,
                                brdf[material].m};
         double weight = LRCS_FOUR_PI * 0.5 * p->normal[f].length * fraction;
-        if (run->curved && lrcsi_curve_applies(view, f)) { /* curved normals */
-            const lrcsi_curved *c = &run->curved[f];
+        if (run->curve_terms && lrcsi_curve_applies(view, f)) { /* curved normals */
+            const lrcsi_curve_terms *c = &run->curve_terms[f];
             const lrcsi_unit_response at = {c->glint, c->diffuse, glint_slope_s(c->glint_u, s),
                                             -0.5 * c->diffuse_log};
             response_sum(to, 1, &at);

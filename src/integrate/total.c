@@ -4,15 +4,15 @@
        4 pi f_r cos(theta) a = 4 pi S f (a / (S cos(theta))),  f = f_r cos^2(theta).
 
    What each step adds to the bounds is stated beside it; at the end the bounds are increased by the
-   fraction 1e-9 + 2 u per facet, for the rounding of their own sums. The steps of lrcsi_total_make:
-   1. lrcsi_total_add_material, for each material: nearly all facets are summed in blocks, in plain
-      doubles (total_block.c), the others one by one (total_facet.c);
+   fraction 1e-9 + 2 u per facet, for their own rounding: 2 u per facet for the sums, and far more
+   than the few operations on each term need. The steps of lrcsi_total_make:
+   1. lrcsi_total_add_material, for each material: nearly all facets are summed in packets, in plain
+      doubles (total_packet.c), the others one by one (total_facet.c);
    2. add_clear_shape, for each clear shape: lrcsi_shape_terms_make;
-   3. add_tessellation_errors, if shapes are curved: lrcsi_tessellation_error;
+   3. add_tessellation_errors, if there are curved shapes: lrcsi_tessellation_error;
    4. total_finish: conversion to square metres, and the rounding of the sums. */
 #include "integrate/total.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -81,7 +81,7 @@ static double negligible_remainder(const lrcsi_total_run *run)
         const lrcs_part *part = lrcsi_patch_part(p, facet);
         int has_patch = lrcsi_patch_exists(p, facet);
         lrcs_brdf brdf = lrcsi_plan_brdf(run->plan, lrcsi_prepared_material(p, facet));
-        brdf = brdf_widened(&brdf, has_patch ? part->curvature.turn : 0);
+        brdf = brdf_widened(&brdf, has_patch ? part->bounds.patch.turn : 0);
         lrcsi_reflection f =
             lrcsi_reflect(&brdf, (1 - cosine) * (1 + cosine) / (cosine * cosine), 0);
         double visible = run->areas->visible ? lrcsi_areas_value(run->areas, run->view, facet)
@@ -94,7 +94,7 @@ static double negligible_remainder(const lrcsi_total_run *run)
 
 /* Divides the sigma of a clear part among its facets that face the laser: each of its terms in
    proportion to that of the flat facets or, if they have none, to the projected areas. */
-static void record_shape(const lrcsi_total_run *run, const lrcs_part *part,
+static void record_shape(lrcsi_total_run *run, const lrcs_part *part,
                          const lrcsi_shape_terms *terms)
 {
     lrcsi_shape_terms flat = {0, 0, 0, 0, 0};
@@ -147,7 +147,7 @@ static void add_clear_shape(lrcsi_total_run *run, uint32_t index, double slab)
 /* --- the total -------------------------------------------------------------------------------- */
 
 /* Fills the records, except for sigma. */
-static void records_start(const lrcsi_total_run *run)
+static void records_start(lrcsi_total_run *run)
 {
     const lrcs_prepared *p = run->view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -161,14 +161,6 @@ static void records_start(const lrcsi_total_run *run)
             run->details.records[f].visible_area_m2 = lrcsi_prepared_area(p, visible.area);
         }
     }
-}
-
-/* If the result is denormal, the conversion may round by up to 2^-1075, and so may the conversions
-   of the values to which the bound applies, at most two: 2^-1073 covers all of them. */
-double lrcsi_bound_area(const lrcs_prepared *p, double scaled)
-{
-    double area = lrcsi_prepared_area(p, scaled);
-    return scaled > 0 && area < DBL_MIN ? area + 0x1p-1073 : area;
 }
 
 /* Converts the sums to square metres. The error of the compensated sums is part of rounding. */
@@ -185,28 +177,28 @@ static void total_finish(lrcsi_total_run *run)
     total->diffuse = lrcsi_prepared_area(p, diffuse);
     total->projected = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->projected));
     total->back_side = lrcsi_prepared_area(p, lrcsi_sum_value(&sums->back_side));
-    total->visibility = lrcsi_bound_area(p, sums->visibility * outward);
+    total->visibility = lrcsi_prepared_bound(p, sums->visibility * outward);
     double either = isfinite(sums->above + sums->below) ? fmax(sums->above, sums->below) : HUGE_VAL;
-    total->tessellation = lrcsi_bound_area(p, either * outward);
+    total->tessellation = lrcsi_prepared_bound(p, either * outward);
     double adding = (glint + diffuse) * (4 * LRCSI_U + 3 * (count * LRCSI_U) * (count * LRCSI_U));
-    total->rounding = lrcsi_bound_area(p, (sums->rounding + adding) * outward);
+    total->rounding = lrcsi_prepared_bound(p, (sums->rounding + adding) * outward);
     double estimate = lrcsi_length_flat(sums->error_estimate, sums->bias);
     total->error_estimate = fmin(lrcsi_prepared_area(p, estimate), total->visibility);
-    total->curvature = lrcsi_prepared_area(p, sums->curvature);
+    total->cubature_estimate = lrcsi_prepared_area(p, sums->cubature_estimate);
     total->seen = sums->seen;
 }
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
-                             const lrcsi_areas *areas, const lrcsi_curved *curved,
+                             const lrcsi_areas *areas, const lrcsi_curve_terms *curve_terms,
                              const lrcsi_proximity_band *band, const lrcsi_clear_shapes *clear,
-                             const lrcsi_total_details *details)
+                             lrcsi_total_details *details)
 {
     const lrcs_prepared *p = view->prepared;
     double *part_error = details->part_error;
     lrcsi_total_run run = {.view = view,
                            .plan = plan,
                            .areas = areas,
-                           .curved = curved,
+                           .curve_terms = curve_terms,
                            .band = band,
                            .clear = clear->count > 0 ? clear : NULL,
                            .details = *details};
@@ -222,7 +214,7 @@ lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
     if (details->records) {
         records_start(&run);
     }
-    int replaced = plan->method != LRCS_METHOD_CLOSED && p->curved;
+    int replaced = plan->method != LRCS_METHOD_CLOSED && p->has_curved_shapes;
     run.tessellation = replaced && lrcsi_tessellation_known(p, plan);
     for (uint32_t i = 0; i < p->scene->material_count; i++) {
         lrcsi_total_add_material(&run, i);

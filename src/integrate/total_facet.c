@@ -40,7 +40,7 @@ void lrcsi_total_add_area_error(lrcsi_total_sums *sums, double per_area,
     sums->bias += per_area * visible->bias;
 }
 
-void lrcsi_total_record(const lrcsi_total_run *run, uint32_t facet, double glint, double diffuse)
+void lrcsi_total_record(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse)
 {
     if (run->details.records) {
         const lrcs_prepared *p = run->view->prepared;
@@ -66,15 +66,15 @@ void lrcsi_total_add_reflecting(lrcsi_total_run *run, uint32_t facet)
     lrcsi_total_note_terms(sums, &brdf);
     lrcsi_sum_add(&sums->projected, visible.area);
     lrcsi_total_count(&run->total, incidence.projected, &visible);
-    if (run->curved && lrcsi_curve_applies(run->view, facet)) {
-        const lrcsi_curved *curved = &run->curved[facet];
-        lrcsi_sum_add(&sums->glint, curved->glint);
-        lrcsi_sum_add(&sums->diffuse, curved->diffuse);
-        sums->visibility += curved->visibility;
-        sums->rounding += curved->rounding + LRCSI_FACET_UNDERFLOW;
-        sums->error_estimate = lrcsi_length_flat(sums->error_estimate, curved->error_estimate);
-        sums->curvature += curved->estimate;
-        lrcsi_total_record(run, facet, curved->glint, curved->diffuse);
+    if (run->curve_terms && lrcsi_curve_applies(run->view, facet)) {
+        const lrcsi_curve_terms *curve_terms = &run->curve_terms[facet];
+        lrcsi_sum_add(&sums->glint, curve_terms->glint);
+        lrcsi_sum_add(&sums->diffuse, curve_terms->diffuse);
+        sums->visibility += curve_terms->visibility;
+        sums->rounding += curve_terms->rounding + LRCSI_FACET_UNDERFLOW;
+        sums->error_estimate = lrcsi_length_flat(sums->error_estimate, curve_terms->error_estimate);
+        sums->cubature_estimate += curve_terms->estimate;
+        lrcsi_total_record(run, facet, curve_terms->glint, curve_terms->diffuse);
         return;
     }
     const lrcsi_round_piece *piece = lrcsi_areas_piece(run->areas, facet);
@@ -116,9 +116,8 @@ void lrcsi_total_add_clear(lrcsi_total_run *run, uint32_t facet)
 void lrcsi_total_add_facet(lrcsi_total_run *run, uint32_t facet)
 {
     int reflects = lrcsi_view_reflects(run->view, facet);
-    int visible = run->view->facing[facet] != 0 &&
-                  (run->areas->visible ? lrcsi_areas_may_be_visible(run->areas, facet)
-                                       : lrcsi_view_casts(run->view, facet));
+    int visible =
+        run->view->facing[facet] != 0 && lrcsi_areas_is_summed(run->areas, run->view, facet);
     if (reflects && lrcsi_total_in_clear_shape(run, facet)) {
         lrcsi_total_add_clear(run, facet);
     } else if (reflects && visible) {
@@ -136,7 +135,7 @@ void lrcsi_total_add_facet(lrcsi_total_run *run, uint32_t facet)
 
 /* Divides an error of a facet among the parts that cause it, in proportion to their reaches: the
    parts whose shadows may end on the facet and, with `own`, its own part. */
-static void add_part_errors(const lrcsi_total_run *run, uint32_t facet, double error, int own)
+static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error, int own)
 {
     const lrcs_scene *scene = run->view->prepared->scene;
     lrcsi_part_set set = run->band ? run->band->parts[facet] : 0;
@@ -145,11 +144,11 @@ static void add_part_errors(const lrcsi_total_run *run, uint32_t facet, double e
         set |= lrcsi_part_set_of(scene->facet_part[facet]);
     }
     for (uint32_t i = 0; i < scene->part_count; i++) {
-        reach += (set & lrcsi_part_set_of(i)) != 0 ? scene->part[i].reach : 0;
+        reach += (set & lrcsi_part_set_of(i)) != 0 ? scene->part[i].bounds.reach : 0;
     }
     for (uint32_t i = 0; reach > 0 && i < scene->part_count; i++) {
         run->details.part_error[i] +=
-            (set & lrcsi_part_set_of(i)) != 0 ? error * (scene->part[i].reach / reach) : 0;
+            (set & lrcsi_part_set_of(i)) != 0 ? error * (scene->part[i].bounds.reach / reach) : 0;
     }
 }
 
@@ -195,7 +194,7 @@ void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
         add_piece_errors(run, facet, piece);
         return;
     }
-    if (!run->curved || !lrcsi_curve_applies(run->view, facet)) {
+    if (!run->curve_terms || !lrcsi_curve_applies(run->view, facet)) {
         const lrcsi_tessellation_input in = {run->view, run->plan, run->areas->visible,
                                              run->areas->moment, run->band};
         lrcsi_tessellation error = lrcsi_tessellation_error(&in, facet, incidence, &run->patches);
@@ -208,7 +207,7 @@ void lrcsi_total_add_tessellation(lrcsi_total_run *run, uint32_t facet,
             add_part_errors(run, facet, LRCS_FOUR_PI * fmax(error.above, error.below), 1);
         }
     } else if (run->band) {
-        run->sums.above += run->band->gain[facet] * run->curved[facet].upper_bound;
-        run->sums.below += run->band->loss[facet] * run->curved[facet].upper_bound;
+        run->sums.above += run->band->gain[facet] * run->curve_terms[facet].upper_bound;
+        run->sums.below += run->band->loss[facet] * run->curve_terms[facet].upper_bound;
     }
 }

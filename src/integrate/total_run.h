@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What the sum of Eq. 2 gives, its state while it is computed, and the functions by which its three
-   files share the work: total.c drives it and adds curved shapes, total_block.c adds facets in
-   blocks, total_facet.c adds single facets. */
+   files share the work: total.c drives it and adds curved shapes, total_packet.c adds facets in
+   packets, total_facet.c adds single facets. */
 #ifndef LRCSI_TOTAL_RUN_H
 #define LRCSI_TOTAL_RUN_H
 
@@ -17,7 +17,7 @@ typedef struct lrcsi_total {
     double glint, diffuse;
     double visibility, tessellation, rounding; /* bounds; tessellation negative: not known */
     double error_estimate;                     /* estimated error of the sampled areas */
-    double curvature;                          /* estimated error of facets with curved normals */
+    double cubature_estimate; /* estimated error of the cubature over curved normals */
     double projected, back_side;
     uint32_t back_sides, hidden, partial; /* facets */
     uint32_t seen; /* the bits GLINT and DIFFUSE, if some facet that may be visible has that term */
@@ -38,7 +38,7 @@ typedef struct lrcsi_total_details {
 /* Running sums, scaled. */
 typedef struct lrcsi_total_sums {
     lrcsi_sum glint, diffuse, projected, back_side;
-    double visibility, rounding, curvature;
+    double visibility, rounding, cubature_estimate;
     double above, below;   /* bounds on how far the true sigma is above, and below, the sum */
     double error_estimate; /* estimated random error: root of the sum of squares */
     double bias;           /* estimated systematic error: sum */
@@ -50,9 +50,9 @@ typedef struct lrcsi_total_run {
     const lrcsi_view *view;
     const lrcsi_plan *plan;
     const lrcsi_areas *areas;
-    const lrcsi_curved *curved;       /* NULL: all normals are flat */
-    const lrcsi_proximity_band *band; /* NULL: none was made */
-    const lrcsi_clear_shapes *clear;  /* NULL: no shape is evaluated by its closed form */
+    const lrcsi_curve_terms *curve_terms; /* NULL: all normals are flat */
+    const lrcsi_proximity_band *band;     /* NULL: none was made */
+    const lrcsi_clear_shapes *clear;      /* NULL: no shape is evaluated by its closed form */
     lrcsi_total_details details;
     int tessellation; /* 1: facets replace curved shapes, and the error of that can be bounded */
     lrcsi_patches patches;
@@ -93,11 +93,12 @@ void lrcsi_total_count(lrcsi_total *total, double projected, const lrcsi_visible
 void lrcsi_total_note_terms(lrcsi_total_sums *sums, const lrcs_brdf *brdf);
 
 /* Records the sigma of a facet, if records are asked for. */
-void lrcsi_total_record(const lrcsi_total_run *run, uint32_t facet, double glint, double diffuse);
+void lrcsi_total_record(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse);
 
-/* --- total_block.c ---------------------------------------------------------------------------- */
+/* --- total_packet.c ----------------------------------------------------------------------------
+ */
 
-/* Adds all facets of a material, in their order, in blocks wherever that is possible. */
+/* Adds all facets of a material, in their order, in packets wherever that is possible. */
 void lrcsi_total_add_material(lrcsi_total_run *run, uint32_t material);
 
 #endif

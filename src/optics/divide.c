@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* How many facets a curved body needs for its material: lrcs_shape_count. The count is estimated
-   before any mesh exists. The proved error, from lrcs_curvature and lrcsi_reflect_deviation, is
+   before any mesh exists. The proved error, from lrcs_patch_bounds and lrcsi_reflect_deviation, is
    evaluated for each pose on the mesh and does not depend on this estimate.
 
    The proved error of a body is 4 pi sum a_i deviation_i. Over fine facets the sum is an integral
@@ -12,7 +12,9 @@
      set of aspects, relative to the wall's own sigma there or its mean over attitudes, whichever is
      larger.
    That ratio falls as 1 / around^2, and the smallest `around` that brings it to the tolerance is
-   found by guesses for that law and by bisection. */
+   found by guesses for that law and by bisection.
+   The constants of the rule and of the sample are choices: they decide how many facets there are,
+   and no bound depends on them. */
 #include <lrcs/shape.h>
 
 #include <math.h>
@@ -22,7 +24,9 @@
 #include "optics/reflect.h"
 
 #define AROUND_MIN   8u
-#define DIVIDE_NODES 48
+#define DIVIDE_NODES 48  /* of the midpoint rule */
+#define GLINT_WIDTHS 4.0 /* the glint is taken to extend over so many of its widths */
+#define STEP_MAX     0.2 /* rad, the largest step between aspects sampled near the glint or the rim */
 /* The fraction of the tolerance that is used: errors between the sampled aspects may be larger. */
 #define DIVIDE_AIM    0.8
 #define DIVIDE_SAMPLE 1e-2 /* the tolerance at which dome and paraboloid are sampled */
@@ -33,7 +37,7 @@
 /* A curved wall: its material, and how coarse its facets are. */
 typedef struct divided_wall {
     const lrcs_brdf *brdf;
-    lrcs_curvature curvature;
+    lrcs_patch_bounds bounds;
 } divided_wall;
 
 /* For one direction: F and its deviation bound. */
@@ -43,7 +47,7 @@ typedef struct wall_value {
 
 static wall_value wall_at(const divided_wall *wall, double cosine, double tan2)
 {
-    wall_value value = {0.0, lrcsi_reflect_deviation(wall->brdf, cosine, tan2, &wall->curvature)};
+    wall_value value = {0.0, lrcsi_reflect_deviation(wall->brdf, cosine, tan2, &wall->bounds)};
     if (cosine > 0.0) {
         lrcsi_reflection f = lrcsi_reflect(wall->brdf, tan2, 0.0);
         value.sigma = f.glint + f.diffuse;
@@ -61,19 +65,20 @@ static double midpoint_node(int k, double near, double end, double *weight)
     return from + ((k % half) + 0.5) * *weight;
 }
 
-/* The extent of the glint: a few of its widths, or of the facets' turn if that is wider. */
+/* The extent of the glint: GLINT_WIDTHS times its width, or the facets' turn if that is wider. */
 static double glint_extent(const divided_wall *wall, double end)
 {
     double width = wall->brdf->A > 0.0 ? wall->brdf->s : 1.0;
-    return fmin(4.0 * fmax(width, wall->curvature.turn), 0.5 * end);
+    return fmin(GLINT_WIDTHS * fmax(width, wall->bounds.turn), 0.5 * end);
 }
 
 /* Mean over all normals of a sphere. */
 static wall_value mean_over_sphere(const divided_wall *wall)
 {
     wall_value sum = {0.0, 0.0};
-    double end = fmin(0.5 * LRCS_PI + wall->curvature.turn, LRCS_PI);
-    double narrow = fmin(4.0 * (wall->brdf->A > 0.0 ? wall->brdf->s : 1.0), 0.25 * LRCS_PI);
+    double end = fmin(0.5 * LRCS_PI + wall->bounds.turn, LRCS_PI);
+    double narrow =
+        fmin(GLINT_WIDTHS * (wall->brdf->A > 0.0 ? wall->brdf->s : 1.0), 0.25 * LRCS_PI);
     for (int k = 0; k < DIVIDE_NODES; k++) {
         double weight = 0.0;
         double theta = midpoint_node(k, glint_extent(wall, end), end, &weight);
@@ -108,7 +113,8 @@ static wall_value mean_over_circle(const divided_wall *wall, double psi, double 
     return sum;
 }
 
-/* The largest ratio over a set of aspects of a straight wall: every 15 deg, and near the glint. */
+/* The largest ratio over a set of aspects of a straight wall: 13 at every 15 deg, and 8 in half
+   steps about the glint. */
 static double straight_wall_error(const divided_wall *wall, const lrcs_shape *shape)
 {
     double psi = shape->kind == LRCS_SHAPE_CYLINDER ? 0.0 /* elevation of the wall's normal */
@@ -118,7 +124,7 @@ static double straight_wall_error(const divided_wall *wall, const lrcs_shape *sh
                                                : atan2(shape->radius, shape->length);
     double mean = mean_over_sphere(wall).sigma;
     double glint = 0.5 * LRCS_PI - psi;
-    double step = fmin(wall->brdf->s, 0.2);
+    double step = fmin(wall->brdf->s, STEP_MAX);
     double worst = 0.0;
     for (int k = 0; k < 21; k++) {
         double alpha = k < 13 ? k * LRCS_PI / 12.0 : glint + (k - 16) * 0.5 * step;
@@ -138,14 +144,15 @@ static double rim_angle(const lrcs_shape *shape)
                                                 : 0.5 * LRCS_PI;
 }
 
-/* The largest ratio of a cap of normals over aspects: up to the rim, and near it. At each aspect
+/* The largest ratio of a cap of normals over aspects: 4 up to the rim, and 4 in steps about it. At
+   each aspect
    alpha the error and sigma are integrals over the cap, with nodes that are denser near alpha, on
    both sides of it; `size` is the area of the cap. */
 static double cap_error(const divided_wall *wall, const lrcs_shape *shape)
 {
     double mean = mean_over_sphere(wall).sigma;
     double rim = rim_angle(shape);
-    double step = fmin(wall->brdf->s, 0.2);
+    double step = fmin(wall->brdf->s, STEP_MAX);
     double worst = 0.0;
     for (int i = 0; i < 8; i++) {
         double alpha = fmax(0.0, i < 4 ? 0.25 * i * rim : rim + (i - 6) * step);
@@ -172,7 +179,7 @@ static double cap_error(const divided_wall *wall, const lrcs_shape *shape)
     return worst;
 }
 
-/* Rings as wide as the sectors are at the widest. */
+/* Zones as wide as the sectors are at the widest. */
 static lrcs_divisions divisions_for(const lrcs_shape *shape, uint32_t around)
 {
     lrcs_divisions divisions = {around, 1, 0};
@@ -188,7 +195,7 @@ static divided_wall divided_wall_make(const lrcs_shape *shape, const lrcs_brdf *
                                       uint32_t around)
 {
     lrcs_divisions divisions = divisions_for(shape, around);
-    return (divided_wall){brdf, lrcsi_tessellate_curvature(shape, &divisions)};
+    return (divided_wall){brdf, lrcsi_tessellate_patch_bounds(shape, &divisions)};
 }
 
 /* The estimated relative error of a shape with that many facets around. */
@@ -248,7 +255,7 @@ static uint32_t least_around(const lrcs_shape *shape, const lrcs_brdf *brdf, dou
    r = R (1 - h^2/6 + phi^2/2), |phi| <= h: the tolerance bounds that. */
 static uint32_t disc_around(double tolerance, uint32_t around_max)
 {
-    double corners = LRCS_PI * sqrt(0.2566 / tolerance);
+    double corners = LRCS_PI * sqrt(0.2566 / tolerance); /* 4 / (9 sqrt 3), rounded */
     if (!(corners < around_max)) {
         return around_max;
     }

@@ -9,6 +9,7 @@
 
 #include <lrcs/prepare.h>
 
+#include <float.h>
 #include <math.h>
 
 #include "base/elementary.h"
@@ -45,7 +46,7 @@ typedef struct lrcsi_neighbours {
     uint32_t irregular_count;
 } lrcsi_neighbours;
 
-/* Facets that are not skipped, sorted by material, and by index within one. A block of LRCSI_LANES
+/* Facets that are not skipped, sorted by material, and by index within one. A packet of LRCSI_LANES
    may start at any element: as many elements beyond the last are zero. */
 typedef struct lrcsi_batches {
     uint32_t count;
@@ -66,7 +67,7 @@ typedef struct lrcsi_proximity_pair {
 
 typedef struct lrcsi_proximity {
     double *reach; /* part: lrcs_part.reach, scaled; NULL if there is no curved shape among other
-                      parts, or if the curvature of some part is not known */
+                      parts, or if the bounds of some part are not known */
     double *hausdorff;   /* part: lrcs_part.hausdorff, scaled */
     double *grazing_cos; /* part: rounding cannot reverse a facet with |cos(theta)| above this */
     double max_hausdorff;
@@ -165,12 +166,12 @@ struct lrcs_prepared {
                            sides are never seen */
     int two_sided;      /* some live facet is two-sided */
     int glint, diffuse; /* some live facet has A > 0; B > 0 */
-    int curved;         /* some live part was tessellated from a curved shape */
+    int has_curved_shapes; /* some live part was tessellated from a curved shape */
     lrcsi_proximity
         proximity; /* if there are curved shapes among other parts; else proximity.reach is NULL */
     const lrcsi_extent *extent; /* part: its extent; NULL if no shape has a closed form */
     int articulated;            /* some part has a joint */
-    int smooth;                 /* some live facet has curved normals */
+    int has_curved_normals;     /* some live facet has curved normals */
 };
 
 /* The material of a facet. */
@@ -197,6 +198,15 @@ static inline const lrcs_point *lrcsi_prepared_normals(const lrcs_prepared *p, u
 static inline double lrcsi_prepared_area(const lrcs_prepared *p, double scaled)
 {
     return ldexp(scaled, 2 * p->exponent);
+}
+
+/* Converts a scaled bound on areas or on sigma to square metres, rounded outward. If the result is
+   denormal, the conversion may round by up to 2^-1075, and so may the conversions of the values to
+   which the bound applies, at most two: 2^-1073 covers all of them. */
+static inline double lrcsi_prepared_bound(const lrcs_prepared *p, double scaled)
+{
+    double area = lrcsi_prepared_area(p, scaled);
+    return scaled > 0 && area < DBL_MIN ? area + 0x1p-1073 : area;
 }
 
 #endif

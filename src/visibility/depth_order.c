@@ -11,7 +11,7 @@
    part in front that may be hidden, and those of the part behind that a point may seem to hide
    although it is behind them (the same proof, with the roles exchanged). On a part without curved
    surfaces a facet is the true surface. On a curved part such a plane is used only across its own
-   axis, and if its rings are level: then a facet and its patch extend over the same heights, and
+   axis, and if its zones are level: then a facet and its patch extend over the same heights, and
    the area of the true surface in a slab is known (lrcsi_body_slab). */
 #include "visibility/depth_order.h"
 
@@ -31,7 +31,7 @@ static int axes_count(const lrcsi_body *body)
 /* Is the area of a part's surface in a slab across the axis of `own` known? */
 static int has_slab(const lrcsi_body *body, const lrcsi_body *own)
 {
-    return body->part->reach == 0 || (body->curved && body == own && body->beyond == 0);
+    return body->part->bounds.reach == 0 || (body->curved && body == own && body->beyond == 0);
 }
 
 static lrcsi_order_proof proof_make(const lrcsi_body *body, double sign, const double n[3],

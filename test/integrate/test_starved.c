@@ -100,7 +100,7 @@ static int call_polygons(lrcs_work *work)
    starve where clipping, which takes less, does not. */
 static int sigma_wanted(size_t wanted, size_t size)
 {
-    int gives_up = options.method == LRCS_METHOD_AUTO && prepared->smooth;
+    int gives_up = options.method == LRCS_METHOD_AUTO && prepared->has_curved_normals;
     return (out.result.flags & LRCS_FLAG_MEMORY_FALLBACK) ? wanted > size
                                                           : wanted <= size || gives_up;
 }
@@ -142,7 +142,7 @@ static void building_grows_until_it_fits(void **state)
 {
     (void)state;
     setup();
-    const lrcs_mesh_counts dome = {33, 48, 0, 1, 8, 0}; /* two rings and a base, at most */
+    const lrcs_mesh_counts dome = {33, 48, 0, 1, 8, 0}; /* two zones and a base, at most */
     starve(STARVED("shape", lrcs_mesh_need(&dome), call_shape, out.mesh, 1));
     starve(STARVED("check", lrcs_mesh_check_need(scene.vertex_count, scene.facet_count), call_check,
                    out.report, 0));
@@ -285,8 +285,8 @@ static void steps_within_grow_until_they_fit(void **state)
                 (const double[3]){0, 1, 0});
     lrcs_part part[2] = {boxed.part, boxed.part};
     part[0].facet_count = 12;
-    part[0].curvature = (lrcs_curvature){0.1, 0.01, 0.01, 0.1};
-    part[0].reach = 0.01;
+    part[0].bounds.patch = (lrcs_patch_bounds){0.1, 0.01, 0.01, 0.1};
+    part[0].bounds.reach = 0.01;
     part[1].first_facet = 12;
     part[1].facet_count = 2;
     boxed.part_of[12] = boxed.part_of[13] = 1;

@@ -47,14 +47,15 @@ static double dot_at(const lrcsi_view *view, uint32_t place)
 static void shade_lane(const lrcsi_view *view, const lrcsi_lobes *lobes, uint32_t lane,
                        lrcsi_shades *shades)
 {
+    static lrcsi_shade_normals normals;
     for (uint32_t i = 0; i < LRCSI_LANES; i++) {
         double tilted = 1 - 0.01 * i;
         for (int k = 0; k < 3; k++) {
-            shades->normal[k][i] =
+            normals.x[k][i] =
                 i == lane ? view->prepared->batches.normal[k][0] : tilted * view->unit[k];
         }
     }
-    lrcsi_shade(lobes, view->unit, view->unit_low, shades);
+    lrcsi_shade(lobes, view->unit, view->unit_low, &normals, shades);
 }
 
 static double off_from(double value, const double reference[2])
@@ -62,9 +63,9 @@ static double off_from(double value, const double reference[2])
     return fabs((value - reference[0]) - reference[1]);
 }
 
-/* Both parts of S cos(theta) times what the block gives, each alone and together, and how many
-   facets blocks serve. */
-static void facets_stay_within_the_error_of_their_block(void **state)
+/* Both parts of S cos(theta) times what the packet gives, each alone and together, and how many
+   facets packets serve. */
+static void facets_stay_within_the_error_of_their_packet(void **state)
 {
     (void)state;
     static lrcsi_shades shades;
@@ -99,7 +100,7 @@ static void facets_stay_within_the_error_of_their_block(void **state)
     assert_true(served > COUNT / 2 && worst > 0.05);
 }
 
-/* Whether a block serves the facet or not. */
+/* Whether a packet serves the facet or not. */
 static void sigma_stays_within_its_bound_at_every_incidence(void **state)
 {
     (void)state;
@@ -173,7 +174,7 @@ static void materials_at_the_ends_of_the_range_are_not_served(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(facets_stay_within_the_error_of_their_block),
+        cmocka_unit_test(facets_stay_within_the_error_of_their_packet),
         cmocka_unit_test(sigma_stays_within_its_bound_at_every_incidence),
         cmocka_unit_test(bounds_of_ordinary_materials_are_small),
         cmocka_unit_test(a_lane_holds_the_same_wherever_it_stands),

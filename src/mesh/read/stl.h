@@ -6,7 +6,10 @@
 
 #include <lrcs/mesh.h>
 
-#include "mesh/store.h"
+#include "base/bytes.h"
+
+/* A binary file begins with a title of 80 bytes and the number of facets. */
+#define LRCSI_STL_HEADER 84u
 
 typedef struct lrcsi_stl_walk {
     const unsigned char *bytes;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Sizes and curvature of a shape's mesh before it is made. */
+/* Sizes of a shape's mesh before it is made. */
 #ifndef LRCSI_TESSELLATE_H
 #define LRCSI_TESSELLATE_H
 
 #include "mesh/shape/revolution_reach.h"
 
-/* The largest numbers of sectors and of rings (lrcs_divisions). */
+/* The largest numbers of sectors and of zones (lrcs_divisions). */
 #define LRCSI_AROUND_MAX (1u << 24)
 #define LRCSI_ALONG_MAX  (1u << 24)
 
@@ -16,8 +16,9 @@ int lrcsi_tessellate_fits(const lrcs_shape *shape, const lrcs_divisions *divisio
 /* The counts of the mesh, for valid divisions. */
 lrcs_mesh_counts lrcsi_tessellate_counts(const lrcs_shape *shape, const lrcs_divisions *divisions);
 
-/* The curvature that lrcs_shape_mesh will report. O(along). */
-lrcs_curvature lrcsi_tessellate_curvature(const lrcs_shape *shape, const lrcs_divisions *divisions);
+/* The bounds that lrcs_shape_mesh will report. O(along). */
+lrcs_patch_bounds lrcsi_tessellate_patch_bounds(const lrcs_shape *shape,
+                                                const lrcs_divisions *divisions);
 
 /* The distances of lrcsi_revolution_reach; 0 for plate and box. O(along). */
 lrcsi_reach lrcsi_tessellate_reach(const lrcs_shape *shape, const lrcs_divisions *divisions);

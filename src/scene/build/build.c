@@ -27,7 +27,6 @@ typedef struct scene_builder {
     uint32_t *entry;     /* assigned material: the material of surfaces without a name */
     uint32_t unassigned; /* the same, on parts without an assigned material */
     lrcsi_fineness fineness;
-    lrcs_divisions *divisions; /* part: those of its shape; NULL if they are not to be kept */
 } scene_builder;
 
 /* The part that is being added to the scene. */
@@ -75,7 +74,8 @@ static int find_assigned(const scene_builder *builder, const lrcs_recipe_part *p
 
 /* What part i adds: the counts of its model's mesh; or of its shape's, for which it chooses the
    divisions, which depend on the assigned material. */
-static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts *counts)
+static int count_part(scene_builder *builder, uint32_t i, lrcs_divisions *divisions,
+                      lrcs_mesh_counts *counts)
 {
     const lrcs_recipe_part *part = &builder->recipe->part[i];
     if (part->file) {
@@ -103,32 +103,28 @@ static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts
     if (builder->options->halvings) {
         fineness.halvings = builder->options->halvings[i];
     }
-    lrcs_divisions divisions;
-    status = lrcsi_fineness_divide(&fineness, part, &material, &divisions, counts);
-    if (status != LRCS_OK) {
-        return refuse_part(builder, status, part,
-                           "a shape, material and tolerance in their domains");
-    }
-    if (builder->divisions) {
-        builder->divisions[i] = divisions;
-    }
-    return LRCS_OK;
+    status = lrcsi_fineness_divide(&fineness, part, &material, divisions, counts);
+    return status == LRCS_OK ? LRCS_OK
+                             : refuse_part(builder, status, part,
+                                           "a shape, material and tolerance in their domains");
 }
 
 typedef struct scene_totals {
     uint64_t vertices, facets, materials;
     size_t scratch; /* the most temporary memory of any part: for a shape's mesh or for normals */
-    int curved;     /* normals are requested, and some model has them */
+    int normals;    /* normals are requested, and some model has them */
 } scene_totals;
 
 /* Does part i get normals from its file? */
-static int is_curved(const scene_builder *builder, uint32_t i)
+static int gives_normals(const scene_builder *builder, uint32_t i)
 {
     return builder->options->normals != LRCS_NORMALS_FLAT && builder->recipe->part[i].file &&
            lrcsi_smooth_given(&builder->models[i]);
 }
 
-static int count_scene(scene_builder *builder, scene_totals *totals)
+/* Counts what all parts add. divisions: part: those of its shape; NULL if they are not to
+   be kept. */
+static int count_scene(scene_builder *builder, lrcs_divisions *divisions, scene_totals *totals)
 {
     const lrcs_recipe *recipe = builder->recipe;
     const lrcs_build_options *options = builder->options;
@@ -149,14 +145,15 @@ static int count_scene(scene_builder *builder, scene_totals *totals)
     *totals = (scene_totals){.materials = lrcsi_binder_material_count(recipe) + UINT64_C(1)};
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         lrcs_mesh_counts counts;
-        int status = count_part(builder, i, &counts);
+        lrcs_divisions unused;
+        int status = count_part(builder, i, divisions ? &divisions[i] : &unused, &counts);
         if (status != LRCS_OK) {
             return status;
         }
         size_t need = recipe->part[i].file ? 0 : lrcs_mesh_need(&counts);
-        if (is_curved(builder, i)) {
+        if (gives_normals(builder, i)) {
             need = lrcsi_smooth_need(&builder->models[i]);
-            totals->curved = 1;
+            totals->normals = 1;
         }
         totals->scratch = need > totals->scratch ? need : totals->scratch;
         totals->vertices += counts.vertices;
@@ -179,7 +176,8 @@ size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
                              .options = options,
                              .binder = lrcsi_binder_plain(recipe)};
     scene_totals totals;
-    count_scene(&builder, &totals); /* if it fails, building fails too, before it needs more */
+    count_scene(&builder, NULL,
+                &totals); /* if it fails, building fails too, before it needs more */
     const size_t block[] = {
         /* as scene_take takes them: */
         lrcsi_work_bytes((size_t)totals.vertices, sizeof(lrcs_point)),
@@ -187,7 +185,7 @@ size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
         lrcsi_work_bytes((size_t)totals.facets, sizeof(uint32_t)),
         lrcsi_work_bytes((size_t)totals.facets, sizeof(uint32_t)),
         lrcsi_work_bytes((size_t)totals.facets, sizeof(uint32_t)),
-        lrcsi_work_bytes(totals.curved ? (size_t)totals.facets : 0, 3 * sizeof(lrcs_point)),
+        lrcsi_work_bytes(totals.normals ? (size_t)totals.facets : 0, 3 * sizeof(lrcs_point)),
         lrcsi_work_bytes((size_t)totals.materials, sizeof(lrcs_material)),
         lrcsi_work_bytes(recipe->part_count, sizeof(lrcs_part)),
         /* and as build and its parts do: */
@@ -296,8 +294,8 @@ static int add_shape(scene_builder *builder, scene_source *source, const lrcs_di
 {
     size_t mark = work->used;
     lrcs_mesh mesh;
-    lrcs_curvature curvature;
-    int status = lrcs_shape_mesh(&source->part->shape, divisions, work, &mesh, &curvature);
+    lrcs_patch_bounds bounds;
+    int status = lrcs_shape_mesh(&source->part->shape, divisions, work, &mesh, &bounds);
     if (status != LRCS_OK) {
         return status == LRCS_E_MEMORY
                    ? refuse_memory(builder)
@@ -305,8 +303,8 @@ static int add_shape(scene_builder *builder, scene_source *source, const lrcs_di
     }
     lrcs_part *part = &scene->part[scene->part_count];
     double extent = lrcsi_placed_shape_extent(&mesh);
-    lrcsi_placed_shape_describe(&source->part->shape, divisions, &curvature, &source->placer,
-                                extent, part);
+    lrcsi_placed_shape_describe(&source->part->shape, divisions, &bounds, &source->placer, extent,
+                                part);
     status = add_mesh(builder, &mesh, source, scene);
     if (status == LRCS_OK) {
         lrcsi_placed_shape_normal_err(&source->placer, scene, extent, part);
@@ -315,8 +313,9 @@ static int add_shape(scene_builder *builder, scene_source *source, const lrcs_di
     return status;
 }
 
-/* Adds part i: a shape, or a model with the normals that it gives. */
-static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_scene *scene)
+/* Adds part i: a shape with the given divisions, or a model with the normals that it gives. */
+static int add_part(scene_builder *builder, uint32_t i, const lrcs_divisions *divisions,
+                    lrcs_work *work, lrcs_scene *scene)
 {
     scene_source source;
     memset(&source, 0, sizeof source);
@@ -331,14 +330,14 @@ static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_sc
                            "a finite place, no scale of 0, a joint's axis of some length");
     }
     if (!source.part->file) {
-        return add_shape(builder, &source, &builder->divisions[i], work, scene);
+        return add_shape(builder, &source, divisions, work, scene);
     }
     lrcs_part *part = &scene->part[scene->part_count];
     part->kind = -1;
-    part->curvature_known = 1;
+    part->bounds.known = 1;
     part->smoothed = lrcsi_smooth_given(&builder->models[i]);
     status = add_mesh(builder, &builder->models[i], &source, scene);
-    if (status != LRCS_OK || !is_curved(builder, i)) {
+    if (status != LRCS_OK || !gives_normals(builder, i)) {
         return status;
     }
     status = lrcsi_smooth_run(&builder->models[i], &source.placer, builder->options, work, scene);
@@ -359,7 +358,7 @@ static int scene_take(const scene_totals *totals, uint32_t parts, lrcs_work *wor
     scene->facet_part = lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_part);
     scene->facet_smooth =
         lrcsi_work_take(work, (size_t)totals->facets, sizeof *scene->facet_smooth);
-    if (totals->curved) { /* zeros: facets to which no part gives normals are flat */
+    if (totals->normals) { /* zeros: facets to which no part gives normals are flat */
         scene->corner_normal =
             lrcsi_work_take_zero(work, (size_t)totals->facets, 3 * sizeof *scene->corner_normal);
     }
@@ -367,7 +366,7 @@ static int scene_take(const scene_totals *totals, uint32_t parts, lrcs_work *wor
     scene->part = lrcsi_work_take_zero(work, parts, sizeof *scene->part);
     return scene->vertex && scene->facet && scene->facet_material && scene->facet_part &&
                    scene->facet_smooth && scene->material && scene->part &&
-                   (scene->corner_normal || !totals->curved)
+                   (scene->corner_normal || !totals->normals)
                ? LRCS_OK
                : LRCS_E_MEMORY;
 }
@@ -383,11 +382,11 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
     uint32_t material_count = lrcsi_binder_material_count(recipe);
     scene_totals totals;
     builder->binder = lrcsi_binder_plain(recipe);
-    builder->divisions = lrcsi_work_take(work, recipe->part_count, sizeof *builder->divisions);
-    if (!builder->divisions) {
+    lrcs_divisions *divisions = lrcsi_work_take(work, recipe->part_count, sizeof *divisions);
+    if (!divisions) {
         return refuse_memory(builder);
     }
-    int status = count_scene(builder, &totals);
+    int status = count_scene(builder, divisions, &totals);
     if (status != LRCS_OK) {
         return status;
     }
@@ -401,19 +400,19 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
     }
     memset(builder->entry, 0xff, material_count * sizeof *builder->entry); /* LRCS_NONE */
     for (uint32_t i = 0; i < recipe->part_count; i++) {
-        status = add_part(builder, i, work, scene);
+        status = add_part(builder, i, &divisions[i], work, scene);
         if (status != LRCS_OK) {
             return status;
         }
     }
     scene->unmatched = lrcsi_binder_unmatched(&builder->binder);
     scene->normals = builder->options->normals;
-    int curved = 0; /* normals are dropped if every facet is flat */
-    for (uint32_t f = 0; scene->corner_normal && f < scene->facet_count && !curved; f++) {
+    int has_normals = 0; /* they are dropped if every facet is flat */
+    for (uint32_t f = 0; scene->corner_normal && f < scene->facet_count && !has_normals; f++) {
         const double *x = scene->corner_normal[3 * (size_t)f].x;
-        curved = x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0;
+        has_normals = x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0;
     }
-    scene->corner_normal = curved ? scene->corner_normal : NULL;
+    scene->corner_normal = has_normals ? scene->corner_normal : NULL;
     work->used = mark;
     return LRCS_OK;
 }
