@@ -71,7 +71,7 @@ static uint32_t find_index(const lrcsi_binder *binder, int tag, const void *byte
 }
 
 /* Finds the binding of a kind and key, and marks it as matched; NULL if there is none. */
-static const lrcs_binding *find_binding(const lrcsi_binder *binder, int kind, const void *bytes,
+static const lrcs_binding *find_binding(lrcsi_binder *binder, int kind, const void *bytes,
                                         size_t size)
 {
     uint32_t i = find_index(binder, kind, bytes, size);
@@ -84,7 +84,7 @@ static const lrcs_binding *find_binding(const lrcsi_binder *binder, int kind, co
     return &binder->recipe->binding[i];
 }
 
-static const lrcs_binding *find_named(const lrcsi_binder *binder, int kind, const char *name)
+static const lrcs_binding *find_named(lrcsi_binder *binder, int kind, const char *name)
 {
     return find_binding(binder, kind, name, strlen(name));
 }
@@ -185,7 +185,7 @@ static void assign_by_binding(const lrcsi_binder *binder, const lrcs_binding *bi
 
 /* If the command line binds a material of this name, which the scene file assigned, its BRDF
    replaces that of the scene file. */
-static void override_named(const lrcsi_binder *binder, const char *name, lrcs_material *material)
+static void override_named(lrcsi_binder *binder, const char *name, lrcs_material *material)
 {
     const lrcs_binding *binding = name ? find_named(binder, LRCS_BIND_NAME, name) : NULL;
     if (binding) {
@@ -195,7 +195,7 @@ static void override_named(const lrcsi_binder *binder, const char *name, lrcs_ma
 
 /* Assigns the material that a scene file gives to a whole part: one of the recipe or of the
    library. */
-static void assign_material(const lrcsi_binder *binder, uint32_t assigned, lrcs_material *material)
+static void assign_material(lrcsi_binder *binder, uint32_t assigned, lrcs_material *material)
 {
     const lrcs_recipe *recipe = binder->recipe;
     const char *name;
@@ -214,7 +214,7 @@ static void assign_material(const lrcsi_binder *binder, uint32_t assigned, lrcs_
 }
 
 /* Applies a map or the default of a scene file. */
-static void apply_binding(const lrcsi_binder *binder, const lrcs_binding *binding,
+static void apply_binding(lrcsi_binder *binder, const lrcs_binding *binding,
                           lrcs_material *material)
 {
     assign_by_binding(binder, binding, material);
@@ -222,7 +222,7 @@ static void apply_binding(const lrcsi_binder *binder, const lrcs_binding *bindin
 }
 
 /* Applies the default of the recipe; if there is none, lrcs_brdf_default. */
-static void apply_default(const lrcsi_binder *binder, lrcs_material *material)
+static void apply_default(lrcsi_binder *binder, lrcs_material *material)
 {
     const lrcs_binding *binding = find_named(binder, LRCS_BIND_DEFAULT, "");
     if (binding) {
@@ -232,7 +232,7 @@ static void apply_default(const lrcsi_binder *binder, lrcs_material *material)
     }
 }
 
-lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t assigned)
+lrcs_material lrcsi_binder_unassigned(lrcsi_binder *binder, uint32_t assigned)
 {
     lrcs_material material;
     memset(&material, 0, sizeof material);
@@ -247,8 +247,7 @@ lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t assig
 }
 
 /* Applies the scene file's maps, the library and the default to a surface. */
-static void apply_map(const lrcsi_binder *binder, const lrcs_surface *surface,
-                      lrcs_material *material)
+static void apply_map(lrcsi_binder *binder, const lrcs_surface *surface, lrcs_material *material)
 {
     const lrcs_binding *map = find_named(binder, LRCS_BIND_MAP_NAME, surface->name);
     if (!map && surface->has_colour) {
@@ -264,7 +263,7 @@ static void apply_map(const lrcsi_binder *binder, const lrcs_surface *surface,
     }
 }
 
-lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t assigned,
+lrcs_material lrcsi_binder_surface(lrcsi_binder *binder, uint32_t assigned,
                                    const lrcs_surface *surface)
 {
     const lrcs_binding *name = find_named(binder, LRCS_BIND_NAME, surface->name);

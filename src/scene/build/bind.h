@@ -11,9 +11,10 @@
 typedef struct lrcsi_binder {
     const lrcs_recipe *recipe;
     lrcsi_index names; /* bindings by kind and name or colour; materials of the recipe */
+    int indexed;       /* 0: there is no index, and the recipe is searched */
+    /* Found by the functions that return materials; NULL in a plain binder. */
     unsigned char
         *matched; /* binding: 1 if it matched; of equal bindings only the last is marked */
-    int indexed;  /* 0: there is no index, and the recipe is searched */
 } lrcsi_binder;
 
 /* Bytes that lrcsi_binder_make takes (upper bound). */
@@ -36,12 +37,12 @@ int lrcsi_binder_assigned(const lrcsi_binder *binder, const lrcs_recipe_part *pa
                           uint32_t *assigned);
 
 /* The material of surfaces without a name of their own, on a part with the assigned material
-   `assigned` (or LRCS_NONE). */
-lrcs_material lrcsi_binder_unassigned(const lrcsi_binder *binder, uint32_t assigned);
+   `assigned` (or LRCS_NONE). Marks the bindings that match. */
+lrcs_material lrcsi_binder_unassigned(lrcsi_binder *binder, uint32_t assigned);
 
 /* The material of a surface of a model, on a part with the assigned material `assigned` (or
-   LRCS_NONE). */
-lrcs_material lrcsi_binder_surface(const lrcsi_binder *binder, uint32_t assigned,
+   LRCS_NONE). Marks the bindings that match. */
+lrcs_material lrcsi_binder_surface(lrcsi_binder *binder, uint32_t assigned,
                                    const lrcs_surface *surface);
 
 /* The source of a material of the library. */

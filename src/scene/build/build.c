@@ -27,7 +27,6 @@ typedef struct scene_builder {
     uint32_t *entry;     /* assigned material: the material of surfaces without a name */
     uint32_t unassigned; /* the same, on parts without an assigned material */
     lrcsi_fineness fineness;
-    lrcs_divisions *divisions; /* part: those of its shape; NULL if they are not to be kept */
 } scene_builder;
 
 /* The part that is being added to the scene. */
@@ -75,7 +74,8 @@ static int find_assigned(const scene_builder *builder, const lrcs_recipe_part *p
 
 /* What part i adds: the counts of its model's mesh; or of its shape's, for which it chooses the
    divisions, which depend on the assigned material. */
-static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts *counts)
+static int count_part(scene_builder *builder, uint32_t i, lrcs_divisions *divisions,
+                      lrcs_mesh_counts *counts)
 {
     const lrcs_recipe_part *part = &builder->recipe->part[i];
     if (part->file) {
@@ -103,16 +103,10 @@ static int count_part(const scene_builder *builder, uint32_t i, lrcs_mesh_counts
     if (builder->options->halvings) {
         fineness.halvings = builder->options->halvings[i];
     }
-    lrcs_divisions divisions;
-    status = lrcsi_fineness_divide(&fineness, part, &material, &divisions, counts);
-    if (status != LRCS_OK) {
-        return refuse_part(builder, status, part,
-                           "a shape, material and tolerance in their domains");
-    }
-    if (builder->divisions) {
-        builder->divisions[i] = divisions;
-    }
-    return LRCS_OK;
+    status = lrcsi_fineness_divide(&fineness, part, &material, divisions, counts);
+    return status == LRCS_OK ? LRCS_OK
+                             : refuse_part(builder, status, part,
+                                           "a shape, material and tolerance in their domains");
 }
 
 typedef struct scene_totals {
@@ -128,7 +122,9 @@ static int is_curved(const scene_builder *builder, uint32_t i)
            lrcsi_smooth_given(&builder->models[i]);
 }
 
-static int count_scene(scene_builder *builder, scene_totals *totals)
+/* Counts what all parts add. divisions: part: those of its shape; NULL if they are not to be kept.
+ */
+static int count_scene(scene_builder *builder, lrcs_divisions *divisions, scene_totals *totals)
 {
     const lrcs_recipe *recipe = builder->recipe;
     const lrcs_build_options *options = builder->options;
@@ -149,7 +145,8 @@ static int count_scene(scene_builder *builder, scene_totals *totals)
     *totals = (scene_totals){.materials = lrcsi_binder_material_count(recipe) + UINT64_C(1)};
     for (uint32_t i = 0; i < recipe->part_count; i++) {
         lrcs_mesh_counts counts;
-        int status = count_part(builder, i, &counts);
+        lrcs_divisions unused;
+        int status = count_part(builder, i, divisions ? &divisions[i] : &unused, &counts);
         if (status != LRCS_OK) {
             return status;
         }
@@ -179,7 +176,8 @@ size_t lrcs_scene_need(const lrcs_recipe *recipe, const lrcs_mesh *models,
                              .options = options,
                              .binder = lrcsi_binder_plain(recipe)};
     scene_totals totals;
-    count_scene(&builder, &totals); /* if it fails, building fails too, before it needs more */
+    count_scene(&builder, NULL,
+                &totals); /* if it fails, building fails too, before it needs more */
     const size_t block[] = {
         /* as scene_take takes them: */
         lrcsi_work_bytes((size_t)totals.vertices, sizeof(lrcs_point)),
@@ -315,8 +313,9 @@ static int add_shape(scene_builder *builder, scene_source *source, const lrcs_di
     return status;
 }
 
-/* Adds part i: a shape, or a model with the normals that it gives. */
-static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_scene *scene)
+/* Adds part i: a shape with the given divisions, or a model with the normals that it gives. */
+static int add_part(scene_builder *builder, uint32_t i, const lrcs_divisions *divisions,
+                    lrcs_work *work, lrcs_scene *scene)
 {
     scene_source source;
     memset(&source, 0, sizeof source);
@@ -331,7 +330,7 @@ static int add_part(scene_builder *builder, uint32_t i, lrcs_work *work, lrcs_sc
                            "a finite place, no scale of 0, a joint's axis of some length");
     }
     if (!source.part->file) {
-        return add_shape(builder, &source, &builder->divisions[i], work, scene);
+        return add_shape(builder, &source, divisions, work, scene);
     }
     lrcs_part *part = &scene->part[scene->part_count];
     part->kind = -1;
@@ -383,11 +382,11 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
     uint32_t material_count = lrcsi_binder_material_count(recipe);
     scene_totals totals;
     builder->binder = lrcsi_binder_plain(recipe);
-    builder->divisions = lrcsi_work_take(work, recipe->part_count, sizeof *builder->divisions);
-    if (!builder->divisions) {
+    lrcs_divisions *divisions = lrcsi_work_take(work, recipe->part_count, sizeof *divisions);
+    if (!divisions) {
         return refuse_memory(builder);
     }
-    int status = count_scene(builder, &totals);
+    int status = count_scene(builder, divisions, &totals);
     if (status != LRCS_OK) {
         return status;
     }
@@ -401,7 +400,7 @@ static int build(scene_builder *builder, lrcs_work *work, lrcs_scene *scene)
     }
     memset(builder->entry, 0xff, material_count * sizeof *builder->entry); /* LRCS_NONE */
     for (uint32_t i = 0; i < recipe->part_count; i++) {
-        status = add_part(builder, i, work, scene);
+        status = add_part(builder, i, &divisions[i], work, scene);
         if (status != LRCS_OK) {
             return status;
         }
