@@ -94,7 +94,7 @@ static double negligible_remainder(const lrcsi_total_run *run)
 
 /* Divides the sigma of a clear part among its facets that face the laser: each of its terms in
    proportion to that of the flat facets or, if they have none, to the projected areas. */
-static void record_shape(const lrcsi_total_run *run, const lrcs_part *part,
+static void record_shape(lrcsi_total_run *run, const lrcs_part *part,
                          const lrcsi_shape_terms *terms)
 {
     lrcsi_shape_terms flat = {0, 0, 0, 0, 0};
@@ -147,7 +147,7 @@ static void add_clear_shape(lrcsi_total_run *run, uint32_t index, double slab)
 /* --- the total -------------------------------------------------------------------------------- */
 
 /* Fills the records, except for sigma. */
-static void records_start(const lrcsi_total_run *run)
+static void records_start(lrcsi_total_run *run)
 {
     const lrcs_prepared *p = run->view->prepared;
     for (uint32_t f = 0; f < p->scene->facet_count; f++) {
@@ -198,8 +198,8 @@ static void total_finish(lrcsi_total_run *run)
 
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
-                             const lrcsi_proximity_band *band, const lrcsi_clear_shapes *clear,
-                             const lrcsi_total_details *details)
+                             const lrcsi_proximity_band *band, const lrcsi_clear *clear,
+                             lrcsi_total_details *details)
 {
     const lrcs_prepared *p = view->prepared;
     double *part_error = details->part_error;

@@ -17,7 +17,7 @@ double lrcsi_bound_area(const lrcs_prepared *p, double scaled);
    their order, the facets of each in theirs; then clear shapes in theirs. */
 lrcsi_total lrcsi_total_make(const lrcsi_view *view, const lrcsi_plan *plan,
                              const lrcsi_areas *areas, const lrcsi_curved *curved,
-                             const lrcsi_proximity_band *band, const lrcsi_clear_shapes *clear,
-                             const lrcsi_total_details *details);
+                             const lrcsi_proximity_band *band, const lrcsi_clear *clear,
+                             lrcsi_total_details *details);
 
 #endif

@@ -40,7 +40,7 @@ void lrcsi_total_add_area_error(lrcsi_total_sums *sums, double per_area,
     sums->bias += per_area * visible->bias;
 }
 
-void lrcsi_total_record(const lrcsi_total_run *run, uint32_t facet, double glint, double diffuse)
+void lrcsi_total_record(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse)
 {
     if (run->details.records) {
         const lrcs_prepared *p = run->view->prepared;
@@ -123,7 +123,7 @@ void lrcsi_total_add_facet(lrcsi_total_run *run, uint32_t facet)
 
 /* Divides the error of a facet among the parts that cause it, in proportion to their reaches: its
    own part, and those whose shadows may end on the facet. */
-static void add_part_errors(const lrcsi_total_run *run, uint32_t facet, double error)
+static void add_part_errors(lrcsi_total_run *run, uint32_t facet, double error)
 {
     const lrcs_scene *scene = run->view->prepared->scene;
     const uint32_t own = scene->facet_part[facet];

@@ -93,7 +93,7 @@ void lrcsi_total_count(lrcsi_total *total, double projected, const lrcsi_visible
 void lrcsi_total_note_terms(lrcsi_total_sums *sums, const lrcs_brdf *brdf);
 
 /* Records the sigma of a facet, if records are asked for. */
-void lrcsi_total_record(const lrcsi_total_run *run, uint32_t facet, double glint, double diffuse);
+void lrcsi_total_record(lrcsi_total_run *run, uint32_t facet, double glint, double diffuse);
 
 /* --- total_block.c ---------------------------------------------------------------------------- */
 

@@ -394,7 +394,7 @@ size_t lrcs_uncertainty_need(const lrcs_prepared *prepared, const lrcs_run_optio
 }
 
 /* Computes the responses at node k, over the visible areas of a finished run. */
-static void node_fill(const lrcsi_sigma *run, const response_memory *memory, uint32_t k)
+static void node_fill(const lrcsi_sigma *run, response_memory *memory, uint32_t k)
 {
     const lrcs_prepared *p = run->view.prepared;
     uint32_t count = p->scene->material_count;
@@ -412,13 +412,15 @@ static void node_fill(const lrcsi_sigma *run, const response_memory *memory, uin
 /* Computes the responses at node k of a scene with curved normals, by a run of the pose with the
    parameters of the node and amplitudes of 1. */
 static int run_node(const lrcs_prepared *prepared, const lrcs_pose *pose,
-                    const lrcs_run_options *options, lrcs_work *work, const response_memory *memory,
+                    const lrcs_run_options *options, lrcs_work *work, response_memory *memory,
                     uint32_t k)
 {
     size_t mark = work->used;
     lrcs_scene scene = *prepared->scene;
     lrcs_prepared other = *prepared;
-    lrcsi_sigma run = {.options = options, .work = work, .last = LRCSI_SIGMA_SUM, .derivatives = 1};
+    const lrcsi_sigma_request request = {
+        .options = options, .last = LRCSI_SIGMA_SUM, .derivatives = 1};
+    lrcsi_sigma run;
     for (uint32_t i = 0; i < scene.material_count; i++) {
         memory->material[i] = prepared->scene->material[i];
         memory->material[i].brdf = memory->brdf[i];
@@ -427,7 +429,7 @@ static int run_node(const lrcs_prepared *prepared, const lrcs_pose *pose,
     }
     scene.material = memory->material;
     other.scene = &scene;
-    int status = lrcsi_sigma_stages(&run, &other, pose);
+    int status = lrcsi_sigma_stages(&request, &other, pose, work, &run);
     if (status == LRCS_OK) {
         node_fill(&run, memory, k);
     }
@@ -472,7 +474,8 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
     uint32_t materials = scene->material_count;
     lrcs_result answer;
     lrcs_uncertainty estimate;
-    lrcsi_sigma run = {.options = options, .work = work, .last = LRCSI_SIGMA_SUM};
+    lrcsi_sigma_request request = {.options = options, .last = LRCSI_SIGMA_SUM};
+    lrcsi_sigma run;
     int status = uncertainty_check(scene, options, how);
     if (status != LRCS_OK) {
         return status;
@@ -486,9 +489,9 @@ int lrcs_uncertainty_run(const lrcs_prepared *prepared, const lrcs_pose *pose,
         work->used = mark;
         return LRCS_E_MEMORY;
     }
-    run.part_error = lrcsi_sigma_part_error(prepared, options, work, &status);
+    request.part_error = lrcsi_sigma_part_error(prepared, options, work, &status);
     size_t start = work->used;
-    status = status == LRCS_OK ? lrcsi_sigma_stages(&run, prepared, pose) : status;
+    status = status == LRCS_OK ? lrcsi_sigma_stages(&request, prepared, pose, work, &run) : status;
     status = status == LRCS_OK ? lrcsi_sigma_result(&run, &answer) : status;
     for (uint32_t k = 0; k < nodes && status == LRCS_OK; k++) {
         for (uint32_t i = 0; i < materials; i++) {

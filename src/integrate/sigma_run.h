@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+/* What a run of a pose is asked for, its state, and the functions by which its three files share
+   the work: sigma.c runs the stages, sigma_search.c finds visible areas, sigma_sum.c sums over
+   them. */
+#ifndef LRCSI_SIGMA_RUN_H
+#define LRCSI_SIGMA_RUN_H
+
+#include "integrate/total.h"
+
+enum lrcsi_sigma_stage {
+    LRCSI_SIGMA_VIEW,       /* which facets face the laser; their view coordinates, if needed */
+    LRCSI_SIGMA_CLASSIFY,   /* event edges; which facets are undecided */
+    LRCSI_SIGMA_VISIBILITY, /* visible areas */
+    LRCSI_SIGMA_SUM,        /* Eq. 2; the integrals over facets with curved normals */
+    LRCSI_SIGMA_STAGES
+};
+
+/* The answer of a run, and how it was found. */
+typedef struct lrcsi_outcome {
+    int method; /* lrcs_method; as planned, unless another one had to follow */
+    const char *reason;
+    uint32_t size; /* of the raster that gave the areas; 0: none did */
+    uint32_t flags;
+    lrcsi_total total;
+} lrcsi_outcome;
+
+/* What a run of a pose is asked for. */
+typedef struct lrcsi_sigma_request {
+    const lrcs_run_options *options; /* checked */
+    int last;                        /* lrcsi_sigma_stage: the run ends after it */
+    int derivatives;    /* 1: integrals over curved normals include what derivatives need */
+    double *part_error; /* room for [part_count], as in lrcs_run_options; NULL: not asked for */
+} lrcsi_sigma_request;
+
+/* The state of a run and, at its end, what the stages found. */
+typedef struct lrcsi_sigma {
+    lrcsi_sigma_request request;
+    lrcs_work *work;
+    lrcsi_view view;
+    lrcsi_meter meter; /* limit on the steps of the visibility computation */
+    lrcsi_clear clear; /* shapes that are evaluated by their closed forms: method auto only */
+    lrcsi_plan plan;   /* is not changed once it is made */
+    int classified;    /* the classification is made, and the band if the plan needs it */
+    lrcsi_classification classification;
+    lrcsi_proximity_band band;
+    lrcsi_visible *visible;      /* [facet_count]; NULL: the plan implies all areas */
+    const unsigned char *answer; /* as in lrcsi_areas */
+    lrcsi_moment *moment_memory; /* [facet_count]; NULL: moments are not wanted */
+    const lrcsi_moment *moment;  /* as in lrcsi_areas */
+    unsigned char *corrected;    /* as in lrcsi_total_details */
+    lrcsi_curved *curved;        /* [facet_count]; NULL: all normals are flat */
+    lrcsi_cubature_cell *stack;  /* NULL: all normals are flat */
+    lrcsi_outcome outcome;
+} lrcsi_sigma;
+
+/* The size of the finest raster: a finer one would improve the bound too little for its cost. */
+#define LRCSI_SIGMA_SIZE_MAX 4096u
+
+/* --- sigma_search.c --------------------------------------------------------------------------- */
+
+/* Projects the view, and computes visible areas and their sum, where shadows are searched for.
+   Status: as lrcs_sigma_run. */
+int lrcsi_sigma_search(lrcsi_sigma *run);
+
+/* --- sigma_sum.c ------------------------------------------------------------------------------ */
+
+/* The proved bound of a total, m^2. */
+double lrcsi_sigma_bound(const lrcsi_total *total);
+
+/* How the answer is accepted: 0 if its bound meets the tolerance, else a flag. */
+uint32_t lrcsi_sigma_acceptance(const lrcsi_sigma *run);
+
+/* The options of integrals over curved normals; steps are taken from the given meter. */
+lrcsi_curve_options lrcsi_sigma_curve_options(const lrcsi_sigma *run, lrcsi_meter *meter);
+
+/* Are there proofs about the visible areas of the pose that the methods do not use? */
+int lrcsi_sigma_has_proofs(const lrcsi_sigma *run);
+
+/* The sum over the visible areas. Returned also: records[facet_count] unless NULL, the errors of
+   parts if they are asked for, and run->corrected. */
+lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records);
+
+/* Fills run->outcome.total from the areas that samples or clipping found. Steps are taken from the
+   given meter, which is that of the run or of an attempt. */
+void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter);
+
+/* The same where nothing is searched for shadows. */
+void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run);
+
+#endif

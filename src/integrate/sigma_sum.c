@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT */
+/* The sum of Eq. 2 over the visible areas of a pose, by whatever method they were found: replaces
+   areas by what is proved about them, integrates over curved normals, and sums. Also decides
+   whether the answer is accepted. */
+#include <math.h>
+
+#include "base/range.h"
+#include "integrate/sigma_run.h"
+#include "visibility/proximity_hidden.h"
+
+/* --- is the answer accepted? ------------------------------------------------------------------ */
+
+double lrcsi_sigma_bound(const lrcsi_total *total)
+{
+    return total->visibility + fmax(0, total->tessellation) + total->rounding;
+}
+
+/* How the answer is accepted: 0 if its bound meets the tolerance, else a flag. If the options
+   accept estimates, the estimated error of sampled areas replaces the proved bound. There is no
+   such estimate in three cases: sigma is 0, because no sample has met anything that reflects; the
+   depth order at a sample is undecided, because its owner is then a guess; the steps are spent,
+   because undecided facets then count by half. */
+uint32_t lrcsi_sigma_acceptance(const lrcsi_sigma *run)
+{
+    const lrcsi_outcome *outcome = &run->outcome;
+    const lrcsi_total *t = &outcome->total;
+    double allowed = run->request.options->tolerance * (t->glint + t->diffuse);
+    int estimated = outcome->size != 0 && !(outcome->flags & LRCS_FLAG_DEPTH_UNDECIDED) &&
+                    !run->meter.spent && allowed > 0 &&
+                    t->error_estimate + fmax(0, t->tessellation) + t->rounding <= allowed;
+    if (lrcsi_sigma_bound(t) <= allowed && t->curvature <= allowed) {
+        return 0;
+    }
+    if (run->request.options->accept != LRCS_ACCEPT_BOUND && estimated && t->curvature <= allowed) {
+        return LRCS_FLAG_ACCEPTED_BY_ESTIMATE;
+    }
+    return run->request.options->accept == LRCS_ACCEPT_ANY ? LRCS_FLAG_ACCEPTED_UNJUDGED
+                                                           : LRCS_FLAG_TOLERANCE_NOT_MET;
+}
+
+/* --- the sum ---------------------------------------------------------------------------------- */
+
+lrcsi_curve_options lrcsi_sigma_curve_options(const lrcsi_sigma *run, lrcsi_meter *meter)
+{
+    return (lrcsi_curve_options){&run->plan, run->request.options->tolerance, meter, run->stack,
+                                 run->request.derivatives};
+}
+
+static const lrcsi_proximity_band *run_band(const lrcsi_sigma *run)
+{
+    return run->classified && run->plan.proximity_band ? &run->band : NULL;
+}
+
+lrcsi_total lrcsi_sigma_total(lrcsi_sigma *run, lrcs_facet_record *records)
+{
+    const lrcsi_areas areas = {run->visible, run->answer, run->moment};
+    lrcsi_total_details details = {records, run->request.part_error, run->corrected};
+    lrcsi_view_progress(&run->view, LRCS_PROGRESS_INTEGRATE, 0, 0);
+    return lrcsi_total_make(&run->view, &run->plan, &areas, run->curved, run_band(run), &run->clear,
+                            &details);
+}
+
+/* The areas of method facet. Only facets with curved normals need them in memory; for all others
+   lrcsi_total_make derives them from the plan. */
+void lrcsi_sigma_sum_unshadowed(lrcsi_sigma *run)
+{
+    const lrcsi_view *view = &run->view;
+    for (uint32_t f = 0; run->curved && f < view->prepared->scene->facet_count; f++) {
+        lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
+        run->visible[f] = lrcsi_view_casts(view, f)
+                              ? lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos)
+                              : lrcsi_visible_exactly(0);
+    }
+    if (run->curved) {
+        lrcsi_curve_options options = lrcsi_sigma_curve_options(run, &run->meter);
+        lrcsi_curve_from_areas(view, &options, run->visible, run->curved);
+    }
+    run->outcome.total = lrcsi_sigma_total(run, NULL);
+}
+
+/* Are there proofs about the visible areas of the pose that the methods do not use? */
+int lrcsi_sigma_has_proofs(const lrcsi_sigma *run)
+{
+    return run->plan.fronts_visible || run->clear.count > 0 ||
+           (run->view.prepared->solid && run->view.backs.cast);
+}
+
+/* Replaces areas by what is proved about them:
+   1. On a convex surface fronts are visible, and only the areas of back sides are used. If the
+      options force a search for shadows, the interval that it found for a front is extended by the
+      proved one: for bodies that are convex by construction no contacts are computed, so that the
+      search alone proves nothing.
+   2. Back sides that are proved never to be seen have no visible area, whatever the search found.
+   3. The fronts of clear shapes are visible; this is needed only for what is reported about their
+      facets. */
+static void areas_apply_proofs(lrcsi_sigma *run)
+{
+    const lrcsi_view *view = &run->view;
+    const lrcs_prepared *p = view->prepared;
+    for (uint32_t f = 0; f < p->scene->facet_count; f++) {
+        lrcsi_visible *visible = &run->visible[f];
+        int front = view->facing[f] > 0;
+        if (front && run->plan.fronts_visible) {
+            lrcsi_incidence incidence = lrcsi_view_incidence(view, f);
+            lrcsi_visible known = lrcsi_visible_unshadowed(&incidence, run->plan.grazing_cos);
+            if (run->plan.shadows_forced) {
+                known.area = visible->area;
+                known.low = lrcsi_min(known.low, visible->low);
+                known.error_estimate = visible->error_estimate;
+                known.bias = visible->bias;
+            }
+            *visible = known;
+        }
+        *visible = lrcsi_visible_proved(view, f, *visible);
+        if (front && run->clear.count > 0 && run->clear.part[p->scene->facet_part[f]]) {
+            double projected = lrcsi_view_projected(view, f);
+            *visible = lrcsi_visible_exactly(projected);
+        }
+    }
+}
+
+/* Computes the sum over the visible areas that samples or clipping found:
+   1. replaces areas by what is proved about them;
+   2. if they are sampled, integrates over facets with curved normals, which are clipped if they are
+      partly visible and there is memory for it; clipping has already integrated over its pieces;
+   3. finds the hidden regions of the proximity band;
+   4. sums. Steps are taken from the given meter, which is that of the run or of an attempt. */
+void lrcsi_sigma_sum(lrcsi_sigma *run, lrcsi_meter *meter)
+{
+    int sampled = run->outcome.size != 0;
+    if (run->request.last < LRCSI_SIGMA_SUM) {
+        return;
+    }
+    if (lrcsi_sigma_has_proofs(run)) {
+        areas_apply_proofs(run);
+    }
+    if (run->curved && sampled) {
+        lrcsi_curve_options options = lrcsi_sigma_curve_options(run, meter);
+        int status = lrcsi_curve_from_samples(&run->classification, &options, run->work,
+                                              run->visible, run->curved);
+        if (status != LRCS_OK) {
+            lrcsi_curve_from_areas(&run->view, &options, run->visible, run->curved);
+            run->outcome.flags |= LRCS_FLAG_MEMORY_FALLBACK;
+        }
+    }
+    if (run_band(run)) {
+        lrcsi_proximity_find_hidden(&run->band, run->visible, meter, run->work);
+    }
+    run->outcome.total = lrcsi_sigma_total(run, NULL);
+}
