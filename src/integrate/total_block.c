@@ -35,39 +35,39 @@ typedef struct total_batch {
     uint32_t waiting;                  /* facets collected for the next block */
     uint32_t element[2 * LRCSI_LANES]; /* their indices in prepared->batches */
     signed char side[2 * LRCSI_LANES]; /* 1 or, if back sides reflect, -1 for those */
-    lrcsi_shades shades;
+    lrcsi_shade_normals normals;       /* of the block that is being added */
     lrcsi_sum_lanes glint, diffuse, projected, back_side;
     double error[LRCSI_SUM_LANES];
 } total_batch;
 
-/* Fills the block with the unit normals, on the side towards the laser, and the areas of the first
-   `count` facets collected. Unused lanes get the direction to the laser as their normal, and area
-   0. */
+/* Fills batch->normals with the unit normals, on the side towards the laser, and `area` with the
+   areas of the first `count` facets collected. Unused lanes get the direction to the laser as their
+   normal, and area 0. */
 static void block_gather(const lrcsi_total_run *run, total_batch *batch, uint32_t count,
                          double area[LRCSI_LANES])
 {
+    lrcsi_shade_normals *normals = &batch->normals;
     const lrcsi_view *view = run->view;
     const lrcsi_batches *b = &view->prepared->batches;
     const double *x = b->normal[0];
     const double *y = b->normal[1];
     const double *z = b->normal[2];
     const double *areas = b->area;
-    lrcsi_shades *shades = &batch->shades;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t at = batch->element[i];
-        shades->normal[0][i] = x[at];
-        shades->normal[1][i] = y[at];
-        shades->normal[2][i] = z[at];
+        normals->x[0][i] = x[at];
+        normals->x[1][i] = y[at];
+        normals->x[2][i] = z[at];
         area[i] = areas[at];
     }
     for (uint32_t i = 0; batch->back_reflects && i < count; i++) {
-        shades->normal[0][i] *= batch->side[i];
-        shades->normal[1][i] *= batch->side[i];
-        shades->normal[2][i] *= batch->side[i];
+        normals->x[0][i] *= batch->side[i];
+        normals->x[1][i] *= batch->side[i];
+        normals->x[2][i] *= batch->side[i];
     }
     for (uint32_t i = count; i < LRCSI_LANES; i++) {
         for (int k = 0; k < 3; k++) {
-            shades->normal[k][i] = view->unit[k];
+            normals->x[k][i] = view->unit[k];
         }
         area[i] = 0;
     }
@@ -76,9 +76,9 @@ static void block_gather(const lrcsi_total_run *run, total_batch *batch, uint32_
 /* Replaces the projected areas by the visible ones for facets that have no answer, also their upper
    bounds, and adds the errors due to these areas. */
 static void block_visible(lrcsi_total_run *run, const total_batch *batch, uint32_t count,
-                          double visible[LRCSI_LANES], double high[LRCSI_LANES])
+                          const lrcsi_shades *shades, double visible[LRCSI_LANES],
+                          double high[LRCSI_LANES])
 {
-    const lrcsi_shades *shades = &batch->shades;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t facet = run->view->prepared->batches.facet[batch->element[i]];
         if (lrcsi_areas_answered(run->areas, facet)) {
@@ -105,7 +105,7 @@ static void add_block(lrcsi_total_run *run, total_batch *batch)
 {
     const lrcsi_view *view = run->view;
     const double threshold = run->plan->grazing_cos;
-    lrcsi_shades *shades = &batch->shades;
+    lrcsi_shades shades;
     uint32_t count = batch->waiting < LRCSI_LANES ? batch->waiting : LRCSI_LANES;
     double area[LRCSI_LANES];
     double visible[LRCSI_LANES];
@@ -113,24 +113,24 @@ static void add_block(lrcsi_total_run *run, total_batch *batch)
     double glint[LRCSI_LANES];
     double diffuse[LRCSI_LANES];
     double error[LRCSI_LANES];
-    block_gather(run, batch, count, area);                          /* 1 */
-    lrcsi_shade(&batch->lobes, view->unit, view->unit_low, shades); /* 2 */
-    for (int i = 0; i < LRCSI_LANES; i++) {                         /* 3 */
-        visible[i] = high[i] = area[i] * shades->cosine[i];
+    block_gather(run, batch, count, area);                                            /* 1 */
+    lrcsi_shade(&batch->lobes, view->unit, view->unit_low, &batch->normals, &shades); /* 2 */
+    for (int i = 0; i < LRCSI_LANES; i++) {                                           /* 3 */
+        visible[i] = high[i] = area[i] * shades.cosine[i];
     }
     if (run->areas->visible) {
-        block_visible(run, batch, count, visible, high);
+        block_visible(run, batch, count, &shades, visible, high);
     } else if (threshold > 0 && threshold < 1) {
         for (uint32_t i = 0; i < count; i++) {
-            double per_area = shades->glint[i] + shades->diffuse[i];
-            int proved = shades->cosine[i] > threshold + 0x1p-40; /* its error is below 2^-48 */
+            double per_area = shades.glint[i] + shades.diffuse[i];
+            int proved = shades.cosine[i] > threshold + 0x1p-40; /* its error is below 2^-48 */
             run->sums.visibility += proved ? 0 : per_area * visible[i];
         }
     }
     for (int i = 0; i < LRCSI_LANES; i++) { /* 4 */
-        glint[i] = shades->glint[i] * visible[i];
-        diffuse[i] = shades->diffuse[i] * visible[i];
-        error[i] = shades->error[i] * high[i];
+        glint[i] = shades.glint[i] * visible[i];
+        diffuse[i] = shades.diffuse[i] * visible[i];
+        error[i] = shades.error[i] * high[i];
     }
     lrcsi_sum_lanes_add(&batch->glint, glint);
     lrcsi_sum_lanes_add(&batch->diffuse, diffuse);

@@ -116,13 +116,13 @@ typedef struct shade_chord {
 } shade_chord;
 
 static void chords_make(const lrcsi_lobes *restrict lobes, const double *restrict d,
-                        const double *restrict d_low, lrcsi_shades *restrict shades,
-                        shade_chord *restrict chord)
+                        const double *restrict d_low, const lrcsi_shade_normals *restrict normals,
+                        lrcsi_shades *restrict shades, shade_chord *restrict chord)
 {
     for (int i = 0; i < LRCSI_LANES; i++) {
-        double x = (shades->normal[0][i] - d[0]) - d_low[0];
-        double y = (shades->normal[1][i] - d[1]) - d_low[1];
-        double z = (shades->normal[2][i] - d[2]) - d_low[2];
+        double x = (normals->x[0][i] - d[0]) - d_low[0];
+        double y = (normals->x[1][i] - d[1]) - d_low[1];
+        double z = (normals->x[2][i] - d[2]) - d_low[2];
         double q = (x * x + y * y) + z * z;
         double c = 1 - 0.5 * q;
         double inverse = 1 / c;
@@ -215,10 +215,10 @@ static void lobe_general(const lrcsi_lobes *restrict lobes, const shade_chord *r
 }
 
 void lrcsi_shade(const lrcsi_lobes *lobes, const double d[3], const double d_low[3],
-                 lrcsi_shades *shades)
+                 const lrcsi_shade_normals *normals, lrcsi_shades *shades)
 {
     shade_chord chord;
-    chords_make(lobes, d, d_low, shades, &chord);
+    chords_make(lobes, d, d_low, normals, shades, &chord);
     if (lobes->glint) {
         lobe_glint(lobes, &chord, shades);
     } else {

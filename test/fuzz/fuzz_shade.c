@@ -54,16 +54,17 @@ static void require_same(const lrcsi_view *view, const lrcs_brdf *brdf, const lr
 {
     const lrcsi_batches *b = &view->prepared->batches;
     lrcsi_incidence incidence = lrcsi_view_incidence(view, b->facet[place]);
+    static lrcsi_shade_normals normals;
     static lrcsi_shades shades;
     if (!(dot > lobes->low && dot < lobes->high && incidence.tan2_err < 1)) {
         return;
     }
     for (uint32_t i = 0; i < LRCSI_LANES; i++) {
         for (int k = 0; k < 3; k++) {
-            shades.normal[k][i] = b->normal[k][place];
+            normals.x[k][i] = b->normal[k][place];
         }
     }
-    lrcsi_shade(lobes, view->unit, view->unit_low, &shades);
+    lrcsi_shade(lobes, view->unit, view->unit_low, &normals, &shades);
     uint32_t lane = place % LRCSI_LANES;
     double whole = b->area[place] * shades.cosine[lane];
     double got = (shades.glint[lane] + shades.diffuse[lane]) * whole;

@@ -47,14 +47,15 @@ static double dot_at(const lrcsi_view *view, uint32_t place)
 static void shade_lane(const lrcsi_view *view, const lrcsi_lobes *lobes, uint32_t lane,
                        lrcsi_shades *shades)
 {
+    static lrcsi_shade_normals normals;
     for (uint32_t i = 0; i < LRCSI_LANES; i++) {
         double tilted = 1 - 0.01 * i;
         for (int k = 0; k < 3; k++) {
-            shades->normal[k][i] =
+            normals.x[k][i] =
                 i == lane ? view->prepared->batches.normal[k][0] : tilted * view->unit[k];
         }
     }
-    lrcsi_shade(lobes, view->unit, view->unit_low, shades);
+    lrcsi_shade(lobes, view->unit, view->unit_low, &normals, shades);
 }
 
 static double off_from(double value, const double reference[2])
